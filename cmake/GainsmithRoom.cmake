@@ -1,0 +1,23 @@
+# One library a room, one test program a room.
+
+# gainsmith_room(NAME SOURCES a.cpp ... ROOMS base expr PUBLIC lib ... PRIVATE lib ...)
+#   The library gainsmith_NAME from lib/NAME. ROOMS are the rooms it may include (scripts/check_layers
+#   holds the includes to the architecture's table); PUBLIC and PRIVATE are third-party targets.
+function(gainsmith_room name)
+  cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;PUBLIC;PRIVATE" ${ARGN})
+  add_library(gainsmith_${name} STATIC ${ROOM_SOURCES})
+  target_include_directories(gainsmith_${name} PUBLIC "${PROJECT_SOURCE_DIR}/lib")
+  list(TRANSFORM ROOM_ROOMS PREPEND gainsmith_)
+  target_link_libraries(gainsmith_${name} PUBLIC ${ROOM_ROOMS} ${ROOM_PUBLIC} PRIVATE ${ROOM_PRIVATE})
+endfunction()
+
+# gainsmith_test(NAME SOURCES a_test.cpp ... LINK target ...)
+#   The test program NAME_test; every TEST in it is a test of its own for ctest.
+function(gainsmith_test name)
+  cmake_parse_arguments(T "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name}_test ${T_SOURCES})
+  target_include_directories(${name}_test PRIVATE "${PROJECT_SOURCE_DIR}/tests")
+  target_link_libraries(${name}_test PRIVATE ${T_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
+  gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+                       PROPERTIES TIMEOUT 600)
+endfunction()

@@ -1,0 +1,94 @@
+#include "base/file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "base/error.h"
+
+namespace gainsmith {
+
+namespace {
+
+[[noreturn]] void refuse(const std::filesystem::path& path, const std::string& action, int code) {
+  throw InputError({path.string()}, action + ": " + std::generic_category().message(code));
+}
+
+/// Owns a file descriptor.
+class Descriptor {
+ public:
+  explicit Descriptor(int fd) : fd_(fd) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  ~Descriptor() {
+    if (fd_ > STDERR_FILENO) ::close(fd_);
+  }
+  int get() const { return fd_; }
+
+ private:
+  int fd_;
+};
+
+/// Returns 0, or errno.
+int write_all(int fd, std::string_view text) {
+  while (!text.empty()) {
+    const ssize_t written = ::write(fd, text.data(), text.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return errno;
+    text.remove_prefix(static_cast<std::size_t>(written));
+  }
+  return 0;
+}
+
+bool is_special(const std::filesystem::path& path) {
+  std::error_code ignored;
+  const auto status = std::filesystem::status(path, ignored);
+  return std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status) ||
+         std::filesystem::is_socket(status);
+}
+
+}  // namespace
+
+std::string read_text(const std::filesystem::path& path) {
+  const bool standard_input = path == "-";
+  const Descriptor file(standard_input ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0) refuse(path, "cannot open this file", errno);
+  std::string text;
+  std::string chunk(1U << 16U, '\0');
+  for (;;) {
+    const ssize_t count = ::read(file.get(), chunk.data(), chunk.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) refuse(path, "cannot read this file", errno);
+    if (count == 0) return text;
+    text.append(chunk, 0, static_cast<std::size_t>(count));
+  }
+}
+
+void write_atomically(const std::filesystem::path& path, std::string_view text) {
+  if (is_special(path)) {
+    const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    const int code = file.get() < 0 ? errno : write_all(file.get(), text);
+    if (code != 0) refuse(path, "cannot write this file", code);
+    return;
+  }
+  std::string temporary = path.string() + ".tmp.XXXXXX";
+  const Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
+  if (file.get() < 0) refuse(path, "cannot write beside this file", errno);
+  int code = write_all(file.get(), text);
+  // mkostemp makes the file private; give it the permissions that an ordinary new file gets.
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  if (code == 0 && ::fchmod(file.get(), 0666 & ~mask) != 0) code = errno;
+  if (code == 0 && ::fsync(file.get()) != 0) code = errno;
+  if (code == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) code = errno;
+  if (code != 0) {
+    ::unlink(temporary.c_str());
+    refuse(path, "cannot write this file", code);
+  }
+}
+
+}  // namespace gainsmith

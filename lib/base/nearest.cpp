@@ -1,0 +1,64 @@
+#include "base/nearest.h"
+
+#include <algorithm>
+#include <cctype>
+#include <cstddef>
+
+namespace gainsmith {
+
+namespace {
+
+int substitution_cost(char a, char b) {
+  if (a == b) return 0;
+  const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
+  return lower(a) == lower(b) ? 1 : 2;
+}
+
+}  // namespace
+
+int doubled_edit_distance(std::string_view a, std::string_view b) {
+  const std::size_t rows = a.size() + 1;
+  const std::size_t columns = b.size() + 1;
+  std::vector<int> cost(rows * columns);
+  const auto at = [&](std::size_t i, std::size_t j) -> int& { return cost[i * columns + j]; };
+  for (std::size_t i = 0; i < rows; ++i) at(i, 0) = 2 * static_cast<int>(i);
+  for (std::size_t j = 0; j < columns; ++j) at(0, j) = 2 * static_cast<int>(j);
+  for (std::size_t i = 1; i < rows; ++i) {
+    for (std::size_t j = 1; j < columns; ++j) {
+      int best = std::min({at(i - 1, j) + 2, at(i, j - 1) + 2,
+                           at(i - 1, j - 1) + substitution_cost(a[i - 1], b[j - 1])});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1])
+        best = std::min(best, at(i - 2, j - 2) + 2);
+      at(i, j) = best;
+    }
+  }
+  return at(rows - 1, columns - 1);
+}
+
+std::optional<std::string> nearest(std::string_view word,
+                                   const std::vector<std::string>& candidates) {
+  const int allowed = 2 * std::max(1, static_cast<int>(word.size()) / 3);
+  std::optional<std::string> best;
+  int best_distance = allowed + 1;
+  for (const std::string& candidate : candidates) {
+    const int distance = doubled_edit_distance(word, candidate);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  return best;
+}
+
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
+  if (candidates.empty()) return "";
+  if (const auto near = nearest(word, candidates)) return "; did you mean '" + *near + "'?";
+  constexpr std::size_t kMost = 12;
+  std::string text = "; known: ";
+  for (std::size_t i = 0; i < std::min(kMost, candidates.size()); ++i)
+    text += (i > 0 ? ", " : "") + candidates[i];
+  if (candidates.size() > kMost) text += ", ...";
+  return text;
+}
+
+}  // namespace gainsmith

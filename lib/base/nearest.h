@@ -1,0 +1,23 @@
+// "Did you mean ...?": the nearest known spelling of a misspelt word.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gainsmith {
+
+/// Damerau-Levenshtein distance (optimal string alignment): insertions, deletions, substitutions
+/// and swaps of neighbours each cost 1. Case counts half (1 of 2), so the result is doubled.
+int doubled_edit_distance(std::string_view a, std::string_view b);
+
+/// The candidate nearest to `word`, if one is near enough to be a likely misspelling (at most a
+/// third of its letters wrong, at least one allowed). Ties go to the candidate that comes first.
+std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& candidates);
+
+/// "; did you mean 'x'?" or, when nothing is near, "; known: a, b, c" (at most twelve, then "...").
+/// Empty when there are no candidates.
+std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
+
+}  // namespace gainsmith

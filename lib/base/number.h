@@ -1,0 +1,22 @@
+// Numbers as text: what is written can be read back to the same bits.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace gainsmith {
+
+/// The decimal with 17 significant digits ("%.17g"): reading it back gives the same double, and
+/// writing that again gives the same text. Infinity and NaN print as "inf", "-inf", "nan".
+std::string decimal17(double value);
+
+/// For people: `digits` significant digits, no trailing zeros ("%.*g").
+std::string brief(double value, int digits = 6);
+
+/// The double nearest to a whole decimal text (sign allowed; no spaces, nothing after it; an
+/// exponent may follow "e" or "E"). Empty when the text is no finite decimal number; a decimal
+/// beyond the range of double is empty too, one below it is rounded to zero.
+std::optional<double> parse_decimal(std::string_view text);
+
+}  // namespace gainsmith

@@ -1,0 +1,39 @@
+// A semidefinite program in the SDPA standard form:
+//   primal:  minimise c'x        subject to  X = sum_i x_i F_i - F_0 >= 0
+//   dual:    maximise F_0 . Y    subject to  F_i . Y = c_i (i = 1..m),  Y >= 0
+// over block-diagonal symmetric matrices; a diagonal block is a set of linear inequalities.
+#pragma once
+
+#include <vector>
+
+namespace gainsmith::sdp {
+
+/// One block: `size` rows. A dense symmetric block has size(size+1)/2 free entries, a diagonal one
+/// has `size`.
+struct Block {
+  int size = 0;
+  bool diagonal = false;
+
+  bool operator==(const Block&) const = default;
+};
+
+/// One entry of a symmetric F_i: rows and columns count from 0 and row <= column; an off-diagonal
+/// entry stands for both of its mirror places (the value is that of one place, as in SDPA files).
+struct Entry {
+  int block = 0;
+  int row = 0;
+  int column = 0;
+  double value = 0;
+
+  bool operator==(const Entry&) const = default;
+};
+
+struct Problem {
+  std::vector<Block> blocks;
+  std::vector<double> c;                ///< m costs
+  std::vector<std::vector<Entry>> f;    ///< f[0] = F_0, f[i] = F_i for i = 1..m
+
+  int m() const { return static_cast<int>(c.size()); }
+};
+
+}  // namespace gainsmith::sdp

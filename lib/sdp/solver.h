@@ -1,0 +1,37 @@
+// The primal-dual interior-point solver.
+#pragma once
+
+#include <functional>
+
+#include "sdp/problem.h"
+#include "sdp/solution.h"
+
+namespace gainsmith::sdp {
+
+/// One line of the progress table.
+struct Progress {
+  int iteration = 0;
+  double primal_objective = 0;
+  double dual_objective = 0;
+  double relative_gap = 0;
+  double primal_infeasibility = 0;
+  double dual_infeasibility = 0;
+  double step_primal = 0;
+  double step_dual = 0;
+};
+
+struct Options {
+  double tolerance = 1e-8;      ///< relative gap and DIMACS errors for `optimal`
+  double certificate_tolerance = 1e-8;  ///< certificate residual (normalised, see Certificate)
+  int iteration_limit = 200;
+  double time_limit = 0;        ///< seconds; 0 = none
+  unsigned threads = 1;         ///< results do not depend on it
+  std::function<void(const Progress&)> progress;   ///< called once an iteration when set
+  std::function<bool()> interrupted;               ///< asked once an iteration when set
+};
+
+/// Solves `problem`. Throws std::invalid_argument when the problem is malformed (indices out of
+/// range, entries below the diagonal, values that are not finite). Every other outcome is a Solution.
+Solution solve(const Problem& problem, const Options& options = {});
+
+}  // namespace gainsmith::sdp
