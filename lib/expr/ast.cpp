@@ -1,0 +1,39 @@
+#include "expr/ast.h"
+
+namespace gainsmith::expr {
+
+std::string to_string(Relation relation) {
+  switch (relation) {
+    case Relation::less: return "<";
+    case Relation::less_equal: return "<=";
+    case Relation::greater: return ">";
+    case Relation::greater_equal: return ">=";
+  }
+  return "?";
+}
+
+std::string Expression::quote(const Node& node) const {
+  constexpr std::size_t kLongest = 40;
+  std::string source = text->str().substr(node.begin, node.end - node.begin);
+  for (char& c : source)
+    if (c == '\n') c = ' ';
+  if (source.size() > kLongest) source = source.substr(0, kLongest - 3) + "...";
+  return source;
+}
+
+namespace {
+
+void collect(const Node& node, std::set<std::string>& names) {
+  if (node.kind == NodeKind::name || node.kind == NodeKind::call) names.insert(node.text);
+  for (const NodePtr& child : node.children) collect(*child, names);
+}
+
+}  // namespace
+
+std::set<std::string> names_in(const Expression& expression) {
+  std::set<std::string> names;
+  collect(*expression.root, names);
+  return names;
+}
+
+}  // namespace gainsmith::expr

@@ -1,0 +1,62 @@
+// The syntax tree of an expression, before names and shapes are known.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "expr/text.h"
+
+namespace gainsmith::expr {
+
+enum class NodeKind {
+  number,     ///< text = the decimal as written
+  name,       ///< text = the name
+  call,       ///< text = the function or definition; children = arguments
+  index,      ///< children[0] indexed by the rest; a `range` child is a:b or a lone ":"
+  range,      ///< children = {from, to}, or none for ":"
+  negate,
+  transpose,
+  add,
+  subtract,
+  multiply,
+  divide,
+  power,
+  block,      ///< children row by row, `columns` in each row
+  mirror,     ///< "*" inside a block: the transpose of the mirrored entry
+  compare     ///< children = operands of a chain a < b <= c; relations between them
+};
+
+enum class Relation { less, less_equal, greater, greater_equal };
+
+/// "<", "<=", ">", ">=".
+std::string to_string(Relation relation);
+
+struct Node {
+  NodeKind kind = NodeKind::number;
+  std::string text;
+  std::vector<std::shared_ptr<const Node>> children;
+  std::vector<Relation> relations;
+  int columns = 0;
+  std::size_t begin = 0;  ///< first byte in the Text
+  std::size_t end = 0;    ///< one past the last byte
+};
+
+using NodePtr = std::shared_ptr<const Node>;
+
+/// A parsed expression together with its text, for messages.
+struct Expression {
+  std::shared_ptr<const Text> text;
+  NodePtr root;
+
+  /// The source of a node, shortened to be quoted in a message.
+  std::string quote(const Node& node) const;
+  Place place(const Node& node) const { return text->place(node.begin); }
+};
+
+/// The names of values, functions and definitions that stand in an expression.
+std::set<std::string> names_in(const Expression& expression);
+
+}  // namespace gainsmith::expr

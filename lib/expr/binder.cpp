@@ -1,0 +1,374 @@
+#include "expr/binder.h"
+
+#include <algorithm>
+#include <charconv>
+#include <optional>
+#include <utility>
+
+#include "base/nearest.h"
+#include "base/number.h"
+#include "expr/compile.h"
+
+namespace gainsmith::expr {
+
+std::vector<std::string> Scope::names() const {
+  std::vector<std::string> all;
+  for (const auto& [name, value] : symbols) all.push_back(name);
+  for (const auto& [name, value] : definitions) all.push_back(name);
+  for (const auto& [name, value] : dimensions) all.push_back(name);
+  return all;
+}
+
+void Binder::fail(const Expression& expression, const Node& node, const std::string& message) const {
+  throw InputError(expression.place(node), message);
+}
+
+std::string Binder::describe(const Expression& expression, const Node& node, Bound value) const {
+  const std::string quoted = expression.quote(node);
+  if (value.identity) return quoted + " (a multiple of I)";
+  return quoted + " (" + to_string(shape(value.at)) + ")";
+}
+
+int Binder::emit(const Expression& expression, const Node& node, Op op, std::vector<int> operands,
+                 Shape shape, std::array<int, 4> attributes, std::string text) {
+  Key key{op, operands, shape.rows, shape.cols, attributes, text};
+  const auto found = known_.find(key);
+  if (found != known_.end()) return found->second;
+  Instruction instruction{op,         std::move(operands), shape,     attributes,
+                          std::move(text), expression.text, node.begin};
+  program_.code.push_back(std::move(instruction));
+  const int at = static_cast<int>(program_.code.size()) - 1;
+  known_.emplace(std::move(key), at);
+  return at;
+}
+
+int Binder::number(const Expression& expression, const Node& node, const std::string& text) {
+  return emit(expression, node, Op::constant, {}, {}, {}, text);
+}
+
+bool Binder::is_zero(Bound value) const {
+  const Instruction& instruction = program_.code[static_cast<std::size_t>(value.at)];
+  return instruction.op == Op::constant && instruction.text != "pi" &&
+         parse_decimal(instruction.text) == 0.0;
+}
+
+Bound Binder::bind(const Expression& expression, const Node& node) {
+  const auto child = [&](std::size_t i) { return bind(expression, *node.children[i]); };
+  switch (node.kind) {
+    case NodeKind::number: return {number(expression, node, node.text)};
+    case NodeKind::name: return bind_name(expression, node);
+    case NodeKind::call: return bind_call(expression, node);
+    case NodeKind::index: return index(expression, node, child(0), 1);
+    case NodeKind::negate: {
+      const Bound a = child(0);
+      return {emit(expression, node, Op::negate, {a.at}, shape(a.at)), a.identity};
+    }
+    case NodeKind::transpose: return transpose(expression, node, child(0));
+    case NodeKind::add:
+    case NodeKind::subtract: {
+      const Bound a = child(0);
+      const Bound b = child(1);
+      return add(expression, node, node.kind == NodeKind::add ? Op::add : Op::subtract, a, b);
+    }
+    case NodeKind::multiply: {
+      const Bound a = child(0);
+      return multiply(expression, node, a, child(1));
+    }
+    case NodeKind::divide: {
+      const Bound a = child(0);
+      return divide(expression, node, a, child(1));
+    }
+    case NodeKind::power: return power(expression, node);
+    case NodeKind::block: return bind_block(expression, node);
+    case NodeKind::range: fail(expression, node, "a range stands only in an index, such as x(1:2)");
+    case NodeKind::mirror: fail(expression, node, "'*' alone stands only in a block");
+    case NodeKind::compare:
+      fail(expression, node, "a comparison stands only on its own or in where(...)");
+  }
+  fail(expression, node, "unknown syntax");
+}
+
+void Binder::unknown_name(const Expression& expression, const Node& node) const {
+  std::vector<std::string> candidates = scope_.names();
+  for (const auto& [name, value] : environment_) candidates.push_back(name);
+  if (node.kind == NodeKind::call) {
+    const auto functions = function_names();
+    candidates.insert(candidates.end(), functions.begin(), functions.end());
+  }
+  fail(expression, node, "unknown " + std::string(node.kind == NodeKind::call ? "function" : "name") +
+                             " '" + node.text + "'" + suggestion(node.text, candidates));
+}
+
+Bound Binder::bind_name(const Expression& expression, const Node& node) {
+  const std::string& name = node.text;
+  if (const auto found = environment_.find(name); found != environment_.end()) return found->second;
+  if (const auto found = scope_.symbols.find(name); found != scope_.symbols.end()) {
+    int input = program_.input(name);
+    if (input < 0) {
+      program_.inputs.push_back({name, found->second.shape});
+      input = static_cast<int>(program_.inputs.size()) - 1;
+    }
+    return {emit(expression, node, Op::input, {}, found->second.shape, {input})};
+  }
+  if (scope_.definitions.contains(name)) return bind_definition(expression, node, name, {});
+  if (const auto found = scope_.dimensions.find(name); found != scope_.dimensions.end())
+    return {number(expression, node, std::to_string(found->second))};
+  if (name == "I") return {number(expression, node, "1"), true};
+  if (name == "pi") return {number(expression, node, "pi")};
+  if (const Function* function = find_function(name))
+    fail(expression, node, "'" + name + "' is a function: write " + std::string(function->usage));
+  unknown_name(expression, node);
+}
+
+Bound Binder::bind_definition(const Expression& expression, const Node& node,
+                              const std::string& name, std::vector<Bound> arguments) {
+  const Definition& definition = scope_.definitions.at(name);
+  if (arguments.size() != definition.parameters.size())
+    fail(expression, node,
+         "'" + name + "' takes " + std::to_string(definition.parameters.size()) +
+             " arguments, not " + std::to_string(arguments.size()));
+  if (arguments.empty())
+    if (const auto found = defined_.find(name); found != defined_.end()) return found->second;
+  if (std::find(open_definitions_.begin(), open_definitions_.end(), name) != open_definitions_.end())
+    fail(expression, node, "'" + name + "' is defined by itself");
+  Environment inner;
+  for (std::size_t i = 0; i < arguments.size(); ++i)
+    inner.emplace(definition.parameters[i], arguments[i]);
+  std::swap(environment_, inner);
+  open_definitions_.push_back(name);
+  const Bound value = bind(definition.body, *definition.body.root);
+  open_definitions_.pop_back();
+  std::swap(environment_, inner);
+  if (arguments.empty()) defined_.emplace(name, value);
+  return value;
+}
+
+int Binder::sized(const Expression& expression, const Node& node, Bound value) {
+  if (value.identity)
+    fail(expression, node,
+         "the size of the identity in '" + expression.quote(node) + "' is not known here; write eye(n)");
+  return value.at;
+}
+
+int Binder::materialise(const Expression& expression, const Node& node, Bound value, Shape wanted) {
+  if (value.identity) {
+    if (!wanted.is_square())
+      fail(expression, node,
+           "'" + expression.quote(node) + "' is a multiple of I, but " + to_string(wanted) +
+               " is wanted here");
+    return emit(expression, node, Op::identity, {value.at}, wanted);
+  }
+  if (shape(value.at) == wanted) return value.at;
+  if (is_zero(value)) return emit(expression, node, Op::zeros, {}, wanted);
+  fail(expression, node, describe(expression, node, value) + " has the wrong shape: expected " +
+                             to_string(wanted));
+}
+
+Bound Binder::subtract(const Expression& expression, const Node& node, Bound a, Bound b) {
+  return add(expression, node, Op::subtract, a, b);
+}
+
+Bound Binder::add(const Expression& expression, const Node& node, Op op, Bound a, Bound b) {
+  const Node& left = *node.children[0];
+  const Node& right = *node.children[1];
+  if (a.identity && b.identity) return {emit(expression, node, op, {a.at, b.at}, {}), true};
+  const auto is_free = [&](Bound value) { return value.identity || is_zero(value); };
+  if (is_free(a) && !b.identity) {
+    const int first = materialise(expression, left, a, shape(b.at));
+    return {emit(expression, node, op, {first, b.at}, shape(b.at))};
+  }
+  if (is_free(b) && !a.identity) {
+    const int second = materialise(expression, right, b, shape(a.at));
+    return {emit(expression, node, op, {a.at, second}, shape(a.at))};
+  }
+  if (a.identity || b.identity) return {emit(expression, node, op, {a.at, b.at}, {}), true};
+  if (shape(a.at) != shape(b.at)) {
+    const bool scalar = shape(a.at).is_scalar() || shape(b.at).is_scalar();
+    fail(expression, node,
+         "cannot " + std::string(node.kind == NodeKind::compare ? "compare " : op == Op::add ? "add " : "subtract ") +
+             describe(expression, left, a) + " and " + describe(expression, right, b) +
+             (scalar ? "; a multiple of the identity is written s*I" : ""));
+  }
+  return {emit(expression, node, op, {a.at, b.at}, shape(a.at))};
+}
+
+Bound Binder::multiply(const Expression& expression, const Node& node, Bound a, Bound b) {
+  const Shape left = shape(a.at);
+  const Shape right = shape(b.at);
+  if (a.identity || b.identity) {
+    const Bound& other = a.identity ? b : a;
+    const int factor = a.identity ? a.at : b.at;
+    const bool stays_identity = other.identity || shape(other.at).is_scalar();
+    const Op op = stays_identity ? Op::multiply : Op::scale;
+    return {emit(expression, node, op, {factor, other.at}, shape(other.at)), stays_identity};
+  }
+  if (left.is_scalar() && !right.is_scalar())
+    return {emit(expression, node, Op::scale, {a.at, b.at}, right)};
+  if (right.is_scalar() && !left.is_scalar())
+    return {emit(expression, node, Op::scale, {b.at, a.at}, left)};
+  if (left.cols != right.rows)
+    fail(expression, node,
+         "cannot multiply " + describe(expression, *node.children[0], a) + " by " +
+             describe(expression, *node.children[1], b) + ": " + std::to_string(left.cols) +
+             " columns meet " + std::to_string(right.rows) + " rows");
+  return {emit(expression, node, Op::multiply, {a.at, b.at}, {left.rows, right.cols})};
+}
+
+Bound Binder::divide(const Expression& expression, const Node& node, Bound a, Bound b) {
+  const Node& right = *node.children[1];
+  if (!b.identity && !shape(b.at).is_scalar())
+    fail(expression, node,
+         "cannot divide by " + describe(expression, right, b) + ": only by a number; write inv(...)*");
+  const int divisor = sized(expression, right, b);
+  return {emit(expression, node, Op::divide, {a.at, divisor}, shape(a.at)), a.identity};
+}
+
+Bound Binder::transpose(const Expression& expression, const Node& node, Bound a) {
+  if (a.identity || shape(a.at).is_scalar()) return a;
+  return {emit(expression, node, Op::transpose, {a.at}, {shape(a.at).cols, shape(a.at).rows})};
+}
+
+Bound Binder::power(const Expression& expression, const Node& node) {
+  const Node& base_node = *node.children[0];
+  const Node& exponent_node = *node.children[1];
+  const Bound base = bind(expression, base_node);
+  const Shape base_shape = shape(base.at);
+  if (!base_shape.is_square())
+    fail(expression, node, "cannot take a power of " + describe(expression, base_node, base) +
+                               ": it is not square");
+  if (const auto exponent = whole_number(expression, exponent_node)) {
+    int value = base.at;
+    if (*exponent < 0) value = emit(expression, node, Op::inverse, {value}, base_shape);
+    return {emit(expression, node, Op::power, {value}, base_shape, {std::abs(*exponent)}), base.identity};
+  }
+  const Bound exponent = bind(expression, exponent_node);
+  if (!base_shape.is_scalar() || !shape(exponent.at).is_scalar())
+    fail(expression, node, "a matrix takes only whole powers; for exp(A*t) write expm(A*t)");
+  return {emit(expression, node, Op::scalar_power,
+               {base.at, sized(expression, exponent_node, exponent)}, {}),
+          base.identity};
+}
+
+std::optional<int> Binder::whole_number(const Expression& expression, const Node& node) {
+  if (node.kind == NodeKind::negate) {
+    const auto value = whole_number(expression, *node.children[0]);
+    return value ? std::optional<int>(-*value) : std::nullopt;
+  }
+  if (node.kind == NodeKind::number) {
+    int value = 0;
+    const auto end = std::from_chars(node.text.data(), node.text.data() + node.text.size(), value);
+    if (end.ec != std::errc() || end.ptr != node.text.data() + node.text.size()) return std::nullopt;
+    return value;
+  }
+  if (node.kind == NodeKind::name) {
+    if (environment_.contains(node.text) || scope_.symbols.contains(node.text)) return std::nullopt;
+    const auto found = scope_.dimensions.find(node.text);
+    return found == scope_.dimensions.end() ? std::nullopt : std::optional<int>(found->second);
+  }
+  if (node.children.size() != 2) return std::nullopt;
+  const auto a = whole_number(expression, *node.children[0]);
+  const auto b = whole_number(expression, *node.children[1]);
+  if (!a || !b) return std::nullopt;
+  switch (node.kind) {
+    case NodeKind::add: return *a + *b;
+    case NodeKind::subtract: return *a - *b;
+    case NodeKind::multiply: return *a * *b;
+    default: return std::nullopt;
+  }
+}
+
+std::pair<int, int> Binder::index_range(const Expression& expression, const Node& node, int size) {
+  if (node.kind == NodeKind::range && node.children.empty()) return {0, size};
+  const bool range = node.kind == NodeKind::range;
+  const Node& from_node = range ? *node.children[0] : node;
+  const Node& to_node = range ? *node.children[1] : node;
+  const auto from = whole_number(expression, from_node);
+  const auto to = whole_number(expression, to_node);
+  if (!from || !to)
+    fail(expression, from ? to_node : from_node, "an index must be a whole number known beforehand");
+  if (*from < 1 || *to > size || *from > *to)
+    fail(expression, node, "the index " + expression.quote(node) + " is outside 1:" + std::to_string(size));
+  return {*from - 1, *to};
+}
+
+Bound Binder::index(const Expression& expression, const Node& node, Bound base, std::size_t first) {
+  const int at = sized(expression, node, base);
+  const Shape from = shape(at);
+  const std::size_t count = node.children.size() - first;
+  std::pair<int, int> rows{0, from.rows};
+  std::pair<int, int> cols{0, from.cols};
+  if (count == 1 && (from.cols == 1 || from.rows == 1)) {
+    auto& range = from.cols == 1 ? rows : cols;
+    range = index_range(expression, *node.children[first], from.size());
+  } else if (count == 2) {
+    rows = index_range(expression, *node.children[first], from.rows);
+    cols = index_range(expression, *node.children[first + 1], from.cols);
+  } else {
+    fail(expression, node, "a " + to_string(from) + " matrix takes two indices, not " + std::to_string(count));
+  }
+  return {emit(expression, node, Op::index, {at}, {rows.second - rows.first, cols.second - cols.first},
+               {rows.first, rows.second, cols.first, cols.second})};
+}
+
+Program Binder::extract(int at) const {
+  std::vector<bool> needed(program_.code.size(), false);
+  needed[static_cast<std::size_t>(at)] = true;
+  for (std::size_t i = program_.code.size(); i-- > 0;)
+    if (needed[i])
+      for (const int operand : program_.code[i].operands) needed[static_cast<std::size_t>(operand)] = true;
+  Program result;
+  std::vector<int> moved(program_.code.size(), -1);
+  for (std::size_t i = 0; i < program_.code.size(); ++i) {
+    if (!needed[i]) continue;
+    Instruction instruction = program_.code[i];
+    for (int& operand : instruction.operands) operand = moved[static_cast<std::size_t>(operand)];
+    if (instruction.op == Op::input) {
+      result.inputs.push_back(program_.inputs[static_cast<std::size_t>(instruction.attributes[0])]);
+      instruction.attributes[0] = static_cast<int>(result.inputs.size()) - 1;
+    }
+    result.code.push_back(std::move(instruction));
+    moved[i] = static_cast<int>(result.code.size()) - 1;
+  }
+  result.result = moved[static_cast<std::size_t>(at)];
+  return result;
+}
+
+Program compile(const Expression& expression, const Scope& scope, std::optional<Shape> expected) {
+  Binder binder(scope);
+  const Node& root = *expression.root;
+  const Bound value = binder.bind(expression, root);
+  const int at = expected ? binder.materialise(expression, root, value, *expected)
+                          : binder.sized(expression, root, value);
+  return binder.extract(at);
+}
+
+std::vector<CompiledRelation> compile_relations(const Expression& expression, const Scope& scope) {
+  const Node& root = *expression.root;
+  if (root.kind != NodeKind::compare)
+    throw InputError(expression.place(root), "expected a comparison such as P > 0, found '" +
+                                                 expression.quote(root) + "'");
+  Binder binder(scope);
+  std::vector<Bound> sides;
+  for (const NodePtr& child : root.children) sides.push_back(binder.bind(expression, *child));
+  std::vector<CompiledRelation> relations;
+  for (std::size_t i = 0; i < root.relations.size(); ++i) {
+    const Relation relation = root.relations[i];
+    const bool ascending = relation == Relation::less || relation == Relation::less_equal;
+    const std::size_t small = ascending ? i : i + 1;
+    const std::size_t large = ascending ? i + 1 : i;
+    Node pair;
+    pair.kind = NodeKind::compare;
+    pair.begin = root.children[i]->begin;
+    pair.end = root.children[i + 1]->end;
+    pair.children = {root.children[large], root.children[small]};
+    const Bound difference = binder.subtract(expression, pair, sides[large], sides[small]);
+    const int at = binder.sized(expression, pair, difference);
+    if (!binder.shape(at).is_square())
+      throw InputError(expression.place(pair), "a comparison of matrices needs square ones, not " +
+                                                   to_string(binder.shape(at)));
+    relations.push_back({binder.extract(at), relation == Relation::less || relation == Relation::greater});
+  }
+  return relations;
+}
+
+}  // namespace gainsmith::expr

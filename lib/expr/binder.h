@@ -1,0 +1,92 @@
+// Internal to expr: the state of one compilation.
+#pragma once
+
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "expr/functions.h"
+#include "expr/scope.h"
+
+namespace gainsmith::expr {
+
+/// The value of a subexpression: an instruction or, when `identity`, the instruction's 1 x 1 value
+/// times an identity whose size is not known yet.
+struct Bound {
+  int at = -1;
+  bool identity = false;
+};
+
+class Binder {
+ public:
+  explicit Binder(const Scope& scope) : scope_(scope) {}
+
+  Bound bind(const Expression& expression, const Node& node);
+  /// Gives a multiple of I or a zero the shape `shape`; other values must have it already.
+  int materialise(const Expression& expression, const Node& node, Bound value, Shape shape);
+  /// The instruction of a value whose shape is known; `I` alone is an error.
+  int sized(const Expression& expression, const Node& node, Bound value);
+  Bound subtract(const Expression& expression, const Node& node, Bound a, Bound b);
+
+  Shape shape(int at) const { return program_.code[static_cast<std::size_t>(at)].shape; }
+  /// The program that computes `at`, without the instructions that it does not need.
+  Program extract(int at) const;
+
+ private:
+  using Environment = std::map<std::string, Bound>;
+
+  // binder.cpp: leaves and operators.
+  Bound bind_name(const Expression& expression, const Node& node);
+  Bound bind_definition(const Expression& expression, const Node& node, const std::string& name,
+                        std::vector<Bound> arguments);
+  Bound add(const Expression& expression, const Node& node, Op op, Bound a, Bound b);
+  Bound multiply(const Expression& expression, const Node& node, Bound a, Bound b);
+  Bound divide(const Expression& expression, const Node& node, Bound a, Bound b);
+  Bound power(const Expression& expression, const Node& node);
+  Bound transpose(const Expression& expression, const Node& node, Bound a);
+  Bound index(const Expression& expression, const Node& node, Bound base, std::size_t first);
+  std::pair<int, int> index_range(const Expression& expression, const Node& node, int size);
+  std::optional<int> whole_number(const Expression& expression, const Node& node);
+  bool is_zero(Bound value) const;
+  [[noreturn]] void unknown_name(const Expression& expression, const Node& node) const;
+
+  // bind_blocks.cpp: block matrices.
+  Bound bind_block(const Expression& expression, const Node& node);
+  int assemble(const Expression& expression, const Node& node, std::vector<int> entries, int columns,
+               const std::vector<int>& heights, const std::vector<int>& widths);
+
+  // bind_calls.cpp: functions.
+  Bound bind_call(const Expression& expression, const Node& node);
+  Bound bind_function(const Expression& expression, const Node& node, const Function& function);
+  Bound elementwise(const Expression& expression, const Node& node, Op op);
+  Bound fold_minmax(const Expression& expression, const Node& node, Op op);
+  Bound clip(const Expression& expression, const Node& node);
+  Bound where(const Expression& expression, const Node& node);
+  Bound constant_matrix(const Expression& expression, const Node& node, FunctionId id);
+  Bound diagonal(const Expression& expression, const Node& node);
+  Bound block_diagonal(const Expression& expression, const Node& node);
+  Bound basis(const Expression& expression, const Node& node, Op op);
+  Bound observability(const Expression& expression, const Node& node);
+  int same_shape(const Expression& expression, const Node& node, Bound value, Shape shape);
+  int square_argument(const Expression& expression, const Node& node, std::string_view function);
+  Matrix known_value(const Expression& expression, const Node& node, int at, std::string_view why);
+
+  int emit(const Expression& expression, const Node& node, Op op, std::vector<int> operands,
+           Shape shape, std::array<int, 4> attributes = {}, std::string text = "");
+  int number(const Expression& expression, const Node& node, const std::string& text);
+  [[noreturn]] void fail(const Expression& expression, const Node& node,
+                         const std::string& message) const;
+  std::string describe(const Expression& expression, const Node& node, Bound value) const;
+
+  using Key = std::tuple<Op, std::vector<int>, int, int, std::array<int, 4>, std::string>;
+
+  const Scope& scope_;
+  Program program_;
+  std::map<Key, int> known_;                  ///< equal instructions are emitted once
+  std::map<std::string, Bound> defined_;      ///< definitions without parameters, once bound
+  std::vector<std::string> open_definitions_; ///< being bound now, to find cycles
+  Environment environment_;                   ///< parameters of the definition being bound
+};
+
+}  // namespace gainsmith::expr

@@ -1,0 +1,33 @@
+// From expressions to programs: names, shapes and definitions are resolved.
+//
+// Shapes are matrices' rows x columns; numbers are 1 x 1 and multiply anything. Two things take
+// their size from where they stand:
+//   I   the identity; any expression s*I + t*I is still "a multiple of I"
+//   0   in a block, a sum or a comparison
+// In a block [a, b; c, d] a "*" is the transpose of the entry mirrored at the diagonal, and then the
+// rows are cut like the columns.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "expr/scope.h"
+
+namespace gainsmith::expr {
+
+/// The program of an expression that is not a comparison. `expected` gives its size to a bare I or 0
+/// and is checked. InputError with the shapes at fault, or the nearest known name.
+Program compile(const Expression& expression, const Scope& scope,
+                std::optional<Shape> expected = std::nullopt);
+
+/// One comparison of a chain: the larger side minus the smaller one, to be > 0 (strict) or >= 0.
+struct CompiledRelation {
+  Program difference;
+  bool strict = true;
+};
+
+/// The comparisons of a chain such as I <= P <= kappa*I, in order. InputError when the expression is no
+/// comparison or a difference is not square.
+std::vector<CompiledRelation> compile_relations(const Expression& expression, const Scope& scope);
+
+}  // namespace gainsmith::expr

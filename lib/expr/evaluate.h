@@ -1,0 +1,123 @@
+// Evaluation of a program over a number type.
+//
+// A number type is given by an algebra:
+//   struct Algebra {
+//     using Value = ...;      // a matrix over the number type
+//     // Computes one instruction (never Op::input) from the values of its operands into `out`, which
+//     // may hold an old value of the same shape. Throws EvaluationError when that is impossible.
+//     void apply(const Instruction&, std::span<const Value* const> operands, Value& out) const;
+//   };
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "expr/program.h"
+
+namespace gainsmith::expr {
+
+/// An operation has no result: a singular inverse, the logarithm of a negative number, a product of two
+/// unknowns. The evaluator adds the place.
+class EvaluationError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// Runs one program again and again. Inputs given by fix() keep their value, and what depends on them
+/// alone is computed once; the others are given by set() before each run(). Values of inputs are
+/// held by pointer and must outlive the run. The registers are kept, so that a run over a value
+/// type that reuses its memory allocates nothing.
+template <class Algebra>
+class Evaluator {
+ public:
+  using Value = typename Algebra::Value;
+
+  /// `program` must outlive the evaluator.
+  explicit Evaluator(const Program& program, Algebra algebra = {})
+      : program_(&program),
+        algebra_(std::move(algebra)),
+        inputs_(program.inputs.size()),
+        fixed_(program.inputs.size(), false),
+        registers_(program.code.size()) {}
+
+  void fix(const std::string& name, const Value& value) {
+    const int at = program_->input(name);
+    if (at < 0) return;
+    inputs_[static_cast<std::size_t>(at)] = &value;
+    fixed_[static_cast<std::size_t>(at)] = true;
+    prepared_ = false;
+  }
+
+  void set(std::size_t input, const Value& value) { inputs_[input] = &value; }
+
+  /// Sets an input by name; a name that the program does not use is ignored.
+  void set(const std::string& name, const Value& value) {
+    const int at = program_->input(name);
+    if (at >= 0) inputs_[static_cast<std::size_t>(at)] = &value;
+  }
+
+  /// The result; valid until the next run.
+  const Value& run() {
+    if (!prepared_) prepare();
+    for (const std::size_t at : varying_) compute(at);
+    return value(static_cast<std::size_t>(program_->result));
+  }
+
+ private:
+  const Value& value(std::size_t at) const {
+    const Instruction& instruction = program_->code[at];
+    if (instruction.op != Op::input) return registers_[at];
+    return *inputs_[static_cast<std::size_t>(instruction.attributes[0])];
+  }
+
+  void compute(std::size_t at) {
+    const Instruction& instruction = program_->code[at];
+    operands_.clear();
+    for (const int operand : instruction.operands)
+      operands_.push_back(&value(static_cast<std::size_t>(operand)));
+    try {
+      algebra_.apply(instruction, operands_, registers_[at]);
+    } catch (const EvaluationError& error) {
+      throw InputError(instruction.place(), error.what());
+    }
+  }
+
+  /// Computes what depends on fixed inputs alone and lists the rest.
+  void prepare() {
+    std::vector<bool> moves(program_->code.size());
+    varying_.clear();
+    for (std::size_t at = 0; at < program_->code.size(); ++at) {
+      const Instruction& instruction = program_->code[at];
+      if (instruction.op == Op::input) {
+        const auto input = static_cast<std::size_t>(instruction.attributes[0]);
+        if (inputs_[input] == nullptr)
+          throw std::logic_error("no value for the input " + program_->inputs[input].name);
+        moves[at] = !fixed_[input];
+        continue;
+      }
+      for (const int operand : instruction.operands)
+        if (moves[static_cast<std::size_t>(operand)]) moves[at] = true;
+      if (moves[at]) {
+        varying_.push_back(at);
+      } else {
+        compute(at);
+      }
+    }
+    prepared_ = true;
+  }
+
+  const Program* program_;
+  Algebra algebra_;
+  std::vector<const Value*> inputs_;
+  std::vector<bool> fixed_;
+  std::vector<Value> registers_;
+  std::vector<const Value*> operands_;
+  std::vector<std::size_t> varying_;
+  bool prepared_ = false;
+};
+
+}  // namespace gainsmith::expr

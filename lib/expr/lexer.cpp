@@ -1,0 +1,110 @@
+#include "expr/lexer.h"
+
+#include <array>
+#include <cctype>
+#include <string_view>
+#include <utility>
+
+namespace gainsmith::expr {
+
+namespace {
+
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; }
+bool is_name_start(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+bool is_name_part(char c) { return is_name_start(c) || is_digit(c); }
+
+/// The end of a number that starts at `at`: digits [. digits] [e [+-] digits].
+std::size_t number_end(std::string_view text, std::size_t at) {
+  const auto digits = [&] {
+    while (at < text.size() && is_digit(text[at])) ++at;
+  };
+  digits();
+  if (at < text.size() && text[at] == '.') {
+    ++at;
+    digits();
+  }
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    std::size_t exponent = at + 1;
+    if (exponent < text.size() && (text[exponent] == '+' || text[exponent] == '-')) ++exponent;
+    if (exponent < text.size() && is_digit(text[exponent])) {
+      at = exponent;
+      digits();
+    }
+  }
+  return at;
+}
+
+constexpr std::array<std::pair<std::string_view, TokenKind>, 17> kSymbols = {{
+    {"<=", TokenKind::less_equal},   {">=", TokenKind::greater_equal},
+    {"<", TokenKind::less},          {">", TokenKind::greater},
+    {"+", TokenKind::plus},          {"-", TokenKind::minus},
+    {"*", TokenKind::star},          {"/", TokenKind::slash},
+    {"^", TokenKind::caret},         {"'", TokenKind::quote},
+    {",", TokenKind::comma},         {";", TokenKind::semicolon},
+    {":", TokenKind::colon},         {"(", TokenKind::open},
+    {")", TokenKind::close},         {"[", TokenKind::open_bracket},
+    {"]", TokenKind::close_bracket},
+}};
+
+/// Spellings of other languages, with what to write here.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kForeign = {{
+    {"==", "equations are not part of the language; use two inequalities or a definition"},
+    {"=", "equations are not part of the language; definitions go into 'let'"},
+    {".*", "the elementwise product is not part of the language; use diag(a)*b"},
+    {"**", "write ^ for a power"},
+    {"&", "write two inequalities, or a chain such as 0 < a <= b"},
+    {"\xE2\x88\x92", "this is a typographic minus; write -"},
+    {"\xE2\x89\xA4", "write <="},
+    {"\xE2\x89\xA5", "write >="},
+    {"\xE2\x80\x99", "this is a typographic quote; write '"},
+}};
+
+[[noreturn]] void refuse(const Text& text, std::size_t at) {
+  const std::string_view rest = std::string_view(text.str()).substr(at);
+  for (const auto& [spelling, advice] : kForeign)
+    if (rest.starts_with(spelling))
+      throw InputError(text.place(at), "unexpected '" + std::string(spelling) + "': " + std::string(advice));
+  std::size_t length = 1;
+  while (length < rest.size() && (static_cast<unsigned char>(rest[length]) & 0xC0U) == 0x80U) ++length;
+  throw InputError(text.place(at), "unexpected character '" + std::string(rest.substr(0, length)) + "'");
+}
+
+}  // namespace
+
+std::vector<Token> tokenize(const Text& text) {
+  const std::string_view source = text.str();
+  std::vector<Token> tokens;
+  std::size_t at = 0;
+  const auto push = [&](TokenKind kind, std::size_t end) {
+    tokens.push_back({kind, std::string(source.substr(at, end - at)), at, end});
+    at = end;
+  };
+  while (at < source.size()) {
+    const char c = source[at];
+    if (std::isspace(static_cast<unsigned char>(c)) != 0) {
+      ++at;
+    } else if (is_digit(c) || (c == '.' && at + 1 < source.size() && is_digit(source[at + 1]))) {
+      push(TokenKind::number, number_end(source, at));
+    } else if (is_name_start(c)) {
+      std::size_t end = at;
+      while (end < source.size() && is_name_part(source[end])) ++end;
+      push(TokenKind::name, end);
+    } else {
+      const std::string_view rest = source.substr(at);
+      for (const auto& [spelling, advice] : kForeign)
+        if (rest.starts_with(spelling) && spelling != "**") refuse(text, at);
+      bool known = false;
+      for (const auto& [spelling, kind] : kSymbols) {
+        if (!rest.starts_with(spelling)) continue;
+        push(kind, at + spelling.size());
+        known = true;
+        break;
+      }
+      if (!known) refuse(text, at);
+    }
+  }
+  push(TokenKind::end, at);
+  return tokens;
+}
+
+}  // namespace gainsmith::expr

@@ -1,0 +1,28 @@
+// From characters to tokens.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "expr/text.h"
+
+namespace gainsmith::expr {
+
+enum class TokenKind {
+  number, name, plus, minus, star, slash, caret, quote, comma, semicolon, colon,
+  open, close, open_bracket, close_bracket, less, less_equal, greater, greater_equal, end
+};
+
+struct Token {
+  TokenKind kind = TokenKind::end;
+  std::string text;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+/// Splits the text; the last token is `end`. InputError on a character that the language does not
+/// know, with what was probably meant (== for <=, ** for ^, a typographic minus, ...).
+std::vector<Token> tokenize(const Text& text);
+
+}  // namespace gainsmith::expr

@@ -1,0 +1,286 @@
+#include "expr/parser.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+
+#include "expr/lexer.h"
+
+namespace gainsmith::expr {
+
+namespace {
+
+std::optional<Relation> relation_of(TokenKind kind) {
+  switch (kind) {
+    case TokenKind::less: return Relation::less;
+    case TokenKind::less_equal: return Relation::less_equal;
+    case TokenKind::greater: return Relation::greater;
+    case TokenKind::greater_equal: return Relation::greater_equal;
+    default: return std::nullopt;
+  }
+}
+
+class Parser {
+ public:
+  explicit Parser(const Text& text) : text_(text), tokens_(tokenize(text)) {}
+
+  NodePtr whole() {
+    if (peek() == TokenKind::end) fail("expected an expression, found nothing");
+    NodePtr root = comparison();
+    expect(TokenKind::end, "the end of the expression or an operator");
+    return root;
+  }
+
+  Signature signature() {
+    Signature result;
+    result.name = expect(TokenKind::name, "a name").text;
+    if (accept(TokenKind::open)) {
+      do {
+        const Token parameter = expect(TokenKind::name, "a parameter's name");
+        if (std::find(result.parameters.begin(), result.parameters.end(), parameter.text) !=
+            result.parameters.end())
+          throw InputError(text_.place(parameter.begin),
+                           "the parameter '" + parameter.text + "' stands here twice");
+        result.parameters.push_back(parameter.text);
+      } while (accept(TokenKind::comma));
+      expect(TokenKind::close, "',' or ')'");
+    }
+    expect(TokenKind::end, "':' or '(' after the name");
+    return result;
+  }
+
+ private:
+  // Deeper nesting than this is no formula; it would only exhaust the stack.
+  static constexpr int kDeepest = 200;
+
+  struct Depth {
+    explicit Depth(Parser& p) : parser(p) {
+      if (++parser.depth_ > kDeepest) parser.fail("the expression is nested too deeply");
+    }
+    Depth(const Depth&) = delete;
+    Depth& operator=(const Depth&) = delete;
+    ~Depth() { --parser.depth_; }
+    Parser& parser;
+  };
+
+  TokenKind peek() const { return tokens_[at_].kind; }
+  const Token& next() { return tokens_[at_++]; }
+
+  bool accept(TokenKind kind) {
+    if (peek() != kind) return false;
+    ++at_;
+    return true;
+  }
+
+  const Token& expect(TokenKind kind, const std::string& what) {
+    if (peek() != kind) fail("expected " + what + ", found " + found());
+    return kind == TokenKind::end ? tokens_[at_] : next();
+  }
+
+  std::string found() const {
+    return peek() == TokenKind::end ? "the end of the text" : "'" + tokens_[at_].text + "'";
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError(text_.place(tokens_[at_].begin), message);
+  }
+
+  std::shared_ptr<Node> make(NodeKind kind, std::size_t begin, std::vector<NodePtr> children) const {
+    auto node = std::make_shared<Node>();
+    node->kind = kind;
+    node->begin = begin;
+    node->end = at_ > 0 ? tokens_[at_ - 1].end : begin;
+    node->children = std::move(children);
+    return node;
+  }
+
+  NodePtr comparison() {
+    const Depth depth(*this);
+    const std::size_t begin = tokens_[at_].begin;
+    std::vector<NodePtr> operands = {sum()};
+    std::vector<Relation> relations;
+    while (const auto relation = relation_of(peek())) {
+      next();
+      relations.push_back(*relation);
+      operands.push_back(sum());
+    }
+    if (relations.empty()) return operands.front();
+    auto node = make(NodeKind::compare, begin, std::move(operands));
+    node->relations = std::move(relations);
+    return node;
+  }
+
+  NodePtr sum() {
+    const std::size_t begin = tokens_[at_].begin;
+    NodePtr left = term();
+    for (;;) {
+      if (accept(TokenKind::plus)) {
+        NodePtr right = term();
+        left = make(NodeKind::add, begin, {left, right});
+      } else if (accept(TokenKind::minus)) {
+        NodePtr right = term();
+        left = make(NodeKind::subtract, begin, {left, right});
+      } else {
+        return left;
+      }
+    }
+  }
+
+  NodePtr term() {
+    const std::size_t begin = tokens_[at_].begin;
+    NodePtr left = sign();
+    for (;;) {
+      if (accept(TokenKind::star)) {
+        NodePtr right = sign();
+        left = make(NodeKind::multiply, begin, {left, right});
+      } else if (accept(TokenKind::slash)) {
+        NodePtr right = sign();
+        left = make(NodeKind::divide, begin, {left, right});
+      } else {
+        return left;
+      }
+    }
+  }
+
+  NodePtr sign() {
+    const Depth depth(*this);
+    const std::size_t begin = tokens_[at_].begin;
+    if (accept(TokenKind::plus)) return sign();
+    if (accept(TokenKind::minus)) {
+      NodePtr operand = sign();
+      return make(NodeKind::negate, begin, {operand});
+    }
+    return postfix();
+  }
+
+  NodePtr postfix() {
+    const std::size_t begin = tokens_[at_].begin;
+    NodePtr value = primary();
+    for (;;) {
+      if (accept(TokenKind::quote)) {
+        value = make(NodeKind::transpose, begin, {value});
+      } else if (accept(TokenKind::caret)) {
+        NodePtr exponent = this->exponent();
+        value = make(NodeKind::power, begin, {value, exponent});
+      } else if (accept(TokenKind::open)) {
+        value = apply(begin, value);
+      } else {
+        return value;
+      }
+    }
+  }
+
+  NodePtr exponent() {
+    const Depth depth(*this);
+    const std::size_t begin = tokens_[at_].begin;
+    if (accept(TokenKind::plus)) return exponent();
+    if (accept(TokenKind::minus)) {
+      NodePtr operand = exponent();
+      return make(NodeKind::negate, begin, {operand});
+    }
+    return primary();
+  }
+
+  /// After "value(": a call when the value is a bare name (whether it is a function or an indexed
+  /// matrix is known only to the binder), an index otherwise.
+  NodePtr apply(std::size_t begin, const NodePtr& value) {
+    std::vector<NodePtr> arguments;
+    if (peek() != TokenKind::close) {
+      do {
+        arguments.push_back(argument());
+      } while (accept(TokenKind::comma));
+    }
+    expect(TokenKind::close, "',' or ')'");
+    if (value->kind == NodeKind::name) {
+      auto call = make(NodeKind::call, begin, std::move(arguments));
+      call->text = value->text;
+      return call;
+    }
+    arguments.insert(arguments.begin(), value);
+    return make(NodeKind::index, begin, std::move(arguments));
+  }
+
+  NodePtr argument() {
+    const std::size_t begin = tokens_[at_].begin;
+    if (accept(TokenKind::colon)) return make(NodeKind::range, begin, {});
+    NodePtr from = comparison();
+    if (!accept(TokenKind::colon)) return from;
+    NodePtr to = comparison();
+    return make(NodeKind::range, begin, {from, to});
+  }
+
+  NodePtr primary() {
+    const std::size_t begin = tokens_[at_].begin;
+    switch (peek()) {
+      case TokenKind::number:
+      case TokenKind::name: {
+        const Token& token = next();
+        auto node = make(token.kind == TokenKind::number ? NodeKind::number : NodeKind::name, begin, {});
+        node->text = token.text;
+        return node;
+      }
+      case TokenKind::open: {
+        next();
+        NodePtr inner = comparison();
+        expect(TokenKind::close, "')'");
+        return inner;
+      }
+      case TokenKind::open_bracket: next(); return block(begin);
+      case TokenKind::star:
+        if (at_ > 0 && tokens_[at_ - 1].kind == TokenKind::star) fail("write ^ for a power, not **");
+        [[fallthrough]];
+      default: fail("expected a number, a name, '(' or '[', found " + found());
+    }
+  }
+
+  NodePtr block(std::size_t begin) {
+    const Depth depth(*this);
+    std::vector<NodePtr> entries;
+    int columns = 0;
+    for (;;) {
+      const std::size_t row_begin = entries.size();
+      do {
+        entries.push_back(entry());
+      } while (accept(TokenKind::comma));
+      const int width = static_cast<int>(entries.size() - row_begin);
+      if (columns == 0) columns = width;
+      if (width != columns)
+        fail("this row of the block has " + std::to_string(width) + " entries, the first row has " +
+             std::to_string(columns));
+      if (accept(TokenKind::close_bracket)) break;
+      if (!accept(TokenKind::semicolon))
+        fail("expected ',' ';' or ']' in the block, found " + found());
+    }
+    auto node = make(NodeKind::block, begin, std::move(entries));
+    node->columns = columns;
+    return node;
+  }
+
+  NodePtr entry() {
+    const TokenKind after = tokens_[std::min(at_ + 1, tokens_.size() - 1)].kind;
+    const bool alone = after == TokenKind::comma || after == TokenKind::semicolon ||
+                       after == TokenKind::close_bracket;
+    if (peek() == TokenKind::star && alone) {
+      const std::size_t begin = next().begin;
+      return make(NodeKind::mirror, begin, {});
+    }
+    return sum();
+  }
+
+  const Text& text_;
+  std::vector<Token> tokens_;
+  std::size_t at_ = 0;
+  int depth_ = 0;
+};
+
+}  // namespace
+
+Expression parse(Text text) {
+  auto shared = std::make_shared<const Text>(std::move(text));
+  NodePtr root = Parser(*shared).whole();
+  return {shared, root};
+}
+
+Signature parse_signature(const Text& text) { return Parser(text).signature(); }
+
+}  // namespace gainsmith::expr

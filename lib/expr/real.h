@@ -1,0 +1,34 @@
+// The number type double: one matrix of doubles a value.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <span>
+#include <string>
+
+#include "expr/evaluate.h"
+#include "expr/matrix.h"
+#include "expr/program.h"
+
+namespace gainsmith::expr {
+
+struct RealAlgebra {
+  using Value = Matrix;
+
+  /// EvaluationError for a singular inverse (reciprocal condition below 1e-15), a division by zero, the
+  /// logarithm or root of a negative number, and any result that is not finite.
+  void apply(const Instruction& instruction, std::span<const Matrix* const> operands,
+             Matrix& out) const;
+};
+
+/// Named matrices: data, parameters, gains, values of unknowns.
+using Values = std::map<std::string, Matrix, std::less<>>;
+
+/// Evaluates once. InputError when an operation fails; std::logic_error when an input has no value.
+Matrix evaluate(const Program& program, const Values& values);
+
+/// The number of singular values above tolerance * the largest one; tolerance < 0 stands for
+/// max(rows, cols) * 2^-52.
+int numerical_rank(const Matrix& matrix, double tolerance = -1);
+
+}  // namespace gainsmith::expr

@@ -1,0 +1,40 @@
+#include "expr/text.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace gainsmith::expr {
+
+namespace {
+
+std::vector<Position> consecutive(const std::string& text, Position at) {
+  std::vector<Position> positions;
+  positions.reserve(text.size() + 1);
+  for (const char c : text) {
+    positions.push_back(at);
+    const bool continuation_byte = (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
+    if (c == '\n') {
+      at = {at.line + 1, 1};
+    } else if (!continuation_byte) {
+      ++at.column;
+    }
+  }
+  positions.push_back(at);
+  return positions;
+}
+
+}  // namespace
+
+Text::Text(std::string text, std::string file, std::vector<Position> positions)
+    : text_(std::move(text)), file_(std::move(file)), positions_(std::move(positions)) {}
+
+Text::Text(std::string text, std::string file, Position start)
+    : text_(std::move(text)), file_(std::move(file)), positions_(consecutive(text_, start)) {}
+
+Place Text::place(std::size_t offset) const {
+  if (positions_.empty()) return {file_};
+  const Position at = positions_[std::min(offset, positions_.size() - 1)];
+  return {file_, at.line, at.column};
+}
+
+}  // namespace gainsmith::expr
