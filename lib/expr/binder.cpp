@@ -89,6 +89,8 @@ Bound Binder::bind(const Expression& expression, const Node& node) {
 }
 
 void Binder::unknown_name(const Expression& expression, const Node& node) const {
+  for (const std::string_view word : {"nan", "NaN", "NAN", "inf", "Inf", "INF", "infinity"})
+    if (node.text == word) fail(expression, node, "'" + node.text + "': a number must be finite");
   std::vector<std::string> candidates = scope_.names();
   for (const auto& [name, value] : environment_) candidates.push_back(name);
   if (node.kind == NodeKind::call) {

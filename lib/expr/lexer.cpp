@@ -47,9 +47,14 @@ constexpr std::array<std::pair<std::string_view, TokenKind>, 17> kSymbols = {{
 }};
 
 /// Spellings of other languages, with what to write here.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> kForeign = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kForeign = {{
     {"==", "equations are not part of the language; use two inequalities or a definition"},
     {"=", "equations are not part of the language; definitions go into 'let'"},
+    {".nan", "a number must be finite"},
+    {".NaN", "a number must be finite"},
+    {".NAN", "a number must be finite"},
+    {".inf", "a number must be finite"},
+    {".Inf", "a number must be finite"},
     {".*", "the elementwise product is not part of the language; use diag(a)*b"},
     {"**", "write ^ for a power"},
     {"&", "write two inequalities, or a chain such as 0 < a <= b"},

@@ -1,0 +1,85 @@
+// What synth writes and verify reads: gains, the statement that was solved and how well it holds.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "expr/matrix.h"
+#include "model/words.h"
+
+namespace gainsmith::model {
+
+using NamedMatrices = std::vector<std::pair<std::string, expr::Matrix>>;
+
+/// One matrix inequality, evaluated in double from the decimals as written.
+struct Margin {
+  std::string name;             ///< of the requirement; "jump", or "bounds.1" in a chain
+  bool strict = true;
+  double reached = 0;           ///< smallest eigenvalue / scale, over all points of `forall`
+  double required = 0;          ///< what the solver was asked for
+  double smallest_eigenvalue = 0;
+  double scale = 0;             ///< of its data
+  std::string worst_point;      ///< "tau = 0"; empty without forall
+  bool holds = false;
+};
+
+/// A bound on a gain, so that an infimum that is not attained gives finite gains.
+struct GainBound {
+  std::string what;             ///< "inv(P2)*X"
+  double bound = 0;             ///< allowed
+  double reached = 0;           ///< in the same measure
+  bool active = false;
+};
+
+/// The Farkas certificate of an infeasible problem, as checked (see sdp/solution.h).
+struct CertificateRecord {
+  double value = 0;
+  double residual = 0;
+  double min_eigenvalue = 0;
+  double excluded_radius = 0;
+  bool checked = false;
+  /// One multiplier matrix for each inequality and point: its name and the matrix.
+  NamedMatrices multipliers;
+};
+
+struct SolverRecord {
+  std::string status;           ///< optimal, infeasible, undecided
+  std::string cause;
+  std::string message;
+  int iterations = 0;
+  double relative_gap = 0;
+  double primal_infeasibility = 0;
+  double dual_infeasibility = 0;
+  std::string precision;
+};
+
+struct Statement {
+  std::string method_name;
+  std::string method_text;
+  std::string problem_file;     ///< its name only, no folders of the machine
+  std::string problem_text;
+  std::string hash;             ///< sha256 of method text, a zero byte and problem text
+};
+
+struct Gains {
+  std::string problem_name;
+  Verdict verdict = Verdict::undecided;
+  SolverRecord solver;
+  std::optional<double> objective;
+  std::optional<double> objective_lower_bound;  ///< of the problem without margins, by weak duality
+  NamedMatrices gains;
+  NamedMatrices unknowns;
+  NamedMatrices parameters;
+  std::vector<Margin> margins;
+  std::vector<GainBound> bounds;
+  std::optional<CertificateRecord> certificate;
+  Statement statement;
+  std::string version;          ///< of gainsmith
+  std::vector<std::pair<std::string, double>> timings;  ///< seconds; apart from all results
+
+  const expr::Matrix* find(const std::string& name) const;
+};
+
+}  // namespace gainsmith::model

@@ -1,0 +1,261 @@
+#include "model/instance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/nearest.h"
+#include "base/number.h"
+#include "expr/compile.h"
+
+namespace gainsmith::model {
+
+namespace {
+
+template <class Item>
+const Item* find_named(const std::vector<Item>& items, const std::string& name) {
+  const auto found = std::find_if(items.begin(), items.end(),
+                                  [&](const Item& item) { return item.name == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  for (const Item& item : items) names.push_back(item.name);
+  return names;
+}
+
+/// A flat list is a row; where a column is declared it is turned.
+expr::Expression oriented(const Value& value, bool column) {
+  if (!value.flat || !column) return value.value;
+  auto turned = std::make_shared<expr::Node>();
+  turned->kind = expr::NodeKind::transpose;
+  turned->begin = value.value.root->begin;
+  turned->end = value.value.root->end;
+  turned->children = {value.value.root};
+  return {value.value.text, turned};
+}
+
+/// The place of element (i, j) when the matrix is written element by element, of the whole otherwise.
+Place element_place(const Value& value, int i, int j) {
+  const expr::Node& root = *value.value.root;
+  if (root.kind == expr::NodeKind::block) {
+    const auto at = static_cast<std::size_t>(i * root.columns + j);
+    if (at < root.children.size()) return value.value.place(*root.children[at]);
+  }
+  return value.place;
+}
+
+std::string element_text(int i, int j, double value) {
+  return "element (" + std::to_string(i + 1) + ", " + std::to_string(j + 1) + ") is " + brief(value, 17);
+}
+
+/// Checks a declared structure and makes a matrix that is symmetric to rounding exactly so.
+void enforce_structure(const Declaration& datum, const Value& value, expr::Matrix& matrix) {
+  const Structure structure = datum.shape.structure;
+  if (structure != Structure::symmetric && structure != Structure::diagonal) return;
+  const double rounding = 1e-12 * matrix.cwiseAbs().maxCoeff();
+  for (int i = 0; i < matrix.rows(); ++i) {
+    for (int j = 0; j < i; ++j) {
+      const double upper = matrix(j, i);
+      const double lower = matrix(i, j);
+      if (structure == Structure::symmetric && std::abs(upper - lower) > rounding)
+        throw InputError(element_place(value, i, j),
+                         "the datum " + datum.name + " must be symmetric, but " +
+                             element_text(i, j, lower) + " and " + element_text(j, i, upper));
+      if (structure == Structure::diagonal && (upper != 0 || lower != 0))
+        throw InputError(element_place(value, i, j), "the datum " + datum.name +
+                                                         " must be diagonal, but " +
+                                                         element_text(i, j, lower != 0 ? lower : upper));
+    }
+  }
+  matrix = (0.5 * (matrix + matrix.transpose())).eval();
+}
+
+std::string declared(const Declaration& declaration, const Dimensions& dimensions) {
+  std::string text = declaration.shape.text;
+  std::string known;
+  for (const auto& part : {declaration.shape.rows, declaration.shape.cols}) {
+    if (!part) continue;
+    for (const std::string& name : names_in(*part)) {
+      const auto found = dimensions.find(name);
+      const std::string fact = found == dimensions.end() ? "" : name + " = " + std::to_string(found->second);
+      if (!fact.empty() && known.find(fact) == std::string::npos) known += (known.empty() ? "" : ", ") + fact;
+    }
+  }
+  return text + (known.empty() ? "" : " (" + known + ")");
+}
+
+class Builder {
+ public:
+  explicit Builder(const Problem& problem) {
+    instance_.problem = &problem;
+    instance_.method = problem.method.get();
+  }
+
+  Instance build() {
+    refuse_unknown_names();
+    for (const Declaration& datum : method().data) add_datum(datum);
+    for (const Parameter& parameter : method().parameters) add_parameter(parameter);
+    for (const Let& let : method().let)
+      instance_.scope.definitions[let.signature.name] = {let.signature.parameters, let.body};
+    for (const Component* part : {&method().plant, &method().observer})
+      for (const Named& output : part->outputs) instance_.scope.definitions[output.name] = {{}, output.value};
+    for (const Named& signal : method().signals) instance_.scope.definitions[signal.name] = {{}, signal.value};
+    for (const Named& assumption : method().assume) check_assumption(assumption);
+    for (const Declaration& unknown : method().unknowns)
+      instance_.unknowns.emplace_back(unknown.name, known_shape(unknown, "unknown"));
+    for (const Component* part : {&method().plant, &method().observer})
+      for (const Declaration& state : part->states)
+        instance_.states.emplace_back(state.name, known_shape(state, "state"));
+    return std::move(instance_);
+  }
+
+ private:
+  const Problem& problem() const { return *instance_.problem; }
+  const Method& method() const { return *instance_.method; }
+
+  void refuse_unknown_names() const {
+    const auto data = names_of(method().data);
+    const auto parameters = names_of(method().parameters);
+    const auto refuse = [&](const std::vector<Value>& values, const std::vector<std::string>& known,
+                            const std::vector<std::string>& elsewhere, const char* what,
+                            const char* other) {
+      for (const Value& value : values) {
+        if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
+        const bool misplaced = std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
+        throw InputError(value.place, "the method " + method().name + " has no " + what + " '" + value.name +
+                                          "'" + (misplaced ? "; it is one of its " + std::string(other)
+                                                           : suggestion(value.name, known)));
+      }
+    };
+    refuse(problem().data, data, parameters, "datum", "parameters");
+    refuse(problem().parameters, parameters, data, "parameter", "data");
+  }
+
+  void add_datum(const Declaration& datum) {
+    const Value* given = find_named(problem().data, datum.name);
+    if (given == nullptr && !datum.fallback)
+      throw InputError({problem().file}, "the datum " + datum.name + " (" + datum.shape.text +
+                                             ") of the method " + method().name + " is missing under 'data'");
+    const Value value = given ? *given : Value{datum.name, *datum.fallback, false, datum.place};
+    const auto expected = resolve(datum.shape, instance_.dimensions);
+    const auto program = expr::compile(oriented(value, datum.shape.is_column()), scope_with_dimensions(),
+                                       free_size(value) ? expected : std::nullopt);
+    if (!learn(datum.shape, program.shape(), instance_.dimensions))
+      throw InputError(value.place, "the datum " + datum.name + " is declared " +
+                                        declared(datum, instance_.dimensions) + "; found " +
+                                        to_string(program.shape()));
+    expr::Matrix matrix = expr::evaluate(program, instance_.data);
+    enforce_structure(datum, value, matrix);
+    define(datum.name, matrix, instance_.data);
+  }
+
+  /// Whether the expression may take its size from its place: a bare number or a multiple of I.
+  static bool free_size(const Value& value) {
+    const auto names = names_in(value.value);
+    return names.contains("I") || value.value.root->kind == expr::NodeKind::number;
+  }
+
+  void add_parameter(const Parameter& parameter) {
+    const Value* given = find_named(problem().parameters, parameter.name);
+    if (given == nullptr && !parameter.fallback)
+      throw InputError({problem().file}, "the parameter " + parameter.name + " of the method " +
+                                             method().name + " has no default and is missing under 'parameters'");
+    const expr::Expression& expression = given ? given->value : *parameter.fallback;
+    const auto program = expr::compile(expression, scope_with_dimensions(), expr::Shape{});
+    define(parameter.name, expr::evaluate(program, instance_.known_values()), instance_.parameters);
+  }
+
+  expr::Scope scope_with_dimensions() const {
+    expr::Scope scope = instance_.scope;
+    scope.dimensions = instance_.dimensions;
+    return scope;
+  }
+
+  void define(const std::string& name, const expr::Matrix& matrix, expr::Values& values) {
+    const expr::Shape shape{static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols())};
+    instance_.scope.symbols[name] = {shape, matrix};
+    instance_.scope.dimensions = instance_.dimensions;
+    values[name] = matrix;
+  }
+
+  void check_assumption(const Named& assumption) const {
+    const expr::Values values = instance_.known_values();
+    for (const auto& relation : compile_relations(assumption.value, instance_.scope)) {
+      const expr::Matrix difference = expr::evaluate(relation.difference, values);
+      if (difference.size() == 1 && (relation.strict ? difference(0, 0) > 0 : difference(0, 0) >= 0)) continue;
+      Place place = {problem().file};
+      std::string found;
+      for (const std::string& name : names_in(assumption.value)) {
+        const auto value = values.find(name);
+        if (value == values.end() || value->second.size() != 1) continue;
+        found += (found.empty() ? "" : ", ") + name + " = " + brief(value->second(0, 0));
+        for (const auto* list : {&problem().data, &problem().parameters})
+          if (const Value* given = find_named(*list, name)) place = given->place;
+      }
+      throw InputError(place, found + ": expected " + assumption.value.text->str());
+    }
+  }
+
+  expr::Shape known_shape(const Declaration& declaration, const char* what) const {
+    if (const auto shape = resolve(declaration.shape, instance_.dimensions)) return *shape;
+    throw InputError(declaration.place, "the size of the " + std::string(what) + " " + declaration.name +
+                                            " (" + declaration.shape.text + ") does not follow from the data");
+  }
+
+  Instance instance_;
+};
+
+}  // namespace
+
+Instance make_instance(const Problem& problem) { return Builder(problem).build(); }
+
+expr::Values Instance::known_values() const {
+  expr::Values values = data;
+  values.insert(parameters.begin(), parameters.end());
+  return values;
+}
+
+expr::Scope Instance::design_scope() const {
+  expr::Scope result = scope;
+  for (const auto& [name, shape] : unknowns) result.symbols[name] = {shape, std::nullopt};
+  return result;
+}
+
+expr::Scope Instance::simulation_scope(
+    const std::vector<std::pair<std::string, expr::Shape>>& gains) const {
+  expr::Scope result = design_scope();
+  for (const auto& [name, shape] : gains)
+    if (!result.symbols.contains(name)) result.symbols[name] = {shape, std::nullopt};
+  for (const auto& [name, shape] : states) result.symbols[name] = {shape, std::nullopt};
+  if (method->timer) result.symbols[method->timer->name] = {expr::Shape{}, std::nullopt};
+  return result;
+}
+
+std::vector<std::pair<std::string, expr::Shape>> gain_shapes(const Instance& instance) {
+  const expr::Scope scope = instance.design_scope();
+  std::vector<std::pair<std::string, expr::Shape>> shapes;
+  for (const Named& gain : instance.method->gains)
+    shapes.emplace_back(gain.name, expr::compile(gain.value, scope).shape());
+  return shapes;
+}
+
+double scalar_value(const expr::Expression& expression, const expr::Scope& scope,
+                    const expr::Values& values) {
+  return expr::evaluate(expr::compile(expression, scope, expr::Shape{}), values)(0, 0);
+}
+
+expr::Program compile_value(const Value& value, const expr::Scope& scope,
+                            std::optional<expr::Shape> expected) {
+  const bool column = expected && expected->cols == 1 && expected->rows > 1;
+  return expr::compile(oriented(value, column), scope, expected);
+}
+
+expr::Matrix matrix_value(const Value& value, const expr::Scope& scope, const expr::Values& values,
+                          std::optional<expr::Shape> expected) {
+  return expr::evaluate(compile_value(value, scope, expected), values);
+}
+
+}  // namespace gainsmith::model

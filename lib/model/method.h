@@ -1,0 +1,122 @@
+// A method: a published design as text. Every expression keeps its place in the file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "expr/ast.h"
+#include "expr/parser.h"
+#include "model/shape_text.h"
+
+namespace gainsmith::model {
+
+/// Something with a name and a shape: a datum, an unknown, a state.
+struct Declaration {
+  std::string name;
+  ShapeText shape;
+  std::optional<expr::Expression> fallback;  ///< a datum's default, used when the problem gives none
+  std::string help;
+  Place place;
+};
+
+/// A scalar that the engineer may tune.
+struct Parameter {
+  std::string name;
+  std::optional<expr::Expression> fallback;
+  std::string help;
+  Place place;
+};
+
+/// A name and its expression, in the order of the file.
+struct Named {
+  std::string name;
+  expr::Expression value;
+  Place place;
+};
+
+/// An entry of `let`: "mu: ..." or "E(tau): ...".
+struct Let {
+  expr::Signature signature;
+  expr::Expression body;
+  Place place;
+};
+
+/// "forall: tau in [a, b]" or "forall: tau in {a, b, c}".
+struct Forall {
+  std::string variable;
+  bool interval = true;
+  std::vector<expr::Expression> points;  ///< the two ends, or the elements
+  Place place;
+};
+
+/// A named matrix inequality, or a chain of them.
+struct Requirement {
+  std::string name;
+  std::vector<Forall> forall;
+  expr::Expression that;
+  Place place;
+};
+
+/// A part of the hybrid system: the plant or the observer.
+struct Component {
+  std::vector<Declaration> states;
+  std::vector<Named> outputs;   ///< definitions in terms of the states, e.g. y = C z
+  std::vector<Named> flow;      ///< derivatives; a state without an entry stays constant
+  std::vector<Named> jump;      ///< values after a jump from values before; a state without an entry
+                                ///< keeps its value
+};
+
+/// A timer that runs down to 0, where a jump happens and it is reset to a value in [low, high]. Its first
+/// value lies in [first_low, first_high].
+struct Timer {
+  std::string name;
+  expr::Expression low;
+  expr::Expression high;
+  expr::Expression first_low;
+  expr::Expression first_high;
+  Place place;
+};
+
+/// What a simulation can check of the gains. Expressions may use data, parameters, gains, values of
+/// unknowns, states, outputs, signals and the timer.
+struct Claim {
+  enum class Kind {
+    nonincreasing,  ///< value never increases, along flows and over jumps
+    cost,           ///< int flow_cost dt + sum over jumps of jump_cost (before the jump) <= value at the start
+    shrinks         ///< value at the end of the run <= factor * value at the start
+  };
+  std::string name;
+  Kind kind = Kind::nonincreasing;
+  expr::Expression value;                     ///< scalar
+  std::optional<expr::Expression> flow_cost;  ///< cost
+  std::optional<expr::Expression> jump_cost;  ///< cost
+  std::optional<expr::Expression> factor;     ///< shrinks
+  Place place;
+};
+
+struct Method {
+  std::string name;
+  std::string source;    ///< paper, theorem, equations
+  std::string summary;   ///< one line
+  std::string file;      ///< where it was read, for messages
+  std::string text;      ///< the whole file
+
+  std::vector<Declaration> data;
+  std::vector<Parameter> parameters;
+  std::vector<Named> assume;        ///< comparisons of scalars that data and parameters must satisfy
+  std::vector<Declaration> unknowns;
+  std::vector<Let> let;
+  std::vector<Requirement> require;
+  std::optional<expr::Expression> minimize;
+  std::vector<Named> gains;
+
+  Component plant;
+  Component observer;
+  std::optional<Timer> timer;
+  std::vector<Named> signals;       ///< e.g. the errors e = z - zh
+  std::vector<Claim> claims;
+};
+
+}  // namespace gainsmith::model

@@ -1,0 +1,66 @@
+#include "model/names.h"
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/nearest.h"
+#include "expr/functions.h"
+
+namespace gainsmith::model {
+
+namespace {
+
+class Names {
+ public:
+  void add(const std::string& name, const std::string& what, const Place& place) {
+    if (expr::is_reserved(name))
+      throw InputError(place, "'" + name + "' is a word of the language and cannot name a " + what);
+    const auto [found, fresh] = known_.emplace(name, what);
+    if (!fresh)
+      throw InputError(place, "'" + name + "' names a " + what + " here, but it already names a " +
+                                  found->second);
+  }
+
+ private:
+  std::map<std::string, std::string> known_;
+};
+
+void check_maps(const Component& component, const std::vector<Named>& map, const std::string& what) {
+  std::vector<std::string> states;
+  for (const Declaration& state : component.states) states.push_back(state.name);
+  for (const Named& entry : map) {
+    bool known = false;
+    for (const std::string& state : states) known |= state == entry.name;
+    if (!known)
+      throw InputError(entry.place,
+                       what + " of '" + entry.name + "', which is no state" + suggestion(entry.name, states));
+  }
+}
+
+}  // namespace
+
+void check_names(const Method& method) {
+  Names names;
+  for (const Declaration& datum : method.data) names.add(datum.name, "datum", datum.place);
+  for (const Parameter& parameter : method.parameters)
+    names.add(parameter.name, "parameter", parameter.place);
+  for (const Declaration& unknown : method.unknowns) names.add(unknown.name, "unknown", unknown.place);
+  for (const Let& let : method.let) names.add(let.signature.name, "definition", let.place);
+  for (const Component* part : {&method.plant, &method.observer}) {
+    for (const Declaration& state : part->states) names.add(state.name, "state", state.place);
+    for (const Named& output : part->outputs) names.add(output.name, "output", output.place);
+    check_maps(*part, part->flow, "the flow");
+    check_maps(*part, part->jump, "the jump");
+  }
+  if (method.timer) names.add(method.timer->name, "timer", method.timer->place);
+  for (const Named& signal : method.signals) names.add(signal.name, "signal", signal.place);
+  for (const Named& gain : method.gains) {
+    // "L: L": the gain is the datum (an analysis of given gains) or the unknown itself.
+    const expr::Node& root = *gain.value.root;
+    const bool is_itself = root.kind == expr::NodeKind::name && root.text == gain.name;
+    if (!is_itself) names.add(gain.name, "gain", gain.place);
+  }
+}
+
+}  // namespace gainsmith::model

@@ -1,0 +1,103 @@
+// A problem: plant data, a method's name, how to simulate and what is expected.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "expr/ast.h"
+#include "model/method.h"
+
+namespace gainsmith::model {
+
+/// A value of `data` or `parameters`. A YAML list of numbers is a row, but a column where a column is
+/// declared (`flat`).
+struct Value {
+  std::string name;
+  expr::Expression value;
+  bool flat = false;
+  Place place;
+};
+
+/// How the sampling intervals of a run are chosen, within the timer's [low, high].
+struct SamplingLaw {
+  enum class Kind {
+    constant,   ///< always the value
+    uniform,    ///< independent, uniform in [low, high]
+    extremes,   ///< independent, low or high with probability one half
+    sinusoid,   ///< (high - low)/2 sin(t) + (high + low)/2 at a jump at time t
+    list        ///< the values in turn, again from the start when they are used up
+  };
+  Kind kind = Kind::uniform;
+  std::vector<expr::Expression> values;  ///< constant: one; list: all
+  Place place;
+};
+
+std::string to_string(SamplingLaw::Kind kind);
+
+/// Where a state starts.
+struct InitialValue {
+  enum class Kind {
+    expression,  ///< may use data, gains and the states declared before it
+    box,         ///< uniform in [low, high], element by element; low and high scalar or of the state's shape
+    list         ///< run i takes element i modulo their number
+  };
+  std::string state;
+  Kind kind = Kind::expression;
+  std::vector<Value> values;  ///< one expression; low and high; or the elements
+  Place place;
+};
+
+/// A Monte-Carlo campaign. Run i uses law i modulo their number.
+struct Campaign {
+  std::uint64_t runs = 1000;
+  std::uint64_t seed = 1;
+  std::optional<expr::Expression> horizon;   ///< continuous time
+  std::vector<SamplingLaw> sampling;         ///< empty: uniform, extremes, sinusoid, both ends constant
+  std::optional<expr::Expression> first;     ///< first value of the timer; none: uniform in its range
+  std::vector<InitialValue> initial;         ///< a state that is not listed starts in the box [-1, 1]
+  Place place;
+};
+
+/// An expected number or matrix, with a tolerance.
+struct ExpectedValue {
+  std::string name;               ///< the expression as written, such as trace(P1)
+  expr::Expression what;
+  Value value;
+  std::optional<double> relative; ///< |found - value| <= relative * max |value|
+  std::optional<double> absolute; ///< |found - value| <= absolute, element by element
+  Place place;
+};
+
+struct Expectation {
+  std::optional<std::string> verdict;         ///< yes, no, undecided
+  std::optional<std::string> status;          ///< optimal, infeasible, undecided
+  std::optional<std::string> campaign;        ///< held, violated
+  std::optional<std::vector<std::string>> active_bounds;
+  std::vector<ExpectedValue> values;          ///< `objective` may be used as a name here
+  Place place;
+};
+
+/// Choices for the synthesis.
+struct SynthesisOptions {
+  double margin = 1e-7;                     ///< of strict inequalities, relative to their scale
+  std::optional<double> gain_bound = 1e4;   ///< none: off
+};
+
+struct Problem {
+  std::string name;
+  std::string file;
+  std::string text;
+  std::string method_name;
+  Place method_place;
+  std::shared_ptr<const Method> method;
+  std::vector<Value> data;
+  std::vector<Value> parameters;
+  SynthesisOptions synthesis;
+  Campaign campaign;
+  std::optional<Expectation> expect;
+};
+
+}  // namespace gainsmith::model

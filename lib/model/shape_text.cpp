@@ -1,0 +1,123 @@
+#include "model/shape_text.h"
+
+#include <sstream>
+#include <vector>
+
+#include "expr/compile.h"
+#include "expr/parser.h"
+#include "expr/real.h"
+
+namespace gainsmith::model {
+
+std::string to_string(Structure structure) {
+  switch (structure) {
+    case Structure::full: return "full";
+    case Structure::symmetric: return "symmetric";
+    case Structure::diagonal: return "diagonal";
+    case Structure::scalar: return "scalar";
+  }
+  return "?";
+}
+
+namespace {
+
+/// The words of the text with their offsets, cut at spaces.
+struct Word {
+  std::string text;
+  std::size_t offset;
+};
+
+std::vector<Word> words_of(const std::string& text) {
+  std::vector<Word> words;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t begin = text.find_first_not_of(' ', at);
+    if (begin == std::string::npos) break;
+    const std::size_t end = std::min(text.find(' ', begin), text.size());
+    words.push_back({text.substr(begin, end - begin), begin});
+    at = end;
+  }
+  return words;
+}
+
+/// The part of a text between two offsets, with its places.
+expr::Text part(const expr::Text& text, std::size_t begin, std::size_t end) {
+  std::vector<expr::Position> positions;
+  for (std::size_t at = begin; at <= end; ++at) {
+    const Place place = text.place(at);
+    positions.push_back({place.line, place.column});
+  }
+  return {text.str().substr(begin, end - begin), text.file(), std::move(positions)};
+}
+
+/// A size that depends on dimension names alone; none while one of them is unknown.
+std::optional<int> size_of(const expr::Expression& expression, const Dimensions& dimensions) {
+  expr::Scope scope;
+  scope.dimensions = dimensions;
+  for (const std::string& name : names_in(expression))
+    if (!dimensions.contains(name)) return std::nullopt;
+  const double value = expr::evaluate(expr::compile(expression, scope, expr::Shape{}), {})(0, 0);
+  const int size = static_cast<int>(value);
+  constexpr double kLargest = 1e6;
+  if (!(value >= 0 && value <= kLargest) || static_cast<double>(size) != value)
+    throw InputError(expression.place(*expression.root),
+                     "a size must be a whole number, not " + expression.text->str());
+  return size;
+}
+
+bool learn_size(const expr::Expression& expression, int actual, Dimensions& dimensions) {
+  if (expression.root->kind == expr::NodeKind::name)
+    return dimensions.emplace(expression.root->text, actual).first->second == actual;
+  const auto known = size_of(expression, dimensions);
+  return !known || *known == actual;
+}
+
+}  // namespace
+
+ShapeText parse_shape(const expr::Text& text) {
+  ShapeText shape;
+  shape.text = text.str();
+  shape.place = text.place(0);
+  const auto words = words_of(text.str());
+  const std::size_t length = text.str().size();
+  const auto size = [&](std::size_t begin, std::size_t end) {
+    return expr::parse(part(text, begin, end));
+  };
+  if (words.size() == 1 && words[0].text == "scalar") return shape;
+  if (words.size() >= 2 && (words[0].text == "symmetric" || words[0].text == "diagonal")) {
+    shape.structure = words[0].text == "symmetric" ? Structure::symmetric : Structure::diagonal;
+    shape.rows = size(words[1].offset, length);
+    return shape;
+  }
+  shape.structure = Structure::full;
+  for (const Word& word : words) {
+    if (word.text != "x") continue;
+    shape.rows = size(0, word.offset);
+    shape.cols = size(word.offset + 1, length);
+    return shape;
+  }
+  if (words.empty())
+    throw InputError(shape.place, "expected a shape: n x p, n, scalar, symmetric n or diagonal n");
+  shape.rows = size(0, length);
+  return shape;
+}
+
+std::optional<expr::Shape> resolve(const ShapeText& shape, const Dimensions& dimensions) {
+  if (shape.structure == Structure::scalar) return expr::Shape{};
+  const auto rows = size_of(*shape.rows, dimensions);
+  if (!rows) return std::nullopt;
+  if (shape.structure != Structure::full) return expr::Shape{*rows, *rows};
+  if (!shape.cols) return expr::Shape{*rows, 1};
+  const auto cols = size_of(*shape.cols, dimensions);
+  if (!cols) return std::nullopt;
+  return expr::Shape{*rows, *cols};
+}
+
+bool learn(const ShapeText& shape, expr::Shape actual, Dimensions& dimensions) {
+  if (shape.structure == Structure::scalar) return actual.is_scalar();
+  if (!learn_size(*shape.rows, actual.rows, dimensions)) return false;
+  if (shape.structure != Structure::full) return actual.is_square();
+  if (!shape.cols) return actual.cols == 1;
+  return learn_size(*shape.cols, actual.cols, dimensions);
+}
+
+}  // namespace gainsmith::model

@@ -1,0 +1,43 @@
+// Declared shapes: "n x p", "n" (a column), "scalar", "symmetric n", "diagonal n".
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "expr/ast.h"
+#include "expr/program.h"
+
+namespace gainsmith::model {
+
+enum class Structure { full, symmetric, diagonal, scalar };
+
+/// "full", "symmetric", "diagonal", "scalar".
+std::string to_string(Structure structure);
+
+/// Sizes are whole-number expressions in dimension names, such as n, 2 or n + p.
+struct ShapeText {
+  Structure structure = Structure::scalar;
+  std::optional<expr::Expression> rows;  ///< none for scalar
+  std::optional<expr::Expression> cols;  ///< none for scalar, symmetric, diagonal and columns
+  std::string text;                      ///< as written
+  Place place;
+
+  bool is_column() const { return structure == Structure::full && rows && !cols; }
+};
+
+/// InputError when the text is none of the forms above.
+ShapeText parse_shape(const expr::Text& text);
+
+/// Sizes of dimension names, found so far.
+using Dimensions = std::map<std::string, int>;
+
+/// The shape, when all its dimension names are known; otherwise none. InputError when a size is
+/// negative or no whole number.
+std::optional<expr::Shape> resolve(const ShapeText& shape, const Dimensions& dimensions);
+
+/// Learns dimension names from an actual shape: "n x p" against 2 x 1 gives n = 2, p = 1. Returns false
+/// when the shape contradicts what is known.
+bool learn(const ShapeText& shape, expr::Shape actual, Dimensions& dimensions);
+
+}  // namespace gainsmith::model
