@@ -30,8 +30,8 @@ struct Entry {
 
 struct Problem {
   std::vector<Block> blocks;
-  std::vector<double> c;                ///< m costs
-  std::vector<std::vector<Entry>> f;    ///< f[0] = F_0, f[i] = F_i for i = 1..m
+  std::vector<double> c;              ///< m costs
+  std::vector<std::vector<Entry>> f;  ///< f[0] = F_0, f[i] = F_i for i = 1..m
 
   int m() const { return static_cast<int>(c.size()); }
 };

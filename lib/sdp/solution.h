@@ -7,58 +7,60 @@
 
 namespace gainsmith::sdp {
 
-/// What is known. `optimal`: both objectives agree to the tolerance and the errors recomputed on the
-/// unscaled problem are below it; it does not prove that the true optimum is attained.
-/// `primal_infeasible`, `dual_infeasible`: a certificate was found, recomputed from the raw data and
-/// passed its check. `undecided`: none of these, whatever the point looks like.
+/// What is known. `optimal`: both objectives agree to the tolerance and the errors recomputed on
+/// the unscaled problem are below it; it does not prove that the true optimum is attained.
+/// `primal_infeasible`, `dual_infeasible`: a certificate was found, recomputed from the raw data
+/// and passed its check. `undecided`: none of these, whatever the point looks like.
 enum class Status { optimal, primal_infeasible, dual_infeasible, undecided };
 
 /// Why the iteration stopped; never mixed with the quality of the point.
 enum class Cause {
-  converged,             ///< the stopping test held
-  certificate,           ///< an infeasibility certificate passed its check
+  converged,    ///< the stopping test held
+  certificate,  ///< an infeasibility certificate passed its check
   iteration_limit,
   time_limit,
   interrupted,
-  stalled,               ///< steps became too short or progress ended short of the tolerance
-  numerical_breakdown    ///< a factorisation failed beyond repair
+  stalled,             ///< steps became too short or progress ended short of the tolerance
+  numerical_breakdown  ///< a factorisation failed beyond repair
 };
 
 /// "optimal", "primal-infeasible", ...; "converged", "iteration-limit", ...
 std::string to_string(Status status);
 std::string to_string(Cause cause);
 
-/// A symmetric block-diagonal matrix: values[b] is size x size column-major for a dense block, `size`
-/// diagonal entries for a diagonal block.
+/// A symmetric block-diagonal matrix: values[b] is size x size column-major for a dense block,
+/// `size` diagonal entries for a diagonal block.
 struct BlockMatrix {
   std::vector<std::vector<double>> values;
 };
 
 /// A Farkas certificate as it was checked, from the raw data.
-/// Primal infeasible: Y >= 0 with F_0.Y = 1 (normalised) and r_i = F_i.Y nearly 0. Any feasible x has
+/// Primal infeasible: Y >= 0 with F_0.Y = 1 (normalised) and r_i = F_i.Y nearly 0. Any feasible x
+/// has
 ///   sum_i r_i x_i = X.Y + F_0.Y >= 1, so every x with max|x_i| < 1 / sum|r_i| is excluded.
-/// Dual infeasible: x with c'x = -1 (normalised) and sum_i x_i F_i >= -e I nearly >= 0. Any feasible
+/// Dual infeasible: x with c'x = -1 (normalised) and sum_i x_i F_i >= -e I nearly >= 0. Any
+/// feasible
 ///   Y has -1 = sum_i x_i F_i . Y >= -e trace(Y), so every Y with trace(Y) < 1/e is excluded.
 struct Certificate {
-  double value = 0;       ///< F_0.Y, or -c'x, after normalisation: 1
-  double residual = 0;    ///< sum_i |F_i.Y|, or e
-  double min_eigenvalue = 0;  ///< of Y (all blocks), or of sum_i x_i F_i
-  double excluded_radius = 0; ///< no solution smaller than this: 1/residual
+  double value = 0;            ///< F_0.Y, or -c'x, after normalisation: 1
+  double residual = 0;         ///< sum_i |F_i.Y|, or e
+  double min_eigenvalue = 0;   ///< of Y (all blocks), or of sum_i x_i F_i
+  double excluded_radius = 0;  ///< no solution smaller than this: 1/residual
   bool checked = false;
 };
 
 struct Solution {
   Status status = Status::undecided;
   Cause cause = Cause::numerical_breakdown;
-  std::string message;            ///< one sentence for a person, when undecided
+  std::string message;  ///< one sentence for a person, when undecided
 
-  std::vector<double> x;          ///< m; of the best point found, or the certificate's direction
-  BlockMatrix X;                  ///< sum x_i F_i - F_0 as iterated
+  std::vector<double> x;  ///< m; of the best point found, or the certificate's direction
+  BlockMatrix X;          ///< sum x_i F_i - F_0 as iterated
   BlockMatrix Y;
 
-  double primal_objective = 0;    ///< c'x, recomputed from the raw data
-  double dual_objective = 0;      ///< F_0.Y, recomputed from the raw data
-  double relative_gap = 0;        ///< (primal - dual) / (1 + |primal| + |dual|)
+  double primal_objective = 0;  ///< c'x, recomputed from the raw data
+  double dual_objective = 0;    ///< F_0.Y, recomputed from the raw data
+  double relative_gap = 0;      ///< (primal - dual) / (1 + |primal| + |dual|)
   /// The six DIMACS errors, recomputed on the unscaled problem: 1 ||F_i.Y - c_i|| / (1 + max|c|),
   /// 2 max(0, -lambda_min(Y)) / (1 + max|c|), 3 ||sum x_i F_i - F_0 - X||_F / (1 + max|F_0|),
   /// 4 max(0, -lambda_min(X)) / (1 + max|F_0|), 5 gap, 6 X.Y / (1 + |primal| + |dual|).

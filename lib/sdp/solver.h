@@ -21,17 +21,18 @@ struct Progress {
 };
 
 struct Options {
-  double tolerance = 1e-8;      ///< relative gap and DIMACS errors for `optimal`
+  double tolerance = 1e-8;              ///< relative gap and DIMACS errors for `optimal`
   double certificate_tolerance = 1e-8;  ///< certificate residual (normalised, see Certificate)
   int iteration_limit = 200;
-  double time_limit = 0;        ///< seconds; 0 = none
-  unsigned threads = 1;         ///< results do not depend on it
-  std::function<void(const Progress&)> progress;   ///< called once an iteration when set
-  std::function<bool()> interrupted;               ///< asked once an iteration when set
+  double time_limit = 0;                          ///< seconds; 0 = none
+  unsigned threads = 1;                           ///< results do not depend on it
+  std::function<void(const Progress&)> progress;  ///< called once an iteration when set
+  std::function<bool()> interrupted;              ///< asked once an iteration when set
 };
 
 /// Solves `problem`. Throws std::invalid_argument when the problem is malformed (indices out of
-/// range, entries below the diagonal, values that are not finite). Every other outcome is a Solution.
+/// range, entries below the diagonal, values that are not finite). Every other outcome is a
+/// Solution.
 Solution solve(const Problem& problem, const Options& options = {});
 
 }  // namespace gainsmith::sdp

@@ -1,0 +1,77 @@
+#include "sdp/data.h"
+
+#include "sdp/scalars.h"
+
+namespace gainsmith::sdp {
+namespace {
+
+template <typename T>
+T coefficient(int constraint, const Vector<T>& x, const T& tau) {
+  return constraint == 0 ? T(-tau) : T(x[constraint - 1]);
+}
+
+}  // namespace
+
+template <typename T>
+void adjoint(const Data& data, const Vector<T>& x, const T& tau, Blocks<T>& s) {
+  s.flat().setZero();
+  for (int b = 0; b < data.layout.blocks(); ++b) {
+    const BlockData& block = data.dense[static_cast<std::size_t>(b)];
+    auto target = s.dense(b);
+    for (int k = 0; k < block.lists(); ++k) {
+      const auto list = static_cast<std::size_t>(k);
+      const T factor = coefficient(block.constraint[list], x, tau);
+      for (std::size_t t = block.start[list]; t < block.start[list + 1]; ++t) {
+        const Term& term = block.terms[t];
+        target(term.row, term.column) += factor * term.value;
+      }
+    }
+    target.template triangularView<Eigen::StrictlyLower>() = target.transpose();
+  }
+  auto target = s.linear();
+  for (int k = 0; k < data.linear.lists(); ++k) {
+    const auto list = static_cast<std::size_t>(k);
+    const T factor = coefficient(data.linear.constraint[list], x, tau);
+    for (std::size_t t = data.linear.start[list]; t < data.linear.start[list + 1]; ++t)
+      target[data.linear.terms[t].row] += factor * data.linear.terms[t].value;
+  }
+}
+
+template <typename T>
+T apply(const Data& data, const Blocks<T>& s, Vector<T>& r) {
+  r.setZero();
+  T with_f0(0);
+  const auto add = [&](int constraint, const T& value) {
+    (constraint == 0 ? with_f0 : r[constraint - 1]) += value;
+  };
+  for (int b = 0; b < data.layout.blocks(); ++b) {
+    const BlockData& block = data.dense[static_cast<std::size_t>(b)];
+    const auto source = s.dense(b);
+    for (int k = 0; k < block.lists(); ++k) {
+      const auto list = static_cast<std::size_t>(k);
+      T off(0), on(0);
+      for (std::size_t t = block.start[list]; t < block.start[list + 1]; ++t) {
+        const Term& term = block.terms[t];
+        (term.row == term.column ? on : off) += source(term.row, term.column) * term.value;
+      }
+      add(block.constraint[list], on + off + off);
+    }
+  }
+  const auto source = s.linear();
+  for (int k = 0; k < data.linear.lists(); ++k) {
+    const auto list = static_cast<std::size_t>(k);
+    T sum(0);
+    for (std::size_t t = data.linear.start[list]; t < data.linear.start[list + 1]; ++t)
+      sum += source[data.linear.terms[t].row] * data.linear.terms[t].value;
+    add(data.linear.constraint[list], sum);
+  }
+  return with_f0;
+}
+
+#define GAINSMITH_INSTANTIATE(T)                                                 \
+  template void adjoint<T>(const Data&, const Vector<T>&, const T&, Blocks<T>&); \
+  template T apply<T>(const Data&, const Blocks<T>&, Vector<T>&);
+GAINSMITH_FOR_EACH_SCALAR(GAINSMITH_INSTANTIATE)
+#undef GAINSMITH_INSTANTIATE
+
+}  // namespace gainsmith::sdp

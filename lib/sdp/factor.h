@@ -1,0 +1,30 @@
+// Cholesky factors of a point of the cone, its inverse and the distance to the cone's boundary.
+#pragma once
+
+#include "sdp/linalg.h"
+
+namespace gainsmith::sdp {
+
+/// For V in the interior of the cone: V = L L', V^-1, and the longest step along a direction.
+template <typename T>
+class ConeFactor {
+ public:
+  explicit ConeFactor(const Layout& layout);
+
+  /// Factors V; false when V is not positive definite (in this arithmetic).
+  bool factorise(const Blocks<T>& V);
+
+  /// V^-1 = L^-T L^-1; both triangles.
+  void inverse(Blocks<T>& result) const;
+
+  /// The largest a <= `longest` with V + a D >= 0: a = -1 / lambda_min(L^-1 D L^-T) where that is
+  /// negative.
+  T step(const Blocks<T>& D, const T& longest);
+
+ private:
+  const Layout& layout_;
+  Blocks<T> inverse_factor_;  ///< L^-1, lower triangle; 1/v in the linear part
+  Blocks<T> work_, scaled_;
+};
+
+}  // namespace gainsmith::sdp

@@ -1,0 +1,78 @@
+// The dense types and block-diagonal arithmetic that the solver is written in. Internal: Eigen does
+// not appear in the room's public headers.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "sdp/layout.h"
+
+namespace gainsmith::sdp {
+
+template <typename T>
+using Matrix = Eigen::Matrix<T, Eigen::Dynamic, Eigen::Dynamic>;
+template <typename T>
+using Vector = Eigen::Matrix<T, Eigen::Dynamic, 1>;
+template <typename T>
+using MatrixMap = Eigen::Map<Matrix<T>>;
+template <typename T>
+using ConstMatrixMap = Eigen::Map<const Matrix<T>>;
+template <typename T>
+using VectorMap = Eigen::Map<Vector<T>>;
+template <typename T>
+using ConstVectorMap = Eigen::Map<const Vector<T>>;
+
+/// A symmetric block-diagonal matrix in the packing of `Layout`. The layout must outlive it.
+template <typename T>
+class Blocks {
+ public:
+  explicit Blocks(const Layout& layout)
+      : layout_(&layout), values_(static_cast<Eigen::Index>(layout.total)) {
+    values_.setZero();
+  }
+
+  const Layout& layout() const { return *layout_; }
+  Vector<T>& flat() { return values_; }
+  const Vector<T>& flat() const { return values_; }
+
+  MatrixMap<T> dense(int b) {
+    const auto i = static_cast<std::size_t>(b);
+    return {values_.data() + layout_->offset[i], layout_->size[i], layout_->size[i]};
+  }
+  ConstMatrixMap<T> dense(int b) const {
+    const auto i = static_cast<std::size_t>(b);
+    return {values_.data() + layout_->offset[i], layout_->size[i], layout_->size[i]};
+  }
+  VectorMap<T> linear() { return {values_.data() + layout_->linear_offset, layout_->linear}; }
+  ConstVectorMap<T> linear() const {
+    return {values_.data() + layout_->linear_offset, layout_->linear};
+  }
+
+  /// value * I.
+  void set_identity(const T& value) {
+    values_.setZero();
+    for (int b = 0; b < layout_->blocks(); ++b) dense(b).diagonal().setConstant(value);
+    linear().setConstant(value);
+  }
+
+ private:
+  const Layout* layout_;
+  Vector<T> values_;
+};
+
+/// A . B = trace(A B).
+template <typename T>
+T inner(const Blocks<T>& a, const Blocks<T>& b) {
+  return a.flat().dot(b.flat());
+}
+
+/// trace(A).
+template <typename T>
+T trace(const Blocks<T>& a) {
+  T sum(0);
+  for (int b = 0; b < a.layout().blocks(); ++b) sum += a.dense(b).trace();
+  return sum + a.linear().sum();
+}
+
+}  // namespace gainsmith::sdp

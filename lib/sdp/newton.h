@@ -1,0 +1,65 @@
+// The Newton system of the homogeneous model in the HKM direction.
+#pragma once
+
+#include "sdp/factor.h"
+#include "sdp/iterate.h"
+#include "sdp/residuals.h"
+#include "sdp/schur.h"
+
+namespace gainsmith::sdp {
+
+/// The simplified homogeneous self-dual model (Xu, Hung, Ye 1996; for SDP de Klerk, Roos, Terlaky):
+///   R  = sum x_i F_i - tau F_0 - X      (primal)
+///   r  = tau c - A(Y),  A(Y)_i = F_i.Y  (dual)
+///   g  = F_0.Y - c'x - kappa            (gap)
+/// A direction reduces R, r, g by the factor 1 - eta and aims at X Y = sigma mu I, tau kappa =
+/// sigma mu:
+///   dX = A*(dx) - dtau F_0 + eta R,
+///   dY = K - H(X^-1 (A*(dx) - dtau F_0) Y),  H(M) = (M + M')/2,
+///   K  = sigma mu X^-1 - Y - H(X^-1 (eta R Y + C)),   C = the second-order term dX_a dY_a,
+/// with B dx = A(K) - eta r + dtau (g_0 - c), g_0 = A(X^-1 F_0 Y).
+///
+/// F_0 is eliminated through tau F_0 = A*(x) - X - R. With a = A(H(X^-1 R Y)), q = r - a,
+/// B p = q, B z = c, B u = h = A(K) - eta r:
+///   dx   = u + dtau (x/tau - 2 z + p/tau),
+///   dtau = [(eta + sigma - 1)(n+1) mu - tr C - c_tk + R.K + p'h]
+///          / ([(n+1) mu + 2 R.Y + R.X^-1 R Y - q'p]/tau + 2 c'p)     (both sides times tau),
+/// from (n+1) mu = -(tau g + x'r + R.Y), an identity of the model. What is subtracted in the
+/// textbook form (numbers of the size of 1/mu that leave one of the size of mu) never appears.
+template <typename T>
+class Newton {
+ public:
+  Newton(const Data& data, unsigned threads);
+
+  /// Factors X and Y and the Schur complement at `point`. False when a factorisation fails.
+  bool prepare(const Iterate<T>& point, const Residuals<T>& residuals);
+
+  /// sigma = 0, eta = 1, C = 0.
+  void predict(const Iterate<T>& point, const Residuals<T>& residuals, Iterate<T>& direction);
+
+  /// The direction with second-order terms of `predictor`.
+  void correct(const Iterate<T>& point, const Residuals<T>& residuals, const Iterate<T>& predictor,
+               const T& sigma, const T& eta, Iterate<T>& direction);
+
+  /// The largest a <= `longest` that keeps point + a direction in the cone.
+  T step(const Iterate<T>& point, const Iterate<T>& direction, const T& longest);
+
+ private:
+  void solve(const Iterate<T>& point, const Residuals<T>& residuals, const T& sigma, const T& eta,
+             const T& trace_c, const T& c_tau_kappa, Iterate<T>& direction);
+  /// out = H(X^-1 left right)
+  void scaled_product(const Blocks<T>& left, const Blocks<T>& right, Blocks<T>& out);
+
+  const Data& data_;
+  Schur<T> schur_;
+  ConeFactor<T> factor_X_, factor_Y_;
+  Blocks<T> inverse_X_;
+  Blocks<T> residual_term_;  ///< H(X^-1 R Y)
+  Blocks<T> correction_;     ///< H(X^-1 C)
+  Blocks<T> k_;
+  Blocks<T> half_, product_;
+  Vector<T> a_, q_, p_, z_, u_, h_, c_;
+  T mu_{0}, order_{0}, r_y_{0}, r_r_{0};
+};
+
+}  // namespace gainsmith::sdp

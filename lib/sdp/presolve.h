@@ -1,0 +1,60 @@
+// From the problem as given to the working problem, and back.
+#pragma once
+
+#include <vector>
+
+#include "sdp/data.h"
+#include "sdp/problem.h"
+#include "sdp/solution.h"
+
+namespace gainsmith::sdp {
+
+/// Throws std::invalid_argument unless `problem` is well formed: f has m + 1 lists, blocks have
+/// positive sizes, entries lie in the upper triangle of their block (on the diagonal of a diagonal
+/// one), all values are finite.
+void validate(const Problem& problem);
+
+/// ||F_i||_F, each off-diagonal entry counted twice.
+double frobenius_norm(const std::vector<Entry>& list);
+
+/// How the working problem came about:
+///   F'_i = s_i D F_i D  (i >= 1),  F'_0 = D F_0 D / gamma_f,  c'_i = s_i c_i / gamma_c,
+/// with s, D, gamma powers of two, restricted to the rows that occur and split into the connected
+/// components of the blocks' common pattern (outside of it X is zero, and Y may be). Hence
+///   x_i = gamma_f s_i x'_i,  X = gamma_f D^-1 X' D^-1,  Y = gamma_c D Y' D.
+struct Recovery {
+  /// A row of the working problem: where it came from, and its entry of D.
+  struct Row {
+    int block = 0;
+    int row = 0;
+    double d = 1;
+  };
+  std::vector<int> constraint;          ///< working i -> original i, from 0
+  std::vector<double> s;                ///< by working i
+  std::vector<std::vector<Row>> dense;  ///< rows of each working dense block
+  std::vector<Row> linear;              ///< entries of the linear part
+  double gamma_c = 1;
+  double gamma_f = 1;
+};
+
+struct Presolved {
+  Data data;
+  Recovery recovery;
+  /// An i with F_i = 0 and c_i != 0, from 0: x = -sign(c_i) e_i proves dual infeasibility; or -1.
+  int free_descent = -1;
+};
+
+/// Entries of one F_i at the same place add up. F_i = 0 with c_i = 0 are dropped (x_i = 0).
+Presolved presolve(const Problem& problem);
+
+/// The point (x, X, Y)/scale of the working problem in terms of the original one.
+struct Point {
+  std::vector<double> x;
+  BlockMatrix X;
+  BlockMatrix Y;
+};
+template <typename T>
+Point restore(const Problem& problem, const Presolved& presolved, const Vector<T>& x,
+              const Blocks<T>& X, const Blocks<T>& Y, const T& scale);
+
+}  // namespace gainsmith::sdp

@@ -1,0 +1,19 @@
+// The answer, recomputed from the raw problem.
+#pragma once
+
+#include "sdp/presolve.h"
+#include "sdp/problem.h"
+#include "sdp/solution.h"
+
+namespace gainsmith::sdp {
+
+/// Fills objectives, gap and DIMACS errors of `point` on `problem`.
+void measure(const Problem& problem, const Point& point, Solution& solution);
+
+/// Normalises Y of `point` to F_0.Y = 1, or x to c'x = -1, and checks what Certificate demands on
+/// the raw data with residual at most `tolerance`. Returns what it found; `checked` says whether it
+/// holds.
+Certificate check_primal_infeasible(const Problem& problem, Point& point, double tolerance);
+Certificate check_dual_infeasible(const Problem& problem, Point& point, double tolerance);
+
+}  // namespace gainsmith::sdp

@@ -1,0 +1,82 @@
+#include "sdp/residuals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sdp/scalars.h"
+
+namespace gainsmith::sdp {
+
+template <typename T>
+Residuals<T>::Residuals(const Presolved& presolved, double largest_c, double largest_f0,
+                        double norm_f0)
+    : primal(presolved.data.layout),
+      dual(Vector<T>::Zero(presolved.data.m())),
+      presolved_(presolved),
+      largest_c_(largest_c),
+      largest_f0_(largest_f0),
+      norm_f0_(norm_f0),
+      products_(Vector<T>::Zero(presolved.data.m())) {}
+
+template <typename T>
+void Residuals<T>::update(const Iterate<T>& point) {
+  const Data& data = presolved_.data;
+  const Recovery& recovery = presolved_.recovery;
+  adjoint(data, point.x, point.tau, primal);
+  primal.flat() -= point.X.flat();
+  const T f0_y = apply(data, point.Y, products_);
+
+  const double tau = static_cast<double>(point.tau);
+  const double unit = recovery.gamma_c * recovery.gamma_f / tau;
+  T cx(0);
+  double dual_square = 0, moved = 0, products = 0;
+  for (int i = 0; i < data.m(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    cx += point.x[i] * data.c[at];
+    dual[i] = point.tau * data.c[at] - products_[i];
+    const double r = static_cast<double>(dual[i]);
+    const double original = r * recovery.gamma_c / (recovery.s[at] * tau);
+    dual_square += original * original;
+    products += std::abs(static_cast<double>(products_[i])) * recovery.gamma_c / recovery.s[at];
+    moved += std::abs(r * static_cast<double>(point.x[i]));
+  }
+  double primal_square = 0;
+  for (int b = 0; b < data.layout.blocks(); ++b) {
+    const double norm = static_cast<double>(primal.dense(b).norm());
+    primal_square += norm * norm;
+    moved += norm * static_cast<double>(point.Y.dense(b).norm());
+  }
+  for (int k = 0; k < data.layout.linear; ++k) {
+    const double r = static_cast<double>(primal.linear()[k]);
+    primal_square += r * r;
+    moved += std::abs(r * static_cast<double>(point.Y.linear()[k]));
+  }
+
+  primal_objective = static_cast<double>(cx) * unit;
+  dual_objective = static_cast<double>(f0_y) * unit;
+  const double size = 1 + std::abs(primal_objective) + std::abs(dual_objective);
+  gap = static_cast<double>(T(cx - f0_y)) * unit / size;
+  complementarity = static_cast<double>(inner(point.X, point.Y)) * unit / tau / size;
+  primal_infeasibility = std::sqrt(primal_square) * recovery.gamma_f / tau / (1 + largest_f0_);
+  dual_infeasibility = std::sqrt(dual_square) / (1 + largest_c_);
+  objective_error = moved * unit / tau / size;
+
+  const double none = std::numeric_limits<double>::infinity();
+  const double ascent = dual_objective * tau, descent = -primal_objective * tau;
+  primal_certificate = ascent > 0 ? products / ascent : none;
+  dual_certificate =
+      descent > 0 ? (std::sqrt(primal_square) * recovery.gamma_f + tau * norm_f0_) / descent : none;
+}
+
+template <typename T>
+double Residuals<T>::worst() const {
+  return std::max(
+      {std::abs(gap), complementarity, primal_infeasibility, dual_infeasibility, objective_error});
+}
+
+#define GAINSMITH_INSTANTIATE(T) template class Residuals<T>;
+GAINSMITH_FOR_EACH_SCALAR(GAINSMITH_INSTANTIATE)
+#undef GAINSMITH_INSTANTIATE
+
+}  // namespace gainsmith::sdp

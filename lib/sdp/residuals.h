@@ -1,0 +1,48 @@
+// How far an iterate is from satisfying the equations, in working and in original units.
+#pragma once
+
+#include "sdp/iterate.h"
+#include "sdp/presolve.h"
+
+namespace gainsmith::sdp {
+
+/// The residuals of the homogeneous model:
+///   primal = sum x_i F_i - tau F_0 - X,   dual_i = tau c_i - F_i . Y,
+/// (the third one, F_0.Y - c'x - kappa, follows from these: see newton.h), and what stopping looks
+/// at.
+template <typename T>
+class Residuals {
+ public:
+  Residuals(const Presolved& presolved, double largest_c, double largest_f0, double norm_f0);
+
+  void update(const Iterate<T>& point);
+
+  Blocks<T> primal;
+  Vector<T> dual;
+
+  /// Of (x, X, Y)/tau on the original, unscaled problem.
+  double primal_objective = 0;      ///< c'x
+  double dual_objective = 0;        ///< F_0.Y
+  double gap = 0;                   ///< (primal - dual) / (1 + |primal| + |dual|)
+  double complementarity = 0;       ///< X.Y / (1 + |primal| + |dual|)
+  double primal_infeasibility = 0;  ///< ||sum x_i F_i - F_0 - X||_F / (1 + max|F_0|)
+  double dual_infeasibility = 0;    ///< ||F_i.Y - c_i|| / (1 + max|c|)
+  /// By how much infeasibility may move the objectives, relative as the gap: with (x, Y) standing
+  /// for the solution, sum_i |x_i| |F_i.Y - c_i| + sum_b ||(sum x_i F_i - F_0 - X)_b|| ||Y_b||.
+  double objective_error = 0;
+
+  /// Of Y and x as directions, on the original problem (see Certificate); infinite when the sign is
+  /// wrong: sum_i |F_i.Y| / F_0.Y, and ||(sum x_i F_i)_-|| / -c'x bounded by ||R|| + tau ||F_0||.
+  double primal_certificate = 0;
+  double dual_certificate = 0;
+
+  /// The largest of the errors of the point.
+  double worst() const;
+
+ private:
+  const Presolved& presolved_;
+  double largest_c_, largest_f0_, norm_f0_;
+  Vector<T> products_;
+};
+
+}  // namespace gainsmith::sdp

@@ -1,0 +1,78 @@
+// The Schur complement B of the Newton system: its assembly, its factor and refined solves.
+#pragma once
+
+#include <vector>
+
+#include "sdp/data.h"
+#include "sdp/linalg.h"
+
+namespace gainsmith::sdp {
+
+/// B_ij = F_i . (X^-1 F_j Y), i, j = 1..m, symmetric positive definite when the F_i are independent
+/// (Helmberg-Rendl-Vanderbei-Wolkowicz / Kojima-Shindoh-Hara / Monteiro direction).
+///
+/// Within a dense block of n rows each F_i, in falling order of its nonzeros, takes the cheaper of
+///   dense: U = X^-1 (F_i Y) by one matrix product for eight F_i at a time, then F_j . U for the
+///   F_j
+///          that follow, eight at a time from an interleaved panel;
+///   rows:  with R the nonzero rows of F_i, (F_i Y)_R is formed and only the entries of
+///          U = X^-1(:,R) (F_i Y)_R where F_j has one, as dot products of length |R|.
+/// Both triangles' share comes from the symmetric part of U, so each pair is visited once.
+template <typename T>
+class Schur {
+ public:
+  explicit Schur(const Data& data, unsigned threads = 1);
+
+  void assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y);
+
+  /// Cholesky of B with its diagonal scaled to one; where that fails, of B + delta diag(B) with the
+  /// smallest delta = eps 100^k that succeeds. False when none does.
+  bool factorise();
+
+  /// Solves B x = r by conjugate gradients preconditioned with the factor, at most a few steps: one
+  /// when the factor is accurate, more when it was perturbed or B is nearly singular.
+  void solve(const Vector<T>& r, Vector<T>& x);
+
+ private:
+  static constexpr int kBatch = 8;
+  /// A list of one block in the order of assembly.
+  struct List {
+    int constraint = 0;     ///< from 0
+    std::size_t first = 0;  ///< its terms in Plan::packed / value
+    std::size_t last = 0;
+    bool by_rows = false;
+    std::vector<int> rows;  ///< R, when by_rows
+  };
+  struct Plan {
+    std::vector<List> lists;
+    std::vector<Term> terms;  ///< regrouped in the order of `lists`
+    std::vector<int> packed;  ///< place of a term in the packed upper triangle
+  };
+  struct Workspace {
+    Vector<T> h;      ///< F_i Y, transposed: (n * kBatch) x n, or |R| x n
+    Vector<T> u;      ///< X^-1 F_i Y
+    Vector<T> panel;  ///< symmetric part of U, packed upper triangle, kBatch interleaved
+  };
+
+  Plan plan_block(const BlockData& block, int n) const;
+  void add_dense(const Plan& plan, std::size_t first, std::size_t last,
+                 const ConstMatrixMap<T>& inverse_X, const ConstMatrixMap<T>& Y, Workspace& w);
+  void add_rows(const Plan& plan, std::size_t position, const ConstMatrixMap<T>& inverse_X,
+                const ConstMatrixMap<T>& Y, Workspace& w);
+  void add_linear(const ConstVectorMap<T>& inverse_x, const ConstVectorMap<T>& y);
+  void add(int i, int j, const T& value) { (i >= j ? b_(i, j) : b_(j, i)) += value; }
+  void precondition(const Vector<T>& r, Vector<T>& z) const;
+
+  const Data& data_;
+  unsigned threads_;
+  std::vector<Plan> plans_;
+  std::vector<Workspace> work_;
+  /// The linear part by column: the F_i that have the entry k.
+  std::vector<std::vector<std::pair<int, double>>> columns_;
+  Matrix<T> b_;       ///< lower triangle
+  Matrix<T> factor_;  ///< lower triangle of the Cholesky factor of the scaled B
+  Vector<T> scale_;   ///< diag(B)^-1/2
+  Vector<T> residual_, direction_, image_, preconditioned_;
+};
+
+}  // namespace gainsmith::sdp
