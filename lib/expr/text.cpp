@@ -37,4 +37,11 @@ Place Text::place(std::size_t offset) const {
   return {file_, at.line, at.column};
 }
 
+Text Text::part(std::size_t begin, std::size_t end) const {
+  const auto first = positions_.begin();
+  return {text_.substr(begin, end - begin), file_,
+          std::vector<Position>(first + static_cast<std::ptrdiff_t>(begin),
+                                first + static_cast<std::ptrdiff_t>(end) + 1)};
+}
+
 }  // namespace gainsmith::expr

@@ -29,6 +29,8 @@ class Text {
   const std::string& file() const { return file_; }
   /// The place of the byte `offset`; past the end: the place just behind the text.
   Place place(std::size_t offset) const;
+  /// The bytes [begin, end) with their places.
+  Text part(std::size_t begin, std::size_t end) const;
 
  private:
   std::string text_;

@@ -39,16 +39,6 @@ std::vector<Word> words_of(const std::string& text) {
   return words;
 }
 
-/// The part of a text between two offsets, with its places.
-expr::Text part(const expr::Text& text, std::size_t begin, std::size_t end) {
-  std::vector<expr::Position> positions;
-  for (std::size_t at = begin; at <= end; ++at) {
-    const Place place = text.place(at);
-    positions.push_back({place.line, place.column});
-  }
-  return {text.str().substr(begin, end - begin), text.file(), std::move(positions)};
-}
-
 /// A size that depends on dimension names alone; none while one of them is unknown.
 std::optional<int> size_of(const expr::Expression& expression, const Dimensions& dimensions) {
   expr::Scope scope;
@@ -80,7 +70,7 @@ ShapeText parse_shape(const expr::Text& text) {
   const auto words = words_of(text.str());
   const std::size_t length = text.str().size();
   const auto size = [&](std::size_t begin, std::size_t end) {
-    return expr::parse(part(text, begin, end));
+    return expr::parse(text.part(begin, end));
   };
   if (words.size() == 1 && words[0].text == "scalar") return shape;
   if (words.size() >= 2 && (words[0].text == "symmetric" || words[0].text == "diagonal")) {

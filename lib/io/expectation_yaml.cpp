@@ -1,0 +1,64 @@
+#include "io/expectation_yaml.h"
+
+#include <algorithm>
+
+#include "base/nearest.h"
+#include "expr/parser.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+std::optional<std::string> word(const YamlFile& file, const std::optional<YamlItem>& item,
+                                const std::vector<std::string>& known) {
+  if (!item) return std::nullopt;
+  std::string text = file.string(item->value, item->key);
+  if (std::find(known.begin(), known.end(), text) == known.end())
+    throw InputError(file.place(item->value), item->key + ": unknown word '" + text + "'" + suggestion(text, known));
+  return text;
+}
+
+std::optional<double> tolerance(const YamlFile& file, const std::optional<YamlItem>& item) {
+  if (!item) return std::nullopt;
+  const double value = file.number(item->value, item->key);
+  if (value < 0) throw InputError(file.place(item->value), item->key + ": a tolerance must not be negative");
+  return value;
+}
+
+model::ExpectedValue expected_value(const YamlFile& file, const YamlItem& item) {
+  YamlMap map(file, item.value, item.key);
+  model::ExpectedValue result;
+  result.name = item.key;
+  result.what = expr::parse(item.key_text);
+  result.value = value_of(file, map.require("value"));
+  result.relative = tolerance(file, map.find("relative"));
+  result.absolute = tolerance(file, map.find("absolute"));
+  result.place = item.place;
+  map.finish();
+  if (!result.relative && !result.absolute)
+    throw InputError(item.place, item.key + ": expected a tolerance, 'relative' or 'absolute'");
+  return result;
+}
+
+}  // namespace
+
+model::Expectation expectation_from(const YamlFile& file, const YamlItem& item) {
+  YamlMap map(file, item.value, "expect");
+  model::Expectation result;
+  result.place = item.place;
+  result.verdict = word(file, map.find("verdict"), {"yes", "no", "undecided"});
+  result.status = word(file, map.find("status"), {"optimal", "infeasible", "undecided"});
+  result.campaign = word(file, map.find("campaign"), {"held", "violated"});
+  if (const auto bounds = map.find("active_bounds")) {
+    if (!bounds->value.IsSequence())
+      throw InputError(file.place(bounds->value), "active_bounds: expected a list, such as [\"inv(P2)*X\"]");
+    result.active_bounds.emplace();
+    for (const auto& entry : bounds->value) result.active_bounds->push_back(file.string(entry, "active_bounds"));
+  }
+  for (const YamlItem& entry : items_of(file, map.find("values"), "values"))
+    result.values.push_back(expected_value(file, entry));
+  map.finish();
+  return result;
+}
+
+}  // namespace gainsmith::io

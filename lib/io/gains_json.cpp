@@ -1,0 +1,258 @@
+#include "io/gains_json.h"
+
+#include <utility>
+
+#include "base/error.h"
+#include "base/hash.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+Json matrices_json(const model::NamedMatrices& matrices) {
+  Json result = Json::object();
+  for (const auto& [name, matrix] : matrices)
+    result[name] = matrix.size() == 1 ? Json(matrix(0, 0)) : matrix_json(matrix);
+  return result;
+}
+
+Json solver_json(const model::SolverRecord& solver) {
+  return {{"status", solver.status},
+          {"cause", solver.cause},
+          {"message", solver.message},
+          {"iterations", solver.iterations},
+          {"relative_gap", solver.relative_gap},
+          {"primal_infeasibility", solver.primal_infeasibility},
+          {"dual_infeasibility", solver.dual_infeasibility},
+          {"precision", solver.precision}};
+}
+
+Json margin_json(const model::Margin& margin) {
+  return {{"name", margin.name},
+          {"strict", margin.strict},
+          {"holds", margin.holds},
+          {"reached", margin.reached},
+          {"required", margin.required},
+          {"smallest_eigenvalue", margin.smallest_eigenvalue},
+          {"scale", margin.scale},
+          {"worst_point", margin.worst_point}};
+}
+
+Json bound_json(const model::GainBound& bound) {
+  return {{"gain", bound.what}, {"bound", bound.bound}, {"reached", bound.reached}, {"active", bound.active}};
+}
+
+Json certificate_json(const model::CertificateRecord& certificate) {
+  return {{"checked", certificate.checked},
+          {"value", certificate.value},
+          {"residual", certificate.residual},
+          {"min_eigenvalue", certificate.min_eigenvalue},
+          {"excluded_radius", certificate.excluded_radius},
+          {"multipliers", matrices_json(certificate.multipliers)}};
+}
+
+Json statement_json(const model::Statement& statement) {
+  return {{"method", statement.method_name},
+          {"method_text", statement.method_text},
+          {"problem_file", statement.problem_file},
+          {"problem_text", statement.problem_text},
+          {"sha256", statement.hash}};
+}
+
+template <class Item, class Write>
+Json list_json(const std::vector<Item>& items, Write write_item) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(write_item(item));
+  return list;
+}
+
+/// Walks a document and says where it is when something is wrong.
+class Reader {
+ public:
+  Reader(const Json& value, std::string file, std::string path)
+      : value_(value), file_(std::move(file)), path_(std::move(path)) {}
+
+  Reader at(const std::string& key) const {
+    if (!value_.is_object()) fail("expected an object");
+    const auto found = value_.find(key);
+    if (found == value_.end()) fail("the key '" + key + "' is missing");
+    return {*found, file_, path_.empty() ? key : path_ + "." + key};
+  }
+  bool has(const std::string& key) const { return value_.is_object() && value_.contains(key); }
+
+  std::string text() const {
+    if (!value_.is_string()) fail("expected a text");
+    return value_.get<std::string>();
+  }
+  double number() const {
+    if (!value_.is_number()) fail("expected a number");
+    return value_.get<double>();
+  }
+  int whole() const {
+    if (!value_.is_number_integer()) fail("expected a whole number");
+    return value_.get<int>();
+  }
+  bool truth() const {
+    if (!value_.is_boolean()) fail("expected true or false");
+    return value_.get<bool>();
+  }
+  std::vector<Reader> items() const {
+    if (!value_.is_array()) fail("expected a list");
+    std::vector<Reader> result;
+    for (std::size_t i = 0; i < value_.size(); ++i)
+      result.emplace_back(value_[i], file_, path_ + "[" + std::to_string(i) + "]");
+    return result;
+  }
+  std::vector<std::pair<std::string, Reader>> members() const {
+    if (!value_.is_object()) fail("expected an object");
+    std::vector<std::pair<std::string, Reader>> result;
+    for (const auto& item : value_.items()) result.emplace_back(item.key(), at(item.key()));
+    return result;
+  }
+  expr::Matrix matrix() const {
+    if (value_.is_number()) return expr::Matrix::Constant(1, 1, number());
+    const auto rows = items();
+    expr::Matrix result(rows.size(), rows.empty() ? 0 : rows.front().items().size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const auto row = rows[i].items();
+      if (row.size() != static_cast<std::size_t>(result.cols())) rows[i].fail("a row of another length");
+      for (std::size_t j = 0; j < row.size(); ++j)
+        result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = row[j].number();
+    }
+    return result;
+  }
+  model::NamedMatrices matrices() const {
+    model::NamedMatrices result;
+    for (const auto& [name, reader] : members()) result.emplace_back(name, reader.matrix());
+    return result;
+  }
+
+  [[noreturn]] void fail(const std::string& message) const {
+    throw InputError({file_}, (path_.empty() ? "" : path_ + ": ") + message);
+  }
+
+ private:
+  const Json& value_;
+  std::string file_;
+  std::string path_;
+};
+
+model::Verdict verdict_of(const Reader& reader) {
+  for (const auto verdict : {model::Verdict::yes, model::Verdict::no, model::Verdict::undecided})
+    if (to_string(verdict) == reader.text()) return verdict;
+  reader.fail("expected yes, no or undecided");
+}
+
+model::SolverRecord solver_of(const Reader& reader) {
+  return {reader.at("status").text(),
+          reader.at("cause").text(),
+          reader.at("message").text(),
+          reader.at("iterations").whole(),
+          reader.at("relative_gap").number(),
+          reader.at("primal_infeasibility").number(),
+          reader.at("dual_infeasibility").number(),
+          reader.at("precision").text()};
+}
+
+model::Margin margin_of(const Reader& reader) {
+  return {reader.at("name").text(),
+          reader.at("strict").truth(),
+          reader.at("reached").number(),
+          reader.at("required").number(),
+          reader.at("smallest_eigenvalue").number(),
+          reader.at("scale").number(),
+          reader.at("worst_point").text(),
+          reader.at("holds").truth()};
+}
+
+model::CertificateRecord certificate_of(const Reader& reader) {
+  return {reader.at("value").number(),           reader.at("residual").number(),
+          reader.at("min_eigenvalue").number(),  reader.at("excluded_radius").number(),
+          reader.at("checked").truth(),          reader.at("multipliers").matrices()};
+}
+
+model::Statement statement_of(const Reader& reader) {
+  model::Statement statement{reader.at("method").text(), reader.at("method_text").text(),
+                             reader.at("problem_file").text(), reader.at("problem_text").text(),
+                             reader.at("sha256").text()};
+  if (statement_hash(statement) != statement.hash)
+    reader.fail("the method or problem text does not match its sha256: the file was edited");
+  return statement;
+}
+
+}  // namespace
+
+Json matrix_json(const expr::Matrix& matrix) {
+  Json rows = Json::array();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    Json row = Json::array();
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) row.push_back(matrix(i, j));
+    rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string statement_hash(const model::Statement& statement) {
+  return sha256(statement.method_text + '\0' + statement.problem_text);
+}
+
+Json to_json(const model::Gains& gains) {
+  Json document = {{"gainsmith", gains.version},
+                   {"problem", gains.problem_name},
+                   {"verdict", to_string(gains.verdict)},
+                   {"status", gains.solver.status},
+                   {"cause", gains.solver.cause}};
+  if (gains.objective) document["objective"] = *gains.objective;
+  if (gains.objective_lower_bound) document["objective_lower_bound"] = *gains.objective_lower_bound;
+  document["gains"] = matrices_json(gains.gains);
+  document["unknowns"] = matrices_json(gains.unknowns);
+  document["parameters"] = matrices_json(gains.parameters);
+  document["margins"] = list_json(gains.margins, margin_json);
+  document["bounds"] = list_json(gains.bounds, bound_json);
+  if (gains.certificate) document["certificate"] = certificate_json(*gains.certificate);
+  document["solver"] = solver_json(gains.solver);
+  document["statement"] = statement_json(gains.statement);
+  Json timings = Json::object();
+  for (const auto& [name, seconds] : gains.timings) timings[name] = seconds;
+  document["timings"] = timings;
+  return document;
+}
+
+std::string gains_text(const model::Gains& gains) { return to_text(to_json(gains)); }
+
+model::Gains parse_gains(const std::string& text, const std::string& file) {
+  const Json document = parse_json(text, file);
+  const Reader reader(document, file, "");
+  model::Gains gains;
+  gains.version = reader.at("gainsmith").text();
+  gains.problem_name = reader.at("problem").text();
+  gains.verdict = verdict_of(reader.at("verdict"));
+  if (reader.has("objective")) gains.objective = reader.at("objective").number();
+  if (reader.has("objective_lower_bound"))
+    gains.objective_lower_bound = reader.at("objective_lower_bound").number();
+  gains.gains = reader.at("gains").matrices();
+  gains.unknowns = reader.at("unknowns").matrices();
+  gains.parameters = reader.at("parameters").matrices();
+  for (const Reader& item : reader.at("margins").items()) gains.margins.push_back(margin_of(item));
+  for (const Reader& item : reader.at("bounds").items())
+    gains.bounds.push_back({item.at("gain").text(), item.at("bound").number(), item.at("reached").number(),
+                            item.at("active").truth()});
+  if (reader.has("certificate")) gains.certificate = certificate_of(reader.at("certificate"));
+  gains.solver = solver_of(reader.at("solver"));
+  gains.statement = statement_of(reader.at("statement"));
+  for (const auto& [name, seconds] : reader.at("timings").members())
+    gains.timings.emplace_back(name, seconds.number());
+  return gains;
+}
+
+model::Problem stated_problem(const model::Gains& gains, const std::string& file) {
+  const model::Statement& statement = gains.statement;
+  const MethodLibrary library{
+      [&](const std::string& name) {
+        return name == statement.method_name ? std::optional(statement.method_text) : std::nullopt;
+      },
+      {statement.method_name}};
+  return parse_problem(statement.problem_text, file + " (" + statement.problem_file + ")", library);
+}
+
+}  // namespace gainsmith::io

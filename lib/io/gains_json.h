@@ -1,0 +1,33 @@
+// The gain file.
+#pragma once
+
+#include <string>
+
+#include "io/json_text.h"
+#include "io/problem_yaml.h"
+#include "model/gains.h"
+
+namespace gainsmith::io {
+
+/// The document. Timings stand in a block of their own, last. A decimal with 17 digits reads back to
+/// the same double, so writing, reading and writing again gives the same bytes.
+Json to_json(const model::Gains& gains);
+
+/// The text of a gain file.
+std::string gains_text(const model::Gains& gains);
+
+/// Reads a gain file. InputError with the place, or the path of the key, when it is truncated, lacks
+/// a key, holds a value of the wrong kind, or when its statement does not match its hash.
+model::Gains parse_gains(const std::string& text, const std::string& file);
+
+/// The problem that a gain file states; the method is the text in the file, whatever the program's own
+/// method of that name says today.
+model::Problem stated_problem(const model::Gains& gains, const std::string& file);
+
+/// sha256 of the method's text, a zero byte and the problem's text.
+std::string statement_hash(const model::Statement& statement);
+
+/// A matrix as a list of rows.
+Json matrix_json(const expr::Matrix& matrix);
+
+}  // namespace gainsmith::io

@@ -1,0 +1,17 @@
+// Internal to io: a method as a mapping inside a file (a whole method file, or `method:` of a problem).
+#pragma once
+
+#include "io/yaml.h"
+#include "model/method.h"
+
+namespace gainsmith::io {
+
+model::Method method_from(const YamlFile& file, const YAML::Node& node);
+
+/// "tau in [a, b]" or "tau in {a, b, c}".
+model::Forall parse_forall(const expr::Text& text);
+
+/// Splits "a, b, c" at commas outside brackets and parses the parts.
+std::vector<expr::Expression> parse_list(const expr::Text& text);
+
+}  // namespace gainsmith::io

@@ -1,0 +1,222 @@
+#include "io/method_yaml.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "io/method_node.h"
+#include "model/names.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+std::optional<expr::Expression> optional_expression(const YamlFile& file, const std::optional<YamlItem>& item) {
+  if (!item) return std::nullopt;
+  return file.expression(item->value, item->key);
+}
+
+std::string optional_string(const YamlFile& file, const std::optional<YamlItem>& item) {
+  return item ? file.string(item->value, item->key) : "";
+}
+
+/// "A: n x n" or "A: {shape: n x n, default: ..., help: ...}".
+model::Declaration declaration(const YamlFile& file, const YamlItem& item, bool with_default) {
+  model::Declaration result;
+  result.name = item.key;
+  result.place = item.place;
+  if (item.value.IsScalar()) {
+    result.shape = model::parse_shape(file.scalar(item.value, item.key));
+    return result;
+  }
+  YamlMap map(file, item.value, item.key);
+  result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
+  if (with_default) result.fallback = optional_expression(file, map.find("default"));
+  result.help = optional_string(file, map.find("help"));
+  map.finish();
+  return result;
+}
+
+std::vector<model::Declaration> declarations(const YamlFile& file, const std::optional<YamlItem>& item,
+                                             const std::string& what, bool with_default = false) {
+  std::vector<model::Declaration> result;
+  for (const YamlItem& entry : items_of(file, item, what))
+    result.push_back(declaration(file, entry, with_default));
+  return result;
+}
+
+/// "delta: 0.03", "delta: {default: 0.03, help: ...}" or "delta:" (no default).
+model::Parameter parameter(const YamlFile& file, const YamlItem& item) {
+  model::Parameter result{item.key, std::nullopt, "", item.place};
+  if (item.value.IsNull()) return result;
+  if (!item.value.IsMap()) {
+    result.fallback = file.expression(item.value, item.key);
+    return result;
+  }
+  YamlMap map(file, item.value, item.key);
+  result.fallback = optional_expression(file, map.find("default"));
+  result.help = optional_string(file, map.find("help"));
+  map.finish();
+  return result;
+}
+
+std::vector<model::Named> named(const YamlFile& file, const std::optional<YamlItem>& item,
+                                const std::string& what) {
+  std::vector<model::Named> result;
+  for (const YamlItem& entry : items_of(file, item, what))
+    result.push_back({entry.key, file.expression(entry.value, entry.key), entry.place});
+  return result;
+}
+
+model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
+  if (!item.value.IsMap()) return {item.key, {}, file.expression(item.value, item.key), item.place};
+  YamlMap map(file, item.value, item.key);
+  model::Requirement result{item.key, {}, file.expression(map.require("that").value, "that"), item.place};
+  if (const auto forall = map.find("forall")) {
+    if (forall->value.IsSequence()) {
+      for (const auto& entry : forall->value)
+        result.forall.push_back(parse_forall(file.scalar(entry, "forall")));
+    } else {
+      result.forall.push_back(parse_forall(file.scalar(forall->value, "forall")));
+    }
+  }
+  map.finish();
+  return result;
+}
+
+model::Component component(const YamlFile& file, const std::optional<YamlItem>& item, const std::string& what) {
+  model::Component result;
+  if (!item) return result;
+  YamlMap map(file, item->value, what);
+  result.states = declarations(file, map.find("state"), what + ".state");
+  result.outputs = named(file, map.find("output"), what + ".output");
+  result.flow = named(file, map.find("flow"), what + ".flow");
+  result.jump = named(file, map.find("jump"), what + ".jump");
+  map.finish();
+  return result;
+}
+
+std::pair<expr::Expression, expr::Expression> range(const YamlFile& file, const YamlItem& item) {
+  if (!item.value.IsSequence() || item.value.size() != 2)
+    throw InputError(file.place(item.value), item.key + ": expected [low, high]");
+  return {file.expression(item.value[0], item.key), file.expression(item.value[1], item.key)};
+}
+
+std::optional<model::Timer> timer(const YamlFile& file, const std::optional<YamlItem>& item) {
+  if (!item) return std::nullopt;
+  const auto items = items_of(file, item, "timer");
+  if (items.size() != 1) throw InputError(item->place, "timer: expected one timer, such as 'tau: {reset: [T1, T2]}'");
+  YamlMap map(file, items.front().value, items.front().key);
+  const auto reset = range(file, map.require("reset"));
+  const auto first_item = map.find("first");
+  const auto first = first_item ? range(file, *first_item) : reset;
+  map.finish();
+  return model::Timer{items.front().key, reset.first, reset.second, first.first, first.second, items.front().place};
+}
+
+model::Claim claim(const YamlFile& file, const YamlItem& item) {
+  using Kind = model::Claim::Kind;
+  YamlMap map(file, item.value, item.key);
+  const auto nonincreasing = map.find("nonincreasing");
+  const auto cost = map.find("cost");
+  const auto shrinks = map.find("shrinks");
+  if (static_cast<int>(nonincreasing.has_value()) + static_cast<int>(cost.has_value()) +
+          static_cast<int>(shrinks.has_value()) != 1) {
+    map.finish();
+    throw InputError(item.place, "the claim '" + item.key + "' needs one of nonincreasing, cost, shrinks");
+  }
+  model::Claim result{item.key, Kind::nonincreasing, {}, {}, {}, {}, item.place};
+  if (nonincreasing) result.value = file.expression(nonincreasing->value, item.key);
+  if (cost) {
+    result.kind = Kind::cost;
+    YamlMap parts(file, cost->value, "cost");
+    result.flow_cost = optional_expression(file, parts.find("flow"));
+    result.jump_cost = optional_expression(file, parts.find("jump"));
+    parts.finish();
+    result.value = file.expression(map.require("below").value, "below");
+  }
+  if (shrinks) {
+    result.kind = Kind::shrinks;
+    result.value = file.expression(shrinks->value, item.key);
+    result.factor = file.expression(map.require("to").value, "to");
+  }
+  map.finish();
+  return result;
+}
+
+}  // namespace
+
+std::vector<expr::Expression> parse_list(const expr::Text& text) {
+  std::vector<expr::Expression> parts;
+  int depth = 0;
+  std::size_t begin = 0;
+  for (std::size_t at = 0; at <= text.str().size(); ++at) {
+    const char c = at < text.str().size() ? text.str()[at] : ',';
+    if (c == '(' || c == '[') ++depth;
+    if (c == ')' || c == ']') --depth;
+    if (c != ',' || (depth != 0 && at < text.str().size())) continue;
+    parts.push_back(expr::parse(text.part(begin, at)));
+    begin = at + 1;
+  }
+  return parts;
+}
+
+model::Forall parse_forall(const expr::Text& text) {
+  const std::string& source = text.str();
+  const auto fail = [&](std::size_t at) {
+    throw InputError(text.place(at), "expected 'NAME in [low, high]' or 'NAME in {a, b, ...}'");
+  };
+  const std::size_t in = source.find(" in ");
+  if (in == std::string::npos) fail(0);
+  const expr::Signature signature = expr::parse_signature(text.part(0, in));
+  const std::size_t open = source.find_first_not_of(' ', in + 4);
+  const std::size_t close = source.find_last_not_of(' ');
+  if (!signature.parameters.empty()) fail(0);
+  if (open == std::string::npos || close <= open) fail(in);
+  const bool interval = source[open] == '[' && source[close] == ']';
+  const bool set = source[open] == '{' && source[close] == '}';
+  if (!interval && !set) fail(open);
+  model::Forall forall{signature.name, interval, parse_list(text.part(open + 1, close)), text.place(0)};
+  if (interval && forall.points.size() != 2) fail(open);
+  return forall;
+}
+
+model::Method method_from(const YamlFile& file, const YAML::Node& node) {
+  YamlMap map(file, node, "method");
+  model::Method method;
+  method.file = file.file();
+  method.name = file.string(map.require("method").value, "method");
+  method.source = optional_string(file, map.find("source"));
+  method.summary = optional_string(file, map.find("summary"));
+  method.data = declarations(file, map.find("data"), "data", true);
+  for (const YamlItem& item : items_of(file, map.find("parameters"), "parameters"))
+    method.parameters.push_back(parameter(file, item));
+  method.assume = named(file, map.find("assume"), "assume");
+  method.unknowns = declarations(file, map.find("unknowns"), "unknowns");
+  for (const YamlItem& item : items_of(file, map.find("let"), "let"))
+    method.let.push_back(
+        {expr::parse_signature(item.key_text), file.expression(item.value, item.key), item.place});
+  for (const YamlItem& item : items_of(file, map.find("require"), "require"))
+    method.require.push_back(requirement(file, item));
+  method.minimize = optional_expression(file, map.find("minimize"));
+  method.gains = named(file, map.find("gains"), "gains");
+  method.plant = component(file, map.find("plant"), "plant");
+  method.observer = component(file, map.find("observer"), "observer");
+  method.timer = timer(file, map.find("timer"));
+  method.signals = named(file, map.find("signals"), "signals");
+  for (const YamlItem& item : items_of(file, map.find("claims"), "claims"))
+    method.claims.push_back(claim(file, item));
+  map.finish();
+  if (method.require.empty())
+    throw InputError(map.place(), "the method '" + method.name + "' has no inequality under 'require'");
+  model::check_names(method);
+  return method;
+}
+
+model::Method parse_method(const std::string& text, const std::string& file) {
+  const YamlFile yaml(text, file);
+  model::Method method = method_from(yaml, yaml.root());
+  method.text = text;
+  return method;
+}
+
+}  // namespace gainsmith::io

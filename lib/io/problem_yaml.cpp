@@ -1,0 +1,171 @@
+#include "io/problem_yaml.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "base/nearest.h"
+#include "io/expectation_yaml.h"
+#include "io/method_node.h"
+#include "io/method_yaml.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+std::shared_ptr<const model::Method> method_of(const YamlFile& file, const YamlItem& item,
+                                               const MethodLibrary& library) {
+  if (item.value.IsMap()) return std::make_shared<model::Method>(method_from(file, item.value));
+  const std::string name = file.string(item.value, "method");
+  const auto text = library.text(name);
+  if (!text)
+    throw InputError(file.place(item.value), "unknown method '" + name + "'" + suggestion(name, library.names));
+  return std::make_shared<model::Method>(parse_method(*text, "method " + name));
+}
+
+std::vector<model::Value> values(const YamlFile& file, const std::optional<YamlItem>& item, const char* what) {
+  std::vector<model::Value> result;
+  for (const YamlItem& entry : items_of(file, item, what)) {
+    model::Value value = value_of(file, entry);
+    value.place = entry.place;
+    result.push_back(std::move(value));
+  }
+  return result;
+}
+
+model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<YamlItem>& item) {
+  model::SynthesisOptions options;
+  if (!item) return options;
+  YamlMap map(file, item->value, "synthesis");
+  const auto positive = [&](const YamlItem& entry) {
+    const double value = file.number(entry.value, entry.key);
+    if (!(value > 0)) throw InputError(file.place(entry.value), entry.key + ": expected a positive number");
+    return value;
+  };
+  if (const auto margin = map.find("margin")) {
+    options.margin = positive(*margin);
+    if (options.margin >= 1)
+      throw InputError(file.place(margin->value), "margin: relative to the data's scale, so below 1");
+  }
+  if (const auto bound = map.find("gain_bound")) {
+    const bool off = bound->value.IsScalar() && bound->value.Scalar() == "none";
+    options.gain_bound = off ? std::nullopt : std::optional(positive(*bound));
+  }
+  map.finish();
+  return options;
+}
+
+std::uint64_t whole(const YamlFile& file, const YamlItem& item, double least) {
+  constexpr double kMost = 1e15;
+  const double value = file.number(item.value, item.key);
+  if (!(value >= least && value <= kMost) || value != static_cast<double>(static_cast<std::uint64_t>(value)))
+    throw InputError(file.place(item.value), item.key + ": expected a whole number, at least " +
+                                                 std::to_string(static_cast<int>(least)));
+  return static_cast<std::uint64_t>(value);
+}
+
+model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
+  using Kind = model::SamplingLaw::Kind;
+  static const std::vector<std::string> kWords = {"uniform", "extremes", "sinusoid", "constant", "list"};
+  model::SamplingLaw result;
+  result.place = file.place(node);
+  if (node.IsScalar()) {
+    const std::string word = node.Scalar();
+    if (word == "uniform") return {Kind::uniform, {}, result.place};
+    if (word == "extremes") return {Kind::extremes, {}, result.place};
+    if (word == "sinusoid") return {Kind::sinusoid, {}, result.place};
+    if (word == "constant" || word == "list")
+      throw InputError(result.place, "sampling: '" + word + "' needs its value: {" + word + ": ...}");
+    throw InputError(result.place, "sampling: unknown law '" + word + "'" + suggestion(word, kWords));
+  }
+  YamlMap map(file, node, "sampling");
+  const auto constant = map.find("constant");
+  const auto list = map.find("list");
+  map.finish();
+  if (constant.has_value() == list.has_value())
+    throw InputError(result.place, "sampling: expected {constant: value} or {list: [values]}");
+  if (constant) {
+    result.kind = Kind::constant;
+    result.values.push_back(file.expression(constant->value, "constant"));
+    return result;
+  }
+  result.kind = Kind::list;
+  if (!list->value.IsSequence() || list->value.size() == 0)
+    throw InputError(file.place(list->value), "list: expected a list of intervals");
+  for (const auto& entry : list->value) result.values.push_back(file.expression(entry, "list"));
+  return result;
+}
+
+model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
+  using Kind = model::InitialValue::Kind;
+  model::InitialValue result{item.key, Kind::expression, {}, item.place};
+  if (!item.value.IsMap()) {
+    result.values.push_back(value_of(file, item));
+    return result;
+  }
+  YamlMap map(file, item.value, item.key);
+  const auto box = map.find("box");
+  const auto list = map.find("list");
+  map.finish();
+  if (box.has_value() == list.has_value())
+    throw InputError(item.place, item.key + ": expected a value, {box: [low, high]} or {list: [values]}");
+  result.kind = box ? Kind::box : Kind::list;
+  const YamlItem& source = box ? *box : *list;
+  if (!source.value.IsSequence() || source.value.size() == 0 || (box && source.value.size() != 2))
+    throw InputError(file.place(source.value), box ? "box: expected [low, high]" : "list: expected a list of values");
+  for (const auto& entry : source.value)
+    result.values.push_back(value_of(file, {item.key, item.key_text, file.place(entry), entry}));
+  return result;
+}
+
+model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& item, const model::Method& method) {
+  model::Campaign result;
+  if (!item) return result;
+  YamlMap map(file, item->value, "campaign");
+  result.place = item->place;
+  if (const auto runs = map.find("runs")) result.runs = whole(file, *runs, 1);
+  if (const auto seed = map.find("seed")) result.seed = whole(file, *seed, 0);
+  if (const auto horizon = map.find("horizon")) result.horizon = file.expression(horizon->value, "horizon");
+  if (const auto first = map.find("first")) result.first = file.expression(first->value, "first");
+  if (const auto sampling = map.find("sampling")) {
+    if (sampling->value.IsSequence()) {
+      for (const auto& entry : sampling->value) result.sampling.push_back(law(file, entry));
+    } else {
+      result.sampling.push_back(law(file, sampling->value));
+    }
+  }
+  std::vector<std::string> states;
+  for (const auto* part : {&method.plant, &method.observer})
+    for (const auto& state : part->states) states.push_back(state.name);
+  for (const YamlItem& entry : items_of(file, map.find("initial"), "initial")) {
+    if (std::find(states.begin(), states.end(), entry.key) == states.end())
+      throw InputError(entry.place, "initial: '" + entry.key + "' is no state" + suggestion(entry.key, states));
+    result.initial.push_back(initial(file, entry));
+  }
+  map.finish();
+  return result;
+}
+
+}  // namespace
+
+model::Problem parse_problem(const std::string& text, const std::string& file,
+                             const MethodLibrary& library) {
+  const YamlFile yaml(text, file);
+  YamlMap map(yaml, yaml.root(), "problem");
+  model::Problem problem;
+  problem.file = file;
+  problem.text = text;
+  problem.name = yaml.string(map.require("problem").value, "problem");
+  const YamlItem method = map.require("method");
+  problem.method_place = method.place;
+  problem.method = method_of(yaml, method, library);
+  problem.method_name = problem.method->name;
+  problem.data = values(yaml, map.find("data"), "data");
+  problem.parameters = values(yaml, map.find("parameters"), "parameters");
+  problem.synthesis = synthesis(yaml, map.find("synthesis"));
+  problem.campaign = campaign(yaml, map.find("campaign"), *problem.method);
+  if (const auto expect = map.find("expect")) problem.expect = expectation_from(yaml, *expect);
+  map.finish();
+  return problem;
+}
+
+}  // namespace gainsmith::io

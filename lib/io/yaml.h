@@ -1,0 +1,81 @@
+// Internal to io: YAML with places, strict about keys.
+#pragma once
+
+#include <yaml-cpp/yaml.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "expr/ast.h"
+#include "expr/text.h"
+#include "model/problem.h"
+
+namespace gainsmith::io {
+
+/// A parsed file. InputError with the place for a YAML error, an empty file or several documents.
+class YamlFile {
+ public:
+  YamlFile(std::string text, std::string file);
+
+  const YAML::Node& root() const { return root_; }
+  const std::string& text() const { return text_; }
+  const std::string& file() const { return file_; }
+
+  Place place(const YAML::Node& node) const;
+  /// The scalar with the place of each of its characters, however it is quoted or folded.
+  expr::Text scalar(const YAML::Node& node, const std::string& what) const;
+  expr::Expression expression(const YAML::Node& node, const std::string& what) const;
+  std::string string(const YAML::Node& node, const std::string& what) const;
+  /// A number written as such (not an expression).
+  double number(const YAML::Node& node, const std::string& what) const;
+
+ private:
+  /// The offset in the text of a line and column that count from 0.
+  std::size_t offset(int line, int column) const;
+
+  std::string text_;
+  std::string file_;
+  std::vector<std::size_t> line_starts_;
+  YAML::Node root_;
+};
+
+/// One "key: value".
+struct YamlItem {
+  std::string key;
+  expr::Text key_text;
+  Place place;
+  YAML::Node value;
+};
+
+/// A mapping that knows which keys were asked for. finish() turns the others into errors.
+class YamlMap {
+ public:
+  /// InputError when the node is no mapping or a key stands twice. `what` names it in messages.
+  YamlMap(const YamlFile& file, const YAML::Node& node, std::string what);
+
+  const std::vector<YamlItem>& items() const { return items_; }
+  std::optional<YamlItem> find(const std::string& key);
+  YamlItem require(const std::string& key);
+  /// InputError at the first key that nobody asked for, with the nearest one that somebody did.
+  void finish() const;
+  const Place& place() const { return place_; }
+  const std::string& what() const { return what_; }
+
+ private:
+  std::string what_;
+  Place place_;
+  std::vector<YamlItem> items_;
+  std::vector<std::string> asked_;
+};
+
+/// The items of an optional mapping; empty when the node is absent or null.
+std::vector<YamlItem> items_of(const YamlFile& file, const std::optional<YamlItem>& item,
+                               const std::string& what);
+
+/// A matrix value: a scalar expression, a list (a row) or a list of lists (rows). Elements are
+/// expressions.
+model::Value value_of(const YamlFile& file, const YamlItem& item);
+
+}  // namespace gainsmith::io
