@@ -1,0 +1,66 @@
+#include "hybrid/law.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+using Kind = model::SamplingLaw::Kind;
+
+double checked_value(const expr::Expression& expression, const System& system) {
+  const double value = model::scalar_value(expression, system.scope, system.constants);
+  const double slack = 1e-12 * system.high;
+  if (!(value >= system.low - slack && value <= system.high + slack))
+    throw InputError(expression.place(*expression.root),
+                     fmt::format("the sampling interval {} is outside the timer's range [{}, {}]",
+                                 brief(value), brief(system.low), brief(system.high)));
+  return std::clamp(value, system.low, system.high);
+}
+
+}  // namespace
+
+double Law::reset_value(std::size_t jump, double t, RandomStream& random) const {
+  switch (kind) {
+    case Kind::constant:
+      return values.front();
+    case Kind::uniform:
+      return low + (high - low) * random.uniform();
+    case Kind::extremes:
+      return random.uniform() < 0.5 ? low : high;
+    case Kind::sinusoid:
+      return std::clamp((high - low) / 2 * std::sin(t) + (high + low) / 2, low, high);
+    case Kind::list:
+      return values[jump % values.size()];
+  }
+  return high;
+}
+
+std::vector<Law> make_laws(const model::Campaign& campaign, const System& system) {
+  const double low = system.low;
+  const double high = system.high;
+  if (campaign.sampling.empty())
+    return {{Kind::uniform, low, high, {}},
+            {Kind::extremes, low, high, {}},
+            {Kind::sinusoid, low, high, {}},
+            {Kind::constant, low, high, {low}},
+            {Kind::constant, low, high, {high}}};
+  std::vector<Law> laws;
+  for (const model::SamplingLaw& law : campaign.sampling) {
+    Law result{law.kind, low, high, {}};
+    for (const expr::Expression& value : law.values)
+      result.values.push_back(checked_value(value, system));
+    const bool needs_values = law.kind == Kind::constant || law.kind == Kind::list;
+    if (needs_values && result.values.empty())
+      throw InputError(law.place, "the sampling law " + model::to_string(law.kind) +
+                                      " needs at least one interval");
+    laws.push_back(std::move(result));
+  }
+  return laws;
+}
+
+}  // namespace gainsmith::hybrid

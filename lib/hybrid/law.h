@@ -1,0 +1,28 @@
+// Where the lengths of the sampling intervals come from.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "base/random.h"
+#include "hybrid/system.h"
+
+namespace gainsmith::hybrid {
+
+/// A sampling law with its numbers, for reset values in [low, high].
+struct Law {
+  model::SamplingLaw::Kind kind = model::SamplingLaw::Kind::uniform;
+  double low = 0;
+  double high = 0;
+  std::vector<double> values;  ///< constant, list
+
+  /// The timer's reset value at jump number `jump` (0, 1, ...) at time t. uniform and extremes take
+  /// one draw; the others take none.
+  double reset_value(std::size_t jump, double t, RandomStream& random) const;
+};
+
+/// The laws of a campaign, in order; without any: uniform, extremes, sinusoid, constant low,
+/// constant high. InputError for a value outside [low, high] (a rounding of 1e-12 is forgiven).
+std::vector<Law> make_laws(const model::Campaign& campaign, const System& system);
+
+}  // namespace gainsmith::hybrid

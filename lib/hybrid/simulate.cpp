@@ -1,0 +1,123 @@
+#include "hybrid/simulate.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/number.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+constexpr double kLargest = 1e150;
+constexpr double kDefaultIntervals = 40;
+
+bool within_range(const Eigen::VectorXd& x) {
+  return (x.array().abs() <= kLargest).all();  // false for a NaN
+}
+
+double read_first(const expr::Expression& expression, const System& system) {
+  const double first = model::scalar_value(expression, system.scope, system.constants);
+  if (!(first >= system.first_low && first <= system.first_high))
+    throw InputError(expression.place(*expression.root),
+                     fmt::format("the first value {} of the timer is outside its range [{}, {}]",
+                                 brief(first), brief(system.first_low), brief(system.first_high)));
+  return first;
+}
+
+}  // namespace
+
+Scenario make_scenario(const model::Campaign& campaign, const System& system) {
+  Scenario scenario;
+  scenario.laws = make_laws(campaign, system);
+  scenario.starts = make_start_rules(campaign, system);
+  if (campaign.first) scenario.first = read_first(*campaign.first, system);
+  scenario.horizon = kDefaultIntervals * system.high;
+  if (campaign.horizon) {
+    const expr::Expression& horizon = *campaign.horizon;
+    scenario.horizon = model::scalar_value(horizon, system.scope, system.constants);
+    if (!(scenario.horizon > 0 && std::isfinite(scenario.horizon)))
+      throw InputError(horizon.place(*horizon.root),
+                       "the horizon is " + brief(scenario.horizon) + ": expected a positive time");
+  }
+  return scenario;
+}
+
+Steps make_steps(const System& system) {
+  return {system.flow, std::max(system.high, system.first_high)};
+}
+
+Simulator::Simulator(const System& system, const Scenario& scenario, const Steps& steps)
+    : system_(&system), scenario_(&scenario), steps_(&steps), starts_(scenario.starts, system) {
+  if (system.affine_jump) return;
+  for (const JumpEntry& entry : system.jump)
+    jump_entries_.emplace_back(entry.program, system.layout, system.constants);
+}
+
+Arc Simulator::run(std::uint64_t seed, std::uint64_t run) {
+  RandomStream random(seed, run);
+  const Law& law = scenario_->laws[run % scenario_->laws.size()];
+  Arc arc;
+  arc.size = system_->layout.size;
+  const Eigen::VectorXd start = starts_(run, random);
+  const double first = scenario_->first.value_or(system_->first_low);
+  const double spread = scenario_->first ? 0 : system_->first_high - system_->first_low;
+  arc.append(0, 0, scenario_->first ? first : first + spread * random.uniform(), start);
+
+  for (std::size_t jumps = 0;; ++jumps) {
+    const double left = scenario_->horizon - arc.t.back();
+    const bool expires = arc.timer.back() <= left;
+    flow(expires ? arc.timer.back() : left, arc);
+    if (arc.termination != Termination::horizon || !expires) return arc;
+    if (arc.j.back() >= scenario_->jump_limit) {
+      arc.termination = Termination::jump_limit;
+      return arc;
+    }
+    jump(arc, law.reset_value(jumps, arc.t.back(), random));
+    if (arc.termination != Termination::horizon || arc.t.back() >= scenario_->horizon) return arc;
+  }
+}
+
+void Simulator::flow(double interval, Arc& arc) {
+  cuts_.clear();
+  steps_->cut(interval, cuts_);
+  const double start = arc.t.back();
+  const double timer = arc.timer.back();
+  double elapsed = 0;
+  Eigen::VectorXd next(arc.size);
+  for (std::size_t i = 0; i < cuts_.size(); ++i) {
+    steps_->advance(cuts_[i], arc.state(arc.samples() - 1), next);
+    elapsed = i + 1 == cuts_.size() ? interval : elapsed + cuts_[i].length;
+    arc.moves.push_back({false, cuts_[i]});
+    arc.append(start + elapsed, arc.j.back(), timer - elapsed, next);
+    if (within_range(next)) continue;
+    arc.termination = Termination::diverged;
+    return;
+  }
+}
+
+void Simulator::jump(Arc& arc, double reset_value) {
+  const Eigen::VectorXd before = arc.state(arc.samples() - 1);
+  Eigen::VectorXd after = before;
+  if (system_->affine_jump) {
+    after = (*system_->affine_jump)(before);
+  } else {
+    try {
+      for (std::size_t i = 0; i < jump_entries_.size(); ++i) {
+        const Slot& slot = system_->layout.slots[system_->jump[i].slot];
+        after.segment(slot.offset, slot.shape.size()) = jump_entries_[i](before, 0).reshaped();
+      }
+    } catch (const InputError& error) {
+      arc.termination = Termination::undefined;
+      arc.message = error.what();
+      return;
+    }
+  }
+  arc.moves.push_back({true, {}});
+  arc.append(arc.t.back(), arc.j.back() + 1, reset_value, after);
+  if (!within_range(after)) arc.termination = Termination::diverged;
+}
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,169 @@
+#include "hybrid/steps.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+
+#include "base/error.h"
+#include "base/number.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+// Squaring k times multiplies the rounding error of the first map by 2^k; the wider type pays for
+// it.
+using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+constexpr int kFewestLevels = 3;
+constexpr int kMostLevels = 40;
+constexpr double kFirstNorm = 0.25;
+constexpr double kStepsPerInterval = 8;
+
+Wide augmented(const AffineMap& flow) {
+  const Eigen::Index n = flow.linear.rows();
+  Wide generator = Wide::Zero(n + 1, n + 1);
+  generator.topLeftCorner(n, n) = flow.linear.cast<long double>();
+  generator.topRightCorner(n, 1) = flow.constant.cast<long double>();
+  return generator;
+}
+
+/// expm(length * generator) for a linear part of norm at most 1/4; 20 terms leave less than 1e-31.
+Wide short_exponential(const Wide& generator, long double length) {
+  constexpr int kTerms = 20;
+  Wide term = Wide::Identity(generator.rows(), generator.cols());
+  Wide sum = term;
+  for (int k = 1; k <= kTerms; ++k) {
+    term = (term * generator * (length / k)).eval();
+    sum += term;
+  }
+  return sum;
+}
+
+/// How fast the flow may swing or grow, per unit of time.
+double fastest_rate(const expr::Matrix& matrix) {
+  double rate = 0;
+  const Eigen::EigenSolver<expr::Matrix> solver(matrix, false);
+  for (const auto& lambda : solver.eigenvalues())
+    rate = std::max({rate, std::abs(lambda.imag()), lambda.real()});
+  return rate;
+}
+
+double one_norm(const expr::Matrix& matrix) { return matrix.cwiseAbs().colwise().sum().maxCoeff(); }
+
+}  // namespace
+
+const std::array<double, Steps::kNodes>& Steps::node_positions() {
+  static const std::array<double, kNodes> positions = {
+      0.01985507175123188415821957, 0.10166676129318663020422303, 0.23723379504183550709113048,
+      0.40828267875217509753026193, 0.59171732124782490246973807, 0.76276620495816449290886952,
+      0.89833323870681336979577697, 0.98014492824876811584178043};
+  return positions;
+}
+
+const std::array<double, Steps::kNodes>& Steps::node_weights() {
+  static const std::array<double, kNodes> weights = {
+      0.05061426814518812957626567, 0.11119051722668723527217800, 0.15685332293894364366898110,
+      0.18134189168918099148257522, 0.18134189168918099148257522, 0.15685332293894364366898110,
+      0.11119051722668723527217800, 0.05061426814518812957626567};
+  return weights;
+}
+
+Steps::Steps(const AffineMap& flow, double longest) : flow_(flow) {
+  const Eigen::Index n = flow.linear.rows();
+  const double norm = n > 0 ? one_norm(flow.linear) : 0;
+  if (!std::isfinite(norm) || !flow.constant.allFinite() ||
+      !(norm * longest <= std::ldexp(1, kMostLevels)))
+    throw InputError({}, "the flow is too fast to be stepped: norm of its matrix " + brief(norm) +
+                             ", longest interval " + brief(longest));
+  const double rate = n > 0 ? fastest_rate(flow.linear) : 0;
+  const double top = std::min(longest / kStepsPerInterval, rate > 0 ? 1 / rate : longest);
+  int last = kFewestLevels;
+  while (norm * std::ldexp(top, -last) > kFirstNorm) ++last;
+  shortest_ = std::ldexp(top, -last);
+
+  const Wide generator = augmented(flow);
+  std::array<Wide, kNodes + 1> maps;
+  maps[kNodes] = short_exponential(generator, shortest_);
+  for (std::size_t i = 0; i < kNodes; ++i)
+    maps[i] =
+        short_exponential(generator, shortest_ * static_cast<long double>(node_positions()[i]));
+  for (int level = 0; level <= last; ++level) {
+    const auto rounded = [&](std::size_t i) -> expr::Matrix { return maps[i].cast<double>(); };
+    maps_.push_back({rounded(kNodes).topLeftCorner(n, n), rounded(kNodes).topRightCorner(n, 1)});
+    AffineMap nodes{expr::Matrix(kNodes * n, n), Eigen::VectorXd(kNodes * n)};
+    for (std::size_t i = 0; i < kNodes; ++i) {
+      const Eigen::Index row = static_cast<Eigen::Index>(i) * n;
+      nodes.linear.middleRows(row, n) = rounded(i).topLeftCorner(n, n);
+      nodes.constant.segment(row, n) = rounded(i).topRightCorner(n, 1);
+    }
+    to_nodes_.push_back(std::move(nodes));
+    for (Wide& map : maps) map = (map * map).eval();
+  }
+}
+
+void Steps::cut(double interval, std::vector<Step>& steps) const {
+  double units = std::floor(interval / shortest_);
+  double rest = std::fma(-units, shortest_, interval);
+  if (rest < 0) {
+    units -= 1;
+    rest += shortest_;
+  }
+  auto left = static_cast<std::int64_t>(units);
+  const int top = levels() - 1;
+  const auto take = [&](int level) {
+    steps.push_back({level, std::ldexp(shortest_, level)});
+    left -= std::int64_t{1} << level;
+  };
+  const auto fits = [&](int level) { return left >= std::int64_t{1} << level; };
+  for (int level = 0; level < top && fits(level); ++level) take(level);
+  while (fits(top)) take(top);
+  for (int level = top - 1; level >= 0; --level)
+    while (fits(level)) take(level);
+  if (rest > 0) steps.push_back({Step::kRest, rest});
+}
+
+expr::Matrix Steps::taylor_terms(double length, const Eigen::Ref<const Eigen::VectorXd>& x) const {
+  expr::Matrix terms(x.size(), kDegree + 1);
+  terms.col(0) = x;
+  for (int k = 1; k <= kDegree; ++k) {
+    terms.col(k).noalias() = flow_.linear.lazyProduct(terms.col(k - 1));
+    if (k == 1) terms.col(k) += flow_.constant;
+    terms.col(k) *= length / k;
+  }
+  return terms;
+}
+
+void Steps::advance(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x,
+                    Eigen::Ref<Eigen::VectorXd> out) const {
+  if (step.level == Step::kRest) {
+    out = taylor_terms(step.length, x).rowwise().sum();
+    return;
+  }
+  const AffineMap& map = maps_[static_cast<std::size_t>(step.level)];
+  out = map.constant;
+  out.noalias() += map.linear.lazyProduct(x);
+}
+
+void Steps::nodes(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x,
+                  Eigen::Ref<expr::Matrix> out) const {
+  if (step.level == Step::kRest) {
+    static const expr::Matrix kPowers = [] {
+      expr::Matrix powers = expr::Matrix::Ones(kDegree + 1, kNodes);
+      for (int k = 1; k <= kDegree; ++k)
+        for (int i = 0; i < kNodes; ++i)
+          powers(k, i) = powers(k - 1, i) * node_positions()[static_cast<std::size_t>(i)];
+      return powers;
+    }();
+    out.noalias() = taylor_terms(step.length, x).lazyProduct(kPowers);
+    return;
+  }
+  const AffineMap& map = to_nodes_[static_cast<std::size_t>(step.level)];
+  Eigen::VectorXd stacked = map.constant;
+  stacked.noalias() += map.linear.lazyProduct(x);
+  out = stacked.reshaped(x.size(), kNodes);
+}
+
+}  // namespace gainsmith::hybrid

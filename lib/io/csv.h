@@ -1,0 +1,15 @@
+// Tables of numbers as CSV (RFC 4180, lines ended by a line feed).
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "expr/matrix.h"
+
+namespace gainsmith::io {
+
+/// A line of column names, then a line for each row of the table; numbers by decimal17, so that
+/// reading them gives the same doubles. One name for each column.
+std::string to_csv(std::span<const std::string> columns, const expr::Matrix& table);
+
+}  // namespace gainsmith::io

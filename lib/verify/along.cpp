@@ -1,0 +1,85 @@
+#include "verify/along.h"
+
+#include <algorithm>
+
+namespace gainsmith::verify {
+
+using Eigen::Index;
+
+AlongFunction::AlongFunction(const expr::Program& program, const hybrid::System& system)
+    : slots_(system.layout.slots), evaluator_(program), elements_(program.shape().size()) {
+  constants_.reserve(program.inputs.size());
+  for (const expr::Input& input : program.inputs) {
+    const auto known = system.constants.find(input.name);
+    if (known == system.constants.end()) continue;
+    constants_.push_back(constant_pack(known->second));
+    evaluator_.fix(input.name, constants_.back());
+  }
+  const auto moving = [](expr::Shape shape) {
+    return Pack{
+        false, shape.rows, shape.cols, {}, Eigen::ArrayXXd::Zero(Pack::kLanes, shape.size())};
+  };
+  for (const hybrid::Slot& slot : slots_) moving_.push_back(moving(slot.shape));
+  moving_.push_back(moving({1, 1}));
+  for (std::size_t i = 0; i < slots_.size(); ++i) evaluator_.set(slots_[i].name, moving_[i]);
+  evaluator_.set(system.layout.timer, moving_.back());
+}
+
+expr::Matrix AlongFunction::operator()(const Eigen::Ref<const expr::Matrix>& states,
+                                       const Eigen::Ref<const Eigen::VectorXd>& timers) {
+  expr::Matrix values(elements_, timers.size());
+  for (Index first = 0; first < timers.size(); first += Pack::kLanes) {
+    const Index count = std::min<Index>(Pack::kLanes, timers.size() - first);
+    for (Index lane = 0; lane < Pack::kLanes; ++lane) {
+      const Index point = first + std::min(lane, count - 1);  // the last point fills the pack
+      for (std::size_t i = 0; i < slots_.size(); ++i)
+        moving_[i].lanes.row(lane) =
+            states.col(point).segment(slots_[i].offset, slots_[i].shape.size()).transpose();
+      moving_.back().lanes(lane, 0) = timers(point);
+    }
+    const Pack& result = evaluator_.run();
+    if (result.same) {
+      values.middleCols(first, count) = result.matrix.reshaped().replicate(1, count);
+    } else {
+      values.middleCols(first, count) = result.lanes.topRows(count).matrix().transpose();
+    }
+  }
+  return values;
+}
+
+Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::Steps& steps,
+                                AlongFunction& integrand) {
+  constexpr Index kNodes = hybrid::Steps::kNodes;
+  constexpr Index kBatch = Pack::kLanes / kNodes;
+  const auto& positions = hybrid::Steps::node_positions();
+  const Eigen::Map<const Eigen::VectorXd> weights(hybrid::Steps::node_weights().data(), kNodes);
+
+  Eigen::VectorXd integrals = Eigen::VectorXd::Zero(static_cast<Index>(arc.moves.size()));
+  expr::Matrix states(arc.size, Pack::kLanes);
+  Eigen::VectorXd timers(Pack::kLanes);
+  std::vector<std::size_t> batch;  // the moves whose nodes wait in `states`
+  const auto finish = [&] {
+    const auto count = static_cast<Index>(batch.size()) * kNodes;
+    if (count == 0) return;
+    const expr::Matrix values = integrand(states.leftCols(count), timers.head(count));
+    for (std::size_t i = 0; i < batch.size(); ++i)
+      integrals(static_cast<Index>(batch[i])) =
+          arc.moves[batch[i]].step.length *
+          values.row(0).segment(static_cast<Index>(i) * kNodes, kNodes).dot(weights);
+    batch.clear();
+  };
+  for (std::size_t k = 0; k < arc.moves.size(); ++k) {
+    if (arc.moves[k].jump) continue;
+    const hybrid::Step& step = arc.moves[k].step;
+    const Index at = static_cast<Index>(batch.size()) * kNodes;
+    steps.nodes(step, arc.state(k), states.middleCols(at, kNodes));
+    for (Index i = 0; i < kNodes; ++i)
+      timers(at + i) = arc.timer[k] - positions[static_cast<std::size_t>(i)] * step.length;
+    batch.push_back(k);
+    if (static_cast<Index>(batch.size()) == kBatch) finish();
+  }
+  finish();
+  return integrals;
+}
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,41 @@
+// Expressions along an arc: at many points at once, and integrated over the flow.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "expr/evaluate.h"
+#include "hybrid/arc.h"
+#include "hybrid/steps.h"
+#include "hybrid/system.h"
+#include "verify/pack.h"
+
+namespace gainsmith::verify {
+
+/// A program as a function of (x, tau) at many points. The program and the system must outlive it;
+/// every input must be a state, the timer or a constant of the system.
+class AlongFunction {
+ public:
+  AlongFunction(const expr::Program& program, const hybrid::System& system);
+  AlongFunction(AlongFunction&&) = default;  // a copy's evaluator would point into the original
+  AlongFunction& operator=(AlongFunction&&) = default;
+
+  /// states: size x N, timers: N. The result is elements x N, the value's elements column by
+  /// column; it holds infinities or NaNs where the value is none.
+  expr::Matrix operator()(const Eigen::Ref<const expr::Matrix>& states,
+                          const Eigen::Ref<const Eigen::VectorXd>& timers);
+
+ private:
+  std::vector<hybrid::Slot> slots_;
+  std::vector<Pack> constants_;
+  std::vector<Pack> moving_;  ///< the states, then the timer
+  expr::Evaluator<PackAlgebra> evaluator_;
+  Eigen::Index elements_;
+};
+
+/// For each flow step of an arc, in order, the integral of a scalar over it, by Gauss-Legendre
+/// quadrature with Steps::kNodes nodes on the exact flow; one element a move, 0 for jumps.
+Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::Steps& steps,
+                                AlongFunction& integrand);
+
+}  // namespace gainsmith::verify

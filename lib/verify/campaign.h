@@ -1,0 +1,64 @@
+// Monte-Carlo: many runs against the claims of a gain file.
+//
+// Verify shares no code with the synthesis: it knows the gains, the method's text and the plant.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hybrid/arc.h"
+#include "model/gains.h"
+#include "model/instance.h"
+#include "model/words.h"
+#include "verify/check.h"
+
+namespace gainsmith::verify {
+
+struct CampaignOptions {
+  std::optional<std::uint64_t> runs;  ///< none: the problem's
+  std::optional<std::uint64_t> seed;  ///< none: the problem's
+  unsigned threads = 0;               ///< 0: one a core; the report does not depend on it
+  /// Called with (runs done, runs in all) from the threads of the campaign, one call at a time.
+  std::function<void(std::uint64_t, std::uint64_t)> progress;
+};
+
+/// One claim over all runs.
+struct CheckReport {
+  std::string name;
+  model::Claim::Kind kind = model::Claim::Kind::nonincreasing;
+  bool stated = true;  ///< false: not checked, because `missing` have no value
+  std::vector<std::string> missing;
+  std::uint64_t violations = 0;
+  std::uint64_t worst_run = 0;  ///< violating runs first, then by score; ties to the lowest
+  Finding worst;                ///< in that run
+};
+
+struct Report {
+  model::CampaignVerdict verdict = model::CampaignVerdict::held;
+  std::uint64_t runs = 0;
+  std::uint64_t seed = 0;
+  std::uint64_t violations = 0;  ///< runs that violate a claim or do not reach the horizon
+  std::uint64_t unfinished = 0;  ///< runs that do not reach the horizon
+  /// The run that violates worst; of a campaign that held, the run nearest to it. Runs that do not
+  /// reach the horizon come first, then violating runs, then by the largest score of a claim; ties
+  /// to the lowest.
+  std::uint64_t worst_run = 0;
+  hybrid::Termination worst_termination = hybrid::Termination::horizon;
+  std::string worst_message;  ///< why it ended, when a jump map had no value
+  double horizon = 0;
+  double confidence = 0.95;
+  /// With that confidence the probability that a run of this campaign violates is at most this.
+  double violation_probability = 1;
+  std::vector<CheckReport> checks;  ///< in the method's order
+};
+
+/// Simulates all runs and checks every claim that the gain file states. The verdict is `held` when
+/// no run violates. InputError for input that does not fit, for 0 runs, and when no claim is
+/// stated: then there is nothing to hold.
+Report run_campaign(const model::Instance& instance, const model::Gains& gains,
+                    const CampaignOptions& options = {});
+
+}  // namespace gainsmith::verify

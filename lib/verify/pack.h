@@ -1,0 +1,36 @@
+// The number type "pack of points": one value is a matrix at many points of a run at once, stored
+// as a structure of arrays, so that an instruction of a claim costs one loop over the points.
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "expr/matrix.h"
+#include "expr/program.h"
+
+namespace gainsmith::verify {
+
+/// A matrix at kLanes points. Each lane is computed alone and all lanes the same way, so a value
+/// does not depend on the points beside it.
+struct Pack {
+  static constexpr int kLanes = 64;
+
+  bool same = true;  ///< equal at all points: `matrix` holds it, else `lanes`
+  Eigen::Index rows = 0;
+  Eigen::Index cols = 0;
+  expr::Matrix matrix;
+  Eigen::ArrayXXd lanes;  ///< kLanes x elements; the matrix's elements column by column
+};
+
+/// The value that is `matrix` at all points.
+Pack constant_pack(const expr::Matrix& matrix);
+
+/// Pack arithmetic. Values that do not move are computed by RealAlgebra, errors included; a lane
+/// in which an operation has no result, or overflows, holds a NaN or an infinity and goes on.
+struct PackAlgebra {
+  using Value = Pack;
+  void apply(const expr::Instruction& instruction, std::span<const Pack* const> operands,
+             Pack& out) const;
+};
+
+}  // namespace gainsmith::verify

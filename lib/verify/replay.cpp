@@ -1,0 +1,87 @@
+#include "verify/replay.h"
+
+#include "expr/compile.h"
+#include "verify/along.h"
+#include "verify/setup.h"
+
+namespace gainsmith::verify {
+
+namespace {
+
+using Eigen::Index;
+
+/// Collects the columns of a replay.
+class Table {
+ public:
+  explicit Table(Replay& replay) : replay_(&replay) {
+    replay.table.resize(static_cast<Index>(replay.arc.samples()), 0);
+  }
+
+  void add(const std::string& name, const Eigen::VectorXd& values) {
+    replay_->columns.push_back(name);
+    replay_->table.conservativeResize(Eigen::NoChange, replay_->table.cols() + 1);
+    replay_->table.rightCols(1) = values;
+  }
+
+  /// One column for each element of a named matrix; values: elements x samples.
+  void add_elements(const std::string& name, expr::Shape shape, const expr::Matrix& values) {
+    for (int e = 0; e < shape.size(); ++e) {
+      std::string label = name + std::to_string(e % shape.rows + 1);
+      if (shape.cols > 1) label += "_" + std::to_string(e / shape.rows + 1);
+      add(label, values.row(e).transpose());
+    }
+  }
+
+ private:
+  Replay* replay_;
+};
+
+void add_signals(const model::Method& method, const Setup& setup, const hybrid::Arc& arc,
+                 Table& table) {
+  const Eigen::Map<const Eigen::VectorXd> timers(arc.timer.data(),
+                                                 static_cast<Index>(arc.timer.size()));
+  for (const model::Named& signal : method.signals) {
+    const expr::Program program = expr::compile(signal.value, setup.system.scope);
+    if (!hybrid::missing_values(program, setup.system.layout, setup.system.constants).empty())
+      continue;
+    AlongFunction along(program, setup.system);
+    table.add_elements(signal.name, program.shape(), along(arc.states(), timers));
+  }
+}
+
+void add_claims(const Setup& setup, Replay& replay, Table& table) {
+  for (const CompiledClaim& claim : setup.claims) {
+    if (!claim.stated()) continue;
+    Check check(claim, setup.system, setup.steps);
+    replay.claims.push_back({claim.name, check(replay.arc)});
+    table.add(claim.name, check.values(replay.arc));
+    if (claim.kind == model::Claim::Kind::cost)
+      table.add(claim.name + "_cost", check.running_cost(replay.arc));
+  }
+}
+
+}  // namespace
+
+Replay replay(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
+              std::uint64_t run) {
+  const Setup setup = make_setup(instance, gains);
+  Replay result;
+  result.arc = hybrid::Simulator(setup.system, setup.scenario, setup.steps).run(seed, run);
+  const hybrid::Arc& arc = result.arc;
+  Table table(result);
+  table.add("t", Eigen::Map<const Eigen::VectorXd>(arc.t.data(), static_cast<Index>(arc.t.size())));
+  Eigen::VectorXd jumps(static_cast<Index>(arc.samples()));
+  for (std::size_t k = 0; k < arc.samples(); ++k)
+    jumps(static_cast<Index>(k)) = static_cast<double>(arc.j[k]);
+  table.add("j", jumps);
+  table.add(setup.system.layout.timer, Eigen::Map<const Eigen::VectorXd>(
+                                           arc.timer.data(), static_cast<Index>(arc.timer.size())));
+  for (const hybrid::Slot& slot : setup.system.layout.slots)
+    table.add_elements(slot.name, slot.shape,
+                       arc.states().middleRows(slot.offset, slot.shape.size()));
+  add_signals(*instance.method, setup, arc, table);
+  add_claims(setup, result, table);
+  return result;
+}
+
+}  // namespace gainsmith::verify

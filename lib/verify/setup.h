@@ -1,0 +1,25 @@
+// Everything that the runs of a campaign share, made once and then only read.
+#pragma once
+
+#include <vector>
+
+#include "hybrid/simulate.h"
+#include "hybrid/system.h"
+#include "verify/check.h"
+#include "verify/claims.h"
+
+namespace gainsmith::verify {
+
+struct Setup {
+  hybrid::System system;
+  hybrid::Scenario scenario;
+  hybrid::Steps steps;
+  std::vector<CompiledClaim> claims;
+};
+
+Setup make_setup(const model::Instance& instance, const model::Gains& gains);
+
+/// A check for each claim that is stated, in order. The setup must outlive them.
+std::vector<Check> make_checks(const Setup& setup);
+
+}  // namespace gainsmith::verify
