@@ -1,5 +1,7 @@
 #include "model/words.h"
 
+#include "model/problem.h"
+
 namespace gainsmith::model {
 
 std::string to_string(Verdict verdict) {
@@ -13,6 +15,17 @@ std::string to_string(Verdict verdict) {
 
 std::string to_string(CampaignVerdict verdict) {
   return verdict == CampaignVerdict::held ? "held" : "violated";
+}
+
+std::string to_string(SamplingLaw::Kind kind) {
+  switch (kind) {
+    case SamplingLaw::Kind::constant: return "constant";
+    case SamplingLaw::Kind::uniform: return "uniform";
+    case SamplingLaw::Kind::extremes: return "extremes";
+    case SamplingLaw::Kind::sinusoid: return "sinusoid";
+    case SamplingLaw::Kind::list: return "list";
+  }
+  return "?";
 }
 
 }  // namespace gainsmith::model
