@@ -1,0 +1,163 @@
+#include "design/synthesize.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "base/number.h"
+#include "base/version.h"
+#include "expr/compile.h"
+#include "lmi/formulation.h"
+#include "lmi/margins.h"
+
+namespace gainsmith::design {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+model::SolverRecord record_of(const sdp::Solution& solution) {
+  model::SolverRecord record;
+  const bool infeasible = solution.status == sdp::Status::primal_infeasible;
+  record.status = infeasible ? "infeasible" : solution.status == sdp::Status::optimal ? "optimal" : "undecided";
+  record.cause = to_string(solution.cause);
+  record.message = solution.message;
+  record.iterations = solution.iterations;
+  record.relative_gap = solution.relative_gap;
+  record.primal_infeasibility = solution.dimacs[2];
+  record.dual_infeasibility = solution.dimacs[0];
+  record.precision = solution.precision;
+  return record;
+}
+
+/// One synthesis: the steps in the order in which they are taken.
+class Synthesis {
+ public:
+  Synthesis(const model::Instance& instance, const sdp::Options& options)
+      : instance_(instance), options_(options), choices_(instance.problem->synthesis), lmi_(lmi::compile(instance)) {
+    if (choices_.gain_bound)
+      bounds_ = lmi::gain_bounds(instance, lmi_.unknowns, *choices_.gain_bound);
+    gains_.problem_name = instance.problem->name;
+    gains_.version = kVersion;
+    for (const auto& parameter : instance.method->parameters)
+      gains_.parameters.emplace_back(parameter.name, instance.parameters.at(parameter.name));
+    compile_seconds_ = seconds_since(start_);
+  }
+
+  model::Gains run() {
+    solve(lmi::goal_of(lmi_));
+    if (solution_.status == sdp::Status::optimal) {
+      accept_point();
+    } else if (solution_.status == sdp::Status::primal_infeasible) {
+      accept_certificate();
+    } else if (solution_.status == sdp::Status::dual_infeasible) {
+      gains_.solver.status = "undecided";
+      gains_.solver.message =
+          "the objective is unbounded below: some direction of the unknowns lowers it without end";
+    }
+    add_gains();
+    gains_.timings = {{"compile", compile_seconds_}, {"solve", solve_seconds_}, {"total", seconds_since(start_)}};
+    return std::move(gains_);
+  }
+
+ private:
+  void solve(lmi::Goal goal) {
+    const auto start = Clock::now();
+    formulation_ = lmi::formulate(lmi_, bounds_, choices_, goal);
+    solution_ = sdp::solve(formulation_.problem, options_);
+    gains_.solver = record_of(solution_);
+    solve_seconds_ += seconds_since(start);
+  }
+
+  void accept_point() {
+    const bool has_margin_variable = formulation_.goal == lmi::Goal::feasibility;
+    if (has_margin_variable && solution_.x.back() < choices_.margin) {
+      solve(lmi::Goal::certificate);
+      if (solution_.status == sdp::Status::primal_infeasible) return accept_certificate();
+      gains_.solver.status = "undecided";
+      gains_.solver.message = "the largest margin is " + brief(solution_.x.back()) + ", below the one asked for";
+      return;
+    }
+    x_ = lmi::read_back(lmi_, solution_);
+    for (const auto& unknown : lmi_.unknowns.list())
+      gains_.unknowns.emplace_back(unknown.name, lmi_.unknowns.values(x_).at(unknown.name));
+    gains_.margins = lmi::margins(instance_, lmi_, formulation_.scales, formulation_.homogeneous(),
+                                  choices_.margin, x_);
+    gains_.bounds = lmi::reached_bounds(bounds_, x_);
+    set_objective();
+    decide();
+  }
+
+  void set_objective() {
+    if (!lmi_.has_objective) return;
+    double objective = lmi_.objective_constant;
+    for (std::size_t i = 0; i < x_.size(); ++i) objective += lmi_.objective[i] * x_[i];
+    gains_.objective = objective;
+    if (formulation_.goal == lmi::Goal::bounded_objective)
+      gains_.objective_lower_bound = lmi::objective_lower_bound(lmi_, formulation_, solution_);
+  }
+
+  /// The verdict comes from the margins as recomputed, never from the solver's word alone.
+  void decide() {
+    constexpr double kSlack = 0.99;
+    std::string failed;
+    for (const model::Margin& margin : gains_.margins) {
+      const bool enough = !margin.strict || margin.reached >= kSlack * margin.required;
+      if (!margin.holds || !enough)
+        failed += (failed.empty() ? "" : "; ") + margin.name + ": margin " + brief(margin.reached) +
+                  ", asked for " + brief(margin.required);
+    }
+    gains_.verdict = failed.empty() ? model::Verdict::yes : model::Verdict::undecided;
+    if (failed.empty()) return;
+    gains_.solver.status = "undecided";
+    gains_.solver.message = "the solver converged, but recomputed from the written decimals " + failed;
+  }
+
+  void accept_certificate() {
+    gains_.verdict = model::Verdict::no;
+    const sdp::Certificate& certificate = solution_.certificate;
+    gains_.certificate = model::CertificateRecord{
+        certificate.value,           certificate.residual, certificate.min_eigenvalue,
+        certificate.excluded_radius, certificate.checked,  lmi::multipliers(lmi_, bounds_, formulation_, solution_)};
+  }
+
+  /// Gains whose formulas use nothing but data are known in any case, the others when the verdict is yes.
+  void add_gains() {
+    expr::Values values = instance_.known_values();
+    if (gains_.verdict == model::Verdict::yes)
+      for (const auto& [name, matrix] : gains_.unknowns) values[name] = matrix;
+    const expr::Scope scope = instance_.design_scope();
+    for (const model::Named& gain : instance_.method->gains) {
+      const auto program = expr::compile(gain.value, scope);
+      const bool known = std::all_of(program.inputs.begin(), program.inputs.end(),
+                                     [&](const expr::Input& input) { return values.contains(input.name); });
+      if (known) gains_.gains.emplace_back(gain.name, expr::evaluate(program, values));
+    }
+  }
+
+  Clock::time_point start_ = Clock::now();
+  const model::Instance& instance_;
+  const sdp::Options& options_;
+  const model::SynthesisOptions& choices_;
+  lmi::Lmi lmi_;
+  std::vector<lmi::GainBoundBlock> bounds_;
+  lmi::Formulation formulation_;
+  sdp::Solution solution_;
+  std::vector<double> x_;
+  model::Gains gains_;
+  double compile_seconds_ = 0;
+  double solve_seconds_ = 0;
+};
+
+}  // namespace
+
+model::Gains synthesize(const model::Instance& instance, const sdp::Options& options) {
+  return Synthesis(instance, options).run();
+}
+
+}  // namespace gainsmith::design

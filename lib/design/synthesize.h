@@ -1,0 +1,23 @@
+// From a problem to gains.
+#pragma once
+
+#include "model/gains.h"
+#include "model/instance.h"
+#include "sdp/solver.h"
+
+namespace gainsmith::design {
+
+/// Compiles the method's inequalities for the instance, solves them and reads the gains back.
+///
+/// verdict yes: every inequality holds at the matrices as written (margins recomputed in double), the solver
+///   said optimal, and strict inequalities keep the margin that was asked for up to 1 %.
+/// verdict no: there is no solution, by a Farkas certificate that was checked on the raw data; the
+///   certificate and its multipliers are stored.
+/// verdict undecided: neither, with the cause. Then no gains are given but those that the method takes as
+///   data.
+///
+/// Gains that depend on data alone (an analysis) are written whatever the verdict. InputError for what
+/// cannot be compiled.
+model::Gains synthesize(const model::Instance& instance, const sdp::Options& options);
+
+}  // namespace gainsmith::design

@@ -1,0 +1,289 @@
+#include "lmi/affine.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "expr/real.h"
+
+namespace gainsmith::lmi {
+
+namespace {
+
+using Key = std::pair<int, int>;
+
+expr::Shape transposed(expr::Shape shape) { return {shape.cols, shape.rows}; }
+
+Sparse sparse(const expr::Matrix& matrix) { return matrix.sparseView(0.0, 0.0); }
+
+void accumulate(AffineForm& form, Key key, const Sparse& matrix, double factor = 1) {
+  if (matrix.nonZeros() == 0 || factor == 0) return;
+  const auto [found, fresh] = form.terms.try_emplace(key, factor * matrix);
+  if (fresh) return;
+  found->second = found->second + factor * matrix;
+  found->second.prune(0.0, 0.0);
+  if (found->second.nonZeros() == 0) form.terms.erase(found);
+}
+
+/// The form with every coefficient mapped linearly.
+template <class Map>
+AffineForm map_terms(const AffineForm& form, expr::Shape shape, Map map) {
+  AffineForm result{shape, {}};
+  for (const auto& [key, matrix] : form.terms) accumulate(result, key, map(matrix));
+  return result;
+}
+
+AffineForm sum(const AffineForm& a, const AffineForm& b, double factor) {
+  AffineForm result = a;
+  for (const auto& [key, matrix] : b.terms) accumulate(result, key, matrix, factor);
+  return result;
+}
+
+expr::Matrix dense_constant(const AffineForm& form) {
+  const auto found = form.terms.find({0, 0});
+  if (found == form.terms.end()) return expr::Matrix::Zero(form.shape.rows, form.shape.cols);
+  return expr::Matrix(found->second);
+}
+
+/// A matrix from the elements of `matrix` moved to other places.
+template <class Move>
+Sparse moved(const Sparse& matrix, int rows, int cols, Move move) {
+  std::vector<Eigen::Triplet<double>> elements;
+  for (int k = 0; k < matrix.outerSize(); ++k)
+    for (Sparse::InnerIterator it(matrix, k); it; ++it) move(it, elements);
+  Sparse result(rows, cols);
+  result.setFromTriplets(elements.begin(), elements.end());
+  return result;
+}
+
+AffineForm shifted(const AffineForm& form, expr::Shape shape, int row, int column) {
+  return map_terms(form, shape, [&](const Sparse& matrix) {
+    return moved(matrix, shape.rows, shape.cols, [&](const auto& it, auto& elements) {
+      elements.emplace_back(static_cast<int>(it.row()) + row, static_cast<int>(it.col()) + column, it.value());
+    });
+  });
+}
+
+AffineForm blocks(const expr::Instruction& instruction, std::span<const AffineForm* const> operands) {
+  AffineForm result{instruction.shape, {}};
+  const auto columns = static_cast<std::size_t>(instruction.attributes[0]);
+  int row = 0;
+  for (std::size_t first = 0; first < operands.size(); first += columns) {
+    int column = 0;
+    for (std::size_t j = first; j < first + columns; ++j) {
+      const AffineForm placed = shifted(*operands[j], instruction.shape, row, column);
+      for (const auto& [key, matrix] : placed.terms) accumulate(result, key, matrix);
+      column += operands[j]->shape.cols;
+    }
+    row += operands[first]->shape.rows;
+  }
+  return result;
+}
+
+AffineForm index(const expr::Instruction& instruction, const AffineForm& form) {
+  const auto& [row, row_end, column, column_end] = instruction.attributes;
+  return map_terms(form, instruction.shape, [&, row = row, column = column](const Sparse& matrix) {
+    return Sparse(matrix.block(row, column, instruction.shape.rows, instruction.shape.cols));
+  });
+}
+
+AffineForm identity(const AffineForm& form, expr::Shape shape) {
+  return map_terms(form, shape, [&](const Sparse& matrix) {
+    Sparse eye(shape.rows, shape.cols);
+    eye.setIdentity();
+    return Sparse(matrix.coeff(0, 0) * eye);
+  });
+}
+
+AffineForm trace(const AffineForm& form) {
+  return map_terms(form, {}, [](const Sparse& matrix) {
+    return sparse(expr::Matrix::Constant(1, 1, matrix.diagonal().sum()));
+  });
+}
+
+AffineForm diagonal(const expr::Instruction& instruction, const AffineForm& form) {
+  const expr::Shape shape = instruction.shape;
+  if (instruction.op == expr::Op::diagonal_of)
+    return map_terms(form, shape, [](const Sparse& matrix) { return sparse(matrix.diagonal()); });
+  return map_terms(form, shape, [&](const Sparse& matrix) {
+    return moved(matrix, shape.rows, shape.cols, [](const auto& it, auto& elements) {
+      const int at = static_cast<int>(it.row() + it.col());
+      elements.emplace_back(at, at, it.value());
+    });
+  });
+}
+
+bool all_constant(std::span<const AffineForm* const> operands) {
+  return std::all_of(operands.begin(), operands.end(), [](const AffineForm* form) { return form->is_constant(); });
+}
+
+}  // namespace
+
+bool AffineForm::is_constant() const {
+  return terms.empty() || (terms.size() == 1 && terms.begin()->first == Key{0, 0});
+}
+
+bool AffineForm::has_unknown(int* which) const {
+  for (const auto& [key, matrix] : terms) {
+    if (key.second == 0) continue;
+    if (which != nullptr) *which = key.second;
+    return true;
+  }
+  return false;
+}
+
+AffineForm constant_form(const expr::Matrix& matrix) {
+  AffineForm result{{static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols())}, {}};
+  accumulate(result, {0, 0}, sparse(matrix));
+  return result;
+}
+
+AffineForm unknown_form(const Unknown& unknown) {
+  AffineForm result{unknown.shape, {}};
+  for (int k = 0; k < unknown.count; ++k) {
+    Sparse matrix(unknown.shape.rows, unknown.shape.cols);
+    for (const auto& [row, column] : unknown.places(k)) matrix.insert(row, column) = 1;
+    matrix.makeCompressed();
+    result.terms.emplace(Key{0, unknown.first + k}, std::move(matrix));
+  }
+  return result;
+}
+
+AffineForm variable_form(AtomTable& atoms) {
+  AffineForm result;
+  accumulate(result, {atoms.index({1, 0, 0, false}), 0}, sparse(expr::Matrix::Ones(1, 1)));
+  return result;
+}
+
+namespace {
+
+/// The rules of one evaluation, with the tables for messages.
+class Rules {
+ public:
+  Rules(AtomTable& atoms, const Unknowns& unknowns) : atoms_(atoms), unknowns_(unknowns) {}
+
+  AffineForm product(const AffineForm& a, const AffineForm& b, expr::Shape shape, bool scaling) const {
+    refuse_two_unknowns(a, b);
+    AffineForm result{shape, {}};
+    for (const auto& [left_key, left] : a.terms) {
+      for (const auto& [right_key, right] : b.terms) {
+        const Sparse matrix = scaling ? Sparse(left.coeff(0, 0) * right) : Sparse(left * right);
+        for (const auto& [factor, atom] : atoms_.product(left_key.first, right_key.first))
+          accumulate(result, {atom, left_key.second + right_key.second}, matrix, factor);
+      }
+    }
+    return result;
+  }
+
+  AffineForm power(const AffineForm& form, int exponent) const {
+    AffineForm result = constant_form(expr::Matrix::Identity(form.shape.rows, form.shape.rows));
+    for (int i = 0; i < exponent; ++i) result = product(result, form, form.shape, false);
+    return result;
+  }
+
+  AffineForm quotient(const AffineForm& a, const AffineForm& b) const {
+    if (!b.is_constant()) refuse(expr::Op::divide, b);
+    const double divisor = dense_constant(b)(0, 0);
+    if (divisor == 0) throw expr::EvaluationError("division by zero");
+    return map_terms(a, a.shape, [&](const Sparse& matrix) { return Sparse(matrix / divisor); });
+  }
+
+  /// exp, sin or cos of c0 + c1 tau.
+  AffineForm function_of_tau(expr::Op op, const AffineForm& form) const {
+    double offset = 0;
+    double slope = 0;
+    for (const auto& [key, matrix] : form.terms) {
+      const Atom& atom = atoms_[key.first];
+      const bool linear = atom == Atom{1, 0, 0, false};
+      if (key.second != 0 || !form.shape.is_scalar() || (key.first != 0 && !linear)) refuse(op, form);
+      (linear ? slope : offset) = matrix.coeff(0, 0);
+    }
+    AffineForm result;
+    const auto add = [&](double factor, const Atom& atom) {
+      accumulate(result, {atoms_.index(atom), 0}, sparse(expr::Matrix::Constant(1, 1, factor)));
+    };
+    if (op == expr::Op::exp) {
+      add(std::exp(offset), {0, slope, 0, false});
+      return result;
+    }
+    // sin(c0 + c1 t) = sin c0 cos c1 t + cos c0 sin c1 t; cos likewise. b >= 0 in an atom.
+    const double sign = slope < 0 ? -1 : 1;
+    const bool sine = op == expr::Op::sin;
+    add(sine ? std::sin(offset) : std::cos(offset), {0, 0, std::abs(slope), false});
+    add(sign * (sine ? std::cos(offset) : -std::sin(offset)), {0, 0, std::abs(slope), true});
+    return result;
+  }
+
+  [[noreturn]] void refuse(expr::Op op, const AffineForm& form) const {
+    int which = 0;
+    if (form.has_unknown(&which))
+      throw expr::EvaluationError("not affine in the unknowns: the " + to_string(op) + " depends on " +
+                                  unknowns_.scalar_name(which));
+    throw expr::EvaluationError(
+        "the " + to_string(op) +
+        " of a function of the 'forall' variable: over an interval only sums and products of powers, exp, sin "
+        "and cos of affine functions are taken; use a finite set {a, b, ...}");
+  }
+
+ private:
+  void refuse_two_unknowns(const AffineForm& a, const AffineForm& b) const {
+    int first = 0;
+    int second = 0;
+    if (!a.has_unknown(&first) || !b.has_unknown(&second)) return;
+    throw expr::EvaluationError("not affine in the unknowns: a product of " + unknowns_.scalar_name(first) +
+                                " and " + unknowns_.scalar_name(second));
+  }
+
+  AtomTable& atoms_;
+  const Unknowns& unknowns_;
+};
+
+}  // namespace
+
+void AffineAlgebra::apply(const expr::Instruction& instruction,
+                          std::span<const AffineForm* const> operands, AffineForm& out) const {
+  using expr::Op;
+  const Rules rules(*atoms, *unknowns);
+  const auto a = [&]() -> const AffineForm& { return *operands[0]; };
+  const auto b = [&]() -> const AffineForm& { return *operands[1]; };
+  if (all_constant(operands)) {
+    std::vector<expr::Matrix> dense;
+    std::vector<const expr::Matrix*> pointers;
+    for (const AffineForm* operand : operands) dense.push_back(dense_constant(*operand));
+    for (const expr::Matrix& matrix : dense) pointers.push_back(&matrix);
+    expr::Matrix result;
+    expr::RealAlgebra().apply(instruction, pointers, result);
+    out = constant_form(result);
+    return;
+  }
+  switch (instruction.op) {
+    case Op::add: out = sum(a(), b(), 1); break;
+    case Op::subtract: out = sum(a(), b(), -1); break;
+    case Op::negate: out = sum({a().shape, {}}, a(), -1); break;
+    case Op::multiply: out = rules.product(a(), b(), instruction.shape, false); break;
+    case Op::scale: out = rules.product(a(), b(), instruction.shape, true); break;
+    case Op::divide: out = rules.quotient(a(), b()); break;
+    case Op::power: out = rules.power(a(), instruction.attributes[0]); break;
+    case Op::transpose:
+      out = map_terms(a(), transposed(a().shape), [](const Sparse& m) { return Sparse(m.transpose()); });
+      break;
+    case Op::blocks: out = blocks(instruction, operands); break;
+    case Op::index: out = index(instruction, a()); break;
+    case Op::identity: out = identity(a(), instruction.shape); break;
+    case Op::fill:
+      out = rules.product(a(), constant_form(expr::Matrix::Ones(instruction.shape.rows, instruction.shape.cols)),
+                          instruction.shape, true);
+      break;
+    case Op::trace: out = trace(a()); break;
+    case Op::diagonal_matrix:
+    case Op::diagonal_of: out = diagonal(instruction, a()); break;
+    case Op::exp:
+    case Op::sin:
+    case Op::cos: out = rules.function_of_tau(instruction.op, a()); break;
+    default:
+      for (const AffineForm* operand : operands)
+        if (!operand->is_constant()) rules.refuse(instruction.op, *operand);
+  }
+}
+
+}  // namespace gainsmith::lmi

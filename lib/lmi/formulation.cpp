@@ -1,0 +1,192 @@
+#include "lmi/formulation.h"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+#include <utility>
+
+namespace gainsmith::lmi {
+
+namespace {
+
+/// On unknowns when nothing else bounds them, relative to the size that the data set.
+constexpr double kLimit = 1e6;
+
+double data_size(const Lmi& lmi) {
+  double kappa = std::numeric_limits<double>::infinity();
+  for (const Block& block : lmi.blocks)
+    if (block.constant_size > 0 && block.coefficient_size > 0)
+      kappa = std::min(kappa, block.constant_size / block.coefficient_size);
+  return kappa == std::numeric_limits<double>::infinity() ? 1 : kappa;
+}
+
+std::vector<double> scales_of(const Lmi& lmi, bool homogeneous) {
+  const double kappa = data_size(lmi);
+  std::vector<double> scales;
+  for (const Block& block : lmi.blocks) {
+    const double scale = homogeneous ? block.coefficient_size
+                                     : std::max(block.constant_size, kappa * block.coefficient_size);
+    scales.push_back(scale > 0 ? scale : 1);
+  }
+  return scales;
+}
+
+/// Fills an SDP in the SDPA form X = sum x_i F_i - F_0 from blocks B(x) = B_0 + sum x_i B_i >= shift.
+class Assembler {
+ public:
+  explicit Assembler(int variables) {
+    problem_.c.assign(static_cast<std::size_t>(variables), 0.0);
+    problem_.f.resize(static_cast<std::size_t>(variables) + 1);
+  }
+
+  int add_block(int size, bool diagonal) {
+    problem_.blocks.push_back({size, diagonal});
+    return static_cast<int>(problem_.blocks.size()) - 1;
+  }
+
+  /// B(x) >= shift I.
+  void add(const Block& block, double shift) {
+    const int at = add_block(block.size, false);
+    for (const auto& [i, matrix] : block.terms) {
+      for (int k = 0; k < matrix.outerSize(); ++k)
+        for (Sparse::InnerIterator it(matrix, k); it; ++it)
+          if (it.row() <= it.col())
+            add_entry(i, at, static_cast<int>(it.row()), static_cast<int>(it.col()), it.value());
+    }
+    add_identity(0, at, block.size, -shift);
+  }
+
+  /// The coefficient of variable i (0: the constant B_0) at one place of the upper triangle.
+  void add_entry(int i, int block, int row, int column, double value) {
+    if (value == 0) return;
+    problem_.f[static_cast<std::size_t>(i)].push_back({block, row, column, i == 0 ? -value : value});
+  }
+
+  void add_identity(int i, int block, int size, double factor) {
+    for (int k = 0; k < size; ++k) add_entry(i, block, k, k, factor);
+  }
+
+  void set_cost(int i, double cost) { problem_.c[static_cast<std::size_t>(i) - 1] = cost; }
+
+  /// The problem with entries of one place merged.
+  sdp::Problem take() {
+    for (auto& entries : problem_.f) merge(entries);
+    return std::move(problem_);
+  }
+
+ private:
+  static void merge(std::vector<sdp::Entry>& entries) {
+    const auto key = [](const sdp::Entry& e) { return std::tuple(e.block, e.row, e.column); };
+    std::stable_sort(entries.begin(), entries.end(),
+                     [&](const sdp::Entry& a, const sdp::Entry& b) { return key(a) < key(b); });
+    std::vector<sdp::Entry> merged;
+    for (const sdp::Entry& entry : entries) {
+      if (!merged.empty() && key(merged.back()) == key(entry)) {
+        merged.back().value += entry.value;
+      } else {
+        merged.push_back(entry);
+      }
+    }
+    std::erase_if(merged, [](const sdp::Entry& entry) { return entry.value == 0; });
+    entries = std::move(merged);
+  }
+
+  sdp::Problem problem_;
+};
+
+/// -r <= x_i <= r with r the variable `size_variable`, or the constant `limit` when it is 0.
+void add_limits(Assembler& assembler, int m, int size_variable, double limit) {
+  const int at = assembler.add_block(2 * m, true);
+  for (int i = 1; i <= m; ++i) {
+    for (int side = 0; side < 2; ++side) {
+      const int row = 2 * (i - 1) + side;
+      assembler.add_entry(i, at, row, row, side == 0 ? 1.0 : -1.0);
+      assembler.add_entry(size_variable, at, row, row, size_variable == 0 ? limit : 1.0);
+    }
+  }
+}
+
+/// t <= 1.
+void add_cap(Assembler& assembler, int variable) {
+  const int at = assembler.add_block(1, true);
+  assembler.add_entry(0, at, 0, 0, 1.0);
+  assembler.add_entry(variable, at, 0, 0, -1.0);
+}
+
+}  // namespace
+
+Goal goal_of(const Lmi& lmi) {
+  const bool homogeneous = lmi.is_homogeneous();
+  if (lmi.has_objective) return homogeneous ? Goal::normalised_objective : Goal::bounded_objective;
+  return homogeneous ? Goal::homogeneous_feasibility : Goal::feasibility;
+}
+
+Formulation formulate(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
+                      const model::SynthesisOptions& options, Goal goal) {
+  Formulation result;
+  result.goal = goal;
+  result.margin = options.margin;
+  result.scales = scales_of(lmi, result.homogeneous());
+  const int m = lmi.unknowns.size();
+  const bool extra = goal == Goal::homogeneous_feasibility || goal == Goal::feasibility;
+  Assembler assembler(m + (extra ? 1 : 0));
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+    const Block& block = lmi.blocks[k];
+    const double unit = block.strict ? result.scales[k] : 0.0;
+    const bool variable_margin = goal == Goal::feasibility;
+    assembler.add(block, variable_margin ? 0.0 : unit * (result.homogeneous() ? 1.0 : options.margin));
+    if (variable_margin && block.strict)
+      assembler.add_identity(m + 1, static_cast<int>(k), block.size, -unit);
+  }
+  for (const GainBoundBlock& bound : bounds) assembler.add(bound.block, 0);
+  result.lmi_blocks = static_cast<int>(lmi.blocks.size());
+  result.bound_blocks = static_cast<int>(bounds.size());
+  if (goal == Goal::homogeneous_feasibility) {
+    add_limits(assembler, m, m + 1, 0);
+    assembler.set_cost(m + 1, 1);
+  } else if (goal == Goal::feasibility) {
+    add_limits(assembler, m, 0, kLimit * data_size(lmi));
+    add_cap(assembler, m + 1);
+    assembler.set_cost(m + 1, -1);
+  } else if (goal == Goal::certificate) {
+    add_limits(assembler, m, 0, kLimit * data_size(lmi));
+  } else {
+    for (int i = 1; i <= m; ++i) assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1]);
+  }
+  result.problem = assembler.take();
+  return result;
+}
+
+std::vector<double> read_back(const Lmi& lmi, const sdp::Solution& solution) {
+  std::vector<double> x = solution.x;
+  x.resize(static_cast<std::size_t>(lmi.unknowns.size()));
+  return x;
+}
+
+double objective_lower_bound(const Lmi& lmi, const Formulation& formulation, const sdp::Solution& solution) {
+  // F_0 holds the margins as +margin s_k on the diagonal of strict blocks: take them out again.
+  double bound = solution.dual_objective + lmi.objective_constant;
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+    const Block& block = lmi.blocks[k];
+    if (!block.strict) continue;
+    const auto n = static_cast<std::size_t>(block.size);
+    for (std::size_t i = 0; i < n; ++i)
+      bound -= formulation.margin * formulation.scales[k] * solution.Y.values[k][i * n + i];
+  }
+  return bound;
+}
+
+model::NamedMatrices multipliers(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
+                                 const Formulation& formulation, const sdp::Solution& solution) {
+  model::NamedMatrices result;
+  const auto add = [&](const Block& block, std::size_t at) {
+    const std::string name = block.name + (block.point.empty() ? "" : " at " + block.point);
+    result.emplace_back(name, Eigen::Map<const expr::Matrix>(solution.Y.values[at].data(), block.size, block.size));
+  };
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) add(lmi.blocks[k], k);
+  for (std::size_t k = 0; k < bounds.size(); ++k)
+    add(bounds[k].block, static_cast<std::size_t>(formulation.lmi_blocks) + k);
+  return result;
+}
+
+}  // namespace gainsmith::lmi

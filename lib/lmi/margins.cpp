@@ -1,0 +1,99 @@
+#include "lmi/margins.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/number.h"
+#include "expr/compile.h"
+
+namespace gainsmith::lmi {
+
+namespace {
+
+double smallest_eigenvalue(const expr::Matrix& matrix) {
+  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(0.5 * (matrix + matrix.transpose()), Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .minCoeff();
+}
+
+/// The smallest eigenvalue met so far, and where.
+struct Worst {
+  double value = std::numeric_limits<double>::infinity();
+  double element = 0;   ///< largest |element| of that block
+  std::string point;
+
+  void meet(const expr::Matrix& block, const std::string& where) {
+    const double found = smallest_eigenvalue(block);
+    if (!(found < value)) return;
+    value = found;
+    element = block.cwiseAbs().maxCoeff();
+    point = where;
+  }
+};
+
+/// Every point of `forall`: elements of sets and, of an interval, equidistant points.
+void sample(const model::Instance& instance, const model::Requirement& requirement, std::size_t depth,
+            expr::Values& values, const std::string& label, const expr::Program& program, Worst& worst) {
+  if (depth == requirement.forall.size()) {
+    worst.meet(expr::evaluate(program, values), label);
+    return;
+  }
+  const model::Forall& forall = requirement.forall[depth];
+  std::vector<double> points;
+  for (const expr::Expression& point : forall.points)
+    points.push_back(model::scalar_value(point, instance.scope, values));
+  if (forall.interval) {
+    constexpr int kPieces = 32;
+    const double low = points[0];
+    const double high = points[1];
+    points.clear();
+    for (int i = 0; i <= kPieces; ++i) points.push_back(i == kPieces ? high : low + (high - low) * i / kPieces);
+  }
+  for (const double point : points) {
+    values[forall.variable] = expr::Matrix::Constant(1, 1, point);
+    const std::string text = forall.variable + " = " + brief(point);
+    sample(instance, requirement, depth + 1, values, label.empty() ? text : label + ", " + text, program, worst);
+  }
+}
+
+}  // namespace
+
+std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& lmi,
+                                   const std::vector<double>& scales, bool homogeneous, double required,
+                                   const std::vector<double>& x) {
+  constexpr double kRounding = 1e-12;
+  double size = 0;
+  for (const double value : x) size = std::max(size, std::abs(value));
+  expr::Values values = instance.known_values();
+  for (auto& [name, matrix] : lmi.unknowns.values(x)) values[name] = matrix;
+
+  std::vector<model::Margin> result;
+  std::size_t at = 0;
+  for (const model::Requirement& requirement : instance.method->require) {
+    expr::Scope scope = instance.design_scope();
+    for (const model::Forall& forall : requirement.forall) scope.symbols[forall.variable] = {{}, std::nullopt};
+    for (const auto& relation : expr::compile_relations(requirement.that, scope)) {
+      model::Margin margin;
+      margin.name = lmi.blocks[at].name;
+      margin.strict = relation.strict;
+      margin.scale = scales[at] * (homogeneous ? size : 1.0);
+      margin.required = relation.strict ? required : 0.0;
+      Worst worst;
+      for (; at < lmi.blocks.size() && lmi.blocks[at].name == margin.name; ++at) {
+        worst.meet(lmi.blocks[at].value(x), lmi.blocks[at].point);
+        margin.scale = std::max(margin.scale, scales[at] * (homogeneous ? size : 1.0));
+      }
+      sample(instance, requirement, 0, values, "", relation.difference, worst);
+      margin.smallest_eigenvalue = worst.value;
+      margin.worst_point = worst.point;
+      margin.reached = margin.scale > 0 ? worst.value / margin.scale : 0.0;
+      margin.holds = relation.strict ? worst.value > 0 : worst.value >= -kRounding * worst.element;
+      result.push_back(std::move(margin));
+    }
+  }
+  return result;
+}
+
+}  // namespace gainsmith::lmi

@@ -1,0 +1,69 @@
+#include "lmi/unknowns.h"
+
+namespace gainsmith::lmi {
+
+std::vector<std::pair<int, int>> Unknown::places(int k) const {
+  const int rows = shape.rows;
+  switch (structure) {
+    case model::Structure::diagonal: return {{k, k}};
+    case model::Structure::symmetric: {
+      int column = 0;
+      while (k >= rows - column) {
+        k -= rows - column;
+        ++column;
+      }
+      const int row = column + k;
+      if (row == column) return {{row, column}};
+      return {{row, column}, {column, row}};
+    }
+    case model::Structure::full:
+    case model::Structure::scalar: break;
+  }
+  return {{k % rows, k / rows}};
+}
+
+Unknowns::Unknowns(const model::Instance& instance) {
+  for (std::size_t i = 0; i < instance.unknowns.size(); ++i) {
+    Unknown unknown;
+    unknown.name = instance.unknowns[i].first;
+    unknown.structure = instance.method->unknowns[i].shape.structure;
+    unknown.shape = instance.unknowns[i].second;
+    unknown.first = size_ + 1;
+    const int n = unknown.shape.rows;
+    unknown.count = unknown.structure == model::Structure::symmetric  ? n * (n + 1) / 2
+                    : unknown.structure == model::Structure::diagonal ? n
+                                                                      : unknown.shape.size();
+    size_ += unknown.count;
+    list_.push_back(std::move(unknown));
+  }
+}
+
+const Unknown* Unknowns::find(const std::string& name) const {
+  for (const Unknown& unknown : list_)
+    if (unknown.name == name) return &unknown;
+  return nullptr;
+}
+
+std::string Unknowns::scalar_name(int i) const {
+  for (const Unknown& unknown : list_) {
+    if (i < unknown.first || i >= unknown.first + unknown.count) continue;
+    if (unknown.shape.is_scalar()) return unknown.name;
+    const auto [row, column] = unknown.places(i - unknown.first).front();
+    return unknown.name + "(" + std::to_string(row + 1) + "," + std::to_string(column + 1) + ")";
+  }
+  return "x" + std::to_string(i);
+}
+
+expr::Values Unknowns::values(const std::vector<double>& x) const {
+  expr::Values result;
+  for (const Unknown& unknown : list_) {
+    expr::Matrix matrix = expr::Matrix::Zero(unknown.shape.rows, unknown.shape.cols);
+    for (int k = 0; k < unknown.count; ++k)
+      for (const auto& [row, column] : unknown.places(k))
+        matrix(row, column) = x[static_cast<std::size_t>(unknown.first - 1 + k)];
+    result[unknown.name] = std::move(matrix);
+  }
+  return result;
+}
+
+}  // namespace gainsmith::lmi

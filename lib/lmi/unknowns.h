@@ -1,0 +1,46 @@
+// The unknown matrices as one vector x of scalars, and back.
+//
+// Packing: unknowns in the order of the method. A symmetric n x n matrix takes n(n+1)/2 scalars, column
+// by column of its lower triangle: x = (M11, M21, ..., Mn1, M22, ...), without factors sqrt(2); a full
+// r x c matrix takes r c scalars column by column; a diagonal matrix takes its diagonal.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "expr/real.h"
+#include "model/instance.h"
+
+namespace gainsmith::lmi {
+
+struct Unknown {
+  std::string name;
+  model::Structure structure = model::Structure::full;
+  expr::Shape shape;
+  int first = 1;   ///< index of its first scalar, counted from 1; x_0 = 1 is the constant
+  int count = 0;
+
+  /// The places (row, column) of scalar `first + k`: one, or two mirrored ones.
+  std::vector<std::pair<int, int>> places(int k) const;
+};
+
+class Unknowns {
+ public:
+  explicit Unknowns(const model::Instance& instance);
+
+  /// The number m of scalars.
+  int size() const { return size_; }
+  const std::vector<Unknown>& list() const { return list_; }
+  const Unknown* find(const std::string& name) const;
+  /// "P1(2,1)" for scalar i = 1..m.
+  std::string scalar_name(int i) const;
+  /// The matrices of a vector x of m scalars (x[i-1] is scalar i).
+  expr::Values values(const std::vector<double>& x) const;
+
+ private:
+  std::vector<Unknown> list_;
+  int size_ = 0;
+};
+
+}  // namespace gainsmith::lmi

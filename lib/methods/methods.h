@@ -1,0 +1,24 @@
+// The published methods as text, built into the program: every *.yaml file of this room.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gainsmith::methods {
+
+struct Text {
+  std::string_view name;   ///< of the file, without .yaml; equal to its `method:`
+  std::string_view text;
+};
+
+/// In alphabetical order.
+std::span<const Text> all();
+
+std::optional<std::string> find(std::string_view name);
+
+std::vector<std::string> names();
+
+}  // namespace gainsmith::methods
