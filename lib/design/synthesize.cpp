@@ -44,6 +44,7 @@ class Synthesis {
       bounds_ = lmi::gain_bounds(instance, lmi_.unknowns, *choices_.gain_bound);
     gains_.problem_name = instance.problem->name;
     gains_.version = kVersion;
+    gains_.statement = model::statement_of(*instance.problem);
     for (const auto& parameter : instance.method->parameters)
       gains_.parameters.emplace_back(parameter.name, instance.parameters.at(parameter.name));
     compile_seconds_ = seconds_since(start_);

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/hash.h"
 
 namespace gainsmith::io {
 
@@ -175,7 +174,7 @@ model::Statement statement_of(const Reader& reader) {
   model::Statement statement{reader.at("method").text(), reader.at("method_text").text(),
                              reader.at("problem_file").text(), reader.at("problem_text").text(),
                              reader.at("sha256").text()};
-  if (statement_hash(statement) != statement.hash)
+  if (model::statement_hash(statement) != statement.hash)
     reader.fail("the method or problem text does not match its sha256: the file was edited");
   return statement;
 }
@@ -190,10 +189,6 @@ Json matrix_json(const expr::Matrix& matrix) {
     rows.push_back(std::move(row));
   }
   return rows;
-}
-
-std::string statement_hash(const model::Statement& statement) {
-  return sha256(statement.method_text + '\0' + statement.problem_text);
 }
 
 Json to_json(const model::Gains& gains) {

@@ -24,9 +24,6 @@ model::Gains parse_gains(const std::string& text, const std::string& file);
 /// method of that name says today.
 model::Problem stated_problem(const model::Gains& gains, const std::string& file);
 
-/// sha256 of the method's text, a zero byte and the problem's text.
-std::string statement_hash(const model::Statement& statement);
-
 /// A matrix as a list of rows.
 Json matrix_json(const expr::Matrix& matrix);
 

@@ -1,5 +1,9 @@
 #include "model/gains.h"
 
+#include <filesystem>
+
+#include "base/hash.h"
+
 namespace gainsmith::model {
 
 const expr::Matrix* Gains::find(const std::string& name) const {
@@ -7,6 +11,17 @@ const expr::Matrix* Gains::find(const std::string& name) const {
     for (const auto& [key, matrix] : *list)
       if (key == name) return &matrix;
   return nullptr;
+}
+
+std::string statement_hash(const Statement& statement) {
+  return sha256(statement.method_text + '\0' + statement.problem_text);
+}
+
+Statement statement_of(const Problem& problem) {
+  Statement statement{problem.method->name, problem.method->text,
+                      std::filesystem::path(problem.file).filename().string(), problem.text, ""};
+  statement.hash = statement_hash(statement);
+  return statement;
 }
 
 }  // namespace gainsmith::model

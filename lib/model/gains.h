@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "expr/matrix.h"
+#include "model/problem.h"
 #include "model/words.h"
 
 namespace gainsmith::model {
@@ -60,8 +61,14 @@ struct Statement {
   std::string method_text;
   std::string problem_file;     ///< its name only, no folders of the machine
   std::string problem_text;
-  std::string hash;             ///< sha256 of method text, a zero byte and problem text
+  std::string hash;             ///< statement_hash
 };
+
+/// sha256 of the method's text, a zero byte and the problem's text.
+std::string statement_hash(const Statement& statement);
+
+/// The statement of a problem as it was read.
+Statement statement_of(const Problem& problem);
 
 struct Gains {
   std::string problem_name;

@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gainsmith/commands.h"
+#include "gainsmith/load.h"
+#include "io/json_text.h"
+#include "lmi/compile.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+struct CheckOptions {
+  std::vector<std::string> problems;
+  bool json = false;
+};
+
+/// What a valid problem asks for.
+io::Json description(const Loaded& loaded) {
+  const lmi::Lmi lmi = lmi::compile(loaded.instance);
+  io::Json sizes = io::Json::object();
+  for (const auto& [name, size] : loaded.instance.dimensions) sizes[name] = size;
+  return {{"valid", true},
+          {"problem", loaded.problem->name},
+          {"method", loaded.problem->method_name},
+          {"dimensions", sizes},
+          {"unknown_scalars", lmi.unknowns.size()},
+          {"blocks", lmi.blocks.size()}};
+}
+
+ExitCode check(const CheckOptions& options) {
+  ExitCode exit = ExitCode::yes;
+  io::Json results = io::Json::array();
+  for (const std::string& path : options.problems) {
+    try {
+      io::Json found = description(load_problem(path));
+      if (!options.json)
+        fmt::print("{}: valid: method {}, {} unknown scalars, {} inequality blocks\n", path,
+                   found["method"].get<std::string>(), found["unknown_scalars"].get<int>(),
+                   found["blocks"].get<int>());
+      found["file"] = path;
+      results.push_back(std::move(found));
+    } catch (const InputError& error) {
+      exit = ExitCode::bad_input;
+      fmt::print(stderr, "gainsmith: {}\n", error.what());
+      results.push_back({{"valid", false},
+                         {"file", error.place().file},
+                         {"line", error.place().line},
+                         {"column", error.place().column},
+                         {"message", error.message()}});
+    }
+  }
+  if (options.json) fmt::print("{}", io::to_text(results));
+  return exit;
+}
+
+}  // namespace
+
+void add_check(CLI::App& program, ExitCode& exit) {
+  auto options = std::make_shared<CheckOptions>();
+  CLI::App* command = program.add_subcommand("check", "Validate problem files without solving");
+  command->add_option("problems", options->problems, "problem files (YAML)")->required();
+  command->add_flag("--json", options->json, "print the result as JSON");
+  command->footer(
+      "Exit code: 0 all valid, 2 otherwise.\n"
+      "Example:\n"
+      "  gainsmith check problems/ferrante-seuret-2021/*.yaml");
+  command->callback([options, &exit] { exit = check(*options); });
+}
+
+}  // namespace gainsmith::app

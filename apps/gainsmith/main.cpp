@@ -1,0 +1,55 @@
+// The program: declares the subcommands and turns what happens into exit codes.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <new>
+
+#include "base/error.h"
+#include "base/version.h"
+#include "gainsmith/commands.h"
+
+namespace {
+
+using gainsmith::ExitCode;
+
+int report(ExitCode code, const char* message) {
+  fmt::print(stderr, "gainsmith: {}\n", message);
+  return static_cast<int>(code);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  ExitCode exit = ExitCode::yes;
+  CLI::App program("gainsmith: observer gains by linear matrix inequalities, verified by simulation", "gainsmith");
+  program.set_version_flag("--version", std::string("gainsmith ") + gainsmith::kVersion);
+  program.require_subcommand(1);
+  program.footer(
+      "Exit codes of every subcommand: 0 done and the answer is yes; 1 done and the answer is no;\n"
+      "2 the command line or a file is wrong; 3 undecided; 70 a fault of the program.\n"
+      "Each subcommand has --help with examples.");
+  try {
+    gainsmith::app::add_synth(program, exit);
+    gainsmith::app::add_check(program, exit);
+    gainsmith::app::add_solve(program, exit);
+    gainsmith::app::add_methods(program, exit);
+    program.parse(argc, argv);
+    return static_cast<int>(exit);
+  } catch (const CLI::CallForHelp& request) {
+    return program.exit(request);
+  } catch (const CLI::CallForAllHelp& request) {
+    return program.exit(request);
+  } catch (const CLI::CallForVersion& request) {
+    return program.exit(request);
+  } catch (const CLI::ParseError& error) {
+    program.exit(error);
+    return static_cast<int>(ExitCode::bad_input);
+  } catch (const gainsmith::InputError& error) {
+    return report(ExitCode::bad_input, error.what());
+  } catch (const std::bad_alloc&) {
+    return report(ExitCode::fault, "out of memory");
+  } catch (const std::exception& error) {
+    return report(ExitCode::fault, (std::string("internal error: ") + error.what()).c_str());
+  }
+}

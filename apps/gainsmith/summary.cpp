@@ -1,0 +1,96 @@
+#include "gainsmith/summary.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+std::string named_matrices(const std::string& title, const model::NamedMatrices& matrices) {
+  std::string text;
+  for (const auto& [name, matrix] : matrices)
+    text += fmt::format("{:<12}{} = {}\n", text.empty() ? title : "", name, matrix_text(matrix));
+  return text;
+}
+
+std::string objective_text(const model::Gains& gains) {
+  if (!gains.objective) return "";
+  std::string text = fmt::format("objective   {}", brief(*gains.objective, 10));
+  if (gains.objective_lower_bound) {
+    const double price = *gains.objective - *gains.objective_lower_bound;
+    const double relative = price / std::max(std::abs(*gains.objective), 1e-300);
+    text += fmt::format("  (no solution without margins is below {}: the margins cost at most {})",
+                        brief(*gains.objective_lower_bound, 10), brief(relative, 2));
+  }
+  return text + "\n";
+}
+
+std::string margins_text(const model::Gains& gains) {
+  if (gains.margins.empty()) return "";
+  std::size_t width = 10;
+  for (const model::Margin& margin : gains.margins) width = std::max(width, margin.name.size());
+  std::string text = fmt::format("{:<{}}  {:>12}  {:>10}  {:>12}  {}\n", "inequality", width, "margin", "asked",
+                                 "eigenvalue", "worst at");
+  for (const model::Margin& margin : gains.margins)
+    text += fmt::format("{:<{}}  {:>12}  {:>10}  {:>12}  {}{}\n", margin.name, width, brief(margin.reached, 3),
+                        margin.strict ? brief(margin.required, 3) : ">= 0", brief(margin.smallest_eigenvalue, 3),
+                        margin.worst_point, margin.holds ? "" : "  DOES NOT HOLD");
+  return text;
+}
+
+std::string bounds_text(const model::Gains& gains) {
+  std::string text;
+  for (const model::GainBound& bound : gains.bounds)
+    if (bound.active)
+      text += fmt::format(
+          "gain bound  {} reaches {} of the bound {}: the bound is active and limits the design\n", bound.what,
+          brief(bound.reached), brief(bound.bound));
+  return text;
+}
+
+std::string certificate_text(const model::Gains& gains) {
+  if (!gains.certificate) return "";
+  const model::CertificateRecord& c = *gains.certificate;
+  return fmt::format(
+      "certificate multipliers Y >= 0 (smallest eigenvalue {}) with F_0.Y = {} and sum |F_i.Y| = {},\n"
+      "            recomputed from the problem's data: {}; no solution has entries below {} in size\n",
+      brief(c.min_eigenvalue, 3), brief(c.value), brief(c.residual, 3), c.checked ? "checked" : "NOT CHECKED",
+      brief(c.excluded_radius, 3));
+}
+
+}  // namespace
+
+std::string matrix_text(const expr::Matrix& matrix) {
+  if (matrix.size() == 1) return brief(matrix(0, 0));
+  std::string text = "[";
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    if (i > 0) text += "; ";
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) text += (j > 0 ? ", " : "") + brief(matrix(i, j));
+  }
+  return text + "]";
+}
+
+std::string verdict_line(const model::Gains& gains) {
+  std::string text = to_string(gains.verdict);
+  if (gains.verdict == model::Verdict::no) text += ", infeasible by a checked certificate";
+  if (gains.verdict == model::Verdict::undecided) text += ", " + gains.solver.cause;
+  if (gains.objective && gains.verdict == model::Verdict::yes) text += ", objective " + brief(*gains.objective);
+  return text;
+}
+
+std::string synthesis_summary(const model::Gains& gains) {
+  std::string text = fmt::format("problem     {}\nmethod      {}\nverdict     {} (solver: {}, {}, {} iterations)\n",
+                                 gains.problem_name, gains.statement.method_name, to_string(gains.verdict),
+                                 gains.solver.status, gains.solver.cause, gains.solver.iterations);
+  if (!gains.solver.message.empty()) text += "            " + gains.solver.message + "\n";
+  text += objective_text(gains) + named_matrices("gains", gains.gains) + named_matrices("parameters", gains.parameters);
+  text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);
+  return text;
+}
+
+}  // namespace gainsmith::app
