@@ -1,5 +1,6 @@
 #include "verify/check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -39,13 +40,14 @@ double score_of(double excess, double scale, bool violated) {
   return scale == 0 ? -1 : excess / std::abs(scale);
 }
 
-/// Whether value <= bound fails by more than rounding; a NaN fails. The floor costs several
-/// evaluations and is asked for only when it can matter.
-template <class Floor>
-bool exceeds(double value, double bound, double scale, Floor floor) {
-  const double slack = bound + kRelativeTolerance * std::abs(scale);
-  if (value <= slack) return false;
-  return !(value <= slack + floor());
+/// Whether value <= bound fails by more than the relative tolerance; a NaN fails.
+bool exceeds(double value, double bound, double scale, double floor = 0) {
+  return !(value <= bound + kRelativeTolerance * std::abs(scale) + floor);
+}
+
+/// max |x| over the samples up to `last`.
+double largest_state(const Arc& arc, std::size_t last) {
+  return arc.states().leftCols(static_cast<Index>(last) + 1).cwiseAbs().maxCoeff();
 }
 
 }  // namespace
@@ -94,21 +96,35 @@ Eigen::VectorXd Check::running_cost(const Arc& arc) {
 Finding Check::nonincreasing(const Arc& arc) {
   const Eigen::VectorXd v = values(arc);
   const std::size_t last = arc.samples() - 1;
-  Finding worst = finding_at(arc, last, v(v.size() - 1), v(0));
-  worst.score = score_of(worst.value - worst.bound, v(0), false);
+  std::vector<std::size_t> rising;  // by more than the relative tolerance
+  std::vector<double> bounds;
+  std::vector<double> scales;  // largest |x| so far
   double least = v(0);
+  double largest = 0;
   for (std::size_t k = 0; k <= last; ++k) {
     const double value = v(static_cast<Index>(k));
-    const auto floor = [&] { return rounding_floor(arc, k, k); };
-    if (exceeds(value, least, v(0), floor)) {
-      const double score = score_of(value - least, v(0), true);
-      if (!worst.violated || score > worst.score) {
-        worst = finding_at(arc, k, value, least);
-        worst.violated = true;
-        worst.score = score;
-      }
+    largest = std::max(largest, arc.state(k).cwiseAbs().maxCoeff());
+    if (exceeds(value, least, v(0))) {
+      rising.push_back(k);
+      bounds.push_back(least);
+      scales.push_back(largest);
     }
     if (value < least) least = value;
+  }
+
+  Finding worst = finding_at(arc, last, v(v.size() - 1), v(0));
+  worst.score = score_of(worst.value - worst.bound, v(0), false);
+  const Eigen::VectorXd floors = rounding_floors(
+      arc, rising,
+      Eigen::Map<const Eigen::VectorXd>(scales.data(), static_cast<Index>(scales.size())));
+  for (std::size_t i = 0; i < rising.size(); ++i) {
+    const double value = v(static_cast<Index>(rising[i]));
+    if (!exceeds(value, bounds[i], v(0), floors(static_cast<Index>(i)))) continue;
+    const double score = score_of(value - bounds[i], v(0), true);
+    if (worst.violated && !(score > worst.score)) continue;
+    worst = finding_at(arc, rising[i], value, bounds[i]);
+    worst.violated = true;
+    worst.score = score;
   }
   return worst;
 }
@@ -116,14 +132,13 @@ Finding Check::nonincreasing(const Arc& arc) {
 Finding Check::cost(const Arc& arc) {
   const Eigen::VectorXd c = running_cost(arc);
   const double bound = value_at(arc, 0);
-  Index worst = 0;
-  while (worst + 1 < c.size() && std::isnan(c(worst)) == false && std::isnan(c(worst + 1))) ++worst;
-  for (Index k = 0; k < c.size() && !std::isnan(c(worst)); ++k)
+  Index worst = 0;  // the largest cost; a NaN counts as the largest
+  for (Index k = 1; k < c.size() && !std::isnan(c(worst)); ++k)
     if (!(c(k) <= c(worst))) worst = k;
   const auto sample = static_cast<std::size_t>(worst);
   Finding finding = finding_at(arc, sample, c(worst), bound);
-  finding.violated =
-      exceeds(c(worst), bound, bound, [&] { return rounding_floor(arc, 0, sample); });
+  finding.violated = exceeds(c(worst), bound, bound) &&
+                     exceeds(c(worst), bound, bound, rounding_floor(arc, 0, sample));
   finding.score = score_of(c(worst) - bound, bound, finding.violated);
   return finding;
 }
@@ -134,9 +149,10 @@ Finding Check::shrinks(const Arc& arc) {
   const double factor = (*factor_)(arc.states().leftCols(1), timers(arc).head(1))(0, 0);
   Finding finding = finding_at(arc, last, value_at(arc, last), factor * start);
   if (start == 0) return finding;
-  finding.violated = exceeds(finding.value, finding.bound, finding.bound,
-                             [&] { return rounding_floor(arc, last, last); });
-  finding.score = score_of(finding.value - finding.bound, finding.bound, finding.violated);
+  const double bound = finding.bound;
+  finding.violated = exceeds(finding.value, bound, bound) &&
+                     exceeds(finding.value, bound, bound, rounding_floor(arc, last, last));
+  finding.score = score_of(finding.value - bound, bound, finding.violated);
   return finding;
 }
 
@@ -146,12 +162,27 @@ double Check::value_at(const Arc& arc, std::size_t sample) {
 }
 
 double Check::rounding_floor(const Arc& arc, std::size_t sample, std::size_t last) {
-  const double largest = arc.states().leftCols(static_cast<Index>(last) + 1).cwiseAbs().maxCoeff();
-  expr::Matrix states = arc.state(sample).replicate(1, arc.size + 1);
-  for (Index i = 0; i < arc.size; ++i) states(i, i + 1) += kStateRounding * largest;
-  const Eigen::VectorXd times = Eigen::VectorXd::Constant(arc.size + 1, arc.timer[sample]);
-  const Eigen::VectorXd v = value_(states, times).row(0).transpose();
-  return (v.tail(arc.size).array() - v(0)).abs().sum();
+  return rounding_floors(arc, {sample}, Eigen::VectorXd::Constant(1, largest_state(arc, last)))(0);
+}
+
+Eigen::VectorXd Check::rounding_floors(const Arc& arc, const std::vector<std::size_t>& samples,
+                                       const Eigen::VectorXd& largest) {
+  const Index points = arc.size + 1;  // the sample itself, then one element moved at a time
+  const auto count = static_cast<Index>(samples.size());
+  expr::Matrix states(arc.size, count * points);
+  Eigen::VectorXd taus(count * points);
+  for (Index i = 0; i < count; ++i) {
+    const std::size_t sample = samples[static_cast<std::size_t>(i)];
+    auto around = states.middleCols(i * points, points);
+    around = arc.state(sample).replicate(1, points);
+    around.rightCols(arc.size).diagonal().array() += kStateRounding * largest(i);
+    taus.segment(i * points, points).setConstant(arc.timer[sample]);
+  }
+  const Eigen::VectorXd v = value_(states, taus).row(0).transpose();
+  Eigen::VectorXd floors(count);
+  for (Index i = 0; i < count; ++i)
+    floors(i) = (v.segment(i * points + 1, arc.size).array() - v(i * points)).abs().sum();
+  return floors;
 }
 
 }  // namespace gainsmith::verify

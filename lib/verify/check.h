@@ -17,6 +17,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "hybrid/arc.h"
 #include "hybrid/steps.h"
@@ -61,6 +62,9 @@ class Check {
   double value_at(const hybrid::Arc& arc, std::size_t sample);
   /// The rounding floor of the value at `sample`, with the largest |x| up to the sample `last`.
   double rounding_floor(const hybrid::Arc& arc, std::size_t sample, std::size_t last);
+  /// The same at each of the samples; `largest` is max |x| for each.
+  Eigen::VectorXd rounding_floors(const hybrid::Arc& arc, const std::vector<std::size_t>& samples,
+                                  const Eigen::VectorXd& largest);
 
   model::Claim::Kind kind_;
   const hybrid::Steps* steps_;
