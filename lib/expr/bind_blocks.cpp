@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 
 #include "expr/binder.h"
@@ -76,11 +77,17 @@ Bound Binder::bind_block(const Expression& expression, const Node& node) {
       }
     }
   }
+  // A block without a matrix, a multiple of I or a "*" is a table of numbers: there a 0 is 1 x 1.
+  const auto at_most_one = [](int size) { return size == 1 || size == kUnknown; };
+  const bool numbers = !mirrored && std::ranges::all_of(partition.heights, at_most_one) &&
+                       std::ranges::all_of(partition.widths, at_most_one) &&
+                       std::ranges::none_of(entries, &Bound::identity);
+  for (auto* sizes : {&partition.heights, &partition.widths})
+    if (numbers) std::ranges::replace(*sizes, kUnknown, 1);
   for (int i = 0; i < rows; ++i) {
     for (int j = 0; j < columns; ++j) {
       Bound& value = entries[place(i, j)];
       if (value.at < 0) continue;
-      // A block of numbers alone: a bare number is 1 x 1.
       int& height = partition.heights[static_cast<std::size_t>(i)];
       int& width = partition.widths[static_cast<std::size_t>(j)];
       const bool row_of_zeros = height == kUnknown;
