@@ -1,0 +1,52 @@
+#include "hybrid/affine.h"
+
+#include <gtest/gtest.h>
+
+#include "expr/compile.h"
+#include "hybrid/text_problem.h"
+
+namespace gainsmith::hybrid {
+namespace {
+
+/// The operation that is not affine in x (2 x 1) and s (1 x 1), "" when there is none. M is
+/// constant.
+std::string culprit(const std::string& text) {
+  expr::Scope scope;
+  scope.symbols["x"] = {{2, 1}, std::nullopt};
+  scope.symbols["s"] = {{1, 1}, std::nullopt};
+  scope.symbols["M"] = {{2, 2}, std::nullopt};
+  const expr::Program program = expr::compile(tests::parse(text), scope);
+  const auto* at =
+      first_not_affine(program, [](const std::string& name) { return name == "x" || name == "s"; });
+  return at == nullptr ? "" : expr::to_string(at->op);
+}
+
+TEST(Affine, SumsAndProductsWithConstantsAreAffine) {
+  for (const char* text : {"M*x", "x + [1; 2]", "-x/trace(M)", "exp(M)*x - M*[s; s]", "x(1) - 3*s",
+                           "s*I + M", "trace(M*[x, x])", "[x; s; 1]", "x'*M", "inv(M)*expm(M)*x",
+                           "diag(x)", "where(trace(M) > 0, x, M*x)", "M^3*x", "s^1"})
+    EXPECT_EQ(culprit(text), "") << text;
+}
+
+TEST(Affine, OtherFunctionsOfTheStateAreNot) {
+  EXPECT_EQ(culprit("s*x"), "product");
+  EXPECT_EQ(culprit("x'*x"), "product");
+  EXPECT_EQ(culprit("x/s"), "quotient");
+  EXPECT_EQ(culprit("[0; s^2]"), "power");
+  EXPECT_EQ(culprit("M*sin(x)"), "sin");
+  EXPECT_EQ(culprit("abs(s)"), "abs");
+  EXPECT_EQ(culprit("where(s > 0, 1, 2)"), "where");
+  EXPECT_EQ(culprit("inv(M + s*I)"), "inv");
+}
+
+TEST(Affine, SampledMapIsTheMap) {
+  const expr::Matrix linear{{1, 2}, {3, -4}};
+  const Eigen::Vector2d constant(0.5, -2);
+  const AffineMap map = sample_affine(
+      [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return linear * x + constant; }, 2);
+  EXPECT_EQ(map.linear, linear);
+  EXPECT_EQ(map.constant, constant);
+}
+
+}  // namespace
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,130 @@
+#include "hybrid/law.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/error.h"
+#include "hybrid/simulate.h"
+#include "hybrid/text_problem.h"
+
+namespace gainsmith::hybrid {
+namespace {
+
+using Kind = model::SamplingLaw::Kind;
+using tests::TextProblem;
+
+TextProblem plant() {
+  TextProblem problem;
+  problem.data("T1", "scalar", "0.5").data("T2", "scalar", "1.1").state("x", "scalar");
+  problem.timer("T1", "T2", "0", "T2");
+  return problem;
+}
+
+std::vector<Law> laws(TextProblem& problem) {
+  const model::Instance instance = problem.instance();
+  return make_laws(instance.problem->campaign, make_system(instance, problem.gains));
+}
+
+std::string error_of(TextProblem& problem) {
+  try {
+    const model::Instance instance = problem.instance();
+    make_scenario(instance.problem->campaign, make_system(instance, problem.gains));
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(Law, ConstantAndListGiveTheirValues) {
+  TextProblem problem = plant();
+  problem.law(Kind::constant, {"T1 + 0.1"}).law(Kind::list, {"0.5", "0.75", "T2"});
+  const auto made = laws(problem);
+  RandomStream random(1, 0);
+  EXPECT_EQ(made[0].reset_value(7, 3, random), 0.6);
+  for (std::size_t jump = 0; jump < 7; ++jump)
+    EXPECT_EQ(made[1].reset_value(jump, 3, random), (std::array{0.5, 0.75, 1.1})[jump % 3]);
+  EXPECT_EQ(random.draws(), 0U);
+}
+
+TEST(Law, SinusoidFollowsThePapersFigure) {
+  TextProblem problem = plant();
+  problem.law(Kind::sinusoid);
+  RandomStream random(1, 0);
+  for (const double t : {0.0, 1.0, 4.7, 100.0})
+    EXPECT_NEAR(laws(problem)[0].reset_value(0, t, random), 0.3 * std::sin(t) + 0.8, 1e-15);
+}
+
+TEST(Law, RandomLawsStayInTheRangeAndCoverIt) {
+  TextProblem problem = plant();
+  problem.law(Kind::uniform).law(Kind::extremes);
+  const auto made = laws(problem);
+  RandomStream random(3, 4);
+  double sum = 0;
+  int highs = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double uniform = made[0].reset_value(0, 0, random);
+    EXPECT_GE(uniform, 0.5);
+    EXPECT_LT(uniform, 1.1);
+    sum += uniform;
+    const double extreme = made[1].reset_value(0, 0, random);
+    EXPECT_TRUE(extreme == 0.5 || extreme == 1.1);
+    highs += extreme == 1.1 ? 1 : 0;
+  }
+  EXPECT_EQ(random.draws(), 8000U);
+  EXPECT_NEAR(sum / 4000, 0.8, 0.02);  // 7 standard deviations
+  EXPECT_NEAR(highs, 2000, 220);
+}
+
+TEST(Law, WithoutAnyThereAreFive) {
+  TextProblem problem = plant();
+  const auto made = laws(problem);
+  ASSERT_EQ(made.size(), 5U);
+  EXPECT_EQ(made[0].kind, Kind::uniform);
+  EXPECT_EQ(made[1].kind, Kind::extremes);
+  EXPECT_EQ(made[2].kind, Kind::sinusoid);
+  EXPECT_EQ(made[3].values, std::vector{0.5});
+  EXPECT_EQ(made[4].values, std::vector{1.1});
+}
+
+TEST(Law, ValuesOutsideTheTimersRangeAreRefusedAtTheirPlace) {
+  TextProblem low = plant();
+  low.law(Kind::constant, {"0.4"});
+  EXPECT_NE(error_of(low).find("test.yaml:1:1: the sampling interval 0.4 is outside"),
+            std::string::npos)
+      << error_of(low);
+  TextProblem high = plant();
+  high.law(Kind::list, {"0.5", "1.2"});
+  EXPECT_NE(error_of(high).find("1.2"), std::string::npos);
+  TextProblem empty = plant();
+  empty.law(Kind::list);
+  EXPECT_NE(error_of(empty).find("at least one interval"), std::string::npos);
+}
+
+TEST(Scenario, FirstValueAndHorizonAreChecked) {
+  TextProblem first = plant();
+  first.first("1.2");
+  EXPECT_NE(error_of(first).find("first value 1.2"), std::string::npos);
+  TextProblem horizon = plant();
+  horizon.horizon("0");
+  EXPECT_NE(error_of(horizon).find("horizon is 0"), std::string::npos);
+  TextProblem zero = plant();
+  zero.first("0").horizon("1e-3");
+  EXPECT_EQ(error_of(zero), "");
+}
+
+TEST(Scenario, StartsAreChecked) {
+  using Start = model::InitialValue::Kind;
+  TextProblem unknown = plant();
+  unknown.start("y", Start::expression, {"1"});
+  EXPECT_NE(error_of(unknown).find("no state 'y'"), std::string::npos);
+  TextProblem later = plant();
+  later.state("w", "scalar").start("x", Start::expression, {"w"});
+  EXPECT_NE(error_of(later).find("declared before"), std::string::npos);
+  TextProblem empty = plant();
+  empty.start("x", Start::box, {"1", "-1"});
+  EXPECT_NE(error_of(empty).find("empty"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gainsmith::hybrid

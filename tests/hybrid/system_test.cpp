@@ -1,0 +1,112 @@
+#include "hybrid/system.h"
+
+#include <gtest/gtest.h>
+
+#include "base/error.h"
+#include "hybrid/text_problem.h"
+
+namespace gainsmith::hybrid {
+namespace {
+
+using tests::column;
+using tests::sampled_data;
+using tests::scalar;
+using tests::TextProblem;
+
+System system_of(TextProblem& problem) { return make_system(problem.instance(), problem.gains); }
+
+std::string error_of(TextProblem& problem) {
+  try {
+    system_of(problem);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST(System, FlowAndJumpOfPlantAndObserverAreRead) {
+  TextProblem problem = sampled_data("1.1", column({2, 3}), column({0.1, -0.9}), scalar(-5));
+  const System system = system_of(problem);
+  expr::Matrix flow{{0.2, -1.01, 0, 0, 0},
+                    {1, 0, 0, 0, 0},
+                    {0, 0, 0.2, -1.01, 2},
+                    {0, 0, 1, 0, 3},
+                    {0, 0, 0, 0, -5}};
+  EXPECT_EQ(system.flow.linear, flow);
+  EXPECT_TRUE(system.flow.constant.isZero(0));
+  const double rest = 1 - (0.5 * 0.1 + 0.9);  // I - C F
+  expr::Matrix jump{{1, 0, 0, 0, 0},
+                    {0, 1, 0, 0, 0},
+                    {0.05, -0.1, 0.95, 0.1, 0},
+                    {-0.45, 0.9, 0.45, 0.1, 0},
+                    {0.5 * rest, -rest, -0.5 * rest, rest, 0}};
+  ASSERT_TRUE(system.affine_jump.has_value());
+  EXPECT_LT((system.affine_jump->linear - jump).cwiseAbs().maxCoeff(), 1e-15);
+  EXPECT_EQ(system.high, 1.1);
+  EXPECT_EQ(system.first_low, 0);
+}
+
+TEST(System, ErrorFlowIsEquationEight) {
+  const expr::Matrix L = column({3.68, -24.47});
+  const expr::Matrix F = column({0.104, -0.948});
+  const double H = -25.93;
+  TextProblem problem = sampled_data("1.1", L, F, scalar(H));
+  const System system = system_of(problem);
+  const expr::Matrix A{{0.2, -1.01}, {1, 0}};
+  const expr::Matrix C{{0.5, -1}};
+  expr::Matrix errors(3, 5);  // [e; q] = errors x
+  errors << expr::Matrix::Identity(2, 2), -expr::Matrix::Identity(2, 2), expr::Matrix::Zero(2, 1),
+      C, -C, -expr::Matrix::Identity(1, 1);
+  expr::Matrix flow(3, 3);
+  flow << A - L * C, L, C * A - C * L * C - H * C, C * L + scalar(H);
+  expr::Matrix jump = expr::Matrix::Zero(3, 3);
+  jump.topLeftCorner(2, 2) = expr::Matrix::Identity(2, 2) - F * C;
+  EXPECT_LT((errors * system.flow.linear - flow * errors).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT((errors * system.affine_jump->linear - jump * errors).cwiseAbs().maxCoeff(), 1e-13);
+}
+
+TEST(System, NonlinearFlowIsRefusedAtItsPlace) {
+  TextProblem problem;
+  problem.data("a", "scalar", "1").state("x", "scalar").flow({{"x", "a - x*x"}});
+  problem.timer("1", "2", "0", "2");
+  const std::string message = error_of(problem);
+  EXPECT_NE(message.find("test.yaml:1:5"), std::string::npos) << message;
+  EXPECT_NE(message.find("matrix exponential"), std::string::npos) << message;
+}
+
+TEST(System, FlowThatDependsOnTheTimerIsRefused) {
+  TextProblem problem;
+  problem.state("x", "scalar").flow({{"x", "3 - tau"}}).timer("1", "2", "0", "2");
+  EXPECT_NE(error_of(problem).find("depends on the timer tau"), std::string::npos)
+      << error_of(problem);
+}
+
+TEST(System, NonlinearJumpIsKeptAsText) {
+  TextProblem problem;
+  problem.state("x", "scalar").state("w", "scalar").jump({{"x", "x^2"}}).timer("1", "2", "0", "2");
+  const System system = system_of(problem);
+  EXPECT_FALSE(system.affine_jump.has_value());
+  EXPECT_TRUE(system.flow.linear.isZero(0));
+}
+
+TEST(System, GainsMustBeThereAndFit) {
+  TextProblem missing = sampled_data("1.1", column({2, 3}), column({0, 0}), scalar(-5));
+  missing.gains.gains.pop_back();
+  EXPECT_NE(error_of(missing).find("no value for H"), std::string::npos) << error_of(missing);
+  TextProblem wrong = sampled_data("1.1", column({2, 3}), column({0, 0}), scalar(-5));
+  wrong.gains.gains[0].second = expr::Matrix::Zero(3, 1);
+  EXPECT_NE(error_of(wrong).find("L in the gain file is 3 x 1, expected 2 x 1"), std::string::npos)
+      << error_of(wrong);
+}
+
+TEST(System, TimerBoundsMustBeOrdered) {
+  TextProblem reset;
+  reset.state("x", "scalar").timer("2", "1", "0", "1");
+  EXPECT_NE(error_of(reset).find("test.yaml:7:3"), std::string::npos) << error_of(reset);
+  TextProblem first;
+  first.state("x", "scalar").timer("1", "2", "-1", "1");
+  EXPECT_NE(error_of(first).find("first value"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gainsmith::hybrid

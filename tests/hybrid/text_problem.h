@@ -1,0 +1,60 @@
+// Problems for the tests of hybrid and verify, written as text without a YAML file.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "model/gains.h"
+#include "model/instance.h"
+
+namespace gainsmith::tests {
+
+expr::Expression parse(const std::string& text);
+
+/// {"A", "[0, 1; 2, 3]"}.
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+/// A method and a problem that uses it, put together from text.
+class TextProblem {
+ public:
+  TextProblem& data(const std::string& name, const std::string& shape, const std::string& value);
+  TextProblem& gain(const std::string& name, const expr::Matrix& value);
+  TextProblem& unknown(const std::string& name, const std::string& shape);
+  TextProblem& state(const std::string& name, const std::string& shape);
+  TextProblem& flow(const Pairs& entries);
+  TextProblem& jump(const Pairs& entries);
+  TextProblem& signals(const Pairs& entries);
+  TextProblem& timer(const std::string& low, const std::string& high, const std::string& first_low,
+                     const std::string& first_high);
+  TextProblem& nonincreasing(const std::string& name, const std::string& value);
+  TextProblem& cost(const std::string& name, const std::string& bound, const std::string& flow_cost,
+                    const std::string& jump_cost);
+  TextProblem& shrinks(const std::string& name, const std::string& value,
+                       const std::string& factor);
+  TextProblem& law(model::SamplingLaw::Kind kind, const std::vector<std::string>& values = {});
+  TextProblem& first(const std::string& value);
+  TextProblem& horizon(const std::string& value);
+  TextProblem& start(const std::string& state, model::InitialValue::Kind kind,
+                     const std::vector<std::string>& values);
+  TextProblem& runs(std::uint64_t count);
+
+  /// Stands as long as this object.
+  model::Instance instance();
+  model::Gains gains;
+
+ private:
+  model::Method method_;
+  model::Problem problem_;
+};
+
+/// The plant, observer and errors of theory/sampled-data.md with the published A, C, T1 and the
+/// given T2, the given gains, signals e and q, first timer value in [0, T2].
+TextProblem sampled_data(const std::string& T2, const expr::Matrix& L, const expr::Matrix& F,
+                         const expr::Matrix& H);
+
+expr::Matrix column(std::initializer_list<double> elements);
+expr::Matrix scalar(double value);
+
+}  // namespace gainsmith::tests
