@@ -114,8 +114,10 @@ TextProblem& TextProblem::horizon(const std::string& value) {
 TextProblem& TextProblem::start(const std::string& state, model::InitialValue::Kind kind,
                                 const std::vector<std::string>& values) {
   model::InitialValue initial{state, kind, {}, {kFile, 11, 5}};
-  for (const std::string& value : values)
-    initial.values.push_back({state, parse(value), value.starts_with('['), {kFile, 11, 9}});
+  for (const std::string& value : values) {
+    const bool flat = value.starts_with('[') && value.find(';') == std::string::npos;
+    initial.values.push_back({state, parse(value), flat, {kFile, 11, 9}});
+  }
   problem_.campaign.initial.push_back(initial);
   return *this;
 }

@@ -1,0 +1,72 @@
+#include "verify/replay.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hybrid/text_problem.h"
+#include "verify/campaign.h"
+
+namespace gainsmith::verify {
+namespace {
+
+using testing::ElementsAre;
+using tests::column;
+using tests::sampled_data;
+using tests::scalar;
+using tests::TextProblem;
+
+TextProblem problem_with_claims() {
+  TextProblem problem =
+      sampled_data("1.1", column({3.68, -24.47}), column({0.104, -0.948}), scalar(-25.93));
+  problem.horizon("5").runs(20).shrinks("small", "norm(e)", "0.9");
+  problem.cost("J", "100*e'*e", "e'*e", "0.01*e'*e");
+  return problem;
+}
+
+Eigen::Index find(const Replay& replay, const std::string& name) {
+  const auto at = std::find(replay.columns.begin(), replay.columns.end(), name);
+  return at - replay.columns.begin();
+}
+
+TEST(Replay, HasAColumnForEachThing) {
+  TextProblem problem = problem_with_claims();
+  const Replay result = replay(problem.instance(), problem.gains, 1, 4);
+  EXPECT_THAT(result.columns, ElementsAre("t", "j", "tau", "z1", "z2", "zh1", "zh2", "th1", "e1",
+                                          "e2", "q1", "small", "J", "J_cost"));
+  ASSERT_EQ(static_cast<std::size_t>(result.table.cols()), result.columns.size());
+  ASSERT_EQ(static_cast<std::size_t>(result.table.rows()), result.arc.samples());
+  const auto at = [&](const char* name) { return result.table.col(find(result, name)); };
+  EXPECT_EQ(Eigen::VectorXd(at("e1")), Eigen::VectorXd(at("z1") - at("zh1")));
+  EXPECT_LT((at("q1") - (0.5 * at("e1") - at("e2") - at("th1"))).norm(), 1e-13);
+  EXPECT_LT((at("small") - (at("e1").cwiseAbs2() + at("e2").cwiseAbs2()).cwiseSqrt()).norm(),
+            1e-13);
+  EXPECT_EQ(at("J_cost")(0), 0);
+  EXPECT_GT(at("J_cost").tail(1)(0), 0);
+}
+
+TEST(Replay, FindsWhatTheCampaignFound) {
+  TextProblem problem = problem_with_claims();
+  const Report report = run_campaign(problem.instance(), problem.gains, {});
+  for (std::size_t i = 0; i < report.checks.size(); ++i) {
+    const CheckReport& check = report.checks[i];
+    const Replay again = replay(problem.instance(), problem.gains, report.seed, check.worst_run);
+    const Finding& finding = again.claims[i].finding;
+    EXPECT_EQ(again.claims[i].name, check.name);
+    EXPECT_EQ(finding.violated, check.worst.violated);
+    EXPECT_EQ(finding.score, check.worst.score);
+    EXPECT_EQ(finding.value, check.worst.value);
+    EXPECT_EQ(finding.bound, check.worst.bound);
+    EXPECT_EQ(finding.t, check.worst.t);
+    EXPECT_EQ(finding.j, check.worst.j);
+  }
+}
+
+TEST(Replay, MatrixStatesAreNamedByRowAndColumn) {
+  TextProblem problem;
+  problem.state("M", "2 x 2").timer("1", "1", "1", "1").horizon("1");
+  const Replay result = replay(problem.instance(), problem.gains, 1, 0);
+  EXPECT_THAT(result.columns, ElementsAre("t", "j", "tau", "M1_1", "M2_1", "M1_2", "M2_2"));
+}
+
+}  // namespace
+}  // namespace gainsmith::verify
