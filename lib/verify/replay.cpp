@@ -26,7 +26,8 @@ class Table {
   /// One column for each element of a named matrix; values: elements x samples.
   void add_elements(const std::string& name, expr::Shape shape, const expr::Matrix& values) {
     for (int e = 0; e < shape.size(); ++e) {
-      std::string label = name + std::to_string(e % shape.rows + 1);
+      std::string label = name;
+      if (!shape.is_scalar()) label += std::to_string(e % shape.rows + 1);
       if (shape.cols > 1) label += "_" + std::to_string(e / shape.rows + 1);
       add(label, values.row(e).transpose());
     }

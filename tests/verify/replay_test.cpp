@@ -31,13 +31,13 @@ Eigen::Index find(const Replay& replay, const std::string& name) {
 TEST(Replay, HasAColumnForEachThing) {
   TextProblem problem = problem_with_claims();
   const Replay result = replay(problem.instance(), problem.gains, 1, 4);
-  EXPECT_THAT(result.columns, ElementsAre("t", "j", "tau", "z1", "z2", "zh1", "zh2", "th1", "e1",
-                                          "e2", "q1", "small", "J", "J_cost"));
+  EXPECT_THAT(result.columns, ElementsAre("t", "j", "tau", "z1", "z2", "zh1", "zh2", "th", "e1",
+                                          "e2", "q", "small", "J", "J_cost"));
   ASSERT_EQ(static_cast<std::size_t>(result.table.cols()), result.columns.size());
   ASSERT_EQ(static_cast<std::size_t>(result.table.rows()), result.arc.samples());
   const auto at = [&](const char* name) { return result.table.col(find(result, name)); };
   EXPECT_EQ(Eigen::VectorXd(at("e1")), Eigen::VectorXd(at("z1") - at("zh1")));
-  EXPECT_LT((at("q1") - (0.5 * at("e1") - at("e2") - at("th1"))).norm(), 1e-13);
+  EXPECT_LT((at("q") - (0.5 * at("e1") - at("e2") - at("th"))).norm(), 1e-13);
   EXPECT_LT((at("small") - (at("e1").cwiseAbs2() + at("e2").cwiseAbs2()).cwiseSqrt()).norm(),
             1e-13);
   EXPECT_EQ(at("J_cost")(0), 0);
