@@ -1,27 +1,34 @@
 #include "sdp/factor.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <algorithm>
 
+#include "sdp/kernels.h"
 #include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 
 template <typename T>
 ConeFactor<T>::ConeFactor(const Layout& layout)
-    : layout_(layout), inverse_factor_(layout), work_(layout), scaled_(layout) {}
+    : layout_(layout),
+      inverse_factor_(layout),
+      inverse_transpose_(layout),
+      work_(layout),
+      scaled_(layout) {
+  for (const int n : layout.size) {
+    solvers_.emplace_back(n);
+    rounded_.emplace_back(n, n);
+  }
+}
 
 template <typename T>
 bool ConeFactor<T>::factorise(const Blocks<T>& V) {
   for (int b = 0; b < layout_.blocks(); ++b) {
     auto l = work_.dense(b);
     l = V.dense(b);
-    Eigen::Ref<Matrix<T>> in_place(l);
-    Eigen::LLT<Eigen::Ref<Matrix<T>>> llt(in_place);
-    if (llt.info() != Eigen::Success) return false;
+    if (!cholesky(View<T>(l))) return false;
     auto inverse = inverse_factor_.dense(b);
-    inverse.setIdentity();
-    l.template triangularView<Eigen::Lower>().solveInPlace(inverse);
+    invert_lower(View<const T>(l), View<T>(inverse));
+    inverse_transpose_.dense(b) = inverse.transpose();
   }
   const auto v = V.linear();
   auto reciprocal = inverse_factor_.linear();
@@ -35,24 +42,32 @@ bool ConeFactor<T>::factorise(const Blocks<T>& V) {
 template <typename T>
 void ConeFactor<T>::inverse(Blocks<T>& result) const {
   for (int b = 0; b < layout_.blocks(); ++b) {
-    const auto l = inverse_factor_.dense(b);
     auto target = result.dense(b);
-    target.noalias() = l.transpose() * l;
+    multiply(View<const T>(inverse_transpose_.dense(b)), View<const T>(inverse_factor_.dense(b)),
+             View<T>(target));
   }
   result.linear() = inverse_factor_.linear();
+}
+
+template <typename T>
+double ConeFactor<T>::smallest_eigenvalue(int b) {
+  const auto at = static_cast<std::size_t>(b);
+  const auto w = scaled_.dense(b);
+  for (Eigen::Index j = 0; j < w.cols(); ++j)
+    for (Eigen::Index i = 0; i < w.rows(); ++i) rounded_[at](i, j) = static_cast<double>(w(i, j));
+  solvers_[at].compute(rounded_[at], Eigen::EigenvaluesOnly);
+  return solvers_[at].eigenvalues()[0];
 }
 
 template <typename T>
 T ConeFactor<T>::step(const Blocks<T>& D, const T& longest) {
   T smallest = T(-1) / longest;
   for (int b = 0; b < layout_.blocks(); ++b) {
-    const auto l = inverse_factor_.dense(b);
     auto half = work_.dense(b);
     auto w = scaled_.dense(b);
-    half.noalias() = D.dense(b) * l.transpose();
-    w.noalias() = l * half;
-    Eigen::SelfAdjointEigenSolver<Matrix<T>> solver(w, Eigen::EigenvaluesOnly);
-    smallest = std::min(smallest, T(solver.eigenvalues()[0]));
+    multiply(View<const T>(D.dense(b)), View<const T>(inverse_transpose_.dense(b)), View<T>(half));
+    multiply(View<const T>(inverse_factor_.dense(b)), View<const T>(half), View<T>(w));
+    smallest = std::min(smallest, T(smallest_eigenvalue(b)));
   }
   const auto reciprocal = inverse_factor_.linear();
   const auto d = D.linear();

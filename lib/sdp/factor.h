@@ -1,6 +1,8 @@
 // Cholesky factors of a point of the cone, its inverse and the distance to the cone's boundary.
 #pragma once
 
+#include <Eigen/Eigenvalues>
+
 #include "sdp/linalg.h"
 
 namespace gainsmith::sdp {
@@ -18,13 +20,19 @@ class ConeFactor {
   void inverse(Blocks<T>& result) const;
 
   /// The largest a <= `longest` with V + a D >= 0: a = -1 / lambda_min(L^-1 D L^-T) where that is
-  /// negative.
+  /// negative. The eigenvalues of that well-scaled matrix are taken in double in every arithmetic:
+  /// a step length needs no more digits.
   T step(const Blocks<T>& D, const T& longest);
 
  private:
+  double smallest_eigenvalue(int b);
+
   const Layout& layout_;
-  Blocks<T> inverse_factor_;  ///< L^-1, lower triangle; 1/v in the linear part
+  Blocks<T> inverse_factor_;     ///< L^-1, upper triangle zero; 1/v in the linear part
+  Blocks<T> inverse_transpose_;  ///< L^-T
   Blocks<T> work_, scaled_;
+  std::vector<Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>> solvers_;  ///< one a block
+  std::vector<Eigen::MatrixXd> rounded_;
 };
 
 }  // namespace gainsmith::sdp

@@ -11,46 +11,42 @@ namespace {
 
 /// Of the way to the boundary: closer when the predictor got far.
 constexpr double kShortest = 0.9, kLongest = 0.98;
-/// Iterations without a better point before the arithmetic counts as exhausted.
-constexpr int kPatience = 12;
+/// Iterations without a better point before the arithmetic counts as exhausted: soon once the point
+/// is good to three digits, late while the errors may still rise before they fall.
+constexpr int kPatienceNear = 4, kPatienceFar = 25;
+constexpr double kNear = 1e-3;
 /// A step below this gets nowhere.
 constexpr double kNoStep = 1e-7;
-
-double largest(const std::vector<double>& values) {
-  double result = 0;
-  for (const double v : values) result = std::max(result, std::abs(v));
-  return result;
-}
-
-double largest(const std::vector<Entry>& entries) {
-  double result = 0;
-  for (const Entry& e : entries) result = std::max(result, std::abs(e.value));
-  return result;
-}
+/// The least sigma at a fixed tau.
+constexpr double kLeastCentering = 1e-6;
 
 }  // namespace
 
 template <typename T>
-Ipm<T>::Ipm(const Problem& problem, const Presolved& presolved, const Options& options,
-            Clock::time_point start, int first_iteration)
+Ipm<T>::Ipm(const Problem& problem, const Presolved& presolved, const Options& options)
     : presolved_(presolved),
       options_(options),
-      start_(start),
       point_(presolved.data),
       best_(presolved.data),
       predictor_(presolved.data),
       direction_(presolved.data),
-      residuals_(presolved, largest(problem.c), largest(problem.f[0]),
-                 frobenius_norm(problem.f[0])),
-      newton_(presolved.data, options.threads),
-      iteration_(first_iteration),
-      best_error_(std::numeric_limits<double>::infinity()) {
-  point_.X.set_identity(T(1));
-  point_.Y.set_identity(T(1));
+      residuals_(problem, presolved),
+      newton_(presolved.data, options.threads) {}
+
+template <typename T>
+void Ipm<T>::start_far(double factor) {
+  point_.x.setZero();
+  point_.X.set_identity(T(presolved_.far_X * factor));
+  point_.Y.set_identity(T(presolved_.far_Y * factor));
+  point_.tau = point_.kappa = T(1);
 }
 
 template <typename T>
-Cause Ipm<T>::run() {
+Cause Ipm<T>::run(const Run& run) {
+  run_ = run;
+  iteration_ = run.first_iteration;
+  best_error_ = std::numeric_limits<double>::infinity();
+  since_best_ = 0;
   const Cause cause = iterate();
   if (cause != Cause::converged && cause != Cause::certificate) {
     point_ = best_;
@@ -62,42 +58,69 @@ Cause Ipm<T>::run() {
 template <typename T>
 Cause Ipm<T>::iterate() {
   residuals_.update(point_);
-  T step(0);
+  Steps<T> step;
   for (;; ++iteration_) {
     report(step);
     keep_best();
     if (const auto cause = stop()) return *cause;
-    if (!newton_.prepare(point_, residuals_)) return Cause::numerical_breakdown;
+    if (!newton_.prepare(point_, residuals_.defect, run_.model)) return Cause::numerical_breakdown;
 
-    newton_.predict(point_, residuals_, predictor_);
-    const T reach = newton_.step(point_, predictor_, T(1));
-    const T sigma = (T(1) - reach) * (T(1) - reach) * (T(1) - reach);
-    newton_.correct(point_, residuals_, predictor_, sigma, T(1) - sigma, direction_);
+    newton_.predict(point_, residuals_.defect, predictor_);
+    const Steps<T> reach = newton_.step(point_, predictor_, T(1));
+    const T sigma = centering(reach);
+    const T eta = run_.model == Model::fixed ? T(1) : T(T(1) - sigma);
+    newton_.correct(point_, residuals_.defect, predictor_, sigma, eta, direction_);
 
-    const T gamma = T(kShortest) + T(kLongest - kShortest) * reach;
-    step = std::min(T(1), T(gamma * newton_.step(point_, direction_, T(1) / gamma)));
-    if (!(static_cast<double>(step) > kNoStep)) return Cause::stalled;
-    point_.advance(direction_, step);
+    step = shortened(newton_.step(point_, direction_, T(2)), reach);
+    if (!(static_cast<double>(std::max(step.primal, step.dual)) > kNoStep)) return Cause::stalled;
+    point_.advance(direction_, step.primal, step.dual);
     residuals_.update(point_);
   }
 }
 
+/// sigma = (1 - a)^3 in the homogeneous model; at a fixed tau the ratio of the mu that the
+/// predictor reaches to the present one, to a power that grows with the steps.
 template <typename T>
-std::optional<Cause> Ipm<T>::stop() {
-  if (residuals_.worst() <= options_.tolerance) return Cause::converged;
-  if (residuals_.primal_certificate <= options_.certificate_tolerance / 2 ||
-      residuals_.dual_certificate <= options_.certificate_tolerance / 2)
+T Ipm<T>::centering(const Steps<T>& reach) const {
+  if (run_.model == Model::homogeneous) {
+    const T left = T(1) - reach.primal;
+    return left * left * left;
+  }
+  const Blocks<T>&X = point_.X, &Y = point_.Y;
+  const T now = inner(X, Y);
+  const T reached = now + reach.primal * inner(predictor_.X, Y) +
+                    reach.dual * inner(X, predictor_.Y) +
+                    reach.primal * reach.dual * inner(predictor_.X, predictor_.Y);
+  const double ratio = static_cast<double>(T(reached / now));
+  const double shorter = static_cast<double>(std::min(reach.primal, reach.dual));
+  const double exponent = std::max(1.0, 3 * shorter * shorter);
+  return T(std::clamp(std::pow(std::max(ratio, 0.0), exponent), kLeastCentering, 1.0));
+}
+
+template <typename T>
+Steps<T> Ipm<T>::shortened(const Steps<T>& longest, const Steps<T>& reach) const {
+  const T gamma = T(kShortest) + T(kLongest - kShortest) * std::min(reach.primal, reach.dual);
+  return {std::min(T(1), T(gamma * longest.primal)), std::min(T(1), T(gamma * longest.dual))};
+}
+
+template <typename T>
+std::optional<Cause> Ipm<T>::stop() const {
+  if (residuals_.worst() <= run_.tolerance) return Cause::converged;
+  if (std::min(residuals_.primal_certificate, residuals_.dual_certificate) <=
+      options_.certificate_tolerance / 2)
     return Cause::certificate;
-  if (since_best_ > kPatience) return Cause::stalled;
+  if (!std::isfinite(residuals_.worst())) return Cause::numerical_breakdown;
+  if (since_best_ > (best_error_ < kNear ? kPatienceNear : kPatienceFar)) return Cause::stalled;
   return limits();
 }
 
 template <typename T>
 std::optional<Cause> Ipm<T>::limits() const {
+  using Seconds = std::chrono::duration<double>;
   if (iteration_ >= options_.iteration_limit) return Cause::iteration_limit;
   if (options_.interrupted && options_.interrupted()) return Cause::interrupted;
   if (options_.time_limit > 0 &&
-      std::chrono::duration<double>(Clock::now() - start_).count() > options_.time_limit)
+      Seconds(std::chrono::steady_clock::now() - run_.start).count() > options_.time_limit)
     return Cause::time_limit;
   return std::nullopt;
 }
@@ -114,7 +137,7 @@ void Ipm<T>::keep_best() {
 }
 
 template <typename T>
-void Ipm<T>::report(const T& step) const {
+void Ipm<T>::report(const Steps<T>& step) const {
   if (!options_.progress) return;
   Progress line;
   line.iteration = iteration_;
@@ -123,7 +146,8 @@ void Ipm<T>::report(const T& step) const {
   line.relative_gap = residuals_.gap;
   line.primal_infeasibility = residuals_.primal_infeasibility;
   line.dual_infeasibility = residuals_.dual_infeasibility;
-  line.step_primal = line.step_dual = static_cast<double>(step);
+  line.step_primal = static_cast<double>(step.primal);
+  line.step_dual = static_cast<double>(step.dual);
   options_.progress(line);
 }
 

@@ -12,40 +12,54 @@
 
 namespace gainsmith::sdp {
 
-/// Predictor-corrector (Mehrotra) on the homogeneous model of newton.h, in the arithmetic of T.
+/// What one run of the loop is to do.
+struct Run {
+  Model model = Model::fixed;
+  double tolerance = 1e-8;
+  int first_iteration = 0;                      ///< continues the count of an earlier run
+  std::chrono::steady_clock::time_point start;  ///< of the whole solve, for the time limit
+};
+
+/// Predictor-corrector (Mehrotra 1992) on the model of newton.h in the arithmetic of T.
 template <typename T>
 class Ipm {
  public:
-  using Clock = std::chrono::steady_clock;
+  Ipm(const Problem& problem, const Presolved& presolved, const Options& options);
 
-  /// `first_iteration` continues the count of an earlier run; `start` is that of the whole solve.
-  Ipm(const Problem& problem, const Presolved& presolved, const Options& options,
-      Clock::time_point start, int first_iteration = 0);
+  /// The customary far point X = xi I, Y = eta I, `factor` times farther (presolve.h: `far_point`).
+  void start_far(double factor);
+  /// The best point of an earlier run in a narrower arithmetic.
+  template <typename Narrow>
+  void start_from(const Iterate<Narrow>& point) {
+    convert(point, point_);
+  }
 
-  /// Iterates from `point()` until something stops it.
-  Cause run();
+  /// Iterates until something stops it.
+  Cause run(const Run& run);
 
-  /// The point to start from, and afterwards the best point found (least worst error), or the last
-  /// one when it shows infeasibility.
-  Iterate<T>& point() { return point_; }
+  /// Afterwards: the best point found (least worst error), or the last one when it converged or
+  /// shows infeasibility; and its residuals.
+  const Iterate<T>& point() const { return point_; }
   const Residuals<T>& residuals() const { return residuals_; }
   int iterations() const { return iteration_; }
 
  private:
   Cause iterate();
-  std::optional<Cause> stop();
+  std::optional<Cause> stop() const;
   std::optional<Cause> limits() const;
+  T centering(const Steps<T>& reach) const;
+  Steps<T> shortened(const Steps<T>& longest, const Steps<T>& reach) const;
   void keep_best();
-  void report(const T& step) const;
+  void report(const Steps<T>& step) const;
 
   const Presolved& presolved_;
   const Options& options_;
-  Clock::time_point start_;
+  Run run_;
   Iterate<T> point_, best_, predictor_, direction_;
   Residuals<T> residuals_;
   Newton<T> newton_;
-  int iteration_;
-  double best_error_;
+  int iteration_ = 0;
+  double best_error_ = 0;
   int since_best_ = 0;
 };
 

@@ -22,13 +22,37 @@ struct Iterate {
     return (inner(X, Y) + tau * kappa) / T(static_cast<double>(X.layout().order() + 1));
   }
 
-  void advance(const Iterate& direction, const T& step) {
-    x += step * direction.x;
-    X.flat() += step * direction.X.flat();
-    Y.flat() += step * direction.Y.flat();
-    tau += step * direction.tau;
-    kappa += step * direction.kappa;
+  /// mu of the problem at a fixed tau: X.Y / n.
+  T mu_fixed() const { return inner(X, Y) / T(static_cast<double>(X.layout().order())); }
+
+  /// (x, X, tau) moves by `primal`, (Y, kappa) by `dual`; equal in the homogeneous model.
+  void advance(const Iterate& direction, const T& primal, const T& dual) {
+    x += primal * direction.x;
+    X.flat() += primal * direction.X.flat();
+    Y.flat() += dual * direction.Y.flat();
+    tau += primal * direction.tau;
+    kappa += dual * direction.kappa;
   }
 };
+
+/// What a point leaves of the model's equations:
+///   primal = sum x_i F_i - tau F_0 - X,   dual_i = tau c_i - F_i . Y.
+/// (The third residual, F_0.Y - c'x - kappa, follows from these and mu: see newton.h.)
+template <typename T>
+struct Defect {
+  explicit Defect(const Data& data) : primal(data.layout), dual(Vector<T>::Zero(data.m())) {}
+
+  Blocks<T> primal;
+  Vector<T> dual;
+};
+
+template <typename To, typename From>
+void convert(const Iterate<From>& from, Iterate<To>& to) {
+  convert(from.x, to.x);
+  convert(from.X.flat(), to.X.flat());
+  convert(from.Y.flat(), to.Y.flat());
+  to.tau = as<To>(from.tau);
+  to.kappa = as<To>(from.kappa);
+}
 
 }  // namespace gainsmith::sdp

@@ -61,6 +61,18 @@ class Blocks {
   Vector<T> values_;
 };
 
+/// The number in another type: rounded where that is narrower, exact where it is wider.
+template <typename To, typename From>
+To as(const From& value) {
+  return static_cast<To>(value);
+}
+
+/// Rounds (or widens) every number of `from`; nothing to do but copy when the types are the same.
+template <typename To, typename From>
+void convert(const Vector<From>& from, Vector<To>& to) {
+  for (Eigen::Index i = 0; i < from.size(); ++i) to[i] = as<To>(from[i]);
+}
+
 /// A . B = trace(A B).
 template <typename T>
 T inner(const Blocks<T>& a, const Blocks<T>& b) {

@@ -1,10 +1,20 @@
 #include "sdp/newton.h"
 
 #include <algorithm>
+#include <limits>
 
+#include "sdp/kernels.h"
 #include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
+namespace {
+
+/// Refinement of a direction: the residual aimed at in units of epsilon, the most steps, and how
+/// many of them may pass without a smaller residual.
+constexpr double kRefineGoal = 1e4;
+constexpr int kRefineSteps = 60, kRefinePatience = 12;
+
+}  // namespace
 
 template <typename T>
 Newton<T>::Newton(const Data& data, unsigned threads)
@@ -18,6 +28,8 @@ Newton<T>::Newton(const Data& data, unsigned threads)
       k_(data.layout),
       half_(data.layout),
       product_(data.layout),
+      refinement_(data),
+      trial_(data),
       order_(static_cast<double>(data.layout.order() + 1)) {
   for (Vector<T>* v : {&a_, &q_, &p_, &z_, &u_, &h_, &c_}) v->setZero(data.m());
   for (int i = 0; i < data.m(); ++i) c_[i] = T(data.c[static_cast<std::size_t>(i)]);
@@ -28,79 +40,138 @@ void Newton<T>::scaled_product(const Blocks<T>& left, const Blocks<T>& right, Bl
   for (int b = 0; b < data_.layout.blocks(); ++b) {
     auto half = half_.dense(b);
     auto product = product_.dense(b);
-    half.noalias() = left.dense(b) * right.dense(b);
-    product.noalias() = inverse_X_.dense(b) * half;
+    multiply(View<const T>(left.dense(b)), View<const T>(right.dense(b)), View<T>(half));
+    multiply(View<const T>(inverse_X_.dense(b)), View<const T>(half), View<T>(product));
     out.dense(b) = T(0.5) * (product + product.transpose());
   }
   out.linear() = inverse_X_.linear().cwiseProduct(left.linear()).cwiseProduct(right.linear());
 }
 
 template <typename T>
-bool Newton<T>::prepare(const Iterate<T>& point, const Residuals<T>& residuals) {
+bool Newton<T>::prepare(const Iterate<T>& point, const Defect<T>& defect, Model model) {
+  model_ = model;
   if (!factor_X_.factorise(point.X) || !factor_Y_.factorise(point.Y)) return false;
   factor_X_.inverse(inverse_X_);
   schur_.assemble(inverse_X_, point.Y);
   if (!schur_.factorise()) return false;
 
-  mu_ = point.mu();
-  scaled_product(residuals.primal, point.Y, residual_term_);
+  mu_ = model == Model::fixed ? point.mu_fixed() : point.mu();
+  scaled_product(defect.primal, point.Y, residual_term_);
   apply(data_, residual_term_, a_);
-  q_ = residuals.dual - a_;
+  if (model == Model::fixed) return true;
+  q_ = defect.dual - a_;
   schur_.solve(q_, p_);
   schur_.solve(c_, z_);
-  r_y_ = inner(residuals.primal, point.Y);
-  r_r_ = inner(residuals.primal, residual_term_);
+  r_y_ = inner(defect.primal, point.Y);
+  r_r_ = inner(defect.primal, residual_term_);
   return true;
 }
 
 template <typename T>
-void Newton<T>::predict(const Iterate<T>& point, const Residuals<T>& residuals,
-                        Iterate<T>& direction) {
+void Newton<T>::predict(const Iterate<T>& point, const Defect<T>& defect, Iterate<T>& direction) {
   correction_.flat().setZero();
-  solve(point, residuals, T(0), T(1), T(0), T(0), direction);
+  solve(point, defect, T(0), T(1), T(0), T(0), direction);
 }
 
 template <typename T>
-void Newton<T>::correct(const Iterate<T>& point, const Residuals<T>& residuals,
+void Newton<T>::correct(const Iterate<T>& point, const Defect<T>& defect,
                         const Iterate<T>& predictor, const T& sigma, const T& eta,
                         Iterate<T>& direction) {
   scaled_product(predictor.X, predictor.Y, correction_);
-  solve(point, residuals, sigma, eta, inner(predictor.X, predictor.Y),
-        predictor.tau * predictor.kappa, direction);
+  solve(point, defect, sigma, eta, inner(predictor.X, predictor.Y), predictor.tau * predictor.kappa,
+        direction);
 }
 
 template <typename T>
-void Newton<T>::solve(const Iterate<T>& point, const Residuals<T>& residuals, const T& sigma,
+void Newton<T>::solve(const Iterate<T>& point, const Defect<T>& defect, const T& sigma,
                       const T& eta, const T& trace_c, const T& c_tau_kappa, Iterate<T>& direction) {
   const T target = sigma * mu_;
   k_.flat() = target * inverse_X_.flat() - point.Y.flat() - eta * residual_term_.flat() -
               correction_.flat();
   apply(data_, k_, h_);
-  h_ -= eta * residuals.dual;
+  h_ -= eta * defect.dual;
   schur_.solve(h_, u_);
 
-  const T denominator =
-      (order_ * mu_ + T(2.0) * r_y_ + r_r_ - q_.dot(p_)) / point.tau + T(2.0) * c_.dot(p_);
-  const T numerator = (eta + sigma - T(1)) * order_ * mu_ - trace_c - c_tau_kappa +
-                      inner(residuals.primal, k_) + p_.dot(h_);
-  direction.tau = numerator / denominator;
-  direction.kappa =
-      (target - point.kappa * point.tau - c_tau_kappa - point.kappa * direction.tau) / point.tau;
-  direction.x = u_ + direction.tau * ((point.x + p_) / point.tau - T(2.0) * z_);
-
+  if (model_ == Model::fixed) {
+    direction.x = u_;
+    direction.tau = direction.kappa = T(0);
+  } else {
+    move_tau(point, defect, sigma, eta, trace_c, c_tau_kappa, direction);
+  }
   adjoint(data_, direction.x, direction.tau, direction.X);
   scaled_product(direction.X, point.Y, direction.Y);
   direction.Y.flat() = k_.flat() - direction.Y.flat();
-  direction.X.flat() += eta * residuals.primal.flat();
+  refine(point, defect, eta, direction);
+  direction.X.flat() += eta * defect.primal.flat();
+}
+
+// The residual of the dual equation, A(dY) - eta r - dtau c, is brought down by conjugate gradients
+// on the operator dx -> A(H(X^-1 A*(dx) Y)) itself, of which B is a rounded picture; dX and dY move
+// along. Rounding makes the residual rise again in the end, so the best direction is kept.
+template <typename T>
+void Newton<T>::refine(const Iterate<T>& point, const Defect<T>& defect, const T& eta,
+                       Iterate<T>& direction) {
+  const T goal = T(kRefineGoal) * std::numeric_limits<T>::epsilon();
+  apply(data_, direction.Y, a_);
+  h_ = a_ - eta * defect.dual - direction.tau * c_;
+  T best = h_.norm(), rho(0);
+  if (!(best > goal)) return;
+  trial_ = direction;
+  int since_best = 0;
+  for (int step = 0; step < kRefineSteps && since_best < kRefinePatience && best > goal; ++step) {
+    schur_.solve(h_, p_);
+    const T next = h_.dot(p_);
+    if (step == 0)
+      u_ = p_;
+    else
+      u_ = p_ + (next / rho) * u_;
+    rho = next;
+    adjoint(data_, u_, T(0), refinement_.X);
+    scaled_product(refinement_.X, point.Y, refinement_.Y);
+    apply(data_, refinement_.Y, a_);
+    const T curvature = u_.dot(a_);
+    if (!(curvature > T(0)) || !(rho > T(0))) break;
+    const T length = rho / curvature;
+    trial_.x += length * u_;
+    trial_.X.flat() += length * refinement_.X.flat();
+    trial_.Y.flat() -= length * refinement_.Y.flat();
+    h_ -= length * a_;
+    const T error = h_.norm();
+    ++since_best;
+    if (!(error < best)) continue;
+    best = error;
+    direction.x = trial_.x;
+    direction.X.flat() = trial_.X.flat();
+    direction.Y.flat() = trial_.Y.flat();
+    since_best = 0;
+  }
 }
 
 template <typename T>
-T Newton<T>::step(const Iterate<T>& point, const Iterate<T>& direction, const T& longest) {
+void Newton<T>::move_tau(const Iterate<T>& point, const Defect<T>& defect, const T& sigma,
+                         const T& eta, const T& trace_c, const T& c_tau_kappa,
+                         Iterate<T>& direction) const {
+  const T denominator =
+      (order_ * mu_ + T(2.0) * r_y_ + r_r_ - q_.dot(p_)) / point.tau + T(2.0) * c_.dot(p_);
+  const T numerator = (eta + sigma - T(1)) * order_ * mu_ - trace_c - c_tau_kappa +
+                      inner(defect.primal, k_) + p_.dot(h_);
+  direction.tau = numerator / denominator;
+  direction.kappa =
+      (sigma * mu_ - point.kappa * point.tau - c_tau_kappa - point.kappa * direction.tau) /
+      point.tau;
+  direction.x = u_ + direction.tau * ((point.x + p_) / point.tau - T(2.0) * z_);
+}
+
+template <typename T>
+Steps<T> Newton<T>::step(const Iterate<T>& point, const Iterate<T>& direction, const T& longest) {
+  if (model_ == Model::fixed)
+    return {factor_X_.step(direction.X, longest), factor_Y_.step(direction.Y, longest)};
   T a = longest;
   if (direction.tau < T(0)) a = std::min(a, T(-point.tau / direction.tau));
   if (direction.kappa < T(0)) a = std::min(a, T(-point.kappa / direction.kappa));
   a = std::min(a, factor_X_.step(direction.X, a));
-  return std::min(a, factor_Y_.step(direction.Y, a));
+  a = std::min(a, factor_Y_.step(direction.Y, a));
+  return {a, a};
 }
 
 #define GAINSMITH_INSTANTIATE(T) template class Newton<T>;

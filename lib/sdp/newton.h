@@ -3,7 +3,6 @@
 
 #include "sdp/factor.h"
 #include "sdp/iterate.h"
-#include "sdp/residuals.h"
 #include "sdp/schur.h"
 
 namespace gainsmith::sdp {
@@ -26,31 +25,50 @@ namespace gainsmith::sdp {
 ///          / ([(n+1) mu + 2 R.Y + R.X^-1 R Y - q'p]/tau + 2 c'p)     (both sides times tau),
 /// from (n+1) mu = -(tau g + x'r + R.Y), an identity of the model. What is subtracted in the
 /// textbook form (numbers of the size of 1/mu that leave one of the size of mu) never appears.
+///
+/// At a fixed tau (dtau = dkappa = 0) the same formulas give the infeasible primal-dual direction
+/// of the problem itself, with eta = 1 and mu = X.Y / n.
+enum class Model { homogeneous, fixed };
+
+/// The longest steps for (x, X, tau) and for (Y, kappa).
+template <typename T>
+struct Steps {
+  T primal{0}, dual{0};
+};
+
 template <typename T>
 class Newton {
  public:
   Newton(const Data& data, unsigned threads);
 
   /// Factors X and Y and the Schur complement at `point`. False when a factorisation fails.
-  bool prepare(const Iterate<T>& point, const Residuals<T>& residuals);
+  bool prepare(const Iterate<T>& point, const Defect<T>& defect, Model model);
 
   /// sigma = 0, eta = 1, C = 0.
-  void predict(const Iterate<T>& point, const Residuals<T>& residuals, Iterate<T>& direction);
+  void predict(const Iterate<T>& point, const Defect<T>& defect, Iterate<T>& direction);
 
   /// The direction with second-order terms of `predictor`.
-  void correct(const Iterate<T>& point, const Residuals<T>& residuals, const Iterate<T>& predictor,
+  void correct(const Iterate<T>& point, const Defect<T>& defect, const Iterate<T>& predictor,
                const T& sigma, const T& eta, Iterate<T>& direction);
 
-  /// The largest a <= `longest` that keeps point + a direction in the cone.
-  T step(const Iterate<T>& point, const Iterate<T>& direction, const T& longest);
+  /// The largest steps <= `longest` that keep point + step direction in the cone; in the
+  /// homogeneous model both are the shorter one.
+  Steps<T> step(const Iterate<T>& point, const Iterate<T>& direction, const T& longest);
 
  private:
-  void solve(const Iterate<T>& point, const Residuals<T>& residuals, const T& sigma, const T& eta,
+  void solve(const Iterate<T>& point, const Defect<T>& defect, const T& sigma, const T& eta,
              const T& trace_c, const T& c_tau_kappa, Iterate<T>& direction);
+  /// dx, dtau and dkappa of the homogeneous model from u_ and h_.
+  void move_tau(const Iterate<T>& point, const Defect<T>& defect, const T& sigma, const T& eta,
+                const T& trace_c, const T& c_tau_kappa, Iterate<T>& direction) const;
+  /// Lowers the residual of the dual equation that rounding left in `direction`.
+  void refine(const Iterate<T>& point, const Defect<T>& defect, const T& eta,
+              Iterate<T>& direction);
   /// out = H(X^-1 left right)
   void scaled_product(const Blocks<T>& left, const Blocks<T>& right, Blocks<T>& out);
 
   const Data& data_;
+  Model model_ = Model::homogeneous;
   Schur<T> schur_;
   ConeFactor<T> factor_X_, factor_Y_;
   Blocks<T> inverse_X_;
@@ -58,6 +76,7 @@ class Newton {
   Blocks<T> correction_;     ///< H(X^-1 C)
   Blocks<T> k_;
   Blocks<T> half_, product_;
+  Iterate<T> refinement_, trial_;
   Vector<T> a_, q_, p_, z_, u_, h_, c_;
   T mu_{0}, order_{0}, r_y_{0}, r_r_{0};
 };

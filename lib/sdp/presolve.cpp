@@ -168,7 +168,7 @@ Presolved presolve(const Problem& problem) {
   const double norm_f0 = frobenius_norm(problem.f[0]);
   if (norm_f0 > 0) recovery.gamma_f = power_of_two_below(norm_f0);
   append(problem.f[0], 0, 1 / recovery.gamma_f, targets, data);
-  double largest_c = 0;
+  double largest_c = 0, largest_norm = norm_f0, largest_ratio = 0;
   for (int i = 0; i < problem.m(); ++i) {
     const auto& list = problem.f[static_cast<std::size_t>(i) + 1];
     const double c = problem.c[static_cast<std::size_t>(i)];
@@ -179,6 +179,8 @@ Presolved presolve(const Problem& problem) {
     }
     const double s = 1 / power_of_two_below(norm_fi);
     recovery.constraint.push_back(i);
+    largest_norm = std::max(largest_norm, norm_fi);
+    largest_ratio = std::max(largest_ratio, (1 + std::abs(c)) / (1 + norm_fi));
     recovery.s.push_back(s);
     data.c.push_back(s * c);
     largest_c = std::max(largest_c, std::abs(s * c));
@@ -186,42 +188,44 @@ Presolved presolve(const Problem& problem) {
   }
   if (largest_c > 0) recovery.gamma_c = power_of_two_below(largest_c);
   for (double& c : data.c) c /= recovery.gamma_c;
+  const double n = data.layout.order();
+  result.far_X = std::max(1.0, std::sqrt(n) * (1 + largest_norm) / recovery.gamma_f);
+  result.far_Y = std::max(1.0, n * largest_ratio / recovery.gamma_c);
   return result;
 }
 
-template <typename T>
-Point restore(const Problem& problem, const Presolved& presolved, const Vector<T>& x,
-              const Blocks<T>& X, const Blocks<T>& Y, const T& scale) {
+template <typename Out, typename T>
+Point<Out> restore(const Problem& problem, const Presolved& presolved, const Vector<T>& x,
+                   const Blocks<T>& X, const Blocks<T>& Y, const T& scale) {
   const Recovery& r = presolved.recovery;
-  Point point;
-  point.x.assign(problem.c.size(), 0.0);
+  Point<Out> point;
+  point.x.assign(problem.c.size(), Out(0));
   for (std::size_t i = 0; i < r.constraint.size(); ++i)
     point.x[static_cast<std::size_t>(r.constraint[i])] =
-        static_cast<double>(T(x[static_cast<Eigen::Index>(i)] / scale) * (r.gamma_f * r.s[i]));
+        as<Out>(T(T(x[static_cast<Eigen::Index>(i)] / scale) * (r.gamma_f * r.s[i])));
   for (const Block& block : problem.blocks) {
     const auto n = static_cast<std::size_t>(block.size);
-    point.X.values.emplace_back(block.diagonal ? n : n * n, 0.0);
-    point.Y.values.emplace_back(block.diagonal ? n : n * n, 0.0);
+    point.X.emplace_back(block.diagonal ? n : n * n, Out(0));
+    point.Y.emplace_back(block.diagonal ? n : n * n, Out(0));
   }
   const auto set = [&](const Recovery::Row& row, const Recovery::Row& column, const T& vx,
                        const T& vy) {
     const auto b = static_cast<std::size_t>(row.block);
     const Block& block = problem.blocks[b];
-    const int at = block.diagonal ? row.row : row.row + block.size * column.row;
+    const auto at =
+        static_cast<std::size_t>(block.diagonal ? row.row : row.row + block.size * column.row);
     const double d = row.d * column.d;
-    point.X.values[b][static_cast<std::size_t>(at)] =
-        static_cast<double>(T(vx / scale) * (r.gamma_f / d));
-    point.Y.values[b][static_cast<std::size_t>(at)] =
-        static_cast<double>(T(vy / scale) * (r.gamma_c * d));
+    point.X[b][at] = as<Out>(T(T(vx / scale) * (r.gamma_f / d)));
+    point.Y[b][at] = as<Out>(T(T(vy / scale) * (r.gamma_c * d)));
   };
   for (std::size_t b = 0; b < r.dense.size(); ++b) {
     const auto& rows = r.dense[b];
-    const auto blockX = X.dense(static_cast<int>(b));
-    const auto blockY = Y.dense(static_cast<int>(b));
+    const auto block_X = X.dense(static_cast<int>(b));
+    const auto block_Y = Y.dense(static_cast<int>(b));
     for (std::size_t j = 0; j < rows.size(); ++j)
       for (std::size_t i = 0; i < rows.size(); ++i) {
         const auto p = static_cast<Eigen::Index>(i), q = static_cast<Eigen::Index>(j);
-        set(rows[i], rows[j], blockX(p, q), blockY(p, q));
+        set(rows[i], rows[j], block_X(p, q), block_Y(p, q));
       }
   }
   for (std::size_t k = 0; k < r.linear.size(); ++k) {
@@ -231,10 +235,12 @@ Point restore(const Problem& problem, const Presolved& presolved, const Vector<T
   return point;
 }
 
-#define GAINSMITH_INSTANTIATE(T)                                                                  \
-  template Point restore<T>(const Problem&, const Presolved&, const Vector<T>&, const Blocks<T>&, \
-                            const Blocks<T>&, const T&);
-GAINSMITH_FOR_EACH_SCALAR(GAINSMITH_INSTANTIATE)
+#define GAINSMITH_INSTANTIATE(Out, T)                                                     \
+  template Point<Out> restore<Out, T>(const Problem&, const Presolved&, const Vector<T>&, \
+                                      const Blocks<T>&, const Blocks<T>&, const T&);
+GAINSMITH_INSTANTIATE(double, double)
+GAINSMITH_INSTANTIATE(DoubleDouble, DoubleDouble)
+GAINSMITH_INSTANTIATE(DoubleDouble, Decimal100)
 #undef GAINSMITH_INSTANTIATE
 
 }  // namespace gainsmith::sdp

@@ -5,7 +5,6 @@
 
 #include "sdp/data.h"
 #include "sdp/problem.h"
-#include "sdp/solution.h"
 
 namespace gainsmith::sdp {
 
@@ -40,6 +39,10 @@ struct Recovery {
 struct Presolved {
   Data data;
   Recovery recovery;
+  /// A far starting point X' = far_X I, Y' = far_Y I (after Toh, Todd, Tutuncu 1999 and Borchers
+  /// 1999): the sizes that the data suggest for X and Y, times the square root of n, or n.
+  double far_X = 1;
+  double far_Y = 1;
   /// An i with F_i = 0 and c_i != 0, from 0: x = -sign(c_i) e_i proves dual infeasibility; or -1.
   int free_descent = -1;
 };
@@ -47,14 +50,17 @@ struct Presolved {
 /// Entries of one F_i at the same place add up. F_i = 0 with c_i = 0 are dropped (x_i = 0).
 Presolved presolve(const Problem& problem);
 
-/// The point (x, X, Y)/scale of the working problem in terms of the original one.
-struct Point {
-  std::vector<double> x;
-  BlockMatrix X;
-  BlockMatrix Y;
-};
+/// A point in terms of the original problem, packed as BlockMatrix is.
 template <typename T>
-Point restore(const Problem& problem, const Presolved& presolved, const Vector<T>& x,
-              const Blocks<T>& X, const Blocks<T>& Y, const T& scale);
+struct Point {
+  std::vector<T> x;
+  std::vector<std::vector<T>> X;
+  std::vector<std::vector<T>> Y;
+};
+
+/// The point (x, X, Y)/scale of the working problem in terms of the original one.
+template <typename Out, typename T>
+Point<Out> restore(const Problem& problem, const Presolved& presolved, const Vector<T>& x,
+                   const Blocks<T>& X, const Blocks<T>& Y, const T& scale);
 
 }  // namespace gainsmith::sdp

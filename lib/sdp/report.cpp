@@ -1,162 +1,220 @@
 #include "sdp/report.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <type_traits>
+
+#include "sdp/kernels.h"
+#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {
 
-using Map = Eigen::Map<const Eigen::MatrixXd>;
+template <typename T>
+using Packed = std::vector<std::vector<T>>;
 
-double& at(const Problem& problem, BlockMatrix& matrix, int block, int row, int column) {
-  const Block& shape = problem.blocks[static_cast<std::size_t>(block)];
-  const int place = shape.diagonal ? row : row + shape.size * column;
-  return matrix.values[static_cast<std::size_t>(block)][static_cast<std::size_t>(place)];
+std::size_t place(const Block& block, int row, int column) {
+  return static_cast<std::size_t>(block.diagonal ? row : row + block.size * column);
+}
+
+const Block& block_of(const Problem& problem, const Entry& e) {
+  return problem.blocks[static_cast<std::size_t>(e.block)];
 }
 
 /// F . S
-double inner(const Problem& problem, const std::vector<Entry>& f, const BlockMatrix& s) {
-  double sum = 0;
+template <typename T>
+T inner(const Problem& problem, const std::vector<Entry>& f, const Packed<T>& s) {
+  T sum(0);
   for (const Entry& e : f) {
-    const Block& shape = problem.blocks[static_cast<std::size_t>(e.block)];
-    const int place = shape.diagonal ? e.row : e.row + shape.size * e.column;
-    const double value =
-        s.values[static_cast<std::size_t>(e.block)][static_cast<std::size_t>(place)];
-    sum += (e.row == e.column ? 1 : 2) * e.value * value;
+    const T& value =
+        s[static_cast<std::size_t>(e.block)][place(block_of(problem, e), e.row, e.column)];
+    sum += value * ((e.row == e.column ? 1 : 2) * e.value);
   }
   return sum;
 }
 
 /// sum_i x_i F_i - tau F_0
-BlockMatrix combine(const Problem& problem, const std::vector<double>& x, double tau) {
-  BlockMatrix result;
+template <typename T>
+Packed<T> combine(const Problem& problem, const std::vector<T>& x, double tau) {
+  Packed<T> result;
   for (const Block& block : problem.blocks) {
     const auto n = static_cast<std::size_t>(block.size);
-    result.values.emplace_back(block.diagonal ? n : n * n, 0.0);
+    result.emplace_back(block.diagonal ? n : n * n, T(0));
   }
   for (std::size_t i = 0; i < problem.f.size(); ++i) {
-    const double factor = i == 0 ? -tau : x[i - 1];
-    if (factor == 0) continue;
+    const T factor = i == 0 ? T(-tau) : x[i - 1];
     for (const Entry& e : problem.f[i]) {
-      at(problem, result, e.block, e.row, e.column) += factor * e.value;
-      if (e.row != e.column) at(problem, result, e.block, e.column, e.row) += factor * e.value;
+      const Block& block = block_of(problem, e);
+      auto& values = result[static_cast<std::size_t>(e.block)];
+      values[place(block, e.row, e.column)] += factor * e.value;
+      if (e.row != e.column) values[place(block, e.column, e.row)] += factor * e.value;
     }
   }
   return result;
 }
 
-double smallest_eigenvalue(const Problem& problem, const BlockMatrix& matrix) {
+double smallest_eigenvalue(const Problem& problem, const Packed<double>& matrix) {
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const Block& block = problem.blocks[b];
-    const auto& values = matrix.values[b];
+    const auto& values = matrix[b];
     if (block.diagonal) {
       smallest = std::min(smallest, *std::min_element(values.begin(), values.end()));
     } else {
-      const Map map(values.data(), block.size, block.size);
-      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(map, Eigen::EigenvaluesOnly);
+      const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(
+          ConstMatrixMap<double>(values.data(), block.size, block.size), Eigen::EigenvaluesOnly);
       smallest = std::min(smallest, solver.eigenvalues()[0]);
     }
   }
   return smallest;
 }
 
-bool positive_definite(const Problem& problem, const BlockMatrix& matrix) {
+/// Does matrix + shift I have a Cholesky factor in T (nonnegative entries, in a diagonal block)?
+/// Rows that are zero throughout are left out: they take nothing from semidefiniteness.
+template <typename T>
+bool positive(const Problem& problem, const Packed<T>& matrix, double shift) {
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const Block& block = problem.blocks[b];
-    const auto& values = matrix.values[b];
+    const auto& values = matrix[b];
     if (block.diagonal) {
-      for (const double v : values)
-        if (!(v >= 0)) return false;
-    } else {
-      const Eigen::LLT<Eigen::MatrixXd> llt(Map(values.data(), block.size, block.size));
-      if (llt.info() != Eigen::Success) return false;
+      for (const T& v : values)
+        if (v < T(-shift)) return false;
+      continue;
     }
+    const ConstMatrixMap<T> map(values.data(), block.size, block.size);
+    Matrix<T> copy = map;
+    for (Eigen::Index i = 0; i < copy.rows(); ++i) {
+      copy(i, i) += T(shift);
+      if (map.col(i).cwiseEqual(T(0)).all()) copy(i, i) = T(1);
+    }
+    if (!cholesky(View<T>(copy))) return false;
   }
   return true;
 }
 
-/// max(0, -lambda_min), without eigenvalues where a Cholesky factor shows that it is 0.
-double negative_part(const Problem& problem, const BlockMatrix& matrix) {
-  if (positive_definite(problem, matrix)) return 0;
-  return std::max(0.0, -smallest_eigenvalue(problem, matrix));
+/// max(0, -lambda_min), rounded up to a power of two: the least shift that makes it positive.
+template <typename T>
+double negative_part(const Problem& problem, const Packed<T>& matrix) {
+  if (positive(problem, matrix, 0)) return 0;
+  double shift = std::numeric_limits<double>::min();
+  while (shift < std::numeric_limits<double>::max() / 16 && !positive(problem, matrix, shift))
+    shift *= 16;
+  for (double lower = shift / 16; lower < shift; lower *= 2)
+    if (positive(problem, matrix, lower)) return lower;
+  return shift;
 }
 
-double dot(const BlockMatrix& a, const BlockMatrix& b) {
-  double sum = 0;
-  for (std::size_t k = 0; k < a.values.size(); ++k)
-    for (std::size_t i = 0; i < a.values[k].size(); ++i) sum += a.values[k][i] * b.values[k][i];
+template <typename T>
+T dot(const Packed<T>& a, const Packed<T>& b) {
+  T sum(0);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (std::size_t i = 0; i < a[k].size(); ++i) sum += a[k][i] * b[k][i];
   return sum;
 }
 
-double dot(const std::vector<double>& a, const std::vector<double>& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) sum += a[i] * b[i];
+template <typename T>
+T dot(const std::vector<double>& a, const std::vector<T>& b) {
+  T sum(0);
+  for (std::size_t i = 0; i < a.size(); ++i) sum += b[i] * a[i];
   return sum;
+}
+
+template <typename T>
+void split(const std::vector<T>& from, std::vector<double>& value, std::vector<double>& rest) {
+  for (const T& v : from) {
+    value.push_back(static_cast<double>(v));
+    if constexpr (!std::is_same_v<T, double>) rest.push_back(v.lo());
+  }
+}
+
+template <typename T>
+void split(const Packed<T>& from, BlockMatrix& value, BlockMatrix& rest) {
+  for (const auto& block : from) {
+    std::vector<double> low;
+    split(block, value.values.emplace_back(), low);
+    if constexpr (!std::is_same_v<T, double>) rest.values.push_back(std::move(low));
+  }
 }
 
 }  // namespace
 
-void measure(const Problem& problem, const Point& point, Solution& solution) {
-  const double primal = dot(problem.c, point.x);
-  const double dual = inner(problem, problem.f[0], point.Y);
-  const double size = 1 + std::abs(primal) + std::abs(dual);
-  double largest_c = 0, largest_f0 = 0, dual_square = 0, primal_square = 0;
+template <typename T>
+void measure(const Problem& problem, const Point<T>& point, Solution& solution) {
+  const T primal = dot(problem.c, point.x);
+  const T dual = inner(problem, problem.f[0], point.Y);
+  solution.primal_objective = static_cast<double>(primal);
+  solution.dual_objective = static_cast<double>(dual);
+  const double size = 1 + std::abs(solution.primal_objective) + std::abs(solution.dual_objective);
+  double largest_c = 0, largest_f0 = 0;
   for (const double c : problem.c) largest_c = std::max(largest_c, std::abs(c));
   for (const Entry& e : problem.f[0]) largest_f0 = std::max(largest_f0, std::abs(e.value));
+
+  double dual_square = 0, primal_square = 0;
   for (std::size_t i = 0; i < problem.c.size(); ++i) {
-    const double r = inner(problem, problem.f[i + 1], point.Y) - problem.c[i];
+    const double r =
+        static_cast<double>(T(inner(problem, problem.f[i + 1], point.Y) - problem.c[i]));
     dual_square += r * r;
   }
-  const BlockMatrix combined = combine(problem, point.x, 1);
-  for (std::size_t b = 0; b < combined.values.size(); ++b)
-    for (std::size_t i = 0; i < combined.values[b].size(); ++i) {
-      const double r = combined.values[b][i] - point.X.values[b][i];
+  const Packed<T> combined = combine(problem, point.x, 1);
+  for (std::size_t b = 0; b < combined.size(); ++b)
+    for (std::size_t i = 0; i < combined[b].size(); ++i) {
+      const double r = static_cast<double>(T(combined[b][i] - point.X[b][i]));
       primal_square += r * r;
     }
 
-  solution.primal_objective = primal;
-  solution.dual_objective = dual;
-  solution.relative_gap = (primal - dual) / size;
+  solution.relative_gap = static_cast<double>(T(primal - dual)) / size;
   solution.dimacs = {std::sqrt(dual_square) / (1 + largest_c),
                      negative_part(problem, point.Y) / (1 + largest_c),
                      std::sqrt(primal_square) / (1 + largest_f0),
                      negative_part(problem, point.X) / (1 + largest_f0),
                      solution.relative_gap,
-                     dot(point.X, point.Y) / size};
+                     static_cast<double>(dot(point.X, point.Y)) / size};
 }
 
-Certificate check_primal_infeasible(const Problem& problem, Point& point, double tolerance) {
+template <typename T>
+void store(const Point<T>& point, Solution& solution) {
+  split(point.x, solution.x, solution.rest.x);
+  split(point.X, solution.X, solution.rest.X);
+  split(point.Y, solution.Y, solution.rest.Y);
+}
+
+Certificate check_primal_infeasible(const Problem& problem, BlockMatrix& Y, double tolerance) {
   Certificate certificate;
-  const double value = inner(problem, problem.f[0], point.Y);
+  const double value = inner(problem, problem.f[0], Y.values);
   if (!(value > 0)) return certificate;
-  for (auto& block : point.Y.values)
+  for (auto& block : Y.values)
     for (double& v : block) v /= value;
   for (std::size_t i = 1; i < problem.f.size(); ++i)
-    certificate.residual += std::abs(inner(problem, problem.f[i], point.Y));
-  certificate.value = inner(problem, problem.f[0], point.Y);
-  certificate.min_eigenvalue = smallest_eigenvalue(problem, point.Y);
+    certificate.residual += std::abs(inner(problem, problem.f[i], Y.values));
+  certificate.value = inner(problem, problem.f[0], Y.values);
+  certificate.min_eigenvalue = smallest_eigenvalue(problem, Y.values);
   certificate.excluded_radius = 1 / certificate.residual;
   certificate.checked = certificate.residual <= tolerance &&
-                        (certificate.min_eigenvalue >= 0 || positive_definite(problem, point.Y));
+                        (certificate.min_eigenvalue >= 0 || positive(problem, Y.values, 0));
   return certificate;
 }
 
-Certificate check_dual_infeasible(const Problem& problem, Point& point, double tolerance) {
+Certificate check_dual_infeasible(const Problem& problem, std::vector<double>& x,
+                                  double tolerance) {
   Certificate certificate;
-  const double value = -dot(problem.c, point.x);
+  const double value = -dot(problem.c, x);
   if (!(value > 0)) return certificate;
-  for (double& v : point.x) v /= value;
-  const BlockMatrix combined = combine(problem, point.x, 0);
-  certificate.value = -dot(problem.c, point.x);
-  certificate.min_eigenvalue = smallest_eigenvalue(problem, combined);
+  for (double& v : x) v /= value;
+  certificate.value = -dot(problem.c, x);
+  certificate.min_eigenvalue = smallest_eigenvalue(problem, combine(problem, x, 0));
   certificate.residual = std::max(0.0, -certificate.min_eigenvalue);
   certificate.excluded_radius = 1 / certificate.residual;
   certificate.checked = certificate.residual <= tolerance;
   return certificate;
 }
+
+#define GAINSMITH_INSTANTIATE(T)                                        \
+  template void measure<T>(const Problem&, const Point<T>&, Solution&); \
+  template void store<T>(const Point<T>&, Solution&);
+GAINSMITH_INSTANTIATE(double)
+GAINSMITH_INSTANTIATE(DoubleDouble)
+#undef GAINSMITH_INSTANTIATE
 
 }  // namespace gainsmith::sdp

@@ -7,13 +7,17 @@
 
 namespace gainsmith::sdp {
 
-/// Fills objectives, gap and DIMACS errors of `point` on `problem`.
-void measure(const Problem& problem, const Point& point, Solution& solution);
+/// Fills objectives, gap and DIMACS errors of `point` on `problem`, computed in T.
+template <typename T>
+void measure(const Problem& problem, const Point<T>& point, Solution& solution);
 
-/// Normalises Y of `point` to F_0.Y = 1, or x to c'x = -1, and checks what Certificate demands on
-/// the raw data with residual at most `tolerance`. Returns what it found; `checked` says whether it
-/// holds.
-Certificate check_primal_infeasible(const Problem& problem, Point& point, double tolerance);
-Certificate check_dual_infeasible(const Problem& problem, Point& point, double tolerance);
+/// Rounds `point` to the doubles of `solution`, and what that leaves to `solution.rest`.
+template <typename T>
+void store(const Point<T>& point, Solution& solution);
+
+/// Normalises Y to F_0.Y = 1, or x to c'x = -1, and checks what Certificate demands on the raw data
+/// with residual at most `tolerance`. Returns what it found; `checked` says whether it holds.
+Certificate check_primal_infeasible(const Problem& problem, BlockMatrix& Y, double tolerance);
+Certificate check_dual_infeasible(const Problem& problem, std::vector<double>& x, double tolerance);
 
 }  // namespace gainsmith::sdp

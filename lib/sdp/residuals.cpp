@@ -9,20 +9,22 @@
 namespace gainsmith::sdp {
 
 template <typename T>
-Residuals<T>::Residuals(const Presolved& presolved, double largest_c, double largest_f0,
-                        double norm_f0)
-    : primal(presolved.data.layout),
-      dual(Vector<T>::Zero(presolved.data.m())),
+Residuals<T>::Residuals(const Problem& problem, const Presolved& presolved)
+    : defect(presolved.data),
       presolved_(presolved),
-      largest_c_(largest_c),
-      largest_f0_(largest_f0),
-      norm_f0_(norm_f0),
-      products_(Vector<T>::Zero(presolved.data.m())) {}
+      largest_c_(0),
+      largest_f0_(0),
+      norm_f0_(frobenius_norm(problem.f[0])),
+      products_(Vector<T>::Zero(presolved.data.m())) {
+  for (const double c : problem.c) largest_c_ = std::max(largest_c_, std::abs(c));
+  for (const Entry& e : problem.f[0]) largest_f0_ = std::max(largest_f0_, std::abs(e.value));
+}
 
 template <typename T>
 void Residuals<T>::update(const Iterate<T>& point) {
   const Data& data = presolved_.data;
   const Recovery& recovery = presolved_.recovery;
+  Blocks<T>& primal = defect.primal;
   adjoint(data, point.x, point.tau, primal);
   primal.flat() -= point.X.flat();
   const T f0_y = apply(data, point.Y, products_);
@@ -34,8 +36,8 @@ void Residuals<T>::update(const Iterate<T>& point) {
   for (int i = 0; i < data.m(); ++i) {
     const auto at = static_cast<std::size_t>(i);
     cx += point.x[i] * data.c[at];
-    dual[i] = point.tau * data.c[at] - products_[i];
-    const double r = static_cast<double>(dual[i]);
+    defect.dual[i] = point.tau * data.c[at] - products_[i];
+    const double r = static_cast<double>(defect.dual[i]);
     const double original = r * recovery.gamma_c / (recovery.s[at] * tau);
     dual_square += original * original;
     products += std::abs(static_cast<double>(products_[i])) * recovery.gamma_c / recovery.s[at];

@@ -6,19 +6,15 @@
 
 namespace gainsmith::sdp {
 
-/// The residuals of the homogeneous model:
-///   primal = sum x_i F_i - tau F_0 - X,   dual_i = tau c_i - F_i . Y,
-/// (the third one, F_0.Y - c'x - kappa, follows from these: see newton.h), and what stopping looks
-/// at.
+/// The defect of an iterate and the errors that stopping looks at.
 template <typename T>
 class Residuals {
  public:
-  Residuals(const Presolved& presolved, double largest_c, double largest_f0, double norm_f0);
+  Residuals(const Problem& problem, const Presolved& presolved);
 
   void update(const Iterate<T>& point);
 
-  Blocks<T> primal;
-  Vector<T> dual;
+  Defect<T> defect;
 
   /// Of (x, X, Y)/tau on the original, unscaled problem.
   double primal_objective = 0;      ///< c'x

@@ -1,12 +1,12 @@
 #include "sdp/schur.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <set>
 
+#include "sdp/kernels.h"
 #include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
@@ -47,7 +47,7 @@ Schur<T>::Schur(const Data& data, unsigned threads)
   }
   b_.setZero(m, m);
   factor_.setZero(m, m);
-  for (Vector<T>* v : {&scale_, &residual_, &direction_, &image_, &preconditioned_}) v->setZero(m);
+  scale_.setZero(m);
 }
 
 template <typename T>
@@ -128,7 +128,7 @@ void Schur<T>::add_dense(const Plan& plan, std::size_t first, std::size_t last,
     }
   }
   MatrixMap<T> u(w.u.data(), n * count, n);
-  u.noalias() = h * inverse_X;
+  multiply(View<const T>(h), View<const T>(inverse_X), View<T>(u));
 
   T* panel = w.panel.data();
   for (Eigen::Index b = 0; b < n; ++b)
@@ -216,48 +216,22 @@ bool Schur<T>::factorise() {
   for (Eigen::Index i = 0; i < m; ++i) scale_[i] = b_(i, i) > T(0) ? T(1) / sqrt(b_(i, i)) : T(1);
   T delta(0);
   const T eps = std::numeric_limits<T>::epsilon();
-  for (int attempt = 0; attempt < 8; ++attempt) {
+  for (int attempt = 0; attempt < 20; ++attempt) {
     for (Eigen::Index j = 0; j < m; ++j)
       factor_.col(j).tail(m - j) =
           scale_[j] * b_.col(j).tail(m - j).cwiseProduct(scale_.tail(m - j));
     factor_.diagonal().setConstant(T(1) + delta);
-    Eigen::LLT<Eigen::Ref<Matrix<T>>> llt(factor_);
-    if (llt.info() == Eigen::Success) return true;
-    delta = delta == T(0) ? eps * T(8.0) : delta * T(100.0);
+    if (cholesky(View<T>(factor_))) return true;
+    delta = delta == T(0) ? eps * T(8.0) : delta * T(8.0);
   }
   return false;
 }
 
 template <typename T>
-void Schur<T>::precondition(const Vector<T>& r, Vector<T>& z) const {
-  z = r.cwiseProduct(scale_);
-  factor_.template triangularView<Eigen::Lower>().solveInPlace(z);
-  factor_.template triangularView<Eigen::Lower>().transpose().solveInPlace(z);
-  z = z.cwiseProduct(scale_);
-}
-
-template <typename T>
-void Schur<T>::solve(const Vector<T>& r, Vector<T>& x) {
-  constexpr int kSteps = 12;
-  const T target = r.cwiseProduct(scale_).norm() * std::numeric_limits<T>::epsilon() * T(4.0);
-  x.setZero();
-  residual_ = r;
-  precondition(residual_, preconditioned_);
-  direction_ = preconditioned_;
-  T rho = residual_.dot(preconditioned_);
-  for (int step = 0; step < kSteps && rho > T(0); ++step) {
-    image_.noalias() = b_.template selfadjointView<Eigen::Lower>() * direction_;
-    const T curvature = direction_.dot(image_);
-    if (!(curvature > T(0))) break;
-    const T length = rho / curvature;
-    x += length * direction_;
-    residual_ -= length * image_;
-    if (residual_.cwiseProduct(scale_).norm() <= target) break;
-    precondition(residual_, preconditioned_);
-    const T next = residual_.dot(preconditioned_);
-    direction_ = preconditioned_ + (next / rho) * direction_;
-    rho = next;
-  }
+void Schur<T>::solve(const Vector<T>& r, Vector<T>& x) const {
+  x = r.cwiseProduct(scale_);
+  solve_factored(View<const T>(factor_), x);
+  x = x.cwiseProduct(scale_);
 }
 
 #define GAINSMITH_INSTANTIATE(T) template class Schur<T>;

@@ -1,4 +1,4 @@
-// The Schur complement B of the Newton system: its assembly, its factor and refined solves.
+// The Schur complement B of the Newton system: its assembly and its factor.
 #pragma once
 
 #include <vector>
@@ -26,12 +26,11 @@ class Schur {
   void assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y);
 
   /// Cholesky of B with its diagonal scaled to one; where that fails, of B + delta diag(B) with the
-  /// smallest delta = eps 100^k that succeeds. False when none does.
+  /// smallest delta = eps 8^k, k >= 1, that succeeds. False when none does.
   bool factorise();
 
-  /// Solves B x = r by conjugate gradients preconditioned with the factor, at most a few steps: one
-  /// when the factor is accurate, more when it was perturbed or B is nearly singular.
-  void solve(const Vector<T>& r, Vector<T>& x);
+  /// x = B^-1 r as the factor gives it; newton.h refines it.
+  void solve(const Vector<T>& r, Vector<T>& x) const;
 
  private:
   static constexpr int kBatch = 8;
@@ -61,7 +60,6 @@ class Schur {
                 const ConstMatrixMap<T>& Y, Workspace& w);
   void add_linear(const ConstVectorMap<T>& inverse_x, const ConstVectorMap<T>& y);
   void add(int i, int j, const T& value) { (i >= j ? b_(i, j) : b_(j, i)) += value; }
-  void precondition(const Vector<T>& r, Vector<T>& z) const;
 
   const Data& data_;
   unsigned threads_;
@@ -72,7 +70,6 @@ class Schur {
   Matrix<T> b_;       ///< lower triangle
   Matrix<T> factor_;  ///< lower triangle of the Cholesky factor of the scaled B
   Vector<T> scale_;   ///< diag(B)^-1/2
-  Vector<T> residual_, direction_, image_, preconditioned_;
 };
 
 }  // namespace gainsmith::sdp

@@ -58,6 +58,15 @@ struct Solution {
   BlockMatrix X;          ///< sum x_i F_i - F_0 as iterated
   BlockMatrix Y;
 
+  /// The point in a wider arithmetic than double is x + rest.x, X + rest.X, Y + rest.Y (empty in
+  /// double). The measures below are those of that point: problems that need the digits have
+  /// solutions of such a norm that rounding alone may cost them.
+  struct Rest {
+    std::vector<double> x;
+    BlockMatrix X;
+    BlockMatrix Y;
+  } rest;
+
   double primal_objective = 0;  ///< c'x, recomputed from the raw data
   double dual_objective = 0;    ///< F_0.Y, recomputed from the raw data
   double relative_gap = 0;      ///< (primal - dual) / (1 + |primal| + |dual|)

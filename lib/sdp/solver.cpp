@@ -1,71 +1,215 @@
 #include "sdp/solver.h"
 
+#include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <type_traits>
 
+#include "base/number.h"
 #include "sdp/ipm.h"
 #include "sdp/presolve.h"
 #include "sdp/report.h"
+#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// F_i = 0 with c_i != 0: x = -e_i / c_i.
-Solution free_descent(const Problem& problem, const Presolved& presolved, const Options& options) {
-  Solution solution;
-  const Iterate<double> zero(presolved.data);
-  Point point = restore(problem, presolved, zero.x, zero.X, zero.Y, 1.0);
-  const auto i = static_cast<std::size_t>(presolved.free_descent);
-  point.x[i] = -1 / problem.c[i];
-  solution.certificate = check_dual_infeasible(problem, point, options.certificate_tolerance);
-  solution.status = Status::dual_infeasible;
-  solution.cause = Cause::certificate;
-  solution.x = std::move(point.x);
-  solution.X = std::move(point.X);
-  solution.Y = std::move(point.Y);
-  return solution;
+/// Decimal digits of each arithmetic, and how to name it.
+constexpr int kDoubleDigits = 15, kQuadDigits = 31, kWideDigits = 100;
+
+template <typename T>
+std::string name_of() {
+  if constexpr (std::is_same_v<T, double>) return "double";
+  return std::to_string(std::is_same_v<T, DoubleDouble> ? kQuadDigits : kWideDigits) + " digits";
+}
+
+/// The digits that `precision` asks for; 0 for "auto".
+int digits_of(const std::string& precision) {
+  if (precision == "auto") return 0;
+  if (precision == "double") return kDoubleDigits;
+  if (precision == "quad") return kQuadDigits;
+  int digits = 0;
+  const char* const last = precision.data() + precision.size();
+  const auto [end, error] = std::from_chars(precision.data(), last, digits);
+  if (error != std::errc() || end != last || digits < 1 || digits > kWideDigits)
+    throw std::invalid_argument(
+        "sdp: precision must be auto, double, quad or a number of digits from 1 to " +
+        std::to_string(kWideDigits) + ", not '" + precision + "'");
+  return digits;
+}
+
+/// The worst of the DIMACS errors.
+double worst(const Solution& solution) {
+  double result = 0;
+  for (const double error : solution.dimacs) result = std::max(result, std::abs(error));
+  return result;
 }
 
 /// What the run showed, judged on the raw problem alone.
 template <typename T>
-void conclude(const Problem& problem, const Presolved& presolved, const Options& options,
-              Ipm<T>& ipm, Cause cause, Solution& solution) {
+Solution conclude(const Problem& problem, const Presolved& presolved, const Options& options,
+                  const Ipm<T>& ipm, Cause cause) {
+  using Out = std::conditional_t<std::is_same_v<T, double>, double, DoubleDouble>;
   const Iterate<T>& end = ipm.point();
-  const Residuals<T>& residuals = ipm.residuals();
+  const bool certificate = cause == Cause::certificate;
+  Point<Out> point =
+      restore<Out>(problem, presolved, end.x, end.X, end.Y, certificate ? T(1) : end.tau);
+  Solution solution;
   solution.cause = cause;
-  solution.iterations = ipm.iterations();
-  Point point = restore(problem, presolved, end.x, end.X, end.Y,
-                        cause == Cause::certificate ? T(1) : end.tau);
   measure(problem, point, solution);
+  store(point, solution);
   if (cause == Cause::converged) solution.status = Status::optimal;
-  if (cause == Cause::certificate) {
-    const bool primal = residuals.primal_certificate <= residuals.dual_certificate;
-    solution.certificate =
-        primal ? check_primal_infeasible(problem, point, options.certificate_tolerance)
-               : check_dual_infeasible(problem, point, options.certificate_tolerance);
-    if (solution.certificate.checked)
-      solution.status = primal ? Status::primal_infeasible : Status::dual_infeasible;
+  if (!certificate) return solution;
+  const bool primal = ipm.residuals().primal_certificate <= ipm.residuals().dual_certificate;
+  solution.rest = {};
+  solution.certificate =
+      primal ? check_primal_infeasible(problem, solution.Y, options.certificate_tolerance)
+             : check_dual_infeasible(problem, solution.x, options.certificate_tolerance);
+  if (solution.certificate.checked)
+    solution.status = primal ? Status::primal_infeasible : Status::dual_infeasible;
+  return solution;
+}
+
+/// One solve: runs of the loop in wider and wider arithmetic until one decides.
+class Ladder {
+ public:
+  Ladder(const Problem& problem, const Presolved& presolved, const Options& options,
+         Clock::time_point start)
+      : problem_(problem), presolved_(presolved), options_(options), start_(start) {}
+
+  Solution climb(int digits) {
+    if (digits > kQuadDigits) return settle<Decimal100>(kFarther);
+    if (digits > kDoubleDigits) return settle<DoubleDouble>(kFarther);
+    Ipm<double> narrow(problem_, presolved_, options_);
+    attempt(narrow, Model::fixed, 1);
+    if (!over() && best_error_ > kHopeless) attempt(narrow, Model::homogeneous, 0);
+    if (over() || digits > 0 || cost() > kQuadCost) return std::move(best_);
+
+    Ipm<DoubleDouble> wide(problem_, presolved_, options_);
+    reason_ = reason("double");
+    wide.start_from(narrow.point());
+    if (narrow.residuals().worst() < kHopeless) run(wide, Model::fixed);
+    if (!over()) attempt(wide, Model::fixed, kFarther);
+    if (over() || cost() > kWideCost) return std::move(best_);
+    reason_ = reason(name_of<DoubleDouble>());
+    return settle<Decimal100>(kFarther);
   }
-  solution.x = std::move(point.x);
-  solution.X = std::move(point.X);
-  solution.Y = std::move(point.Y);
+
+ private:
+  /// An error from which a wider arithmetic had better start afresh.
+  static constexpr double kHopeless = 1e-3;
+  /// How much farther than far_X, far_Y a run in wide arithmetic starts: problems that need it tend
+  /// to have solutions of great norm, and it can afford the cancellation.
+  static constexpr double kFarther = 1e4;
+  /// Multiplications an iteration up to which a wider arithmetic is tried unasked.
+  static constexpr double kQuadCost = 1e9, kWideCost = 2e6;
+
+  template <typename T>
+  Solution settle(double factor) {
+    Ipm<T> ipm(problem_, presolved_, options_);
+    attempt(ipm, Model::fixed, factor);
+    return std::move(best_);
+  }
+
+  template <typename T>
+  void attempt(Ipm<T>& ipm, Model model, double factor) {
+    ipm.start_far(factor);
+    run(ipm, model);
+  }
+
+  template <typename T>
+  void run(Ipm<T>& ipm, Model model);
+
+  /// Decided, or stopped from outside.
+  bool over() const {
+    return best_.status != Status::undecided || best_.cause == Cause::iteration_limit ||
+           best_.cause == Cause::time_limit || best_.cause == Cause::interrupted;
+  }
+  std::string reason(const std::string& arithmetic) const {
+    return arithmetic + " " + to_string(best_.cause);
+  }
+  double cost() const;
+
+  const Problem& problem_;
+  const Presolved& presolved_;
+  const Options& options_;
+  Clock::time_point start_;
+  Solution best_;
+  double best_error_ = std::numeric_limits<double>::infinity();
+  int iterations_ = 0;
+  std::string reason_;
+};
+
+template <typename T>
+void Ladder::run(Ipm<T>& ipm, Model model) {
+  const Cause cause = ipm.run({model, options_.tolerance, iterations_, start_});
+  iterations_ = ipm.iterations();
+  Solution found = conclude(problem_, presolved_, options_, ipm, cause);
+  const double error = ipm.residuals().worst();
+  const bool decided = found.status != Status::undecided;
+  if (decided || error < best_error_ || !std::isfinite(best_error_)) {
+    best_ = std::move(found);
+    best_error_ = error;
+    best_.precision = name_of<T>();
+    best_.precision_reason = reason_;
+  } else {
+    best_.cause = cause;
+  }
+  best_.iterations = iterations_;
+}
+
+/// Multiplications of one iteration: products, factors and the Schur complement.
+double Ladder::cost() const {
+  const Layout& layout = presolved_.data.layout;
+  const double m = presolved_.data.m();
+  double sum = m * m * m / 6;
+  for (int b = 0; b < layout.blocks(); ++b) {
+    const double n = layout.size[static_cast<std::size_t>(b)];
+    const BlockData& block = presolved_.data.dense[static_cast<std::size_t>(b)];
+    const auto entries = static_cast<double>(block.terms.size());
+    sum += 12 * n * n * n + std::min(block.lists() * n * n * n, 4 * entries * n + m * entries);
+  }
+  return sum;
+}
+
+/// F_i = 0 with c_i != 0: x = -e_i / c_i.
+Solution free_descent(const Problem& problem, const Presolved& presolved, const Options& options) {
+  Solution solution;
+  const Iterate<double> zero(presolved.data);
+  store(restore<double>(problem, presolved, zero.x, zero.X, zero.Y, 1.0), solution);
+  const auto i = static_cast<std::size_t>(presolved.free_descent);
+  solution.x[i] = -1 / problem.c[i];
+  solution.certificate = check_dual_infeasible(problem, solution.x, options.certificate_tolerance);
+  solution.status = Status::dual_infeasible;
+  solution.cause = Cause::certificate;
+  return solution;
+}
+
+/// One sentence for a person about a point that decides nothing.
+std::string explain(const Solution& solution) {
+  if (solution.status != Status::undecided) return {};
+  return "stopped (" + to_string(solution.cause) + ") with the objectives in [" +
+         decimal17(std::min(solution.dual_objective, solution.primal_objective)) + ", " +
+         decimal17(std::max(solution.dual_objective, solution.primal_objective)) +
+         "] and the worst error " + brief(worst(solution), 2);
 }
 
 }  // namespace
 
 Solution solve(const Problem& problem, const Options& options) {
   const Clock::time_point start = Clock::now();
+  const int digits = digits_of(options.precision);
   validate(problem);
   const Presolved presolved = presolve(problem);
-  Solution solution;
-  if (presolved.free_descent >= 0) {
-    solution = free_descent(problem, presolved, options);
-  } else {
-    Ipm<double> ipm(problem, presolved, options, start);
-    const Cause cause = ipm.run();
-    conclude(problem, presolved, options, ipm, cause, solution);
-  }
+  Solution solution = presolved.free_descent >= 0
+                          ? free_descent(problem, presolved, options)
+                          : Ladder(problem, presolved, options, start).climb(digits);
+  solution.message = explain(solution);
   solution.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return solution;
 }

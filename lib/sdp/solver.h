@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include "sdp/problem.h"
 #include "sdp/solution.h"
@@ -11,6 +12,7 @@ namespace gainsmith::sdp {
 /// One line of the progress table.
 struct Progress {
   int iteration = 0;
+  std::string precision;  ///< the arithmetic of this iteration
   double primal_objective = 0;
   double dual_objective = 0;
   double relative_gap = 0;
@@ -23,16 +25,21 @@ struct Progress {
 struct Options {
   double tolerance = 1e-8;              ///< relative gap and DIMACS errors for `optimal`
   double certificate_tolerance = 1e-8;  ///< certificate residual (normalised, see Certificate)
-  int iteration_limit = 200;
-  double time_limit = 0;                          ///< seconds; 0 = none
-  unsigned threads = 1;                           ///< results do not depend on it
+  int iteration_limit = 200;            ///< over all arithmetics together
+  double time_limit = 0;                ///< seconds; 0 = none
+  unsigned threads = 1;                 ///< results do not depend on it
+  /// "auto": double first, then 31 and 100 digits from the best point found where double stalls
+  /// short of the tolerance (not when the problem is so large that it would take hours); "double";
+  /// "quad" (31 digits from the start); or a number of decimal digits, 1 to 100, rounded up to what
+  /// there is.
+  std::string precision = "auto";
   std::function<void(const Progress&)> progress;  ///< called once an iteration when set
   std::function<bool()> interrupted;              ///< asked once an iteration when set
 };
 
 /// Solves `problem`. Throws std::invalid_argument when the problem is malformed (indices out of
-/// range, entries below the diagonal, values that are not finite). Every other outcome is a
-/// Solution.
+/// range, entries below the diagonal, values that are not finite) or `options.precision` is none of
+/// the above. Every other outcome is a Solution.
 Solution solve(const Problem& problem, const Options& options = {});
 
 }  // namespace gainsmith::sdp

@@ -1,0 +1,128 @@
+// Numbers of twice the precision of double: an unevaluated sum of two doubles, 31 digits.
+#pragma once
+
+#include <Eigen/Core>
+#include <cmath>
+#include <limits>
+
+namespace gainsmith::sdp {
+
+/// hi + lo with |lo| <= ulp(hi)/2. Arithmetic after Dekker (1971), Knuth and Hida, Li, Bailey
+/// (2001); relative errors (Joldes, Muller, Popescu 2017): + and - 3 u^2, * 5 u^2, / 10 u^2, u =
+/// 2^-53.
+class DoubleDouble {
+ public:
+  constexpr DoubleDouble() = default;
+  constexpr DoubleDouble(double value) : hi_(value) {}
+  constexpr DoubleDouble(int value) : hi_(value) {}
+  constexpr DoubleDouble(double hi, double lo) : hi_(hi), lo_(lo) {}
+
+  constexpr double hi() const { return hi_; }
+  constexpr double lo() const { return lo_; }
+  explicit constexpr operator double() const { return hi_; }
+  explicit constexpr operator int() const { return static_cast<int>(hi_); }
+
+  constexpr DoubleDouble operator-() const { return {-hi_, -lo_}; }
+
+  friend DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
+    const DoubleDouble s = two_sum(a.hi_, b.hi_);
+    const DoubleDouble t = two_sum(a.lo_, b.lo_);
+    const DoubleDouble v = fast_two_sum(s.hi_, s.lo_ + t.hi_);
+    return fast_two_sum(v.hi_, v.lo_ + t.lo_);
+  }
+  friend DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + (-b); }
+  friend DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
+    const DoubleDouble p = two_product(a.hi_, b.hi_);
+    return fast_two_sum(p.hi_, p.lo_ + std::fma(a.hi_, b.lo_, a.lo_ * b.hi_));
+  }
+  friend DoubleDouble operator*(const DoubleDouble& a, double b) {
+    const DoubleDouble p = two_product(a.hi_, b);
+    return fast_two_sum(p.hi_, std::fma(a.lo_, b, p.lo_));
+  }
+  friend DoubleDouble operator*(double a, const DoubleDouble& b) { return b * a; }
+  friend DoubleDouble operator/(const DoubleDouble& a, const DoubleDouble& b) {
+    const double q = a.hi_ / b.hi_;
+    const DoubleDouble r = a - b * q;
+    const double q2 = r.hi_ / b.hi_;
+    const DoubleDouble r2 = r - b * q2;
+    return fast_two_sum(q, q2) + DoubleDouble(r2.hi_ / b.hi_);
+  }
+  DoubleDouble& operator+=(const DoubleDouble& b) { return *this = *this + b; }
+  DoubleDouble& operator-=(const DoubleDouble& b) { return *this = *this - b; }
+  DoubleDouble& operator*=(const DoubleDouble& b) { return *this = *this * b; }
+  DoubleDouble& operator/=(const DoubleDouble& b) { return *this = *this / b; }
+
+  friend bool operator==(const DoubleDouble& a, const DoubleDouble& b) {
+    return a.hi_ == b.hi_ && a.lo_ == b.lo_;
+  }
+  friend bool operator<(const DoubleDouble& a, const DoubleDouble& b) {
+    return a.hi_ < b.hi_ || (a.hi_ == b.hi_ && a.lo_ < b.lo_);
+  }
+  friend bool operator>(const DoubleDouble& a, const DoubleDouble& b) { return b < a; }
+  friend bool operator<=(const DoubleDouble& a, const DoubleDouble& b) { return a < b || a == b; }
+  friend bool operator>=(const DoubleDouble& a, const DoubleDouble& b) { return b <= a; }
+  friend bool operator!=(const DoubleDouble& a, const DoubleDouble& b) { return !(a == b); }
+
+  friend DoubleDouble sqrt(const DoubleDouble& a) {
+    if (!(a.hi_ > 0)) return {std::sqrt(a.hi_)};
+    const double root = std::sqrt(a.hi_);
+    const DoubleDouble rest = a - two_product(root, root);
+    return fast_two_sum(root, rest.hi_ / (2 * root));
+  }
+  friend DoubleDouble abs(const DoubleDouble& a) { return a.hi_ < 0 ? -a : a; }
+  friend bool isfinite(const DoubleDouble& a) { return std::isfinite(a.hi_); }
+  friend bool isinf(const DoubleDouble& a) { return std::isinf(a.hi_); }
+  friend bool isnan(const DoubleDouble& a) { return std::isnan(a.hi_); }
+
+ private:
+  static DoubleDouble two_sum(double a, double b) {
+    const double s = a + b;
+    const double t = s - a;
+    return {s, (a - (s - t)) + (b - t)};
+  }
+  static DoubleDouble fast_two_sum(double a, double b) {
+    const double s = a + b;
+    return {s, b - (s - a)};
+  }
+  static DoubleDouble two_product(double a, double b) {
+    const double p = a * b;
+    return {p, std::fma(a, b, -p)};
+  }
+
+  double hi_ = 0;
+  double lo_ = 0;
+};
+
+}  // namespace gainsmith::sdp
+
+template <>
+class std::numeric_limits<gainsmith::sdp::DoubleDouble> : public std::numeric_limits<double> {
+ public:
+  using DoubleDouble = gainsmith::sdp::DoubleDouble;
+  static constexpr int digits = 104;
+  static constexpr int digits10 = 31;
+  static constexpr DoubleDouble epsilon() { return {4.93038065763132e-32}; }  // 2^-104
+  static constexpr DoubleDouble min() { return {2.0041683600089728e-292}; }   // 2^(-1022+53)
+  static constexpr DoubleDouble max() { return {std::numeric_limits<double>::max()}; }
+  static constexpr DoubleDouble lowest() { return {std::numeric_limits<double>::lowest()}; }
+  static constexpr DoubleDouble infinity() { return {std::numeric_limits<double>::infinity()}; }
+  static constexpr DoubleDouble quiet_NaN() { return {std::numeric_limits<double>::quiet_NaN()}; }
+};
+
+namespace Eigen {
+
+template <>
+struct NumTraits<gainsmith::sdp::DoubleDouble> : GenericNumTraits<gainsmith::sdp::DoubleDouble> {
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 2,
+    AddCost = 20,
+    MulCost = 10
+  };
+  static gainsmith::sdp::DoubleDouble dummy_precision() { return {1e-28}; }
+};
+
+}  // namespace Eigen

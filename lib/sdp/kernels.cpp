@@ -1,0 +1,233 @@
+#include "sdp/kernels.h"
+
+#include <Eigen/Cholesky>
+#include <array>
+#include <cmath>
+#include <type_traits>
+#include <vector>
+
+#include "sdp/scalars.h"
+
+namespace gainsmith::sdp {
+namespace {
+
+using Index = Eigen::Index;
+using Strided = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+using ConstStrided = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+
+ConstStrided map(const View<const double>& v) {
+  return {v.data, v.rows, v.columns, Eigen::OuterStride<>(v.stride)};
+}
+Strided map(const View<double>& v) {
+  return {v.data, v.rows, v.columns, Eigen::OuterStride<>(v.stride)};
+}
+
+template <typename T>
+View<const T> constant(const View<T>& v) {
+  return {v.data, v.rows, v.columns, v.stride};
+}
+
+// ---- double-double product -------------------------------------------------------------------
+
+constexpr Index kLanes = 8;    ///< rows a register
+constexpr Index kColumns = 2;  ///< columns at a time
+
+/// The halves of a matrix apart, rows padded to whole registers, for the vector unit.
+struct Halves {
+  std::vector<double> high, low;
+  Index stride = 0;
+
+  void take(const View<const DoubleDouble>& a) {
+    stride = (a.rows + kLanes - 1) / kLanes * kLanes;
+    const auto size = static_cast<std::size_t>(stride * a.columns);
+    if (high.size() < size) {
+      high.resize(size);
+      low.resize(size);
+    }
+    for (Index k = 0; k < a.columns; ++k)
+      for (Index i = 0; i < stride; ++i) {
+        const DoubleDouble value = i < a.rows ? a(i, k) : DoubleDouble(0);
+        high[static_cast<std::size_t>(i + stride * k)] = value.hi();
+        low[static_cast<std::size_t>(i + stride * k)] = value.lo();
+      }
+  }
+};
+
+/// Sums of products with their rounding errors (Ogita, Rump, Oishi 2005, Dot2, extended to factors
+/// of two halves): as accurate as if computed in twice the precision and rounded.
+struct Accumulator {
+  std::array<double, kLanes> high{}, low{};
+
+  void add(const double* a_high, const double* a_low, double b_high, double b_low) {
+    for (std::size_t r = 0; r < kLanes; ++r) {
+      const double p = a_high[r] * b_high;
+      double e = std::fma(a_high[r], b_high, -p);
+      e = std::fma(a_high[r], b_low, e);
+      e = std::fma(a_low[r], b_high, e);
+      const double s = high[r] + p;
+      const double t = s - high[r];
+      low[r] += ((high[r] - (s - t)) + (p - t)) + e;
+      high[r] = s;
+    }
+  }
+  DoubleDouble sum(std::size_t r) const { return DoubleDouble(high[r]) + DoubleDouble(low[r]); }
+};
+
+void multiply_pairs(const View<const DoubleDouble>& a, const View<const DoubleDouble>& b,
+                    const View<DoubleDouble>& c, Update update) {
+  static thread_local Halves halves;
+  halves.take(a);
+  const auto store = [&](const Accumulator& sums, Index i, Index j) {
+    for (Index r = 0; r < kLanes && i + r < c.rows; ++r) {
+      const DoubleDouble sum = sums.sum(static_cast<std::size_t>(r));
+      if (update == Update::assign)
+        c(i + r, j) = sum;
+      else
+        c(i + r, j) -= sum;
+    }
+  };
+  for (Index j = 0; j < c.columns; j += kColumns) {
+    const bool two = j + 1 < c.columns;
+    for (Index i = 0; i < c.rows; i += kLanes) {
+      Accumulator first, second;
+      const double* high = halves.high.data() + i;
+      const double* low = halves.low.data() + i;
+      for (Index k = 0; k < a.columns; ++k, high += halves.stride, low += halves.stride) {
+        first.add(high, low, b(k, j).hi(), b(k, j).lo());
+        if (two) second.add(high, low, b(k, j + 1).hi(), b(k, j + 1).lo());
+      }
+      store(first, i, j);
+      if (two) store(second, i, j + 1);
+    }
+  }
+}
+
+template <typename T>
+void multiply_plain(const View<const T>& a, const View<const T>& b, const View<T>& c,
+                    Update update) {
+  for (Index j = 0; j < c.columns; ++j) {
+    if (update == Update::assign)
+      for (Index i = 0; i < c.rows; ++i) c(i, j) = T(0);
+    for (Index k = 0; k < a.columns; ++k) {
+      const T factor = update == Update::assign ? b(k, j) : T(-b(k, j));
+      for (Index i = 0; i < c.rows; ++i) c(i, j) += a(i, k) * factor;
+    }
+  }
+}
+
+// ---- Cholesky, blocked on multiply -------------------------------------------------------------
+
+constexpr Index kPanel = 32;
+
+template <typename T>
+bool cholesky_plain(const View<T>& a) {
+  using std::sqrt;
+  for (Index j = 0; j < a.columns; ++j) {
+    for (Index p = 0; p < j; ++p) {
+      const T factor = a(j, p);
+      for (Index i = j; i < a.rows; ++i) a(i, j) -= a(i, p) * factor;
+    }
+    if (!(a(j, j) > T(0))) return false;
+    const T root = T(1) / sqrt(a(j, j));
+    for (Index i = j; i < a.rows; ++i) a(i, j) *= root;
+  }
+  return true;
+}
+
+//   [ L11        ]   columns k .. k+w: the panel, factored by itself
+//   [ L21   A22  ]   A22 -= L21 L21', lower triangle, by block columns
+template <typename T>
+bool cholesky_blocked(const View<T>& a) {
+  Matrix<T> transposed;
+  for (Index k = 0; k < a.columns; k += kPanel) {
+    const Index w = std::min(kPanel, a.columns - k);
+    const View<T> panel = a.part(k, k, a.rows - k, w);
+    if (!cholesky_plain(panel)) return false;
+    const Index rest = a.rows - k - w;
+    if (rest == 0) break;
+    transposed.resize(w, rest);
+    for (Index j = 0; j < rest; ++j)
+      for (Index p = 0; p < w; ++p) transposed(p, j) = a(k + w + j, k + p);
+    for (Index j = 0; j < rest; j += kPanel) {
+      const Index wj = std::min(kPanel, rest - j);
+      multiply(constant(a.part(k + w + j, k, rest - j, w)),
+               View<const T>(transposed.data() + w * j, w, wj, w),
+               a.part(k + w + j, k + w + j, rest - j, wj), Update::subtract);
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+template <typename T>
+void multiply(const View<const T>& a, const View<const T>& b, const View<T>& c, Update update) {
+  if constexpr (std::is_same_v<T, double>) {
+    if (update == Update::assign)
+      map(c).noalias() = map(a) * map(b);
+    else
+      map(c).noalias() -= map(a) * map(b);
+  } else if constexpr (std::is_same_v<T, DoubleDouble>) {
+    multiply_pairs(a, b, c, update);
+  } else {
+    multiply_plain(a, b, c, update);
+  }
+}
+
+template <typename T>
+bool cholesky(const View<T>& a) {
+  if constexpr (std::is_same_v<T, double>) {
+    Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> in_place(map(a));
+    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>> llt(in_place);
+    return llt.info() == Eigen::Success;
+  } else {
+    return cholesky_blocked(a);
+  }
+}
+
+template <typename T>
+void invert_lower(const View<const T>& l, const View<T>& result) {
+  if constexpr (std::is_same_v<T, double>) {
+    auto inverse = map(result);
+    inverse.setIdentity();
+    const ConstStrided lower = map(l);
+    lower.triangularView<Eigen::Lower>().solveInPlace(inverse);
+  } else {
+    for (Index j = 0; j < l.columns; ++j) {
+      for (Index i = 0; i < l.rows; ++i) result(i, j) = T(i == j ? 1 : 0);
+      for (Index k = j; k < l.rows; ++k) {
+        const T value = result(k, j) / l(k, k);
+        result(k, j) = value;
+        for (Index i = k + 1; i < l.rows; ++i) result(i, j) -= l(i, k) * value;
+      }
+    }
+  }
+}
+
+template <typename T>
+void solve_factored(const View<const T>& l, Vector<T>& x) {
+  if constexpr (std::is_same_v<T, double>) {
+    const ConstStrided lower = map(l);
+    lower.triangularView<Eigen::Lower>().solveInPlace(x);
+    lower.triangularView<Eigen::Lower>().transpose().solveInPlace(x);
+  } else {
+    for (Index k = 0; k < l.rows; ++k) {
+      x[k] /= l(k, k);
+      for (Index i = k + 1; i < l.rows; ++i) x[i] -= l(i, k) * x[k];
+    }
+    for (Index k = l.rows - 1; k >= 0; --k) {
+      for (Index i = k + 1; i < l.rows; ++i) x[k] -= l(i, k) * x[i];
+      x[k] /= l(k, k);
+    }
+  }
+}
+
+#define GAINSMITH_INSTANTIATE(T)                                                                 \
+  template void multiply<T>(const View<const T>&, const View<const T>&, const View<T>&, Update); \
+  template bool cholesky<T>(const View<T>&);                                                     \
+  template void invert_lower<T>(const View<const T>&, const View<T>&);                           \
+  template void solve_factored<T>(const View<const T>&, Vector<T>&);
+GAINSMITH_FOR_EACH_SCALAR(GAINSMITH_INSTANTIATE)
+#undef GAINSMITH_INSTANTIATE
+
+}  // namespace gainsmith::sdp

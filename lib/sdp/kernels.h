@@ -1,0 +1,48 @@
+// Dense kernels in every arithmetic: BLAS-3 speed in double (Eigen) and in double-double
+// (vectorised here), plain loops in the widest. Matrices are column-major with a leading dimension.
+#pragma once
+
+#include "sdp/linalg.h"
+
+namespace gainsmith::sdp {
+
+/// A column-major matrix that lives elsewhere.
+template <typename T>
+struct View {
+  T* data = nullptr;
+  Eigen::Index rows = 0;
+  Eigen::Index columns = 0;
+  Eigen::Index stride = 0;
+
+  View(T* values, Eigen::Index r, Eigen::Index c, Eigen::Index s)
+      : data(values), rows(r), columns(c), stride(s) {}
+  template <typename Map>
+  explicit View(Map&& map) : View(map.data(), map.rows(), map.cols(), map.outerStride()) {}
+
+  T& operator()(Eigen::Index i, Eigen::Index j) const { return data[i + stride * j]; }
+  View part(Eigen::Index i, Eigen::Index j, Eigen::Index r, Eigen::Index c) const {
+    return {data + i + stride * j, r, c, stride};
+  }
+};
+
+enum class Update { assign, subtract };
+
+/// C = A B, or C -= A B. C must not overlap A or B.
+template <typename T>
+void multiply(const View<const T>& a, const View<const T>& b, const View<T>& c,
+              Update update = Update::assign);
+
+/// A = L L' in place: the lower triangle of A is read and becomes L; the upper one is left alone.
+/// False when A is not positive definite in this arithmetic.
+template <typename T>
+bool cholesky(const View<T>& a);
+
+/// result = L^-1, the upper triangle zero. L is the lower triangle of `l`.
+template <typename T>
+void invert_lower(const View<const T>& l, const View<T>& result);
+
+/// x := L^-T L^-1 x.
+template <typename T>
+void solve_factored(const View<const T>& l, Vector<T>& x);
+
+}  // namespace gainsmith::sdp
