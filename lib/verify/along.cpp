@@ -6,8 +6,23 @@ namespace gainsmith::verify {
 
 using Eigen::Index;
 
+namespace {
+
+/// values: elements x count; the last point fills the lanes that are left.
+void fill(Pack& pack, const Eigen::Ref<const expr::Matrix>& values) {
+  const Index count = values.cols();
+  pack.lanes.topRows(count) = values.transpose().array();
+  if (count < Pack::kLanes)
+    pack.lanes.bottomRows(Pack::kLanes - count) =
+        pack.lanes.row(count - 1).replicate(Pack::kLanes - count, 1);
+}
+
+}  // namespace
+
 AlongFunction::AlongFunction(const expr::Program& program, const hybrid::System& system)
-    : slots_(system.layout.slots), evaluator_(program), elements_(program.shape().size()) {
+    : uses_timer_(program.uses(system.layout.timer)),
+      evaluator_(program),
+      elements_(program.shape().size()) {
   constants_.reserve(program.inputs.size());
   for (const expr::Input& input : program.inputs) {
     const auto known = system.constants.find(input.name);
@@ -19,6 +34,8 @@ AlongFunction::AlongFunction(const expr::Program& program, const hybrid::System&
     return Pack{
         false, shape.rows, shape.cols, {}, Eigen::ArrayXXd::Zero(Pack::kLanes, shape.size())};
   };
+  for (const hybrid::Slot& slot : system.layout.slots)
+    if (program.uses(slot.name)) slots_.push_back(slot);
   for (const hybrid::Slot& slot : slots_) moving_.push_back(moving(slot.shape));
   moving_.push_back(moving({1, 1}));
   for (std::size_t i = 0; i < slots_.size(); ++i) evaluator_.set(slots_[i].name, moving_[i]);
@@ -30,13 +47,9 @@ expr::Matrix AlongFunction::operator()(const Eigen::Ref<const expr::Matrix>& sta
   expr::Matrix values(elements_, timers.size());
   for (Index first = 0; first < timers.size(); first += Pack::kLanes) {
     const Index count = std::min<Index>(Pack::kLanes, timers.size() - first);
-    for (Index lane = 0; lane < Pack::kLanes; ++lane) {
-      const Index point = first + std::min(lane, count - 1);  // the last point fills the pack
-      for (std::size_t i = 0; i < slots_.size(); ++i)
-        moving_[i].lanes.row(lane) =
-            states.col(point).segment(slots_[i].offset, slots_[i].shape.size()).transpose();
-      moving_.back().lanes(lane, 0) = timers(point);
-    }
+    for (std::size_t i = 0; i < slots_.size(); ++i)
+      fill(moving_[i], states.block(slots_[i].offset, first, slots_[i].shape.size(), count));
+    if (uses_timer_) fill(moving_.back(), timers.segment(first, count).transpose());
     const Pack& result = evaluator_.run();
     if (result.same) {
       values.middleCols(first, count) = result.matrix.reshaped().replicate(1, count);

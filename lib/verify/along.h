@@ -26,9 +26,10 @@ class AlongFunction {
                           const Eigen::Ref<const Eigen::VectorXd>& timers);
 
  private:
-  std::vector<hybrid::Slot> slots_;
+  std::vector<hybrid::Slot> slots_;  ///< the states that the program uses
+  bool uses_timer_;
   std::vector<Pack> constants_;
-  std::vector<Pack> moving_;  ///< the states, then the timer
+  std::vector<Pack> moving_;  ///< those states, then the timer
   expr::Evaluator<PackAlgebra> evaluator_;
   Eigen::Index elements_;
 };
