@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <mutex>
-#include <numeric>
+#include <optional>
 #include <tuple>
 
 #include "base/error.h"

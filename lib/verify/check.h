@@ -2,9 +2,10 @@
 //
 // With v(k) the claim's value at sample k, v(0) at the start:
 //
-//   nonincreasing   v(k) <= min over i < k of v(i)                     at every sample, jumps
-//   included cost            c(k) <= v(0),  c = int flow_cost dt + sum of jump_cost before each
-//   jump, up to sample k shrinks         v(end) <= factor v(0);  held at once when v(0) = 0
+//   nonincreasing   v(k) <= min over i < k of v(i)   at every sample, over jumps too
+//   cost            c(k) <= v(0)                     at every sample; c(k) is the cost so far,
+//                   int flow_cost dt + sum of jump_cost at the samples before jumps
+//   shrinks         v(end) <= factor v(0)            held at once when v(0) = 0
 //
 // The comparison is that of real numbers; what is forgiven is rounding only, 1e-9 of |v(0)| (of
 // |factor v(0)| for shrinks) plus the rounding floor
@@ -30,10 +31,10 @@ namespace gainsmith::verify {
 /// How near a run came to violating a claim.
 struct Finding {
   bool violated = false;
-  /// (value - bound) / |scale|, the scale being v(0) or factor v(0). For `nonincreasing`: the
-  /// largest rise over v(0) when it is violated, otherwise what is left at the end, v(end)/v(0)
-  /// - 1. Infinite when a value is no number or the scale of a violation is 0; -1 when the scale is
-  /// 0 and the claim holds.
+  /// (value - bound) / |scale|, the scale being v(0) or, for `shrinks`, factor v(0). While
+  /// `nonincreasing` holds, value and bound are v(end) and v(0): what is left at the end. Infinite
+  /// when a value is no number or the scale of a violation is 0; -1 when the scale is 0 and the
+  /// claim holds.
   double score = -1;
   double value = 0;  ///< at the worst sample
   double bound = 0;  ///< what it must not exceed there
