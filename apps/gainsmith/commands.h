@@ -11,6 +11,9 @@ class App;
 namespace gainsmith::app {
 
 void add_synth(CLI::App& program, ExitCode& exit);
+void add_verify(CLI::App& program, ExitCode& exit);
+void add_simulate(CLI::App& program, ExitCode& exit);
+void add_run(CLI::App& program, ExitCode& exit);
 void add_check(CLI::App& program, ExitCode& exit);
 void add_solve(CLI::App& program, ExitCode& exit);
 void add_methods(CLI::App& program, ExitCode& exit);

@@ -31,6 +31,9 @@ int main(int argc, char** argv) {
       "Each subcommand has --help with examples.");
   try {
     gainsmith::app::add_synth(program, exit);
+    gainsmith::app::add_verify(program, exit);
+    gainsmith::app::add_simulate(program, exit);
+    gainsmith::app::add_run(program, exit);
     gainsmith::app::add_check(program, exit);
     gainsmith::app::add_solve(program, exit);
     gainsmith::app::add_methods(program, exit);

@@ -84,7 +84,7 @@ class Synthesis {
       gains_.solver.message = "the largest margin is " + brief(solution_.x.back()) + ", below the one asked for";
       return;
     }
-    x_ = lmi::read_back(lmi_, solution_);
+    x_ = lmi::read_back(lmi_, formulation_, solution_);
     for (const auto& unknown : lmi_.unknowns.list())
       gains_.unknowns.emplace_back(unknown.name, lmi_.unknowns.values(x_).at(unknown.name));
     gains_.margins = lmi::margins(instance_, lmi_, formulation_.scales, formulation_.homogeneous(),

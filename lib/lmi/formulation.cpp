@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <numeric>
 #include <tuple>
 #include <utility>
 
@@ -28,6 +29,15 @@ std::vector<double> scales_of(const Lmi& lmi, bool homogeneous) {
                                      : std::max(block.constant_size, kappa * block.coefficient_size);
     scales.push_back(scale > 0 ? scale : 1);
   }
+  // The points of one inequality share the largest scale among them, so that it has one margin.
+  for (std::size_t first = 0; first < scales.size();) {
+    std::size_t end = first;
+    while (end < scales.size() && lmi.blocks[end].name == lmi.blocks[first].name) ++end;
+    const auto from = scales.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto to = scales.begin() + static_cast<std::ptrdiff_t>(end);
+    std::fill(from, to, *std::max_element(from, to));
+    first = end;
+  }
   return scales;
 }
 
@@ -44,16 +54,23 @@ class Assembler {
     return static_cast<int>(problem_.blocks.size()) - 1;
   }
 
-  /// B(x) >= shift I.
-  void add(const Block& block, double shift) {
-    const int at = add_block(block.size, false);
+  /// B(x) >= shift I, restricted to the rows `kept`.
+  void add(const Block& block, const std::vector<int>& kept, double shift) {
+    constexpr int kDropped = -1;
+    std::vector<int> moved(static_cast<std::size_t>(block.size), kDropped);
+    for (std::size_t k = 0; k < kept.size(); ++k) moved[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
+    const int size = static_cast<int>(kept.size());
+    const int at = add_block(size, false);
     for (const auto& [i, matrix] : block.terms) {
-      for (int k = 0; k < matrix.outerSize(); ++k)
-        for (Sparse::InnerIterator it(matrix, k); it; ++it)
-          if (it.row() <= it.col())
-            add_entry(i, at, static_cast<int>(it.row()), static_cast<int>(it.col()), it.value());
+      for (int k = 0; k < matrix.outerSize(); ++k) {
+        for (Sparse::InnerIterator it(matrix, k); it; ++it) {
+          const int row = moved[static_cast<std::size_t>(it.row())];
+          const int column = moved[static_cast<std::size_t>(it.col())];
+          if (row != kDropped && column != kDropped && row <= column) add_entry(i, at, row, column, it.value());
+        }
+      }
     }
-    add_identity(0, at, block.size, -shift);
+    add_identity(0, at, size, -shift);
   }
 
   /// The coefficient of variable i (0: the constant B_0) at one place of the upper triangle.
@@ -94,6 +111,12 @@ class Assembler {
   sdp::Problem problem_;
 };
 
+std::vector<int> all_rows(const Block& block) {
+  std::vector<int> rows(static_cast<std::size_t>(block.size));
+  std::iota(rows.begin(), rows.end(), 0);
+  return rows;
+}
+
 /// -r <= x_i <= r with r the variable `size_variable`, or the constant `limit` when it is 0.
 void add_limits(Assembler& assembler, int m, int size_variable, double limit) {
   const int at = assembler.add_block(2 * m, true);
@@ -127,6 +150,9 @@ Formulation formulate(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
   result.goal = goal;
   result.margin = options.margin;
   result.scales = scales_of(lmi, result.homogeneous());
+  std::vector<const Block*> bound_blocks;
+  for (const GainBoundBlock& bound : bounds) bound_blocks.push_back(&bound.block);
+  result.releases = find_releases(lmi, bound_blocks);
   const int m = lmi.unknowns.size();
   const bool extra = goal == Goal::homogeneous_feasibility || goal == Goal::feasibility;
   Assembler assembler(m + (extra ? 1 : 0));
@@ -134,11 +160,12 @@ Formulation formulate(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
     const Block& block = lmi.blocks[k];
     const double unit = block.strict ? result.scales[k] : 0.0;
     const bool variable_margin = goal == Goal::feasibility;
-    assembler.add(block, variable_margin ? 0.0 : unit * (result.homogeneous() ? 1.0 : options.margin));
+    assembler.add(block, result.releases.kept[k],
+                  variable_margin ? 0.0 : unit * result.strict_margin());
     if (variable_margin && block.strict)
       assembler.add_identity(m + 1, static_cast<int>(k), block.size, -unit);
   }
-  for (const GainBoundBlock& bound : bounds) assembler.add(bound.block, 0);
+  for (const GainBoundBlock& bound : bounds) assembler.add(bound.block, all_rows(bound.block), 0);
   result.lmi_blocks = static_cast<int>(lmi.blocks.size());
   result.bound_blocks = static_cast<int>(bounds.size());
   if (goal == Goal::homogeneous_feasibility) {
@@ -157,9 +184,13 @@ Formulation formulate(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
   return result;
 }
 
-std::vector<double> read_back(const Lmi& lmi, const sdp::Solution& solution) {
+std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation, const sdp::Solution& solution) {
   std::vector<double> x = solution.x;
   x.resize(static_cast<std::size_t>(lmi.unknowns.size()));
+  std::vector<double> required;
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
+    required.push_back(lmi.blocks[k].strict ? formulation.scales[k] * formulation.strict_margin() : 0.0);
+  restore(lmi, formulation.releases, required, x);
   return x;
 }
 
@@ -167,9 +198,8 @@ double objective_lower_bound(const Lmi& lmi, const Formulation& formulation, con
   // F_0 holds the margins as +margin s_k on the diagonal of strict blocks: take them out again.
   double bound = solution.dual_objective + lmi.objective_constant;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
-    const Block& block = lmi.blocks[k];
-    if (!block.strict) continue;
-    const auto n = static_cast<std::size_t>(block.size);
+    if (!lmi.blocks[k].strict) continue;
+    const std::size_t n = formulation.releases.kept[k].size();
     for (std::size_t i = 0; i < n; ++i)
       bound -= formulation.margin * formulation.scales[k] * solution.Y.values[k][i * n + i];
   }
@@ -179,13 +209,20 @@ double objective_lower_bound(const Lmi& lmi, const Formulation& formulation, con
 model::NamedMatrices multipliers(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
                                  const Formulation& formulation, const sdp::Solution& solution) {
   model::NamedMatrices result;
-  const auto add = [&](const Block& block, std::size_t at) {
+  const auto add = [&](const Block& block, const std::vector<int>& kept, std::size_t at) {
     const std::string name = block.name + (block.point.empty() ? "" : " at " + block.point);
-    result.emplace_back(name, Eigen::Map<const expr::Matrix>(solution.Y.values[at].data(), block.size, block.size));
+    const auto n = static_cast<Eigen::Index>(kept.size());
+    const Eigen::Map<const expr::Matrix> y(solution.Y.values[at].data(), n, n);
+    // The multiplier of a row that was left out is zero.
+    expr::Matrix whole = expr::Matrix::Zero(block.size, block.size);
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j)
+        whole(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]) = y(i, j);
+    result.emplace_back(name, std::move(whole));
   };
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) add(lmi.blocks[k], k);
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) add(lmi.blocks[k], formulation.releases.kept[k], k);
   for (std::size_t k = 0; k < bounds.size(); ++k)
-    add(bounds[k].block, static_cast<std::size_t>(formulation.lmi_blocks) + k);
+    add(bounds[k].block, all_rows(bounds[k].block), static_cast<std::size_t>(formulation.lmi_blocks) + k);
   return result;
 }
 

@@ -2,7 +2,7 @@
 //
 // Scales. Each block k has a scale s_k: the larger of its constant data and of kappa times its
 // coefficients, where kappa is the smallest ratio constant/coefficient among the blocks (the size of the
-// unknowns that the data set). Multiplying all data by a number multiplies all scales by it.
+// unknowns that the data set); all points of one inequality share the largest. Multiplying all data by a number multiplies all scales by it.
 //
 // Which program is solved:
 //   bounded objective   some block has constant data, and there is an objective:
@@ -23,6 +23,7 @@
 
 #include "lmi/compile.h"
 #include "lmi/gain_bounds.h"
+#include "lmi/release.h"
 #include "model/problem.h"
 #include "sdp/problem.h"
 #include "sdp/solution.h"
@@ -45,10 +46,13 @@ struct Formulation {
                                     ///< limits on x
   int lmi_blocks = 0;
   int bound_blocks = 0;
+  Releases releases;                ///< scalars left out, and the rows of each block that stay
 
   bool homogeneous() const {
     return goal == Goal::normalised_objective || goal == Goal::homogeneous_feasibility;
   }
+  /// What strict blocks keep, in units of their scale.
+  double strict_margin() const { return homogeneous() ? 1.0 : margin; }
 };
 
 /// The goal that the Lmi asks for.
@@ -57,8 +61,9 @@ Goal goal_of(const Lmi& lmi);
 Formulation formulate(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
                       const model::SynthesisOptions& options, Goal goal);
 
-/// The scalars x of the Lmi from the solution (the program may have one variable more).
-std::vector<double> read_back(const Lmi& lmi, const sdp::Solution& solution);
+/// The scalars x of the Lmi from the solution (the program may have one variable more), released ones
+/// restored.
+std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation, const sdp::Solution& solution);
 
 /// A lower bound on the objective without margins: weak duality with the dual solution Y,
 ///   c'x >= F_0(margin 0) . Y   for every x that satisfies the inequalities.

@@ -81,10 +81,8 @@ std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& l
       margin.scale = scales[at] * (homogeneous ? size : 1.0);
       margin.required = relation.strict ? required : 0.0;
       Worst worst;
-      for (; at < lmi.blocks.size() && lmi.blocks[at].name == margin.name; ++at) {
+      for (; at < lmi.blocks.size() && lmi.blocks[at].name == margin.name; ++at)
         worst.meet(lmi.blocks[at].value(x), lmi.blocks[at].point);
-        margin.scale = std::max(margin.scale, scales[at] * (homogeneous ? size : 1.0));
-      }
       sample(instance, requirement, 0, values, "", relation.difference, worst);
       margin.smallest_eigenvalue = worst.value;
       margin.worst_point = worst.point;

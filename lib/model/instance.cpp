@@ -26,6 +26,8 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
   return names;
 }
 
+bool is_proper_column(expr::Shape shape) { return shape.cols == 1 && shape.rows > 1; }
+
 /// A flat list is a row; where a column is declared it is turned.
 expr::Expression oriented(const Value& value, bool column) {
   if (!value.flat || !column) return value.value;
@@ -141,7 +143,8 @@ class Builder {
                                              ") of the method " + method().name + " is missing under 'data'");
     const Value value = given ? *given : Value{datum.name, *datum.fallback, false, datum.place};
     const auto expected = resolve(datum.shape, instance_.dimensions);
-    const auto program = expr::compile(oriented(value, datum.shape.is_column()), scope_with_dimensions(),
+    const bool column = datum.shape.is_column() || (expected && is_proper_column(*expected));
+    const auto program = expr::compile(oriented(value, column), scope_with_dimensions(),
                                        free_size(value) ? expected : std::nullopt);
     if (!learn(datum.shape, program.shape(), instance_.dimensions))
       throw InputError(value.place, "the datum " + datum.name + " is declared " +
@@ -249,8 +252,7 @@ double scalar_value(const expr::Expression& expression, const expr::Scope& scope
 
 expr::Program compile_value(const Value& value, const expr::Scope& scope,
                             std::optional<expr::Shape> expected) {
-  const bool column = expected && expected->cols == 1 && expected->rows > 1;
-  return expr::compile(oriented(value, column), scope, expected);
+  return expr::compile(oriented(value, expected && is_proper_column(*expected)), scope, expected);
 }
 
 expr::Matrix matrix_value(const Value& value, const expr::Scope& scope, const expr::Values& values,

@@ -1,0 +1,19 @@
+// Campaigns as text and JSON.
+#pragma once
+
+#include <string>
+
+#include "io/json_text.h"
+#include "verify/campaign.h"
+
+namespace gainsmith::app {
+
+io::Json campaign_json(const verify::Report& report);
+
+/// Verdict, checks and how to replay the worst run; `gains_file` is named in the command.
+std::string campaign_summary(const verify::Report& report, const std::string& gains_file);
+
+/// One line: "held in 1000 runs".
+std::string campaign_line(const verify::Report& report);
+
+}  // namespace gainsmith::app

@@ -1,0 +1,129 @@
+#include "gainsmith/job.h"
+
+#include <chrono>
+#include <exception>
+
+#include "base/file.h"
+#include "design/expectations.h"
+#include "design/synthesize.h"
+#include "gainsmith/campaign_text.h"
+#include "gainsmith/load.h"
+#include "gainsmith/summary.h"
+#include "gainsmith/terminal.h"
+#include "io/csv.h"
+#include "io/gains_json.h"
+#include "verify/campaign.h"
+#include "verify/replay.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+/// The exit code of a result: what `expect:` names is compared, the rest must be as usual.
+ExitCode judge(const model::Problem& problem, const model::Gains& gains,
+               const std::optional<verify::Report>& campaign, const std::vector<std::string>& differences) {
+  const auto& expect = problem.expect;
+  if (!differences.empty()) return ExitCode::no;
+  if (!(expect && expect->verdict)) {
+    if (gains.verdict == model::Verdict::undecided) return ExitCode::undecided;
+    if (gains.verdict == model::Verdict::no) return ExitCode::no;
+  }
+  const bool violated = campaign && campaign->verdict == model::CampaignVerdict::violated;
+  return violated && !(expect && expect->campaign) ? ExitCode::no : ExitCode::yes;
+}
+
+class Job {
+ public:
+  Job(const std::filesystem::path& file, std::filesystem::path folder, const JobOptions& options)
+      : loaded_(load_problem(file)), folder_(std::move(folder)), options_(options) {}
+
+  void run(JobResult& result) {
+    sdp::Options solver;
+    solver.interrupted = interrupted;
+    const model::Gains gains = design::synthesize(loaded_.instance, solver);
+    std::filesystem::create_directories(folder_);
+    write_atomically(folder_ / "gains.json", io::gains_text(gains));
+    const auto campaign = verify_gains(gains);
+    result.differences = design::differences(
+        loaded_.instance, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
+    result.exit = judge(*loaded_.problem, gains, campaign, result.differences);
+    result.line = verdict_line(gains) + "; " + (campaign ? campaign_line(*campaign) : "no campaign without gains");
+    result.report = report(gains, campaign, result);
+    write_atomically(folder_ / "summary.txt", summary(gains, campaign, result));
+  }
+
+ private:
+  /// A campaign when every gain has a value.
+  std::optional<verify::Report> verify_gains(const model::Gains& gains) {
+    if (gains.gains.size() < loaded_.problem->method->gains.size() || gains.gains.empty()) return std::nullopt;
+    const verify::Report report =
+        verify::run_campaign(loaded_.instance, gains, {options_.runs, options_.seed, options_.threads, {}});
+    write_atomically(folder_ / "campaign.json", io::to_text(campaign_json(report)));
+    if (report.verdict == model::CampaignVerdict::violated) {
+      const verify::Replay replay = verify::replay(loaded_.instance, gains, report.seed, report.worst_run);
+      write_atomically(folder_ / "worst-run.csv", io::to_csv(replay.columns, replay.table));
+    }
+    return report;
+  }
+
+  io::Json report(const model::Gains& gains, const std::optional<verify::Report>& campaign,
+                  const JobResult& result) const {
+    io::Json document = {{"problem", gains.problem_name},
+                         {"exit", static_cast<int>(result.exit)},
+                         {"verdict", to_string(gains.verdict)},
+                         {"status", gains.solver.status}};
+    if (gains.objective) document["objective"] = *gains.objective;
+    document["campaign"] = campaign ? io::Json(to_string(campaign->verdict)) : io::Json();
+    document["differences"] = result.differences;
+    return document;
+  }
+
+  std::string summary(const model::Gains& gains, const std::optional<verify::Report>& campaign,
+                      const JobResult& result) const {
+    std::string text = synthesis_summary(gains);
+    if (campaign) text += campaign_summary(*campaign, (folder_ / "gains.json").string());
+    if (loaded_.problem->expect)
+      text += result.differences.empty() ? "expected    all as expected\n" : "expected    DIFFERENT:\n";
+    for (const std::string& difference : result.differences) text += "  " + difference + "\n";
+    return text;
+  }
+
+  Loaded loaded_;
+  std::filesystem::path folder_;
+  const JobOptions& options_;
+};
+
+}  // namespace
+
+std::string mark_of(ExitCode exit) {
+  switch (exit) {
+    case ExitCode::yes: return "ok";
+    case ExitCode::no: return "NO";
+    case ExitCode::bad_input: return "WRONG INPUT";
+    case ExitCode::undecided: return "UNDECIDED";
+    case ExitCode::fault: break;
+  }
+  return "FAULT";
+}
+
+JobResult run_job(const std::filesystem::path& problem, const std::string& name,
+                  const std::filesystem::path& folder, const JobOptions& options) {
+  const auto start = std::chrono::steady_clock::now();
+  JobResult result;
+  result.name = name;
+  try {
+    Job(problem, folder, options).run(result);
+  } catch (const InputError& error) {
+    result.exit = ExitCode::bad_input;
+    result.line = error.what();
+  } catch (const std::exception& error) {
+    result.exit = ExitCode::fault;
+    result.line = error.what();
+  }
+  if (result.report.is_null())
+    result.report = {{"problem", name}, {"exit", static_cast<int>(result.exit)}, {"error", result.line}};
+  result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return result;
+}
+
+}  // namespace gainsmith::app

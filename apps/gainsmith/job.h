@@ -1,0 +1,40 @@
+// One problem from the file to the verdict, as `run` does it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "io/json_text.h"
+
+namespace gainsmith::app {
+
+struct JobOptions {
+  std::optional<std::uint64_t> runs;
+  std::optional<std::uint64_t> seed;
+  unsigned threads = 1;   ///< of the campaign
+};
+
+struct JobResult {
+  ExitCode exit = ExitCode::fault;
+  std::string name;                      ///< of the problem's folder in the output
+  std::string line;                      ///< "yes, objective 688.572; held in 1000 runs"
+  std::vector<std::string> differences;  ///< from `expect:`
+  io::Json report;                       ///< without timings
+  double seconds = 0;
+};
+
+/// Synthesizes, verifies when there are gains, compares with `expect:` and writes gains.json,
+/// campaign.json, summary.txt and, of a violated campaign, worst-run.csv into `folder`. What `expect:` does
+/// not name must be as usual: the verdict yes, the campaign held. Never throws: a wrong input is a
+/// result too.
+JobResult run_job(const std::filesystem::path& problem, const std::string& name,
+                  const std::filesystem::path& folder, const JobOptions& options);
+
+/// "ok", "NO", "WRONG INPUT", "UNDECIDED", "FAULT".
+std::string mark_of(ExitCode exit);
+
+}  // namespace gainsmith::app

@@ -1,0 +1,135 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "base/parallel.h"
+#include "gainsmith/commands.h"
+#include "gainsmith/job.h"
+#include "gainsmith/junit.h"
+#include "gainsmith/terminal.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+struct RunOptions {
+  std::vector<std::string> problems;
+  std::string output = "gainsmith-run";
+  std::string junit;
+  unsigned threads = 0;
+  bool json = false;
+  JobOptions job;
+};
+
+/// A problem file and the name of its folder in the output.
+struct Item {
+  fs::path file;
+  std::string name;
+};
+
+bool is_yaml(const fs::path& path) { return path.extension() == ".yaml" || path.extension() == ".yml"; }
+
+/// All problem files below a folder, sorted; named by their path below it.
+std::vector<Item> items_below(const fs::path& folder) {
+  std::vector<Item> items;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (!entry.is_regular_file() || !is_yaml(entry.path())) continue;
+    fs::path relative = entry.path().lexically_relative(folder);
+    items.push_back({entry.path(), relative.replace_extension().string()});
+  }
+  std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.file < b.file; });
+  if (items.empty()) throw InputError({folder.string()}, "this folder holds no .yaml file");
+  return items;
+}
+
+std::vector<Item> items_of(const std::vector<std::string>& paths) {
+  std::vector<Item> items;
+  for (const fs::path path : paths) {
+    if (fs::is_directory(path)) {
+      const auto below = items_below(path);
+      items.insert(items.end(), below.begin(), below.end());
+    } else {
+      items.push_back({path, path.stem().string()});
+    }
+  }
+  for (std::size_t i = 0; i < items.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (items[i].name == items[j].name)
+        throw InputError({items[i].file.string()}, "would write into the same folder '" + items[i].name + "' as " +
+                                                       items[j].file.string() + "; run them apart");
+  return items;
+}
+
+std::string json_text(const std::vector<JobResult>& results, ExitCode worst) {
+  io::Json problems = io::Json::array();
+  io::Json seconds = io::Json::object();
+  for (const JobResult& result : results) {
+    problems.push_back(result.report);
+    seconds[result.name] = result.seconds;
+  }
+  return io::to_text({{"exit", static_cast<int>(worst)}, {"problems", problems}, {"timings", seconds}});
+}
+
+void print_lines(const std::vector<JobResult>& results) {
+  std::size_t width = 10;
+  for (const JobResult& result : results) width = std::max(width, result.name.size());
+  for (const JobResult& result : results) {
+    fmt::print("{:<11} {:<{}}  {}\n", mark_of(result.exit), result.name, width, result.line);
+    for (const std::string& difference : result.differences) fmt::print("            {}\n", difference);
+  }
+}
+
+ExitCode run(const RunOptions& options) {
+  const std::vector<Item> items = items_of(options.problems);
+  catch_interrupts();
+  JobOptions job = options.job;
+  job.threads = items.size() == 1 ? options.threads : 1;
+  std::vector<JobResult> results(items.size());
+  parallel_for(items.size(), options.threads, [&](std::size_t i) {
+    results[i] = run_job(items[i].file, items[i].name, fs::path(options.output) / items[i].name, job);
+  });
+  ExitCode worst = ExitCode::yes;
+  for (const JobResult& result : results) worst = std::max(worst, result.exit);
+  if (options.json) {
+    fmt::print("{}", json_text(results, worst));
+  } else {
+    print_lines(results);
+  }
+  if (!options.junit.empty()) write_atomically(options.junit, junit_text(results));
+  return worst;
+}
+
+}  // namespace
+
+void add_run(CLI::App& program, ExitCode& exit) {
+  auto options = std::make_shared<RunOptions>();
+  CLI::App* command =
+      program.add_subcommand("run", "Synthesize, verify and compare with what is expected: for batch scripts and CI");
+  command->add_option("problems", options->problems, "problem files, or folders of them")->required();
+  command->add_option("-o,--output", options->output, "folder for the results, one folder a problem in it")
+      ->capture_default_str();
+  command->add_option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}));
+  command->add_option("--seed", options->job.seed, "seed (default: the problem's)");
+  command->add_option("--threads", options->threads, "threads, 0: one a core; results do not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("--junit", options->junit, "write JUnit XML here");
+  command->add_flag("--json", options->json, "print the results as JSON");
+  command->footer(
+      "Prints one line a problem; the exit code is the worst of all.\n"
+      "Examples:\n"
+      "  gainsmith run problem.yaml -o out\n"
+      "  gainsmith run problems/ -o out --junit out/junit.xml");
+  command->callback([options, &exit] { exit = run(*options); });
+}
+
+}  // namespace gainsmith::app

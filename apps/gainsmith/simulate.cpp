@@ -1,0 +1,75 @@
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "base/file.h"
+#include "base/number.h"
+#include "gainsmith/commands.h"
+#include "gainsmith/load.h"
+#include "io/csv.h"
+#include "io/json_text.h"
+#include "verify/replay.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+struct SimulateOptions {
+  std::string gains;
+  std::uint64_t run = 0;
+  std::optional<std::uint64_t> seed;
+  std::string output;
+  bool json = false;
+};
+
+io::Json replay_json(const verify::Replay& replay) {
+  io::Json rows = io::Json::array();
+  for (Eigen::Index i = 0; i < replay.table.rows(); ++i) {
+    io::Json row = io::Json::array();
+    for (Eigen::Index j = 0; j < replay.table.cols(); ++j) row.push_back(replay.table(i, j));
+    rows.push_back(std::move(row));
+  }
+  return {{"termination", to_string(replay.arc.termination)}, {"columns", replay.columns}, {"rows", rows}};
+}
+
+ExitCode simulate(const SimulateOptions& options) {
+  const LoadedGains loaded = load_gains(options.gains);
+  const std::uint64_t seed = options.seed.value_or(loaded.stated.problem->campaign.seed);
+  const verify::Replay replay = verify::replay(loaded.stated.instance, loaded.gains, seed, options.run);
+  const std::string text = options.json ? io::to_text(replay_json(replay)) : io::to_csv(replay.columns, replay.table);
+  if (options.output.empty() || options.output == "-") {
+    fmt::print("{}", text);
+  } else {
+    write_atomically(options.output, text);
+  }
+  fmt::print(stderr, "run {} of seed {}: {} samples, {} jumps, ended by: {}\n", options.run, seed,
+             replay.arc.samples(), replay.arc.j.back(), to_string(replay.arc.termination));
+  for (const verify::ReplayedClaim& claim : replay.claims)
+    fmt::print(stderr, "  {:<12} {}: {} against {} at (t, j) = ({}, {})\n", claim.name,
+               claim.finding.violated ? "violated" : "held", brief(claim.finding.value),
+               brief(claim.finding.bound), brief(claim.finding.t), claim.finding.j);
+  return ExitCode::yes;
+}
+
+}  // namespace
+
+void add_simulate(CLI::App& program, ExitCode& exit) {
+  auto options = std::make_shared<SimulateOptions>();
+  CLI::App* command = program.add_subcommand("simulate", "Replay one run of a campaign as CSV");
+  command->add_option("gains", options->gains, "gain file (JSON)")->required();
+  command->add_option("--run", options->run, "the run's number")->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the campaign (default: the problem's)");
+  command->add_option("-o,--output", options->output, "write the table here (default: standard output)");
+  command->add_flag("--json", options->json, "write JSON instead of CSV");
+  command->footer(
+      "Columns: t, j, the timer, the states, the signals, then the value of each claim.\n"
+      "Example:\n"
+      "  gainsmith simulate gains.json --run 17 -o run-17.csv");
+  command->callback([options, &exit] { exit = simulate(*options); });
+}
+
+}  // namespace gainsmith::app

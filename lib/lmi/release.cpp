@@ -1,0 +1,96 @@
+#include "lmi/release.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace gainsmith::lmi {
+
+namespace {
+
+/// The coefficient of scalar i in a block, or nullptr.
+const Sparse* coefficient(const Block& block, int i) {
+  for (const auto& [index, matrix] : block.terms)
+    if (index == i) return &matrix;
+  return nullptr;
+}
+
+/// +1 or -1 when the matrix is diagonal with elements of that sign, else 0.
+double diagonal_sign(const Sparse& matrix) {
+  double sign = 0;
+  for (int k = 0; k < matrix.outerSize(); ++k) {
+    for (Sparse::InnerIterator it(matrix, k); it; ++it) {
+      const double found = it.value() > 0 ? 1 : -1;
+      if (it.row() != it.col() || (sign != 0 && found != sign)) return 0;
+      sign = found;
+    }
+  }
+  return sign;
+}
+
+/// The common sign of all coefficients of scalar i, or 0.
+double release_sign(const Lmi& lmi, int i) {
+  double sign = 0;
+  for (const Block& block : lmi.blocks) {
+    const Sparse* matrix = coefficient(block, i);
+    if (matrix == nullptr) continue;
+    const double found = diagonal_sign(*matrix);
+    if (found == 0 || (sign != 0 && found != sign)) return 0;
+    sign = found;
+  }
+  return sign;
+}
+
+double smallest_eigenvalue(const expr::Matrix& matrix) {
+  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);
+}
+
+bool satisfied(const Lmi& lmi, int i, const std::vector<double>& required, const std::vector<double>& x) {
+  constexpr double kShare = 0.995;
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
+    if (coefficient(lmi.blocks[k], i) != nullptr &&
+        smallest_eigenvalue(lmi.blocks[k].value(x)) < kShare * required[k])
+      return false;
+  return true;
+}
+
+}  // namespace
+
+bool Releases::released(int unknown) const {
+  return std::any_of(list.begin(), list.end(), [&](const Release& release) { return release.unknown == unknown; });
+}
+
+Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others) {
+  Releases result;
+  for (int i = 1; lmi.has_objective && i <= lmi.unknowns.size(); ++i) {
+    const bool elsewhere = std::any_of(others.begin(), others.end(),
+                                       [&](const Block* block) { return coefficient(*block, i) != nullptr; });
+    const double sign = release_sign(lmi, i);
+    if (lmi.objective[static_cast<std::size_t>(i) - 1] == 0 && !elsewhere && sign != 0)
+      result.list.push_back({i, sign});
+  }
+  for (const Block& block : lmi.blocks) {
+    std::vector<int> rows(static_cast<std::size_t>(block.size));
+    std::iota(rows.begin(), rows.end(), 0);
+    for (const Release& release : result.list)
+      if (const Sparse* matrix = coefficient(block, release.unknown))
+        std::erase_if(rows, [&](int row) { return matrix->coeff(row, row) != 0; });
+    result.kept.push_back(std::move(rows));
+  }
+  return result;
+}
+
+void restore(const Lmi& lmi, const Releases& releases, const std::vector<double>& required,
+             std::vector<double>& x) {
+  constexpr int kMostDoublings = 80;
+  double size = 0;
+  for (const double value : x) size = std::max(size, std::abs(value));
+  for (const Release& release : releases.list) {
+    double& value = x[static_cast<std::size_t>(release.unknown) - 1];
+    value = release.sign * std::max(size, 1e-300) * 1e-6;
+    for (int k = 0; k < kMostDoublings && !satisfied(lmi, release.unknown, required, x); ++k) value *= 2;
+  }
+}
+
+}  // namespace gainsmith::lmi
