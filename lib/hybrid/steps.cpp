@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 
 #include "base/error.h"
 #include "base/number.h"
@@ -105,19 +104,18 @@ Steps::Steps(const AffineMap& flow, double longest) : flow_(flow) {
 }
 
 void Steps::cut(double interval, std::vector<Step>& steps) const {
-  double units = std::floor(interval / shortest_);
+  double units = std::floor(interval / shortest_);  // of s_0; whole numbers below 2^53
   double rest = std::fma(-units, shortest_, interval);
   if (rest < 0) {
     units -= 1;
     rest += shortest_;
   }
-  auto left = static_cast<std::int64_t>(units);
   const int top = levels() - 1;
   const auto take = [&](int level) {
     steps.push_back({level, std::ldexp(shortest_, level)});
-    left -= std::int64_t{1} << level;
+    units -= std::ldexp(1, level);
   };
-  const auto fits = [&](int level) { return left >= std::int64_t{1} << level; };
+  const auto fits = [&](int level) { return units >= std::ldexp(1, level); };
   for (int level = 0; level < top && fits(level); ++level) take(level);
   while (fits(top)) take(top);
   for (int level = top - 1; level >= 0; --level)
