@@ -6,7 +6,7 @@ namespace gainsmith::sdp {
 namespace {
 
 template <typename T>
-T coefficient(int constraint, const Vector<T>& x, const T& tau) {
+T multiplier(int constraint, const Vector<T>& x, const T& tau) {
   return constraint == 0 ? T(-tau) : T(x[constraint - 1]);
 }
 
@@ -20,10 +20,10 @@ void adjoint(const Data& data, const Vector<T>& x, const T& tau, Blocks<T>& s) {
     auto target = s.dense(b);
     for (int k = 0; k < block.lists(); ++k) {
       const auto list = static_cast<std::size_t>(k);
-      const T factor = coefficient(block.constraint[list], x, tau);
+      const T factor = multiplier(block.constraint[list], x, tau);
       for (std::size_t t = block.start[list]; t < block.start[list + 1]; ++t) {
         const Term& term = block.terms[t];
-        target(term.row, term.column) += factor * term.value;
+        target(term.row, term.column) += factor * coefficient<T>(term);
       }
     }
     target.template triangularView<Eigen::StrictlyLower>() = target.transpose();
@@ -31,9 +31,9 @@ void adjoint(const Data& data, const Vector<T>& x, const T& tau, Blocks<T>& s) {
   auto target = s.linear();
   for (int k = 0; k < data.linear.lists(); ++k) {
     const auto list = static_cast<std::size_t>(k);
-    const T factor = coefficient(data.linear.constraint[list], x, tau);
+    const T factor = multiplier(data.linear.constraint[list], x, tau);
     for (std::size_t t = data.linear.start[list]; t < data.linear.start[list + 1]; ++t)
-      target[data.linear.terms[t].row] += factor * data.linear.terms[t].value;
+      target[data.linear.terms[t].row] += factor * coefficient<T>(data.linear.terms[t]);
   }
 }
 
@@ -52,7 +52,8 @@ T apply(const Data& data, const Blocks<T>& s, Vector<T>& r) {
       T off(0), on(0);
       for (std::size_t t = block.start[list]; t < block.start[list + 1]; ++t) {
         const Term& term = block.terms[t];
-        (term.row == term.column ? on : off) += source(term.row, term.column) * term.value;
+        (term.row == term.column ? on : off) +=
+            source(term.row, term.column) * coefficient<T>(term);
       }
       add(block.constraint[list], on + off + off);
     }
@@ -62,7 +63,7 @@ T apply(const Data& data, const Blocks<T>& s, Vector<T>& r) {
     const auto list = static_cast<std::size_t>(k);
     T sum(0);
     for (std::size_t t = data.linear.start[list]; t < data.linear.start[list + 1]; ++t)
-      sum += source[data.linear.terms[t].row] * data.linear.terms[t].value;
+      sum += source[data.linear.terms[t].row] * coefficient<T>(data.linear.terms[t]);
     add(data.linear.constraint[list], sum);
   }
   return with_f0;

@@ -1,10 +1,12 @@
 // The working problem: what the presolve hands to the iteration.
 #pragma once
 
+#include <type_traits>
 #include <vector>
 
 #include "sdp/layout.h"
 #include "sdp/linalg.h"
+#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 
@@ -13,7 +15,22 @@ struct Term {
   int row = 0;
   int column = 0;
   double value = 0;
+  double rest = 0;  ///< Entry::rest
 };
+
+/// value + rest in T; the value alone in double.
+template <typename T>
+T coefficient(double value, double rest) {
+  if constexpr (std::is_same_v<T, double>) {
+    return value;
+  } else {
+    return as<T>(DoubleDouble(value, rest));
+  }
+}
+template <typename T>
+T coefficient(const Term& term) {
+  return coefficient<T>(term.value, term.rest);
+}
 
 /// The rows of all F_i within one block, grouped by i: list k holds terms start[k] .. start[k+1]-1
 /// of F_{constraint[k]}; constraint 0 is F_0. For the linear part, row == column is the entry's
@@ -23,14 +40,20 @@ struct BlockData {
   std::vector<std::size_t> start{0};
   std::vector<Term> terms;
 
+  /// Where any F_i (F_0 included) or the diagonal has an entry, both triangles: rows of column j
+  /// are pattern_row[pattern_start[j]] .. [pattern_start[j+1] - 1]. X and dX live there. Empty when
+  /// that is most of the block.
+  std::vector<int> pattern_start, pattern_row;
+
   int lists() const { return static_cast<int>(constraint.size()); }
+  bool sparse() const { return !pattern_start.empty(); }
 };
 
 /// minimise c'x s.t. sum x_i F_i - F_0 in the cone `layout`, after presolve and scaling. The
-/// scaling factors are powers of two, so these doubles are exact and serve every precision.
+/// scaling factors are powers of two, so these numbers are exact and serve every precision.
 struct Data {
   Layout layout;
-  std::vector<double> c;
+  std::vector<double> c, c_rest;
   std::vector<BlockData> dense;  ///< one a dense block
   BlockData linear;
 

@@ -6,6 +6,12 @@
 #include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
+namespace {
+
+/// Rows from which Lanczos beats a full tridiagonalisation.
+constexpr int kLanczosSize = 32;
+
+}  // namespace
 
 template <typename T>
 ConeFactor<T>::ConeFactor(const Layout& layout)
@@ -17,6 +23,7 @@ ConeFactor<T>::ConeFactor(const Layout& layout)
   for (const int n : layout.size) {
     solvers_.emplace_back(n);
     rounded_.emplace_back(n, n);
+    lanczos_.emplace_back(n);
   }
 }
 
@@ -43,16 +50,27 @@ template <typename T>
 void ConeFactor<T>::inverse(Blocks<T>& result) const {
   for (int b = 0; b < layout_.blocks(); ++b) {
     auto target = result.dense(b);
-    multiply(View<const T>(inverse_transpose_.dense(b)), View<const T>(inverse_factor_.dense(b)),
-             View<T>(target));
+    multiply_transposed(View<const T>(inverse_factor_.dense(b)),
+                        View<const T>(inverse_transpose_.dense(b)), View<T>(target));
   }
   result.linear() = inverse_factor_.linear();
 }
 
 template <typename T>
-double ConeFactor<T>::smallest_eigenvalue(int b) {
+double ConeFactor<T>::smallest_eigenvalue(const Blocks<T>& D, int b, double enough) {
   const auto at = static_cast<std::size_t>(b);
-  const auto w = scaled_.dense(b);
+  if constexpr (std::is_same_v<T, double>) {
+    if (layout_.size[at] >= kLanczosSize) {
+      bool converged = false;
+      const double bound =
+          lanczos_[at].lower_bound(inverse_factor_.dense(b), D.dense(b), enough, converged);
+      if (converged) return bound;
+    }
+  }
+  auto half = work_.dense(b);
+  auto w = scaled_.dense(b);
+  multiply(View<const T>(D.dense(b)), View<const T>(inverse_transpose_.dense(b)), View<T>(half));
+  multiply(View<const T>(inverse_factor_.dense(b)), View<const T>(half), View<T>(w));
   for (Eigen::Index j = 0; j < w.cols(); ++j)
     for (Eigen::Index i = 0; i < w.rows(); ++i) rounded_[at](i, j) = static_cast<double>(w(i, j));
   solvers_[at].compute(rounded_[at], Eigen::EigenvaluesOnly);
@@ -62,13 +80,9 @@ double ConeFactor<T>::smallest_eigenvalue(int b) {
 template <typename T>
 T ConeFactor<T>::step(const Blocks<T>& D, const T& longest) {
   T smallest = T(-1) / longest;
-  for (int b = 0; b < layout_.blocks(); ++b) {
-    auto half = work_.dense(b);
-    auto w = scaled_.dense(b);
-    multiply(View<const T>(D.dense(b)), View<const T>(inverse_transpose_.dense(b)), View<T>(half));
-    multiply(View<const T>(inverse_factor_.dense(b)), View<const T>(half), View<T>(w));
-    smallest = std::min(smallest, T(smallest_eigenvalue(b)));
-  }
+  for (int b = 0; b < layout_.blocks(); ++b)
+    smallest =
+        std::min(smallest, T(smallest_eigenvalue(D, b, static_cast<double>(T(-1) / longest))));
   const auto reciprocal = inverse_factor_.linear();
   const auto d = D.linear();
   for (Eigen::Index k = 0; k < d.size(); ++k)

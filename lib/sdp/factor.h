@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "sdp/extreme.h"
 #include "sdp/linalg.h"
 
 namespace gainsmith::sdp {
@@ -25,7 +26,8 @@ class ConeFactor {
   T step(const Blocks<T>& D, const T& longest);
 
  private:
-  double smallest_eigenvalue(int b);
+  /// Of L^-1 D L^-T in block b, or a close lower bound; anything above `enough` will do.
+  double smallest_eigenvalue(const Blocks<T>& D, int b, double enough);
 
   const Layout& layout_;
   Blocks<T> inverse_factor_;     ///< L^-1, upper triangle zero; 1/v in the linear part
@@ -33,6 +35,7 @@ class ConeFactor {
   Blocks<T> work_, scaled_;
   std::vector<Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>> solvers_;  ///< one a block
   std::vector<Eigen::MatrixXd> rounded_;
+  std::vector<Lanczos> lanczos_;  ///< one a block in double
 };
 
 }  // namespace gainsmith::sdp

@@ -17,6 +17,9 @@ constexpr int kPatienceNear = 4, kPatienceFar = 25;
 constexpr double kNear = 1e-3;
 /// A step below this gets nowhere.
 constexpr double kNoStep = 1e-7;
+/// Part of a step taken back when it leaves the cone, and how often.
+constexpr double kRetreat = 0.125;
+constexpr int kRetreats = 6;
 /// The least sigma at a fixed tau.
 constexpr double kLeastCentering = 1e-6;
 
@@ -58,6 +61,7 @@ Cause Ipm<T>::run(const Run& run) {
 template <typename T>
 Cause Ipm<T>::iterate() {
   residuals_.update(point_);
+  if (!newton_.factorise(point_)) return Cause::numerical_breakdown;
   Steps<T> step;
   for (;; ++iteration_) {
     report(step);
@@ -73,9 +77,23 @@ Cause Ipm<T>::iterate() {
 
     step = shortened(newton_.step(point_, direction_, T(2)), reach);
     if (!(static_cast<double>(std::max(step.primal, step.dual)) > kNoStep)) return Cause::stalled;
-    point_.advance(direction_, step.primal, step.dual);
+    if (!advance(step)) return Cause::numerical_breakdown;
     residuals_.update(point_);
   }
+}
+
+/// Moves along the direction and factors; takes back a part of the way as long as that fails, since
+/// the longest step is an estimate.
+template <typename T>
+bool Ipm<T>::advance(Steps<T>& step) {
+  point_.advance(direction_, step.primal, step.dual);
+  for (int retreat = 0; !newton_.factorise(point_); ++retreat) {
+    if (retreat == kRetreats) return false;
+    const T back = T(kRetreat);
+    point_.advance(direction_, -back * step.primal, -back * step.dual);
+    step = {(T(1) - back) * step.primal, (T(1) - back) * step.dual};
+  }
+  return true;
 }
 
 /// sigma = (1 - a)^3 in the homogeneous model; at a fixed tau the ratio of the mu that the
@@ -105,7 +123,9 @@ Steps<T> Ipm<T>::shortened(const Steps<T>& longest, const Steps<T>& reach) const
 
 template <typename T>
 std::optional<Cause> Ipm<T>::stop() const {
-  if (residuals_.worst() <= run_.tolerance) return Cause::converged;
+  if (residuals_.worst() <= run_.tolerance &&
+      std::max(residuals_.primal_infeasibility, residuals_.dual_infeasibility) <= run_.feasibility)
+    return Cause::converged;
   if (std::min(residuals_.primal_certificate, residuals_.dual_certificate) <=
       options_.certificate_tolerance / 2)
     return Cause::certificate;

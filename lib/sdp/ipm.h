@@ -15,8 +15,9 @@ namespace gainsmith::sdp {
 /// What one run of the loop is to do.
 struct Run {
   Model model = Model::fixed;
-  double tolerance = 1e-8;
-  int first_iteration = 0;                      ///< continues the count of an earlier run
+  double tolerance = 1e-8;    ///< for the gap and all other errors
+  double feasibility = 1e-8;  ///< for the two infeasibilities, where that is to be stricter
+  int first_iteration = 0;    ///< continues the count of an earlier run
   std::chrono::steady_clock::time_point start;  ///< of the whole solve, for the time limit
 };
 
@@ -49,6 +50,7 @@ class Ipm {
   std::optional<Cause> limits() const;
   T centering(const Steps<T>& reach) const;
   Steps<T> shortened(const Steps<T>& longest, const Steps<T>& reach) const;
+  bool advance(Steps<T>& step);
   void keep_best();
   void report(const Steps<T>& step) const;
 

@@ -1,11 +1,11 @@
 #include "sdp/kernels.h"
 
 #include <Eigen/Cholesky>
-#include <array>
 #include <cmath>
 #include <type_traits>
 #include <vector>
 
+#include "sdp/panel.h"
 #include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
@@ -29,7 +29,6 @@ View<const T> constant(const View<T>& v) {
 
 // ---- double-double product -------------------------------------------------------------------
 
-constexpr Index kLanes = 8;    ///< rows a register
 constexpr Index kColumns = 2;  ///< columns at a time
 
 /// The halves of a matrix apart, rows padded to whole registers, for the vector unit.
@@ -53,33 +52,13 @@ struct Halves {
   }
 };
 
-/// Sums of products with their rounding errors (Ogita, Rump, Oishi 2005, Dot2, extended to factors
-/// of two halves): as accurate as if computed in twice the precision and rounded.
-struct Accumulator {
-  std::array<double, kLanes> high{}, low{};
-
-  void add(const double* a_high, const double* a_low, double b_high, double b_low) {
-    for (std::size_t r = 0; r < kLanes; ++r) {
-      const double p = a_high[r] * b_high;
-      double e = std::fma(a_high[r], b_high, -p);
-      e = std::fma(a_high[r], b_low, e);
-      e = std::fma(a_low[r], b_high, e);
-      const double s = high[r] + p;
-      const double t = s - high[r];
-      low[r] += ((high[r] - (s - t)) + (p - t)) + e;
-      high[r] = s;
-    }
-  }
-  DoubleDouble sum(std::size_t r) const { return DoubleDouble(high[r]) + DoubleDouble(low[r]); }
-};
-
 void multiply_pairs(const View<const DoubleDouble>& a, const View<const DoubleDouble>& b,
                     const View<DoubleDouble>& c, Update update) {
   static thread_local Halves halves;
   halves.take(a);
-  const auto store = [&](const Accumulator& sums, Index i, Index j) {
+  const auto store = [&](const PairSums& sums, Index i, Index j) {
     for (Index r = 0; r < kLanes && i + r < c.rows; ++r) {
-      const DoubleDouble sum = sums.sum(static_cast<std::size_t>(r));
+      const DoubleDouble sum = sums[static_cast<std::size_t>(r)];
       if (update == Update::assign)
         c(i + r, j) = sum;
       else
@@ -89,7 +68,7 @@ void multiply_pairs(const View<const DoubleDouble>& a, const View<const DoubleDo
   for (Index j = 0; j < c.columns; j += kColumns) {
     const bool two = j + 1 < c.columns;
     for (Index i = 0; i < c.rows; i += kLanes) {
-      Accumulator first, second;
+      PairSums first, second;
       const double* high = halves.high.data() + i;
       const double* low = halves.low.data() + i;
       for (Index k = 0; k < a.columns; ++k, high += halves.stride, low += halves.stride) {
@@ -175,6 +154,35 @@ void multiply(const View<const T>& a, const View<const T>& b, const View<T>& c, 
 }
 
 template <typename T>
+void multiply_sparse(const View<const T>& a, const View<const T>& s, const std::vector<int>& start,
+                     const std::vector<int>& rows, const View<T>& c) {
+  using Column = Eigen::Map<Vector<T>>;
+  using ConstColumn = Eigen::Map<const Vector<T>>;
+  for (Index j = 0; j < c.columns; ++j) {
+    Column target(c.data + c.stride * j, c.rows);
+    target.setZero();
+    const auto at = static_cast<std::size_t>(j);
+    for (int p = start[at]; p < start[at + 1]; ++p) {
+      const int k = rows[static_cast<std::size_t>(p)];
+      target += ConstColumn(a.data + a.stride * k, a.rows) * s(k, j);
+    }
+  }
+}
+
+template <typename T>
+void multiply_transposed(const View<const T>& a, const View<const T>& a_transposed,
+                         const View<T>& c) {
+  if constexpr (std::is_same_v<T, double>) {
+    auto result = map(c);
+    result.setZero();
+    result.template selfadjointView<Eigen::Lower>().rankUpdate(map(a_transposed));
+    result.template triangularView<Eigen::StrictlyUpper>() = result.transpose();
+  } else {
+    multiply(a_transposed, a, c);
+  }
+}
+
+template <typename T>
 bool cholesky(const View<T>& a) {
   if constexpr (std::is_same_v<T, double>) {
     Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> in_place(map(a));
@@ -224,6 +232,11 @@ void solve_factored(const View<const T>& l, Vector<T>& x) {
 
 #define GAINSMITH_INSTANTIATE(T)                                                                 \
   template void multiply<T>(const View<const T>&, const View<const T>&, const View<T>&, Update); \
+  template void multiply_sparse<T>(const View<const T>&, const View<const T>&,                   \
+                                   const std::vector<int>&, const std::vector<int>&,             \
+                                   const View<T>&);                                              \
+  template void multiply_transposed<T>(const View<const T>&, const View<const T>&,               \
+                                       const View<T>&);                                          \
   template bool cholesky<T>(const View<T>&);                                                     \
   template void invert_lower<T>(const View<const T>&, const View<T>&);                           \
   template void solve_factored<T>(const View<const T>&, Vector<T>&);

@@ -2,6 +2,8 @@
 // (vectorised here), plain loops in the widest. Matrices are column-major with a leading dimension.
 #pragma once
 
+#include <vector>
+
 #include "sdp/linalg.h"
 
 namespace gainsmith::sdp {
@@ -31,6 +33,16 @@ enum class Update { assign, subtract };
 template <typename T>
 void multiply(const View<const T>& a, const View<const T>& b, const View<T>& c,
               Update update = Update::assign);
+
+/// C = A S, where S has entries only at rows[start[j]] .. rows[start[j+1]-1] of its column j.
+template <typename T>
+void multiply_sparse(const View<const T>& a, const View<const T>& s, const std::vector<int>& start,
+                     const std::vector<int>& rows, const View<T>& c);
+
+/// C = A' A, both triangles; A is lower triangular with zeros above.
+template <typename T>
+void multiply_transposed(const View<const T>& a, const View<const T>& a_transposed,
+                         const View<T>& c);
 
 /// A = L L' in place: the lower triangle of A is read and becomes L; the upper one is left alone.
 /// False when A is not positive definite in this arithmetic.

@@ -9,10 +9,10 @@
 namespace gainsmith::sdp {
 namespace {
 
-/// Refinement of a direction: the residual aimed at in units of epsilon, the most steps, and how
-/// many of them may pass without a smaller residual.
-constexpr double kRefineGoal = 1e4;
-constexpr int kRefineSteps = 60, kRefinePatience = 12;
+/// Refinement of a direction: the residual aimed at, in units of epsilon but not below what any use
+/// of it needs; the most steps, and how many of them may pass without a smaller residual.
+constexpr double kRefineUnits = 1e4, kRefineGoal = 1e-20;
+constexpr int kRefineSteps = 100, kRefinePatience = 20;
 
 }  // namespace
 
@@ -32,25 +32,39 @@ Newton<T>::Newton(const Data& data, unsigned threads)
       trial_(data),
       order_(static_cast<double>(data.layout.order() + 1)) {
   for (Vector<T>* v : {&a_, &q_, &p_, &z_, &u_, &h_, &c_}) v->setZero(data.m());
-  for (int i = 0; i < data.m(); ++i) c_[i] = T(data.c[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < data.m(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    c_[i] = coefficient<T>(data.c[at], data.c_rest[at]);
+  }
 }
 
+// As the symmetric part of (right left) X^-1, which is the same: `left` is the factor with the
+// data's pattern.
 template <typename T>
 void Newton<T>::scaled_product(const Blocks<T>& left, const Blocks<T>& right, Blocks<T>& out) {
   for (int b = 0; b < data_.layout.blocks(); ++b) {
+    const BlockData& block = data_.dense[static_cast<std::size_t>(b)];
     auto half = half_.dense(b);
     auto product = product_.dense(b);
-    multiply(View<const T>(left.dense(b)), View<const T>(right.dense(b)), View<T>(half));
-    multiply(View<const T>(inverse_X_.dense(b)), View<const T>(half), View<T>(product));
+    if (block.sparse())
+      multiply_sparse(View<const T>(right.dense(b)), View<const T>(left.dense(b)),
+                      block.pattern_start, block.pattern_row, View<T>(half));
+    else
+      multiply(View<const T>(right.dense(b)), View<const T>(left.dense(b)), View<T>(half));
+    multiply(View<const T>(half), View<const T>(inverse_X_.dense(b)), View<T>(product));
     out.dense(b) = T(0.5) * (product + product.transpose());
   }
   out.linear() = inverse_X_.linear().cwiseProduct(left.linear()).cwiseProduct(right.linear());
 }
 
 template <typename T>
+bool Newton<T>::factorise(const Iterate<T>& point) {
+  return factor_X_.factorise(point.X) && factor_Y_.factorise(point.Y);
+}
+
+template <typename T>
 bool Newton<T>::prepare(const Iterate<T>& point, const Defect<T>& defect, Model model) {
   model_ = model;
-  if (!factor_X_.factorise(point.X) || !factor_Y_.factorise(point.Y)) return false;
   factor_X_.inverse(inverse_X_);
   schur_.assemble(inverse_X_, point.Y);
   if (!schur_.factorise()) return false;
@@ -111,7 +125,7 @@ void Newton<T>::solve(const Iterate<T>& point, const Defect<T>& defect, const T&
 template <typename T>
 void Newton<T>::refine(const Iterate<T>& point, const Defect<T>& defect, const T& eta,
                        Iterate<T>& direction) {
-  const T goal = T(kRefineGoal) * std::numeric_limits<T>::epsilon();
+  const T goal = std::max(T(kRefineGoal), T(kRefineUnits * std::numeric_limits<T>::epsilon()));
   apply(data_, direction.Y, a_);
   h_ = a_ - eta * defect.dual - direction.tau * c_;
   T best = h_.norm(), rho(0);

@@ -41,7 +41,10 @@ class Newton {
  public:
   Newton(const Data& data, unsigned threads);
 
-  /// Factors X and Y and the Schur complement at `point`. False when a factorisation fails.
+  /// Factors X and Y. False when one is not positive definite.
+  bool factorise(const Iterate<T>& point);
+
+  /// Sets up the Schur complement at the point that was factored. False when it cannot be factored.
   bool prepare(const Iterate<T>& point, const Defect<T>& defect, Model model);
 
   /// sigma = 0, eta = 1, C = 0.

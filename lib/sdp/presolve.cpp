@@ -1,10 +1,11 @@
 #include "sdp/presolve.h"
 
+#include <algorithm>
 #include <cmath>
-#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 #include <utility>
 
 #include "sdp/scalars.h"
@@ -107,27 +108,68 @@ Layout layout_of(const Recovery& recovery) {
   return Layout(std::move(sizes), static_cast<int>(recovery.linear.size()));
 }
 
-/// Appends the entries of one F_i to the blocks they fall in, sorted, equal places added up.
+/// Where an entry belongs in the working problem.
+struct Placed {
+  int block = 0;  ///< -1: linear part
+  Term term;
+};
+
+/// Appends the entries of one F_i to the blocks they fall in, sorted by column and row, equal
+/// places added up.
 void append(const std::vector<Entry>& list, int constraint, double factor,
             const std::vector<std::vector<Target>>& targets, Data& data) {
-  std::map<std::pair<int, std::pair<int, int>>, double> sums;  // block, (column, row)
+  std::vector<Placed> placed;
   for (const Entry& e : list) {
     if (e.value == 0) continue;
-    const auto& place = targets[static_cast<std::size_t>(e.block)];
-    const Target row = place[static_cast<std::size_t>(e.row)];
-    const Target column = place[static_cast<std::size_t>(e.column)];
-    sums[{row.block, {column.row, row.row}}] += e.value * factor;
+    const auto& target = targets[static_cast<std::size_t>(e.block)];
+    const Target row = target[static_cast<std::size_t>(e.row)];
+    const Target column = target[static_cast<std::size_t>(e.column)];
+    placed.push_back({row.block, {row.row, column.row, e.value * factor, e.rest * factor}});
   }
-  for (const auto& [place, value] : sums) {
-    if (value == 0) continue;
+  const auto key = [](const Placed& p) { return std::tie(p.block, p.term.column, p.term.row); };
+  const auto before = [&](const Placed& a, const Placed& b) { return key(a) < key(b); };
+  if (!std::is_sorted(placed.begin(), placed.end(), before))
+    std::stable_sort(placed.begin(), placed.end(), before);
+  for (std::size_t k = 0; k < placed.size();) {
+    const Placed& first = placed[k];
+    DoubleDouble sum(first.term.value, first.term.rest);
+    for (++k; k < placed.size() && key(placed[k]) == key(first); ++k)
+      sum += DoubleDouble(placed[k].term.value, placed[k].term.rest);
+    if (sum.hi() == 0) continue;
     BlockData& block =
-        place.first < 0 ? data.linear : data.dense[static_cast<std::size_t>(place.first)];
+        first.block < 0 ? data.linear : data.dense[static_cast<std::size_t>(first.block)];
     if (block.constraint.empty() || block.constraint.back() != constraint) {
       block.constraint.push_back(constraint);
       block.start.push_back(block.start.back());
     }
-    block.terms.push_back({place.second.second, place.second.first, value});
+    block.terms.push_back({first.term.row, first.term.column, sum.hi(), sum.lo()});
     ++block.start.back();
+  }
+}
+
+/// Blocks with a sparser common pattern than this, and of at least this size, keep it.
+constexpr double kSparse = 0.2;
+constexpr int kSparseSize = 24;
+
+void find_pattern(BlockData& block, int n) {
+  if (n < kSparseSize) return;
+  const auto size = static_cast<std::size_t>(n);
+  std::vector<char> occurs(size * size, 0);
+  const auto mark = [&](int row, int column) {
+    occurs[static_cast<std::size_t>(row) + size * static_cast<std::size_t>(column)] = 1;
+  };
+  for (const Term& term : block.terms) {
+    mark(term.row, term.column);
+    mark(term.column, term.row);
+  }
+  for (int i = 0; i < n; ++i) mark(i, i);
+  const auto count = static_cast<double>(std::count(occurs.begin(), occurs.end(), 1));
+  if (count > kSparse * n * n) return;
+  block.pattern_start.push_back(0);
+  for (std::size_t j = 0; j < size; ++j) {
+    for (std::size_t i = 0; i < size; ++i)
+      if (occurs[i + size * j]) block.pattern_row.push_back(static_cast<int>(i));
+    block.pattern_start.push_back(static_cast<int>(block.pattern_row.size()));
   }
 }
 
@@ -149,6 +191,8 @@ void validate(const Problem& problem) {
     throw std::invalid_argument("sdp: " + std::to_string(problem.c.size()) + " costs need " +
                                 std::to_string(problem.c.size() + 1) + " matrices, not " +
                                 std::to_string(problem.f.size()));
+  if (!problem.c_rest.empty() && problem.c_rest.size() != problem.c.size())
+    throw std::invalid_argument("sdp: c_rest needs as many entries as c, or none");
   for (const double c : problem.c)
     if (!std::isfinite(c)) throw std::invalid_argument("sdp: a cost is not finite");
   for (const Block& block : problem.blocks)
@@ -183,11 +227,16 @@ Presolved presolve(const Problem& problem) {
     largest_ratio = std::max(largest_ratio, (1 + std::abs(c)) / (1 + norm_fi));
     recovery.s.push_back(s);
     data.c.push_back(s * c);
+    data.c_rest.push_back(problem.c_rest.empty() ? 0
+                                                 : s * problem.c_rest[static_cast<std::size_t>(i)]);
     largest_c = std::max(largest_c, std::abs(s * c));
     append(list, static_cast<int>(recovery.s.size()), s, targets, data);
   }
+  for (std::size_t b = 0; b < data.dense.size(); ++b)
+    find_pattern(data.dense[b], data.layout.size[b]);
   if (largest_c > 0) recovery.gamma_c = power_of_two_below(largest_c);
   for (double& c : data.c) c /= recovery.gamma_c;
+  for (double& c : data.c_rest) c /= recovery.gamma_c;
   const double n = data.layout.order();
   result.far_X = std::max(1.0, std::sqrt(n) * (1 + largest_norm) / recovery.gamma_f);
   result.far_Y = std::max(1.0, n * largest_ratio / recovery.gamma_c);

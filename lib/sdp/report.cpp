@@ -6,6 +6,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "sdp/data.h"
 #include "sdp/kernels.h"
 #include "sdp/scalars.h"
 
@@ -30,7 +31,7 @@ T inner(const Problem& problem, const std::vector<Entry>& f, const Packed<T>& s)
   for (const Entry& e : f) {
     const T& value =
         s[static_cast<std::size_t>(e.block)][place(block_of(problem, e), e.row, e.column)];
-    sum += value * ((e.row == e.column ? 1 : 2) * e.value);
+    sum += value * coefficient<T>(e.value, e.rest) * static_cast<double>(e.row == e.column ? 1 : 2);
   }
   return sum;
 }
@@ -48,8 +49,9 @@ Packed<T> combine(const Problem& problem, const std::vector<T>& x, double tau) {
     for (const Entry& e : problem.f[i]) {
       const Block& block = block_of(problem, e);
       auto& values = result[static_cast<std::size_t>(e.block)];
-      values[place(block, e.row, e.column)] += factor * e.value;
-      if (e.row != e.column) values[place(block, e.column, e.row)] += factor * e.value;
+      const T product = factor * coefficient<T>(e.value, e.rest);
+      values[place(block, e.row, e.column)] += product;
+      if (e.row != e.column) values[place(block, e.column, e.row)] += product;
     }
   }
   return result;
@@ -115,9 +117,15 @@ T dot(const Packed<T>& a, const Packed<T>& b) {
 }
 
 template <typename T>
-T dot(const std::vector<double>& a, const std::vector<T>& b) {
+T cost(const Problem& problem, std::size_t i) {
+  return coefficient<T>(problem.c[i], problem.c_rest.empty() ? 0 : problem.c_rest[i]);
+}
+
+/// c'x
+template <typename T>
+T objective(const Problem& problem, const std::vector<T>& x) {
   T sum(0);
-  for (std::size_t i = 0; i < a.size(); ++i) sum += b[i] * a[i];
+  for (std::size_t i = 0; i < x.size(); ++i) sum += x[i] * cost<T>(problem, i);
   return sum;
 }
 
@@ -142,7 +150,7 @@ void split(const Packed<T>& from, BlockMatrix& value, BlockMatrix& rest) {
 
 template <typename T>
 void measure(const Problem& problem, const Point<T>& point, Solution& solution) {
-  const T primal = dot(problem.c, point.x);
+  const T primal = objective(problem, point.x);
   const T dual = inner(problem, problem.f[0], point.Y);
   solution.primal_objective = static_cast<double>(primal);
   solution.dual_objective = static_cast<double>(dual);
@@ -154,7 +162,7 @@ void measure(const Problem& problem, const Point<T>& point, Solution& solution) 
   double dual_square = 0, primal_square = 0;
   for (std::size_t i = 0; i < problem.c.size(); ++i) {
     const double r =
-        static_cast<double>(T(inner(problem, problem.f[i + 1], point.Y) - problem.c[i]));
+        static_cast<double>(T(inner(problem, problem.f[i + 1], point.Y) - cost<T>(problem, i)));
     dual_square += r * r;
   }
   const Packed<T> combined = combine(problem, point.x, 1);
@@ -199,10 +207,10 @@ Certificate check_primal_infeasible(const Problem& problem, BlockMatrix& Y, doub
 Certificate check_dual_infeasible(const Problem& problem, std::vector<double>& x,
                                   double tolerance) {
   Certificate certificate;
-  const double value = -dot(problem.c, x);
+  const double value = -objective(problem, x);
   if (!(value > 0)) return certificate;
   for (double& v : x) v /= value;
-  certificate.value = -dot(problem.c, x);
+  certificate.value = -objective(problem, x);
   certificate.min_eigenvalue = smallest_eigenvalue(problem, combine(problem, x, 0));
   certificate.residual = std::max(0.0, -certificate.min_eigenvalue);
   certificate.excluded_radius = 1 / certificate.residual;

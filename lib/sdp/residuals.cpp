@@ -35,8 +35,9 @@ void Residuals<T>::update(const Iterate<T>& point) {
   double dual_square = 0, moved = 0, products = 0;
   for (int i = 0; i < data.m(); ++i) {
     const auto at = static_cast<std::size_t>(i);
-    cx += point.x[i] * data.c[at];
-    defect.dual[i] = point.tau * data.c[at] - products_[i];
+    const T c = coefficient<T>(data.c[at], data.c_rest[at]);
+    cx += point.x[i] * c;
+    defect.dual[i] = point.tau * c - products_[i];
     const double r = static_cast<double>(defect.dual[i]);
     const double original = r * recovery.gamma_c / (recovery.s[at] * tau);
     dual_square += original * original;

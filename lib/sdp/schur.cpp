@@ -35,7 +35,7 @@ Schur<T>::Schur(const Data& data, unsigned threads)
     Workspace& w = work_.emplace_back();
     w.h.resize(n * n * kBatch);
     w.u.resize(n * n * kBatch);
-    w.panel.resize(n * (n + 1) / 2 * kBatch);
+    w.panel.resize(packed_index(0, n));
   }
   const BlockData& linear = data.linear;
   for (int k = 0; k < linear.lists(); ++k) {
@@ -43,7 +43,7 @@ Schur<T>::Schur(const Data& data, unsigned threads)
     if (linear.constraint[list] == 0) continue;
     for (std::size_t t = linear.start[list]; t < linear.start[list + 1]; ++t)
       columns_[static_cast<std::size_t>(linear.terms[t].row)].emplace_back(
-          linear.constraint[list] - 1, linear.terms[t].value);
+          linear.constraint[list] - 1, coefficient<T>(linear.terms[t]));
   }
   b_.setZero(m, m);
   factor_.setZero(m, m);
@@ -122,31 +122,28 @@ void Schur<T>::add_dense(const Plan& plan, std::size_t first, std::size_t last,
     const List& list = plan.lists[first + static_cast<std::size_t>(i)];
     for (std::size_t t = list.first; t < list.last; ++t) {
       const Term& term = plan.terms[t];
-      h.col(term.row).segment(n * i, n) += Y.col(term.column) * T(term.value);
+      h.col(term.row).segment(n * i, n) += Y.col(term.column) * coefficient<T>(term);
       if (term.row != term.column)
-        h.col(term.column).segment(n * i, n) += Y.col(term.row) * T(term.value);
+        h.col(term.column).segment(n * i, n) += Y.col(term.row) * coefficient<T>(term);
     }
   }
   MatrixMap<T> u(w.u.data(), n * count, n);
   multiply(View<const T>(h), View<const T>(inverse_X), View<T>(u));
 
-  T* panel = w.panel.data();
+  std::size_t entry = 0;
   for (Eigen::Index b = 0; b < n; ++b)
-    for (Eigen::Index a = 0; a <= b; ++a) {
-      for (Eigen::Index i = 0; i < count; ++i)
-        panel[i] = a == b ? u(a + n * i, a) : u(b + n * i, a) + u(a + n * i, b);
-      for (Eigen::Index i = count; i < kBatch; ++i) panel[i] = T(0);
-      panel += kBatch;
-    }
+    for (Eigen::Index a = 0; a <= b; ++a, ++entry)
+      for (Eigen::Index i = 0; i < kBatch; ++i) {
+        T value(0);
+        if (i < count) value = a == b ? u(a + n * i, a) : T(u(b + n * i, a) + u(a + n * i, b));
+        w.panel.set(entry, static_cast<std::size_t>(i), value);
+      }
 
   for (std::size_t q = first; q < plan.lists.size(); ++q) {
     const List& other = plan.lists[q];
-    T sums[kBatch] = {};
-    for (std::size_t t = other.first; t < other.last; ++t) {
-      const T* at = w.panel.data() + static_cast<std::ptrdiff_t>(plan.packed[t]) * kBatch;
-      const double value = plan.terms[t].value;
-      for (int i = 0; i < kBatch; ++i) sums[i] += at[i] * value;
-    }
+    typename Panel<T>::Sums sums{};
+    for (std::size_t t = other.first; t < other.last; ++t)
+      w.panel.add(static_cast<std::size_t>(plan.packed[t]), coefficient<T>(plan.terms[t]), sums);
     const std::size_t pairs = std::min(q + 1, last) - first;
     for (std::size_t i = 0; i < pairs; ++i)
       add(plan.lists[first + i].constraint, other.constraint, sums[i]);
@@ -168,9 +165,9 @@ void Schur<T>::add_rows(const Plan& plan, std::size_t position, const ConstMatri
   };
   for (std::size_t t = list.first; t < list.last; ++t) {
     const Term& term = plan.terms[t];
-    h.row(place(term.row)) += Y.col(term.column).transpose() * T(term.value);
+    h.row(place(term.row)) += Y.col(term.column).transpose() * coefficient<T>(term);
     if (term.row != term.column)
-      h.row(place(term.column)) += Y.col(term.row).transpose() * T(term.value);
+      h.row(place(term.column)) += Y.col(term.row).transpose() * coefficient<T>(term);
   }
   for (Eigen::Index k = 0; k < r; ++k)
     u.row(k) = inverse_X.col(list.rows[static_cast<std::size_t>(k)]).transpose();
@@ -189,7 +186,7 @@ void Schur<T>::add_rows(const Plan& plan, std::size_t position, const ConstMatri
         const T* ha = h.data() + r * term.row;
         for (Eigen::Index k = 0; k < r; ++k) entry += ub[k] * ha[k];
       }
-      sum += entry * term.value;
+      sum += entry * coefficient<T>(term);
     }
     add(list.constraint, other.constraint, sum);
   }

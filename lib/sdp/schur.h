@@ -5,6 +5,7 @@
 
 #include "sdp/data.h"
 #include "sdp/linalg.h"
+#include "sdp/panel.h"
 
 namespace gainsmith::sdp {
 
@@ -33,7 +34,7 @@ class Schur {
   void solve(const Vector<T>& r, Vector<T>& x) const;
 
  private:
-  static constexpr int kBatch = 8;
+  static constexpr int kBatch = kLanes;
   /// A list of one block in the order of assembly.
   struct List {
     int constraint = 0;     ///< from 0
@@ -48,9 +49,9 @@ class Schur {
     std::vector<int> packed;  ///< place of a term in the packed upper triangle
   };
   struct Workspace {
-    Vector<T> h;      ///< F_i Y, transposed: (n * kBatch) x n, or |R| x n
-    Vector<T> u;      ///< X^-1 F_i Y
-    Vector<T> panel;  ///< symmetric part of U, packed upper triangle, kBatch interleaved
+    Vector<T> h;     ///< F_i Y, transposed: (n * kBatch) x n, or |R| x n
+    Vector<T> u;     ///< X^-1 F_i Y
+    Panel<T> panel;  ///< symmetric part of U, packed upper triangle
   };
 
   Plan plan_block(const BlockData& block, int n) const;
@@ -66,7 +67,7 @@ class Schur {
   std::vector<Plan> plans_;
   std::vector<Workspace> work_;
   /// The linear part by column: the F_i that have the entry k.
-  std::vector<std::vector<std::pair<int, double>>> columns_;
+  std::vector<std::vector<std::pair<int, T>>> columns_;
   Matrix<T> b_;       ///< lower triangle
   Matrix<T> factor_;  ///< lower triangle of the Cholesky factor of the scaled B
   Vector<T> scale_;   ///< diag(B)^-1/2

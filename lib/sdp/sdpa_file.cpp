@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "sdp/double_double.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -80,8 +81,12 @@ class Scanner {
     }
     if (!std::isfinite(value)) fail_at_token(std::string(what) + " is not finite");
     position_ = static_cast<std::size_t>(end - text_.data());
+    value_ = value;
     return value;
   }
+
+  /// What rounding took from the last number: the decimal as written minus its double.
+  double rest() const;
 
   /// A whole number from `least` to `most`, possibly written as a real (3.0).
   int integer(const char* what, double least, double most) {
@@ -121,9 +126,50 @@ class Scanner {
   const std::string& file_;
   std::size_t position_ = 0;
   std::size_t token_ = 0;
+  double value_ = 0;
   std::size_t line_start_ = 0;
   int line_ = 1;
 };
+
+// With M the digits as a whole number and P = 10^|e|: rest = (M - value P)/P or M P - value. Digits
+// beyond the thirtieth are below what double-double holds.
+double Scanner::rest() const {
+  constexpr int kMostDigits = 30, kLargestExponent = 200;
+  DoubleDouble mantissa(0);
+  int digits = 0, exponent = 0;
+  bool after_point = false, fraction = false;
+  std::size_t p = token_;
+  for (; p < position_ && text_[p] != 'e' && text_[p] != 'E'; ++p) {
+    const char c = text_[p];
+    if (c == '.') after_point = true;
+    if (c < '0' || c > '9') continue;
+    if (digits >= kMostDigits) {
+      exponent += after_point ? 0 : 1;
+      continue;
+    }
+    mantissa = mantissa * 10.0 + DoubleDouble(c - '0');
+    if (mantissa.hi() != 0) ++digits;
+    if (after_point) {
+      --exponent;
+      fraction = fraction || c != '0';
+    }
+  }
+  if (!fraction && p >= position_ && digits <= 15) return 0;
+  if (p < position_) {
+    int written = 0;
+    p += text_[p + 1] == '+' ? 2 : 1;
+    std::from_chars(text_.data() + p, text_.data() + position_, written);
+    exponent += written;
+  }
+  if (mantissa.hi() == 0 || std::abs(exponent) > kLargestExponent) return 0;
+  DoubleDouble power(1), square(10);
+  for (int e = std::abs(exponent); e > 0; e /= 2, square *= square)
+    if (e % 2 == 1) power *= square;
+  const DoubleDouble value(std::abs(value_));
+  const DoubleDouble left =
+      exponent < 0 ? (mantissa - value * power) / power : mantissa * power - value;
+  return value_ < 0 ? -left.hi() : left.hi();
+}
 
 /// m, the blocks and c; leaves the scanner at the first entry.
 Problem read_header(Scanner& in, std::size_t length) {
@@ -150,6 +196,7 @@ Problem read_header(Scanner& in, std::size_t length) {
   for (int i = 0; i < m; ++i) {
     in.skip_blank_lines();
     problem.c.push_back(in.number("a cost"));
+    problem.c_rest.push_back(in.rest());
   }
   if (m > 0 && !in.end_of_line()) in.fail("more than " + std::to_string(m) + " costs on this line");
   if (m > 0) in.next_line();
@@ -176,6 +223,7 @@ std::optional<NumberedEntry> read_entry(Scanner& in, const Problem& problem) {
     in.fail_at_token("an off-diagonal entry in a diagonal block");
   if (result.entry.row > result.entry.column) std::swap(result.entry.row, result.entry.column);
   result.entry.value = in.number("a value");
+  result.entry.rest = in.rest();
   if (!in.end_of_line()) in.fail("more than five numbers on the line of an entry");
   in.next_line();
   return result;

@@ -83,7 +83,8 @@ class Ladder {
       : problem_(problem), presolved_(presolved), options_(options), start_(start) {}
 
   Solution climb(int digits) {
-    if (digits > kQuadDigits) return settle<Decimal100>(kFarther);
+    strict_ = digits > kDoubleDigits;
+    if (digits > kQuadDigits) return settle<Decimal100>(kFarthest);
     if (digits > kDoubleDigits) return settle<DoubleDouble>(kFarther);
     Ipm<double> narrow(problem_, presolved_, options_);
     attempt(narrow, Model::fixed, 1);
@@ -92,12 +93,13 @@ class Ladder {
 
     Ipm<DoubleDouble> wide(problem_, presolved_, options_);
     reason_ = reason("double");
+    strict_ = best_error_ > kIllPosed * options_.tolerance;
     wide.start_from(narrow.point());
     if (narrow.residuals().worst() < kHopeless) run(wide, Model::fixed);
     if (!over()) attempt(wide, Model::fixed, kFarther);
     if (over() || cost() > kWideCost) return std::move(best_);
     reason_ = reason(name_of<DoubleDouble>());
-    return settle<Decimal100>(kFarther);
+    return settle<Decimal100>(kFarthest);
   }
 
  private:
@@ -105,7 +107,12 @@ class Ladder {
   static constexpr double kHopeless = 1e-3;
   /// How much farther than far_X, far_Y a run in wide arithmetic starts: problems that need it tend
   /// to have solutions of great norm, and it can afford the cancellation.
-  static constexpr double kFarther = 1e4;
+  static constexpr double kFarther = 1e4, kFarthest = 1e10;
+  /// Where double ends farther than kIllPosed tolerances from an answer, the problem may be so ill
+  /// posed that points which satisfy its equations to 1e-15 miss the optimum by any amount: then
+  /// they must hold to kWideFeasibility in wide arithmetic.
+  static constexpr double kIllPosed = 100;
+  static constexpr double kWideFeasibility = 1e-18;
   /// Multiplications an iteration up to which a wider arithmetic is tried unasked.
   static constexpr double kQuadCost = 1e9, kWideCost = 2e6;
 
@@ -143,11 +150,14 @@ class Ladder {
   double best_error_ = std::numeric_limits<double>::infinity();
   int iterations_ = 0;
   std::string reason_;
+  bool strict_ = false;  ///< ask for kWideFeasibility
 };
 
 template <typename T>
 void Ladder::run(Ipm<T>& ipm, Model model) {
-  const Cause cause = ipm.run({model, options_.tolerance, iterations_, start_});
+  const Cause cause =
+      ipm.run({model, options_.tolerance, strict_ ? kWideFeasibility : options_.tolerance,
+               iterations_, start_});
   iterations_ = ipm.iterations();
   Solution found = conclude(problem_, presolved_, options_, ipm, cause);
   const double error = ipm.residuals().worst();

@@ -1,0 +1,62 @@
+#include "sdp/extreme.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace gainsmith::sdp {
+namespace {
+
+/// How sharp the bound must be, relative to the eigenvalue.
+constexpr double kSharpness = 0.01;
+/// Ritz values are looked at from this step on, every few steps.
+constexpr Eigen::Index kFirstLook = 8, kBetweenLooks = 4;
+
+}  // namespace
+
+Lanczos::Lanczos(Eigen::Index n)
+    : basis_(n, std::min(kSteps, n) + 1),
+      image_(n),
+      half_(n),
+      alpha_(Eigen::VectorXd::Zero(kSteps + 1)),
+      beta_(Eigen::VectorXd::Zero(kSteps + 1)) {}
+
+void Lanczos::apply(const Matrix& inverse, const Matrix& D, Eigen::Index k) {
+  image_.noalias() = inverse.triangularView<Eigen::Lower>().transpose() * basis_.col(k);
+  half_.noalias() = D.selfadjointView<Eigen::Lower>() * image_;
+  image_.noalias() = inverse.triangularView<Eigen::Lower>() * half_;
+}
+
+double Lanczos::lower_bound(const Matrix& inverse, const Matrix& D, double enough,
+                            bool& converged) {
+  converged = false;
+  const Eigen::Index n = basis_.rows(), steps = basis_.cols() - 1;
+  // A start that no eigenvector of a structured problem is orthogonal to.
+  for (Eigen::Index i = 0; i < n; ++i)
+    basis_(i, 0) = 1 + 0.5 * std::sin(1.7 * static_cast<double>(i) + 0.3);
+  basis_.col(0).normalize();
+  double bound = 0;
+  for (Eigen::Index k = 0; k < steps; ++k) {
+    apply(inverse, D, k);
+    alpha_[k] = image_.dot(basis_.col(k));
+    for (int pass = 0; pass < 2; ++pass) {
+      half_.head(k + 1).noalias() = basis_.leftCols(k + 1).transpose() * image_;
+      image_.noalias() -= basis_.leftCols(k + 1) * half_.head(k + 1);
+    }
+    beta_[k] = image_.norm();
+    const bool exhausted = beta_[k] <= 1e-14 * std::abs(alpha_[0]) + 1e-300 || k + 1 == n;
+    if (exhausted || (k + 1 >= kFirstLook && (k + 1) % kBetweenLooks == 0)) {
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz(k + 1);
+      ritz.computeFromTridiagonal(alpha_.head(k + 1), beta_.head(k), Eigen::ComputeEigenvectors);
+      const double theta = ritz.eigenvalues()[0];
+      const double residual = exhausted ? 0 : std::abs(beta_[k] * ritz.eigenvectors()(k, 0));
+      bound = theta - residual;
+      converged = residual <= kSharpness * std::abs(theta) || bound >= enough;
+      if (converged || exhausted) return bound;
+    }
+    basis_.col(k + 1) = image_ / beta_[k];
+  }
+  return bound;
+}
+
+}  // namespace gainsmith::sdp

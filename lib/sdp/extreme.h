@@ -1,0 +1,27 @@
+// The smallest eigenvalue of L^-1 D L^-T without forming it.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace gainsmith::sdp {
+
+/// Lanczos with full reorthogonalisation on W = L^-1 D L^-T (Toh 2002): a lower bound of its
+/// smallest eigenvalue, theta - |beta s| of the smallest Ritz pair (theta, s), as soon as that is
+/// within a few percent of theta or above `enough`. The work space is kept between calls.
+class Lanczos {
+ public:
+  explicit Lanczos(Eigen::Index n);
+
+  using Matrix = Eigen::Ref<const Eigen::MatrixXd>;
+  /// `inverse` is L^-1, lower triangular; `converged` says whether the bound may be used.
+  double lower_bound(const Matrix& inverse, const Matrix& D, double enough, bool& converged);
+
+ private:
+  static constexpr Eigen::Index kSteps = 60;
+  void apply(const Matrix& inverse, const Matrix& D, Eigen::Index k);
+
+  Eigen::MatrixXd basis_;
+  Eigen::VectorXd image_, half_, alpha_, beta_;
+};
+
+}  // namespace gainsmith::sdp
