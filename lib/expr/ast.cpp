@@ -4,10 +4,14 @@ namespace gainsmith::expr {
 
 std::string to_string(Relation relation) {
   switch (relation) {
-    case Relation::less: return "<";
-    case Relation::less_equal: return "<=";
-    case Relation::greater: return ">";
-    case Relation::greater_equal: return ">=";
+    case Relation::less:
+      return "<";
+    case Relation::less_equal:
+      return "<=";
+    case Relation::greater:
+      return ">";
+    case Relation::greater_equal:
+      return ">=";
   }
   return "?";
 }

@@ -12,11 +12,11 @@
 namespace gainsmith::expr {
 
 enum class NodeKind {
-  number,     ///< text = the decimal as written
-  name,       ///< text = the name
-  call,       ///< text = the function or definition; children = arguments
-  index,      ///< children[0] indexed by the rest; a `range` child is a:b or a lone ":"
-  range,      ///< children = {from, to}, or none for ":"
+  number,  ///< text = the decimal as written
+  name,    ///< text = the name
+  call,    ///< text = the function or definition; children = arguments
+  index,   ///< children[0] indexed by the rest; a `range` child is a:b or a lone ":"
+  range,   ///< children = {from, to}, or none for ":"
   negate,
   transpose,
   add,
@@ -24,9 +24,9 @@ enum class NodeKind {
   multiply,
   divide,
   power,
-  block,      ///< children row by row, `columns` in each row
-  mirror,     ///< "*" inside a block: the transpose of the mirrored entry
-  compare     ///< children = operands of a chain a < b <= c; relations between them
+  block,   ///< children row by row, `columns` in each row
+  mirror,  ///< "*" inside a block: the transpose of the mirrored entry
+  compare  ///< children = operands of a chain a < b <= c; relations between them
 };
 
 enum class Relation { less, less_equal, greater, greater_equal };

@@ -32,12 +32,14 @@ Bound Binder::bind_block(const Expression& expression, const Node& node) {
   bool mirrored = false;
   for (const NodePtr& child : node.children) mirrored |= child->kind == NodeKind::mirror;
   if (mirrored && rows != columns)
-    fail(expression, node, "a block with '*' needs as many rows as columns, not " +
-                               std::to_string(rows) + " by " + std::to_string(columns));
+    fail(expression, node,
+         "a block with '*' needs as many rows as columns, not " + std::to_string(rows) + " by " +
+             std::to_string(columns));
 
   std::vector<Bound> entries(node.children.size());
   for (std::size_t k = 0; k < entries.size(); ++k)
-    if (node.children[k]->kind != NodeKind::mirror) entries[k] = bind(expression, *node.children[k]);
+    if (node.children[k]->kind != NodeKind::mirror)
+      entries[k] = bind(expression, *node.children[k]);
   if (entries.size() == 1 && !mirrored) return entries.front();
 
   Partition partition{std::vector<int>(static_cast<std::size_t>(rows), kUnknown),
@@ -55,12 +57,14 @@ Bound Binder::bind_block(const Expression& expression, const Node& node) {
       const Bound value = entries[place(i, j)];
       if (value.at < 0 || is_free(value)) continue;
       const Node& entry = *node.children[place(i, j)];
-      learn(partition.heights[static_cast<std::size_t>(i)], shape(value.at).rows, entry, value, "row");
-      learn(partition.widths[static_cast<std::size_t>(j)], shape(value.at).cols, entry, value, "column");
+      learn(partition.heights[static_cast<std::size_t>(i)], shape(value.at).rows, entry, value,
+            "row");
+      learn(partition.widths[static_cast<std::size_t>(j)], shape(value.at).cols, entry, value,
+            "column");
     }
   }
-  // An identity carries a known size across the diagonal of its entry; a mirrored block is cut alike
-  // both ways. Repeated until nothing more is learnt.
+  // An identity carries a known size across the diagonal of its entry; a mirrored block is cut
+  // alike both ways. Repeated until nothing more is learnt.
   const auto equate = [](int& a, int& b) {
     if (a == b || (a != kUnknown && b != kUnknown)) return false;
     (a == kUnknown ? a : b) = a == kUnknown ? b : a;
@@ -103,13 +107,15 @@ Bound Binder::bind_block(const Expression& expression, const Node& node) {
       if (node.children[place(i, j)]->kind != NodeKind::mirror) continue;
       const Bound source = entries[place(j, i)];
       if (i == j || node.children[place(j, i)]->kind == NodeKind::mirror)
-        fail(expression, *node.children[place(i, j)], "the entry mirrored by this '*' is not given");
+        fail(expression, *node.children[place(i, j)],
+             "the entry mirrored by this '*' is not given");
       entries[place(i, j)] = transpose(expression, *node.children[place(i, j)], source);
     }
   }
   std::vector<int> operands;
   for (const Bound& value : entries) operands.push_back(value.at);
-  return {assemble(expression, node, std::move(operands), columns, partition.heights, partition.widths)};
+  return {assemble(expression, node, std::move(operands), columns, partition.heights,
+                   partition.widths)};
 }
 
 }  // namespace gainsmith::expr

@@ -28,12 +28,14 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
   if (function == nullptr) unknown_name(expression, node);
   const int count = static_cast<int>(node.children.size());
   if (count < function->fewest || (function->most >= 0 && count > function->most))
-    fail(expression, node, "'" + name + "' is written " + std::string(function->usage) + "; found " +
-                               std::to_string(count) + " arguments");
+    fail(expression, node,
+         "'" + name + "' is written " + std::string(function->usage) + "; found " +
+             std::to_string(count) + " arguments");
   return bind_function(expression, node, *function);
 }
 
-Bound Binder::bind_function(const Expression& expression, const Node& node, const Function& function) {
+Bound Binder::bind_function(const Expression& expression, const Node& node,
+                            const Function& function) {
   const auto argument = [&](std::size_t i) { return bind(expression, *node.children[i]); };
   switch (function.id) {
     case FunctionId::He: {
@@ -66,26 +68,44 @@ Bound Binder::bind_function(const Expression& expression, const Node& node, cons
       const int at = sized(expression, *node.children[0], argument(0));
       return {emit(expression, node, Op::norm, {at}, {})};
     }
-    case FunctionId::exp: return elementwise(expression, node, Op::exp);
-    case FunctionId::log: return elementwise(expression, node, Op::log);
-    case FunctionId::sqrt: return elementwise(expression, node, Op::sqrt);
-    case FunctionId::sin: return elementwise(expression, node, Op::sin);
-    case FunctionId::cos: return elementwise(expression, node, Op::cos);
-    case FunctionId::tanh: return elementwise(expression, node, Op::tanh);
-    case FunctionId::abs: return elementwise(expression, node, Op::abs);
-    case FunctionId::sign: return elementwise(expression, node, Op::sign);
-    case FunctionId::min: return fold_minmax(expression, node, Op::minimum);
-    case FunctionId::max: return fold_minmax(expression, node, Op::maximum);
-    case FunctionId::clip: return clip(expression, node);
-    case FunctionId::where: return where(expression, node);
+    case FunctionId::exp:
+      return elementwise(expression, node, Op::exp);
+    case FunctionId::log:
+      return elementwise(expression, node, Op::log);
+    case FunctionId::sqrt:
+      return elementwise(expression, node, Op::sqrt);
+    case FunctionId::sin:
+      return elementwise(expression, node, Op::sin);
+    case FunctionId::cos:
+      return elementwise(expression, node, Op::cos);
+    case FunctionId::tanh:
+      return elementwise(expression, node, Op::tanh);
+    case FunctionId::abs:
+      return elementwise(expression, node, Op::abs);
+    case FunctionId::sign:
+      return elementwise(expression, node, Op::sign);
+    case FunctionId::min:
+      return fold_minmax(expression, node, Op::minimum);
+    case FunctionId::max:
+      return fold_minmax(expression, node, Op::maximum);
+    case FunctionId::clip:
+      return clip(expression, node);
+    case FunctionId::where:
+      return where(expression, node);
     case FunctionId::eye:
     case FunctionId::zeros:
-    case FunctionId::ones: return constant_matrix(expression, node, function.id);
-    case FunctionId::diag: return diagonal(expression, node);
-    case FunctionId::blkdiag: return block_diagonal(expression, node);
-    case FunctionId::orth: return basis(expression, node, Op::range_basis);
-    case FunctionId::null: return basis(expression, node, Op::kernel_basis);
-    case FunctionId::obsv: return observability(expression, node);
+    case FunctionId::ones:
+      return constant_matrix(expression, node, function.id);
+    case FunctionId::diag:
+      return diagonal(expression, node);
+    case FunctionId::blkdiag:
+      return block_diagonal(expression, node);
+    case FunctionId::orth:
+      return basis(expression, node, Op::range_basis);
+    case FunctionId::null:
+      return basis(expression, node, Op::kernel_basis);
+    case FunctionId::obsv:
+      return observability(expression, node);
   }
   fail(expression, node, "unknown function");
 }
@@ -96,8 +116,9 @@ int Binder::square_argument(const Expression& expression, const Node& node,
   const Bound value = bind(expression, argument);
   const int at = sized(expression, argument, value);
   if (!shape(at).is_square())
-    fail(expression, argument, std::string(function) + " needs a square matrix, not " +
-                                   describe(expression, argument, value));
+    fail(expression, argument,
+         std::string(function) + " needs a square matrix, not " +
+             describe(expression, argument, value));
   return at;
 }
 
@@ -171,8 +192,8 @@ Bound Binder::constant_matrix(const Expression& expression, const Node& node, Fu
   for (const NodePtr& child : node.children) {
     const auto size = whole_number(expression, *child);
     if (!size || *size < 0 || *size > kLargest)
-      fail(expression, *child, "a size must be a whole number known beforehand, from 0 to " +
-                                   std::to_string(kLargest));
+      fail(expression, *child,
+           "a size must be a whole number known beforehand, from 0 to " + std::to_string(kLargest));
     sizes.push_back(*size);
   }
   const Shape wanted{value_of(sizes, 0), sizes.back()};
@@ -190,8 +211,8 @@ Bound Binder::diagonal(const Expression& expression, const Node& node) {
   if (from.rows == 1 || from.cols == 1)
     return {emit(expression, node, Op::diagonal_matrix, {at}, {from.size(), from.size()})};
   if (!from.is_square())
-    fail(expression, argument, "diag needs a vector or a square matrix, not " +
-                                   describe(expression, argument, value));
+    fail(expression, argument,
+         "diag needs a vector or a square matrix, not " + describe(expression, argument, value));
   return {emit(expression, node, Op::diagonal_of, {at}, {from.rows, 1})};
 }
 
@@ -209,7 +230,8 @@ Bound Binder::block_diagonal(const Expression& expression, const Node& node) {
     for (std::size_t j = 0; j < blocks.size(); ++j)
       entries.push_back(i == j ? blocks[i]
                                : emit(expression, node, Op::zeros, {}, {heights[i], widths[j]}));
-  return {assemble(expression, node, std::move(entries), static_cast<int>(blocks.size()), heights, widths)};
+  return {assemble(expression, node, std::move(entries), static_cast<int>(blocks.size()), heights,
+                   widths)};
 }
 
 Matrix Binder::known_value(const Expression& expression, const Node& node, int at,
@@ -219,8 +241,9 @@ Matrix Binder::known_value(const Expression& expression, const Node& node, int a
   for (const Input& input : program.inputs) {
     const auto& symbol = scope_.symbols.at(input.name);
     if (!symbol.value)
-      fail(expression, node, std::string(why) + " must not depend on '" + input.name +
-                                 "', whose value is not known beforehand");
+      fail(expression, node,
+           std::string(why) + " must not depend on '" + input.name +
+               "', whose value is not known beforehand");
     values[input.name] = *symbol.value;
   }
   return evaluate(program, values);
@@ -236,9 +259,11 @@ Bound Binder::basis(const Expression& expression, const Node& node, Op op) {
     tolerance = known_value(expression, second, tolerance_at, "the tolerance")(0, 0);
     if (tolerance < 0) fail(expression, second, "the tolerance must not be negative");
   }
-  const int rank = numerical_rank(known_value(expression, argument, at, "the argument of " + node.text), tolerance);
+  const int rank = numerical_rank(
+      known_value(expression, argument, at, "the argument of " + node.text), tolerance);
   const Shape from = shape(at);
-  const Shape result = op == Op::range_basis ? Shape{from.rows, rank} : Shape{from.cols, from.cols - rank};
+  const Shape result =
+      op == Op::range_basis ? Shape{from.rows, rank} : Shape{from.cols, from.cols - rank};
   return {emit(expression, node, op, {at}, result)};
 }
 
@@ -246,8 +271,9 @@ Bound Binder::observability(const Expression& expression, const Node& node) {
   const int a = square_argument(expression, node, "obsv");
   const int c = sized(expression, *node.children[1], bind(expression, *node.children[1]));
   if (shape(c).cols != shape(a).rows)
-    fail(expression, node, "obsv(A, C) needs C with " + std::to_string(shape(a).rows) +
-                               " columns, not " + describe(expression, *node.children[1], {c}));
+    fail(expression, node,
+         "obsv(A, C) needs C with " + std::to_string(shape(a).rows) + " columns, not " +
+             describe(expression, *node.children[1], {c}));
   std::vector<int> rows = {c};
   for (int k = 1; k < shape(a).rows; ++k)
     rows.push_back(emit(expression, node, Op::multiply, {rows.back(), a}, shape(c)));

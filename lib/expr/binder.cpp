@@ -19,7 +19,8 @@ std::vector<std::string> Scope::names() const {
   return all;
 }
 
-void Binder::fail(const Expression& expression, const Node& node, const std::string& message) const {
+void Binder::fail(const Expression& expression, const Node& node,
+                  const std::string& message) const {
   throw InputError(expression.place(node), message);
 }
 
@@ -34,8 +35,8 @@ int Binder::emit(const Expression& expression, const Node& node, Op op, std::vec
   Key key{op, operands, shape.rows, shape.cols, attributes, text};
   const auto found = known_.find(key);
   if (found != known_.end()) return found->second;
-  Instruction instruction{op,         std::move(operands), shape,     attributes,
-                          std::move(text), expression.text, node.begin};
+  Instruction instruction{
+      op, std::move(operands), shape, attributes, std::move(text), expression.text, node.begin};
   program_.code.push_back(std::move(instruction));
   const int at = static_cast<int>(program_.code.size()) - 1;
   known_.emplace(std::move(key), at);
@@ -55,15 +56,20 @@ bool Binder::is_zero(Bound value) const {
 Bound Binder::bind(const Expression& expression, const Node& node) {
   const auto child = [&](std::size_t i) { return bind(expression, *node.children[i]); };
   switch (node.kind) {
-    case NodeKind::number: return {number(expression, node, node.text)};
-    case NodeKind::name: return bind_name(expression, node);
-    case NodeKind::call: return bind_call(expression, node);
-    case NodeKind::index: return index(expression, node, child(0), 1);
+    case NodeKind::number:
+      return {number(expression, node, node.text)};
+    case NodeKind::name:
+      return bind_name(expression, node);
+    case NodeKind::call:
+      return bind_call(expression, node);
+    case NodeKind::index:
+      return index(expression, node, child(0), 1);
     case NodeKind::negate: {
       const Bound a = child(0);
       return {emit(expression, node, Op::negate, {a.at}, shape(a.at)), a.identity};
     }
-    case NodeKind::transpose: return transpose(expression, node, child(0));
+    case NodeKind::transpose:
+      return transpose(expression, node, child(0));
     case NodeKind::add:
     case NodeKind::subtract: {
       const Bound a = child(0);
@@ -78,10 +84,14 @@ Bound Binder::bind(const Expression& expression, const Node& node) {
       const Bound a = child(0);
       return divide(expression, node, a, child(1));
     }
-    case NodeKind::power: return power(expression, node);
-    case NodeKind::block: return bind_block(expression, node);
-    case NodeKind::range: fail(expression, node, "a range stands only in an index, such as x(1:2)");
-    case NodeKind::mirror: fail(expression, node, "'*' alone stands only in a block");
+    case NodeKind::power:
+      return power(expression, node);
+    case NodeKind::block:
+      return bind_block(expression, node);
+    case NodeKind::range:
+      fail(expression, node, "a range stands only in an index, such as x(1:2)");
+    case NodeKind::mirror:
+      fail(expression, node, "'*' alone stands only in a block");
     case NodeKind::compare:
       fail(expression, node, "a comparison stands only on its own or in where(...)");
   }
@@ -97,8 +107,9 @@ void Binder::unknown_name(const Expression& expression, const Node& node) const 
     const auto functions = function_names();
     candidates.insert(candidates.end(), functions.begin(), functions.end());
   }
-  fail(expression, node, "unknown " + std::string(node.kind == NodeKind::call ? "function" : "name") +
-                             " '" + node.text + "'" + suggestion(node.text, candidates));
+  fail(expression, node,
+       "unknown " + std::string(node.kind == NodeKind::call ? "function" : "name") + " '" +
+           node.text + "'" + suggestion(node.text, candidates));
 }
 
 Bound Binder::bind_name(const Expression& expression, const Node& node) {
@@ -131,7 +142,8 @@ Bound Binder::bind_definition(const Expression& expression, const Node& node,
              " arguments, not " + std::to_string(arguments.size()));
   if (arguments.empty())
     if (const auto found = defined_.find(name); found != defined_.end()) return found->second;
-  if (std::find(open_definitions_.begin(), open_definitions_.end(), name) != open_definitions_.end())
+  if (std::find(open_definitions_.begin(), open_definitions_.end(), name) !=
+      open_definitions_.end())
     fail(expression, node, "'" + name + "' is defined by itself");
   Environment inner;
   for (std::size_t i = 0; i < arguments.size(); ++i)
@@ -148,7 +160,8 @@ Bound Binder::bind_definition(const Expression& expression, const Node& node,
 int Binder::sized(const Expression& expression, const Node& node, Bound value) {
   if (value.identity)
     fail(expression, node,
-         "the size of the identity in '" + expression.quote(node) + "' is not known here; write eye(n)");
+         "the size of the identity in '" + expression.quote(node) +
+             "' is not known here; write eye(n)");
   return value.at;
 }
 
@@ -162,8 +175,8 @@ int Binder::materialise(const Expression& expression, const Node& node, Bound va
   }
   if (shape(value.at) == wanted) return value.at;
   if (is_zero(value)) return emit(expression, node, Op::zeros, {}, wanted);
-  fail(expression, node, describe(expression, node, value) + " has the wrong shape: expected " +
-                             to_string(wanted));
+  fail(expression, node,
+       describe(expression, node, value) + " has the wrong shape: expected " + to_string(wanted));
 }
 
 Bound Binder::subtract(const Expression& expression, const Node& node, Bound a, Bound b) {
@@ -187,7 +200,10 @@ Bound Binder::add(const Expression& expression, const Node& node, Op op, Bound a
   if (shape(a.at) != shape(b.at)) {
     const bool scalar = shape(a.at).is_scalar() || shape(b.at).is_scalar();
     fail(expression, node,
-         "cannot " + std::string(node.kind == NodeKind::compare ? "compare " : op == Op::add ? "add " : "subtract ") +
+         "cannot " +
+             std::string(node.kind == NodeKind::compare ? "compare "
+                         : op == Op::add                ? "add "
+                                                        : "subtract ") +
              describe(expression, left, a) + " and " + describe(expression, right, b) +
              (scalar ? "; a multiple of the identity is written s*I" : ""));
   }
@@ -220,7 +236,8 @@ Bound Binder::divide(const Expression& expression, const Node& node, Bound a, Bo
   const Node& right = *node.children[1];
   if (!b.identity && !shape(b.at).is_scalar())
     fail(expression, node,
-         "cannot divide by " + describe(expression, right, b) + ": only by a number; write inv(...)*");
+         "cannot divide by " + describe(expression, right, b) +
+             ": only by a number; write inv(...)*");
   const int divisor = sized(expression, right, b);
   return {emit(expression, node, Op::divide, {a.at, divisor}, shape(a.at)), a.identity};
 }
@@ -236,12 +253,13 @@ Bound Binder::power(const Expression& expression, const Node& node) {
   const Bound base = bind(expression, base_node);
   const Shape base_shape = shape(base.at);
   if (!base_shape.is_square())
-    fail(expression, node, "cannot take a power of " + describe(expression, base_node, base) +
-                               ": it is not square");
+    fail(expression, node,
+         "cannot take a power of " + describe(expression, base_node, base) + ": it is not square");
   if (const auto exponent = whole_number(expression, exponent_node)) {
     int value = base.at;
     if (*exponent < 0) value = emit(expression, node, Op::inverse, {value}, base_shape);
-    return {emit(expression, node, Op::power, {value}, base_shape, {std::abs(*exponent)}), base.identity};
+    return {emit(expression, node, Op::power, {value}, base_shape, {std::abs(*exponent)}),
+            base.identity};
   }
   const Bound exponent = bind(expression, exponent_node);
   if (!base_shape.is_scalar() || !shape(exponent.at).is_scalar())
@@ -259,7 +277,8 @@ std::optional<int> Binder::whole_number(const Expression& expression, const Node
   if (node.kind == NodeKind::number) {
     int value = 0;
     const auto end = std::from_chars(node.text.data(), node.text.data() + node.text.size(), value);
-    if (end.ec != std::errc() || end.ptr != node.text.data() + node.text.size()) return std::nullopt;
+    if (end.ec != std::errc() || end.ptr != node.text.data() + node.text.size())
+      return std::nullopt;
     return value;
   }
   if (node.kind == NodeKind::name) {
@@ -272,10 +291,14 @@ std::optional<int> Binder::whole_number(const Expression& expression, const Node
   const auto b = whole_number(expression, *node.children[1]);
   if (!a || !b) return std::nullopt;
   switch (node.kind) {
-    case NodeKind::add: return *a + *b;
-    case NodeKind::subtract: return *a - *b;
-    case NodeKind::multiply: return *a * *b;
-    default: return std::nullopt;
+    case NodeKind::add:
+      return *a + *b;
+    case NodeKind::subtract:
+      return *a - *b;
+    case NodeKind::multiply:
+      return *a * *b;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -287,9 +310,11 @@ std::pair<int, int> Binder::index_range(const Expression& expression, const Node
   const auto from = whole_number(expression, from_node);
   const auto to = whole_number(expression, to_node);
   if (!from || !to)
-    fail(expression, from ? to_node : from_node, "an index must be a whole number known beforehand");
+    fail(expression, from ? to_node : from_node,
+         "an index must be a whole number known beforehand");
   if (*from < 1 || *to > size || *from > *to)
-    fail(expression, node, "the index " + expression.quote(node) + " is outside 1:" + std::to_string(size));
+    fail(expression, node,
+         "the index " + expression.quote(node) + " is outside 1:" + std::to_string(size));
   return {*from - 1, *to};
 }
 
@@ -306,9 +331,11 @@ Bound Binder::index(const Expression& expression, const Node& node, Bound base, 
     rows = index_range(expression, *node.children[first], from.rows);
     cols = index_range(expression, *node.children[first + 1], from.cols);
   } else {
-    fail(expression, node, "a " + to_string(from) + " matrix takes two indices, not " + std::to_string(count));
+    fail(expression, node,
+         "a " + to_string(from) + " matrix takes two indices, not " + std::to_string(count));
   }
-  return {emit(expression, node, Op::index, {at}, {rows.second - rows.first, cols.second - cols.first},
+  return {emit(expression, node, Op::index, {at},
+               {rows.second - rows.first, cols.second - cols.first},
                {rows.first, rows.second, cols.first, cols.second})};
 }
 
@@ -317,7 +344,8 @@ Program Binder::extract(int at) const {
   needed[static_cast<std::size_t>(at)] = true;
   for (std::size_t i = program_.code.size(); i-- > 0;)
     if (needed[i])
-      for (const int operand : program_.code[i].operands) needed[static_cast<std::size_t>(operand)] = true;
+      for (const int operand : program_.code[i].operands)
+        needed[static_cast<std::size_t>(operand)] = true;
   Program result;
   std::vector<int> moved(program_.code.size(), -1);
   for (std::size_t i = 0; i < program_.code.size(); ++i) {
@@ -347,8 +375,8 @@ Program compile(const Expression& expression, const Scope& scope, std::optional<
 std::vector<CompiledRelation> compile_relations(const Expression& expression, const Scope& scope) {
   const Node& root = *expression.root;
   if (root.kind != NodeKind::compare)
-    throw InputError(expression.place(root), "expected a comparison such as P > 0, found '" +
-                                                 expression.quote(root) + "'");
+    throw InputError(expression.place(root),
+                     "expected a comparison such as P > 0, found '" + expression.quote(root) + "'");
   Binder binder(scope);
   std::vector<Bound> sides;
   for (const NodePtr& child : root.children) sides.push_back(binder.bind(expression, *child));
@@ -368,7 +396,8 @@ std::vector<CompiledRelation> compile_relations(const Expression& expression, co
     if (!binder.shape(at).is_square())
       throw InputError(expression.place(pair), "a comparison of matrices needs square ones, not " +
                                                    to_string(binder.shape(at)));
-    relations.push_back({binder.extract(at), relation == Relation::less || relation == Relation::greater});
+    relations.push_back(
+        {binder.extract(at), relation == Relation::less || relation == Relation::greater});
   }
   return relations;
 }

@@ -53,8 +53,8 @@ class Binder {
 
   // bind_blocks.cpp: block matrices.
   Bound bind_block(const Expression& expression, const Node& node);
-  int assemble(const Expression& expression, const Node& node, std::vector<int> entries, int columns,
-               const std::vector<int>& heights, const std::vector<int>& widths);
+  int assemble(const Expression& expression, const Node& node, std::vector<int> entries,
+               int columns, const std::vector<int>& heights, const std::vector<int>& widths);
 
   // bind_calls.cpp: functions.
   Bound bind_call(const Expression& expression, const Node& node);
@@ -83,10 +83,10 @@ class Binder {
 
   const Scope& scope_;
   Program program_;
-  std::map<Key, int> known_;                  ///< equal instructions are emitted once
-  std::map<std::string, Bound> defined_;      ///< definitions without parameters, once bound
-  std::vector<std::string> open_definitions_; ///< being bound now, to find cycles
-  Environment environment_;                   ///< parameters of the definition being bound
+  std::map<Key, int> known_;                   ///< equal instructions are emitted once
+  std::map<std::string, Bound> defined_;       ///< definitions without parameters, once bound
+  std::vector<std::string> open_definitions_;  ///< being bound now, to find cycles
+  Environment environment_;                    ///< parameters of the definition being bound
 };
 
 }  // namespace gainsmith::expr

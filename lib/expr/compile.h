@@ -4,8 +4,8 @@
 // their size from where they stand:
 //   I   the identity; any expression s*I + t*I is still "a multiple of I"
 //   0   in a block, a sum or a comparison
-// In a block [a, b; c, d] a "*" is the transpose of the entry mirrored at the diagonal, and then the
-// rows are cut like the columns.
+// In a block [a, b; c, d] a "*" is the transpose of the entry mirrored at the diagonal, and then
+// the rows are cut like the columns.
 #pragma once
 
 #include <optional>
@@ -15,8 +15,8 @@
 
 namespace gainsmith::expr {
 
-/// The program of an expression that is not a comparison. `expected` gives its size to a bare I or 0
-/// and is checked. InputError with the shapes at fault, or the nearest known name.
+/// The program of an expression that is not a comparison. `expected` gives its size to a bare I or
+/// 0 and is checked. InputError with the shapes at fault, or the nearest known name.
 Program compile(const Expression& expression, const Scope& scope,
                 std::optional<Shape> expected = std::nullopt);
 
@@ -26,8 +26,8 @@ struct CompiledRelation {
   bool strict = true;
 };
 
-/// The comparisons of a chain such as I <= P <= kappa*I, in order. InputError when the expression is no
-/// comparison or a difference is not square.
+/// The comparisons of a chain such as I <= P <= kappa*I, in order. InputError when the expression
+/// is no comparison or a difference is not square.
 std::vector<CompiledRelation> compile_relations(const Expression& expression, const Scope& scope);
 
 }  // namespace gainsmith::expr

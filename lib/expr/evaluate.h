@@ -3,7 +3,8 @@
 // A number type is given by an algebra:
 //   struct Algebra {
 //     using Value = ...;      // a matrix over the number type
-//     // Computes one instruction (never Op::input) from the values of its operands into `out`, which
+//     // Computes one instruction (never Op::input) from the values of its operands into `out`,
+//     which
 //     // may hold an old value of the same shape. Throws EvaluationError when that is impossible.
 //     void apply(const Instruction&, std::span<const Value* const> operands, Value& out) const;
 //   };
@@ -20,16 +21,16 @@
 
 namespace gainsmith::expr {
 
-/// An operation has no result: a singular inverse, the logarithm of a negative number, a product of two
-/// unknowns. The evaluator adds the place.
+/// An operation has no result: a singular inverse, the logarithm of a negative number, a product of
+/// two unknowns. The evaluator adds the place.
 class EvaluationError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Runs one program again and again. Inputs given by fix() keep their value, and what depends on them
-/// alone is computed once; the others are given by set() before each run(). Values of inputs are
-/// held by pointer and must outlive the run. The registers are kept, so that a run over a value
+/// Runs one program again and again. Inputs given by fix() keep their value, and what depends on
+/// them alone is computed once; the others are given by set() before each run(). Values of inputs
+/// are held by pointer and must outlive the run. The registers are kept, so that a run over a value
 /// type that reuses its memory allocates nothing.
 template <class Algebra>
 class Evaluator {

@@ -32,7 +32,8 @@ constexpr std::array<Function, 26> kFunctions = {{
     {ones, "ones", 1, 2, "ones(n, m)", "ones; ones(n) is n x n"},
     {diag, "diag", 1, 1, "diag(v)", "the diagonal matrix of a vector; the diagonal of a matrix"},
     {blkdiag, "blkdiag", 1, -1, "blkdiag(A, B, ...)", "the block-diagonal matrix"},
-    {orth, "orth", 1, 2, "orth(M, tol)", "orthonormal basis of the range; singular values above tol (relative) count"},
+    {orth, "orth", 1, 2, "orth(M, tol)",
+     "orthonormal basis of the range; singular values above tol (relative) count"},
     {null, "null", 1, 2, "null(M, tol)", "orthonormal basis of the kernel"},
     {obsv, "obsv", 2, 2, "obsv(A, C)", "[C; C*A; ...; C*A^(n-1)]"},
 }};

@@ -9,8 +9,32 @@
 namespace gainsmith::expr {
 
 enum class FunctionId {
-  He, inv, pinv, expm, exp, log, sqrt, sin, cos, tanh, abs, sign, min, max, clip, where, trace,
-  norm, eye, zeros, ones, diag, blkdiag, orth, null, obsv
+  He,
+  inv,
+  pinv,
+  expm,
+  exp,
+  log,
+  sqrt,
+  sin,
+  cos,
+  tanh,
+  abs,
+  sign,
+  min,
+  max,
+  clip,
+  where,
+  trace,
+  norm,
+  eye,
+  zeros,
+  ones,
+  diag,
+  blkdiag,
+  orth,
+  null,
+  obsv
 };
 
 struct Function {

@@ -35,14 +35,22 @@ std::size_t number_end(std::string_view text, std::size_t at) {
 }
 
 constexpr std::array<std::pair<std::string_view, TokenKind>, 17> kSymbols = {{
-    {"<=", TokenKind::less_equal},   {">=", TokenKind::greater_equal},
-    {"<", TokenKind::less},          {">", TokenKind::greater},
-    {"+", TokenKind::plus},          {"-", TokenKind::minus},
-    {"*", TokenKind::star},          {"/", TokenKind::slash},
-    {"^", TokenKind::caret},         {"'", TokenKind::quote},
-    {",", TokenKind::comma},         {";", TokenKind::semicolon},
-    {":", TokenKind::colon},         {"(", TokenKind::open},
-    {")", TokenKind::close},         {"[", TokenKind::open_bracket},
+    {"<=", TokenKind::less_equal},
+    {">=", TokenKind::greater_equal},
+    {"<", TokenKind::less},
+    {">", TokenKind::greater},
+    {"+", TokenKind::plus},
+    {"-", TokenKind::minus},
+    {"*", TokenKind::star},
+    {"/", TokenKind::slash},
+    {"^", TokenKind::caret},
+    {"'", TokenKind::quote},
+    {",", TokenKind::comma},
+    {";", TokenKind::semicolon},
+    {":", TokenKind::colon},
+    {"(", TokenKind::open},
+    {")", TokenKind::close},
+    {"[", TokenKind::open_bracket},
     {"]", TokenKind::close_bracket},
 }};
 
@@ -68,10 +76,13 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kForeign
   const std::string_view rest = std::string_view(text.str()).substr(at);
   for (const auto& [spelling, advice] : kForeign)
     if (rest.starts_with(spelling))
-      throw InputError(text.place(at), "unexpected '" + std::string(spelling) + "': " + std::string(advice));
+      throw InputError(text.place(at),
+                       "unexpected '" + std::string(spelling) + "': " + std::string(advice));
   std::size_t length = 1;
-  while (length < rest.size() && (static_cast<unsigned char>(rest[length]) & 0xC0U) == 0x80U) ++length;
-  throw InputError(text.place(at), "unexpected character '" + std::string(rest.substr(0, length)) + "'");
+  while (length < rest.size() && (static_cast<unsigned char>(rest[length]) & 0xC0U) == 0x80U)
+    ++length;
+  throw InputError(text.place(at),
+                   "unexpected character '" + std::string(rest.substr(0, length)) + "'");
 }
 
 }  // namespace

@@ -10,8 +10,26 @@
 namespace gainsmith::expr {
 
 enum class TokenKind {
-  number, name, plus, minus, star, slash, caret, quote, comma, semicolon, colon,
-  open, close, open_bracket, close_bracket, less, less_equal, greater, greater_equal, end
+  number,
+  name,
+  plus,
+  minus,
+  star,
+  slash,
+  caret,
+  quote,
+  comma,
+  semicolon,
+  colon,
+  open,
+  close,
+  open_bracket,
+  close_bracket,
+  less,
+  less_equal,
+  greater,
+  greater_equal,
+  end
 };
 
 struct Token {

@@ -12,11 +12,16 @@ namespace {
 
 std::optional<Relation> relation_of(TokenKind kind) {
   switch (kind) {
-    case TokenKind::less: return Relation::less;
-    case TokenKind::less_equal: return Relation::less_equal;
-    case TokenKind::greater: return Relation::greater;
-    case TokenKind::greater_equal: return Relation::greater_equal;
-    default: return std::nullopt;
+    case TokenKind::less:
+      return Relation::less;
+    case TokenKind::less_equal:
+      return Relation::less_equal;
+    case TokenKind::greater:
+      return Relation::greater;
+    case TokenKind::greater_equal:
+      return Relation::greater_equal;
+    default:
+      return std::nullopt;
   }
 }
 
@@ -85,7 +90,8 @@ class Parser {
     throw InputError(text_.place(tokens_[at_].begin), message);
   }
 
-  std::shared_ptr<Node> make(NodeKind kind, std::size_t begin, std::vector<NodePtr> children) const {
+  std::shared_ptr<Node> make(NodeKind kind, std::size_t begin,
+                             std::vector<NodePtr> children) const {
     auto node = std::make_shared<Node>();
     node->kind = kind;
     node->begin = begin;
@@ -215,7 +221,8 @@ class Parser {
       case TokenKind::number:
       case TokenKind::name: {
         const Token& token = next();
-        auto node = make(token.kind == TokenKind::number ? NodeKind::number : NodeKind::name, begin, {});
+        auto node =
+            make(token.kind == TokenKind::number ? NodeKind::number : NodeKind::name, begin, {});
         node->text = token.text;
         return node;
       }
@@ -225,11 +232,15 @@ class Parser {
         expect(TokenKind::close, "')'");
         return inner;
       }
-      case TokenKind::open_bracket: next(); return block(begin);
+      case TokenKind::open_bracket:
+        next();
+        return block(begin);
       case TokenKind::star:
-        if (at_ > 0 && tokens_[at_ - 1].kind == TokenKind::star) fail("write ^ for a power, not **");
+        if (at_ > 0 && tokens_[at_ - 1].kind == TokenKind::star)
+          fail("write ^ for a power, not **");
         [[fallthrough]];
-      default: fail("expected a number, a name, '(' or '[', found " + found());
+      default:
+        fail("expected a number, a name, '(' or '[', found " + found());
     }
   }
 

@@ -8,42 +8,75 @@ std::string to_string(Shape shape) {
 
 std::string to_string(Op op) {
   switch (op) {
-    case Op::constant: return "number";
-    case Op::input: return "name";
-    case Op::zeros: return "zeros";
-    case Op::fill: return "ones";
-    case Op::identity: return "multiple of I";
-    case Op::add: return "sum";
-    case Op::subtract: return "difference";
-    case Op::negate: return "negative";
+    case Op::constant:
+      return "number";
+    case Op::input:
+      return "name";
+    case Op::zeros:
+      return "zeros";
+    case Op::fill:
+      return "ones";
+    case Op::identity:
+      return "multiple of I";
+    case Op::add:
+      return "sum";
+    case Op::subtract:
+      return "difference";
+    case Op::negate:
+      return "negative";
     case Op::multiply:
-    case Op::scale: return "product";
-    case Op::divide: return "quotient";
+    case Op::scale:
+      return "product";
+    case Op::divide:
+      return "quotient";
     case Op::power:
-    case Op::scalar_power: return "power";
-    case Op::transpose: return "transpose";
-    case Op::blocks: return "block matrix";
-    case Op::index: return "indexed part";
-    case Op::exp: return "exp";
-    case Op::log: return "log";
-    case Op::sqrt: return "sqrt";
-    case Op::sin: return "sin";
-    case Op::cos: return "cos";
-    case Op::tanh: return "tanh";
-    case Op::abs: return "abs";
-    case Op::sign: return "sign";
-    case Op::minimum: return "min";
-    case Op::maximum: return "max";
-    case Op::where: return "where";
-    case Op::trace: return "trace";
-    case Op::norm: return "norm";
-    case Op::inverse: return "inv";
-    case Op::pseudo_inverse: return "pinv";
-    case Op::matrix_exponential: return "expm";
+    case Op::scalar_power:
+      return "power";
+    case Op::transpose:
+      return "transpose";
+    case Op::blocks:
+      return "block matrix";
+    case Op::index:
+      return "indexed part";
+    case Op::exp:
+      return "exp";
+    case Op::log:
+      return "log";
+    case Op::sqrt:
+      return "sqrt";
+    case Op::sin:
+      return "sin";
+    case Op::cos:
+      return "cos";
+    case Op::tanh:
+      return "tanh";
+    case Op::abs:
+      return "abs";
+    case Op::sign:
+      return "sign";
+    case Op::minimum:
+      return "min";
+    case Op::maximum:
+      return "max";
+    case Op::where:
+      return "where";
+    case Op::trace:
+      return "trace";
+    case Op::norm:
+      return "norm";
+    case Op::inverse:
+      return "inv";
+    case Op::pseudo_inverse:
+      return "pinv";
+    case Op::matrix_exponential:
+      return "expm";
     case Op::diagonal_matrix:
-    case Op::diagonal_of: return "diag";
-    case Op::range_basis: return "orth";
-    case Op::kernel_basis: return "null";
+    case Op::diagonal_of:
+      return "diag";
+    case Op::range_basis:
+      return "orth";
+    case Op::kernel_basis:
+      return "null";
   }
   return "?";
 }

@@ -27,34 +27,42 @@ std::string to_string(Shape shape);
 
 /// Every operation of the machine. A and B are operands, s is a 1 x 1 operand.
 enum class Op {
-  constant,          ///< the decimal `text`, or "pi"
-  input,             ///< inputs[attributes[0]]
-  zeros,             ///< a matrix of zeros
-  fill,              ///< every element is s
-  identity,          ///< s I
-  add,               ///< A + B
-  subtract,          ///< A - B
-  negate,            ///< -A
-  multiply,          ///< A B
-  scale,             ///< s B
-  divide,            ///< A / s
-  power,             ///< A^k, k = attributes[0] >= 0
-  scalar_power,      ///< s^t for 1 x 1 operands
-  transpose,         ///< A'
-  blocks,            ///< the operands laid out row by row, attributes[0] in a row
-  index,             ///< rows attributes[0] .. attributes[1]-1, columns attributes[2] .. attributes[3]-1
-  exp, log, sqrt, sin, cos, tanh, abs, sign,   ///< element by element
-  minimum, maximum,  ///< element by element, of two
-  where,             ///< element by element: D > 0 (or >= 0 when attributes[0] is 0) ? A : B, operands D, A, B
+  constant,      ///< the decimal `text`, or "pi"
+  input,         ///< inputs[attributes[0]]
+  zeros,         ///< a matrix of zeros
+  fill,          ///< every element is s
+  identity,      ///< s I
+  add,           ///< A + B
+  subtract,      ///< A - B
+  negate,        ///< -A
+  multiply,      ///< A B
+  scale,         ///< s B
+  divide,        ///< A / s
+  power,         ///< A^k, k = attributes[0] >= 0
+  scalar_power,  ///< s^t for 1 x 1 operands
+  transpose,     ///< A'
+  blocks,        ///< the operands laid out row by row, attributes[0] in a row
+  index,  ///< rows attributes[0] .. attributes[1]-1, columns attributes[2] .. attributes[3]-1
+  exp,
+  log,
+  sqrt,
+  sin,
+  cos,
+  tanh,
+  abs,
+  sign,  ///< element by element
+  minimum,
+  maximum,  ///< element by element, of two
+  where,  ///< element by element: D > 0 (or >= 0 when attributes[0] is 0) ? A : B, operands D, A, B
   trace,
-  norm,              ///< largest singular value; the Euclidean length of a vector
+  norm,  ///< largest singular value; the Euclidean length of a vector
   inverse,
-  pseudo_inverse,    ///< Moore-Penrose
+  pseudo_inverse,  ///< Moore-Penrose
   matrix_exponential,
-  diagonal_matrix,   ///< the diagonal matrix of a vector
-  diagonal_of,       ///< the diagonal of a matrix, as a column
-  range_basis,       ///< orthonormal columns that span the range of A; the rank is the shape's columns
-  kernel_basis       ///< orthonormal columns that span the kernel of A
+  diagonal_matrix,  ///< the diagonal matrix of a vector
+  diagonal_of,      ///< the diagonal of a matrix, as a column
+  range_basis,  ///< orthonormal columns that span the range of A; the rank is the shape's columns
+  kernel_basis  ///< orthonormal columns that span the kernel of A
 };
 
 /// The name used in messages: "inv", "product", ...
@@ -62,12 +70,12 @@ std::string to_string(Op op);
 
 struct Instruction {
   Op op = Op::constant;
-  std::vector<int> operands;        ///< earlier instructions
-  Shape shape;                      ///< of the result
+  std::vector<int> operands;  ///< earlier instructions
+  Shape shape;                ///< of the result
   std::array<int, 4> attributes{};
-  std::string text;                 ///< constant: the decimal as written
+  std::string text;  ///< constant: the decimal as written
   std::shared_ptr<const Text> origin;
-  std::size_t offset = 0;           ///< where in the origin it was written
+  std::size_t offset = 0;  ///< where in the origin it was written
 
   Place place() const { return origin ? origin->place(offset) : Place{}; }
 };
@@ -80,7 +88,7 @@ struct Input {
 struct Program {
   std::vector<Instruction> code;
   std::vector<Input> inputs;
-  int result = -1;                  ///< the instruction whose value is the program's
+  int result = -1;  ///< the instruction whose value is the program's
 
   Shape shape() const { return code[static_cast<std::size_t>(result)].shape; }
   /// The position of an input, or -1.

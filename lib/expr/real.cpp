@@ -17,7 +17,8 @@ namespace {
 double round_constant(const Instruction& instruction) {
   if (instruction.text == "pi") return std::numbers::pi;
   const auto value = parse_decimal(instruction.text);
-  if (!value) throw EvaluationError("the number " + instruction.text + " is beyond the range of double");
+  if (!value)
+    throw EvaluationError("the number " + instruction.text + " is beyond the range of double");
   return *value;
 }
 
@@ -106,26 +107,57 @@ void RealAlgebra::apply(const Instruction& instruction, std::span<const Matrix* 
   const auto a = [&]() -> const Matrix& { return *operands[0]; };
   const auto b = [&]() -> const Matrix& { return *operands[1]; };
   switch (instruction.op) {
-    case Op::constant: out = Matrix::Constant(1, 1, round_constant(instruction)); break;
-    case Op::input: throw std::logic_error("an input is not computed");
-    case Op::zeros: out.setZero(shape.rows, shape.cols); break;
-    case Op::fill: out.setConstant(shape.rows, shape.cols, a()(0, 0)); break;
-    case Op::identity: out = a()(0, 0) * Matrix::Identity(shape.rows, shape.cols); break;
-    case Op::add: out = a() + b(); break;
-    case Op::subtract: out = a() - b(); break;
-    case Op::negate: out = -a(); break;
-    case Op::multiply: multiply(a(), b(), out); break;
-    case Op::scale: out = a()(0, 0) * b(); break;
-    case Op::divide: divide(a(), b()(0, 0), out); break;
-    case Op::power: power(a(), attributes[0], out); break;
-    case Op::scalar_power: out = Matrix::Constant(1, 1, std::pow(a()(0, 0), b()(0, 0))); break;
-    case Op::transpose: out = a().transpose(); break;
-    case Op::blocks: blocks(instruction, operands, out); break;
+    case Op::constant:
+      out = Matrix::Constant(1, 1, round_constant(instruction));
+      break;
+    case Op::input:
+      throw std::logic_error("an input is not computed");
+    case Op::zeros:
+      out.setZero(shape.rows, shape.cols);
+      break;
+    case Op::fill:
+      out.setConstant(shape.rows, shape.cols, a()(0, 0));
+      break;
+    case Op::identity:
+      out = a()(0, 0) * Matrix::Identity(shape.rows, shape.cols);
+      break;
+    case Op::add:
+      out = a() + b();
+      break;
+    case Op::subtract:
+      out = a() - b();
+      break;
+    case Op::negate:
+      out = -a();
+      break;
+    case Op::multiply:
+      multiply(a(), b(), out);
+      break;
+    case Op::scale:
+      out = a()(0, 0) * b();
+      break;
+    case Op::divide:
+      divide(a(), b()(0, 0), out);
+      break;
+    case Op::power:
+      power(a(), attributes[0], out);
+      break;
+    case Op::scalar_power:
+      out = Matrix::Constant(1, 1, std::pow(a()(0, 0), b()(0, 0)));
+      break;
+    case Op::transpose:
+      out = a().transpose();
+      break;
+    case Op::blocks:
+      blocks(instruction, operands, out);
+      break;
     case Op::index:
       out = a().block(attributes[0], attributes[2], attributes[1] - attributes[0],
                       attributes[3] - attributes[2]);
       break;
-    case Op::exp: out = a().array().exp(); break;
+    case Op::exp:
+      out = a().array().exp();
+      break;
     case Op::log:
       require_domain(a(), (a().array() > 0).all(), "log");
       out = a().array().log();
@@ -134,23 +166,57 @@ void RealAlgebra::apply(const Instruction& instruction, std::span<const Matrix* 
       require_domain(a(), (a().array() >= 0).all(), "sqrt");
       out = a().array().sqrt();
       break;
-    case Op::sin: out = a().array().sin(); break;
-    case Op::cos: out = a().array().cos(); break;
-    case Op::tanh: out = a().array().tanh(); break;
-    case Op::abs: out = a().cwiseAbs(); break;
-    case Op::sign: out = a().array().sign(); break;
-    case Op::minimum: out = a().cwiseMin(b()); break;
-    case Op::maximum: out = a().cwiseMax(b()); break;
-    case Op::where: where(instruction, operands, out); break;
-    case Op::trace: out = Matrix::Constant(1, 1, a().trace()); break;
-    case Op::norm: out = Matrix::Constant(1, 1, norm(a())); break;
-    case Op::inverse: inverse(a(), out); break;
-    case Op::pseudo_inverse: pseudo_inverse(a(), out); break;
-    case Op::matrix_exponential: out = a().exp(); break;
-    case Op::diagonal_matrix: out = Eigen::VectorXd(a().reshaped()).asDiagonal(); break;
-    case Op::diagonal_of: out = a().diagonal(); break;
-    case Op::range_basis: out = full_svd(a()).matrixU().leftCols(shape.cols); break;
-    case Op::kernel_basis: out = full_svd(a()).matrixV().rightCols(shape.cols); break;
+    case Op::sin:
+      out = a().array().sin();
+      break;
+    case Op::cos:
+      out = a().array().cos();
+      break;
+    case Op::tanh:
+      out = a().array().tanh();
+      break;
+    case Op::abs:
+      out = a().cwiseAbs();
+      break;
+    case Op::sign:
+      out = a().array().sign();
+      break;
+    case Op::minimum:
+      out = a().cwiseMin(b());
+      break;
+    case Op::maximum:
+      out = a().cwiseMax(b());
+      break;
+    case Op::where:
+      where(instruction, operands, out);
+      break;
+    case Op::trace:
+      out = Matrix::Constant(1, 1, a().trace());
+      break;
+    case Op::norm:
+      out = Matrix::Constant(1, 1, norm(a()));
+      break;
+    case Op::inverse:
+      inverse(a(), out);
+      break;
+    case Op::pseudo_inverse:
+      pseudo_inverse(a(), out);
+      break;
+    case Op::matrix_exponential:
+      out = a().exp();
+      break;
+    case Op::diagonal_matrix:
+      out = Eigen::VectorXd(a().reshaped()).asDiagonal();
+      break;
+    case Op::diagonal_of:
+      out = a().diagonal();
+      break;
+    case Op::range_basis:
+      out = full_svd(a()).matrixU().leftCols(shape.cols);
+      break;
+    case Op::kernel_basis:
+      out = full_svd(a()).matrixV().rightCols(shape.cols);
+      break;
   }
   if (!out.allFinite())
     throw EvaluationError("the " + to_string(instruction.op) + " is not a finite number");

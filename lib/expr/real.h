@@ -15,8 +15,8 @@ namespace gainsmith::expr {
 struct RealAlgebra {
   using Value = Matrix;
 
-  /// EvaluationError for a singular inverse (reciprocal condition below 1e-15), a division by zero, the
-  /// logarithm or root of a negative number, and any result that is not finite.
+  /// EvaluationError for a singular inverse (reciprocal condition below 1e-15), a division by zero,
+  /// the logarithm or root of a negative number, and any result that is not finite.
   void apply(const Instruction& instruction, std::span<const Matrix* const> operands,
              Matrix& out) const;
 };

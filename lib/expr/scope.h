@@ -27,7 +27,7 @@ struct Definition {
 };
 
 struct Scope {
-  std::map<std::string, int> dimensions;          ///< n, p, ...
+  std::map<std::string, int> dimensions;  ///< n, p, ...
   std::map<std::string, Symbol> symbols;
   std::map<std::string, Definition> definitions;  ///< in any order; cycles are found when bound
 

@@ -14,14 +14,16 @@ std::optional<std::string> word(const YamlFile& file, const std::optional<YamlIt
   if (!item) return std::nullopt;
   std::string text = file.string(item->value, item->key);
   if (std::find(known.begin(), known.end(), text) == known.end())
-    throw InputError(file.place(item->value), item->key + ": unknown word '" + text + "'" + suggestion(text, known));
+    throw InputError(file.place(item->value),
+                     item->key + ": unknown word '" + text + "'" + suggestion(text, known));
   return text;
 }
 
 std::optional<double> tolerance(const YamlFile& file, const std::optional<YamlItem>& item) {
   if (!item) return std::nullopt;
   const double value = file.number(item->value, item->key);
-  if (value < 0) throw InputError(file.place(item->value), item->key + ": a tolerance must not be negative");
+  if (value < 0)
+    throw InputError(file.place(item->value), item->key + ": a tolerance must not be negative");
   return value;
 }
 
@@ -51,9 +53,11 @@ model::Expectation expectation_from(const YamlFile& file, const YamlItem& item) 
   result.campaign = word(file, map.find("campaign"), {"held", "violated"});
   if (const auto bounds = map.find("active_bounds")) {
     if (!bounds->value.IsSequence())
-      throw InputError(file.place(bounds->value), "active_bounds: expected a list, such as [\"inv(P2)*X\"]");
+      throw InputError(file.place(bounds->value),
+                       "active_bounds: expected a list, such as [\"inv(P2)*X\"]");
     result.active_bounds.emplace();
-    for (const auto& entry : bounds->value) result.active_bounds->push_back(file.string(entry, "active_bounds"));
+    for (const auto& entry : bounds->value)
+      result.active_bounds->push_back(file.string(entry, "active_bounds"));
   }
   for (const YamlItem& entry : items_of(file, map.find("values"), "values"))
     result.values.push_back(expected_value(file, entry));

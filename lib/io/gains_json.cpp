@@ -27,18 +27,17 @@ Json solver_json(const model::SolverRecord& solver) {
 }
 
 Json margin_json(const model::Margin& margin) {
-  return {{"name", margin.name},
-          {"strict", margin.strict},
-          {"holds", margin.holds},
-          {"reached", margin.reached},
-          {"required", margin.required},
-          {"smallest_eigenvalue", margin.smallest_eigenvalue},
-          {"scale", margin.scale},
-          {"worst_point", margin.worst_point}};
+  return {{"name", margin.name},         {"strict", margin.strict},
+          {"holds", margin.holds},       {"reached", margin.reached},
+          {"required", margin.required}, {"smallest_eigenvalue", margin.smallest_eigenvalue},
+          {"scale", margin.scale},       {"worst_point", margin.worst_point}};
 }
 
 Json bound_json(const model::GainBound& bound) {
-  return {{"gain", bound.what}, {"bound", bound.bound}, {"reached", bound.reached}, {"active", bound.active}};
+  return {{"gain", bound.what},
+          {"bound", bound.bound},
+          {"reached", bound.reached},
+          {"active", bound.active}};
 }
 
 Json certificate_json(const model::CertificateRecord& certificate) {
@@ -114,7 +113,8 @@ class Reader {
     expr::Matrix result(rows.size(), rows.empty() ? 0 : rows.front().items().size());
     for (std::size_t i = 0; i < rows.size(); ++i) {
       const auto row = rows[i].items();
-      if (row.size() != static_cast<std::size_t>(result.cols())) rows[i].fail("a row of another length");
+      if (row.size() != static_cast<std::size_t>(result.cols()))
+        rows[i].fail("a row of another length");
       for (std::size_t j = 0; j < row.size(); ++j)
         result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = row[j].number();
     }
@@ -165,9 +165,9 @@ model::Margin margin_of(const Reader& reader) {
 }
 
 model::CertificateRecord certificate_of(const Reader& reader) {
-  return {reader.at("value").number(),           reader.at("residual").number(),
-          reader.at("min_eigenvalue").number(),  reader.at("excluded_radius").number(),
-          reader.at("checked").truth(),          reader.at("multipliers").matrices()};
+  return {reader.at("value").number(),          reader.at("residual").number(),
+          reader.at("min_eigenvalue").number(), reader.at("excluded_radius").number(),
+          reader.at("checked").truth(),         reader.at("multipliers").matrices()};
 }
 
 model::Statement statement_of(const Reader& reader) {
@@ -230,8 +230,8 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   gains.parameters = reader.at("parameters").matrices();
   for (const Reader& item : reader.at("margins").items()) gains.margins.push_back(margin_of(item));
   for (const Reader& item : reader.at("bounds").items())
-    gains.bounds.push_back({item.at("gain").text(), item.at("bound").number(), item.at("reached").number(),
-                            item.at("active").truth()});
+    gains.bounds.push_back({item.at("gain").text(), item.at("bound").number(),
+                            item.at("reached").number(), item.at("active").truth()});
   if (reader.has("certificate")) gains.certificate = certificate_of(reader.at("certificate"));
   gains.solver = solver_of(reader.at("solver"));
   gains.statement = statement_of(reader.at("statement"));

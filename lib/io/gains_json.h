@@ -9,19 +9,19 @@
 
 namespace gainsmith::io {
 
-/// The document. Timings stand in a block of their own, last. A decimal with 17 digits reads back to
-/// the same double, so writing, reading and writing again gives the same bytes.
+/// The document. Timings stand in a block of their own, last. A decimal with 17 digits reads back
+/// to the same double, so writing, reading and writing again gives the same bytes.
 Json to_json(const model::Gains& gains);
 
 /// The text of a gain file.
 std::string gains_text(const model::Gains& gains);
 
-/// Reads a gain file. InputError with the place, or the path of the key, when it is truncated, lacks
-/// a key, holds a value of the wrong kind, or when its statement does not match its hash.
+/// Reads a gain file. InputError with the place, or the path of the key, when it is truncated,
+/// lacks a key, holds a value of the wrong kind, or when its statement does not match its hash.
 model::Gains parse_gains(const std::string& text, const std::string& file);
 
-/// The problem that a gain file states; the method is the text in the file, whatever the program's own
-/// method of that name says today.
+/// The problem that a gain file states; the method is the text in the file, whatever the program's
+/// own method of that name says today.
 model::Problem stated_problem(const model::Gains& gains, const std::string& file);
 
 /// A matrix as a list of rows.

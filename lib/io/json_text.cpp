@@ -12,7 +12,8 @@ namespace gainsmith::io {
 namespace {
 
 bool is_flat(const Json& list) {
-  return std::none_of(list.begin(), list.end(), [](const Json& item) { return item.is_structured(); });
+  return std::none_of(list.begin(), list.end(),
+                      [](const Json& item) { return item.is_structured(); });
 }
 
 void write(const Json& value, std::size_t indent, std::string& out);
@@ -39,7 +40,8 @@ void write(const Json& value, std::size_t indent, std::string& out) {
     write_items(value, indent, out);
   } else if (value.is_number_float()) {
     const double number = value.get<double>();
-    if (!std::isfinite(number)) throw std::invalid_argument("JSON has no spelling for " + decimal17(number));
+    if (!std::isfinite(number))
+      throw std::invalid_argument("JSON has no spelling for " + decimal17(number));
     out += decimal17(number);
   } else {
     out += value.dump();
@@ -73,9 +75,11 @@ Json parse_json(const std::string& text, const std::string& file) {
     const std::size_t colon = message.rfind(": ");
     throw InputError(place_of(text, file, error.byte > 0 ? error.byte - 1 : 0),
                      "this is no complete JSON document: " +
-                         (colon == std::string::npos ? message : message.substr(message.find("syntax error") != std::string::npos
-                                                                                    ? message.find("syntax error")
-                                                                                    : colon + 2)));
+                         (colon == std::string::npos
+                              ? message
+                              : message.substr(message.find("syntax error") != std::string::npos
+                                                   ? message.find("syntax error")
+                                                   : colon + 2)));
   }
 }
 

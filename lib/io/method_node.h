@@ -1,4 +1,5 @@
-// Internal to io: a method as a mapping inside a file (a whole method file, or `method:` of a problem).
+// Internal to io: a method as a mapping inside a file (a whole method file, or `method:` of a
+// problem).
 #pragma once
 
 #include "io/yaml.h"

@@ -10,7 +10,8 @@ namespace gainsmith::io {
 
 namespace {
 
-std::optional<expr::Expression> optional_expression(const YamlFile& file, const std::optional<YamlItem>& item) {
+std::optional<expr::Expression> optional_expression(const YamlFile& file,
+                                                    const std::optional<YamlItem>& item) {
   if (!item) return std::nullopt;
   return file.expression(item->value, item->key);
 }
@@ -36,7 +37,8 @@ model::Declaration declaration(const YamlFile& file, const YamlItem& item, bool 
   return result;
 }
 
-std::vector<model::Declaration> declarations(const YamlFile& file, const std::optional<YamlItem>& item,
+std::vector<model::Declaration> declarations(const YamlFile& file,
+                                             const std::optional<YamlItem>& item,
                                              const std::string& what, bool with_default = false) {
   std::vector<model::Declaration> result;
   for (const YamlItem& entry : items_of(file, item, what))
@@ -70,7 +72,8 @@ std::vector<model::Named> named(const YamlFile& file, const std::optional<YamlIt
 model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
   if (!item.value.IsMap()) return {item.key, {}, file.expression(item.value, item.key), item.place};
   YamlMap map(file, item.value, item.key);
-  model::Requirement result{item.key, {}, file.expression(map.require("that").value, "that"), item.place};
+  model::Requirement result{
+      item.key, {}, file.expression(map.require("that").value, "that"), item.place};
   if (const auto forall = map.find("forall")) {
     if (forall->value.IsSequence()) {
       for (const auto& entry : forall->value)
@@ -83,7 +86,8 @@ model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
-model::Component component(const YamlFile& file, const std::optional<YamlItem>& item, const std::string& what) {
+model::Component component(const YamlFile& file, const std::optional<YamlItem>& item,
+                           const std::string& what) {
   model::Component result;
   if (!item) return result;
   YamlMap map(file, item->value, what);
@@ -104,13 +108,15 @@ std::pair<expr::Expression, expr::Expression> range(const YamlFile& file, const 
 std::optional<model::Timer> timer(const YamlFile& file, const std::optional<YamlItem>& item) {
   if (!item) return std::nullopt;
   const auto items = items_of(file, item, "timer");
-  if (items.size() != 1) throw InputError(item->place, "timer: expected one timer, such as 'tau: {reset: [T1, T2]}'");
+  if (items.size() != 1)
+    throw InputError(item->place, "timer: expected one timer, such as 'tau: {reset: [T1, T2]}'");
   YamlMap map(file, items.front().value, items.front().key);
   const auto reset = range(file, map.require("reset"));
   const auto first_item = map.find("first");
   const auto first = first_item ? range(file, *first_item) : reset;
   map.finish();
-  return model::Timer{items.front().key, reset.first, reset.second, first.first, first.second, items.front().place};
+  return model::Timer{items.front().key, reset.first,  reset.second,
+                      first.first,       first.second, items.front().place};
 }
 
 model::Claim claim(const YamlFile& file, const YamlItem& item) {
@@ -120,9 +126,11 @@ model::Claim claim(const YamlFile& file, const YamlItem& item) {
   const auto cost = map.find("cost");
   const auto shrinks = map.find("shrinks");
   if (static_cast<int>(nonincreasing.has_value()) + static_cast<int>(cost.has_value()) +
-          static_cast<int>(shrinks.has_value()) != 1) {
+          static_cast<int>(shrinks.has_value()) !=
+      1) {
     map.finish();
-    throw InputError(item.place, "the claim '" + item.key + "' needs one of nonincreasing, cost, shrinks");
+    throw InputError(item.place,
+                     "the claim '" + item.key + "' needs one of nonincreasing, cost, shrinks");
   }
   model::Claim result{item.key, Kind::nonincreasing, {}, {}, {}, {}, item.place};
   if (nonincreasing) result.value = file.expression(nonincreasing->value, item.key);
@@ -175,7 +183,8 @@ model::Forall parse_forall(const expr::Text& text) {
   const bool interval = source[open] == '[' && source[close] == ']';
   const bool set = source[open] == '{' && source[close] == '}';
   if (!interval && !set) fail(open);
-  model::Forall forall{signature.name, interval, parse_list(text.part(open + 1, close)), text.place(0)};
+  model::Forall forall{signature.name, interval, parse_list(text.part(open + 1, close)),
+                       text.place(0)};
   if (interval && forall.points.size() != 2) fail(open);
   return forall;
 }
@@ -207,7 +216,8 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
     method.claims.push_back(claim(file, item));
   map.finish();
   if (method.require.empty())
-    throw InputError(map.place(), "the method '" + method.name + "' has no inequality under 'require'");
+    throw InputError(map.place(),
+                     "the method '" + method.name + "' has no inequality under 'require'");
   model::check_names(method);
   return method;
 }

@@ -18,11 +18,13 @@ std::shared_ptr<const model::Method> method_of(const YamlFile& file, const YamlI
   const std::string name = file.string(item.value, "method");
   const auto text = library.text(name);
   if (!text)
-    throw InputError(file.place(item.value), "unknown method '" + name + "'" + suggestion(name, library.names));
+    throw InputError(file.place(item.value),
+                     "unknown method '" + name + "'" + suggestion(name, library.names));
   return std::make_shared<model::Method>(parse_method(*text, "method " + name));
 }
 
-std::vector<model::Value> values(const YamlFile& file, const std::optional<YamlItem>& item, const char* what) {
+std::vector<model::Value> values(const YamlFile& file, const std::optional<YamlItem>& item,
+                                 const char* what) {
   std::vector<model::Value> result;
   for (const YamlItem& entry : items_of(file, item, what)) {
     model::Value value = value_of(file, entry);
@@ -38,13 +40,15 @@ model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<Yaml
   YamlMap map(file, item->value, "synthesis");
   const auto positive = [&](const YamlItem& entry) {
     const double value = file.number(entry.value, entry.key);
-    if (!(value > 0)) throw InputError(file.place(entry.value), entry.key + ": expected a positive number");
+    if (!(value > 0))
+      throw InputError(file.place(entry.value), entry.key + ": expected a positive number");
     return value;
   };
   if (const auto margin = map.find("margin")) {
     options.margin = positive(*margin);
     if (options.margin >= 1)
-      throw InputError(file.place(margin->value), "margin: relative to the data's scale, so below 1");
+      throw InputError(file.place(margin->value),
+                       "margin: relative to the data's scale, so below 1");
   }
   if (const auto bound = map.find("gain_bound")) {
     const bool off = bound->value.IsScalar() && bound->value.Scalar() == "none";
@@ -57,7 +61,8 @@ model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<Yaml
 std::uint64_t whole(const YamlFile& file, const YamlItem& item, double least) {
   constexpr double kMost = 1e15;
   const double value = file.number(item.value, item.key);
-  if (!(value >= least && value <= kMost) || value != static_cast<double>(static_cast<std::uint64_t>(value)))
+  if (!(value >= least && value <= kMost) ||
+      value != static_cast<double>(static_cast<std::uint64_t>(value)))
     throw InputError(file.place(item.value), item.key + ": expected a whole number, at least " +
                                                  std::to_string(static_cast<int>(least)));
   return static_cast<std::uint64_t>(value);
@@ -65,7 +70,8 @@ std::uint64_t whole(const YamlFile& file, const YamlItem& item, double least) {
 
 model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
   using Kind = model::SamplingLaw::Kind;
-  static const std::vector<std::string> kWords = {"uniform", "extremes", "sinusoid", "constant", "list"};
+  static const std::vector<std::string> kWords = {"uniform", "extremes", "sinusoid", "constant",
+                                                  "list"};
   model::SamplingLaw result;
   result.place = file.place(node);
   if (node.IsScalar()) {
@@ -74,8 +80,10 @@ model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
     if (word == "extremes") return {Kind::extremes, {}, result.place};
     if (word == "sinusoid") return {Kind::sinusoid, {}, result.place};
     if (word == "constant" || word == "list")
-      throw InputError(result.place, "sampling: '" + word + "' needs its value: {" + word + ": ...}");
-    throw InputError(result.place, "sampling: unknown law '" + word + "'" + suggestion(word, kWords));
+      throw InputError(result.place,
+                       "sampling: '" + word + "' needs its value: {" + word + ": ...}");
+    throw InputError(result.place,
+                     "sampling: unknown law '" + word + "'" + suggestion(word, kWords));
   }
   YamlMap map(file, node, "sampling");
   const auto constant = map.find("constant");
@@ -107,24 +115,28 @@ model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
   const auto list = map.find("list");
   map.finish();
   if (box.has_value() == list.has_value())
-    throw InputError(item.place, item.key + ": expected a value, {box: [low, high]} or {list: [values]}");
+    throw InputError(item.place,
+                     item.key + ": expected a value, {box: [low, high]} or {list: [values]}");
   result.kind = box ? Kind::box : Kind::list;
   const YamlItem& source = box ? *box : *list;
   if (!source.value.IsSequence() || source.value.size() == 0 || (box && source.value.size() != 2))
-    throw InputError(file.place(source.value), box ? "box: expected [low, high]" : "list: expected a list of values");
+    throw InputError(file.place(source.value),
+                     box ? "box: expected [low, high]" : "list: expected a list of values");
   for (const auto& entry : source.value)
     result.values.push_back(value_of(file, {item.key, item.key_text, file.place(entry), entry}));
   return result;
 }
 
-model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& item, const model::Method& method) {
+model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& item,
+                         const model::Method& method) {
   model::Campaign result;
   if (!item) return result;
   YamlMap map(file, item->value, "campaign");
   result.place = item->place;
   if (const auto runs = map.find("runs")) result.runs = whole(file, *runs, 1);
   if (const auto seed = map.find("seed")) result.seed = whole(file, *seed, 0);
-  if (const auto horizon = map.find("horizon")) result.horizon = file.expression(horizon->value, "horizon");
+  if (const auto horizon = map.find("horizon"))
+    result.horizon = file.expression(horizon->value, "horizon");
   if (const auto first = map.find("first")) result.first = file.expression(first->value, "first");
   if (const auto sampling = map.find("sampling")) {
     if (sampling->value.IsSequence()) {
@@ -138,7 +150,8 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
     for (const auto& state : part->states) states.push_back(state.name);
   for (const YamlItem& entry : items_of(file, map.find("initial"), "initial")) {
     if (std::find(states.begin(), states.end(), entry.key) == states.end())
-      throw InputError(entry.place, "initial: '" + entry.key + "' is no state" + suggestion(entry.key, states));
+      throw InputError(entry.place,
+                       "initial: '" + entry.key + "' is no state" + suggestion(entry.key, states));
     result.initial.push_back(initial(file, entry));
   }
   map.finish();

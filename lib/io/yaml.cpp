@@ -28,7 +28,8 @@ void refuse_non_text(const std::string& text, const std::string& file) {
   });
   if (found == text.end()) return;
   const auto line = 1 + std::count(text.begin(), found, '\n');
-  throw InputError({file, static_cast<int>(line), 0}, "this is no text file: it holds control characters");
+  throw InputError({file, static_cast<int>(line), 0},
+                   "this is no text file: it holds control characters");
 }
 
 }  // namespace
@@ -91,13 +92,14 @@ expr::Text YamlFile::scalar(const YAML::Node& node, const std::string& what) con
   if (at < text_.size() && (text_[at] == '"' || text_[at] == '\'')) advance();
   if (at < text_.size() && (text_[at] == '|' || text_[at] == '>'))
     while (at < text_.size() && text_[at] != '\n') advance();
-  // YAML changes only white space and escapes: walk along both texts and match the other characters.
+  // YAML changes only white space and escapes: walk along both texts and match the other
+  // characters.
   std::vector<expr::Position> positions;
   for (const char c : value) {
     if (!is_space(c)) {
       while (at < text_.size() && is_space(text_[at])) advance();
-      if (at < text_.size() && text_[at] == '\'' && c == '\'' && at + 1 < text_.size() && text_[at + 1] == '\'' &&
-          text_[offset(mark.line, mark.column)] == '\'') {
+      if (at < text_.size() && text_[at] == '\'' && c == '\'' && at + 1 < text_.size() &&
+          text_[at + 1] == '\'' && text_[offset(mark.line, mark.column)] == '\'') {
         advance();  // '' stands for one quote in a single-quoted scalar
       }
     }
@@ -110,7 +112,9 @@ expr::Text YamlFile::scalar(const YAML::Node& node, const std::string& what) con
 
 expr::Expression YamlFile::expression(const YAML::Node& node, const std::string& what) const {
   if (node.IsSequence())
-    throw InputError(place(node), what + ": expected an expression, found a list; quote a matrix: \"[a, b; c, d]\"");
+    throw InputError(
+        place(node),
+        what + ": expected an expression, found a list; quote a matrix: \"[a, b; c, d]\"");
   return expr::parse(scalar(node, what));
 }
 
@@ -150,15 +154,18 @@ YamlItem YamlMap::require(const std::string& key) {
   if (auto item = find(key)) return *item;
   // A misspelt key explains the missing one.
   for (const YamlItem& item : items_)
-    if (std::find(asked_.begin(), asked_.end(), item.key) == asked_.end() && nearest(item.key, {key}))
-      throw InputError(item.place, what_ + ": unknown key '" + item.key + "'; did you mean '" + key + "'?");
+    if (std::find(asked_.begin(), asked_.end(), item.key) == asked_.end() &&
+        nearest(item.key, {key}))
+      throw InputError(item.place,
+                       what_ + ": unknown key '" + item.key + "'; did you mean '" + key + "'?");
   throw InputError(place_, what_ + ": the key '" + key + "' is missing");
 }
 
 void YamlMap::finish() const {
   for (const YamlItem& item : items_)
     if (std::find(asked_.begin(), asked_.end(), item.key) == asked_.end())
-      throw InputError(item.place, what_ + ": unknown key '" + item.key + "'" + suggestion(item.key, asked_));
+      throw InputError(item.place,
+                       what_ + ": unknown key '" + item.key + "'" + suggestion(item.key, asked_));
 }
 
 std::vector<YamlItem> items_of(const YamlFile& file, const std::optional<YamlItem>& item,
@@ -181,11 +188,13 @@ class Composer {
 
   void scalar(const YAML::Node& node, const std::string& what) {
     if (node.IsSequence() || node.IsMap())
-      throw InputError(file_.place(node), what + ": expected a number or an expression here, found " +
+      throw InputError(file_.place(node), what +
+                                              ": expected a number or an expression here, found " +
                                               (node.IsMap() ? "a mapping" : "a list"));
     const expr::Text part = file_.scalar(node, what);
     if (part.str().find(';') != std::string::npos)
-      throw InputError(file_.place(node), what + ": a matrix with ';' must be quoted: \"[a, b; c, d]\"");
+      throw InputError(file_.place(node),
+                       what + ": a matrix with ';' must be quoted: \"[a, b; c, d]\"");
     expr::parse(part);
     // In brackets of its own an element cannot be torn apart by what stands around it.
     punctuation("(", part.place(0));
@@ -212,7 +221,8 @@ class Composer {
 
 model::Value value_of(const YamlFile& file, const YamlItem& item) {
   const YAML::Node& node = item.value;
-  if (!node.IsSequence()) return {item.key, file.expression(node, item.key), false, file.place(node)};
+  if (!node.IsSequence())
+    return {item.key, file.expression(node, item.key), false, file.place(node)};
   if (node.size() == 0) throw InputError(file.place(node), item.key + ": the list is empty");
   const bool flat = !node[0].IsSequence();
   Composer composer(file);
@@ -230,7 +240,8 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
     if (i == 0) width = row.size();
     if (row.size() != width || width == 0)
       throw InputError(file.place(row), item.key + ": this row has " + std::to_string(row.size()) +
-                                            " elements, the first row has " + std::to_string(width));
+                                            " elements, the first row has " +
+                                            std::to_string(width));
     for (std::size_t j = 0; j < row.size(); ++j) {
       if (j > 0) composer.punctuation(",", file.place(row[j]));
       composer.scalar(row[j], item.key);

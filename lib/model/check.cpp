@@ -10,7 +10,8 @@ constexpr expr::Shape kScalar{};
 void check_component(const Component& part, const expr::Scope& scope) {
   for (const Named& output : part.outputs) expr::compile(output.value, scope);
   for (const auto* map : {&part.flow, &part.jump})
-    for (const Named& entry : *map) expr::compile(entry.value, scope, scope.symbols.at(entry.name).shape);
+    for (const Named& entry : *map)
+      expr::compile(entry.value, scope, scope.symbols.at(entry.name).shape);
 }
 
 void check_requirements(const Instance& instance) {
@@ -18,7 +19,8 @@ void check_requirements(const Instance& instance) {
   for (const Requirement& requirement : instance.method->require) {
     expr::Scope scope = design;
     for (const Forall& forall : requirement.forall) {
-      for (const expr::Expression& point : forall.points) expr::compile(point, instance.scope, kScalar);
+      for (const expr::Expression& point : forall.points)
+        expr::compile(point, instance.scope, kScalar);
       scope.symbols[forall.variable] = {kScalar, std::nullopt};
     }
     expr::compile_relations(requirement.that, scope);
@@ -66,7 +68,8 @@ void check_everything(const Instance& instance) {
   check_component(instance.method->observer, scope);
   for (const Named& signal : instance.method->signals) expr::compile(signal.value, scope);
   if (const auto& timer = instance.method->timer)
-    for (const expr::Expression* bound : {&timer->low, &timer->high, &timer->first_low, &timer->first_high})
+    for (const expr::Expression* bound :
+         {&timer->low, &timer->high, &timer->first_low, &timer->first_high})
       expr::compile(*bound, instance.scope, kScalar);
   check_claims(instance, scope);
   check_campaign(instance, scope);

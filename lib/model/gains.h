@@ -16,21 +16,21 @@ using NamedMatrices = std::vector<std::pair<std::string, expr::Matrix>>;
 
 /// One matrix inequality, evaluated in double from the decimals as written.
 struct Margin {
-  std::string name;             ///< of the requirement; "jump", or "bounds.1" in a chain
+  std::string name;  ///< of the requirement; "jump", or "bounds.1" in a chain
   bool strict = true;
-  double reached = 0;           ///< smallest eigenvalue / scale, over all points of `forall`
-  double required = 0;          ///< what the solver was asked for
+  double reached = 0;   ///< smallest eigenvalue / scale, over all points of `forall`
+  double required = 0;  ///< what the solver was asked for
   double smallest_eigenvalue = 0;
-  double scale = 0;             ///< of its data
-  std::string worst_point;      ///< "tau = 0"; empty without forall
+  double scale = 0;         ///< of its data
+  std::string worst_point;  ///< "tau = 0"; empty without forall
   bool holds = false;
 };
 
 /// A bound on a gain, so that an infimum that is not attained gives finite gains.
 struct GainBound {
-  std::string what;             ///< "inv(P2)*X"
-  double bound = 0;             ///< allowed
-  double reached = 0;           ///< in the same measure
+  std::string what;    ///< "inv(P2)*X"
+  double bound = 0;    ///< allowed
+  double reached = 0;  ///< in the same measure
   bool active = false;
 };
 
@@ -46,7 +46,7 @@ struct CertificateRecord {
 };
 
 struct SolverRecord {
-  std::string status;           ///< optimal, infeasible, undecided
+  std::string status;  ///< optimal, infeasible, undecided
   std::string cause;
   std::string message;
   int iterations = 0;
@@ -59,9 +59,9 @@ struct SolverRecord {
 struct Statement {
   std::string method_name;
   std::string method_text;
-  std::string problem_file;     ///< its name only, no folders of the machine
+  std::string problem_file;  ///< its name only, no folders of the machine
   std::string problem_text;
-  std::string hash;             ///< statement_hash
+  std::string hash;  ///< statement_hash
 };
 
 /// sha256 of the method's text, a zero byte and the problem's text.
@@ -83,7 +83,7 @@ struct Gains {
   std::vector<GainBound> bounds;
   std::optional<CertificateRecord> certificate;
   Statement statement;
-  std::string version;          ///< of gainsmith
+  std::string version;                                  ///< of gainsmith
   std::vector<std::pair<std::string, double>> timings;  ///< seconds; apart from all results
 
   const expr::Matrix* find(const std::string& name) const;

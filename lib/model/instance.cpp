@@ -14,8 +14,8 @@ namespace {
 
 template <class Item>
 const Item* find_named(const std::vector<Item>& items, const std::string& name) {
-  const auto found = std::find_if(items.begin(), items.end(),
-                                  [&](const Item& item) { return item.name == name; });
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
   return found == items.end() ? nullptr : &*found;
 }
 
@@ -39,7 +39,8 @@ expr::Expression oriented(const Value& value, bool column) {
   return {value.value.text, turned};
 }
 
-/// The place of element (i, j) when the matrix is written element by element, of the whole otherwise.
+/// The place of element (i, j) when the matrix is written element by element, of the whole
+/// otherwise.
 Place element_place(const Value& value, int i, int j) {
   const expr::Node& root = *value.value.root;
   if (root.kind == expr::NodeKind::block) {
@@ -50,7 +51,8 @@ Place element_place(const Value& value, int i, int j) {
 }
 
 std::string element_text(int i, int j, double value) {
-  return "element (" + std::to_string(i + 1) + ", " + std::to_string(j + 1) + ") is " + brief(value, 17);
+  return "element (" + std::to_string(i + 1) + ", " + std::to_string(j + 1) + ") is " +
+         brief(value, 17);
 }
 
 /// Checks a declared structure and makes a matrix that is symmetric to rounding exactly so.
@@ -67,9 +69,9 @@ void enforce_structure(const Declaration& datum, const Value& value, expr::Matri
                          "the datum " + datum.name + " must be symmetric, but " +
                              element_text(i, j, lower) + " and " + element_text(j, i, upper));
       if (structure == Structure::diagonal && (upper != 0 || lower != 0))
-        throw InputError(element_place(value, i, j), "the datum " + datum.name +
-                                                         " must be diagonal, but " +
-                                                         element_text(i, j, lower != 0 ? lower : upper));
+        throw InputError(element_place(value, i, j),
+                         "the datum " + datum.name + " must be diagonal, but " +
+                             element_text(i, j, lower != 0 ? lower : upper));
     }
   }
   matrix = (0.5 * (matrix + matrix.transpose())).eval();
@@ -82,8 +84,10 @@ std::string declared(const Declaration& declaration, const Dimensions& dimension
     if (!part) continue;
     for (const std::string& name : names_in(*part)) {
       const auto found = dimensions.find(name);
-      const std::string fact = found == dimensions.end() ? "" : name + " = " + std::to_string(found->second);
-      if (!fact.empty() && known.find(fact) == std::string::npos) known += (known.empty() ? "" : ", ") + fact;
+      const std::string fact =
+          found == dimensions.end() ? "" : name + " = " + std::to_string(found->second);
+      if (!fact.empty() && known.find(fact) == std::string::npos)
+        known += (known.empty() ? "" : ", ") + fact;
     }
   }
   return text + (known.empty() ? "" : " (" + known + ")");
@@ -103,8 +107,10 @@ class Builder {
     for (const Let& let : method().let)
       instance_.scope.definitions[let.signature.name] = {let.signature.parameters, let.body};
     for (const Component* part : {&method().plant, &method().observer})
-      for (const Named& output : part->outputs) instance_.scope.definitions[output.name] = {{}, output.value};
-    for (const Named& signal : method().signals) instance_.scope.definitions[signal.name] = {{}, signal.value};
+      for (const Named& output : part->outputs)
+        instance_.scope.definitions[output.name] = {{}, output.value};
+    for (const Named& signal : method().signals)
+      instance_.scope.definitions[signal.name] = {{}, signal.value};
     for (const Named& assumption : method().assume) check_assumption(assumption);
     for (const Declaration& unknown : method().unknowns)
       instance_.unknowns.emplace_back(unknown.name, known_shape(unknown, "unknown"));
@@ -126,10 +132,12 @@ class Builder {
                             const char* other) {
       for (const Value& value : values) {
         if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
-        const bool misplaced = std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
-        throw InputError(value.place, "the method " + method().name + " has no " + what + " '" + value.name +
-                                          "'" + (misplaced ? "; it is one of its " + std::string(other)
-                                                           : suggestion(value.name, known)));
+        const bool misplaced =
+            std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
+        throw InputError(value.place, "the method " + method().name + " has no " + what + " '" +
+                                          value.name + "'" +
+                                          (misplaced ? "; it is one of its " + std::string(other)
+                                                     : suggestion(value.name, known)));
       }
     };
     refuse(problem().data, data, parameters, "datum", "parameters");
@@ -140,7 +148,8 @@ class Builder {
     const Value* given = find_named(problem().data, datum.name);
     if (given == nullptr && !datum.fallback)
       throw InputError({problem().file}, "the datum " + datum.name + " (" + datum.shape.text +
-                                             ") of the method " + method().name + " is missing under 'data'");
+                                             ") of the method " + method().name +
+                                             " is missing under 'data'");
     const Value value = given ? *given : Value{datum.name, *datum.fallback, false, datum.place};
     const auto expected = resolve(datum.shape, instance_.dimensions);
     const bool column = datum.shape.is_column() || (expected && is_proper_column(*expected));
@@ -165,7 +174,8 @@ class Builder {
     const Value* given = find_named(problem().parameters, parameter.name);
     if (given == nullptr && !parameter.fallback)
       throw InputError({problem().file}, "the parameter " + parameter.name + " of the method " +
-                                             method().name + " has no default and is missing under 'parameters'");
+                                             method().name +
+                                             " has no default and is missing under 'parameters'");
     const expr::Expression& expression = given ? given->value : *parameter.fallback;
     const auto program = expr::compile(expression, scope_with_dimensions(), expr::Shape{});
     define(parameter.name, expr::evaluate(program, instance_.known_values()), instance_.parameters);
@@ -188,7 +198,9 @@ class Builder {
     const expr::Values values = instance_.known_values();
     for (const auto& relation : compile_relations(assumption.value, instance_.scope)) {
       const expr::Matrix difference = expr::evaluate(relation.difference, values);
-      if (difference.size() == 1 && (relation.strict ? difference(0, 0) > 0 : difference(0, 0) >= 0)) continue;
+      if (difference.size() == 1 &&
+          (relation.strict ? difference(0, 0) > 0 : difference(0, 0) >= 0))
+        continue;
       Place place = {problem().file};
       std::string found;
       for (const std::string& name : names_in(assumption.value)) {
@@ -204,8 +216,9 @@ class Builder {
 
   expr::Shape known_shape(const Declaration& declaration, const char* what) const {
     if (const auto shape = resolve(declaration.shape, instance_.dimensions)) return *shape;
-    throw InputError(declaration.place, "the size of the " + std::string(what) + " " + declaration.name +
-                                            " (" + declaration.shape.text + ") does not follow from the data");
+    throw InputError(declaration.place, "the size of the " + std::string(what) + " " +
+                                            declaration.name + " (" + declaration.shape.text +
+                                            ") does not follow from the data");
   }
 
   Instance instance_;

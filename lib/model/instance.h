@@ -12,33 +12,33 @@
 namespace gainsmith::model {
 
 struct Instance {
-  const Problem* problem = nullptr;   ///< outlives the instance
+  const Problem* problem = nullptr;  ///< outlives the instance
   const Method* method = nullptr;
 
   Dimensions dimensions;
-  expr::Values data;                  ///< the problem's or the method's default
-  expr::Values parameters;            ///< 1 x 1
+  expr::Values data;        ///< the problem's or the method's default
+  expr::Values parameters;  ///< 1 x 1
   /// Data and parameters as symbols with values; `let`, outputs and signals as definitions.
   expr::Scope scope;
   std::vector<std::pair<std::string, expr::Shape>> unknowns;
-  std::vector<std::pair<std::string, expr::Shape>> states;   ///< plant first, then observer
+  std::vector<std::pair<std::string, expr::Shape>> states;  ///< plant first, then observer
 
   /// The scope with the unknowns as symbols: what `require`, `minimize` and `gains` may use.
   expr::Scope design_scope() const;
-  /// The scope with unknowns, gains (given by their shapes), states and the timer as symbols: what flow
-  /// and jump maps and claims may use.
+  /// The scope with unknowns, gains (given by their shapes), states and the timer as symbols: what
+  /// flow and jump maps and claims may use.
   expr::Scope simulation_scope(const std::vector<std::pair<std::string, expr::Shape>>& gains) const;
   /// Data and parameters together.
   expr::Values known_values() const;
 };
 
-/// Finds dimensions, data, parameters and shapes and checks the method's assumptions. InputError for a
-/// datum that is missing, has the wrong shape or is not symmetric where it must be, for an assumption
-/// that fails (at the place of the datum), and for unknown names.
+/// Finds dimensions, data, parameters and shapes and checks the method's assumptions. InputError
+/// for a datum that is missing, has the wrong shape or is not symmetric where it must be, for an
+/// assumption that fails (at the place of the datum), and for unknown names.
 Instance make_instance(const Problem& problem);
 
-/// Compiles everything that the method and the problem say, without solving: flow and jump maps, claims,
-/// gains, the campaign and the expectations. InputError for the first that does not fit.
+/// Compiles everything that the method and the problem say, without solving: flow and jump maps,
+/// claims, gains, the campaign and the expectations. InputError for the first that does not fit.
 void check_everything(const Instance& instance);
 
 /// The shapes of the gains, in order.
@@ -48,8 +48,8 @@ std::vector<std::pair<std::string, expr::Shape>> gain_shapes(const Instance& ins
 double scalar_value(const expr::Expression& expression, const expr::Scope& scope,
                     const expr::Values& values);
 
-/// The program of a problem's datum, initial value or expectation; a flat list becomes a column where a
-/// column is expected.
+/// The program of a problem's datum, initial value or expectation; a flat list becomes a column
+/// where a column is expected.
 expr::Program compile_value(const Value& value, const expr::Scope& scope,
                             std::optional<expr::Shape> expected);
 

@@ -16,7 +16,8 @@ namespace gainsmith::model {
 struct Declaration {
   std::string name;
   ShapeText shape;
-  std::optional<expr::Expression> fallback;  ///< a datum's default, used when the problem gives none
+  std::optional<expr::Expression>
+      fallback;  ///< a datum's default, used when the problem gives none
   std::string help;
   Place place;
 };
@@ -62,14 +63,14 @@ struct Requirement {
 /// A part of the hybrid system: the plant or the observer.
 struct Component {
   std::vector<Declaration> states;
-  std::vector<Named> outputs;   ///< definitions in terms of the states, e.g. y = C z
-  std::vector<Named> flow;      ///< derivatives; a state without an entry stays constant
-  std::vector<Named> jump;      ///< values after a jump from values before; a state without an entry
-                                ///< keeps its value
+  std::vector<Named> outputs;  ///< definitions in terms of the states, e.g. y = C z
+  std::vector<Named> flow;     ///< derivatives; a state without an entry stays constant
+  std::vector<Named> jump;     ///< values after a jump from values before; a state without an entry
+                               ///< keeps its value
 };
 
-/// A timer that runs down to 0, where a jump happens and it is reset to a value in [low, high]. Its first
-/// value lies in [first_low, first_high].
+/// A timer that runs down to 0, where a jump happens and it is reset to a value in [low, high]. Its
+/// first value lies in [first_low, first_high].
 struct Timer {
   std::string name;
   expr::Expression low;
@@ -84,8 +85,9 @@ struct Timer {
 struct Claim {
   enum class Kind {
     nonincreasing,  ///< value never increases, along flows and over jumps
-    cost,           ///< int flow_cost dt + sum over jumps of jump_cost (before the jump) <= value at the start
-    shrinks         ///< value at the end of the run <= factor * value at the start
+    cost,    ///< int flow_cost dt + sum over jumps of jump_cost (before the jump) <= value at the
+             ///< start
+    shrinks  ///< value at the end of the run <= factor * value at the start
   };
   std::string name;
   Kind kind = Kind::nonincreasing;
@@ -98,14 +100,14 @@ struct Claim {
 
 struct Method {
   std::string name;
-  std::string source;    ///< paper, theorem, equations
-  std::string summary;   ///< one line
-  std::string file;      ///< where it was read, for messages
-  std::string text;      ///< the whole file
+  std::string source;   ///< paper, theorem, equations
+  std::string summary;  ///< one line
+  std::string file;     ///< where it was read, for messages
+  std::string text;     ///< the whole file
 
   std::vector<Declaration> data;
   std::vector<Parameter> parameters;
-  std::vector<Named> assume;        ///< comparisons of scalars that data and parameters must satisfy
+  std::vector<Named> assume;  ///< comparisons of scalars that data and parameters must satisfy
   std::vector<Declaration> unknowns;
   std::vector<Let> let;
   std::vector<Requirement> require;
@@ -115,7 +117,7 @@ struct Method {
   Component plant;
   Component observer;
   std::optional<Timer> timer;
-  std::vector<Named> signals;       ///< e.g. the errors e = z - zh
+  std::vector<Named> signals;  ///< e.g. the errors e = z - zh
   std::vector<Claim> claims;
 };
 

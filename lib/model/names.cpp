@@ -26,15 +26,16 @@ class Names {
   std::map<std::string, std::string> known_;
 };
 
-void check_maps(const Component& component, const std::vector<Named>& map, const std::string& what) {
+void check_maps(const Component& component, const std::vector<Named>& map,
+                const std::string& what) {
   std::vector<std::string> states;
   for (const Declaration& state : component.states) states.push_back(state.name);
   for (const Named& entry : map) {
     bool known = false;
     for (const std::string& state : states) known |= state == entry.name;
     if (!known)
-      throw InputError(entry.place,
-                       what + " of '" + entry.name + "', which is no state" + suggestion(entry.name, states));
+      throw InputError(entry.place, what + " of '" + entry.name + "', which is no state" +
+                                        suggestion(entry.name, states));
   }
 }
 
@@ -45,7 +46,8 @@ void check_names(const Method& method) {
   for (const Declaration& datum : method.data) names.add(datum.name, "datum", datum.place);
   for (const Parameter& parameter : method.parameters)
     names.add(parameter.name, "parameter", parameter.place);
-  for (const Declaration& unknown : method.unknowns) names.add(unknown.name, "unknown", unknown.place);
+  for (const Declaration& unknown : method.unknowns)
+    names.add(unknown.name, "unknown", unknown.place);
   for (const Let& let : method.let) names.add(let.signature.name, "definition", let.place);
   for (const Component* part : {&method.plant, &method.observer}) {
     for (const Declaration& state : part->states) names.add(state.name, "state", state.place);

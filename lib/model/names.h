@@ -5,8 +5,8 @@
 
 namespace gainsmith::model {
 
-/// InputError when two things of the method share a name, when a name is reserved (a function, I, pi) or
-/// when flow or jump maps name no state.
+/// InputError when two things of the method share a name, when a name is reserved (a function, I,
+/// pi) or when flow or jump maps name no state.
 void check_names(const Method& method);
 
 }  // namespace gainsmith::model

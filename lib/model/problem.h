@@ -12,8 +12,8 @@
 
 namespace gainsmith::model {
 
-/// A value of `data` or `parameters`. A YAML list of numbers is a row, but a column where a column is
-/// declared (`flat`).
+/// A value of `data` or `parameters`. A YAML list of numbers is a row, but a column where a column
+/// is declared (`flat`).
 struct Value {
   std::string name;
   expr::Expression value;
@@ -24,11 +24,11 @@ struct Value {
 /// How the sampling intervals of a run are chosen, within the timer's [low, high].
 struct SamplingLaw {
   enum class Kind {
-    constant,   ///< always the value
-    uniform,    ///< independent, uniform in [low, high]
-    extremes,   ///< independent, low or high with probability one half
-    sinusoid,   ///< (high - low)/2 sin(t) + (high + low)/2 at a jump at time t
-    list        ///< the values in turn, again from the start when they are used up
+    constant,  ///< always the value
+    uniform,   ///< independent, uniform in [low, high]
+    extremes,  ///< independent, low or high with probability one half
+    sinusoid,  ///< (high - low)/2 sin(t) + (high + low)/2 at a jump at time t
+    list       ///< the values in turn, again from the start when they are used up
   };
   Kind kind = Kind::uniform;
   std::vector<expr::Expression> values;  ///< constant: one; list: all
@@ -41,8 +41,9 @@ std::string to_string(SamplingLaw::Kind kind);
 struct InitialValue {
   enum class Kind {
     expression,  ///< may use data, gains and the states declared before it
-    box,         ///< uniform in [low, high], element by element; low and high scalar or of the state's shape
-    list         ///< run i takes element i modulo their number
+    box,  ///< uniform in [low, high], element by element; low and high scalar or of the state's
+          ///< shape
+    list  ///< run i takes element i modulo their number
   };
   std::string state;
   Kind kind = Kind::expression;
@@ -54,36 +55,36 @@ struct InitialValue {
 struct Campaign {
   std::uint64_t runs = 1000;
   std::uint64_t seed = 1;
-  std::optional<expr::Expression> horizon;   ///< continuous time
-  std::vector<SamplingLaw> sampling;         ///< empty: uniform, extremes, sinusoid, both ends constant
-  std::optional<expr::Expression> first;     ///< first value of the timer; none: uniform in its range
-  std::vector<InitialValue> initial;         ///< a state that is not listed starts in the box [-1, 1]
+  std::optional<expr::Expression> horizon;  ///< continuous time
+  std::vector<SamplingLaw> sampling;  ///< empty: uniform, extremes, sinusoid, both ends constant
+  std::optional<expr::Expression> first;  ///< first value of the timer; none: uniform in its range
+  std::vector<InitialValue> initial;      ///< a state that is not listed starts in the box [-1, 1]
   Place place;
 };
 
 /// An expected number or matrix, with a tolerance.
 struct ExpectedValue {
-  std::string name;               ///< the expression as written, such as trace(P1)
+  std::string name;  ///< the expression as written, such as trace(P1)
   expr::Expression what;
   Value value;
-  std::optional<double> relative; ///< |found - value| <= relative * max |value|
-  std::optional<double> absolute; ///< |found - value| <= absolute, element by element
+  std::optional<double> relative;  ///< |found - value| <= relative * max |value|
+  std::optional<double> absolute;  ///< |found - value| <= absolute, element by element
   Place place;
 };
 
 struct Expectation {
-  std::optional<std::string> verdict;         ///< yes, no, undecided
-  std::optional<std::string> status;          ///< optimal, infeasible, undecided
-  std::optional<std::string> campaign;        ///< held, violated
+  std::optional<std::string> verdict;   ///< yes, no, undecided
+  std::optional<std::string> status;    ///< optimal, infeasible, undecided
+  std::optional<std::string> campaign;  ///< held, violated
   std::optional<std::vector<std::string>> active_bounds;
-  std::vector<ExpectedValue> values;          ///< `objective` may be used as a name here
+  std::vector<ExpectedValue> values;  ///< `objective` may be used as a name here
   Place place;
 };
 
 /// Choices for the synthesis.
 struct SynthesisOptions {
-  double margin = 1e-7;                     ///< of strict inequalities, relative to their scale
-  std::optional<double> gain_bound = 1e4;   ///< none: off
+  double margin = 1e-7;                    ///< of strict inequalities, relative to their scale
+  std::optional<double> gain_bound = 1e4;  ///< none: off
 };
 
 struct Problem {

@@ -11,10 +11,14 @@ namespace gainsmith::model {
 
 std::string to_string(Structure structure) {
   switch (structure) {
-    case Structure::full: return "full";
-    case Structure::symmetric: return "symmetric";
-    case Structure::diagonal: return "diagonal";
-    case Structure::scalar: return "scalar";
+    case Structure::full:
+      return "full";
+    case Structure::symmetric:
+      return "symmetric";
+    case Structure::diagonal:
+      return "diagonal";
+    case Structure::scalar:
+      return "scalar";
   }
   return "?";
 }

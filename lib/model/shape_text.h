@@ -36,8 +36,8 @@ using Dimensions = std::map<std::string, int>;
 /// negative or no whole number.
 std::optional<expr::Shape> resolve(const ShapeText& shape, const Dimensions& dimensions);
 
-/// Learns dimension names from an actual shape: "n x p" against 2 x 1 gives n = 2, p = 1. Returns false
-/// when the shape contradicts what is known.
+/// Learns dimension names from an actual shape: "n x p" against 2 x 1 gives n = 2, p = 1. Returns
+/// false when the shape contradicts what is known.
 bool learn(const ShapeText& shape, expr::Shape actual, Dimensions& dimensions);
 
 }  // namespace gainsmith::model

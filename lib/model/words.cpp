@@ -6,9 +6,12 @@ namespace gainsmith::model {
 
 std::string to_string(Verdict verdict) {
   switch (verdict) {
-    case Verdict::yes: return "yes";
-    case Verdict::no: return "no";
-    case Verdict::undecided: return "undecided";
+    case Verdict::yes:
+      return "yes";
+    case Verdict::no:
+      return "no";
+    case Verdict::undecided:
+      return "undecided";
   }
   return "?";
 }
@@ -19,11 +22,16 @@ std::string to_string(CampaignVerdict verdict) {
 
 std::string to_string(SamplingLaw::Kind kind) {
   switch (kind) {
-    case SamplingLaw::Kind::constant: return "constant";
-    case SamplingLaw::Kind::uniform: return "uniform";
-    case SamplingLaw::Kind::extremes: return "extremes";
-    case SamplingLaw::Kind::sinusoid: return "sinusoid";
-    case SamplingLaw::Kind::list: return "list";
+    case SamplingLaw::Kind::constant:
+      return "constant";
+    case SamplingLaw::Kind::uniform:
+      return "uniform";
+    case SamplingLaw::Kind::extremes:
+      return "extremes";
+    case SamplingLaw::Kind::sinusoid:
+      return "sinusoid";
+    case SamplingLaw::Kind::list:
+      return "list";
   }
   return "?";
 }
