@@ -4,8 +4,8 @@
 //   struct Algebra {
 //     using Value = ...;      // a matrix over the number type
 //     // Computes one instruction (never Op::input) from the values of its operands into `out`,
-//     which
-//     // may hold an old value of the same shape. Throws EvaluationError when that is impossible.
+//     // which may hold an old value of the same shape. Throws EvaluationError when that is
+//     // impossible.
 //     void apply(const Instruction&, std::span<const Value* const> operands, Value& out) const;
 //   };
 #pragma once

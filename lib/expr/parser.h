@@ -4,9 +4,11 @@
 //   sum        := term (("+" | "-") term)*
 //   term       := sign (("*" | "/") sign)*
 //   sign       := ("-" | "+") sign | postfix
-//   postfix    := primary ("'" | "(" arguments ")" | "^" exponent)*      left to right, as in
-//   MATLAB exponent   := ("-" | "+") exponent | primary primary    := number | name | "("
-//   comparison ")" | "[" row (";" row)* "]" row        := entry ("," entry)*;   entry := "*" | sum
+//   postfix    := primary ("'" | "(" arguments ")" | "^" exponent)*
+//                 (left to right, as in MATLAB)
+//   exponent   := ("-" | "+") exponent | primary
+//   primary    := number | name | "(" comparison ")" | "[" row (";" row)* "]"
+//   row        := entry ("," entry)*;   entry := "*" | sum
 //   arguments  := argument ("," argument)*;   argument := ":" | comparison [":" comparison]
 #pragma once
 

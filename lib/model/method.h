@@ -16,8 +16,8 @@ namespace gainsmith::model {
 struct Declaration {
   std::string name;
   ShapeText shape;
-  std::optional<expr::Expression>
-      fallback;  ///< a datum's default, used when the problem gives none
+  /// A datum's default, used when the problem gives none.
+  std::optional<expr::Expression> fallback;
   std::string help;
   Place place;
 };
