@@ -44,7 +44,22 @@ int write_all(int fd, std::string_view text) {
   return 0;
 }
 
+/// Whether the path is, or is a link to, an open file of this process (/dev/stdout, /dev/fd/3).
+bool is_open_file(std::filesystem::path path) {
+  constexpr int kMostLinks = 40;
+  std::error_code error;
+  for (int i = 0; i < kMostLinks; ++i) {
+    const auto folder = std::filesystem::canonical(path.parent_path() / ".", error);
+    if (!error && folder.filename() == "fd" && folder.string().starts_with("/proc/")) return true;
+    const auto target = std::filesystem::read_symlink(path, error);
+    if (error) return false;
+    path = path.parent_path() / target;
+  }
+  return false;
+}
+
 bool is_special(const std::filesystem::path& path) {
+  if (is_open_file(path)) return true;
   std::error_code ignored;
   const auto status = std::filesystem::status(path, ignored);
   return std::filesystem::is_character_file(status) || std::filesystem::is_fifo(status) ||
@@ -70,12 +85,16 @@ std::string read_text(const std::filesystem::path& path) {
 
 void write_atomically(const std::filesystem::path& path, std::string_view text) {
   if (is_special(path)) {
-    const Descriptor file(::open(path.c_str(), O_WRONLY | O_CLOEXEC));
+    const Descriptor file(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
     const int code = file.get() < 0 ? errno : write_all(file.get(), text);
     if (code != 0) refuse(path, "cannot write this file", code);
     return;
   }
-  std::string temporary = path.string() + ".tmp.XXXXXX";
+  std::error_code missing;
+  const auto target = std::filesystem::is_symlink(path, missing)
+                          ? std::filesystem::weakly_canonical(path, missing)
+                          : path;
+  std::string temporary = target.string() + ".tmp.XXXXXX";
   const Descriptor file(::mkostemp(temporary.data(), O_CLOEXEC));
   if (file.get() < 0) refuse(path, "cannot write beside this file", errno);
   int code = write_all(file.get(), text);
@@ -84,7 +103,7 @@ void write_atomically(const std::filesystem::path& path, std::string_view text) 
   ::umask(mask);
   if (code == 0 && ::fchmod(file.get(), 0666 & ~mask) != 0) code = errno;
   if (code == 0 && ::fsync(file.get()) != 0) code = errno;
-  if (code == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) code = errno;
+  if (code == 0 && ::rename(temporary.c_str(), target.c_str()) != 0) code = errno;
   if (code != 0) {
     ::unlink(temporary.c_str());
     refuse(path, "cannot write this file", code);

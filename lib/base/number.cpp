@@ -23,7 +23,8 @@ std::string decimal17(double value) { return general(value, 17); }
 std::string brief(double value, int digits) { return general(value, digits); }
 
 std::optional<double> parse_decimal(std::string_view text) {
-  if (!text.empty() && text.front() == '+') text.remove_prefix(1);
+  // from_chars knows no plus sign.
+  if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   if (text.empty() || text.find_first_not_of("0123456789+-.eE") != std::string_view::npos)
     return std::nullopt;
   double value = 0;

@@ -1,0 +1,92 @@
+#include "base/number.h"
+
+#include <gtest/gtest.h>
+
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+
+namespace gainsmith {
+namespace {
+
+void expect_round_trip(double value) {
+  const std::string text = decimal17(value);
+  const auto back = parse_decimal(text);
+  ASSERT_TRUE(back) << text;
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(*back), std::bit_cast<std::uint64_t>(value)) << text;
+  EXPECT_EQ(decimal17(*back), text);
+}
+
+TEST(Decimal17, ReadsBackToTheSameBitsForRandomBitPatterns) {
+  std::mt19937_64 random(1);
+  for (int i = 0; i < 100000; ++i) {
+    const auto value = std::bit_cast<double>(random());
+    if (std::isfinite(value)) expect_round_trip(value);
+  }
+}
+
+TEST(Decimal17, ReadsBackToTheSameBitsAtTheEdges) {
+  using Limits = std::numeric_limits<double>;
+  for (const double value : {0.0, 0.1, 1.0, Limits::min(), Limits::max(), Limits::denorm_min(),
+                             Limits::min() - Limits::denorm_min(), Limits::epsilon(), 1e308}) {
+    expect_round_trip(value);
+    expect_round_trip(-value);
+  }
+}
+
+TEST(Decimal17, WritesAsPrintfDoes) {
+  EXPECT_EQ(decimal17(0.1), "0.10000000000000001");
+  EXPECT_EQ(decimal17(-2), "-2");
+  EXPECT_EQ(decimal17(1e100), "1e+100");
+  EXPECT_EQ(decimal17(1e-5), "1.0000000000000001e-05");
+  EXPECT_EQ(decimal17(std::numeric_limits<double>::infinity()), "inf");
+  EXPECT_EQ(decimal17(-std::numeric_limits<double>::infinity()), "-inf");
+}
+
+TEST(Brief, RoundsAndDropsTrailingZeros) {
+  EXPECT_EQ(brief(0.1), "0.1");
+  EXPECT_EQ(brief(1.0 / 3), "0.333333");
+  EXPECT_EQ(brief(1234567, 3), "1.23e+06");
+}
+
+TEST(ParseDecimal, TakesWholeDecimals) {
+  EXPECT_EQ(parse_decimal("0"), 0.0);
+  EXPECT_EQ(parse_decimal("+1.5"), 1.5);
+  EXPECT_EQ(parse_decimal("-.5"), -0.5);
+  EXPECT_EQ(parse_decimal("5."), 5.0);
+  EXPECT_EQ(parse_decimal("1e3"), 1000.0);
+  EXPECT_EQ(parse_decimal("1E+3"), 1000.0);
+  EXPECT_EQ(parse_decimal("1.e-3"), 0.001);
+  EXPECT_EQ(parse_decimal("0001"), 1.0);
+  EXPECT_TRUE(std::signbit(parse_decimal("-0").value()));
+}
+
+TEST(ParseDecimal, RefusesWhatIsNoDecimal) {
+  for (const char* text :
+       {"",    "+",    "-",    ".",        "e5",    "1e",    "1e+", "1 ",      " 1",
+        "1x",  "0x10", "1,5",  "1_000",    "--1",   "++1",   "+-1", "-+1",     "nan",
+        "NaN", "inf",  "-inf", "Infinity", "1.2.3", "1e2e3", "1-2", "\xC2\xA0"})
+    EXPECT_EQ(parse_decimal(text), std::nullopt) << "'" << text << "'";
+}
+
+TEST(ParseDecimal, BeyondTheRangeIsEmptyAndBelowItIsZero) {
+  EXPECT_EQ(parse_decimal("1e309"), std::nullopt);
+  EXPECT_EQ(parse_decimal("-1e309"), std::nullopt);
+  EXPECT_EQ(parse_decimal("1e99999999999999999999"), std::nullopt);
+  EXPECT_EQ(parse_decimal("1e-400"), 0.0);
+  EXPECT_EQ(parse_decimal("1e-99999999999999999999"), 0.0);
+  EXPECT_EQ(parse_decimal("1" + std::string(400, '0')), std::nullopt);
+  EXPECT_EQ(parse_decimal("0." + std::string(400, '0') + "1"), 0.0);
+}
+
+TEST(ParseDecimal, RoundsToTheNearestDouble) {
+  // 2^53 + 1 lies between two doubles and goes to the even one.
+  EXPECT_EQ(parse_decimal("9007199254740993"), 9007199254740992.0);
+  EXPECT_EQ(parse_decimal("9007199254740993.0000000000000000001"), 9007199254740994.0);
+}
+
+}  // namespace
+}  // namespace gainsmith
