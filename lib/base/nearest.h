@@ -14,7 +14,8 @@ int doubled_edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate nearest to `word`, if one is near enough to be a likely misspelling (at most a
 /// third of its letters wrong, at least one allowed). Ties go to the candidate that comes first.
-std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& candidates);
+std::optional<std::string> nearest(std::string_view word,
+                                   const std::vector<std::string>& candidates);
 
 /// "; did you mean 'x'?" or, when nothing is near, "; known: a, b, c" (at most twelve, then "...").
 /// Empty when there are no candidates.
