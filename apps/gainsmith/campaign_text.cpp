@@ -19,9 +19,6 @@ std::string kind_text(model::Claim::Kind kind) {
   return "?";
 }
 
-/// JSON has no infinity: such a number becomes null.
-io::Json number_json(double value) { return std::isfinite(value) ? io::Json(value) : io::Json(); }
-
 io::Json check_json(const verify::CheckReport& check) {
   io::Json result = {{"claim", check.name}, {"kind", kind_text(check.kind)}, {"stated", check.stated}};
   if (!check.stated) {
@@ -47,6 +44,8 @@ std::string check_text(const verify::CheckReport& check) {
 }
 
 }  // namespace
+
+io::Json number_json(double value) { return std::isfinite(value) ? io::Json(value) : io::Json(); }
 
 io::Json campaign_json(const verify::Report& report) {
   io::Json checks = io::Json::array();

@@ -48,7 +48,7 @@ std::string bounds_text(const model::Gains& gains) {
   for (const model::GainBound& bound : gains.bounds)
     if (bound.active)
       text += fmt::format(
-          "gain bound  {} reaches {} of the bound {}: the bound is active and limits the design\n", bound.what,
+          "gain bound  active on {}: {} of the bound {}; nothing else limits this gain\n", bound.what,
           brief(bound.reached), brief(bound.bound));
   return text;
 }

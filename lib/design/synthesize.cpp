@@ -40,8 +40,7 @@ class Synthesis {
  public:
   Synthesis(const model::Instance& instance, const sdp::Options& options)
       : instance_(instance), options_(options), choices_(instance.problem->synthesis), lmi_(lmi::compile(instance)) {
-    if (choices_.gain_bound)
-      bounds_ = lmi::gain_bounds(instance, lmi_.unknowns, *choices_.gain_bound);
+    bounds_ = lmi::gain_bounds(instance, lmi_.unknowns, choices_.gain_bound);
     gains_.problem_name = instance.problem->name;
     gains_.version = kVersion;
     gains_.statement = model::statement_of(*instance.problem);
@@ -51,7 +50,7 @@ class Synthesis {
   }
 
   model::Gains run() {
-    solve(lmi::goal_of(lmi_));
+    solve(lmi::goal_of(lmi_, bounds_));
     if (solution_.status == sdp::Status::optimal) {
       accept_point();
     } else if (solution_.status == sdp::Status::primal_infeasible) {
@@ -92,13 +91,43 @@ class Synthesis {
     gains_.bounds = lmi::reached_bounds(bounds_, x_);
     set_objective();
     decide();
+    find_free_gains();
+  }
+
+  /// A gain that the objective does not determine is limited by its bound alone, wherever between them the
+  /// solver stops: with a bound ten times smaller the objective stays and the gain shrinks.
+  void find_free_gains() {
+    constexpr double kNear = 0.01;      // of the bound; a gain far below it is not limited by it
+    constexpr double kTighter = 0.1;
+    constexpr double kSameObjective = 1e-6;
+    constexpr double kShrunk = 0.5;
+    const bool near = std::any_of(gains_.bounds.begin(), gains_.bounds.end(), [&](const model::GainBound& bound) {
+      return !bound.active && bound.reached > kNear * bound.bound;
+    });
+    if (!near || !gains_.objective || gains_.verdict != model::Verdict::yes) return;
+    const auto start = Clock::now();
+    const auto tighter = lmi::gain_bounds(instance_, lmi_.unknowns, kTighter * bounds_.beta);
+    const auto formulation = lmi::formulate(lmi_, tighter, choices_, formulation_.goal);
+    const sdp::Solution solution = sdp::solve(formulation.problem, options_);
+    solve_seconds_ += seconds_since(start);
+    if (solution.status != sdp::Status::optimal) return;
+    const auto x = lmi::read_back(lmi_, formulation, solution);
+    if (std::abs(objective_at(x) - *gains_.objective) > kSameObjective * std::abs(*gains_.objective)) return;
+    const auto reached = lmi::reached_bounds(tighter, x);
+    for (std::size_t i = 0; i < reached.size(); ++i)
+      gains_.bounds[i].active |= gains_.bounds[i].reached > kNear * bounds_.beta &&
+                                 reached[i].reached < kShrunk * gains_.bounds[i].reached;
+  }
+
+  double objective_at(const std::vector<double>& x) const {
+    double objective = lmi_.objective_constant;
+    for (std::size_t i = 0; i < x.size(); ++i) objective += lmi_.objective[i] * x[i];
+    return objective;
   }
 
   void set_objective() {
     if (!lmi_.has_objective) return;
-    double objective = lmi_.objective_constant;
-    for (std::size_t i = 0; i < x_.size(); ++i) objective += lmi_.objective[i] * x_[i];
-    gains_.objective = objective;
+    gains_.objective = objective_at(x_);
     if (formulation_.goal == lmi::Goal::bounded_objective)
       gains_.objective_lower_bound = lmi::objective_lower_bound(lmi_, formulation_, solution_);
   }
@@ -146,7 +175,7 @@ class Synthesis {
   const sdp::Options& options_;
   const model::SynthesisOptions& choices_;
   lmi::Lmi lmi_;
-  std::vector<lmi::GainBoundBlock> bounds_;
+  lmi::GainBounds bounds_;
   lmi::Formulation formulation_;
   sdp::Solution solution_;
   std::vector<double> x_;

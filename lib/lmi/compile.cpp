@@ -17,7 +17,7 @@ expr::Matrix Block::value(const std::vector<double>& x) const {
   return result;
 }
 
-bool Lmi::is_homogeneous() const {
+bool is_homogeneous(const std::vector<Block>& blocks) {
   return std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.constant_size == 0; });
 }
 

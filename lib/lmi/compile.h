@@ -39,10 +39,10 @@ struct Lmi {
   bool has_objective = false;
   std::vector<double> objective;   ///< c, m scalars, when has_objective
   double objective_constant = 0;
-
-  /// Whether no block has a constant term: then x = 0 satisfies every inequality but for strictness.
-  bool is_homogeneous() const;
 };
+
+/// Whether no block has a constant term: then x = 0 satisfies every inequality but for strictness.
+bool is_homogeneous(const std::vector<Block>& blocks);
 
 /// Compiles. InputError, with the place, for what is not affine in the unknowns, a difference that is not
 /// symmetric, an empty interval, or more than 2^12 vertices.

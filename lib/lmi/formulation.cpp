@@ -138,24 +138,25 @@ void add_cap(Assembler& assembler, int variable) {
 
 }  // namespace
 
-Goal goal_of(const Lmi& lmi) {
-  const bool homogeneous = lmi.is_homogeneous();
+Goal goal_of(const Lmi& lmi, const GainBounds& bounds) {
+  const bool homogeneous = is_homogeneous(lmi.blocks) && is_homogeneous(bounds.blocks);
   if (lmi.has_objective) return homogeneous ? Goal::normalised_objective : Goal::bounded_objective;
   return homogeneous ? Goal::homogeneous_feasibility : Goal::feasibility;
 }
 
-Formulation formulate(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
+Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
                       const model::SynthesisOptions& options, Goal goal) {
   Formulation result;
   result.goal = goal;
   result.margin = options.margin;
   result.scales = scales_of(lmi, result.homogeneous());
   std::vector<const Block*> bound_blocks;
-  for (const GainBoundBlock& bound : bounds) bound_blocks.push_back(&bound.block);
+  for (const Block& block : bounds.blocks) bound_blocks.push_back(&block);
   result.releases = find_releases(lmi, bound_blocks);
   const int m = lmi.unknowns.size();
   const bool extra = goal == Goal::homogeneous_feasibility || goal == Goal::feasibility;
-  Assembler assembler(m + (extra ? 1 : 0));
+  const int own = m + bounds.scalars + 1;   // the goal's own variable, when it has one
+  Assembler assembler(extra ? own : own - 1);
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     const Block& block = lmi.blocks[k];
     const double unit = block.strict ? result.scales[k] : 0.0;
@@ -163,18 +164,16 @@ Formulation formulate(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
     assembler.add(block, result.releases.kept[k],
                   variable_margin ? 0.0 : unit * result.strict_margin());
     if (variable_margin && block.strict)
-      assembler.add_identity(m + 1, static_cast<int>(k), block.size, -unit);
+      assembler.add_identity(own, static_cast<int>(k), block.size, -unit);
   }
-  for (const GainBoundBlock& bound : bounds) assembler.add(bound.block, all_rows(bound.block), 0);
-  result.lmi_blocks = static_cast<int>(lmi.blocks.size());
-  result.bound_blocks = static_cast<int>(bounds.size());
+  for (const Block& block : bounds.blocks) assembler.add(block, all_rows(block), 0);
   if (goal == Goal::homogeneous_feasibility) {
-    add_limits(assembler, m, m + 1, 0);
-    assembler.set_cost(m + 1, 1);
+    add_limits(assembler, m, own, 0);
+    assembler.set_cost(own, 1);
   } else if (goal == Goal::feasibility) {
     add_limits(assembler, m, 0, kLimit * data_size(lmi));
-    add_cap(assembler, m + 1);
-    assembler.set_cost(m + 1, -1);
+    add_cap(assembler, own);
+    assembler.set_cost(own, -1);
   } else if (goal == Goal::certificate) {
     add_limits(assembler, m, 0, kLimit * data_size(lmi));
   } else {
@@ -206,7 +205,7 @@ double objective_lower_bound(const Lmi& lmi, const Formulation& formulation, con
   return bound;
 }
 
-model::NamedMatrices multipliers(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
+model::NamedMatrices multipliers(const Lmi& lmi, const GainBounds& bounds,
                                  const Formulation& formulation, const sdp::Solution& solution) {
   model::NamedMatrices result;
   const auto add = [&](const Block& block, const std::vector<int>& kept, std::size_t at) {
@@ -221,8 +220,8 @@ model::NamedMatrices multipliers(const Lmi& lmi, const std::vector<GainBoundBloc
     result.emplace_back(name, std::move(whole));
   };
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) add(lmi.blocks[k], formulation.releases.kept[k], k);
-  for (std::size_t k = 0; k < bounds.size(); ++k)
-    add(bounds[k].block, all_rows(bounds[k].block), static_cast<std::size_t>(formulation.lmi_blocks) + k);
+  for (std::size_t k = 0; k < bounds.blocks.size(); ++k)
+    add(bounds.blocks[k], all_rows(bounds.blocks[k]), lmi.blocks.size() + k);
   return result;
 }
 

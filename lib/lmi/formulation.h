@@ -44,8 +44,6 @@ struct Formulation {
   std::vector<double> scales;       ///< s_k, or c_k when homogeneous; one a block of the Lmi
   sdp::Problem problem;             ///< its first blocks are those of the Lmi, then the gain bounds, then
                                     ///< limits on x
-  int lmi_blocks = 0;
-  int bound_blocks = 0;
   Releases releases;                ///< scalars left out, and the rows of each block that stay
 
   bool homogeneous() const {
@@ -55,14 +53,14 @@ struct Formulation {
   double strict_margin() const { return homogeneous() ? 1.0 : margin; }
 };
 
-/// The goal that the Lmi asks for.
-Goal goal_of(const Lmi& lmi);
+/// The goal that the Lmi asks for; a bound with constant data makes it inhomogeneous.
+Goal goal_of(const Lmi& lmi, const GainBounds& bounds);
 
-Formulation formulate(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
+Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
                       const model::SynthesisOptions& options, Goal goal);
 
-/// The scalars x of the Lmi from the solution (the program may have one variable more), released ones
-/// restored.
+/// The scalars x of the Lmi from the solution (the program has more variables: those of the gain bounds and
+/// of the goal), released ones restored.
 std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation, const sdp::Solution& solution);
 
 /// A lower bound on the objective without margins: weak duality with the dual solution Y,
@@ -70,7 +68,7 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation, co
 double objective_lower_bound(const Lmi& lmi, const Formulation& formulation, const sdp::Solution& solution);
 
 /// The multiplier matrices of a certificate by the name and point of their block.
-model::NamedMatrices multipliers(const Lmi& lmi, const std::vector<GainBoundBlock>& bounds,
+model::NamedMatrices multipliers(const Lmi& lmi, const GainBounds& bounds,
                                  const Formulation& formulation, const sdp::Solution& solution);
 
 }  // namespace gainsmith::lmi

@@ -4,6 +4,8 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "expr/compile.h"
 
@@ -61,38 +63,40 @@ AffineForm form_of(const model::Instance& instance, const Unknowns& unknowns, co
                          instance.known_values(), "");
 }
 
-/// A form from a text of the language, for the unknowns named in it.
-AffineForm form_of(const model::Instance& instance, const Unknowns& unknowns, const std::string& text) {
-  return form_of(instance, unknowns, expr::parse(expr::Text(text, "gain bound")));
-}
-
-/// [ S , E/beta ; * , scale I ] with S n x n, E n x k and scale 1 x 1.
-Block bound_block(const AffineForm& s, const AffineForm& e, const AffineForm& scale, double beta,
-                  const std::string& name) {
-  const int n = s.shape.rows;
-  const int k = e.shape.cols;
-  AffineForm whole{{n + k, n + k}, {}};
+/// [ S , E/beta ; * , s I ] with S n x n, E n x k and the scalar s (0: s = 1).
+Block bound_block(const GainBound& bound, double beta) {
+  const int n = bound.s.shape.rows;
+  const int k = bound.e.shape.cols;
+  using Elements = std::vector<Eigen::Triplet<double>>;
+  std::map<int, Elements> elements;
   const auto add = [&](const AffineForm& form, auto&& place) {
-    for (const auto& [key, matrix] : form.terms) {
-      std::vector<Eigen::Triplet<double>> elements;
+    for (const auto& [key, matrix] : form.terms)
       for (int column = 0; column < matrix.outerSize(); ++column)
         for (Sparse::InnerIterator it(matrix, column); it; ++it)
-          place(static_cast<int>(it.row()), static_cast<int>(it.col()), it.value(), elements);
-      Sparse placed(n + k, n + k);
-      placed.setFromTriplets(elements.begin(), elements.end());
-      const auto [found, fresh] = whole.terms.try_emplace(key, placed);
-      if (!fresh) found->second = found->second + placed;
-    }
+          place(static_cast<int>(it.row()), static_cast<int>(it.col()), it.value(), elements[key.second]);
   };
-  add(s, [](int i, int j, double value, auto& out) { out.emplace_back(i, j, value); });
-  add(e, [&](int i, int j, double value, auto& out) {
+  add(bound.s, [](int i, int j, double value, Elements& out) { out.emplace_back(i, j, value); });
+  add(bound.e, [&](int i, int j, double value, Elements& out) {
     out.emplace_back(i, n + j, value / beta);
     out.emplace_back(n + j, i, value / beta);
   });
-  add(scale, [&](int, int, double value, auto& out) {
-    for (int i = 0; i < k; ++i) out.emplace_back(n + i, n + i, value);
-  });
-  return block_of(whole, "bound on " + name, "", false, {});
+  for (int i = n; i < n + k; ++i) elements[bound.scalar].emplace_back(i, i, 1.0);
+  AffineForm whole{{n + k, n + k}, {}};
+  for (const auto& [index, list] : elements) {
+    Sparse matrix(n + k, n + k);
+    matrix.setFromTriplets(list.begin(), list.end());
+    whole.terms.emplace(std::pair(0, index), std::move(matrix));
+  }
+  return block_of(whole, "bound on " + bound.what, "", false, {});
+}
+
+/// S >= s I.
+Block floor_block(const AffineForm& s, int scalar, const std::string& name) {
+  AffineForm difference = s;
+  Sparse identity(s.shape.rows, s.shape.rows);
+  identity.setIdentity();
+  difference.terms.emplace(std::pair(0, scalar), -identity);
+  return block_of(difference, "bound through " + name, "", false, {});
 }
 
 AffineForm transposed(const AffineForm& form) {
@@ -101,57 +105,94 @@ AffineForm transposed(const AffineForm& form) {
   return result;
 }
 
-}  // namespace
-
-std::vector<GainBoundBlock> gain_bounds(const model::Instance& instance, const Unknowns& unknowns,
-                                        double beta) {
-  std::vector<GainBoundBlock> bounds;
-  const auto add = [&](const std::string& what, const AffineForm& s, const AffineForm& e,
-                       const AffineForm& scale) {
-    for (const GainBoundBlock& known : bounds)
-      if (known.what == what) return;
-    bounds.push_back({what, beta, s.shape.rows, bound_block(s, e, scale, beta, what)});
-  };
-  for (const model::Named& gain : instance.method->gains) {
-    const Node& root = *gain.value.root;
-    if (root.kind == NodeKind::name && unknowns.find(root.text) != nullptr) {
-      const AffineForm k = form_of(instance, unknowns, root.text);
-      add(root.text, constant_form(expr::Matrix::Identity(k.shape.rows, k.shape.rows)), k,
-          constant_form(expr::Matrix::Ones(1, 1)));
-      continue;
-    }
-    std::vector<Product> products;
-    products_in(gain.value.root, unknowns, products);
-    for (const Product& product : products) {
-      const std::string& name = product.unknown->name;
-      const std::size_t length = product.factor->end - product.factor->begin;
-      const std::string factor = gain.value.text->str().substr(product.factor->begin, length);
-      const AffineForm e = form_of(instance, unknowns, expr::Expression{gain.value.text, product.factor});
-      const std::string size = std::to_string(product.unknown->shape.rows);
-      add(product.left ? "inv(" + name + ")*" + factor : factor + "*inv(" + name + ")",
-          form_of(instance, unknowns, name), product.left ? e : transposed(e),
-          form_of(instance, unknowns, "trace(" + name + ")/" + size));
-    }
+/// Collects the bounds of all gain formulas.
+class Collector {
+ public:
+  Collector(const model::Instance& instance, const Unknowns& unknowns, double beta)
+      : instance_(instance), unknowns_(unknowns) {
+    result_.beta = beta;
   }
-  return bounds;
+
+  GainBounds collect() {
+    for (const model::Named& gain : instance_.method->gains) {
+      const Node& root = *gain.value.root;
+      const Unknown* itself = root.kind == NodeKind::name ? unknowns_.find(root.text) : nullptr;
+      if (itself != nullptr) {
+        const int rows = itself->shape.rows;
+        add({itself->name, constant_form(expr::Matrix::Identity(rows, rows)), unknown_form(*itself), 0});
+        continue;
+      }
+      std::vector<Product> products;
+      products_in(gain.value.root, unknowns_, products);
+      for (const Product& product : products) add_product(gain, product);
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void add_product(const model::Named& gain, const Product& product) {
+    const std::string inverse = "inv(" + product.unknown->name + ")";
+    const std::size_t length = product.factor->end - product.factor->begin;
+    const std::string factor = gain.value.text->str().substr(product.factor->begin, length);
+    const std::string what = product.left ? inverse + "*" + factor : factor + "*" + inverse;
+    const AffineForm e = form_of(instance_, unknowns_, {gain.value.text, product.factor});
+    add({what, unknown_form(*product.unknown), product.left ? e : transposed(e), scalar_of(*product.unknown)});
+  }
+
+  /// The scalar s of an unknown S, made when it is first asked for.
+  int scalar_of(const Unknown& unknown) {
+    const auto [found, fresh] = scalars_.try_emplace(unknown.name, unknowns_.size() + result_.scalars + 1);
+    if (fresh) {
+      ++result_.scalars;
+      result_.blocks.push_back(floor_block(unknown_form(unknown), found->second, unknown.name));
+    }
+    return found->second;
+  }
+
+  void add(GainBound bound) {
+    for (const GainBound& known : result_.list)
+      if (known.what == bound.what) return;
+    result_.blocks.push_back(bound_block(bound, result_.beta));
+    result_.list.push_back(std::move(bound));
+  }
+
+  const model::Instance& instance_;
+  const Unknowns& unknowns_;
+  std::map<std::string, int> scalars_;
+  GainBounds result_;
+};
+
+/// The matrix of a form at x.
+expr::Matrix value_of(const AffineForm& form, const std::vector<double>& x) {
+  expr::Matrix result = expr::Matrix::Zero(form.shape.rows, form.shape.cols);
+  for (const auto& [key, matrix] : form.terms)
+    result += (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) * expr::Matrix(matrix);
+  return result;
 }
 
-std::vector<model::GainBound> reached_bounds(const std::vector<GainBoundBlock>& bounds,
-                                             const std::vector<double>& x) {
+Eigen::VectorXd eigenvalues(const expr::Matrix& matrix) {
+  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+}
+
+}  // namespace
+
+GainBounds gain_bounds(const model::Instance& instance, const Unknowns& unknowns,
+                       std::optional<double> beta) {
+  if (!beta) return {};
+  return Collector(instance, unknowns, *beta).collect();
+}
+
+std::vector<model::GainBound> reached_bounds(const GainBounds& bounds, const std::vector<double>& x) {
   constexpr double kActive = 0.99;
   std::vector<model::GainBound> result;
-  for (const GainBoundBlock& bound : bounds) {
-    const expr::Matrix value = bound.block.value(x);
-    const Eigen::Index n = bound.rows;
-    const Eigen::Index k = value.rows() - n;
-    const expr::Matrix e = value.topRightCorner(n, k);
-    const Eigen::LLT<expr::Matrix> s(value.topLeftCorner(n, n));
-    const expr::Matrix form = e.transpose() * s.solve(e);
-    const double largest = Eigen::SelfAdjointEigenSolver<expr::Matrix>(form, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
-    model::GainBound record{bound.what, bound.bound, 0, false};
-    record.reached = bound.bound * std::sqrt(std::max(0.0, largest / value(n, n)));
-    record.active = record.reached > kActive * bound.bound;
-    result.push_back(record);
+  for (const GainBound& bound : bounds.list) {
+    const expr::Matrix s = value_of(bound.s, x);
+    const expr::Matrix e = value_of(bound.e, x);
+    const double largest = eigenvalues(e.transpose() * s.llt().solve(e)).maxCoeff();
+    model::GainBound record{bound.what, bounds.beta, 0, false};
+    record.reached = std::sqrt(std::max(0.0, largest) / eigenvalues(s).minCoeff());
+    record.active = record.reached > kActive * bounds.beta;
+    result.push_back(std::move(record));
   }
   return result;
 }

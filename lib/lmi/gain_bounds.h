@@ -2,12 +2,14 @@
 // that can be built.
 //
 // A gain formula that holds inv(S)*E (or E*inv(S)), S a symmetric unknown and E affine in the unknowns,
-// is bounded in the norm that S defines, relative to the mean eigenvalue of S:
-//   E' inv(S) E <= beta^2 (trace(S)/n) I    <=>    [ S , E/beta ; * , (trace(S)/n) I ] >= 0.
-// It does not change when the unknowns are scaled together. A gain that is an unknown itself is bounded
-// by its largest singular value: [ beta I , K ; * , beta I ] >= 0.
+// is bounded by beta through a scalar s of its own:
+//   S >= s I,   [ S , E/beta ; * , s I ] >= 0    <=>    E' inv(S) E <= beta^2 s,  s <= lambda_min(S).
+// With G = inv(S) E that is G' S G <= beta^2 lambda_min(S), so the largest singular value of G is at most
+// beta. It does not change when the unknowns are scaled together. A gain that is an unknown itself is
+// bounded by its largest singular value: [ beta I , K ; * , beta I ] >= 0.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,20 +19,27 @@
 
 namespace gainsmith::lmi {
 
-struct GainBoundBlock {
-  std::string what;   ///< "inv(P2)*X"
-  double bound = 0;   ///< beta
-  int rows = 0;       ///< of S
-  Block block;        ///< non-strict
+/// The bound on one product. `s` and `e` are forms in the unknowns; `e` is transposed for E*inv(S).
+struct GainBound {
+  std::string what;   ///< "inv(P1)*Y"
+  AffineForm s;       ///< n x n
+  AffineForm e;       ///< n x k
+  int scalar = 0;     ///< index of the scalar s among the variables; 0: S is the identity and s = 1
 };
 
-/// One bound for each different product in the gain formulas.
-std::vector<GainBoundBlock> gain_bounds(const model::Instance& instance, const Unknowns& unknowns,
-                                        double beta);
+struct GainBounds {
+  double beta = 0;
+  std::vector<GainBound> list;
+  std::vector<Block> blocks;   ///< all non-strict, in terms of the unknowns and the scalars s
+  int scalars = 0;             ///< number of scalars s, with the indices m + 1, m + 2, ...
+};
 
-/// How far each bound is used at x: sqrt(lambda_max(E' inv(S) E) / (trace(S)/n)), or the largest singular
-/// value; `active` above 99 % of the bound.
-std::vector<model::GainBound> reached_bounds(const std::vector<GainBoundBlock>& bounds,
-                                             const std::vector<double>& x);
+/// One bound for each different product in the gain formulas; none without `beta`.
+GainBounds gain_bounds(const model::Instance& instance, const Unknowns& unknowns,
+                       std::optional<double> beta);
+
+/// How far each bound is used at x: sqrt(lambda_max(E' inv(S) E) / lambda_min(S)), never less than the
+/// largest singular value of the gain; `active` here: above 99 % of the bound.
+std::vector<model::GainBound> reached_bounds(const GainBounds& bounds, const std::vector<double>& x);
 
 }  // namespace gainsmith::lmi
