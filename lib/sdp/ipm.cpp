@@ -38,9 +38,19 @@ Ipm<T>::Ipm(const Problem& problem, const Presolved& presolved, const Options& o
 
 template <typename T>
 void Ipm<T>::start_far(double factor) {
+  start(T(presolved_.far_X * factor), T(presolved_.far_Y * factor));
+}
+
+template <typename T>
+void Ipm<T>::start_at_identity() {
+  start(T(1), T(1));
+}
+
+template <typename T>
+void Ipm<T>::start(const T& X, const T& Y) {
   point_.x.setZero();
-  point_.X.set_identity(T(presolved_.far_X * factor));
-  point_.Y.set_identity(T(presolved_.far_Y * factor));
+  point_.X.set_identity(X);
+  point_.Y.set_identity(Y);
   point_.tau = point_.kappa = T(1);
 }
 
@@ -161,6 +171,7 @@ void Ipm<T>::report(const Steps<T>& step) const {
   if (!options_.progress) return;
   Progress line;
   line.iteration = iteration_;
+  line.precision = name_of<T>();
   line.primal_objective = residuals_.primal_objective;
   line.dual_objective = residuals_.dual_objective;
   line.relative_gap = residuals_.gap;

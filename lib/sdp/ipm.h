@@ -27,8 +27,10 @@ class Ipm {
  public:
   Ipm(const Problem& problem, const Presolved& presolved, const Options& options);
 
-  /// The customary far point X = xi I, Y = eta I, `factor` times farther (presolve.h: `far_point`).
+  /// X = far_X I, Y = far_Y I of presolve.h, `factor` times farther: for a fixed tau.
   void start_far(double factor);
+  /// X = Y = I, tau = kappa = 1: for the homogeneous model, which finds the scale itself.
+  void start_at_identity();
   /// The best point of an earlier run in a narrower arithmetic.
   template <typename Narrow>
   void start_from(const Iterate<Narrow>& point) {
@@ -45,6 +47,7 @@ class Ipm {
   int iterations() const { return iteration_; }
 
  private:
+  void start(const T& X, const T& Y);
   Cause iterate();
   std::optional<Cause> stop() const;
   std::optional<Cause> limits() const;

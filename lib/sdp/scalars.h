@@ -2,6 +2,8 @@
 #pragma once
 
 #include <boost/multiprecision/mpfr.hpp>
+#include <string>
+#include <type_traits>
 
 #include "sdp/double_double.h"
 #include "sdp/linalg.h"
@@ -12,6 +14,18 @@ namespace gainsmith::sdp {
 using Decimal100 = boost::multiprecision::number<
     boost::multiprecision::mpfr_float_backend<100, boost::multiprecision::allocate_stack>,
     boost::multiprecision::et_off>;
+
+/// Decimal digits of each arithmetic.
+constexpr int kDoubleDigits = 15, kQuadDigits = 31, kWideDigits = 100;
+
+/// "double", "31 digits", "100 digits".
+template <typename T>
+std::string name_of() {
+  if constexpr (std::is_same_v<T, double>)
+    return "double";
+  else
+    return std::to_string(std::is_same_v<T, DoubleDouble> ? kQuadDigits : kWideDigits) + " digits";
+}
 
 template <>
 inline Decimal100 as<Decimal100, DoubleDouble>(const DoubleDouble& value) {

@@ -19,15 +19,6 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Decimal digits of each arithmetic, and how to name it.
-constexpr int kDoubleDigits = 15, kQuadDigits = 31, kWideDigits = 100;
-
-template <typename T>
-std::string name_of() {
-  if constexpr (std::is_same_v<T, double>) return "double";
-  return std::to_string(std::is_same_v<T, DoubleDouble> ? kQuadDigits : kWideDigits) + " digits";
-}
-
 /// The digits that `precision` asks for; 0 for "auto".
 int digits_of(const std::string& precision) {
   if (precision == "auto") return 0;
@@ -87,23 +78,29 @@ class Ladder {
     if (digits > kQuadDigits) return settle<Decimal100>(kFarthest);
     if (digits > kDoubleDigits) return settle<DoubleDouble>(kFarther);
     Ipm<double> narrow(problem_, presolved_, options_);
-    attempt(narrow, Model::fixed, 1);
-    if (!over() && best_error_ > kHopeless) attempt(narrow, Model::homogeneous, 0);
+    attempt(narrow, 1);
+    if (!over() && best_error_ > kHopeless) {
+      narrow.start_at_identity();
+      run(narrow, Model::homogeneous);
+    }
     if (over() || digits > 0 || cost() > kQuadCost) return std::move(best_);
 
     Ipm<DoubleDouble> wide(problem_, presolved_, options_);
     reason_ = reason("double");
     strict_ = best_error_ > kIllPosed * options_.tolerance;
-    wide.start_from(narrow.point());
-    if (narrow.residuals().worst() < kHopeless) run(wide, Model::fixed);
-    if (!over()) attempt(wide, Model::fixed, kFarther);
+    if (!strict_) {
+      wide.start_from(narrow.point());
+      run(wide, Model::fixed);
+    }
+    if (!over()) attempt(wide, kFarther);
     if (over() || cost() > kWideCost) return std::move(best_);
     reason_ = reason(name_of<DoubleDouble>());
     return settle<Decimal100>(kFarthest);
   }
 
  private:
-  /// An error from which a wider arithmetic had better start afresh.
+  /// An error that shows no solution in sight: then the homogeneous model, which is slower but
+  /// finds infeasibility on any problem, has its turn.
   static constexpr double kHopeless = 1e-3;
   /// How much farther than far_X, far_Y a run in wide arithmetic starts: problems that need it tend
   /// to have solutions of great norm, and it can afford the cancellation.
@@ -119,14 +116,14 @@ class Ladder {
   template <typename T>
   Solution settle(double factor) {
     Ipm<T> ipm(problem_, presolved_, options_);
-    attempt(ipm, Model::fixed, factor);
+    attempt(ipm, factor);
     return std::move(best_);
   }
 
   template <typename T>
-  void attempt(Ipm<T>& ipm, Model model, double factor) {
+  void attempt(Ipm<T>& ipm, double factor) {
     ipm.start_far(factor);
-    run(ipm, model);
+    run(ipm, Model::fixed);
   }
 
   template <typename T>

@@ -25,7 +25,7 @@ struct Progress {
 struct Options {
   double tolerance = 1e-8;              ///< relative gap and DIMACS errors for `optimal`
   double certificate_tolerance = 1e-8;  ///< certificate residual (normalised, see Certificate)
-  int iteration_limit = 200;            ///< over all arithmetics together
+  int iteration_limit = 500;            ///< over all arithmetics together
   double time_limit = 0;                ///< seconds; 0 = none
   unsigned threads = 1;                 ///< results do not depend on it
   /// "auto": double first, then 31 and 100 digits from the best point found where double stalls

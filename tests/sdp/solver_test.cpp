@@ -1,0 +1,154 @@
+// Every problem of the catalogue in every arithmetic, its answer checked by code of the test's own.
+#include "sdp/solver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "support/sdp_catalogue.h"
+#include "support/sdp_check.h"
+
+namespace gainsmith::sdp {
+namespace {
+
+using testing::CatalogueProblem;
+using Answer = CatalogueProblem::Answer;
+
+void expect_optimum(const CatalogueProblem& known, const Solution& solution) {
+  ASSERT_EQ(to_string(solution.status), "optimal") << solution.message;
+  EXPECT_EQ(solution.cause, Cause::converged);
+  const testing::Errors errors = testing::recompute(known.problem, solution, 1e-7L);
+  const double allowed = std::pow(10, -known.digits) * std::max(1.0, std::abs(known.optimum));
+  EXPECT_NEAR(static_cast<double>(errors.primal_objective), known.optimum, allowed);
+  EXPECT_NEAR(static_cast<double>(errors.dual_objective), known.optimum, allowed);
+  EXPECT_LT(errors.dual, 1e-7L);
+  EXPECT_LT(errors.primal, 1e-7L);
+  EXPECT_LT(std::abs(errors.gap), 1e-7L);
+  EXPECT_LT(std::abs(errors.complementarity), 1e-7L);
+  EXPECT_TRUE(errors.cone);
+  EXPECT_NEAR(solution.primal_objective, static_cast<double>(errors.primal_objective), allowed);
+  EXPECT_NEAR(solution.dual_objective, static_cast<double>(errors.dual_objective), allowed);
+  EXPECT_NEAR(solution.dimacs[0], static_cast<double>(errors.dual), 1e-9);
+  EXPECT_NEAR(solution.dimacs[2], static_cast<double>(errors.primal), 1e-9);
+  EXPECT_NEAR(solution.dimacs[4], static_cast<double>(errors.gap), 1e-9);
+  EXPECT_NEAR(solution.dimacs[5], static_cast<double>(errors.complementarity), 1e-9);
+}
+
+void expect_primal_certificate(const Problem& problem, const Solution& solution) {
+  const auto Y = testing::unpack(problem, solution.Y, solution.rest.Y);
+  EXPECT_TRUE(solution.certificate.checked);
+  EXPECT_NEAR(static_cast<double>(testing::inner(problem, problem.f[0], Y)), 1, 1e-9);
+  testing::Real residual = 0;
+  for (std::size_t i = 1; i < problem.f.size(); ++i)
+    residual += std::abs(testing::inner(problem, problem.f[i], Y));
+  EXPECT_LE(residual, 1.01e-8L);
+  EXPECT_TRUE(testing::positive(Y, 1e-14L));
+}
+
+void expect_dual_certificate(const Problem& problem, const Solution& solution) {
+  EXPECT_TRUE(solution.certificate.checked);
+  testing::Real descent = 0;
+  for (std::size_t i = 0; i < problem.c.size(); ++i) descent += problem.c[i] * solution.x[i];
+  EXPECT_NEAR(static_cast<double>(descent), -1, 1e-9);
+  const std::vector<testing::Real> x(solution.x.begin(), solution.x.end());
+  EXPECT_TRUE(testing::positive(testing::combine(problem, x, 0), 1.01e-8L));
+}
+
+void expect_answer(const CatalogueProblem& known, const Solution& solution) {
+  switch (known.answer) {
+    case Answer::optimum:
+      return expect_optimum(known, solution);
+    case Answer::primal_infeasible:
+      ASSERT_EQ(to_string(solution.status), "primal-infeasible") << solution.message;
+      return expect_primal_certificate(known.problem, solution);
+    case Answer::dual_infeasible:
+      ASSERT_EQ(to_string(solution.status), "dual-infeasible") << solution.message;
+      return expect_dual_certificate(known.problem, solution);
+    case Answer::weakly_infeasible:
+      EXPECT_NE(to_string(solution.status), "optimal");
+      if (solution.status == Status::primal_infeasible)
+        expect_primal_certificate(known.problem, solution);
+  }
+}
+
+class Catalogue : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Catalogue, IsAnsweredRightly) {
+  for (const CatalogueProblem& known : testing::sdp_catalogue()) {
+    SCOPED_TRACE(known.name);
+    Options options;
+    options.precision = GetParam();
+    expect_answer(known, solve(known.problem, options));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Precision, Catalogue, ::testing::Values("auto", "double", "quad", "50"),
+                         [](const auto& p) {
+                           return p.param == "50" ? std::string("fifty") : p.param;
+                         });
+
+TEST(Solver, GivesTheSameBitsForAnyNumberOfThreads) {
+  for (const CatalogueProblem& known : testing::sdp_catalogue()) {
+    Options one, two;
+    two.threads = 2;
+    const Solution a = solve(known.problem, one), b = solve(known.problem, two);
+    EXPECT_EQ(a.x, b.x) << known.name;
+    EXPECT_EQ(a.Y.values, b.Y.values) << known.name;
+    EXPECT_EQ(a.iterations, b.iterations) << known.name;
+  }
+}
+
+TEST(Solver, StopsWhereItIsTold) {
+  const CatalogueProblem known = testing::sdp_catalogue().front();
+  Options few;
+  few.iteration_limit = 3;
+  const Solution limited = solve(known.problem, few);
+  EXPECT_EQ(limited.status, Status::undecided);
+  EXPECT_EQ(limited.cause, Cause::iteration_limit);
+  EXPECT_EQ(limited.iterations, 3);
+  EXPECT_NE(limited.message.find("iteration-limit"), std::string::npos);
+
+  Options interrupted;
+  interrupted.interrupted = [] { return true; };
+  EXPECT_EQ(solve(known.problem, interrupted).cause, Cause::interrupted);
+
+  Options slow;
+  slow.time_limit = 1e-9;
+  EXPECT_EQ(solve(known.problem, slow).cause, Cause::time_limit);
+}
+
+TEST(Solver, ReportsOneLineAnIteration) {
+  int lines = 0;
+  Options options;
+  options.progress = [&](const Progress& line) { EXPECT_EQ(line.iteration, lines++); };
+  const Solution solution = solve(testing::sdp_catalogue().front().problem, options);
+  EXPECT_EQ(lines, solution.iterations + 1);
+}
+
+TEST(Solver, RefusesWhatIsNoProblem) {
+  const Problem good = testing::sdp_catalogue().front().problem;
+  const auto refused = [&](auto change) {
+    Problem bad = good;
+    change(bad);
+    EXPECT_THROW(solve(bad), std::invalid_argument);
+  };
+  refused([](Problem& p) { p.f.pop_back(); });
+  refused([](Problem& p) { p.blocks[0].size = 0; });
+  refused([](Problem& p) { p.f[1][0].block = 1; });
+  refused([](Problem& p) { p.f[1][0].column = 99; });
+  refused([](Problem& p) { p.f[1][0].row = -1; });
+  refused([](Problem& p) { std::swap(p.f[1][1].row, p.f[1][1].column); });
+  refused([](Problem& p) { p.f[1][0].value = std::nan(""); });
+  refused([](Problem& p) { p.c[0] = INFINITY; });
+  refused([](Problem& p) { p.blocks[0].diagonal = true; });
+  for (const char* const precision : {"", "float", "0", "101", "12x"}) {
+    Options options;
+    options.precision = precision;
+    EXPECT_THROW(solve(good, options), std::invalid_argument) << precision;
+  }
+}
+
+}  // namespace
+}  // namespace gainsmith::sdp
