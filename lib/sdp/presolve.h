@@ -8,11 +8,6 @@
 
 namespace gainsmith::sdp {
 
-/// Throws std::invalid_argument unless `problem` is well formed: f has m + 1 lists, blocks have
-/// positive sizes, entries lie in the upper triangle of their block (on the diagonal of a diagonal
-/// one), all values are finite.
-void validate(const Problem& problem);
-
 /// ||F_i||_F, each off-diagonal entry counted twice.
 double frobenius_norm(const std::vector<Entry>& list);
 

@@ -41,4 +41,9 @@ struct Problem {
   int m() const { return static_cast<int>(c.size()); }
 };
 
+/// Throws std::invalid_argument unless `problem` is well formed: f has m + 1 lists, blocks have
+/// positive sizes, entries lie in the upper triangle of their block (on the diagonal of a diagonal
+/// one), all values are finite.
+void validate(const Problem& problem);
+
 }  // namespace gainsmith::sdp

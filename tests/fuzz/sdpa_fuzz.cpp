@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/error.h"
-#include "sdp/presolve.h"
+#include "sdp/problem.h"
 #include "sdp/sdpa_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
