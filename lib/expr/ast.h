@@ -40,6 +40,7 @@ struct Node {
   std::vector<std::shared_ptr<const Node>> children;
   std::vector<Relation> relations;
   int columns = 0;
+  int height = 1;         ///< of the tree: 1 for a leaf
   std::size_t begin = 0;  ///< first byte in the Text
   std::size_t end = 0;    ///< one past the last byte
 };

@@ -81,6 +81,14 @@ Bound Binder::bind_block(const Expression& expression, const Node& node) {
       }
     }
   }
+  for (int i = 0; i < rows && mirrored; ++i) {
+    const int height = partition.heights[static_cast<std::size_t>(i)];
+    const int width = partition.widths[static_cast<std::size_t>(i)];
+    if (height != width)
+      fail(expression, *node.children[place(i, i)],
+           "a block with '*' is cut alike both ways, but this diagonal part would be " +
+               to_string(Shape{height, width}));
+  }
   // A block without a matrix, a multiple of I or a "*" is a table of numbers: there a 0 is 1 x 1.
   const auto at_most_one = [](int size) { return size == 1 || size == kUnknown; };
   const bool numbers = !mirrored && std::ranges::all_of(partition.heights, at_most_one) &&

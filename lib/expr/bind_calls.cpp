@@ -11,7 +11,8 @@ int value_of(const std::vector<int>& sizes, std::size_t at) { return sizes[at]; 
 
 Bound Binder::bind_call(const Expression& expression, const Node& node) {
   const std::string& name = node.text;
-  const bool is_value = environment_.contains(name) || scope_.symbols.contains(name);
+  const bool is_value =
+      environment_.contains(name) || scope_.symbols.contains(name) || name == "I" || name == "pi";
   if (is_value) {
     Node base = node;
     base.kind = NodeKind::name;
@@ -42,14 +43,14 @@ Bound Binder::bind_function(const Expression& expression, const Node& node,
       const Bound a = argument(0);
       if (a.identity || shape(a.at).is_scalar())
         return {emit(expression, node, Op::add, {a.at, a.at}, {}), a.identity};
-      const int at = square_argument(expression, node, function.name);
+      const int at = square(expression, *node.children[0], a, function.name);
       const Bound mirrored = transpose(expression, node, {at});
       return {emit(expression, node, Op::add, {at, mirrored.at}, shape(at))};
     }
     case FunctionId::inv: {
       const Bound a = argument(0);
       if (a.identity) return {emit(expression, node, Op::inverse, {a.at}, {}), true};
-      const int at = square_argument(expression, node, function.name);
+      const int at = square(expression, *node.children[0], a, function.name);
       return {emit(expression, node, Op::inverse, {at}, shape(at))};
     }
     case FunctionId::pinv: {
@@ -113,7 +114,11 @@ Bound Binder::bind_function(const Expression& expression, const Node& node,
 int Binder::square_argument(const Expression& expression, const Node& node,
                             std::string_view function) {
   const Node& argument = *node.children[0];
-  const Bound value = bind(expression, argument);
+  return square(expression, argument, bind(expression, argument), function);
+}
+
+int Binder::square(const Expression& expression, const Node& argument, Bound value,
+                   std::string_view function) {
   const int at = sized(expression, argument, value);
   if (!shape(at).is_square())
     fail(expression, argument,

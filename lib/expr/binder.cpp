@@ -1,7 +1,7 @@
 #include "expr/binder.h"
 
 #include <algorithm>
-#include <charconv>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -32,6 +32,9 @@ std::string Binder::describe(const Expression& expression, const Node& node, Bou
 
 int Binder::emit(const Expression& expression, const Node& node, Op op, std::vector<int> operands,
                  Shape shape, std::array<int, 4> attributes, std::string text) {
+  constexpr std::int64_t kMostElements = 10'000'000;
+  if (std::int64_t{shape.rows} * shape.cols > kMostElements)
+    fail(expression, node, "the " + to_string(op) + " is too large: " + to_string(shape));
   Key key{op, operands, shape.rows, shape.cols, attributes, text};
   const auto found = known_.find(key);
   if (found != known_.end()) return found->second;
@@ -54,6 +57,19 @@ bool Binder::is_zero(Bound value) const {
 }
 
 Bound Binder::bind(const Expression& expression, const Node& node) {
+  // Definitions may stand on each other in towers that no formula needs.
+  constexpr int kDeepest = 1000;
+  constexpr int kMostSteps = 250'000;
+  if (depth_ >= kDeepest) fail(expression, node, "the definitions are nested too deeply");
+  if (++steps_ > kMostSteps)
+    fail(expression, node, "the definitions expand to too many operations");
+  ++depth_;
+  const Bound value = bind_kind(expression, node);
+  --depth_;
+  return value;
+}
+
+Bound Binder::bind_kind(const Expression& expression, const Node& node) {
   const auto child = [&](std::size_t i) { return bind(expression, *node.children[i]); };
   switch (node.kind) {
     case NodeKind::number:
@@ -186,7 +202,8 @@ Bound Binder::subtract(const Expression& expression, const Node& node, Bound a, 
 Bound Binder::add(const Expression& expression, const Node& node, Op op, Bound a, Bound b) {
   const Node& left = *node.children[0];
   const Node& right = *node.children[1];
-  if (a.identity && b.identity) return {emit(expression, node, op, {a.at, b.at}, {}), true};
+  if ((a.identity && (b.identity || is_zero(b))) || (b.identity && is_zero(a)))
+    return {emit(expression, node, op, {a.at, b.at}, {}), true};
   const auto is_free = [&](Bound value) { return value.identity || is_zero(value); };
   if (is_free(a) && !b.identity) {
     const int first = materialise(expression, left, a, shape(b.at));
@@ -196,7 +213,6 @@ Bound Binder::add(const Expression& expression, const Node& node, Op op, Bound a
     const int second = materialise(expression, right, b, shape(a.at));
     return {emit(expression, node, op, {a.at, second}, shape(a.at))};
   }
-  if (a.identity || b.identity) return {emit(expression, node, op, {a.at, b.at}, {}), true};
   if (shape(a.at) != shape(b.at)) {
     const bool scalar = shape(a.at).is_scalar() || shape(b.at).is_scalar();
     fail(expression, node,
@@ -267,76 +283,6 @@ Bound Binder::power(const Expression& expression, const Node& node) {
   return {emit(expression, node, Op::scalar_power,
                {base.at, sized(expression, exponent_node, exponent)}, {}),
           base.identity};
-}
-
-std::optional<int> Binder::whole_number(const Expression& expression, const Node& node) {
-  if (node.kind == NodeKind::negate) {
-    const auto value = whole_number(expression, *node.children[0]);
-    return value ? std::optional<int>(-*value) : std::nullopt;
-  }
-  if (node.kind == NodeKind::number) {
-    int value = 0;
-    const auto end = std::from_chars(node.text.data(), node.text.data() + node.text.size(), value);
-    if (end.ec != std::errc() || end.ptr != node.text.data() + node.text.size())
-      return std::nullopt;
-    return value;
-  }
-  if (node.kind == NodeKind::name) {
-    if (environment_.contains(node.text) || scope_.symbols.contains(node.text)) return std::nullopt;
-    const auto found = scope_.dimensions.find(node.text);
-    return found == scope_.dimensions.end() ? std::nullopt : std::optional<int>(found->second);
-  }
-  if (node.children.size() != 2) return std::nullopt;
-  const auto a = whole_number(expression, *node.children[0]);
-  const auto b = whole_number(expression, *node.children[1]);
-  if (!a || !b) return std::nullopt;
-  switch (node.kind) {
-    case NodeKind::add:
-      return *a + *b;
-    case NodeKind::subtract:
-      return *a - *b;
-    case NodeKind::multiply:
-      return *a * *b;
-    default:
-      return std::nullopt;
-  }
-}
-
-std::pair<int, int> Binder::index_range(const Expression& expression, const Node& node, int size) {
-  if (node.kind == NodeKind::range && node.children.empty()) return {0, size};
-  const bool range = node.kind == NodeKind::range;
-  const Node& from_node = range ? *node.children[0] : node;
-  const Node& to_node = range ? *node.children[1] : node;
-  const auto from = whole_number(expression, from_node);
-  const auto to = whole_number(expression, to_node);
-  if (!from || !to)
-    fail(expression, from ? to_node : from_node,
-         "an index must be a whole number known beforehand");
-  if (*from < 1 || *to > size || *from > *to)
-    fail(expression, node,
-         "the index " + expression.quote(node) + " is outside 1:" + std::to_string(size));
-  return {*from - 1, *to};
-}
-
-Bound Binder::index(const Expression& expression, const Node& node, Bound base, std::size_t first) {
-  const int at = sized(expression, node, base);
-  const Shape from = shape(at);
-  const std::size_t count = node.children.size() - first;
-  std::pair<int, int> rows{0, from.rows};
-  std::pair<int, int> cols{0, from.cols};
-  if (count == 1 && (from.cols == 1 || from.rows == 1)) {
-    auto& range = from.cols == 1 ? rows : cols;
-    range = index_range(expression, *node.children[first], from.size());
-  } else if (count == 2) {
-    rows = index_range(expression, *node.children[first], from.rows);
-    cols = index_range(expression, *node.children[first + 1], from.cols);
-  } else {
-    fail(expression, node,
-         "a " + to_string(from) + " matrix takes two indices, not " + std::to_string(count));
-  }
-  return {emit(expression, node, Op::index, {at},
-               {rows.second - rows.first, cols.second - cols.first},
-               {rows.first, rows.second, cols.first, cols.second})};
 }
 
 Program Binder::extract(int at) const {

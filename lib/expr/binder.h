@@ -37,6 +37,7 @@ class Binder {
   using Environment = std::map<std::string, Bound>;
 
   // binder.cpp: leaves and operators.
+  Bound bind_kind(const Expression& expression, const Node& node);
   Bound bind_name(const Expression& expression, const Node& node);
   Bound bind_definition(const Expression& expression, const Node& node, const std::string& name,
                         std::vector<Bound> arguments);
@@ -45,11 +46,13 @@ class Binder {
   Bound divide(const Expression& expression, const Node& node, Bound a, Bound b);
   Bound power(const Expression& expression, const Node& node);
   Bound transpose(const Expression& expression, const Node& node, Bound a);
+  bool is_zero(Bound value) const;
+  [[noreturn]] void unknown_name(const Expression& expression, const Node& node) const;
+
+  // bind_index.cpp: parts of matrices.
   Bound index(const Expression& expression, const Node& node, Bound base, std::size_t first);
   std::pair<int, int> index_range(const Expression& expression, const Node& node, int size);
   std::optional<int> whole_number(const Expression& expression, const Node& node);
-  bool is_zero(Bound value) const;
-  [[noreturn]] void unknown_name(const Expression& expression, const Node& node) const;
 
   // bind_blocks.cpp: block matrices.
   Bound bind_block(const Expression& expression, const Node& node);
@@ -70,6 +73,8 @@ class Binder {
   Bound observability(const Expression& expression, const Node& node);
   int same_shape(const Expression& expression, const Node& node, Bound value, Shape shape);
   int square_argument(const Expression& expression, const Node& node, std::string_view function);
+  int square(const Expression& expression, const Node& argument, Bound value,
+             std::string_view function);
   Matrix known_value(const Expression& expression, const Node& node, int at, std::string_view why);
 
   int emit(const Expression& expression, const Node& node, Op op, std::vector<int> operands,
@@ -86,6 +91,8 @@ class Binder {
   std::map<Key, int> known_;                   ///< equal instructions are emitted once
   std::map<std::string, Bound> defined_;       ///< definitions without parameters, once bound
   std::vector<std::string> open_definitions_;  ///< being bound now, to find cycles
+  int depth_ = 0;                              ///< of calls of bind()
+  int steps_ = 0;                              ///< calls of bind()
   Environment environment_;                    ///< parameters of the definition being bound
 };
 

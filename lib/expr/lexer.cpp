@@ -55,7 +55,7 @@ constexpr std::array<std::pair<std::string_view, TokenKind>, 17> kSymbols = {{
 }};
 
 /// Spellings of other languages, with what to write here.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kForeign = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kForeign = {{
     {"==", "equations are not part of the language; use two inequalities or a definition"},
     {"=", "equations are not part of the language; definitions go into 'let'"},
     {".nan", "a number must be finite"},
@@ -63,6 +63,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kForeign
     {".NAN", "a number must be finite"},
     {".inf", "a number must be finite"},
     {".Inf", "a number must be finite"},
+    {".INF", "a number must be finite"},
     {".*", "the elementwise product is not part of the language; use diag(a)*b"},
     {"**", "write ^ for a power"},
     {"&", "write two inequalities, or a chain such as 0 < a <= b"},

@@ -55,8 +55,10 @@ class Parser {
   }
 
  private:
-  // Deeper nesting than this is no formula; it would only exhaust the stack.
+  // Deeper nesting, or a longer chain such as 1 + 1 + ..., is no formula; it would only exhaust the
+  // stack, here or where the tree is walked.
   static constexpr int kDeepest = 200;
+  static constexpr int kTallest = 1000;
 
   struct Depth {
     explicit Depth(Parser& p) : parser(p) {
@@ -97,6 +99,9 @@ class Parser {
     node->begin = begin;
     node->end = at_ > 0 ? tokens_[at_ - 1].end : begin;
     node->children = std::move(children);
+    for (const NodePtr& child : node->children)
+      node->height = std::max(node->height, child->height + 1);
+    if (node->height > kTallest) fail("the expression is nested too deeply");
     return node;
   }
 

@@ -37,8 +37,10 @@ void blocks(const Instruction& instruction, std::span<const Matrix* const> opera
 }
 
 void inverse(const Matrix& a, Matrix& out) {
+  out = a;
+  if (a.size() == 0) return;
   const Eigen::PartialPivLU<Matrix> lu(a);
-  if (a.size() > 0 && !(lu.rcond() > 1e-15))
+  if (!(lu.rcond() > 1e-15))
     throw EvaluationError("inv: the matrix is singular to working precision");
   out = lu.inverse();
 }
@@ -48,14 +50,33 @@ Eigen::JacobiSVD<Matrix> full_svd(const Matrix& a) {
 }
 
 void pseudo_inverse(const Matrix& a, Matrix& out) {
-  const auto svd = full_svd(a);
-  const int rank = numerical_rank(a);
   out = Matrix::Zero(a.cols(), a.rows());
+  const int rank = numerical_rank(a);
+  if (rank == 0) return;
+  const auto svd = full_svd(a);
   for (int i = 0; i < rank; ++i)
     out += svd.matrixV().col(i) / svd.singularValues()(i) * svd.matrixU().col(i).transpose();
 }
 
+void matrix_exponential(const Matrix& a, Matrix& out) {
+  out = a;
+  if (a.size() > 0) out = a.exp();
+}
+
+/// The first `count` left singular vectors: of the range. An empty matrix has no decomposition.
+void range_basis(const Matrix& a, int count, Matrix& out) {
+  out = Matrix::Zero(a.rows(), count);
+  if (count > 0) out = full_svd(a).matrixU().leftCols(count);
+}
+
+/// The last `count` right singular vectors: of the kernel.
+void kernel_basis(const Matrix& a, int count, Matrix& out) {
+  out = Matrix::Identity(a.cols(), count);
+  if (a.size() > 0) out = full_svd(a).matrixV().rightCols(count);
+}
+
 double norm(const Matrix& a) {
+  if (a.size() == 0) return 0;
   if (a.rows() == 1 || a.cols() == 1) return a.norm();
   return Eigen::JacobiSVD<Matrix>(a).singularValues().maxCoeff();
 }
@@ -203,7 +224,7 @@ void RealAlgebra::apply(const Instruction& instruction, std::span<const Matrix* 
       pseudo_inverse(a(), out);
       break;
     case Op::matrix_exponential:
-      out = a().exp();
+      matrix_exponential(a(), out);
       break;
     case Op::diagonal_matrix:
       out = Eigen::VectorXd(a().reshaped()).asDiagonal();
@@ -212,10 +233,10 @@ void RealAlgebra::apply(const Instruction& instruction, std::span<const Matrix* 
       out = a().diagonal();
       break;
     case Op::range_basis:
-      out = full_svd(a()).matrixU().leftCols(shape.cols);
+      range_basis(a(), shape.cols, out);
       break;
     case Op::kernel_basis:
-      out = full_svd(a()).matrixV().rightCols(shape.cols);
+      kernel_basis(a(), shape.cols, out);
       break;
   }
   if (!out.allFinite())

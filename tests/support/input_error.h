@@ -3,7 +3,15 @@
 
 #include <gtest/gtest.h>
 
+#include <ostream>
+
 #include "base/error.h"
+
+namespace gainsmith {
+
+inline void PrintTo(const Place& place, std::ostream* out) { *out << to_string(place); }
+
+}  // namespace gainsmith
 
 namespace gainsmith::tests {
 

@@ -1,0 +1,94 @@
+// Parts of matrices, and whole numbers that are known before anything is computed.
+#include <charconv>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "expr/binder.h"
+
+namespace gainsmith::expr {
+
+namespace {
+
+std::optional<int> as_int(std::int64_t value) {
+  constexpr std::int64_t kMost = std::numeric_limits<int>::max();
+  return std::abs(value) <= kMost ? std::optional(static_cast<int>(value)) : std::nullopt;
+}
+
+}  // namespace
+
+std::optional<int> Binder::whole_number(const Expression& expression, const Node& node) {
+  if (node.kind == NodeKind::negate) {
+    const auto value = whole_number(expression, *node.children[0]);
+    return value ? std::optional<int>(-*value) : std::nullopt;
+  }
+  if (node.kind == NodeKind::number) {
+    int value = 0;
+    const auto end = std::from_chars(node.text.data(), node.text.data() + node.text.size(), value);
+    if (end.ec != std::errc() || end.ptr != node.text.data() + node.text.size())
+      return std::nullopt;
+    return value;
+  }
+  if (node.kind == NodeKind::name) {
+    if (environment_.contains(node.text) || scope_.symbols.contains(node.text) ||
+        scope_.definitions.contains(node.text))
+      return std::nullopt;
+    const auto found = scope_.dimensions.find(node.text);
+    return found == scope_.dimensions.end() ? std::nullopt : std::optional<int>(found->second);
+  }
+  if (node.children.size() != 2) return std::nullopt;
+  const std::optional<std::int64_t> a = whole_number(expression, *node.children[0]);
+  const std::optional<std::int64_t> b = whole_number(expression, *node.children[1]);
+  if (!a || !b) return std::nullopt;
+  switch (node.kind) {
+    case NodeKind::add:
+      return as_int(*a + *b);
+    case NodeKind::subtract:
+      return as_int(*a - *b);
+    case NodeKind::multiply:
+      return as_int(*a * *b);
+    default:
+      return std::nullopt;
+  }
+}
+
+std::pair<int, int> Binder::index_range(const Expression& expression, const Node& node, int size) {
+  if (node.kind == NodeKind::range && node.children.empty()) return {0, size};
+  const bool range = node.kind == NodeKind::range;
+  const Node& from_node = range ? *node.children[0] : node;
+  const Node& to_node = range ? *node.children[1] : node;
+  const auto from = whole_number(expression, from_node);
+  const auto to = whole_number(expression, to_node);
+  if (!from || !to)
+    fail(expression, from ? to_node : from_node,
+         "an index must be a whole number known beforehand");
+  if (*from < 1 || *to > size || *from > *to)
+    fail(expression, node,
+         "the index " + expression.quote(node) + " is outside 1:" + std::to_string(size));
+  return {*from - 1, *to};
+}
+
+Bound Binder::index(const Expression& expression, const Node& node, Bound base, std::size_t first) {
+  const int at = sized(expression, node, base);
+  const Shape from = shape(at);
+  const std::size_t count = node.children.size() - first;
+  std::pair<int, int> rows{0, from.rows};
+  std::pair<int, int> cols{0, from.cols};
+  if (count == 1 && (from.cols == 1 || from.rows == 1)) {
+    auto& range = from.cols == 1 ? rows : cols;
+    range = index_range(expression, *node.children[first], from.size());
+  } else if (count == 2) {
+    rows = index_range(expression, *node.children[first], from.rows);
+    cols = index_range(expression, *node.children[first + 1], from.cols);
+  } else {
+    fail(expression, node,
+         "a " + to_string(from) + " matrix takes two indices, not " + std::to_string(count));
+  }
+  return {emit(expression, node, Op::index, {at},
+               {rows.second - rows.first, cols.second - cols.first},
+               {rows.first, rows.second, cols.first, cols.second})};
+}
+
+}  // namespace gainsmith::expr

@@ -1,0 +1,152 @@
+// What a person reads when names, shapes or values do not fit.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "expr/world.h"
+#include "support/input_error.h"
+
+namespace gainsmith::expr {
+namespace {
+
+using tests::input_error;
+
+class Messages : public testing::Test {
+ protected:
+  Messages() {
+    world.set("A", Matrix::Identity(2, 2)).set("B", Matrix::Ones(2, 3)).set("delta", 0.1);
+    world.set("zero", 0.0).set("singular", Matrix::Ones(2, 2)).set("big", 1e200);
+    world.scope.symbols["P"] = {{2, 2}, std::nullopt};
+  }
+  InputError of(const std::string& text) const {
+    return input_error([&] { world(text); });
+  }
+  void expect(const std::string& text, int column, const std::vector<std::string>& parts) const {
+    const InputError error = of(text);
+    EXPECT_EQ(error.place(), (Place{"test", 1, column})) << text << ": " << error.what();
+    for (const std::string& part : parts)
+      EXPECT_NE(error.message().find(part), std::string::npos) << text << ": " << error.what();
+  }
+  World world;
+};
+
+TEST_F(Messages, UnknownNamesComeWithTheNearest) {
+  expect("1 + dleta", 5, {"unknown name 'dleta'", "did you mean 'delta'?"});
+  expect("2*epx(1)", 3, {"unknown function 'epx'", "did you mean 'exp'?"});
+  expect("he(A)", 1, {"did you mean 'He'?"});
+  expect("qqqqqq", 1, {"known: ", "A, B"});
+  expect("exp", 1, {"'exp' is a function: write exp(x)"});
+}
+
+TEST_F(Messages, BothShapesAreShown) {
+  expect("1 + A*B'", 5, {"multiply A (2 x 2) by B' (3 x 2)", "2 columns meet 3 rows"});
+  expect("delta*(A + B)", 8, {"cannot add A (2 x 2) and B (2 x 3)"});
+  expect("A - B", 1, {"cannot subtract A (2 x 2) and B (2 x 3)"});
+  expect("A/A", 1, {"cannot divide by A (2 x 2)", "inv(...)"});
+  expect("B^2", 1, {"B (2 x 3)", "not square"});
+  expect("A^0.5", 1, {"whole powers"});
+  expect("2^A", 1, {"whole powers"});
+  expect("1 + trace(B)", 11, {"square", "B (2 x 3)"});
+  expect("inv(B)", 5, {"square", "B (2 x 3)"});
+  expect("He(B)", 4, {"square", "B (2 x 3)"});
+  expect("expm(B)", 6, {"square", "B (2 x 3)"});
+  expect("diag(B)", 6, {"vector or a square matrix", "B (2 x 3)"});
+  expect("max(A, B)", 5, {"A (2 x 2)", "expected 2 x 3"});
+  expect("where(A > B, 1, 2)", 7, {"cannot compare A (2 x 2) and B (2 x 3)"});
+  expect("where(A > 0, B, 2)", 7, {"expected 2 x 3"});
+  expect("clip(delta, A, 1)", 13, {"A (2 x 2)", "expected 1 x 1"});
+  expect("obsv(A, B)", 1, {"2 columns", "B (2 x 3)"});
+}
+
+TEST_F(Messages, AComparisonIsNoValue) {
+  expect("1 + (A > 0)", 6, {"a comparison stands only on its own or in where"});
+  expect("where(A, 1, 2)", 7, {"where needs one comparison"});
+  expect("where(0 < A < 1, 1, 2)", 7, {"where needs one comparison"});
+}
+
+TEST_F(Messages, NumbersMustBeFinite) {
+  for (const char* word : {"nan", "NaN", "NAN", "inf", "Inf", "INF", "infinity"})
+    expect(std::string("1 + ") + word, 5, {"finite"});
+  expect("1 + 1e400", 5, {"1e400", "beyond the range of double"});
+}
+
+TEST_F(Messages, OperationsWithoutAResultAreShownWhereTheyStand) {
+  expect("1 + 1/zero", 5, {"division by zero"});
+  expect("A + inv(singular)", 5, {"inv: the matrix is singular"});
+  expect("singular^-1", 1, {"singular"});
+  expect("1 + log(-delta)", 5, {"log of -0.1"});
+  expect("log(zero)", 1, {"log of 0"});
+  expect("sqrt(-delta)", 1, {"sqrt of -0.1"});
+  expect("(-delta)^0.5", 1, {"power is not a finite number"});
+  expect("big*big", 1, {"product is not a finite number"});
+  expect("1 + exp(big)", 5, {"exp is not a finite number"});
+  expect("expm(big*A)", 1, {"not a finite number"});
+}
+
+TEST_F(Messages, SizesMustBeWholeAndReasonable) {
+  for (const char* text : {"eye(1.5)", "zeros(-1)", "ones(delta)", "zeros(100001)", "eye(2, 2.5)"})
+    EXPECT_THROW(world(text), InputError) << text;
+  expect("zeros(delta)", 7, {"whole number known beforehand"});
+  expect("zeros(100000)", 1, {"too large"});
+}
+
+TEST_F(Messages, ARankMustBeKnownBeforehand) {
+  expect("orth(P)", 6, {"must not depend on 'P'"});
+  expect("null(A*P)", 6, {"must not depend on 'P'"});
+  expect("orth(A, P(1, 1))", 9, {"the tolerance must not depend on 'P'"});
+  expect("orth(A, -1)", 9, {"must not be negative"});
+}
+
+class Relations : public testing::Test {
+ protected:
+  Relations() {
+    world.set("A", Matrix{{1, 2}, {3, 4}}).set("B", Matrix::Ones(2, 3)).set("s", 2).set("t", 7);
+  }
+  std::vector<CompiledRelation> relations(const std::string& text) const {
+    return compile_relations(parse({text, "test"}), world.scope);
+  }
+  Matrix difference(const CompiledRelation& relation) const {
+    return evaluate(relation.difference, world.values);
+  }
+  World world;
+};
+
+TEST_F(Relations, AreTheLargerSideMinusTheSmaller) {
+  const Matrix A = world.values["A"];
+  const Matrix I = Matrix::Identity(2, 2);
+  EXPECT_EQ(difference(relations("A > 0")[0]), A);
+  EXPECT_EQ(difference(relations("A < 0")[0]), -A);
+  EXPECT_EQ(difference(relations("0 < A")[0]), A);
+  EXPECT_EQ(difference(relations("A <= s*I")[0]), 2 * I - A);
+  EXPECT_EQ(difference(relations("I >= A")[0]), I - A);
+  EXPECT_EQ(difference(relations("s < t")[0])(0, 0), 5);
+}
+
+TEST_F(Relations, OfAChainStandInOrder) {
+  const Matrix A = world.values["A"];
+  const Matrix I = Matrix::Identity(2, 2);
+  const auto chain = relations("I <= A < s*I");
+  ASSERT_EQ(chain.size(), 2U);
+  EXPECT_FALSE(chain[0].strict);
+  EXPECT_TRUE(chain[1].strict);
+  EXPECT_EQ(difference(chain[0]), A - I);
+  EXPECT_EQ(difference(chain[1]), 2 * I - A);
+  const auto falling = relations("t > s >= 1");
+  EXPECT_EQ(difference(falling[0])(0, 0), 5);
+  EXPECT_EQ(difference(falling[1])(0, 0), 1);
+}
+
+TEST_F(Relations, WhatCannotBeComparedIsRefused) {
+  EXPECT_NE(input_error([&] { relations("A + A"); }).message().find("expected a comparison"),
+            std::string::npos);
+  EXPECT_NE(input_error([&] { relations("B > 0"); }).message().find("square ones, not 2 x 3"),
+            std::string::npos);
+  const InputError shapes = input_error([&] { relations("A > B"); });
+  EXPECT_NE(shapes.message().find("compare A (2 x 2) and B (2 x 3)"), std::string::npos);
+  EXPECT_NE(input_error([&] { relations("A > s"); }).message().find("s*I"), std::string::npos);
+  EXPECT_NE(input_error([&] { relations("2*I > I"); }).message().find("eye(n)"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gainsmith::expr
