@@ -1,0 +1,109 @@
+"""The pages show what is there: links, functions, examples, inequalities, options.
+
+    pages_test.py TREE GAINSMITH
+"""
+import json
+import os
+import re
+import subprocess
+import sys
+import tempfile
+import unittest
+
+PROGRAM = sys.argv.pop(2)
+TREE = sys.argv.pop(1)
+
+
+def read(path):
+    with open(os.path.join(TREE, path), encoding="utf-8") as file:
+        return file.read()
+
+
+def pages():
+    found = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"]
+    for folder, _, names in os.walk(os.path.join(TREE, "docs")):
+        found += [os.path.relpath(os.path.join(folder, name), TREE) for name in names if name.endswith(".md")]
+    return found
+
+
+def yaml_blocks(page, first_key):
+    return [block for block in re.findall(r"```yaml\n(.*?)```", read(page), re.S) if block.startswith(first_key + ":")]
+
+
+def run(*arguments):
+    return subprocess.run([PROGRAM, *arguments], capture_output=True, text=True, check=False)
+
+
+def check(text):
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "problem.yaml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(text)
+        return run("check", path)
+
+
+class Pages(unittest.TestCase):
+    def test_links_lead_somewhere(self):
+        for page in pages():
+            for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", read(page)):
+                path = os.path.join(TREE, os.path.dirname(page), target)
+                self.assertTrue(os.path.exists(path), f"{page}: {target}")
+
+    def test_every_decision_has_its_number(self):
+        for name in os.listdir(os.path.join(TREE, "docs/decisions")):
+            title = read("docs/decisions/" + name).splitlines()[0]
+            self.assertEqual(title.split(".")[0], f"# {int(name[:4])}", name)
+
+    def test_functions_of_the_language(self):
+        source = read("lib/expr/functions.cpp")
+        table = re.findall(r'\{\w+, "\w+", -?\d+, -?\d+,\s*"([^"]+)",\s*"([^"]+)"\}', source)
+        self.assertGreater(len(table), 20)
+        page = read("docs/language.md")
+        for usage, meaning in table:
+            row = re.search(r"^\| `" + re.escape(usage) + r"` \| (.*) \|$", page, re.M)
+            self.assertIsNotNone(row, usage)
+            self.assertEqual(row.group(1).strip("`"), meaning)
+
+    def test_readme_shows_the_problem_file(self):
+        shown = yaml_blocks("README.md", "problem")
+        lines = read("problems/own-lmi/hinf-norm.yaml").splitlines(keepends=True)
+        self.assertEqual(shown, ["".join(line for line in lines if not line.startswith("#"))])
+
+    def test_readme_shows_the_inequalities_of_the_method(self):
+        quoted = re.findall(r'^    (".*?(?:<|<=) 0")$', read("README.md"), re.M | re.S)
+        self.assertEqual(len(quoted), 2)
+        method = re.sub(r"\s+", " ", read("lib/methods/sampled-data-hybrid.yaml"))
+        for text in quoted:
+            self.assertIn(re.sub(r"\s+", " ", text), method)
+
+    def test_example_problem_is_valid(self):
+        for page in ("docs/language.md", "README.md"):
+            for block in yaml_blocks(page, "problem"):
+                found = check(block)
+                self.assertEqual(found.returncode, 0, found.stderr)
+
+    def test_example_method_is_valid(self):
+        for block in yaml_blocks("docs/language.md", "method"):
+            inline = "".join("  " + line + "\n" for line in block.splitlines())
+            found = check("problem: example\nmethod:\n" + inline +
+                          'data: {A: "[0.2, -1.01; 1, 0]", C: "[0.5, -1]", T1: 0.5, T2: 0.7}\n')
+            self.assertEqual(found.returncode, 0, found.stderr)
+
+    def test_readme_lists_the_subcommands(self):
+        listed = re.findall(r"^\| `gainsmith (\w+)", read("README.md"), re.M)
+        known = re.findall(r"^  (\w+)  ", run("--help").stdout.split("Subcommands:")[1], re.M)
+        self.assertEqual(sorted(listed), sorted(known))
+
+    def test_bibliography_names_the_methods(self):
+        for method in json.loads(run("methods", "--json").stdout):
+            self.assertIn(f"`{method['method']}`", read("docs/bibliography.md"))
+
+    def test_keys_of_method_and_problem_files(self):
+        page = read("docs/language.md")
+        for source in ("method_yaml", "problem_yaml", "expectation_yaml"):
+            for key in re.findall(r'(?:find|require)\("(\w+)"\)', read(f"lib/io/{source}.cpp")):
+                self.assertRegex(page, rf"(`|`\w+\.|\{{|\b){key}\b", f"{source}: {key}")
+
+
+if __name__ == "__main__":
+    unittest.main()
