@@ -1,6 +1,7 @@
 #include "sdp/kernels.h"
 
 #include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 #include <type_traits>
 #include <vector>
@@ -29,7 +30,7 @@ View<const T> constant(const View<T>& v) {
 
 // ---- double-double product -------------------------------------------------------------------
 
-constexpr Index kColumns = 2;  ///< columns at a time
+constexpr Index kColumns = 4;  ///< columns at a time
 
 /// The halves of a matrix apart, rows padded to whole registers, for the vector unit.
 struct Halves {
@@ -52,33 +53,36 @@ struct Halves {
   }
 };
 
+/// The columns j .. j + count - 1 of C.
+template <Index count>
+void multiply_columns(const Halves& a, Index inner, const View<const DoubleDouble>& b,
+                      const View<DoubleDouble>& c, Index j, Update update) {
+  for (Index i = 0; i < c.rows; i += kLanes) {
+    std::array<PairSums, count> sums{};
+    const double* high = a.high.data() + i;
+    const double* low = a.low.data() + i;
+    for (Index k = 0; k < inner; ++k, high += a.stride, low += a.stride)
+      for (Index q = 0; q < count; ++q)
+        sums[static_cast<std::size_t>(q)].add(high, low, b(k, j + q).hi(), b(k, j + q).lo());
+    for (Index q = 0; q < count; ++q)
+      for (Index r = 0; r < kLanes && i + r < c.rows; ++r) {
+        const DoubleDouble sum = sums[static_cast<std::size_t>(q)][static_cast<std::size_t>(r)];
+        if (update == Update::assign)
+          c(i + r, j + q) = sum;
+        else
+          c(i + r, j + q) -= sum;
+      }
+  }
+}
+
 void multiply_pairs(const View<const DoubleDouble>& a, const View<const DoubleDouble>& b,
                     const View<DoubleDouble>& c, Update update) {
   static thread_local Halves halves;
   halves.take(a);
-  const auto store = [&](const PairSums& sums, Index i, Index j) {
-    for (Index r = 0; r < kLanes && i + r < c.rows; ++r) {
-      const DoubleDouble sum = sums[static_cast<std::size_t>(r)];
-      if (update == Update::assign)
-        c(i + r, j) = sum;
-      else
-        c(i + r, j) -= sum;
-    }
-  };
-  for (Index j = 0; j < c.columns; j += kColumns) {
-    const bool two = j + 1 < c.columns;
-    for (Index i = 0; i < c.rows; i += kLanes) {
-      PairSums first, second;
-      const double* high = halves.high.data() + i;
-      const double* low = halves.low.data() + i;
-      for (Index k = 0; k < a.columns; ++k, high += halves.stride, low += halves.stride) {
-        first.add(high, low, b(k, j).hi(), b(k, j).lo());
-        if (two) second.add(high, low, b(k, j + 1).hi(), b(k, j + 1).lo());
-      }
-      store(first, i, j);
-      if (two) store(second, i, j + 1);
-    }
-  }
+  Index j = 0;
+  for (; j + kColumns <= c.columns; j += kColumns)
+    multiply_columns<kColumns>(halves, a.columns, b, c, j, update);
+  for (; j < c.columns; ++j) multiply_columns<1>(halves, a.columns, b, c, j, update);
 }
 
 template <typename T>
@@ -92,6 +96,17 @@ void multiply_plain(const View<const T>& a, const View<const T>& b, const View<T
       for (Index i = 0; i < c.rows; ++i) c(i, j) += a(i, k) * factor;
     }
   }
+}
+
+/// sum of a_i b_i, first <= i < last, in four chains that do not wait for each other.
+template <typename T>
+T dot(const T* a, const T* b, Index first, Index last) {
+  std::array<T, 4> sums = {T(0), T(0), T(0), T(0)};
+  Index i = first;
+  for (; i + 4 <= last; i += 4)
+    for (Index q = 0; q < 4; ++q) sums[static_cast<std::size_t>(q)] += a[i + q] * b[i + q];
+  for (; i < last; ++i) sums[0] += a[i] * b[i];
+  return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
 // ---- Cholesky, blocked on multiply -------------------------------------------------------------
@@ -223,10 +238,8 @@ void solve_factored(const View<const T>& l, Vector<T>& x) {
       x[k] /= l(k, k);
       for (Index i = k + 1; i < l.rows; ++i) x[i] -= l(i, k) * x[k];
     }
-    for (Index k = l.rows - 1; k >= 0; --k) {
-      for (Index i = k + 1; i < l.rows; ++i) x[k] -= l(i, k) * x[i];
-      x[k] /= l(k, k);
-    }
+    for (Index k = l.rows - 1; k >= 0; --k)
+      x[k] = (x[k] - dot(&l(0, k), x.data(), k + 1, l.rows)) / l(k, k);
   }
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <set>
 
+#include "base/parallel.h"
 #include "sdp/kernels.h"
 #include "sdp/scalars.h"
 
@@ -22,21 +23,22 @@ std::size_t packed_index(int row, int column) {
 constexpr double kProductCost = 0.06;
 constexpr double kPanelCost = 0.2;
 constexpr double kDotCost = 1.0;
+/// A block cheaper than this is not worth starting threads for.
+constexpr double kParallelCost = 1e6;
 
 }  // namespace
 
 template <typename T>
 Schur<T>::Schur(const Data& data, unsigned threads)
-    : data_(data), threads_(threads), columns_(static_cast<std::size_t>(data.layout.linear)) {
+    : data_(data),
+      threads_(thread_count(threads)),
+      columns_(static_cast<std::size_t>(data.layout.linear)) {
   const int m = data.m();
   for (int b = 0; b < data.layout.blocks(); ++b) {
     const int n = data.layout.size[static_cast<std::size_t>(b)];
     plans_.push_back(plan_block(data.dense[static_cast<std::size_t>(b)], n));
-    Workspace& w = work_.emplace_back();
-    w.h.resize(n * n * kBatch);
-    w.u.resize(n * n * kBatch);
-    w.panel.resize(packed_index(0, n));
   }
+  size_workspaces();
   const BlockData& linear = data.linear;
   for (int k = 0; k < linear.lists(); ++k) {
     const auto list = static_cast<std::size_t>(k);
@@ -79,9 +81,36 @@ typename Schur<T>::Plan Schur<T>::plan_block(const BlockData& block, int n) cons
     const double by_rows = kDotCost * 2 * r * following + kPanelCost * r * order_n;
     list.by_rows = by_rows < dense;
     if (list.by_rows) list.rows.assign(rows.begin(), rows.end());
+    plan.cost += std::min(dense, by_rows);
     following -= static_cast<double>(nonzeros(k));
   }
+  for (std::size_t first = 0; first < plan.lists.size();) {
+    std::size_t last = first + 1;
+    while (!plan.lists[first].by_rows && last < plan.lists.size() && last < first + kBatch &&
+           !plan.lists[last].by_rows)
+      ++last;
+    plan.batches.push_back({first, last});
+    first = last;
+  }
   return plan;
+}
+
+template <typename T>
+void Schur<T>::size_workspaces() {
+  std::size_t product = 0, panel = 0;
+  for (std::size_t b = 0; b < plans_.size(); ++b) {
+    const auto n = static_cast<std::size_t>(data_.layout.size[b]);
+    for (const List& list : plans_[b].lists) {
+      product = std::max(product, n * (list.by_rows ? list.rows.size() : n * kBatch));
+      if (!list.by_rows) panel = std::max(panel, n * (n + 1) / 2);
+    }
+  }
+  work_.resize(threads_);
+  for (Workspace& w : work_) {
+    w.h.resize(static_cast<Eigen::Index>(product));
+    w.u.resize(static_cast<Eigen::Index>(product));
+    w.panel.resize(panel);
+  }
 }
 
 template <typename T>
@@ -91,20 +120,26 @@ void Schur<T>::assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y) {
     const Plan& plan = plans_[b];
     const auto block_X = inverse_X.dense(static_cast<int>(b));
     const auto block_Y = Y.dense(static_cast<int>(b));
-    std::size_t position = 0;
-    while (position < plan.lists.size()) {
-      if (plan.lists[position].by_rows) {
-        add_rows(plan, position++, block_X, block_Y, work_[b]);
-        continue;
-      }
-      std::size_t last = position + 1;
-      while (last < plan.lists.size() && last < position + kBatch && !plan.lists[last].by_rows)
-        ++last;
-      add_dense(plan, position, last, block_X, block_Y, work_[b]);
-      position = last;
-    }
+    const auto share = [&](std::size_t first, std::size_t step) {
+      for (std::size_t k = first; k < plan.batches.size(); k += step)
+        add_batch(plan, plan.batches[k], block_X, block_Y, work_[first]);
+    };
+    // Within a block every entry of B belongs to one batch, so the split cannot change a bit of it.
+    if (threads_ > 1 && plan.cost > kParallelCost)
+      parallel_for(threads_, threads_, [&](std::size_t t) { share(t, threads_); });
+    else
+      share(0, 1);
   }
   add_linear(inverse_X.linear(), Y.linear());
+}
+
+template <typename T>
+void Schur<T>::add_batch(const Plan& plan, const Batch& batch, const ConstMatrixMap<T>& inverse_X,
+                         const ConstMatrixMap<T>& Y, Workspace& w) {
+  if (plan.lists[batch.first].by_rows)
+    add_rows(plan, batch.first, inverse_X, Y, w);
+  else
+    add_dense(plan, batch.first, batch.last, inverse_X, Y, w);
 }
 
 // h, transposed and stacked: row b + n i, column c holds (F_i Y)(c, b), so that one product gives

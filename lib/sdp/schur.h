@@ -43,10 +43,17 @@ class Schur {
     bool by_rows = false;
     std::vector<int> rows;  ///< R, when by_rows
   };
+  /// Lists first .. last - 1, which are assembled together.
+  struct Batch {
+    std::size_t first = 0;
+    std::size_t last = 0;
+  };
   struct Plan {
     std::vector<List> lists;
     std::vector<Term> terms;  ///< regrouped in the order of `lists`
     std::vector<int> packed;  ///< place of a term in the packed upper triangle
+    std::vector<Batch> batches;
+    double cost = 0;  ///< in multiplications, about
   };
   struct Workspace {
     Vector<T> h;     ///< F_i Y, transposed: (n * kBatch) x n, or |R| x n
@@ -54,6 +61,9 @@ class Schur {
     Panel<T> panel;  ///< symmetric part of U, packed upper triangle
   };
 
+  void add_batch(const Plan& plan, const Batch& batch, const ConstMatrixMap<T>& inverse_X,
+                 const ConstMatrixMap<T>& Y, Workspace& w);
+  void size_workspaces();
   Plan plan_block(const BlockData& block, int n) const;
   void add_dense(const Plan& plan, std::size_t first, std::size_t last,
                  const ConstMatrixMap<T>& inverse_X, const ConstMatrixMap<T>& Y, Workspace& w);
@@ -65,7 +75,7 @@ class Schur {
   const Data& data_;
   unsigned threads_;
   std::vector<Plan> plans_;
-  std::vector<Workspace> work_;
+  std::vector<Workspace> work_;  ///< one a thread
   /// The linear part by column: the F_i that have the entry k.
   std::vector<std::vector<std::pair<int, T>>> columns_;
   Matrix<T> b_;       ///< lower triangle

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/number.h"
 #include "sdp/double_double.h"
 
 namespace gainsmith::sdp {
@@ -94,15 +95,13 @@ class Scanner {
     if (value != std::floor(value))
       fail_at_token(std::string(what) + " must be a whole number, not '" + word() + "'");
     if (value < least || value > most)
-      fail_at_token(std::string(what) + " must be from " + text_of(least) + " to " + text_of(most) +
-                    ", not " + text_of(value));
+      fail_at_token(std::string(what) + " must be from " + brief(least, 10) + " to " +
+                    brief(most, 10) + ", not " + brief(value, 10));
     return static_cast<int>(value);
   }
 
   [[noreturn]] void fail(const std::string& message) const { throw_at(position_, message); }
   [[noreturn]] void fail_at_token(const std::string& message) const { throw_at(token_, message); }
-
-  static std::string text_of(double whole) { return std::to_string(static_cast<long long>(whole)); }
 
  private:
   /// "=" may touch the number that a remark explains ("3=mDIM").

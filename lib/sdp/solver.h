@@ -27,7 +27,7 @@ struct Options {
   double certificate_tolerance = 1e-8;  ///< certificate residual (normalised, see Certificate)
   int iteration_limit = 500;            ///< over all arithmetics together
   double time_limit = 0;                ///< seconds; 0 = none
-  unsigned threads = 1;                 ///< results do not depend on it
+  unsigned threads = 1;                 ///< 0: one a core; results do not depend on it
   /// "auto": double first, then 31 and 100 digits from the best point found where double stalls
   /// short of the tolerance (not when the problem is so large that it would take hours); "double";
   /// "quad" (31 digits from the start); or a number of decimal digits, 1 to 100, rounded up to what

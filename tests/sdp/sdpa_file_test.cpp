@@ -59,8 +59,29 @@ TEST(SdpaFile, NamesThePlaceOfEveryFault) {
   EXPECT_EQ(error_of(head + "1 1 1 1 inf\n"), "f:5:9: a value is not finite");
   EXPECT_EQ(error_of(head + "1 1 1 1 1 1\n"),
             "f:5:11: more than five numbers on the line of an entry");
+  EXPECT_EQ(error_of(head + "1e88 1 1 1 1\n"),
+            "f:5:1: the number of a matrix must be from 0 to 1, not 1e+88");
+  EXPECT_EQ(error_of(head + "1 1 1 1 1e999\n"), "f:5:9: a value is out of the range of a double");
+  EXPECT_EQ(error_of(head + "1 1 1 1 0x1\n"), "f:5:9: expected a value, found '0x1'");
   EXPECT_EQ(error_of("1\n1\n-2\n1\n1 1 1 2 1\n"),
             "f:5:7: an off-diagonal entry in a diagonal block");
+}
+
+TEST(SdpaFile, KeepsWhatRoundingTakesFromADecimal) {
+  const std::string head = "1\n1\n5\n0.1\n";
+  const Problem problem =
+      read_sdpa(head +
+                    "1 1 1 1 0.1\n1 1 2 2 -1.00000000000000000001\n"
+                    "1 1 3 3 12.5e-1\n1 1 4 4 123456789012345678\n1 1 5 5 1e25\n",
+                "f");
+  const auto& f = problem.f[1];
+  // The double nearest to 0.1 is 0.1000000000000000055511151231257827...
+  EXPECT_DOUBLE_EQ(f[0].rest, -5.551115123125783e-18);
+  EXPECT_DOUBLE_EQ(problem.c_rest[0], f[0].rest);
+  EXPECT_DOUBLE_EQ(f[1].rest, -1e-20);
+  EXPECT_EQ(f[2].rest, 0);
+  EXPECT_EQ(f[3].rest, 123456789012345678LL - static_cast<long long>(f[3].value));
+  EXPECT_EQ(f[4].rest, -905969664.0);  // the double nearest to 1e25 is 10000000000000000905969664
 }
 
 TEST(SdpaFile, RefusesTheSamePlaceTwiceAndBothTriangles) {

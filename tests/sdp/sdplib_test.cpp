@@ -71,6 +71,17 @@ TEST(Sdplib, ProvesInfeasibility) {
   EXPECT_EQ(solve(load("infd1")).status, Status::dual_infeasible);
 }
 
+TEST(Sdplib, GivesTheSameBitsOnTwoThreads) {
+  if (absent()) GTEST_SKIP() << "no .dat-s files in " << GAINSMITH_SDPLIB;
+  const Problem problem = load("control4");  // large enough for the threads to start
+  Options two;
+  two.threads = 2;
+  const Solution a = solve(problem), b = solve(problem, two);
+  EXPECT_EQ(a.x, b.x);
+  EXPECT_EQ(a.X.values, b.X.values);
+  EXPECT_EQ(a.Y.values, b.Y.values);
+}
+
 TEST(Sdplib, ClaimsNoDigitsThatAreNotThere) {
   if (absent()) GTEST_SKIP() << "no .dat-s files in " << GAINSMITH_SDPLIB;
   for (const char* const name : {"hinf1", "hinf10"}) {
