@@ -1,7 +1,12 @@
 #include "io/yaml.h"
 
+#include <yaml-cpp/eventhandler.h>
+
 #include <algorithm>
 #include <cctype>
+#include <iterator>
+#include <sstream>
+#include <string_view>
 #include <utility>
 
 #include "base/nearest.h"
@@ -21,48 +26,166 @@ std::vector<std::size_t> starts_of_lines(const std::string& text) {
   return starts;
 }
 
+bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U; }
+
+/// The length of the UTF-8 character at `at`; 0 when there is none.
+std::size_t character_length(const std::string& text, std::size_t at) {
+  const auto first = static_cast<unsigned char>(text[at]);
+  const std::size_t length = first < 0x80   ? 1
+                             : first < 0xC2 ? 0
+                             : first < 0xE0 ? 2
+                             : first < 0xF0 ? 3
+                             : first < 0xF5 ? 4
+                                            : 0;
+  if (at + length > text.size()) return 0;
+  for (std::size_t i = 1; i < length; ++i)
+    if (!is_continuation(text[at + i])) return 0;
+  return length;
+}
+
+int count_characters(std::string_view bytes) {
+  return static_cast<int>(std::ranges::count_if(bytes, [](char c) { return !is_continuation(c); }));
+}
+
 void refuse_non_text(const std::string& text, const std::string& file) {
-  const auto found = std::find_if(text.begin(), text.end(), [](char c) {
-    const auto byte = static_cast<unsigned char>(c);
-    return byte < 0x20 && c != '\n' && c != '\t' && c != '\r';
-  });
-  if (found == text.end()) return;
-  const auto line = 1 + std::count(text.begin(), found, '\n');
-  throw InputError({file, static_cast<int>(line), 0},
-                   "this is no text file: it holds control characters");
+  const auto refuse = [&](std::size_t at, const std::string& message) {
+    const std::string_view before = std::string_view(text).substr(0, at);
+    const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
+    throw InputError({file, 1 + static_cast<int>(std::ranges::count(before, '\n')),
+                      1 + count_characters(before.substr(start))},
+                     message);
+  };
+  for (std::size_t at = 0; at < text.size();) {
+    const auto byte = static_cast<unsigned char>(text[at]);
+    if (byte < 0x20 && !is_space(text[at]))
+      refuse(at, "this is no text file: it holds control characters");
+    const std::size_t length = character_length(text, at);
+    if (length == 0) refuse(at, "this is no UTF-8 text");
+    at += length;
+  }
+}
+
+std::string without_byte_order_mark(std::string text) {
+  constexpr std::string_view kMark = "\xEF\xBB\xBF";
+  if (text.starts_with(kMark)) text.erase(0, kMark.size());
+  return text;
+}
+
+/// Where documents start.
+class DocumentStarts : public YAML::EventHandler {
+ public:
+  std::vector<YAML::Mark> marks;
+
+  void OnDocumentStart(const YAML::Mark& mark) override { marks.push_back(mark); }
+  void OnDocumentEnd() override {}
+  void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
+  void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                const std::string&) override {}
+  void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                       YAML::EmitterStyle::value) override {}
+  void OnSequenceEnd() override {}
+  void OnMapStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
+                  YAML::EmitterStyle::value) override {}
+  void OnMapEnd() override {}
+};
+
+/// Walks along the text of a file, counting lines and characters.
+class Cursor {
+ public:
+  Cursor(const std::string& text, std::size_t at, expr::Position position)
+      : text_(text), at_(at), position_(position) {}
+
+  /// The byte here or further on; 0 past the end.
+  char peek(std::size_t ahead = 0) const {
+    return at_ + ahead < text_.size() ? text_[at_ + ahead] : '\0';
+  }
+  bool at_end() const { return at_ >= text_.size(); }
+  expr::Position position() const { return position_; }
+
+  void advance(std::size_t characters = 1) {
+    for (; characters > 0 && !at_end(); --characters) {
+      ++position_.column;
+      if (text_[at_] == '\n') position_ = {position_.line + 1, 1};
+      ++at_;
+      while (!at_end() && is_continuation(text_[at_])) ++at_;
+    }
+  }
+  void skip_spaces() {
+    while (!at_end() && is_space(peek())) advance();
+  }
+
+ private:
+  const std::string& text_;
+  std::size_t at_;
+  expr::Position position_;
+};
+
+/// The number of characters of the escape at the cursor in a double-quoted scalar.
+std::size_t escape_length(const Cursor& cursor) {
+  switch (cursor.peek(1)) {
+    case 'x':
+      return 4;
+    case 'u':
+      return 6;
+    case 'U':
+      return 10;
+    default:
+      return 2;
+  }
 }
 
 }  // namespace
 
 YamlFile::YamlFile(std::string text, std::string file)
-    : text_(std::move(text)), file_(std::move(file)), line_starts_(starts_of_lines(text_)) {
+    : text_(without_byte_order_mark(std::move(text))),
+      file_(std::move(file)),
+      line_starts_(starts_of_lines(text_)) {
   refuse_non_text(text_, file_);
-  std::vector<YAML::Node> documents;
+  // YAML::LoadAll never ends on some broken files, so at most two documents are looked at.
+  DocumentStarts starts;
   try {
-    documents = YAML::LoadAll(text_);
+    std::istringstream stream(text_);
+    YAML::Parser parser(stream);
+    while (starts.marks.size() < 2 && parser.HandleNextDocument(starts)) {
+    }
+    root_ = YAML::Load(text_);
   } catch (const YAML::Exception& error) {
-    throw InputError({file_, error.mark.line + 1, error.mark.column + 1}, "YAML: " + error.msg);
+    throw InputError(place(error.mark), "YAML: " + error.msg);
   }
-  if (documents.empty() || documents.front().IsNull())
+  if (starts.marks.size() > 1)
+    throw InputError(place(starts.marks[1]), "expected one YAML document, found a second one");
+  if (starts.marks.empty() || root_.IsNull())
     throw InputError({file_}, "the file is empty; expected a mapping such as 'problem: NAME'");
-  if (documents.size() > 1)
-    throw InputError(place(documents[1]), "expected one YAML document, found a second one");
-  root_ = documents.front();
+}
+
+std::size_t YamlFile::offset(const YAML::Mark& mark) const {
+  const auto line = static_cast<std::size_t>(mark.line);
+  if (mark.line < 0 || line >= line_starts_.size()) return text_.size();
+  return std::min(line_starts_[line] + static_cast<std::size_t>(mark.column), text_.size());
+}
+
+Place YamlFile::place(const YAML::Mark& mark) const {
+  if (mark.line < 0) return {file_};
+  return place(offset(mark));
+}
+
+Place YamlFile::place(std::size_t offset) const {
+  const auto next = std::ranges::upper_bound(line_starts_, offset);
+  const std::size_t start = *std::prev(next);
+  const auto before = std::string_view(text_).substr(start, offset - start);
+  return {file_, static_cast<int>(next - line_starts_.begin()), 1 + count_characters(before)};
 }
 
 Place YamlFile::place(const YAML::Node& node) const {
   const YAML::Mark mark = node.Mark();
-  return {file_, mark.line + 1, mark.column + 1};
-}
-
-std::size_t YamlFile::offset(int line, int column) const {
-  if (line < 0 || static_cast<std::size_t>(line) >= line_starts_.size()) return text_.size();
-  std::size_t at = line_starts_[static_cast<std::size_t>(line)];
-  for (; column > 0 && at < text_.size(); --column) {
-    ++at;
-    while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xC0U) == 0x80U) ++at;
-  }
-  return at;
+  if (!node.IsNull() || mark.line < 0) return place(mark);
+  // The mark of a value that is left out stands at what comes next; show where it is missing.
+  std::size_t at = offset(mark);
+  if (at < text_.size() && (text_[at] == '~' || text_[at] == 'n' || text_[at] == 'N'))
+    return place(at);
+  while (at > 0 && is_space(text_[at - 1])) --at;
+  return place(at);
 }
 
 std::string YamlFile::string(const YAML::Node& node, const std::string& what) const {
@@ -75,38 +198,44 @@ std::string YamlFile::string(const YAML::Node& node, const std::string& what) co
 
 expr::Text YamlFile::scalar(const YAML::Node& node, const std::string& what) const {
   const std::string value = string(node, what);
-  const YAML::Mark mark = node.Mark();
-  std::size_t at = offset(mark.line, mark.column);
-  const auto started = std::upper_bound(line_starts_.begin(), line_starts_.end(), at);
-  int line = static_cast<int>(started - line_starts_.begin());
-  int column = mark.column + 1;
-  const auto advance = [&] {
-    if (text_[at] == '\n') {
-      ++line;
-      column = 0;
-    }
-    ++at;
-    while (at < text_.size() && (static_cast<unsigned char>(text_[at]) & 0xC0U) == 0x80U) ++at;
-    ++column;
-  };
-  if (at < text_.size() && (text_[at] == '"' || text_[at] == '\'')) advance();
-  if (at < text_.size() && (text_[at] == '|' || text_[at] == '>'))
-    while (at < text_.size() && text_[at] != '\n') advance();
-  // YAML changes only white space and escapes: walk along both texts and match the other
-  // characters.
+  const Place start = place(node.Mark());
+  Cursor cursor(text_, offset(node.Mark()), {start.line, start.column});
+  // Properties: !!str and &anchor.
+  while (cursor.peek() == '!' || cursor.peek() == '&') {
+    while (!cursor.at_end() && !is_space(cursor.peek())) cursor.advance();
+    cursor.skip_spaces();
+  }
+  const char first = cursor.peek();
+  const char quote = first == '"' || first == '\'' ? first : '\0';
+  if (quote != '\0') cursor.advance();
+  if (first == '|' || first == '>')
+    while (!cursor.at_end() && cursor.peek() != '\n') cursor.advance();
+  // YAML changes only white space and escapes: walk along both texts and match the characters.
   std::vector<expr::Position> positions;
   for (const char c : value) {
-    if (!is_space(c)) {
-      while (at < text_.size() && is_space(text_[at])) advance();
-      if (at < text_.size() && text_[at] == '\'' && c == '\'' && at + 1 < text_.size() &&
-          text_[at + 1] == '\'' && text_[offset(mark.line, mark.column)] == '\'') {
-        advance();  // '' stands for one quote in a single-quoted scalar
-      }
+    if (is_continuation(c)) {
+      positions.push_back(positions.empty() ? cursor.position() : positions.back());
+      continue;
     }
-    positions.push_back({line, column});
-    if (at < text_.size() && text_[at] == c) advance();
+    if (!is_space(c)) cursor.skip_spaces();
+    while (quote == '"' && cursor.peek() == '\\' && is_space(cursor.peek(1)) && !is_space(c)) {
+      cursor.advance();  // a backslash that joins lines
+      cursor.skip_spaces();
+    }
+    if (quote == '\'' && c == '\'' && cursor.peek(1) == '\'') cursor.advance();
+    positions.push_back(cursor.position());
+    if (quote == '"' && cursor.peek() == '\\') {
+      cursor.advance(escape_length(cursor));
+    } else if (cursor.peek() == c) {
+      cursor.advance();
+    }
   }
-  positions.push_back({line, column});
+  // yaml-cpp takes the end of the file for the closing quote.
+  if (quote != '\0') {
+    while (cursor.peek() == '\\' || is_space(cursor.peek())) cursor.advance();
+    if (cursor.at_end()) throw InputError(start, what + ": the quotation mark is not closed");
+  }
+  positions.push_back(cursor.position());
   return {value, file_, std::move(positions)};
 }
 

@@ -23,6 +23,7 @@ class YamlFile {
   const std::string& text() const { return text_; }
   const std::string& file() const { return file_; }
 
+  /// Where a node starts; just behind its key when it is left out.
   Place place(const YAML::Node& node) const;
   /// The scalar with the place of each of its characters, however it is quoted or folded.
   expr::Text scalar(const YAML::Node& node, const std::string& what) const;
@@ -32,8 +33,10 @@ class YamlFile {
   double number(const YAML::Node& node, const std::string& what) const;
 
  private:
-  /// The offset in the text of a line and column that count from 0.
-  std::size_t offset(int line, int column) const;
+  /// yaml-cpp counts lines and columns from 0, and columns in bytes.
+  std::size_t offset(const YAML::Mark& mark) const;
+  Place place(const YAML::Mark& mark) const;
+  Place place(std::size_t offset) const;
 
   std::string text_;
   std::string file_;
