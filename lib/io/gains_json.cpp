@@ -1,5 +1,7 @@
 #include "io/gains_json.h"
 
+#include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "base/error.h"
@@ -45,7 +47,7 @@ Json certificate_json(const model::CertificateRecord& certificate) {
           {"value", certificate.value},
           {"residual", certificate.residual},
           {"min_eigenvalue", certificate.min_eigenvalue},
-          {"excluded_radius", certificate.excluded_radius},
+          {"excluded_radius", finite_or_null(certificate.excluded_radius)},
           {"multipliers", matrices_json(certificate.multipliers)}};
 }
 
@@ -86,8 +88,15 @@ class Reader {
     if (!value_.is_number()) fail("expected a number");
     return value_.get<double>();
   }
+  /// null stands for infinity.
+  double number_or_infinity() const {
+    return value_.is_null() ? std::numeric_limits<double>::infinity() : number();
+  }
   int whole() const {
     if (!value_.is_number_integer()) fail("expected a whole number");
+    const bool fits = value_.is_number_unsigned() ? std::in_range<int>(value_.get<std::uint64_t>())
+                                                  : std::in_range<int>(value_.get<std::int64_t>());
+    if (!fits) fail("this whole number is too large");
     return value_.get<int>();
   }
   bool truth() const {
@@ -166,7 +175,7 @@ model::Margin margin_of(const Reader& reader) {
 
 model::CertificateRecord certificate_of(const Reader& reader) {
   return {reader.at("value").number(),          reader.at("residual").number(),
-          reader.at("min_eigenvalue").number(), reader.at("excluded_radius").number(),
+          reader.at("min_eigenvalue").number(), reader.at("excluded_radius").number_or_infinity(),
           reader.at("checked").truth(),         reader.at("multipliers").matrices()};
 }
 

@@ -13,6 +13,9 @@ using Json = nlohmann::ordered_json;
 /// no spelling for it).
 std::string to_text(const Json& document);
 
+/// The number, or null when it is not finite: JSON has no infinity and no NaN.
+Json finite_or_null(double value);
+
 /// Parses. InputError with file:line:column when the text is no JSON.
 Json parse_json(const std::string& text, const std::string& file);
 
