@@ -41,13 +41,13 @@ expr::Expression oriented(const Value& value, bool column) {
 
 /// The place of element (i, j) when the matrix is written element by element, of the whole
 /// otherwise.
-Place element_place(const Value& value, int i, int j) {
+Place element_place(const Value& value, const expr::Matrix& matrix, int i, int j) {
   const expr::Node& root = *value.value.root;
-  if (root.kind == expr::NodeKind::block) {
-    const auto at = static_cast<std::size_t>(i * root.columns + j);
-    if (at < root.children.size()) return value.value.place(*root.children[at]);
-  }
-  return value.place;
+  const bool by_element = root.kind == expr::NodeKind::block && root.columns == matrix.cols() &&
+                          std::ssize(root.children) == matrix.size();
+  return by_element
+             ? value.value.place(*root.children[static_cast<std::size_t>(i * root.columns + j)])
+             : value.place;
 }
 
 std::string element_text(int i, int j, double value) {
@@ -59,17 +59,17 @@ std::string element_text(int i, int j, double value) {
 void enforce_structure(const Declaration& datum, const Value& value, expr::Matrix& matrix) {
   const Structure structure = datum.shape.structure;
   if (structure != Structure::symmetric && structure != Structure::diagonal) return;
-  const double rounding = 1e-12 * matrix.cwiseAbs().maxCoeff();
+  const double rounding = 1e-12 * matrix.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < matrix.rows(); ++i) {
     for (int j = 0; j < i; ++j) {
       const double upper = matrix(j, i);
       const double lower = matrix(i, j);
       if (structure == Structure::symmetric && std::abs(upper - lower) > rounding)
-        throw InputError(element_place(value, i, j),
+        throw InputError(element_place(value, matrix, i, j),
                          "the datum " + datum.name + " must be symmetric, but " +
                              element_text(i, j, lower) + " and " + element_text(j, i, upper));
       if (structure == Structure::diagonal && (upper != 0 || lower != 0))
-        throw InputError(element_place(value, i, j),
+        throw InputError(element_place(value, matrix, i, j),
                          "the datum " + datum.name + " must be diagonal, but " +
                              element_text(i, j, lower != 0 ? lower : upper));
     }
@@ -103,6 +103,7 @@ class Builder {
   Instance build() {
     refuse_unknown_names();
     for (const Declaration& datum : method().data) add_datum(datum);
+    for (const Declaration& datum : method().data) check_shape(datum);
     for (const Parameter& parameter : method().parameters) add_parameter(parameter);
     for (const Let& let : method().let)
       instance_.scope.definitions[let.signature.name] = {let.signature.parameters, let.body};
@@ -164,6 +165,16 @@ class Builder {
     define(datum.name, matrix, instance_.data);
   }
 
+  /// A size such as n + p may have been unknown when the datum was read.
+  void check_shape(const Declaration& datum) {
+    const expr::Shape shape = instance_.scope.symbols.at(datum.name).shape;
+    if (learn(datum.shape, shape, instance_.dimensions) && shape.rows > 0 && shape.cols > 0) return;
+    const Value* given = find_named(problem().data, datum.name);
+    throw InputError(given ? given->place : datum.place,
+                     "the datum " + datum.name + " is declared " +
+                         declared(datum, instance_.dimensions) + "; found " + to_string(shape));
+  }
+
   /// Whether the expression may take its size from its place: a bare number or a multiple of I.
   static bool free_size(const Value& value) {
     const auto names = names_in(value.value);
@@ -210,7 +221,8 @@ class Builder {
         for (const auto* list : {&problem().data, &problem().parameters})
           if (const Value* given = find_named(*list, name)) place = given->place;
       }
-      throw InputError(place, found + ": expected " + assumption.value.text->str());
+      throw InputError(
+          place, (found.empty() ? "" : found + ": ") + "expected " + assumption.value.text->str());
     }
   }
 

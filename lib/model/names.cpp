@@ -1,5 +1,7 @@
 #include "model/names.h"
 
+#include <algorithm>
+#include <cctype>
 #include <map>
 #include <string>
 #include <vector>
@@ -11,9 +13,36 @@ namespace gainsmith::model {
 
 namespace {
 
+bool is_name(const std::string& text) {
+  const auto is_letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
+  const auto is_part = [&](char c) { return is_letter(c) || c == '_' || (c >= '0' && c <= '9'); };
+  return !text.empty() && (is_letter(text[0]) || text[0] == '_') &&
+         std::all_of(text.begin(), text.end(), is_part);
+}
+
 class Names {
  public:
+  /// A dimension may stand in several shapes.
+  void add_dimensions(const ShapeText& shape) {
+    for (const auto& size : {shape.rows, shape.cols})
+      if (size)
+        for (const std::string& name : names_in(*size)) known_.emplace(name, "dimension");
+  }
+
+  /// The variable of a `forall` may be the timer's name or one of another `forall`, nothing else.
+  void check_variable(const Forall& forall) const {
+    const auto found = known_.find(forall.variable);
+    if (expr::is_reserved(forall.variable))
+      throw InputError(forall.place, "'" + forall.variable + "' is a word of the language");
+    if (found != known_.end() && found->second != "timer")
+      throw InputError(forall.place, "'" + forall.variable +
+                                         "' is a variable here, but it already " + "names a " +
+                                         found->second);
+  }
+
   void add(const std::string& name, const std::string& what, const Place& place) {
+    if (!is_name(name))
+      throw InputError(place, "'" + name + "' is no name: expected letters, digits and _");
     if (expr::is_reserved(name))
       throw InputError(place, "'" + name + "' is a word of the language and cannot name a " + what);
     const auto [found, fresh] = known_.emplace(name, what);
@@ -43,6 +72,9 @@ void check_maps(const Component& component, const std::vector<Named>& map,
 
 void check_names(const Method& method) {
   Names names;
+  for (const auto* list :
+       {&method.data, &method.unknowns, &method.plant.states, &method.observer.states})
+    for (const Declaration& declaration : *list) names.add_dimensions(declaration.shape);
   for (const Declaration& datum : method.data) names.add(datum.name, "datum", datum.place);
   for (const Parameter& parameter : method.parameters)
     names.add(parameter.name, "parameter", parameter.place);
@@ -63,6 +95,8 @@ void check_names(const Method& method) {
     const bool is_itself = root.kind == expr::NodeKind::name && root.text == gain.name;
     if (!is_itself) names.add(gain.name, "gain", gain.place);
   }
+  for (const Requirement& requirement : method.require)
+    for (const Forall& forall : requirement.forall) names.check_variable(forall);
 }
 
 }  // namespace gainsmith::model

@@ -1,8 +1,10 @@
 #include "model/shape_text.h"
 
-#include <sstream>
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
+#include "base/nearest.h"
 #include "expr/compile.h"
 #include "expr/parser.h"
 #include "expr/real.h"
@@ -50,12 +52,11 @@ std::optional<int> size_of(const expr::Expression& expression, const Dimensions&
   for (const std::string& name : names_in(expression))
     if (!dimensions.contains(name)) return std::nullopt;
   const double value = expr::evaluate(expr::compile(expression, scope, expr::Shape{}), {})(0, 0);
-  const int size = static_cast<int>(value);
   constexpr double kLargest = 1e6;
-  if (!(value >= 0 && value <= kLargest) || static_cast<double>(size) != value)
+  if (!(value >= 0 && value <= kLargest) || std::trunc(value) != value)
     throw InputError(expression.place(*expression.root),
                      "a size must be a whole number, not " + expression.text->str());
-  return size;
+  return static_cast<int>(value);
 }
 
 bool learn_size(const expr::Expression& expression, int actual, Dimensions& dimensions) {
@@ -82,6 +83,14 @@ ShapeText parse_shape(const expr::Text& text) {
     shape.rows = size(words[1].offset, length);
     return shape;
   }
+  static const std::vector<std::string> kStructures = {"scalar", "symmetric", "diagonal"};
+  if (!words.empty() && words.size() <= 2)
+    if (const auto near = nearest(words[0].text, kStructures))
+      throw InputError(
+          shape.place,
+          words[0].text == *near
+              ? "expected " + *near + (*near == "scalar" ? " alone" : " n")
+              : "unknown shape '" + words[0].text + "'; did you mean '" + *near + "'?");
   shape.structure = Structure::full;
   for (const Word& word : words) {
     if (word.text != "x") continue;
