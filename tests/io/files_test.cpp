@@ -1,0 +1,65 @@
+// The methods built into the program and the problems of the repository parse and check.
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "io/method_yaml.h"
+#include "io/problem_text.h"
+#include "model/instance.h"
+
+namespace gainsmith::io {
+namespace {
+
+namespace fs = std::filesystem;
+
+TEST(BuiltInMethods, ParseUnderTheirOwnName) {
+  ASSERT_GE(methods::all().size(), 5U);
+  for (const methods::Text& text : methods::all()) {
+    const model::Method method = parse_method(std::string(text.text), std::string(text.name));
+    EXPECT_EQ(method.name, text.name);
+    EXPECT_FALSE(method.source.empty()) << text.name;
+    EXPECT_FALSE(method.summary.empty()) << text.name;
+  }
+}
+
+std::vector<fs::path> problem_files() {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(GAINSMITH_PROBLEMS))
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path());
+  return files;
+}
+
+TEST(Problems, OfTheRepositoryParseAndCheck) {
+  const auto files = problem_files();
+  ASSERT_GE(files.size(), 11U);
+  for (const fs::path& path : files) {
+    SCOPED_TRACE(path.filename().string());
+    const model::Problem problem = parse_problem(read_text(path), path.string(), library());
+    const model::Instance instance = model::make_instance(problem);
+    model::check_everything(instance);
+    const fs::path named = problem.name + ".yaml";
+    EXPECT_EQ(named, fs::relative(path, GAINSMITH_PROBLEMS)) << "the name is the path";
+    EXPECT_TRUE(problem.expect) << "a problem of the repository says what is expected";
+  }
+}
+
+TEST(Problems, EveryBuiltInMethodIsUsableWithItsDefaults) {
+  for (const std::string& name : methods::names()) {
+    SCOPED_TRACE(name);
+    const model::Method method = parse_method(*methods::find(name), name);
+    std::string text = "problem: a\nmethod: " + name + "\ndata:\n";
+    for (const model::Declaration& datum : method.data)
+      if (!datum.fallback)
+        text += "  " + datum.name + ": " + (datum.name == "T2" ? "2" : "1") + "\n";
+    const model::Problem problem = read_problem(text);
+    const model::Instance instance = model::make_instance(problem);
+    model::check_everything(instance);
+    EXPECT_EQ(instance.unknowns.size(), method.unknowns.size());
+  }
+}
+
+}  // namespace
+}  // namespace gainsmith::io
