@@ -25,6 +25,9 @@ constexpr double kPanelCost = 0.2;
 constexpr double kDotCost = 1.0;
 /// A block cheaper than this is not worth starting threads for.
 constexpr double kParallelCost = 1e6;
+/// The perturbation of a B that has no Cholesky factor: eps times this, growing by it, so often.
+constexpr double kGrowth = 8;
+constexpr int kAttempts = 20;
 
 }  // namespace
 
@@ -32,7 +35,8 @@ template <typename T>
 Schur<T>::Schur(const Data& data, unsigned threads)
     : data_(data),
       threads_(thread_count(threads)),
-      columns_(static_cast<std::size_t>(data.layout.linear)) {
+      columns_(static_cast<std::size_t>(data.layout.linear)),
+      sparse_(data) {
   const int m = data.m();
   for (int b = 0; b < data.layout.blocks(); ++b) {
     const int n = data.layout.size[static_cast<std::size_t>(b)];
@@ -47,8 +51,8 @@ Schur<T>::Schur(const Data& data, unsigned threads)
       columns_[static_cast<std::size_t>(linear.terms[t].row)].emplace_back(
           linear.constraint[list] - 1, coefficient<T>(linear.terms[t]));
   }
-  b_.setZero(m, m);
-  factor_.setZero(m, m);
+  if (!sparse_.worthwhile()) b_.setZero(m, m);
+  if (!sparse_.worthwhile()) factor_.setZero(m, m);
   scale_.setZero(m);
 }
 
@@ -115,7 +119,10 @@ void Schur<T>::size_workspaces() {
 
 template <typename T>
 void Schur<T>::assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y) {
-  b_.setZero();
+  if (sparse_.worthwhile())
+    sparse_.set_zero();
+  else
+    b_.setZero();
   for (std::size_t b = 0; b < plans_.size(); ++b) {
     const Plan& plan = plans_[b];
     const auto block_X = inverse_X.dense(static_cast<int>(b));
@@ -244,25 +251,35 @@ void Schur<T>::add_linear(const ConstVectorMap<T>& inverse_x, const ConstVectorM
 template <typename T>
 bool Schur<T>::factorise() {
   using std::sqrt;
-  const Eigen::Index m = b_.rows();
-  for (Eigen::Index i = 0; i < m; ++i) scale_[i] = b_(i, i) > T(0) ? T(1) / sqrt(b_(i, i)) : T(1);
+  for (int i = 0; i < data_.m(); ++i) {
+    const T diagonal = sparse_.worthwhile() ? sparse_.diagonal(i) : b_(i, i);
+    scale_[i] = diagonal > T(0) ? T(T(1) / sqrt(diagonal)) : T(1);
+  }
   T delta(0);
-  const T eps = std::numeric_limits<T>::epsilon();
-  for (int attempt = 0; attempt < 20; ++attempt) {
-    for (Eigen::Index j = 0; j < m; ++j)
-      factor_.col(j).tail(m - j) =
-          scale_[j] * b_.col(j).tail(m - j).cwiseProduct(scale_.tail(m - j));
-    factor_.diagonal().setConstant(T(1) + delta);
-    if (cholesky(View<T>(factor_))) return true;
-    delta = delta == T(0) ? eps * T(8.0) : delta * T(8.0);
+  for (int attempt = 0; attempt < kAttempts; ++attempt) {
+    if (factorise(delta)) return true;
+    delta = T(kGrowth) * (delta == T(0) ? T(std::numeric_limits<T>::epsilon()) : delta);
   }
   return false;
 }
 
 template <typename T>
+bool Schur<T>::factorise(const T& delta) {
+  if (sparse_.worthwhile()) return sparse_.factorise(scale_, delta);
+  const Eigen::Index m = b_.rows();
+  for (Eigen::Index j = 0; j < m; ++j)
+    factor_.col(j).tail(m - j) = scale_[j] * b_.col(j).tail(m - j).cwiseProduct(scale_.tail(m - j));
+  factor_.diagonal().setConstant(T(1) + delta);
+  return cholesky(View<T>(factor_));
+}
+
+template <typename T>
 void Schur<T>::solve(const Vector<T>& r, Vector<T>& x) const {
   x = r.cwiseProduct(scale_);
-  solve_factored(View<const T>(factor_), x);
+  if (sparse_.worthwhile())
+    sparse_.solve(x);
+  else
+    solve_factored(View<const T>(factor_), x);
   x = x.cwiseProduct(scale_);
 }
 

@@ -1,11 +1,13 @@
 // The Schur complement B of the Newton system: its assembly and its factor.
 #pragma once
 
+#include <utility>
 #include <vector>
 
 #include "sdp/data.h"
 #include "sdp/linalg.h"
 #include "sdp/panel.h"
+#include "sdp/sparse_schur.h"
 
 namespace gainsmith::sdp {
 
@@ -70,7 +72,15 @@ class Schur {
   void add_rows(const Plan& plan, std::size_t position, const ConstMatrixMap<T>& inverse_X,
                 const ConstMatrixMap<T>& Y, Workspace& w);
   void add_linear(const ConstVectorMap<T>& inverse_x, const ConstVectorMap<T>& y);
-  void add(int i, int j, const T& value) { (i >= j ? b_(i, j) : b_(j, i)) += value; }
+  void add(int i, int j, const T& value) {
+    if (i < j) std::swap(i, j);
+    if (sparse_.worthwhile())
+      sparse_.add(i, j, value);
+    else
+      b_(i, j) += value;
+  }
+  /// Cholesky of the scaled B + delta I.
+  bool factorise(const T& delta);
 
   const Data& data_;
   unsigned threads_;
@@ -78,7 +88,8 @@ class Schur {
   std::vector<Workspace> work_;  ///< one a thread
   /// The linear part by column: the F_i that have the entry k.
   std::vector<std::vector<std::pair<int, T>>> columns_;
-  Matrix<T> b_;       ///< lower triangle
+  SparseSchur<T> sparse_;
+  Matrix<T> b_;       ///< lower triangle; empty when sparse
   Matrix<T> factor_;  ///< lower triangle of the Cholesky factor of the scaled B
   Vector<T> scale_;   ///< diag(B)^-1/2
 };

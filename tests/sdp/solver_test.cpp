@@ -100,6 +100,38 @@ TEST(Solver, GivesTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
+/// minimise sum x_i subject to x_i^2 + x_{i+1}^2 <= 4, as blocks [2 + x_i, x_{i+1}; x_{i+1}, 2 -
+/// x_i] >= 0: its Schur complement is tridiagonal.
+Problem chain(int links) {
+  Problem problem;
+  problem.c.assign(static_cast<std::size_t>(links), 1.0);
+  problem.f.resize(static_cast<std::size_t>(links) + 1);
+  for (int i = 0; i < links; ++i) {
+    problem.blocks.push_back({2, false});
+    problem.f[0].push_back({i, 0, 0, -2});
+    problem.f[0].push_back({i, 1, 1, -2});
+    problem.f[static_cast<std::size_t>(i) + 1].push_back({i, 0, 0, 1});
+    problem.f[static_cast<std::size_t>(i) + 1].push_back({i, 1, 1, -1});
+    if (i > 0) problem.f[static_cast<std::size_t>(i) + 1].push_back({i - 1, 0, 1, 1});
+  }
+  return problem;
+}
+
+TEST(Solver, UsesASparseSchurComplement) {
+  // 60 links take the dense path, 120 the sparse one.
+  for (const int links : {60, 120}) {
+    const Problem problem = chain(links);
+    const Solution solution = solve(problem);
+    ASSERT_EQ(to_string(solution.status), "optimal") << solution.message;
+    const testing::Errors errors = testing::recompute(problem, solution, 1e-7L);
+    EXPECT_LT(errors.dual, 1e-7L);
+    EXPECT_LT(errors.primal, 1e-7L);
+    EXPECT_TRUE(errors.cone);
+    EXPECT_NEAR(static_cast<double>(errors.primal_objective),
+                static_cast<double>(errors.dual_objective), 1e-6 * links);
+  }
+}
+
 TEST(Solver, StopsWhereItIsTold) {
   const CatalogueProblem known = testing::sdp_catalogue().front();
   Options few;
