@@ -20,6 +20,7 @@ ConeFactor<T>::ConeFactor(const Layout& layout)
       inverse_transpose_(layout),
       work_(layout),
       scaled_(layout) {
+  solvers_.reserve(layout.size.size());
   for (const int n : layout.size) {
     solvers_.emplace_back(n);
     rounded_.emplace_back(n, n);

@@ -20,6 +20,8 @@ constexpr double kNoStep = 1e-7;
 /// Part of a step taken back when it leaves the cone, and how often.
 constexpr double kRetreat = 0.125;
 constexpr int kRetreats = 6;
+/// Infeasibility of so many roundings is none.
+constexpr double kRounding = 10;
 /// The least sigma at a fixed tau.
 constexpr double kLeastCentering = 1e-6;
 
@@ -133,9 +135,11 @@ Steps<T> Ipm<T>::shortened(const Steps<T>& longest, const Steps<T>& reach) const
 
 template <typename T>
 std::optional<Cause> Ipm<T>::stop() const {
-  if (residuals_.worst() <= run_.tolerance &&
-      std::max(residuals_.primal_infeasibility, residuals_.dual_infeasibility) <= run_.feasibility)
-    return Cause::converged;
+  const bool feasible =
+      residuals_.primal_infeasibility <=
+          run_.feasibility + kRounding * residuals_.primal_rounding &&
+      residuals_.dual_infeasibility <= run_.feasibility + kRounding * residuals_.dual_rounding;
+  if (residuals_.worst() <= run_.tolerance && feasible) return Cause::converged;
   if (std::min(residuals_.primal_certificate, residuals_.dual_certificate) <=
       options_.certificate_tolerance / 2)
     return Cause::certificate;

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cmath>
+#include <type_traits>
 #include <vector>
 
 #include "sdp/data.h"
@@ -43,13 +44,25 @@ class Panel {
   void set(std::size_t entry, std::size_t lane, const T& value) {
     values_[entry * kLanes + lane] = value;
   }
-  /// sums[i] += factor value(entry, i)
-  void add(std::size_t entry, const T& factor, Sums& sums) const {
-    const T* at = values_.data() + entry * kLanes;
-    for (std::size_t i = 0; i < kLanes; ++i) sums[i] += at[i] * factor;
+  /// sums[i] = sum_k factor[k] value(entry[k], i), in chains that do not wait for each other.
+  Sums inner(const int* entry, const T* factor, std::size_t count) const {
+    constexpr std::size_t kChains = std::is_same_v<T, double> ? 4 : 1;
+    std::array<Sums, kChains> chains{};
+    std::size_t k = 0;
+    for (; k + kChains <= count; k += kChains)
+      for (std::size_t c = 0; c < kChains; ++c) add(entry[k + c], factor[k + c], chains[c]);
+    for (; k < count; ++k) add(entry[k], factor[k], chains[0]);
+    for (std::size_t c = 1; c < kChains; ++c)
+      for (std::size_t i = 0; i < kLanes; ++i) chains[0][i] += chains[c][i];
+    return chains[0];
   }
 
  private:
+  void add(int entry, const T& factor, Sums& sums) const {
+    const T* at = values_.data() + static_cast<std::size_t>(entry) * kLanes;
+    for (std::size_t i = 0; i < kLanes; ++i) sums[i] += at[i] * factor;
+  }
+
   std::vector<T> values_;
 };
 
@@ -64,9 +77,13 @@ class Panel<DoubleDouble> {
     values_[entry * kLanes * 2 + lane] = value.hi();
     values_[entry * kLanes * 2 + kLanes + lane] = value.lo();
   }
-  void add(std::size_t entry, const DoubleDouble& factor, Sums& sums) const {
-    const double* at = values_.data() + entry * kLanes * 2;
-    sums.add(at, at + kLanes, factor.hi(), factor.lo());
+  Sums inner(const int* entry, const DoubleDouble* factor, std::size_t count) const {
+    Sums sums;
+    for (std::size_t k = 0; k < count; ++k) {
+      const double* at = values_.data() + static_cast<std::size_t>(entry[k]) * kLanes * 2;
+      sums.add(at, at + kLanes, factor[k].hi(), factor[k].lo());
+    }
+    return sums;
   }
 
  private:

@@ -64,6 +64,12 @@ void Residuals<T>::update(const Iterate<T>& point) {
   primal_infeasibility = std::sqrt(primal_square) * recovery.gamma_f / tau / (1 + largest_f0_);
   dual_infeasibility = std::sqrt(dual_square) / (1 + largest_c_);
   objective_error = moved * unit / tau / size;
+  // Working F_i have norms from 1 to 2.
+  const double epsilon = static_cast<double>(std::numeric_limits<T>::epsilon());
+  primal_rounding = epsilon * static_cast<double>(point.x.template lpNorm<1>()) * recovery.gamma_f /
+                    tau / (1 + largest_f0_);
+  dual_rounding = epsilon * static_cast<double>(point.Y.flat().norm()) * recovery.gamma_c / tau /
+                  (1 + largest_c_);
 
   const double none = std::numeric_limits<double>::infinity();
   const double ascent = dual_objective * tau, descent = -primal_objective * tau;

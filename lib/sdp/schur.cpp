@@ -75,6 +75,7 @@ typename Schur<T>::Plan Schur<T>::plan_block(const BlockData& block, int n) cons
     for (std::size_t t = block.start[k]; t < block.start[k + 1]; ++t) {
       const Term& term = block.terms[t];
       plan.terms.push_back(term);
+      plan.value.push_back(coefficient<T>(term));
       plan.packed.push_back(static_cast<int>(packed_index(term.row, term.column)));
       rows.insert(term.row);
       rows.insert(term.column);
@@ -183,9 +184,8 @@ void Schur<T>::add_dense(const Plan& plan, std::size_t first, std::size_t last,
 
   for (std::size_t q = first; q < plan.lists.size(); ++q) {
     const List& other = plan.lists[q];
-    typename Panel<T>::Sums sums{};
-    for (std::size_t t = other.first; t < other.last; ++t)
-      w.panel.add(static_cast<std::size_t>(plan.packed[t]), coefficient<T>(plan.terms[t]), sums);
+    const auto sums = w.panel.inner(plan.packed.data() + other.first,
+                                    plan.value.data() + other.first, other.last - other.first);
     const std::size_t pairs = std::min(q + 1, last) - first;
     for (std::size_t i = 0; i < pairs; ++i)
       add(plan.lists[first + i].constraint, other.constraint, sums[i]);

@@ -54,6 +54,7 @@ class Schur {
     std::vector<List> lists;
     std::vector<Term> terms;  ///< regrouped in the order of `lists`
     std::vector<int> packed;  ///< place of a term in the packed upper triangle
+    std::vector<T> value;     ///< of a term
     std::vector<Batch> batches;
     double cost = 0;  ///< in multiplications, about
   };

@@ -111,7 +111,7 @@ class Ladder {
   static constexpr double kIllPosed = 100;
   static constexpr double kWideFeasibility = 1e-18;
   /// Multiplications an iteration up to which a wider arithmetic is tried unasked.
-  static constexpr double kQuadCost = 1e9, kWideCost = 3e5;
+  static constexpr double kQuadCost = 1e9, kWideCost = 6e4;
 
   template <typename T>
   Solution settle(double factor) {
