@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "base/number.h"
 
 namespace gainsmith::app {
@@ -27,8 +25,8 @@ io::Json check_json(const verify::CheckReport& check) {
   }
   result["violations"] = check.violations;
   result["worst_run"] = check.worst_run;
-  result["worst"] = {{"score", number_json(check.worst.score)}, {"value", number_json(check.worst.value)},
-                     {"bound", number_json(check.worst.bound)}, {"t", check.worst.t},
+  result["worst"] = {{"score", io::finite_or_null(check.worst.score)}, {"value", io::finite_or_null(check.worst.value)},
+                     {"bound", io::finite_or_null(check.worst.bound)}, {"t", check.worst.t},
                      {"j", check.worst.j}};
   return result;
 }
@@ -44,8 +42,6 @@ std::string check_text(const verify::CheckReport& check) {
 }
 
 }  // namespace
-
-io::Json number_json(double value) { return std::isfinite(value) ? io::Json(value) : io::Json(); }
 
 io::Json campaign_json(const verify::Report& report) {
   io::Json checks = io::Json::array();

@@ -8,9 +8,6 @@
 
 namespace gainsmith::app {
 
-/// JSON has no infinity and no NaN: such a number becomes null.
-io::Json number_json(double value);
-
 io::Json campaign_json(const verify::Report& report);
 
 /// Verdict, checks and how to replay the worst run; `gains_file` is named in the command.

@@ -8,7 +8,6 @@
 
 #include "base/file.h"
 #include "base/number.h"
-#include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "io/csv.h"
@@ -31,7 +30,7 @@ io::Json replay_json(const verify::Replay& replay) {
   io::Json rows = io::Json::array();
   for (Eigen::Index i = 0; i < replay.table.rows(); ++i) {
     io::Json row = io::Json::array();
-    for (Eigen::Index j = 0; j < replay.table.cols(); ++j) row.push_back(number_json(replay.table(i, j)));
+    for (Eigen::Index j = 0; j < replay.table.cols(); ++j) row.push_back(io::finite_or_null(replay.table(i, j)));
     rows.push_back(std::move(row));
   }
   return {{"termination", to_string(replay.arc.termination)}, {"columns", replay.columns}, {"rows", rows}};

@@ -47,7 +47,7 @@ io::Json certificate_json(const sdp::Certificate& certificate) {
           {"value", certificate.value},
           {"residual", certificate.residual},
           {"min_eigenvalue", certificate.min_eigenvalue},
-          {"excluded_radius", certificate.excluded_radius}};
+          {"excluded_radius", io::finite_or_null(certificate.excluded_radius)}};
 }
 
 std::string json_text(const sdp::Solution& solution) {

@@ -11,6 +11,7 @@
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
 #include "io/gains_json.h"
+#include "sdp/sdpa_file.h"
 
 namespace gainsmith::app {
 
@@ -19,6 +20,7 @@ namespace {
 struct SynthOptions {
   std::string problem;
   std::string output;
+  std::string sdpa;
   bool json = false;
 };
 
@@ -40,6 +42,7 @@ std::string json_text(const model::Gains& gains) {
 
 ExitCode synth(const SynthOptions& options) {
   const Loaded loaded = load_problem(options.problem);
+  if (!options.sdpa.empty()) write_atomically(options.sdpa, sdp::write_sdpa(design::semidefinite_program(loaded.instance)));
   catch_interrupts();
   sdp::Options solver;
   solver.interrupted = interrupted;
@@ -62,6 +65,7 @@ void add_synth(CLI::App& program, ExitCode& exit) {
   CLI::App* command = program.add_subcommand("synth", "Synthesize gains from a problem file");
   command->add_option("problem", options->problem, "problem file (YAML); - for standard input")->required();
   command->add_option("-o,--output", options->output, "write the gain file here; - for standard output");
+  command->add_option("--sdpa", options->sdpa, "write the semidefinite program here, for other solvers");
   command->add_flag("--json", options->json, "print the result as JSON");
   command->footer(
       "Exit code: 0 gains found, 1 proved infeasible, 2 wrong input, 3 undecided.\n"

@@ -153,7 +153,7 @@ class Synthesis {
     const sdp::Certificate& certificate = solution_.certificate;
     gains_.certificate = model::CertificateRecord{
         certificate.value,           certificate.residual, certificate.min_eigenvalue,
-        certificate.excluded_radius, certificate.checked,  lmi::multipliers(lmi_, bounds_, formulation_, solution_)};
+        formulation_.unit * certificate.excluded_radius, certificate.checked,  lmi::multipliers(lmi_, bounds_, formulation_, solution_)};
   }
 
   /// Gains whose formulas use nothing but data are known in any case, the others when the verdict is yes.
@@ -188,6 +188,13 @@ class Synthesis {
 
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options) {
   return Synthesis(instance, options).run();
+}
+
+sdp::Problem semidefinite_program(const model::Instance& instance) {
+  const model::SynthesisOptions& choices = instance.problem->synthesis;
+  const lmi::Lmi lmi = lmi::compile(instance);
+  const lmi::GainBounds bounds = lmi::gain_bounds(instance, lmi.unknowns, choices.gain_bound);
+  return lmi::formulate(lmi, bounds, choices, lmi::goal_of(lmi, bounds)).problem;
 }
 
 }  // namespace gainsmith::design

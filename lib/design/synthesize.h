@@ -20,4 +20,7 @@ namespace gainsmith::design {
 /// cannot be compiled.
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options);
 
+/// The semidefinite program that synthesize() solves first (see lmi/formulation.h).
+sdp::Problem semidefinite_program(const model::Instance& instance);
+
 }  // namespace gainsmith::design

@@ -13,6 +13,7 @@ namespace {
 /// On unknowns when nothing else bounds them, relative to the size that the data set.
 constexpr double kLimit = 1e6;
 
+/// kappa; 1 when no block has constant data.
 double data_size(const Lmi& lmi) {
   double kappa = std::numeric_limits<double>::infinity();
   for (const Block& block : lmi.blocks)
@@ -41,10 +42,11 @@ std::vector<double> scales_of(const Lmi& lmi, bool homogeneous) {
   return scales;
 }
 
-/// Fills an SDP in the SDPA form X = sum x_i F_i - F_0 from blocks B(x) = B_0 + sum x_i B_i >= shift.
+/// Fills an SDP in the SDPA form X = sum x_i F_i - F_0 from blocks B(x) = B_0 + sum x_i B_i >= shift, all
+/// constants divided by `unit`.
 class Assembler {
  public:
-  explicit Assembler(int variables) {
+  Assembler(int variables, double unit) : unit_(unit) {
     problem_.c.assign(static_cast<std::size_t>(variables), 0.0);
     problem_.f.resize(static_cast<std::size_t>(variables) + 1);
   }
@@ -66,11 +68,12 @@ class Assembler {
         for (Sparse::InnerIterator it(matrix, k); it; ++it) {
           const int row = moved[static_cast<std::size_t>(it.row())];
           const int column = moved[static_cast<std::size_t>(it.col())];
-          if (row != kDropped && column != kDropped && row <= column) add_entry(i, at, row, column, it.value());
+          if (row != kDropped && column != kDropped && row <= column)
+            add_entry(i, at, row, column, i == 0 ? it.value() / unit_ : it.value());
         }
       }
     }
-    add_identity(0, at, size, -shift);
+    add_identity(0, at, size, -shift / unit_);
   }
 
   /// The coefficient of variable i (0: the constant B_0) at one place of the upper triangle.
@@ -108,6 +111,7 @@ class Assembler {
     entries = std::move(merged);
   }
 
+  double unit_;
   sdp::Problem problem_;
 };
 
@@ -156,7 +160,8 @@ Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
   const int m = lmi.unknowns.size();
   const bool extra = goal == Goal::homogeneous_feasibility || goal == Goal::feasibility;
   const int own = m + bounds.scalars + 1;   // the goal's own variable, when it has one
-  Assembler assembler(extra ? own : own - 1);
+  result.unit = result.homogeneous() ? 1.0 : data_size(lmi);
+  Assembler assembler(extra ? own : own - 1, result.unit);
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     const Block& block = lmi.blocks[k];
     const double unit = block.strict ? result.scales[k] : 0.0;
@@ -164,18 +169,18 @@ Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
     assembler.add(block, result.releases.kept[k],
                   variable_margin ? 0.0 : unit * result.strict_margin());
     if (variable_margin && block.strict)
-      assembler.add_identity(own, static_cast<int>(k), block.size, -unit);
+      assembler.add_identity(own, static_cast<int>(k), block.size, -unit / result.unit);
   }
   for (const Block& block : bounds.blocks) assembler.add(block, all_rows(block), 0);
   if (goal == Goal::homogeneous_feasibility) {
     add_limits(assembler, m, own, 0);
     assembler.set_cost(own, 1);
   } else if (goal == Goal::feasibility) {
-    add_limits(assembler, m, 0, kLimit * data_size(lmi));
+    add_limits(assembler, m, 0, kLimit);
     add_cap(assembler, own);
     assembler.set_cost(own, -1);
   } else if (goal == Goal::certificate) {
-    add_limits(assembler, m, 0, kLimit * data_size(lmi));
+    add_limits(assembler, m, 0, kLimit);
   } else {
     for (int i = 1; i <= m; ++i) assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1]);
   }
@@ -186,6 +191,7 @@ Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
 std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation, const sdp::Solution& solution) {
   std::vector<double> x = solution.x;
   x.resize(static_cast<std::size_t>(lmi.unknowns.size()));
+  for (double& value : x) value *= formulation.unit;
   std::vector<double> required;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
     required.push_back(lmi.blocks[k].strict ? formulation.scales[k] * formulation.strict_margin() : 0.0);
@@ -195,7 +201,7 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation, co
 
 double objective_lower_bound(const Lmi& lmi, const Formulation& formulation, const sdp::Solution& solution) {
   // F_0 holds the margins as +margin s_k on the diagonal of strict blocks: take them out again.
-  double bound = solution.dual_objective + lmi.objective_constant;
+  double bound = formulation.unit * solution.dual_objective + lmi.objective_constant;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     if (!lmi.blocks[k].strict) continue;
     const std::size_t n = formulation.releases.kept[k].size();

@@ -2,7 +2,9 @@
 //
 // Scales. Each block k has a scale s_k: the larger of its constant data and of kappa times its
 // coefficients, where kappa is the smallest ratio constant/coefficient among the blocks (the size of the
-// unknowns that the data set); all points of one inequality share the largest. Multiplying all data by a number multiplies all scales by it.
+// unknowns that the data set); all points of one inequality share the largest. The program is written in
+// x/kappa and B/kappa (kappa = 1 when homogeneous): multiplying all data by a number multiplies all scales
+// by it and leaves the program as it is.
 //
 // Which program is solved:
 //   bounded objective   some block has constant data, and there is an objective:
@@ -41,6 +43,7 @@ enum class Goal {
 struct Formulation {
   Goal goal = Goal::bounded_objective;
   double margin = 0;                ///< as asked for
+  double unit = 1;                  ///< kappa: x = unit times the program's variables
   std::vector<double> scales;       ///< s_k, or c_k when homogeneous; one a block of the Lmi
   sdp::Problem problem;             ///< its first blocks are those of the Lmi, then the gain bounds, then
                                     ///< limits on x

@@ -133,7 +133,8 @@ class Collector {
   void add_product(const model::Named& gain, const Product& product) {
     const std::string inverse = "inv(" + product.unknown->name + ")";
     const std::size_t length = product.factor->end - product.factor->begin;
-    const std::string factor = gain.value.text->str().substr(product.factor->begin, length);
+    std::string factor = gain.value.text->str().substr(product.factor->begin, length);
+    if (product.factor->kind == NodeKind::add || product.factor->kind == NodeKind::subtract) factor = "(" + factor + ")";
     const std::string what = product.left ? inverse + "*" + factor : factor + "*" + inverse;
     const AffineForm e = form_of(instance_, unknowns_, {gain.value.text, product.factor});
     add({what, unknown_form(*product.unknown), product.left ? e : transposed(e), scalar_of(*product.unknown)});

@@ -287,4 +287,18 @@ Problem read_sdpa(std::string_view text, const std::string& file_name) {
   return problem;
 }
 
+std::string write_sdpa(const Problem& problem) {
+  std::string text = std::to_string(problem.m()) + "\n" + std::to_string(problem.blocks.size()) + "\n";
+  for (const Block& block : problem.blocks)
+    text += std::to_string(block.diagonal ? -block.size : block.size) + " ";
+  text += "\n";
+  for (const double cost : problem.c) text += decimal17(cost) + " ";
+  text += "\n";
+  for (std::size_t i = 0; i < problem.f.size(); ++i)
+    for (const Entry& entry : problem.f[i])
+      text += std::to_string(i) + " " + std::to_string(entry.block + 1) + " " + std::to_string(entry.row + 1) + " " +
+              std::to_string(entry.column + 1) + " " + decimal17(entry.value) + "\n";
+  return text;
+}
+
 }  // namespace gainsmith::sdp

@@ -23,4 +23,7 @@ namespace gainsmith::sdp {
 /// that ends early.
 Problem read_sdpa(std::string_view text, const std::string& file_name);
 
+/// The text of a problem in that format, numbers with 17 digits: read_sdpa gives the same problem.
+std::string write_sdpa(const Problem& problem);
+
 }  // namespace gainsmith::sdp

@@ -1,0 +1,102 @@
+// Ten and more broken files: exit 2, one message with its place, nothing written.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include <regex>
+
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+const std::string kGood = "ferrante-seuret-2021/t2-0.70.yaml";
+
+struct Broken {
+  const char* name;
+  const char* pattern;      ///< replaced in the good problem
+  const char* replacement;
+  const char* message;      ///< in the error
+  int line;                 ///< where
+  int column;
+};
+
+class BadInput : public ::testing::TestWithParam<Broken> {};
+
+TEST_P(BadInput, IsRefusedWithItsPlace) {
+  const Broken& broken = GetParam();
+  const std::string good = text_of(problem(kGood));
+  const std::string text = std::regex_replace(good, std::regex(broken.pattern), broken.replacement,
+                                              std::regex_constants::format_first_only);
+  ASSERT_NE(text, good);
+  const Folder folder;
+  const std::string file = folder.file("broken.yaml", text);
+  const std::string place = file + ":" + std::to_string(broken.line) + ":" + std::to_string(broken.column) + ":";
+  for (const char* command : {"check", "synth"}) {
+    std::vector<std::string> arguments = {command, file};
+    if (std::string(command) == "synth") arguments.insert(arguments.end(), {"-o", folder.path("gains.json")});
+    const Outcome outcome = gainsmith(arguments);
+    EXPECT_EQ(outcome.exit, 2) << outcome.out;
+    EXPECT_NE(outcome.err.find(broken.message), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find(place), std::string::npos) << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+  EXPECT_EQ(folder.names(), std::vector<std::string>{"broken.yaml"});
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Files, BadInput,
+    ::testing::Values(
+        Broken{"misspelt_key", "parameters:", "paramters:", "did you mean 'parameters'?", 12, 1},
+        Broken{"misspelt_datum", "  QF: I", "  QG: I", "did you mean", 10, 3},
+        Broken{"misspelt_parameter", "eta:", "eat:", "did you mean 'eta'?", 12, 27},
+        Broken{"wrong_shape", "C: \\[\\[0.5, -1\\]\\]", "C: [[0.5, -1, 2]]", "1 x 3", 7, 3},
+        Broken{"not_a_number", "\\[1, 0\\]\\]", "[.nan, 0]]", "must be finite", 6, 22},
+        Broken{"asymmetric", "QF: I", "QF: [[1, 2], [0, 1]]", "must be symmetric", 10, 17},
+        Broken{"crossed_interval", "T1: 0.5", "T1: 0.9", "expected 0 < T1 <= T2", 9, 3},
+        Broken{"unknown_method", "method: sampled-data-hybrid", "method: sampled-data-hibrid", "did you mean 'sampled-data-hybrid'?", 4, 9},
+        Broken{"yaml_error", "\\[1, 0\\]\\]", "[1, 0]", "YAML", 7, 3},
+        Broken{"ragged", "\\[1, 0\\]\\]", "[1]]", "1 elements", 6, 21},
+        Broken{"unknown_name", "QJ: 0.01\\*I", "QJ: 0.01*J", "unknown name 'J'", 11, 12},
+        Broken{"negative", "delta: 0.03", "delta: -1", "expected delta > 0", 12, 14},
+        Broken{"bad_law", "  horizon: 100", "  horizon: 100\n  sampling: [unifrm]", "did you mean 'uniform'?", 16, 14},
+        Broken{"no_state", "zh: 0", "zz: 0", "is no state", 18, 5}),
+    [](const ::testing::TestParamInfo<Broken>& broken) { return std::string(broken.param.name); });
+
+TEST(BadInputTest, MissingEmptyAndUnreadableFiles) {
+  const Folder folder;
+  std::filesystem::create_directory(folder.path("folder"));
+  for (const std::string& file :
+       {folder.path("missing.yaml"), folder.file("empty.yaml", ""), folder.path("folder"),
+        folder.file("binary.yaml", std::string("\x00\x01\x02\xff", 4))}) {
+    const Outcome outcome = gainsmith({"check", file});
+    EXPECT_EQ(outcome.exit, 2) << file;
+    EXPECT_NE(outcome.err.find(file), std::string::npos) << outcome.err;
+  }
+}
+
+TEST(BadInputTest, GainFilesThatAreTruncatedOrEdited) {
+  const Folder folder;
+  const std::string path = folder.path("gains.json");
+  ASSERT_EQ(gainsmith({"synth", problem(kGood), "-o", path}).exit, 0);
+  const std::string text = text_of(path);
+  const std::string half = folder.file("half.json", text.substr(0, text.size() / 2));
+  const Outcome truncated = gainsmith({"verify", half});
+  EXPECT_EQ(truncated.exit, 2);
+  EXPECT_TRUE(std::regex_search(truncated.err, std::regex("half.json:[0-9]+:[0-9]+: "))) << truncated.err;
+  const std::string edited = folder.file("edited.json", std::regex_replace(text, std::regex("T2: 0\\.7"), "T2: 0.9"));
+  const Outcome changed = gainsmith({"verify", edited});
+  EXPECT_EQ(changed.exit, 2);
+  EXPECT_NE(changed.err.find("sha256"), std::string::npos) << changed.err;
+}
+
+TEST(BadInputTest, AnOutputThatCannotBeWrittenLeavesNothing) {
+  const Folder folder;
+  const Outcome outcome = gainsmith({"synth", problem(kGood), "-o", folder.path("no/such/folder/gains.json")});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_TRUE(folder.names().empty());
+}
+
+}  // namespace
+}  // namespace gainsmith::tests

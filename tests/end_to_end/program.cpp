@@ -1,0 +1,74 @@
+#include "end_to_end/program.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+#include <stdexcept>
+
+namespace gainsmith::tests {
+
+namespace {
+
+std::string quoted(const std::string& word) {
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace
+
+Folder::Folder() {
+  std::string pattern = (std::filesystem::temp_directory_path() / "gainsmith-test-XXXXXX").string();
+  if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("no temporary folder");
+  root_ = pattern;
+}
+
+Folder::~Folder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(root_, ignored);
+}
+
+std::string Folder::file(const std::string& name, const std::string& text) const {
+  std::ofstream(path(name), std::ios::binary) << text;
+  return path(name);
+}
+
+std::vector<std::string> Folder::names() const {
+  std::vector<std::string> result;
+  for (const auto& entry : std::filesystem::directory_iterator(root_)) result.push_back(entry.path().filename().string());
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+Outcome gainsmith(const std::vector<std::string>& arguments, const std::string& input) {
+  const Folder folder;
+  std::string command = quoted(GAINSMITH_PROGRAM);
+  for (const std::string& argument : arguments) command += " " + quoted(argument);
+  command += " < " + quoted(folder.file("in", input)) + " > " + quoted(folder.path("out")) + " 2> " + quoted(folder.path("err"));
+  const int status = std::system(command.c_str());
+  Outcome outcome;
+  outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+  outcome.out = text_of(folder.path("out"));
+  outcome.err = text_of(folder.path("err"));
+  return outcome;
+}
+
+std::string problem(const std::string& name) { return std::string(GAINSMITH_PROBLEMS) + "/" + name; }
+
+std::string text_of(const std::string& path) {
+  std::ostringstream text;
+  text << std::ifstream(path, std::ios::binary).rdbuf();
+  return text.str();
+}
+
+std::string without_timings(const std::string& text) {
+  auto document = nlohmann::ordered_json::parse(text);
+  document.erase("timings");
+  return document.dump();
+}
+
+}  // namespace gainsmith::tests

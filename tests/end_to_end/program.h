@@ -1,0 +1,47 @@
+// Runs the built program as a person does.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+namespace gainsmith::tests {
+
+struct Outcome {
+  int exit = -1;
+  std::string out;
+  std::string err;
+
+  nlohmann::ordered_json json() const { return nlohmann::ordered_json::parse(out); }
+};
+
+/// Runs gainsmith with the arguments; `input` is its standard input.
+Outcome gainsmith(const std::vector<std::string>& arguments, const std::string& input = "");
+
+/// A folder of its own for a test, empty at the start and removed at the end.
+class Folder {
+ public:
+  Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+  ~Folder();
+
+  std::string path(const std::string& name) const { return (root_ / name).string(); }
+  /// Writes a file and gives its path.
+  std::string file(const std::string& name, const std::string& text) const;
+  std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path root_;
+};
+
+/// A file below problems/.
+std::string problem(const std::string& name);
+
+std::string text_of(const std::string& path);
+
+/// The document without its timings.
+std::string without_timings(const std::string& text);
+
+}  // namespace gainsmith::tests

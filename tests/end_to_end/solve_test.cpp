@@ -1,0 +1,63 @@
+// `gainsmith solve` on files in SDPA format.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+/// min x1 + x2 with [x1 1; 1 x2] >= 0: the optimum is 2.
+constexpr const char* kSmall = "\"a comment\n2 = m\n1 = blocks\n{2}\n1.0 1.0\n0 1 1 2 -1.0\n1 1 1 1 1.0\n2 1 2 2 1.0\n";
+
+TEST(SolveTest, ASmallProblemFromStandardInput) {
+  const Outcome outcome = gainsmith({"solve", "-", "--json"}, kSmall);
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  const auto document = outcome.json();
+  for (const char* key : {"status", "cause", "primal_objective", "dual_objective", "relative_gap", "primal_infeasibility",
+                          "dual_infeasibility", "iterations", "precision", "seconds"})
+    EXPECT_TRUE(document.contains(key)) << key;
+  EXPECT_EQ(document["status"], "optimal");
+  EXPECT_NEAR(document["primal_objective"].get<double>(), 2, 1e-7);
+  EXPECT_NEAR(document["dual_objective"].get<double>(), 2, 1e-7);
+}
+
+TEST(SolveTest, AnInfeasibleProblemExitsWithOne) {
+  // x1 >= 1 and -x1 >= 0.
+  const Outcome outcome = gainsmith({"solve", "-", "--json"}, "1\n1\n-2\n1\n0 1 1 1 1\n1 1 1 1 1\n1 1 2 2 -1\n");
+  EXPECT_EQ(outcome.exit, 1) << outcome.err;
+  EXPECT_EQ(outcome.json()["status"], "primal-infeasible");
+  EXPECT_TRUE(outcome.json()["certificate"]["checked"]);
+}
+
+TEST(SolveTest, AnIterationLimitIsUndecidedWithItsCause) {
+  const Outcome outcome = gainsmith({"solve", "-", "--json", "--iterations", "2"}, kSmall);
+  EXPECT_EQ(outcome.exit, 3);
+  EXPECT_EQ(outcome.json()["status"], "undecided");
+  EXPECT_EQ(outcome.json()["cause"], "iteration-limit");
+}
+
+TEST(SolveTest, GarbledFilesAreRefusedWithTheLine) {
+  const Folder folder;
+  const std::string file = folder.file("bad.dat-s", "2\n1\n2\n1 1\n0 1 1 2 abc\n");
+  const Outcome outcome = gainsmith({"solve", file});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.err.find("bad.dat-s:5"), std::string::npos) << outcome.err;
+}
+
+TEST(SolveTest, SmallSdplibInstances) {
+  if (!std::filesystem::exists(GAINSMITH_SDPLIB)) GTEST_SKIP() << "no SDPLIB at " << GAINSMITH_SDPLIB;
+  const std::map<std::string, double> optima = {
+      {"truss1", -8.999996315286891}, {"control1", 17.78462671752341}, {"theta1", 23}, {"truss4", -9.009996291004530}};
+  for (const auto& [name, optimum] : optima) {
+    const Outcome outcome = gainsmith({"solve", std::string(GAINSMITH_SDPLIB) + "/" + name + ".dat-s", "--json"});
+    ASSERT_EQ(outcome.exit, 0) << name << outcome.err;
+    for (const char* key : {"primal_objective", "dual_objective"})
+      EXPECT_NEAR(outcome.json()[key].get<double>(), optimum, 1e-7 * std::abs(optimum)) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gainsmith::tests

@@ -1,0 +1,136 @@
+// The main job: a problem becomes gains, gains hold in simulation, runs replay.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <sstream>
+
+#include "base/file.h"
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::string kTheorem = "ferrante-seuret-2021/t2-0.70.yaml";
+
+/// A gain file of a problem.
+std::string synthesized(const Folder& folder, const std::string& name) {
+  std::string path = folder.path("gains.json");
+  const Outcome outcome = gainsmith({"synth", problem(name), "-o", path});
+  EXPECT_LE(outcome.exit, 1) << outcome.err;
+  return path;
+}
+
+TEST(SynthTest, JsonHasTheDocumentedKeys) {
+  const Outcome outcome = gainsmith({"synth", problem(kTheorem), "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  const Json document = outcome.json();
+  for (const char* key : {"verdict", "status", "cause", "objective", "gains", "margins", "parameters"})
+    EXPECT_TRUE(document.contains(key)) << key;
+  EXPECT_EQ(document["verdict"], "yes");
+  EXPECT_EQ(document["status"], "optimal");
+  EXPECT_NEAR(document["objective"], 1742.425, 5e-4 * 1742.425);
+  EXPECT_LE(document["objective_lower_bound"].get<double>(), document["objective"].get<double>());
+}
+
+/// Theorem 3 for the gains as written: (8) and V evaluated here, not by the program.
+TEST(SynthTest, TheWrittenGainsSatisfyTheTheoremsInequality) {
+  const Folder folder;
+  const Json gains = Json::parse(text_of(synthesized(folder, kTheorem)));
+  const double P2 = gains["unknowns"]["P2"];
+  const double X = gains["unknowns"]["X"];
+  const double H = gains["gains"]["H"];
+  const auto& L = gains["gains"]["L"];
+  const double CL = 0.5 * L[0][0].get<double>() - L[1][0].get<double>();
+  EXPECT_NEAR(P2 * (H + CL), X, 1e-9 * std::abs(X));
+}
+
+TEST(SynthTest, AnInfeasibleProblemExitsWithOneAndItsCertificate) {
+  const Folder folder;
+  const std::string path = folder.path("gains.json");
+  const Outcome outcome = gainsmith({"synth", problem("ferrante-seuret-2021/published-theorem.yaml"), "-o", path});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_NE(outcome.out.find("checked"), std::string::npos);
+  const Json gains = Json::parse(text_of(path));
+  EXPECT_EQ(gains["status"], "infeasible");
+  EXPECT_EQ(gains["verdict"], "no");
+  EXPECT_TRUE(gains["certificate"]["checked"]);
+  EXPECT_TRUE(gains["gains"].empty());
+  EXPECT_LT(gains["certificate"]["residual"].get<double>(), 1e-6);
+}
+
+TEST(SynthTest, TwiceTheSameBytesApartFromTimings) {
+  const Folder folder;
+  const std::string first = synthesized(folder, kTheorem);
+  const std::string text = text_of(first);
+  EXPECT_EQ(without_timings(text), without_timings(text_of(synthesized(folder, kTheorem))));
+}
+
+TEST(SynthTest, TheGainFileGoesToStandardOutputOnRequest) {
+  const Outcome outcome = gainsmith({"synth", problem(kTheorem), "-o", "-"});
+  EXPECT_EQ(outcome.exit, 0);
+  EXPECT_TRUE(outcome.json().contains("statement"));
+  EXPECT_NE(outcome.err.find("verdict"), std::string::npos);
+}
+
+TEST(SynthTest, AProblemMayComeFromStandardInput) {
+  const Outcome outcome = gainsmith({"synth", "-", "--json"}, text_of(problem(kTheorem)));
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+}
+
+TEST(VerifyTest, TheReportDoesNotDependOnThreads) {
+  const Folder folder;
+  const std::string gains = synthesized(folder, kTheorem);
+  const Outcome one = gainsmith({"verify", gains, "--runs", "200", "--threads", "1", "--json"});
+  const Outcome two = gainsmith({"verify", gains, "--runs", "200", "--threads", "2", "--json"});
+  EXPECT_EQ(one.exit, 0) << one.err;
+  EXPECT_EQ(one.out, two.out);
+  const Json document = one.json();
+  for (const char* key : {"verdict", "runs", "violations", "worst_run", "checks"}) EXPECT_TRUE(document.contains(key)) << key;
+  EXPECT_EQ(document["runs"], 200);
+}
+
+TEST(VerifyTest, AViolationReplaysFromItsSeedAndRun) {
+  const Folder folder;
+  const std::string gains = synthesized(folder, "ferrante-seuret-2021/row-3.yaml");
+  const Outcome verified = gainsmith({"verify", gains, "--runs", "100", "--json"});
+  EXPECT_EQ(verified.exit, 1);
+  const Json report = verified.json();
+  EXPECT_EQ(report["verdict"], "violated");
+  EXPECT_GT(report["violations"].get<int>(), 0);
+  const std::string csv = folder.path("run.csv");
+  const Outcome replayed =
+      gainsmith({"simulate", gains, "--run", std::to_string(report["worst_run"].get<int>()), "-o", csv});
+  ASSERT_EQ(replayed.exit, 0) << replayed.err;
+  // The last line's claim column is the value that the campaign reported.
+  std::istringstream lines(text_of(csv));
+  std::string header;
+  std::string last;
+  std::getline(lines, header);
+  for (std::string line; std::getline(lines, line);) last = line;
+  EXPECT_EQ(header.substr(0, 8), "t,j,tau,");
+  const auto column = [](const std::string& line, std::size_t at) {
+    std::istringstream fields(line);
+    std::string field;
+    for (std::size_t i = 0; i <= at; ++i) std::getline(fields, field, ',');
+    return field;
+  };
+  std::size_t at = 0;
+  while (!column(header, at).empty() && column(header, at) != "error") ++at;
+  double worst = 0;
+  for (const auto& check : report["checks"])
+    if (check["claim"] == "error") worst = check["worst"]["value"].get<double>();
+  EXPECT_DOUBLE_EQ(std::stod(column(last, at)), worst);
+}
+
+TEST(VerifyTest, AFileWithoutGainsIsRefused) {
+  const Folder folder;
+  const std::string gains = synthesized(folder, "ferrante-seuret-2021/published-theorem.yaml");
+  const Outcome outcome = gainsmith({"verify", gains});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.err.find("L"), std::string::npos) << outcome.err;
+}
+
+}  // namespace
+}  // namespace gainsmith::tests

@@ -1,0 +1,104 @@
+#include "lmi/affine.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "expr/compile.h"
+#include "expr/parser.h"
+#include "lmi/compile.h"
+#include "support/input_error.h"
+#include "support/yaml_problem.h"
+
+namespace gainsmith::lmi {
+namespace {
+
+constexpr const char* kProblem = R"(
+problem: affine
+method:
+  method: affine
+  data: {A: n x n, C: p x n}
+  unknowns: {P: symmetric n, Y: n x p, g: scalar}
+  require: {positive: P > 0}
+data: {A: [[0.3, -1.2, 2], [4, 0.5, -1], [0.7, 0, 1]], C: [[1, -2, 0.5], [0, 1, 3]]}
+)";
+
+class AffineTest : public ::testing::Test {
+ protected:
+  expr::Program program(const std::string& text) {
+    expr::Scope scope = yaml_.instance.design_scope();
+    scope.symbols["tau"] = {{}, std::nullopt};
+    return expr::compile(expr::parse({text, "test"}), scope);
+  }
+
+  AffineForm form(const std::string& text) {
+    return evaluate_affine(program(text), unknowns_, atoms_, yaml_.instance.known_values(), "tau");
+  }
+
+  /// The form at x and tau.
+  expr::Matrix at(const AffineForm& form, const std::vector<double>& x, double tau) const {
+    expr::Matrix sum = expr::Matrix::Zero(form.shape.rows, form.shape.cols);
+    for (const auto& [key, matrix] : form.terms)
+      sum += evaluate(atoms_[key.first], tau) *
+             (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) * expr::Matrix(matrix);
+    return sum;
+  }
+
+  /// Compares the affine form with the text evaluated over double at random points.
+  void expect_same(const std::string& text) {
+    const AffineForm affine = form(text);
+    const expr::Program direct = program(text);
+    std::uniform_real_distribution<double> number(-2, 2);
+    for (int trial = 0; trial < 5; ++trial) {
+      std::vector<double> x;
+      for (int i = 0; i < unknowns_.size(); ++i) x.push_back(number(generator_));
+      const double tau = number(generator_);
+      expr::Values values = yaml_.instance.known_values();
+      for (const auto& [name, matrix] : unknowns_.values(x)) values[name] = matrix;
+      values["tau"] = expr::Matrix::Constant(1, 1, tau);
+      const expr::Matrix expected = expr::evaluate(direct, values);
+      EXPECT_LT((at(affine, x, tau) - expected).cwiseAbs().maxCoeff(), 1e-11 * (1 + expected.norm())) << text;
+    }
+  }
+
+  tests::YamlProblem yaml_{kProblem};
+  Unknowns unknowns_{yaml_.instance};
+  AtomTable atoms_;
+  std::mt19937 generator_{7};
+};
+
+TEST_F(AffineTest, AgreesWithTheTextOverDouble) {
+  for (const char* text :
+       {"P", "He(P*A - Y*C)", "[P, Y; *, g*I]", "-P/2 + 3*A'*P*A", "trace(P) + 2*g", "diag([g, 2*g, 1])", "diag(P)",
+        "P(1:2, :)", "Y'", "ones(2, 2)*g", "expm(A)*P", "blkdiag(P, g)", "inv(A)'*Y*C - Y*C", "(1/3)*P + eye(3)",
+        "[g, 1; 1, g]*C", "C*P*C' + trace(Y*C)*I", "(g + 1)*inv(A)"})
+    expect_same(text);
+}
+
+TEST_F(AffineTest, AgreesWithTheTextForFunctionsOfTau) {
+  for (const char* text :
+       {"exp(0.3*tau)*P", "(1.01*exp(0.2*tau) - 1)*(Y*C + P)", "tau*P + tau^2*A", "sin(2*tau + 0.3)*P",
+        "cos(1 - 3*tau)*A", "exp(tau)*sin(tau)*tau*P - exp(-tau)*cos(2*tau)*g*A", "[cos(tau), sin(tau); -sin(tau), cos(tau)]^2*C*P",
+        "exp(-2*tau)*exp(2*tau)*P"})
+    expect_same(text);
+}
+
+TEST_F(AffineTest, AProductOfUnknownsIsRefusedWithItsPlace) {
+  const InputError error = tests::input_error([&] { form("P + Y*C*P"); });
+  EXPECT_EQ(error.place().column, 5);
+  EXPECT_NE(error.message().find("not affine"), std::string::npos) << error.what();
+  EXPECT_NE(error.message().find("Y(1,1)"), std::string::npos) << error.what();
+}
+
+TEST_F(AffineTest, NonlinearFunctionsOfUnknownsAreRefused) {
+  for (const char* text : {"inv(P)", "exp(g)*A", "expm(P)", "A/g", "P^2", "abs(Y)", "max(g, 1)*A", "norm(Y)"})
+    EXPECT_NE(tests::input_error([&] { form(text); }).message().find("not affine"), std::string::npos) << text;
+}
+
+TEST_F(AffineTest, FunctionsOfTauThatAreNoAtomsAreRefused) {
+  for (const char* text : {"exp(tau^2)*P", "P/tau", "sqrt(tau)*P", "expm(A*tau)"})
+    EXPECT_NE(tests::input_error([&] { form(text); }).message().find("forall"), std::string::npos) << text;
+}
+
+}  // namespace
+}  // namespace gainsmith::lmi

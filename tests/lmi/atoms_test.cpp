@@ -1,0 +1,87 @@
+#include "lmi/atoms.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace gainsmith::lmi {
+namespace {
+
+double value(const Combination& combination, const AtomTable& table, double t) {
+  double sum = 0;
+  for (const auto& [factor, atom] : combination) sum += factor * evaluate(table[atom], t);
+  return sum;
+}
+
+Atom random_atom(std::mt19937& generator) {
+  std::uniform_real_distribution<double> number(-2, 2);
+  Atom atom;
+  atom.power = static_cast<int>(generator() % 3);
+  atom.rate = generator() % 2 == 0 ? 0 : number(generator);
+  atom.frequency = generator() % 2 == 0 ? 0 : std::abs(number(generator));
+  atom.sine = atom.frequency != 0 && generator() % 2 == 0;
+  return atom;
+}
+
+TEST(AtomsTest, ProductsOfAtomsAreCombinationsOfAtoms) {
+  std::mt19937 generator(1);
+  for (int trial = 0; trial < 300; ++trial) {
+    AtomTable table;
+    const int a = table.index(random_atom(generator));
+    const int b = trial % 5 == 0 ? a : table.index(random_atom(generator));
+    const Combination product = table.product(a, b);
+    for (const double t : {-1.3, 0.0, 0.4, 2.1}) {
+      const double expected = evaluate(table[a], t) * evaluate(table[b], t);
+      EXPECT_NEAR(value(product, table, t), expected, 1e-12 * (1 + std::abs(expected)));
+    }
+  }
+}
+
+TEST(AtomsTest, TheRangeHoldsEveryValueAndIsReached) {
+  std::mt19937 generator(2);
+  std::uniform_real_distribution<double> number(0, 6);
+  for (int trial = 0; trial < 200; ++trial) {
+    const Atom atom = random_atom(generator);
+    const double begin = number(generator);
+    const double end = begin + number(generator);
+    const Range found = range(atom, begin, end);
+    double low = evaluate(atom, begin);
+    double high = low;
+    for (int i = 0; i <= 4000; ++i) {
+      const double v = evaluate(atom, begin + (end - begin) * i / 4000);
+      low = std::min(low, v);
+      high = std::max(high, v);
+    }
+    const double size = std::max(std::abs(low), std::abs(high));
+    EXPECT_LE(found.low, low + 1e-12 * size);
+    EXPECT_GE(found.high, high - 1e-12 * size);
+    EXPECT_NEAR(found.low, low, 1e-4 * size + 1e-300);
+    EXPECT_NEAR(found.high, high, 1e-4 * size + 1e-300);
+  }
+}
+
+TEST(AtomsTest, ExtremaInsideTheIntervalAreFound) {
+  const Range wave = range({0, 0, 2, false}, 0.1, 3.0);
+  EXPECT_DOUBLE_EQ(wave.low, -1);
+  EXPECT_LT(wave.high, 1);
+  const Range bump = range({1, -1, 0, false}, 0.0, 5.0);
+  EXPECT_NEAR(bump.high, std::exp(-1.0), 1e-15);
+}
+
+TEST(AtomsTest, TheConstantIsTheFirstAtom) {
+  AtomTable table;
+  EXPECT_TRUE(table[0].is_one());
+  const int decay = table.index({0, -0.5, 0, false});
+  EXPECT_EQ(table.product(0, decay), (Combination{{1.0, decay}}));
+  EXPECT_EQ(table.index({0, -0.5, 0, false}), decay);
+}
+
+TEST(AtomsTest, AtomsPrintAsTheyAreWritten) {
+  EXPECT_EQ(to_string(Atom{}, "tau"), "1");
+  EXPECT_EQ(to_string({1, 0.03, 2, true}, "tau"), "tau*exp(0.03*tau)*sin(2*tau)");
+}
+
+}  // namespace
+}  // namespace gainsmith::lmi

@@ -1,0 +1,91 @@
+#include "lmi/compile.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "support/input_error.h"
+#include "support/yaml_problem.h"
+
+namespace gainsmith::lmi {
+namespace {
+
+std::string problem_with(const std::string& require, const std::string& more = "") {
+  return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, T: scalar}\n  unknowns: {P: symmetric n, Y: n x n}\n" + more +
+         "  require:\n" + require + "data: {A: [[0, 1], [-2, -3]], T: 2}\n";
+}
+
+TEST(CompileTest, AnIntervalBecomesTheVerticesOfItsAtoms) {
+  const tests::YamlProblem yaml(
+      problem_with("    flow: {forall: \"tau in [0, T]\", that: \"He(P*A) + exp(0.5*tau)*P < 0\"}\n"));
+  const Lmi lmi = compile(yaml.instance);
+  ASSERT_EQ(lmi.blocks.size(), 2U);
+  EXPECT_EQ(lmi.blocks[0].point, "tau = 0");
+  EXPECT_EQ(lmi.blocks[1].point, "tau = 2");
+  EXPECT_TRUE(lmi.blocks[0].strict);
+  const std::vector<double> x = {2, 1, 3, 0, 0, 0, 0};
+  expr::Matrix P(2, 2);
+  P << 2, 1, 1, 3;
+  const expr::Matrix& A = yaml.instance.data.at("A");
+  const expr::Matrix expected = -(P * A + (P * A).transpose() + std::exp(1.0) * P);
+  EXPECT_LT((lmi.blocks[1].value(x) - expected).norm(), 1e-14);
+}
+
+TEST(CompileTest, TwoAtomsMakeFourVertices) {
+  const tests::YamlProblem yaml(
+      problem_with("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + cos(2*tau)*He(P*A) <= 5*I\"}\n"));
+  const Lmi lmi = compile(yaml.instance);
+  ASSERT_EQ(lmi.blocks.size(), 4U);
+  std::set<std::string> points;
+  for (const Block& block : lmi.blocks) points.insert(block.point);
+  EXPECT_EQ(points.size(), 4U);
+  EXPECT_EQ(points.count("cos(2*tau) = 1, sin(2*tau) = 1"), 1U);
+}
+
+TEST(CompileTest, FiniteSetsAndChains) {
+  const tests::YamlProblem yaml(
+      problem_with("    chain: {forall: \"s in {1, 2, T + 1}\", that: \"I <= P <= s*I\"}\n"));
+  const Lmi lmi = compile(yaml.instance);
+  ASSERT_EQ(lmi.blocks.size(), 6U);
+  EXPECT_EQ(lmi.blocks[0].name, "chain.1");
+  EXPECT_EQ(lmi.blocks[5].name, "chain.2");
+  EXPECT_EQ(lmi.blocks[5].point, "s = 3");
+  EXPECT_DOUBLE_EQ(lmi.blocks[5].constant_size, 3);
+  EXPECT_FALSE(lmi.blocks[5].strict);
+}
+
+TEST(CompileTest, AFiniteSetTakesAnyFunction) {
+  const tests::YamlProblem yaml(
+      problem_with("    sampled: {forall: \"tau in {0.5, 1}\", that: \"expm(A*tau)'*P*expm(A*tau) < P\"}\n"));
+  EXPECT_EQ(compile(yaml.instance).blocks.size(), 2U);
+}
+
+TEST(CompileTest, ObjectivesKeepTheirConstant) {
+  const tests::YamlProblem yaml(problem_with("    positive: P > I\n  minimize: 2*trace(P) - 3 + Y(2,1)\n"));
+  const Lmi lmi = compile(yaml.instance);
+  ASSERT_TRUE(lmi.has_objective);
+  EXPECT_EQ(lmi.objective_constant, -3);
+  EXPECT_EQ(lmi.objective, (std::vector<double>{2, 0, 2, 0, 1, 0, 0}));
+}
+
+TEST(CompileTest, HomogeneousMeansNoConstantTerm) {
+  const tests::YamlProblem cone(problem_with("    positive: P > 0\n    stable: He(P*A) < 0\n"));
+  EXPECT_TRUE(is_homogeneous(compile(cone.instance).blocks));
+  const tests::YamlProblem affine(problem_with("    positive: P > I\n"));
+  EXPECT_FALSE(is_homogeneous(compile(affine.instance).blocks));
+}
+
+TEST(CompileTest, WhatIsNotSymmetricIsRefused) {
+  const tests::YamlProblem yaml(problem_with("    wrong: P*A < 0\n"));
+  const InputError error = tests::input_error([&] { compile(yaml.instance); });
+  EXPECT_EQ(error.place().line, 7);
+  EXPECT_NE(error.message().find("not symmetric"), std::string::npos);
+}
+
+TEST(CompileTest, AnEmptyIntervalIsRefused) {
+  const tests::YamlProblem yaml(problem_with("    flow: {forall: \"tau in [T, 1]\", that: \"exp(tau)*P > 0\"}\n"));
+  EXPECT_NE(tests::input_error([&] { compile(yaml.instance); }).message().find("empty"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gainsmith::lmi
