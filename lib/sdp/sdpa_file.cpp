@@ -288,7 +288,8 @@ Problem read_sdpa(std::string_view text, const std::string& file_name) {
 }
 
 std::string write_sdpa(const Problem& problem) {
-  std::string text = std::to_string(problem.m()) + "\n" + std::to_string(problem.blocks.size()) + "\n";
+  std::string text =
+      std::to_string(problem.m()) + "\n" + std::to_string(problem.blocks.size()) + "\n";
   for (const Block& block : problem.blocks)
     text += std::to_string(block.diagonal ? -block.size : block.size) + " ";
   text += "\n";
@@ -296,8 +297,9 @@ std::string write_sdpa(const Problem& problem) {
   text += "\n";
   for (std::size_t i = 0; i < problem.f.size(); ++i)
     for (const Entry& entry : problem.f[i])
-      text += std::to_string(i) + " " + std::to_string(entry.block + 1) + " " + std::to_string(entry.row + 1) + " " +
-              std::to_string(entry.column + 1) + " " + decimal17(entry.value) + "\n";
+      text += std::to_string(i) + " " + std::to_string(entry.block + 1) + " " +
+              std::to_string(entry.row + 1) + " " + std::to_string(entry.column + 1) + " " +
+              decimal17(entry.value) + "\n";
   return text;
 }
 

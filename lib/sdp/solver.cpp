@@ -54,7 +54,10 @@ Solution conclude(const Problem& problem, const Presolved& presolved, const Opti
   solution.cause = cause;
   measure(problem, point, solution);
   store(point, solution);
-  if (cause == Cause::converged) solution.status = Status::optimal;
+  if (cause == Cause::converged && worst(solution) <= options.tolerance)
+    solution.status = Status::optimal;
+  else if (cause == Cause::converged)
+    solution.cause = Cause::stalled;
   if (!certificate) return solution;
   const bool primal = ipm.residuals().primal_certificate <= ipm.residuals().dual_certificate;
   solution.rest = {};
@@ -110,6 +113,9 @@ class Ladder {
   /// they must hold to kWideFeasibility in wide arithmetic.
   static constexpr double kIllPosed = 100;
   static constexpr double kWideFeasibility = 1e-18;
+  /// Part of the tolerance that a run aims at, so that the errors recomputed from the raw problem
+  /// are below it as well; in wide arithmetic digits are cheap.
+  static constexpr double kAim = 0.95, kWideAim = 0.5;
   /// Multiplications an iteration up to which a wider arithmetic is tried unasked.
   static constexpr double kQuadCost = 1e9, kWideCost = 6e4;
 
@@ -152,9 +158,9 @@ class Ladder {
 
 template <typename T>
 void Ladder::run(Ipm<T>& ipm, Model model) {
-  const Cause cause =
-      ipm.run({model, options_.tolerance, strict_ ? kWideFeasibility : options_.tolerance,
-               iterations_, start_});
+  const double aim = options_.tolerance * (std::is_same_v<T, double> ? kAim : kWideAim);
+  const double feasibility = strict_ ? kWideFeasibility : options_.tolerance;
+  const Cause cause = ipm.run({model, aim, feasibility, iterations_, start_});
   iterations_ = ipm.iterations();
   Solution found = conclude(problem_, presolved_, options_, ipm, cause);
   const double error = ipm.residuals().worst();
