@@ -57,7 +57,7 @@ Packed<T> combine(const Problem& problem, const std::vector<T>& x, double tau) {
   return result;
 }
 
-double smallest_eigenvalue(const Problem& problem, const Packed<double>& matrix) {
+double rounded_eigenvalue(const Problem& problem, const Packed<double>& matrix) {
   double smallest = std::numeric_limits<double>::infinity();
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const Block& block = problem.blocks[b];
@@ -106,6 +106,20 @@ double negative_part(const Problem& problem, const Packed<T>& matrix) {
   for (double lower = shift / 16; lower < shift; lower *= 2)
     if (positive(problem, matrix, lower)) return lower;
   return shift;
+}
+
+/// lambda_min: in double where the matrix is positive (never below 0 then), else a lower bound in
+/// T.
+template <typename T>
+double smallest_eigenvalue(const Problem& problem, const Packed<T>& matrix) {
+  const double negative = negative_part(problem, matrix);
+  if (negative > 0) return -negative;
+  Packed<double> rounded;
+  for (const auto& block : matrix) {
+    auto& values = rounded.emplace_back();
+    for (const T& v : block) values.push_back(static_cast<double>(v));
+  }
+  return std::max(0.0, rounded_eigenvalue(problem, rounded));
 }
 
 template <typename T>
@@ -188,39 +202,43 @@ void store(const Point<T>& point, Solution& solution) {
   split(point.Y, solution.Y, solution.rest.Y);
 }
 
-Certificate check_primal_infeasible(const Problem& problem, BlockMatrix& Y, double tolerance) {
+template <typename T>
+Certificate check_primal_infeasible(const Problem& problem, Point<T>& point, double tolerance) {
   Certificate certificate;
-  const double value = inner(problem, problem.f[0], Y.values);
-  if (!(value > 0)) return certificate;
-  for (auto& block : Y.values)
-    for (double& v : block) v /= value;
+  const T value = inner(problem, problem.f[0], point.Y);
+  if (!(value > T(0))) return certificate;
+  for (auto& block : point.Y)
+    for (T& v : block) v /= value;
+  T residual(0);
   for (std::size_t i = 1; i < problem.f.size(); ++i)
-    certificate.residual += std::abs(inner(problem, problem.f[i], Y.values));
-  certificate.value = inner(problem, problem.f[0], Y.values);
-  certificate.min_eigenvalue = smallest_eigenvalue(problem, Y.values);
+    residual += std::abs(static_cast<double>(inner(problem, problem.f[i], point.Y)));
+  certificate.value = static_cast<double>(inner(problem, problem.f[0], point.Y));
+  certificate.residual = static_cast<double>(residual);
   certificate.excluded_radius = 1 / certificate.residual;
-  certificate.checked = certificate.residual <= tolerance &&
-                        (certificate.min_eigenvalue >= 0 || positive(problem, Y.values, 0));
+  certificate.min_eigenvalue = smallest_eigenvalue(problem, point.Y);
+  certificate.checked = certificate.residual <= tolerance && certificate.min_eigenvalue >= 0;
   return certificate;
 }
 
-Certificate check_dual_infeasible(const Problem& problem, std::vector<double>& x,
-                                  double tolerance) {
+template <typename T>
+Certificate check_dual_infeasible(const Problem& problem, Point<T>& point, double tolerance) {
   Certificate certificate;
-  const double value = -objective(problem, x);
-  if (!(value > 0)) return certificate;
-  for (double& v : x) v /= value;
-  certificate.value = -objective(problem, x);
-  certificate.min_eigenvalue = smallest_eigenvalue(problem, combine(problem, x, 0));
+  const T value = -objective(problem, point.x);
+  if (!(value > T(0))) return certificate;
+  for (T& v : point.x) v /= value;
+  certificate.value = static_cast<double>(T(-objective(problem, point.x)));
+  certificate.min_eigenvalue = smallest_eigenvalue(problem, combine(problem, point.x, 0));
   certificate.residual = std::max(0.0, -certificate.min_eigenvalue);
   certificate.excluded_radius = 1 / certificate.residual;
   certificate.checked = certificate.residual <= tolerance;
   return certificate;
 }
 
-#define GAINSMITH_INSTANTIATE(T)                                        \
-  template void measure<T>(const Problem&, const Point<T>&, Solution&); \
-  template void store<T>(const Point<T>&, Solution&);
+#define GAINSMITH_INSTANTIATE(T)                                                      \
+  template void measure<T>(const Problem&, const Point<T>&, Solution&);               \
+  template void store<T>(const Point<T>&, Solution&);                                 \
+  template Certificate check_primal_infeasible<T>(const Problem&, Point<T>&, double); \
+  template Certificate check_dual_infeasible<T>(const Problem&, Point<T>&, double);
 GAINSMITH_INSTANTIATE(double)
 GAINSMITH_INSTANTIATE(DoubleDouble)
 #undef GAINSMITH_INSTANTIATE

@@ -15,9 +15,12 @@ void measure(const Problem& problem, const Point<T>& point, Solution& solution);
 template <typename T>
 void store(const Point<T>& point, Solution& solution);
 
-/// Normalises Y to F_0.Y = 1, or x to c'x = -1, and checks what Certificate demands on the raw data
-/// with residual at most `tolerance`. Returns what it found; `checked` says whether it holds.
-Certificate check_primal_infeasible(const Problem& problem, BlockMatrix& Y, double tolerance);
-Certificate check_dual_infeasible(const Problem& problem, std::vector<double>& x, double tolerance);
+/// Normalises Y to F_0.Y = 1, or x to c'x = -1, and checks what Certificate demands on the raw
+/// data, in T, with residual at most `tolerance`. Returns what it found; `checked` says whether it
+/// holds.
+template <typename T>
+Certificate check_primal_infeasible(const Problem& problem, Point<T>& point, double tolerance);
+template <typename T>
+Certificate check_dual_infeasible(const Problem& problem, Point<T>& point, double tolerance);
 
 }  // namespace gainsmith::sdp

@@ -53,19 +53,19 @@ Solution conclude(const Problem& problem, const Presolved& presolved, const Opti
   Solution solution;
   solution.cause = cause;
   measure(problem, point, solution);
-  store(point, solution);
-  if (cause == Cause::converged && worst(solution) <= options.tolerance)
+  if (certificate) {
+    const bool primal = ipm.residuals().primal_certificate <= ipm.residuals().dual_certificate;
+    solution.certificate =
+        primal ? check_primal_infeasible(problem, point, options.certificate_tolerance)
+               : check_dual_infeasible(problem, point, options.certificate_tolerance);
+    if (solution.certificate.checked)
+      solution.status = primal ? Status::primal_infeasible : Status::dual_infeasible;
+  } else if (cause == Cause::converged && worst(solution) <= options.tolerance) {
     solution.status = Status::optimal;
-  else if (cause == Cause::converged)
-    solution.cause = Cause::stalled;
-  if (!certificate) return solution;
-  const bool primal = ipm.residuals().primal_certificate <= ipm.residuals().dual_certificate;
-  solution.rest = {};
-  solution.certificate =
-      primal ? check_primal_infeasible(problem, solution.Y, options.certificate_tolerance)
-             : check_dual_infeasible(problem, solution.x, options.certificate_tolerance);
-  if (solution.certificate.checked)
-    solution.status = primal ? Status::primal_infeasible : Status::dual_infeasible;
+  }
+  const bool refuted = certificate || cause == Cause::converged;
+  if (refuted && solution.status == Status::undecided) solution.cause = Cause::stalled;
+  store(point, solution);
   return solution;
 }
 
@@ -171,7 +171,7 @@ void Ladder::run(Ipm<T>& ipm, Model model) {
     best_.precision = name_of<T>();
     best_.precision_reason = reason_;
   } else {
-    best_.cause = cause;
+    best_.cause = found.cause;
   }
   best_.iterations = iterations_;
 }
@@ -194,10 +194,11 @@ double Ladder::cost() const {
 Solution free_descent(const Problem& problem, const Presolved& presolved, const Options& options) {
   Solution solution;
   const Iterate<double> zero(presolved.data);
-  store(restore<double>(problem, presolved, zero.x, zero.X, zero.Y, 1.0), solution);
+  Point<double> point = restore<double>(problem, presolved, zero.x, zero.X, zero.Y, 1.0);
   const auto i = static_cast<std::size_t>(presolved.free_descent);
-  solution.x[i] = -1 / problem.c[i];
-  solution.certificate = check_dual_infeasible(problem, solution.x, options.certificate_tolerance);
+  point.x[i] = -1 / problem.c[i];
+  solution.certificate = check_dual_infeasible(problem, point, options.certificate_tolerance);
+  store(point, solution);
   solution.status = Status::dual_infeasible;
   solution.cause = Cause::certificate;
   return solution;

@@ -50,9 +50,10 @@ void expect_primal_certificate(const Problem& problem, const Solution& solution)
 void expect_dual_certificate(const Problem& problem, const Solution& solution) {
   EXPECT_TRUE(solution.certificate.checked);
   testing::Real descent = 0;
-  for (std::size_t i = 0; i < problem.c.size(); ++i) descent += problem.c[i] * solution.x[i];
+  std::vector<testing::Real> x(solution.x.begin(), solution.x.end());
+  for (std::size_t i = 0; i < solution.rest.x.size(); ++i) x[i] += solution.rest.x[i];
+  for (std::size_t i = 0; i < problem.c.size(); ++i) descent += problem.c[i] * x[i];
   EXPECT_NEAR(static_cast<double>(descent), -1, 1e-9);
-  const std::vector<testing::Real> x(solution.x.begin(), solution.x.end());
   EXPECT_TRUE(testing::positive(testing::combine(problem, x, 0), 1.01e-8L));
 }
 

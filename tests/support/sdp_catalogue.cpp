@@ -174,6 +174,23 @@ CatalogueProblem bounded_real(std::uint64_t seed) {
   return result;
 }
 
+/// Is there P > 0 with [A'P + P A + C'C, P B; B'P, -g I] <= 0 at g = (norm (1 + excess))^2? Just,
+/// or just not.
+CatalogueProblem bounded_real_at(const std::string& name, double excess, std::uint64_t seed) {
+  CatalogueProblem result = bounded_real(seed);
+  const double g = result.optimum * (1 + excess) * (1 + excess);
+  for (Entry e : result.problem.f.back()) {
+    e.value *= -g;
+    result.problem.f[0].push_back(e);
+  }
+  result.problem.f.pop_back();
+  result.problem.c.assign(result.problem.f.size() - 1, 0.0);
+  result.name = name;
+  result.answer = excess > 0 ? Answer::optimum : Answer::primal_infeasible;
+  result.optimum = 0;
+  return result;
+}
+
 /// max trace(P) s.t. [A'P + P A + Q, P B; B'P, R] >= 0: the stabilising Riccati solution, here by
 /// Newton's method (Kleinman 1968) from K = 0, A being stable. Its trace is the squared H2 norm of
 /// the optimally controlled system with unit disturbances.
@@ -341,6 +358,8 @@ std::vector<CatalogueProblem> sdp_catalogue() {
           planted("planted, badly scaled", 8, 6, 3, 0, 4, 13),
           lyapunov(4, 14),
           bounded_real(15),
+          bounded_real_at("bounded-real, just feasible", 1e-5, 15),
+          bounded_real_at("bounded-real, just infeasible", -1e-5, 15),
           riccati(16),
           max_cut(5),
           infeasible_primal(17),
