@@ -60,7 +60,7 @@ template <typename T>
 Cause Ipm<T>::run(const Run& run) {
   run_ = run;
   iteration_ = run.first_iteration;
-  best_error_ = std::numeric_limits<double>::infinity();
+  best_error_ = best_certificate_ = std::numeric_limits<double>::infinity();
   since_best_ = 0;
   const Cause cause = iterate();
   if (cause != Cause::converged && cause != Cause::certificate) {
@@ -161,9 +161,13 @@ std::optional<Cause> Ipm<T>::limits() const {
 
 template <typename T>
 void Ipm<T>::keep_best() {
-  const double error =
-      std::min({residuals_.worst(), residuals_.primal_certificate, residuals_.dual_certificate});
   ++since_best_;
+  const double certificate = std::min(residuals_.primal_certificate, residuals_.dual_certificate);
+  if (certificate < best_certificate_) {
+    best_certificate_ = certificate;
+    since_best_ = 0;
+  }
+  const double error = residuals_.worst();
   if (!(error < best_error_)) return;
   best_error_ = error;
   best_ = point_;

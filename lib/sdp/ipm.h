@@ -65,6 +65,9 @@ class Ipm {
   Newton<T> newton_;
   int iteration_ = 0;
   double best_error_ = 0;
+  /// Smallest certificate residual so far: its progress counts, but a problem with an optimum may
+  /// pass near one on its way.
+  double best_certificate_ = 0;
   int since_best_ = 0;
 };
 
