@@ -68,7 +68,7 @@ std::vector<std::vector<Target>> place_rows(const Problem& problem, Recovery& re
     for (int r = 0; r < n; ++r) {
       if (!occurs[b][static_cast<std::size_t>(r)]) continue;
       const auto root = static_cast<std::size_t>(components[b].find(r));
-      const Recovery::Row row{static_cast<int>(b), r, 1.0};
+      const Recovery::Row row{static_cast<int>(b), r};
       if (count[root] == 1) {
         target[static_cast<std::size_t>(r)] = {-1, static_cast<int>(recovery.linear.size())};
         recovery.linear.push_back(row);
@@ -232,9 +232,8 @@ Point<Out> restore(const Problem& problem, const Presolved& presolved, const Vec
     const Block& block = problem.blocks[b];
     const auto at =
         static_cast<std::size_t>(block.diagonal ? row.row : row.row + block.size * column.row);
-    const double d = row.d * column.d;
-    point.X[b][at] = as<Out>(T(T(vx / scale) * (r.gamma_f / d)));
-    point.Y[b][at] = as<Out>(T(T(vy / scale) * (r.gamma_c * d)));
+    point.X[b][at] = as<Out>(T(T(vx / scale) * r.gamma_f));
+    point.Y[b][at] = as<Out>(T(T(vy / scale) * r.gamma_c));
   };
   for (std::size_t b = 0; b < r.dense.size(); ++b) {
     const auto& rows = r.dense[b];

@@ -12,16 +12,17 @@ namespace gainsmith::sdp {
 double frobenius_norm(const std::vector<Entry>& list);
 
 /// How the working problem came about:
-///   F'_i = s_i D F_i D  (i >= 1),  F'_0 = D F_0 D / gamma_f,  c'_i = s_i c_i / gamma_c,
-/// with s, D, gamma powers of two, restricted to the rows that occur and split into the connected
-/// components of the blocks' common pattern (outside of it X is zero, and Y may be). Hence
-///   x_i = gamma_f s_i x'_i,  X = gamma_f D^-1 X' D^-1,  Y = gamma_c D Y' D.
+///   F'_i = s_i F_i  (i >= 1),  F'_0 = F_0 / gamma_f,  c'_i = s_i c_i / gamma_c,
+/// with s_i and the gammas powers of two, so that ||F'_i|| is from 1 to 2; restricted to the rows
+/// that occur and split into the connected components of the blocks' common pattern (outside of it
+/// X is zero, and Y may be). Hence
+///   x_i = gamma_f s_i x'_i,  X = gamma_f X',  Y = gamma_c Y'.
+/// Rows are not scaled: the direction does not depend on congruences D F_i D.
 struct Recovery {
-  /// A row of the working problem: where it came from, and its entry of D.
+  /// Where a row of the working problem came from.
   struct Row {
     int block = 0;
     int row = 0;
-    double d = 1;
   };
   std::vector<int> constraint;          ///< working i -> original i, from 0
   std::vector<double> s;                ///< by working i

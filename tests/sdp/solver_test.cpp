@@ -30,10 +30,10 @@ void expect_optimum(const CatalogueProblem& known, const Solution& solution) {
   EXPECT_TRUE(errors.cone);
   EXPECT_NEAR(solution.primal_objective, static_cast<double>(errors.primal_objective), allowed);
   EXPECT_NEAR(solution.dual_objective, static_cast<double>(errors.dual_objective), allowed);
-  EXPECT_NEAR(solution.dimacs[0], static_cast<double>(errors.dual), 1e-9);
-  EXPECT_NEAR(solution.dimacs[2], static_cast<double>(errors.primal), 1e-9);
-  EXPECT_NEAR(solution.dimacs[4], static_cast<double>(errors.gap), 1e-9);
-  EXPECT_NEAR(solution.dimacs[5], static_cast<double>(errors.complementarity), 1e-9);
+  EXPECT_NEAR(solution.dimacs[0], static_cast<double>(errors.dual), 1e-8);
+  EXPECT_NEAR(solution.dimacs[2], static_cast<double>(errors.primal), 1e-8);
+  EXPECT_NEAR(solution.dimacs[4], static_cast<double>(errors.gap), 1e-8);
+  EXPECT_NEAR(solution.dimacs[5], static_cast<double>(errors.complementarity), 1e-8);
 }
 
 void expect_primal_certificate(const Problem& problem, const Solution& solution) {
