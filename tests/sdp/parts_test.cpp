@@ -1,0 +1,216 @@
+// The solver's parts, each against the formula that its header states.
+#include <gtest/gtest.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "sdp/extreme.h"
+#include "sdp/factor.h"
+#include "sdp/kernels.h"
+#include "sdp/presolve.h"
+#include "sdp/schur.h"
+
+namespace gainsmith::sdp {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+MatrixXd varied(int rows, int columns, double phase) {
+  MatrixXd m(rows, columns);
+  for (int j = 0; j < columns; ++j)
+    for (int i = 0; i < rows; ++i) m(i, j) = std::sin(phase + 1.3 * i + 2.7 * j + 0.1 * i * j);
+  return m;
+}
+
+MatrixXd positive(int n, double phase) {
+  const MatrixXd a = varied(n, n, phase);
+  const MatrixXd square = a * a.transpose();
+  return 0.5 * (square + square.transpose()) + MatrixXd::Identity(n, n);
+}
+
+template <typename T>
+class Kernels : public ::testing::Test {
+ protected:
+  /// Relative error that sums of a hundred terms may have.
+  static double tolerance() { return 1e3 * static_cast<double>(std::numeric_limits<T>::epsilon()); }
+  static double norm(const Matrix<T>& m) {
+    double largest = 0;
+    for (Eigen::Index k = 0; k < m.size(); ++k)
+      largest = std::max(largest, std::abs(static_cast<double>(m.data()[k])));
+    return largest;
+  }
+};
+
+using Scalars = ::testing::Types<double, DoubleDouble, Decimal100>;
+TYPED_TEST_SUITE(Kernels, Scalars);
+
+TYPED_TEST(Kernels, ProductsAgreeWithTheDefinition) {
+  using T = TypeParam;
+  const Matrix<T> a = varied(13, 9, 1).cast<T>(), b = varied(9, 7, 2).cast<T>();
+  Matrix<T> c = Matrix<T>::Zero(13, 7);
+  multiply(View<const T>(a), View<const T>(b), View<T>(c));
+  for (int j = 0; j < 7; ++j)
+    for (int i = 0; i < 13; ++i) {
+      for (int k = 0; k < 9; ++k) c(i, j) -= a(i, k) * b(k, j);
+    }
+  EXPECT_LT(this->norm(c), this->tolerance());
+  multiply(View<const T>(a), View<const T>(b), View<T>(c), Update::subtract);
+  multiply(View<const T>(a), View<const T>(Matrix<T>(-b)), View<T>(c), Update::subtract);
+  EXPECT_LT(this->norm(c), this->tolerance());
+}
+
+TYPED_TEST(Kernels, CholeskyFactorsInverts) {
+  using T = TypeParam;
+  constexpr int n = 70;  // three panels
+  const Matrix<T> a = positive(n, 3).cast<T>();
+  Matrix<T> l = a, inverse(n, n);
+  ASSERT_TRUE(cholesky(View<T>(l)));
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i < j; ++i) l(i, j) = T(0);
+  Matrix<T> product(n, n);
+  multiply(View<const T>(l), View<const T>(Matrix<T>(l.transpose())), View<T>(product));
+  EXPECT_LT(this->norm(product - a), this->tolerance() * this->norm(a));
+
+  invert_lower(View<const T>(l), View<T>(inverse));
+  multiply(View<const T>(inverse), View<const T>(l), View<T>(product));
+  EXPECT_LT(this->norm(product - Matrix<T>::Identity(n, n)), this->tolerance());
+
+  Vector<T> x = a.col(0);
+  solve_factored(View<const T>(l), x);
+  x[0] -= T(1);
+  EXPECT_LT(this->norm(x), this->tolerance() * 10);
+}
+
+TYPED_TEST(Kernels, CholeskyRefusesWhatIsNotPositive) {
+  using T = TypeParam;
+  Matrix<T> a = positive(40, 3).cast<T>();
+  a(37, 37) = T(-1);
+  EXPECT_FALSE(cholesky(View<T>(a)));
+}
+
+TEST(Lanczos, BoundsTheSmallestEigenvalueFromBelow) {
+  for (const int n : {33, 60, 90}) {
+    const MatrixXd v = positive(n, n), d = varied(n, n, 5) + varied(n, n, 5).transpose();
+    MatrixXd l = v.llt().matrixL();
+    const MatrixXd inverse = l.inverse().triangularView<Eigen::Lower>();
+    const MatrixXd w = inverse * d * inverse.transpose();
+    const double exact = Eigen::SelfAdjointEigenSolver<MatrixXd>(w).eigenvalues()[0];
+    Lanczos lanczos(n);
+    bool converged = false;
+    const double bound = lanczos.lower_bound(inverse, d, -1e-3, converged);
+    EXPECT_TRUE(converged);
+    EXPECT_LE(bound, exact + 1e-10);
+    EXPECT_GT(bound, 1.03 * exact);
+  }
+}
+
+TEST(ConeFactor, StepsToTheBoundary) {
+  for (const int n : {6, 50}) {
+    const Layout layout({n}, 2);
+    Blocks<double> v(layout), d(layout);
+    v.dense(0) = positive(n, 1);
+    d.dense(0) = -10 * positive(n, 2);
+    v.linear() << 1, 2;
+    d.linear() << 1, -1e-3;
+    ConeFactor<double> cone(layout);
+    ASSERT_TRUE(cone.factorise(v));
+    const double a = cone.step(d, 10);
+    const auto smallest = [&](double step) {
+      const MatrixXd moved = v.dense(0) + step * d.dense(0);
+      return Eigen::SelfAdjointEigenSolver<MatrixXd>(moved).eigenvalues()[0];
+    };
+    EXPECT_GE(smallest(0.999 * a), 0);
+    EXPECT_LT(smallest(1.03 * a), 0);
+    Blocks<double> inverse(layout);
+    cone.inverse(inverse);
+    EXPECT_LT((inverse.dense(0) * v.dense(0) - MatrixXd::Identity(n, n)).norm(), 1e-9);
+    v.linear()[1] = 0;
+    EXPECT_FALSE(cone.factorise(v));
+  }
+}
+
+/// Lists of every kind: full matrices, a few rows, single entries; and a linear part.
+Data mixed_data(int n, int m) {
+  Data data;
+  data.layout = Layout({n}, 3);
+  BlockData& block = data.dense.emplace_back();
+  for (int i = 1; i <= m; ++i) {
+    data.c.push_back(1);
+    data.c_rest.push_back(0);
+    block.constraint.push_back(i);
+    const MatrixXd f = varied(n, n, i);
+    for (int q = 0; q < n; ++q)
+      for (int p = 0; p <= q; ++p) {
+        const bool single = p == (i * 3) % n && q >= p && q <= p + 1;
+        if (i % 3 == 0 ? single : (i % 3 == 1 || p == i % n || q == i % n))
+          block.terms.push_back({p, q, f(p, q), 0});
+      }
+    block.start.push_back(block.terms.size());
+    data.linear.constraint.push_back(i);
+    data.linear.terms.push_back({i % 3, i % 3, 0.5 + i, 0});
+    data.linear.start.push_back(data.linear.terms.size());
+  }
+  return data;
+}
+
+TEST(Schur, SolvesWithTheMatrixOfItsDefinition) {
+  for (const auto& [n, m] : {std::pair{5, 9}, std::pair{24, 31}}) {
+    const Data data = mixed_data(n, m);
+    Blocks<double> X(data.layout), Y(data.layout);
+    X.dense(0) = positive(n, 1).inverse();
+    Y.dense(0) = positive(n, 2);
+    X.linear() << 1, 2, 3;
+    Y.linear() << 3, 1, 2;
+
+    MatrixXd b(m, m);
+    Vector<double> column(m);
+    Blocks<double> f(data.layout), image(data.layout);
+    for (int j = 0; j < m; ++j) {
+      adjoint(data, Vector<double>(VectorXd::Unit(m, j)), 0.0, f);
+      const MatrixXd u = X.dense(0) * f.dense(0) * Y.dense(0);
+      image.dense(0) = 0.5 * (u + u.transpose());
+      image.linear() = X.linear().cwiseProduct(f.linear()).cwiseProduct(Y.linear());
+      apply(data, image, column);
+      b.col(j) = column;
+    }
+    for (const unsigned threads : {1U, 2U}) {
+      Schur<double> schur(data, threads);
+      schur.assemble(X, Y);
+      ASSERT_TRUE(schur.factorise());
+      const Vector<double> expected = varied(m, 1, 4).col(0);
+      Vector<double> x(m);
+      schur.solve(b * expected, x);
+      EXPECT_LT((b * (x - expected)).norm(), 1e-9 * (b * expected).norm());
+    }
+  }
+}
+
+TEST(Presolve, SplitsComponentsAndPutsThemBack) {
+  // Rows 0 and 2 belong together, 1 stands alone, 3 never occurs.
+  Problem problem;
+  problem.blocks = {{4, false}};
+  problem.c = {4, 0, 2};
+  problem.f = {{{0, 0, 2, 3}}, {{0, 0, 0, 8}, {0, 2, 2, 1}}, {}, {{0, 1, 1, 0.5}}};
+  const Presolved presolved = presolve(problem);
+  EXPECT_EQ(presolved.data.layout.size, (std::vector<int>{2}));
+  EXPECT_EQ(presolved.data.layout.linear, 1);
+  EXPECT_EQ(presolved.recovery.constraint, (std::vector<int>{0, 2}));
+  EXPECT_EQ(presolved.free_descent, -1);
+
+  Vector<double> x(2);
+  x << 1, 2;
+  Blocks<double> X(presolved.data.layout), Y(presolved.data.layout);
+  adjoint(presolved.data, x, 1.0, X);
+  const Point<double> point = restore<double>(problem, presolved, x, X, Y, 1.0);
+  EXPECT_EQ(point.x[1], 0);
+  EXPECT_EQ(point.X[0][0], 8 * point.x[0]);
+  EXPECT_EQ(point.X[0][2], -3);
+  EXPECT_EQ(point.X[0][8], -3);
+  EXPECT_EQ(point.X[0][5], 0.5 * point.x[2]);
+  EXPECT_EQ(point.X[0][15], 0);
+}
+
+}  // namespace
+}  // namespace gainsmith::sdp
