@@ -1,5 +1,5 @@
-// The subcommands. Each add_* declares its options and sets a callback that does the work and stores
-// the exit code.
+// The subcommands. Each add_* declares its options and sets a callback that does the work and
+// stores the exit code.
 #pragma once
 
 #include "base/error.h"

@@ -21,7 +21,8 @@ namespace {
 
 /// The exit code of a result: what `expect:` names is compared, the rest must be as usual.
 ExitCode judge(const model::Problem& problem, const model::Gains& gains,
-               const std::optional<verify::Report>& campaign, const std::vector<std::string>& differences) {
+               const std::optional<verify::Report>& campaign,
+               const std::vector<std::string>& differences) {
   const auto& expect = problem.expect;
   if (!differences.empty()) return ExitCode::no;
   if (!(expect && expect->verdict)) {
@@ -47,7 +48,8 @@ class Job {
     result.differences = design::differences(
         loaded_.instance, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
     result.exit = judge(*loaded_.problem, gains, campaign, result.differences);
-    result.line = verdict_line(gains) + "; " + (campaign ? campaign_line(*campaign) : "no campaign without gains");
+    result.line = verdict_line(gains) + "; " +
+                  (campaign ? campaign_line(*campaign) : "no campaign without gains");
     result.report = report(gains, campaign, result);
     write_atomically(folder_ / "summary.txt", summary(gains, campaign, result));
   }
@@ -55,12 +57,14 @@ class Job {
  private:
   /// A campaign when every gain has a value.
   std::optional<verify::Report> verify_gains(const model::Gains& gains) {
-    if (gains.gains.size() < loaded_.problem->method->gains.size() || gains.gains.empty()) return std::nullopt;
-    const verify::Report report =
-        verify::run_campaign(loaded_.instance, gains, {options_.runs, options_.seed, options_.threads, {}});
+    if (gains.gains.size() < loaded_.problem->method->gains.size() || gains.gains.empty())
+      return std::nullopt;
+    const verify::Report report = verify::run_campaign(
+        loaded_.instance, gains, {options_.runs, options_.seed, options_.threads, {}});
     write_atomically(folder_ / "campaign.json", io::to_text(campaign_json(report)));
     if (report.verdict == model::CampaignVerdict::violated) {
-      const verify::Replay replay = verify::replay(loaded_.instance, gains, report.seed, report.worst_run);
+      const verify::Replay replay =
+          verify::replay(loaded_.instance, gains, report.seed, report.worst_run);
       write_atomically(folder_ / "worst-run.csv", io::to_csv(replay.columns, replay.table));
     }
     return report;
@@ -69,6 +73,7 @@ class Job {
   io::Json report(const model::Gains& gains, const std::optional<verify::Report>& campaign,
                   const JobResult& result) const {
     io::Json document = {{"problem", gains.problem_name},
+                         {"folder", result.name},
                          {"exit", static_cast<int>(result.exit)},
                          {"verdict", to_string(gains.verdict)},
                          {"status", gains.solver.status}};
@@ -83,7 +88,8 @@ class Job {
     std::string text = synthesis_summary(gains);
     if (campaign) text += campaign_summary(*campaign, (folder_ / "gains.json").string());
     if (loaded_.problem->expect)
-      text += result.differences.empty() ? "expected    all as expected\n" : "expected    DIFFERENT:\n";
+      text +=
+          result.differences.empty() ? "expected    all as expected\n" : "expected    DIFFERENT:\n";
     for (const std::string& difference : result.differences) text += "  " + difference + "\n";
     return text;
   }
@@ -97,11 +103,16 @@ class Job {
 
 std::string mark_of(ExitCode exit) {
   switch (exit) {
-    case ExitCode::yes: return "ok";
-    case ExitCode::no: return "NO";
-    case ExitCode::bad_input: return "WRONG INPUT";
-    case ExitCode::undecided: return "UNDECIDED";
-    case ExitCode::fault: break;
+    case ExitCode::yes:
+      return "ok";
+    case ExitCode::no:
+      return "NO";
+    case ExitCode::bad_input:
+      return "WRONG INPUT";
+    case ExitCode::undecided:
+      return "UNDECIDED";
+    case ExitCode::fault:
+      break;
   }
   return "FAULT";
 }
@@ -121,7 +132,8 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
     result.line = error.what();
   }
   if (result.report.is_null())
-    result.report = {{"problem", name}, {"exit", static_cast<int>(result.exit)}, {"error", result.line}};
+    result.report = {
+        {"folder", name}, {"exit", static_cast<int>(result.exit)}, {"error", result.line}};
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return result;
 }

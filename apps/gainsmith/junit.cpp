@@ -12,19 +12,29 @@ std::string escaped(const std::string& text) {
   std::string result;
   for (const char c : text) {
     switch (c) {
-      case '&': result += "&amp;"; break;
-      case '<': result += "&lt;"; break;
-      case '>': result += "&gt;"; break;
-      case '"': result += "&quot;"; break;
-      default: result += c;
+      case '&':
+        result += "&amp;";
+        break;
+      case '<':
+        result += "&lt;";
+        break;
+      case '>':
+        result += "&gt;";
+        break;
+      case '"':
+        result += "&quot;";
+        break;
+      default:
+        result += c;
     }
   }
   return result;
 }
 
 std::string test_case(const JobResult& result) {
-  std::string text = fmt::format("    <testcase classname=\"gainsmith\" name=\"{}\" time=\"{:.3f}\"",
-                                 escaped(result.name), result.seconds);
+  std::string text =
+      fmt::format("    <testcase classname=\"gainsmith\" name=\"{}\" time=\"{:.3f}\"",
+                  escaped(result.name), result.seconds);
   if (result.exit == ExitCode::yes) return text + "/>\n";
   const std::string element = result.exit == ExitCode::no ? "failure" : "error";
   std::string details = result.line;
@@ -36,16 +46,20 @@ std::string test_case(const JobResult& result) {
 }  // namespace
 
 std::string junit_text(const std::vector<JobResult>& results) {
-  const auto failures = std::count_if(results.begin(), results.end(),
-                                      [](const JobResult& result) { return result.exit == ExitCode::no; });
-  const auto good = std::count_if(results.begin(), results.end(),
-                                  [](const JobResult& result) { return result.exit == ExitCode::yes; });
+  const auto failures = std::count_if(results.begin(), results.end(), [](const JobResult& result) {
+    return result.exit == ExitCode::no;
+  });
+  const auto good = std::count_if(results.begin(), results.end(), [](const JobResult& result) {
+    return result.exit == ExitCode::yes;
+  });
   double seconds = 0;
   for (const JobResult& result : results) seconds += result.seconds;
   const auto errors = static_cast<std::ptrdiff_t>(results.size()) - failures - good;
   std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<testsuites>\n";
-  text += fmt::format("  <testsuite name=\"gainsmith run\" tests=\"{}\" failures=\"{}\" errors=\"{}\" time=\"{:.3f}\">\n",
-                      results.size(), failures, errors, seconds);
+  text += fmt::format(
+      "  <testsuite name=\"gainsmith run\" tests=\"{}\" failures=\"{}\" errors=\"{}\" "
+      "time=\"{:.3f}\">\n",
+      results.size(), failures, errors, seconds);
   for (const JobResult& result : results) text += test_case(result);
   return text + "  </testsuite>\n</testsuites>\n";
 }

@@ -2,10 +2,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <new>
+#include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "base/nearest.h"
 #include "base/version.h"
 #include "gainsmith/commands.h"
 
@@ -18,11 +22,23 @@ int report(ExitCode code, const char* message) {
   return static_cast<int>(code);
 }
 
+/// CLI11 takes an unknown first word for a missing subcommand.
+void refuse_unknown_word(const CLI::App& program, int argc, char** argv) {
+  if (argc < 2 || argv[1][0] == '-') return;
+  std::vector<std::string> names;
+  for (const CLI::App* command : program.get_subcommands({})) names.push_back(command->get_name());
+  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
+  throw gainsmith::InputError({}, "unknown subcommand '" + std::string(argv[1]) + "'" +
+                                      gainsmith::suggestion(argv[1], names));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   ExitCode exit = ExitCode::yes;
-  CLI::App program("gainsmith: observer gains by linear matrix inequalities, verified by simulation", "gainsmith");
+  CLI::App program(
+      "gainsmith: observer gains by linear matrix inequalities, verified by simulation",
+      "gainsmith");
   program.set_version_flag("--version", std::string("gainsmith ") + gainsmith::kVersion);
   program.require_subcommand(1);
   program.footer(
@@ -37,6 +53,7 @@ int main(int argc, char** argv) {
     gainsmith::app::add_check(program, exit);
     gainsmith::app::add_solve(program, exit);
     gainsmith::app::add_methods(program, exit);
+    refuse_unknown_word(program, argc, argv);
     program.parse(argc, argv);
     return static_cast<int>(exit);
   } catch (const CLI::CallForHelp& request) {

@@ -23,19 +23,25 @@ struct MethodsOptions {
 io::Json description(const model::Method& method) {
   io::Json data = io::Json::object();
   for (const auto& datum : method.data)
-    data[datum.name] = {{"shape", datum.shape.text}, {"required", !datum.fallback}, {"help", datum.help}};
+    data[datum.name] = {
+        {"shape", datum.shape.text}, {"required", !datum.fallback}, {"help", datum.help}};
   io::Json parameters = io::Json::object();
   for (const auto& parameter : method.parameters)
-    parameters[parameter.name] = {{"default", parameter.fallback ? io::Json(parameter.fallback->text->str()) : io::Json()},
-                                  {"help", parameter.help}};
-  return {{"method", method.name}, {"summary", method.summary}, {"source", method.source},
-          {"data", data},          {"parameters", parameters}};
+    parameters[parameter.name] = {
+        {"default", parameter.fallback ? io::Json(parameter.fallback->text->str()) : io::Json()},
+        {"help", parameter.help}};
+  return {{"method", method.name},
+          {"summary", method.summary},
+          {"source", method.source},
+          {"data", data},
+          {"parameters", parameters}};
 }
 
 ExitCode show(const MethodsOptions& options) {
   io::Json list = io::Json::array();
   for (const methods::Text& entry : methods::all()) {
-    const model::Method method = io::parse_method(std::string(entry.text), "method " + std::string(entry.name));
+    const model::Method method =
+        io::parse_method(std::string(entry.text), "method " + std::string(entry.name));
     if (options.json) {
       list.push_back(description(method));
     } else {
@@ -49,7 +55,8 @@ ExitCode show(const MethodsOptions& options) {
 ExitCode show_one(const MethodsOptions& options) {
   const auto text = methods::find(options.name);
   if (!text)
-    throw InputError({}, "unknown method '" + options.name + "'" + suggestion(options.name, methods::names()));
+    throw InputError(
+        {}, "unknown method '" + options.name + "'" + suggestion(options.name, methods::names()));
   if (options.json) {
     fmt::print("{}", io::to_text(description(io::parse_method(*text, "method " + options.name))));
   } else {
@@ -68,8 +75,9 @@ void add_methods(CLI::App& program, ExitCode& exit) {
   command->footer(
       "Examples:\n"
       "  gainsmith methods\n"
-      "  gainsmith methods sampled-data-hybrid > my-method.yaml");
-  command->callback([options, &exit] { exit = options->name.empty() ? show(*options) : show_one(*options); });
+      "  gainsmith methods sampled-data-hybrid");
+  command->callback(
+      [options, &exit] { exit = options->name.empty() ? show(*options) : show_one(*options); });
 }
 
 }  // namespace gainsmith::app

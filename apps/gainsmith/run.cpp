@@ -12,6 +12,7 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/job.h"
 #include "gainsmith/junit.h"
+#include "gainsmith/option_checks.h"
 #include "gainsmith/terminal.h"
 
 namespace gainsmith::app {
@@ -35,7 +36,9 @@ struct Item {
   std::string name;
 };
 
-bool is_yaml(const fs::path& path) { return path.extension() == ".yaml" || path.extension() == ".yml"; }
+bool is_yaml(const fs::path& path) {
+  return path.extension() == ".yaml" || path.extension() == ".yml";
+}
 
 /// All problem files below a folder, sorted; named by their path below it.
 std::vector<Item> items_below(const fs::path& folder) {
@@ -45,7 +48,8 @@ std::vector<Item> items_below(const fs::path& folder) {
     fs::path relative = entry.path().lexically_relative(folder);
     items.push_back({entry.path(), relative.replace_extension().string()});
   }
-  std::sort(items.begin(), items.end(), [](const Item& a, const Item& b) { return a.file < b.file; });
+  std::sort(items.begin(), items.end(),
+            [](const Item& a, const Item& b) { return a.file < b.file; });
   if (items.empty()) throw InputError({folder.string()}, "this folder holds no .yaml file");
   return items;
 }
@@ -63,7 +67,8 @@ std::vector<Item> items_of(const std::vector<std::string>& paths) {
   for (std::size_t i = 0; i < items.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (items[i].name == items[j].name)
-        throw InputError({items[i].file.string()}, "would write into the same folder '" + items[i].name + "' as " +
+        throw InputError({items[i].file.string()}, "would write into the same folder '" +
+                                                       items[i].name + "' as " +
                                                        items[j].file.string() + "; run them apart");
   return items;
 }
@@ -75,7 +80,8 @@ std::string json_text(const std::vector<JobResult>& results, ExitCode worst) {
     problems.push_back(result.report);
     seconds[result.name] = result.seconds;
   }
-  return io::to_text({{"exit", static_cast<int>(worst)}, {"problems", problems}, {"timings", seconds}});
+  return io::to_text(
+      {{"exit", static_cast<int>(worst)}, {"problems", problems}, {"timings", seconds}});
 }
 
 void print_lines(const std::vector<JobResult>& results) {
@@ -83,7 +89,8 @@ void print_lines(const std::vector<JobResult>& results) {
   for (const JobResult& result : results) width = std::max(width, result.name.size());
   for (const JobResult& result : results) {
     fmt::print("{:<11} {:<{}}  {}\n", mark_of(result.exit), result.name, width, result.line);
-    for (const std::string& difference : result.differences) fmt::print("            {}\n", difference);
+    for (const std::string& difference : result.differences)
+      fmt::print("            {}\n", difference);
   }
 }
 
@@ -94,7 +101,8 @@ ExitCode run(const RunOptions& options) {
   job.threads = items.size() == 1 ? options.threads : 1;
   std::vector<JobResult> results(items.size());
   parallel_for(items.size(), options.threads, [&](std::size_t i) {
-    results[i] = run_job(items[i].file, items[i].name, fs::path(options.output) / items[i].name, job);
+    results[i] =
+        run_job(items[i].file, items[i].name, fs::path(options.output) / items[i].name, job);
   });
   ExitCode worst = ExitCode::yes;
   for (const JobResult& result : results) worst = std::max(worst, result.exit);
@@ -111,15 +119,21 @@ ExitCode run(const RunOptions& options) {
 
 void add_run(CLI::App& program, ExitCode& exit) {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command =
-      program.add_subcommand("run", "Synthesize, verify and compare with what is expected: for batch scripts and CI");
-  command->add_option("problems", options->problems, "problem files, or folders of them")->required();
-  command->add_option("-o,--output", options->output, "folder for the results, one folder a problem in it")
+  CLI::App* command = program.add_subcommand(
+      "run", "Synthesize, verify and compare with what is expected: for batch scripts and CI");
+  command->add_option("problems", options->problems, "problem files, or folders of them")
+      ->required();
+  command
+      ->add_option("-o,--output", options->output,
+                   "folder for the results, one folder a problem in it")
       ->capture_default_str();
   command->add_option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}));
-  command->add_option("--seed", options->job.seed, "seed (default: the problem's)");
-  command->add_option("--threads", options->threads, "threads, 0: one a core; results do not depend on it")
+  command->add_option("--seed", options->job.seed, "seed (default: the problem's)")
+      ->check(whole_number());
+  command
+      ->add_option("--threads", options->threads,
+                   "threads, 0: one a core; results do not depend on it")
       ->check(CLI::Range(0, 1024))
       ->capture_default_str();
   command->add_option("--junit", options->junit, "write JUnit XML here");

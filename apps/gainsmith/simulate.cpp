@@ -10,6 +10,7 @@
 #include "base/number.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
+#include "gainsmith/option_checks.h"
 #include "io/csv.h"
 #include "io/json_text.h"
 #include "verify/replay.h"
@@ -30,17 +31,22 @@ io::Json replay_json(const verify::Replay& replay) {
   io::Json rows = io::Json::array();
   for (Eigen::Index i = 0; i < replay.table.rows(); ++i) {
     io::Json row = io::Json::array();
-    for (Eigen::Index j = 0; j < replay.table.cols(); ++j) row.push_back(io::finite_or_null(replay.table(i, j)));
+    for (Eigen::Index j = 0; j < replay.table.cols(); ++j)
+      row.push_back(io::finite_or_null(replay.table(i, j)));
     rows.push_back(std::move(row));
   }
-  return {{"termination", to_string(replay.arc.termination)}, {"columns", replay.columns}, {"rows", rows}};
+  return {{"termination", to_string(replay.arc.termination)},
+          {"columns", replay.columns},
+          {"rows", rows}};
 }
 
 ExitCode simulate(const SimulateOptions& options) {
   const LoadedGains loaded = load_gains(options.gains);
   const std::uint64_t seed = options.seed.value_or(loaded.stated.problem->campaign.seed);
-  const verify::Replay replay = verify::replay(loaded.stated.instance, loaded.gains, seed, options.run);
-  const std::string text = options.json ? io::to_text(replay_json(replay)) : io::to_csv(replay.columns, replay.table);
+  const verify::Replay replay =
+      verify::replay(loaded.stated.instance, loaded.gains, seed, options.run);
+  const std::string text =
+      options.json ? io::to_text(replay_json(replay)) : io::to_csv(replay.columns, replay.table);
   if (options.output.empty() || options.output == "-") {
     fmt::print("{}", text);
   } else {
@@ -61,9 +67,13 @@ void add_simulate(CLI::App& program, ExitCode& exit) {
   auto options = std::make_shared<SimulateOptions>();
   CLI::App* command = program.add_subcommand("simulate", "Replay one run of a campaign as CSV");
   command->add_option("gains", options->gains, "gain file (JSON)")->required();
-  command->add_option("--run", options->run, "the run's number")->capture_default_str();
-  command->add_option("--seed", options->seed, "seed of the campaign (default: the problem's)");
-  command->add_option("-o,--output", options->output, "write the table here (default: standard output)");
+  command->add_option("--run", options->run, "the run's number")
+      ->check(whole_number())
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "seed of the campaign (default: the problem's)")
+      ->check(whole_number());
+  command->add_option("-o,--output", options->output,
+                      "write the table here (default: standard output)");
   command->add_flag("--json", options->json, "write JSON instead of CSV");
   command->footer(
       "Columns: t, j, the timer, the states, the signals, then the value of each claim.\n"

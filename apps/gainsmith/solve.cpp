@@ -25,21 +25,24 @@ struct SolveOptions {
 
 ExitCode exit_of(sdp::Status status) {
   switch (status) {
-    case sdp::Status::optimal: return ExitCode::yes;
+    case sdp::Status::optimal:
+      return ExitCode::yes;
     case sdp::Status::primal_infeasible:
-    case sdp::Status::dual_infeasible: return ExitCode::no;
-    case sdp::Status::undecided: break;
+    case sdp::Status::dual_infeasible:
+      return ExitCode::no;
+    case sdp::Status::undecided:
+      break;
   }
   return ExitCode::undecided;
 }
 
 void print_progress(const sdp::Progress& line) {
   if (line.iteration == 0)
-    fmt::print(stderr, "{:>4} {:>18} {:>18} {:>9} {:>9} {:>9} {:>6} {:>6}\n", "iter", "primal", "dual", "gap",
-               "p.infeas", "d.infeas", "p.step", "d.step");
-  fmt::print(stderr, "{:>4} {:>18.10e} {:>18.10e} {:>9.2e} {:>9.2e} {:>9.2e} {:>6.3f} {:>6.3f}\n", line.iteration,
-             line.primal_objective, line.dual_objective, line.relative_gap, line.primal_infeasibility,
-             line.dual_infeasibility, line.step_primal, line.step_dual);
+    fmt::print(stderr, "{:>4} {:>18} {:>18} {:>9} {:>9} {:>9} {:>6} {:>6}\n", "iter", "primal",
+               "dual", "gap", "p.infeas", "d.infeas", "p.step", "d.step");
+  fmt::print(stderr, "{:>4} {:>18.10e} {:>18.10e} {:>9.2e} {:>9.2e} {:>9.2e} {:>6.3f} {:>6.3f}\n",
+             line.iteration, line.primal_objective, line.dual_objective, line.relative_gap,
+             line.primal_infeasibility, line.dual_infeasibility, line.step_primal, line.step_dual);
 }
 
 io::Json certificate_json(const sdp::Certificate& certificate) {
@@ -63,24 +66,28 @@ std::string json_text(const sdp::Solution& solution) {
                        {"iterations", solution.iterations},
                        {"precision", solution.precision},
                        {"precision_reason", solution.precision_reason}};
-  if (solution.certificate.checked) document["certificate"] = certificate_json(solution.certificate);
+  if (solution.certificate.checked)
+    document["certificate"] = certificate_json(solution.certificate);
   document["seconds"] = solution.seconds;
   return io::to_text(document);
 }
 
 std::string summary(const sdp::Solution& solution) {
-  std::string text = fmt::format("status            {} ({})\n", to_string(solution.status), to_string(solution.cause));
+  std::string text = fmt::format("status            {} ({})\n", to_string(solution.status),
+                                 to_string(solution.cause));
   if (!solution.message.empty()) text += fmt::format("                  {}\n", solution.message);
   if (solution.certificate.checked) {
     const bool primal = solution.status == sdp::Status::primal_infeasible;
-    text += fmt::format("certificate       checked on the raw data: {} = {}, residual {}, smallest eigenvalue {}\n",
-                        primal ? "F_0.Y" : "-c'x", brief(solution.certificate.value),
-                        brief(solution.certificate.residual, 3), brief(solution.certificate.min_eigenvalue, 3));
-    text += fmt::format("                  no {} solution is smaller than {}\n", primal ? "primal" : "dual",
-                        brief(solution.certificate.excluded_radius, 3));
+    text += fmt::format(
+        "certificate       checked on the raw data: {} = {}, residual {}, smallest eigenvalue {}\n",
+        primal ? "F_0.Y" : "-c'x", brief(solution.certificate.value),
+        brief(solution.certificate.residual, 3), brief(solution.certificate.min_eigenvalue, 3));
+    text += fmt::format("                  no {} solution is smaller than {}\n",
+                        primal ? "primal" : "dual", brief(solution.certificate.excluded_radius, 3));
   } else {
-    text += fmt::format("primal objective  {:.15e}\ndual objective    {:.15e}\nrelative gap      {:.2e}\n",
-                        solution.primal_objective, solution.dual_objective, solution.relative_gap);
+    text += fmt::format(
+        "primal objective  {:.15e}\ndual objective    {:.15e}\nrelative gap      {:.2e}\n",
+        solution.primal_objective, solution.dual_objective, solution.relative_gap);
     text += fmt::format("DIMACS errors     {:.2e}\n", fmt::join(solution.dimacs, " "));
   }
   text += fmt::format("iterations        {} ({}{}{})\n", solution.iterations, solution.precision,
@@ -92,7 +99,8 @@ ExitCode solve(SolveOptions options) {
   const sdp::Problem problem = sdp::read_sdpa(read_text(options.file), options.file);
   catch_interrupts();
   options.solver.interrupted = interrupted;
-  if (!options.quiet && !options.json && progress_wanted()) options.solver.progress = print_progress;
+  if (!options.quiet && !options.json && progress_wanted())
+    options.solver.progress = print_progress;
   const sdp::Solution solution = sdp::solve(problem, options.solver);
   fmt::print("{}", options.json ? json_text(solution) : summary(solution));
   return exit_of(solution.status);
@@ -102,11 +110,15 @@ ExitCode solve(SolveOptions options) {
 
 void add_solve(CLI::App& program, ExitCode& exit) {
   auto options = std::make_shared<SolveOptions>();
-  CLI::App* command = program.add_subcommand("solve", "Solve a semidefinite program in SDPA sparse format");
-  command->add_option("file", options->file, "SDPA sparse file (.dat-s); - for standard input")->required();
+  CLI::App* command =
+      program.add_subcommand("solve", "Solve a semidefinite program in SDPA sparse format");
+  command->add_option("file", options->file, "SDPA sparse file (.dat-s); - for standard input")
+      ->required();
   command->add_flag("--json", options->json, "print the result as JSON");
   command->add_flag("-q,--quiet", options->quiet, "no progress table");
-  command->add_option("--tolerance", options->solver.tolerance, "relative gap and DIMACS errors for 'optimal'")
+  command
+      ->add_option("--tolerance", options->solver.tolerance,
+                   "relative gap and DIMACS errors for 'optimal'")
       ->check(CLI::Range(1e-30, 1e-2))
       ->capture_default_str();
   command->add_option("--iterations", options->solver.iteration_limit, "most iterations")

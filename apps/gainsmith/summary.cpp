@@ -34,12 +34,13 @@ std::string margins_text(const model::Gains& gains) {
   if (gains.margins.empty()) return "";
   std::size_t width = 10;
   for (const model::Margin& margin : gains.margins) width = std::max(width, margin.name.size());
-  std::string text = fmt::format("{:<{}}  {:>12}  {:>10}  {:>12}  {}\n", "inequality", width, "margin", "asked",
-                                 "eigenvalue", "worst at");
+  std::string text = fmt::format("{:<{}}  {:>12}  {:>10}  {:>12}  {}\n", "inequality", width,
+                                 "margin", "asked", "eigenvalue", "worst at");
   for (const model::Margin& margin : gains.margins)
-    text += fmt::format("{:<{}}  {:>12}  {:>10}  {:>12}  {}{}\n", margin.name, width, brief(margin.reached, 3),
-                        margin.strict ? brief(margin.required, 3) : ">= 0", brief(margin.smallest_eigenvalue, 3),
-                        margin.worst_point, margin.holds ? "" : "  DOES NOT HOLD");
+    text += fmt::format(
+        "{:<{}}  {:>12}  {:>10}  {:>12}  {}{}\n", margin.name, width, brief(margin.reached, 3),
+        margin.strict ? brief(margin.required, 3) : ">= 0", brief(margin.smallest_eigenvalue, 3),
+        margin.worst_point, margin.holds ? "" : "  DOES NOT HOLD");
   return text;
 }
 
@@ -48,8 +49,8 @@ std::string bounds_text(const model::Gains& gains) {
   for (const model::GainBound& bound : gains.bounds)
     if (bound.active)
       text += fmt::format(
-          "gain bound  active on {}: {} of the bound {}; nothing else limits this gain\n", bound.what,
-          brief(bound.reached), brief(bound.bound));
+          "gain bound  active on {}: {} of the bound {}; nothing else limits this gain\n",
+          bound.what, brief(bound.reached), brief(bound.bound));
   return text;
 }
 
@@ -57,10 +58,12 @@ std::string certificate_text(const model::Gains& gains) {
   if (!gains.certificate) return "";
   const model::CertificateRecord& c = *gains.certificate;
   return fmt::format(
-      "certificate multipliers Y >= 0 (smallest eigenvalue {}) with F_0.Y = {} and sum |F_i.Y| = {},\n"
-      "            recomputed from the problem's data: {}; no solution has entries below {} in size\n",
-      brief(c.min_eigenvalue, 3), brief(c.value), brief(c.residual, 3), c.checked ? "checked" : "NOT CHECKED",
-      brief(c.excluded_radius, 3));
+      "certificate multipliers Y >= 0 (smallest eigenvalue {}) with F_0.Y = {} and sum |F_i.Y| = "
+      "{},\n"
+      "            recomputed from the problem's data: {}; no solution has entries below {} in "
+      "size\n",
+      brief(c.min_eigenvalue, 3), brief(c.value), brief(c.residual, 3),
+      c.checked ? "checked" : "NOT CHECKED", brief(c.excluded_radius, 3));
 }
 
 }  // namespace
@@ -70,7 +73,8 @@ std::string matrix_text(const expr::Matrix& matrix) {
   std::string text = "[";
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     if (i > 0) text += "; ";
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) text += (j > 0 ? ", " : "") + brief(matrix(i, j));
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      text += (j > 0 ? ", " : "") + brief(matrix(i, j));
   }
   return text + "]";
 }
@@ -79,16 +83,19 @@ std::string verdict_line(const model::Gains& gains) {
   std::string text = to_string(gains.verdict);
   if (gains.verdict == model::Verdict::no) text += ", infeasible by a checked certificate";
   if (gains.verdict == model::Verdict::undecided) text += ", " + gains.solver.cause;
-  if (gains.objective && gains.verdict == model::Verdict::yes) text += ", objective " + brief(*gains.objective);
+  if (gains.objective && gains.verdict == model::Verdict::yes)
+    text += ", objective " + brief(*gains.objective);
   return text;
 }
 
 std::string synthesis_summary(const model::Gains& gains) {
-  std::string text = fmt::format("problem     {}\nmethod      {}\nverdict     {} (solver: {}, {}, {} iterations)\n",
-                                 gains.problem_name, gains.statement.method_name, to_string(gains.verdict),
-                                 gains.solver.status, gains.solver.cause, gains.solver.iterations);
+  std::string text = fmt::format(
+      "problem     {}\nmethod      {}\nverdict     {} (solver: {}, {}, {} iterations)\n",
+      gains.problem_name, gains.statement.method_name, to_string(gains.verdict),
+      gains.solver.status, gains.solver.cause, gains.solver.iterations);
   if (!gains.solver.message.empty()) text += "            " + gains.solver.message + "\n";
-  text += objective_text(gains) + named_matrices("gains", gains.gains) + named_matrices("parameters", gains.parameters);
+  text += objective_text(gains) + named_matrices("gains", gains.gains) +
+          named_matrices("parameters", gains.parameters);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);
   return text;
 }

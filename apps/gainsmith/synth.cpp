@@ -26,9 +26,12 @@ struct SynthOptions {
 
 ExitCode exit_of(model::Verdict verdict) {
   switch (verdict) {
-    case model::Verdict::yes: return ExitCode::yes;
-    case model::Verdict::no: return ExitCode::no;
-    case model::Verdict::undecided: break;
+    case model::Verdict::yes:
+      return ExitCode::yes;
+    case model::Verdict::no:
+      return ExitCode::no;
+    case model::Verdict::undecided:
+      break;
   }
   return ExitCode::undecided;
 }
@@ -42,7 +45,8 @@ std::string json_text(const model::Gains& gains) {
 
 ExitCode synth(const SynthOptions& options) {
   const Loaded loaded = load_problem(options.problem);
-  if (!options.sdpa.empty()) write_atomically(options.sdpa, sdp::write_sdpa(design::semidefinite_program(loaded.instance)));
+  if (!options.sdpa.empty())
+    write_atomically(options.sdpa, sdp::write_sdpa(design::semidefinite_program(loaded.instance)));
   catch_interrupts();
   sdp::Options solver;
   solver.interrupted = interrupted;
@@ -53,8 +57,10 @@ ExitCode synth(const SynthOptions& options) {
   } else if (!options.output.empty()) {
     write_atomically(options.output, io::gains_text(gains));
   }
-  fmt::print(file_to_stdout ? stderr : stdout, "{}", options.json ? json_text(gains) : synthesis_summary(gains));
-  if (!options.output.empty() && !file_to_stdout && !options.json) fmt::print(stderr, "wrote {}\n", options.output);
+  fmt::print(file_to_stdout ? stderr : stdout, "{}",
+             options.json ? json_text(gains) : synthesis_summary(gains));
+  if (!options.output.empty() && !file_to_stdout && !options.json)
+    fmt::print(stderr, "wrote {}\n", options.output);
   return exit_of(gains.verdict);
 }
 
@@ -63,9 +69,12 @@ ExitCode synth(const SynthOptions& options) {
 void add_synth(CLI::App& program, ExitCode& exit) {
   auto options = std::make_shared<SynthOptions>();
   CLI::App* command = program.add_subcommand("synth", "Synthesize gains from a problem file");
-  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")->required();
-  command->add_option("-o,--output", options->output, "write the gain file here; - for standard output");
-  command->add_option("--sdpa", options->sdpa, "write the semidefinite program here, for other solvers");
+  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
+      ->required();
+  command->add_option("-o,--output", options->output,
+                      "write the gain file here; - for standard output");
+  command->add_option("--sdpa", options->sdpa,
+                      "write the semidefinite program here, for other solvers");
   command->add_flag("--json", options->json, "print the result as JSON");
   command->footer(
       "Exit code: 0 gains found, 1 proved infeasible, 2 wrong input, 3 undecided.\n"

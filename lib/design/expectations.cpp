@@ -14,7 +14,8 @@ std::string text_of(const expr::Matrix& matrix) {
   std::string text;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     if (i > 0) text += "; ";
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) text += (j > 0 ? ", " : "") + brief(matrix(i, j), 9);
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      text += (j > 0 ? ", " : "") + brief(matrix(i, j), 9);
   }
   return matrix.size() == 1 ? text : "[" + text + "]";
 }
@@ -28,50 +29,59 @@ std::string listed(std::vector<std::string> names) {
 
 class Comparison {
  public:
-  Comparison(const model::Instance& instance, const model::Gains& gains) : instance_(instance), gains_(gains) {
+  Comparison(const model::Instance& instance, const model::Gains& gains)
+      : instance_(instance), gains_(gains) {
     values_ = instance.known_values();
     scope_ = instance.design_scope();
     for (const auto* list : {&gains.unknowns, &gains.gains}) {
       for (const auto& [name, matrix] : *list) {
         values_[name] = matrix;
-        scope_.symbols[name] = {{static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols())}, matrix};
+        scope_.symbols[name] = {{static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols())},
+                                matrix};
       }
     }
     scope_.symbols["objective"] = {{}, std::nullopt};
     if (gains.objective) values_["objective"] = expr::Matrix::Constant(1, 1, *gains.objective);
   }
 
-  void words(const std::string& what, const std::optional<std::string>& expected, const std::string& found,
-             const Place& place) {
+  void words(const std::string& what, const std::optional<std::string>& expected,
+             const std::string& found, const Place& place) {
     if (expected && *expected != found) add(place, what, *expected, found);
   }
 
   void value(const model::ExpectedValue& expected) {
     const auto program = expr::compile(expected.what, scope_);
     for (const expr::Input& input : program.inputs)
-      if (!values_.contains(input.name)) return add(expected.place, expected.name, "a value", "none");
+      if (!values_.contains(input.name))
+        return add(expected.place, expected.name, "a value", "none");
     const expr::Matrix found = expr::evaluate(program, values_);
     const expr::Shape shape{static_cast<int>(found.rows()), static_cast<int>(found.cols())};
-    const expr::Matrix wanted = model::matrix_value(expected.value, instance_.scope, values_, shape);
+    const expr::Matrix wanted =
+        model::matrix_value(expected.value, instance_.scope, values_, shape);
     double allowed = expected.absolute.value_or(0);
-    if (expected.relative) allowed = std::max(allowed, *expected.relative * wanted.cwiseAbs().maxCoeff());
+    if (expected.relative)
+      allowed = std::max(allowed, *expected.relative * wanted.cwiseAbs().maxCoeff());
     const double difference = (found - wanted).cwiseAbs().maxCoeff();
     if (!(difference <= allowed))
-      add(expected.place, expected.name, text_of(wanted) + " within " + brief(allowed), text_of(found));
+      add(expected.place, expected.name, text_of(wanted) + " within " + brief(allowed),
+          text_of(found));
   }
 
   void bounds(const std::vector<std::string>& expected, const Place& place) {
     std::vector<std::string> active;
     for (const model::GainBound& bound : gains_.bounds)
       if (bound.active) active.push_back(bound.what);
-    if (listed(active) != listed(expected)) add(place, "active bounds", listed(expected), listed(active));
+    if (listed(active) != listed(expected))
+      add(place, "active bounds", listed(expected), listed(active));
   }
 
   std::vector<std::string> take() { return std::move(differences_); }
 
  private:
-  void add(const Place& place, const std::string& what, const std::string& expected, const std::string& found) {
-    differences_.push_back(to_string(place) + ": " + what + ": expected " + expected + ", found " + found);
+  void add(const Place& place, const std::string& what, const std::string& expected,
+           const std::string& found) {
+    differences_.push_back(to_string(place) + ": " + what + ": expected " + expected + ", found " +
+                           found);
   }
 
   const model::Instance& instance_;
@@ -90,7 +100,8 @@ std::vector<std::string> differences(const model::Instance& instance, const mode
   Comparison comparison(instance, gains);
   comparison.words("verdict", expect->verdict, to_string(gains.verdict), expect->place);
   comparison.words("status", expect->status, gains.solver.status, expect->place);
-  comparison.words("campaign", expect->campaign, campaign ? to_string(*campaign) : "no campaign", expect->place);
+  comparison.words("campaign", expect->campaign, campaign ? to_string(*campaign) : "no campaign",
+                   expect->place);
   if (expect->active_bounds) comparison.bounds(*expect->active_bounds, expect->place);
   for (const model::ExpectedValue& value : expect->values) comparison.value(value);
   return comparison.take();

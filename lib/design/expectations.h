@@ -10,9 +10,9 @@
 
 namespace gainsmith::design {
 
-/// The differences between what `expect:` says and what was found, one sentence each, with the place in
-/// the problem file; empty when all is as expected, or nothing is. `campaign` is none when no campaign
-/// was run; an expectation on it is then a difference.
+/// The differences between what `expect:` says and what was found, one sentence each, with the
+/// place in the problem file; empty when all is as expected, or nothing is. `campaign` is none when
+/// no campaign was run; an expectation on it is then a difference.
 std::vector<std::string> differences(const model::Instance& instance, const model::Gains& gains,
                                      std::optional<model::CampaignVerdict> campaign);
 

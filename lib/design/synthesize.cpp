@@ -24,7 +24,9 @@ double seconds_since(Clock::time_point start) {
 model::SolverRecord record_of(const sdp::Solution& solution) {
   model::SolverRecord record;
   const bool infeasible = solution.status == sdp::Status::primal_infeasible;
-  record.status = infeasible ? "infeasible" : solution.status == sdp::Status::optimal ? "optimal" : "undecided";
+  record.status = infeasible                                ? "infeasible"
+                  : solution.status == sdp::Status::optimal ? "optimal"
+                                                            : "undecided";
   record.cause = to_string(solution.cause);
   record.message = solution.message;
   record.iterations = solution.iterations;
@@ -39,7 +41,10 @@ model::SolverRecord record_of(const sdp::Solution& solution) {
 class Synthesis {
  public:
   Synthesis(const model::Instance& instance, const sdp::Options& options)
-      : instance_(instance), options_(options), choices_(instance.problem->synthesis), lmi_(lmi::compile(instance)) {
+      : instance_(instance),
+        options_(options),
+        choices_(instance.problem->synthesis),
+        lmi_(lmi::compile(instance)) {
     bounds_ = lmi::gain_bounds(instance, lmi_.unknowns, choices_.gain_bound);
     gains_.problem_name = instance.problem->name;
     gains_.version = kVersion;
@@ -61,14 +66,15 @@ class Synthesis {
           "the objective is unbounded below: some direction of the unknowns lowers it without end";
     }
     add_gains();
-    gains_.timings = {{"compile", compile_seconds_}, {"solve", solve_seconds_}, {"total", seconds_since(start_)}};
+    gains_.timings = {
+        {"compile", compile_seconds_}, {"solve", solve_seconds_}, {"total", seconds_since(start_)}};
     return std::move(gains_);
   }
 
  private:
-  void solve(lmi::Goal goal) {
+  void solve(lmi::Goal goal, double backoff = 0) {
     const auto start = Clock::now();
-    formulation_ = lmi::formulate(lmi_, bounds_, choices_, goal);
+    formulation_ = lmi::formulate(lmi_, bounds_, choices_, goal, backoff);
     solution_ = sdp::solve(formulation_.problem, options_);
     gains_.solver = record_of(solution_);
     solve_seconds_ += seconds_since(start);
@@ -80,30 +86,39 @@ class Synthesis {
       solve(lmi::Goal::certificate);
       if (solution_.status == sdp::Status::primal_infeasible) return accept_certificate();
       gains_.solver.status = "undecided";
-      gains_.solver.message = "the largest margin is " + brief(solution_.x.back()) + ", below the one asked for";
+      gains_.solver.message =
+          "the largest margin is " + brief(solution_.x.back()) + ", below the one asked for";
       return;
     }
-    x_ = lmi::read_back(lmi_, formulation_, solution_);
+    read_margins();
+    if (const double short_by = shortfall(); short_by > 0) {
+      constexpr double kSafety = 4;
+      const sdp::Solution first = solution_;
+      solve(formulation_.goal, kSafety * short_by);
+      if (solution_.status != sdp::Status::optimal) solution_ = first;
+      gains_.solver = record_of(solution_);
+      read_margins();
+    }
     for (const auto& unknown : lmi_.unknowns.list())
       gains_.unknowns.emplace_back(unknown.name, lmi_.unknowns.values(x_).at(unknown.name));
-    gains_.margins = lmi::margins(instance_, lmi_, formulation_.scales, formulation_.homogeneous(),
-                                  choices_.margin, x_);
     gains_.bounds = lmi::reached_bounds(bounds_, x_);
     set_objective();
     decide();
     find_free_gains();
   }
 
-  /// A gain that the objective does not determine is limited by its bound alone, wherever between them the
-  /// solver stops: with a bound ten times smaller the objective stays and the gain shrinks.
+  /// A gain that the objective does not determine is limited by its bound alone, wherever between
+  /// them the solver stops: with a bound ten times smaller the objective stays and the gain
+  /// shrinks.
   void find_free_gains() {
-    constexpr double kNear = 0.01;      // of the bound; a gain far below it is not limited by it
+    constexpr double kNear = 0.01;  // of the bound; a gain far below it is not limited by it
     constexpr double kTighter = 0.1;
     constexpr double kSameObjective = 1e-6;
     constexpr double kShrunk = 0.5;
-    const bool near = std::any_of(gains_.bounds.begin(), gains_.bounds.end(), [&](const model::GainBound& bound) {
-      return !bound.active && bound.reached > kNear * bound.bound;
-    });
+    const bool near =
+        std::any_of(gains_.bounds.begin(), gains_.bounds.end(), [&](const model::GainBound& bound) {
+          return !bound.active && bound.reached > kNear * bound.bound;
+        });
     if (!near || !gains_.objective || gains_.verdict != model::Verdict::yes) return;
     const auto start = Clock::now();
     const auto tighter = lmi::gain_bounds(instance_, lmi_.unknowns, kTighter * bounds_.beta);
@@ -112,7 +127,9 @@ class Synthesis {
     solve_seconds_ += seconds_since(start);
     if (solution.status != sdp::Status::optimal) return;
     const auto x = lmi::read_back(lmi_, formulation, solution);
-    if (std::abs(objective_at(x) - *gains_.objective) > kSameObjective * std::abs(*gains_.objective)) return;
+    if (std::abs(objective_at(x) - *gains_.objective) >
+        kSameObjective * std::abs(*gains_.objective))
+      return;
     const auto reached = lmi::reached_bounds(tighter, x);
     for (std::size_t i = 0; i < reached.size(); ++i)
       gains_.bounds[i].active |= gains_.bounds[i].reached > kNear * bounds_.beta &&
@@ -125,38 +142,64 @@ class Synthesis {
     return objective;
   }
 
+  void read_margins() {
+    x_ = lmi::read_back(lmi_, formulation_, solution_);
+    gains_.margins = lmi::margins(instance_, lmi_, formulation_.scales, formulation_.homogeneous(),
+                                  choices_.margin, x_);
+  }
+
+  /// Whether an inequality holds at the written decimals with the margin that was asked for.
+  static bool is_kept(const model::Margin& margin) {
+    constexpr double kSlack = 0.99;
+    return margin.holds && (!margin.strict || margin.reached >= kSlack * margin.required);
+  }
+
+  /// How much the worst inequality is short of its margin, relative to its scale, when that is no
+  /// more than the solver's tolerance explains; 0 when none is, or when it is worse than that.
+  double shortfall() const {
+    constexpr double kExplained = 1e-6;
+    double worst = 0;
+    for (const model::Margin& margin : gains_.margins)
+      if (!is_kept(margin))
+        worst = std::max(worst, (margin.strict ? margin.required : 0.0) - margin.reached);
+    return worst < kExplained ? worst : 0;
+  }
+
   void set_objective() {
     if (!lmi_.has_objective) return;
     gains_.objective = objective_at(x_);
     if (formulation_.goal == lmi::Goal::bounded_objective)
-      gains_.objective_lower_bound = lmi::objective_lower_bound(lmi_, formulation_, solution_);
+      // The dual solution is feasible to the solver's tolerance only.
+      gains_.objective_lower_bound =
+          std::min(*gains_.objective, lmi::objective_lower_bound(lmi_, formulation_, solution_));
   }
 
   /// The verdict comes from the margins as recomputed, never from the solver's word alone.
   void decide() {
-    constexpr double kSlack = 0.99;
     std::string failed;
     for (const model::Margin& margin : gains_.margins) {
-      const bool enough = !margin.strict || margin.reached >= kSlack * margin.required;
-      if (!margin.holds || !enough)
+      if (!is_kept(margin))
         failed += (failed.empty() ? "" : "; ") + margin.name + ": margin " + brief(margin.reached) +
                   ", asked for " + brief(margin.required);
     }
     gains_.verdict = failed.empty() ? model::Verdict::yes : model::Verdict::undecided;
     if (failed.empty()) return;
     gains_.solver.status = "undecided";
-    gains_.solver.message = "the solver converged, but recomputed from the written decimals " + failed;
+    gains_.solver.message =
+        "the solver converged, but recomputed from the written decimals " + failed;
   }
 
   void accept_certificate() {
     gains_.verdict = model::Verdict::no;
     const sdp::Certificate& certificate = solution_.certificate;
     gains_.certificate = model::CertificateRecord{
-        certificate.value,           certificate.residual, certificate.min_eigenvalue,
-        formulation_.unit * certificate.excluded_radius, certificate.checked,  lmi::multipliers(lmi_, bounds_, formulation_, solution_)};
+        certificate.value,          certificate.residual,
+        certificate.min_eigenvalue, formulation_.unit * certificate.excluded_radius,
+        certificate.checked,        lmi::multipliers(lmi_, bounds_, formulation_, solution_)};
   }
 
-  /// Gains whose formulas use nothing but data are known in any case, the others when the verdict is yes.
+  /// Gains whose formulas use nothing but data are known in any case, the others when the verdict
+  /// is yes.
   void add_gains() {
     expr::Values values = instance_.known_values();
     if (gains_.verdict == model::Verdict::yes)
@@ -164,8 +207,9 @@ class Synthesis {
     const expr::Scope scope = instance_.design_scope();
     for (const model::Named& gain : instance_.method->gains) {
       const auto program = expr::compile(gain.value, scope);
-      const bool known = std::all_of(program.inputs.begin(), program.inputs.end(),
-                                     [&](const expr::Input& input) { return values.contains(input.name); });
+      const bool known =
+          std::all_of(program.inputs.begin(), program.inputs.end(),
+                      [&](const expr::Input& input) { return values.contains(input.name); });
       if (known) gains_.gains.emplace_back(gain.name, expr::evaluate(program, values));
     }
   }

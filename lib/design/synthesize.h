@@ -9,15 +9,17 @@ namespace gainsmith::design {
 
 /// Compiles the method's inequalities for the instance, solves them and reads the gains back.
 ///
-/// verdict yes: every inequality holds at the matrices as written (margins recomputed in double), the solver
+/// verdict yes: every inequality holds at the matrices as written (margins recomputed in double),
+/// the solver
 ///   said optimal, and strict inequalities keep the margin that was asked for up to 1 %.
 /// verdict no: there is no solution, by a Farkas certificate that was checked on the raw data; the
 ///   certificate and its multipliers are stored.
-/// verdict undecided: neither, with the cause. Then no gains are given but those that the method takes as
+/// verdict undecided: neither, with the cause. Then no gains are given but those that the method
+/// takes as
 ///   data.
 ///
-/// Gains that depend on data alone (an analysis) are written whatever the verdict. InputError for what
-/// cannot be compiled.
+/// Gains that depend on data alone (an analysis) are written whatever the verdict. InputError for
+/// what cannot be compiled.
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options);
 
 /// The semidefinite program that synthesize() solves first (see lmi/formulation.h).

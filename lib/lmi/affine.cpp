@@ -59,12 +59,14 @@ Sparse moved(const Sparse& matrix, int rows, int cols, Move move) {
 AffineForm shifted(const AffineForm& form, expr::Shape shape, int row, int column) {
   return map_terms(form, shape, [&](const Sparse& matrix) {
     return moved(matrix, shape.rows, shape.cols, [&](const auto& it, auto& elements) {
-      elements.emplace_back(static_cast<int>(it.row()) + row, static_cast<int>(it.col()) + column, it.value());
+      elements.emplace_back(static_cast<int>(it.row()) + row, static_cast<int>(it.col()) + column,
+                            it.value());
     });
   });
 }
 
-AffineForm blocks(const expr::Instruction& instruction, std::span<const AffineForm* const> operands) {
+AffineForm blocks(const expr::Instruction& instruction,
+                  std::span<const AffineForm* const> operands) {
   AffineForm result{instruction.shape, {}};
   const auto columns = static_cast<std::size_t>(instruction.attributes[0]);
   int row = 0;
@@ -114,7 +116,8 @@ AffineForm diagonal(const expr::Instruction& instruction, const AffineForm& form
 }
 
 bool all_constant(std::span<const AffineForm* const> operands) {
-  return std::all_of(operands.begin(), operands.end(), [](const AffineForm* form) { return form->is_constant(); });
+  return std::all_of(operands.begin(), operands.end(),
+                     [](const AffineForm* form) { return form->is_constant(); });
 }
 
 }  // namespace
@@ -162,7 +165,8 @@ class Rules {
  public:
   Rules(AtomTable& atoms, const Unknowns& unknowns) : atoms_(atoms), unknowns_(unknowns) {}
 
-  AffineForm product(const AffineForm& a, const AffineForm& b, expr::Shape shape, bool scaling) const {
+  AffineForm product(const AffineForm& a, const AffineForm& b, expr::Shape shape,
+                     bool scaling) const {
     refuse_two_unknowns(a, b);
     AffineForm result{shape, {}};
     for (const auto& [left_key, left] : a.terms) {
@@ -195,7 +199,8 @@ class Rules {
     for (const auto& [key, matrix] : form.terms) {
       const Atom& atom = atoms_[key.first];
       const bool linear = atom == Atom{1, 0, 0, false};
-      if (key.second != 0 || !form.shape.is_scalar() || (key.first != 0 && !linear)) refuse(op, form);
+      if (key.second != 0 || !form.shape.is_scalar() || (key.first != 0 && !linear))
+        refuse(op, form);
       (linear ? slope : offset) = matrix.coeff(0, 0);
     }
     AffineForm result;
@@ -217,11 +222,12 @@ class Rules {
   [[noreturn]] void refuse(expr::Op op, const AffineForm& form) const {
     int which = 0;
     if (form.has_unknown(&which))
-      throw expr::EvaluationError("not affine in the unknowns: the " + to_string(op) + " depends on " +
-                                  unknowns_.scalar_name(which));
+      throw expr::EvaluationError("not affine in the unknowns: the " + to_string(op) +
+                                  " depends on " + unknowns_.scalar_name(which));
     throw expr::EvaluationError(
         "the " + to_string(op) +
-        " of a function of the 'forall' variable: over an interval only sums and products of powers, exp, sin "
+        " of a function of the 'forall' variable: over an interval only sums and products of "
+        "powers, exp, sin "
         "and cos of affine functions are taken; use a finite set {a, b, ...}");
   }
 
@@ -230,8 +236,9 @@ class Rules {
     int first = 0;
     int second = 0;
     if (!a.has_unknown(&first) || !b.has_unknown(&second)) return;
-    throw expr::EvaluationError("not affine in the unknowns: a product of " + unknowns_.scalar_name(first) +
-                                " and " + unknowns_.scalar_name(second));
+    throw expr::EvaluationError("not affine in the unknowns: a product of " +
+                                unknowns_.scalar_name(first) + " and " +
+                                unknowns_.scalar_name(second));
   }
 
   AtomTable& atoms_;
@@ -257,29 +264,57 @@ void AffineAlgebra::apply(const expr::Instruction& instruction,
     return;
   }
   switch (instruction.op) {
-    case Op::add: out = sum(a(), b(), 1); break;
-    case Op::subtract: out = sum(a(), b(), -1); break;
-    case Op::negate: out = sum({a().shape, {}}, a(), -1); break;
-    case Op::multiply: out = rules.product(a(), b(), instruction.shape, false); break;
-    case Op::scale: out = rules.product(a(), b(), instruction.shape, true); break;
-    case Op::divide: out = rules.quotient(a(), b()); break;
-    case Op::power: out = rules.power(a(), instruction.attributes[0]); break;
+    case Op::add:
+      out = sum(a(), b(), 1);
+      break;
+    case Op::subtract:
+      out = sum(a(), b(), -1);
+      break;
+    case Op::negate:
+      out = sum({a().shape, {}}, a(), -1);
+      break;
+    case Op::multiply:
+      out = rules.product(a(), b(), instruction.shape, false);
+      break;
+    case Op::scale:
+      out = rules.product(a(), b(), instruction.shape, true);
+      break;
+    case Op::divide:
+      out = rules.quotient(a(), b());
+      break;
+    case Op::power:
+      out = rules.power(a(), instruction.attributes[0]);
+      break;
     case Op::transpose:
-      out = map_terms(a(), transposed(a().shape), [](const Sparse& m) { return Sparse(m.transpose()); });
+      out = map_terms(a(), transposed(a().shape),
+                      [](const Sparse& m) { return Sparse(m.transpose()); });
       break;
-    case Op::blocks: out = blocks(instruction, operands); break;
-    case Op::index: out = index(instruction, a()); break;
-    case Op::identity: out = identity(a(), instruction.shape); break;
+    case Op::blocks:
+      out = blocks(instruction, operands);
+      break;
+    case Op::index:
+      out = index(instruction, a());
+      break;
+    case Op::identity:
+      out = identity(a(), instruction.shape);
+      break;
     case Op::fill:
-      out = rules.product(a(), constant_form(expr::Matrix::Ones(instruction.shape.rows, instruction.shape.cols)),
-                          instruction.shape, true);
+      out = rules.product(
+          a(), constant_form(expr::Matrix::Ones(instruction.shape.rows, instruction.shape.cols)),
+          instruction.shape, true);
       break;
-    case Op::trace: out = trace(a()); break;
+    case Op::trace:
+      out = trace(a());
+      break;
     case Op::diagonal_matrix:
-    case Op::diagonal_of: out = diagonal(instruction, a()); break;
+    case Op::diagonal_of:
+      out = diagonal(instruction, a());
+      break;
     case Op::exp:
     case Op::sin:
-    case Op::cos: out = rules.function_of_tau(instruction.op, a()); break;
+    case Op::cos:
+      out = rules.function_of_tau(instruction.op, a());
+      break;
     default:
       for (const AffineForm* operand : operands)
         if (!operand->is_constant()) rules.refuse(instruction.op, *operand);

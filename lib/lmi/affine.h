@@ -19,7 +19,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 struct AffineForm {
   expr::Shape shape;
-  std::map<std::pair<int, int>, Sparse> terms;   ///< (atom, unknown) -> M_ai; zeros are left out
+  std::map<std::pair<int, int>, Sparse> terms;  ///< (atom, unknown) -> M_ai; zeros are left out
 
   bool is_constant() const;
   /// Whether an unknown stands in it; then `which` is the index of one.

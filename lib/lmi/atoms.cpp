@@ -101,7 +101,8 @@ Combination AtomTable::product(int a, int b) {
   // sin a cos b = (sin(a+b) + sin(a-b))/2; the difference vanishes when both frequencies are equal.
   const double signed_difference = first.sine ? difference : -difference;
   Combination result = {{0.5, wave(sum, true)}};
-  if (signed_difference != 0) result.emplace_back(signed_difference > 0 ? 0.5 : -0.5, wave(difference, true));
+  if (signed_difference != 0)
+    result.emplace_back(signed_difference > 0 ? 0.5 : -0.5, wave(difference, true));
   return result;
 }
 

@@ -1,9 +1,9 @@
 // Scalar functions of tau that a matrix inequality may contain:
 //   theta(t) = t^k exp(a t) cos(b t)   or   t^k exp(a t) sin(b t),   k >= 0, b >= 0.
 // Their products are again sums of such functions, so every polynomial in tau, exp, sin and cos of
-// affine functions of tau is a combination of atoms. Over an interval each atom has a range; the ranges
-// make a box, and a matrix that is affine in the atoms is negative definite on the interval if it is
-// so at the vertices of the box.
+// affine functions of tau is a combination of atoms. Over an interval each atom has a range; the
+// ranges make a box, and a matrix that is affine in the atoms is negative definite on the interval
+// if it is so at the vertices of the box.
 #pragma once
 
 #include <string>
@@ -13,10 +13,10 @@
 namespace gainsmith::lmi {
 
 struct Atom {
-  int power = 0;          ///< k
-  double rate = 0;        ///< a, 1/time
-  double frequency = 0;   ///< b >= 0, rad/time
-  bool sine = false;      ///< sin(b t) instead of cos(b t)
+  int power = 0;         ///< k
+  double rate = 0;       ///< a, 1/time
+  double frequency = 0;  ///< b >= 0, rad/time
+  bool sine = false;     ///< sin(b t) instead of cos(b t)
 
   bool operator==(const Atom&) const = default;
   bool is_one() const { return power == 0 && rate == 0 && frequency == 0 && !sine; }
@@ -32,9 +32,9 @@ struct Range {
   double high = 0;
 };
 
-/// The smallest and largest value on [begin, end], extrema inside included. Exact up to rounding for k = 0
-/// and for b = 0; otherwise the extrema are bracketed on a grid that resolves every oscillation and
-/// polished by bisection of the derivative.
+/// The smallest and largest value on [begin, end], extrema inside included. Exact up to rounding
+/// for k = 0 and for b = 0; otherwise the extrema are bracketed on a grid that resolves every
+/// oscillation and polished by bisection of the derivative.
 Range range(const Atom& atom, double begin, double end);
 
 /// A combination: coefficients and indices into a table.

@@ -18,7 +18,8 @@ expr::Matrix Block::value(const std::vector<double>& x) const {
 }
 
 bool is_homogeneous(const std::vector<Block>& blocks) {
-  return std::all_of(blocks.begin(), blocks.end(), [](const Block& block) { return block.constant_size == 0; });
+  return std::all_of(blocks.begin(), blocks.end(),
+                     [](const Block& block) { return block.constant_size == 0; });
 }
 
 AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns, AtomTable& atoms,
@@ -44,20 +45,23 @@ namespace {
 double largest(const Sparse& matrix) {
   double result = 0;
   for (int k = 0; k < matrix.outerSize(); ++k)
-    for (Sparse::InnerIterator it(matrix, k); it; ++it) result = std::max(result, std::abs(it.value()));
+    for (Sparse::InnerIterator it(matrix, k); it; ++it)
+      result = std::max(result, std::abs(it.value()));
   return result;
 }
 
 /// Makes a coefficient exactly symmetric; InputError when it is not so up to rounding.
-Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place, const std::string& name) {
+Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place,
+                      const std::string& name) {
   const Sparse mirrored = matrix.transpose();
   const Sparse difference = matrix - mirrored;
   for (int k = 0; k < difference.outerSize(); ++k)
     for (Sparse::InnerIterator it(difference, k); it; ++it)
       if (std::abs(it.value()) > 1e-12 * scale)
         throw InputError(place, "the inequality '" + name + "' is not symmetric: elements (" +
-                                    std::to_string(it.row() + 1) + ", " + std::to_string(it.col() + 1) +
-                                    ") and (" + std::to_string(it.col() + 1) + ", " +
+                                    std::to_string(it.row() + 1) + ", " +
+                                    std::to_string(it.col() + 1) + ") and (" +
+                                    std::to_string(it.col() + 1) + ", " +
                                     std::to_string(it.row() + 1) + ") differ");
   return 0.5 * (matrix + mirrored);
 }
@@ -69,7 +73,8 @@ struct Point {
 };
 
 /// All combinations of the elements of the finite sets.
-std::vector<Point> finite_points(const model::Instance& instance, const model::Requirement& requirement) {
+std::vector<Point> finite_points(const model::Instance& instance,
+                                 const model::Requirement& requirement) {
   std::vector<Point> points = {{instance.known_values(), ""}};
   for (const model::Forall& forall : requirement.forall) {
     if (forall.interval) continue;
@@ -79,7 +84,8 @@ std::vector<Point> finite_points(const model::Instance& instance, const model::R
         const double value = model::scalar_value(element, instance.scope, point.values);
         Point extended = point;
         extended.values[forall.variable] = expr::Matrix::Constant(1, 1, value);
-        extended.label += (extended.label.empty() ? "" : ", ") + forall.variable + " = " + brief(value);
+        extended.label +=
+            (extended.label.empty() ? "" : ", ") + forall.variable + " = " + brief(value);
         next.push_back(std::move(extended));
       }
     }
@@ -106,7 +112,8 @@ Interval interval_of(const model::Instance& instance, const model::Requirement& 
     result.low = model::scalar_value(forall.points[0], instance.scope, values);
     result.high = model::scalar_value(forall.points[1], instance.scope, values);
     if (!(result.low <= result.high))
-      throw InputError(forall.place, "the interval [" + brief(result.low) + ", " + brief(result.high) + "] is empty");
+      throw InputError(forall.place, "the interval [" + brief(result.low) + ", " +
+                                         brief(result.high) + "] is empty");
   }
   return result;
 }
@@ -130,7 +137,8 @@ AffineForm at_vertex(const AffineForm& form, const std::map<int, double>& values
   return result;
 }
 
-std::string vertex_label(const AtomTable& atoms, const Interval& interval, const std::map<int, double>& values) {
+std::string vertex_label(const AtomTable& atoms, const Interval& interval,
+                         const std::map<int, double>& values) {
   if (values.size() == 1) {
     const auto& [atom, value] = *values.begin();
     for (const double end : {interval.low, interval.high})
@@ -138,20 +146,24 @@ std::string vertex_label(const AtomTable& atoms, const Interval& interval, const
   }
   std::string label;
   for (const auto& [atom, value] : values)
-    label += (label.empty() ? "" : ", ") + to_string(atoms[atom], interval.variable) + " = " + brief(value);
+    label += (label.empty() ? "" : ", ") + to_string(atoms[atom], interval.variable) + " = " +
+             brief(value);
   return label;
 }
 
-std::string joined(const std::string& a, const std::string& b) { return a.empty() || b.empty() ? a + b : a + ", " + b; }
+std::string joined(const std::string& a, const std::string& b) {
+  return a.empty() || b.empty() ? a + b : a + ", " + b;
+}
 
 /// Adds the blocks of one form: itself, or its vertices over the interval.
-void add_vertices(const AffineForm& form, const AtomTable& atoms, const Interval& interval, const Block& frame,
-                  const Place& place, std::vector<Block>& blocks) {
+void add_vertices(const AffineForm& form, const AtomTable& atoms, const Interval& interval,
+                  const Block& frame, const Place& place, std::vector<Block>& blocks) {
   constexpr std::size_t kMostAtoms = 12;
   const std::vector<int> used = atoms_in(form);
   if (used.size() > kMostAtoms)
-    throw InputError(place, "the inequality '" + frame.name + "' has " + std::to_string(used.size()) +
-                                " scalar functions of " + interval.variable + "; the box of more than " +
+    throw InputError(place, "the inequality '" + frame.name + "' has " +
+                                std::to_string(used.size()) + " scalar functions of " +
+                                interval.variable + "; the box of more than " +
                                 std::to_string(kMostAtoms) + " has too many vertices");
   std::vector<Range> ranges;
   for (const int atom : used) ranges.push_back(range(atoms[atom], interval.low, interval.high));
@@ -165,13 +177,16 @@ void add_vertices(const AffineForm& form, const AtomTable& atoms, const Interval
     }
     if (repeated) continue;
     const std::string label = used.empty() ? "" : vertex_label(atoms, interval, values);
-    blocks.push_back(block_of(at_vertex(form, values), frame.name, joined(frame.point, label), frame.strict, place));
+    blocks.push_back(block_of(at_vertex(form, values), frame.name, joined(frame.point, label),
+                              frame.strict, place));
   }
 }
 
-void add_requirement(const model::Instance& instance, const model::Requirement& requirement, Lmi& lmi) {
+void add_requirement(const model::Instance& instance, const model::Requirement& requirement,
+                     Lmi& lmi) {
   expr::Scope scope = instance.design_scope();
-  for (const model::Forall& forall : requirement.forall) scope.symbols[forall.variable] = {{}, std::nullopt};
+  for (const model::Forall& forall : requirement.forall)
+    scope.symbols[forall.variable] = {{}, std::nullopt};
   const auto relations = expr::compile_relations(requirement.that, scope);
   const Interval interval = interval_of(instance, requirement);
   const Place place = requirement.that.place(*requirement.that.root);
@@ -181,8 +196,8 @@ void add_requirement(const model::Instance& instance, const model::Requirement& 
     frame.strict = relations[k].strict;
     for (const Point& point : finite_points(instance, requirement)) {
       AtomTable atoms;
-      const AffineForm form =
-          evaluate_affine(relations[k].difference, lmi.unknowns, atoms, point.values, interval.variable);
+      const AffineForm form = evaluate_affine(relations[k].difference, lmi.unknowns, atoms,
+                                              point.values, interval.variable);
       frame.point = point.label;
       add_vertices(form, atoms, interval, frame, place, lmi.blocks);
     }
@@ -194,12 +209,14 @@ void set_objective(const model::Instance& instance, Lmi& lmi) {
   if (!minimize) return;
   AtomTable atoms;
   const auto program = expr::compile(*minimize, instance.design_scope(), expr::Shape{});
-  const AffineForm form = evaluate_affine(program, lmi.unknowns, atoms, instance.known_values(), "");
+  const AffineForm form =
+      evaluate_affine(program, lmi.unknowns, atoms, instance.known_values(), "");
   lmi.has_objective = true;
   lmi.objective.assign(static_cast<std::size_t>(lmi.unknowns.size()), 0.0);
   for (const auto& [key, matrix] : form.terms) {
     const double value = matrix.coeff(0, 0);
-    (key.second == 0 ? lmi.objective_constant : lmi.objective[static_cast<std::size_t>(key.second) - 1]) = value;
+    (key.second == 0 ? lmi.objective_constant
+                     : lmi.objective[static_cast<std::size_t>(key.second) - 1]) = value;
   }
 }
 

@@ -26,8 +26,9 @@ std::vector<double> scales_of(const Lmi& lmi, bool homogeneous) {
   const double kappa = data_size(lmi);
   std::vector<double> scales;
   for (const Block& block : lmi.blocks) {
-    const double scale = homogeneous ? block.coefficient_size
-                                     : std::max(block.constant_size, kappa * block.coefficient_size);
+    const double scale = homogeneous
+                             ? block.coefficient_size
+                             : std::max(block.constant_size, kappa * block.coefficient_size);
     scales.push_back(scale > 0 ? scale : 1);
   }
   // The points of one inequality share the largest scale among them, so that it has one margin.
@@ -42,8 +43,8 @@ std::vector<double> scales_of(const Lmi& lmi, bool homogeneous) {
   return scales;
 }
 
-/// Fills an SDP in the SDPA form X = sum x_i F_i - F_0 from blocks B(x) = B_0 + sum x_i B_i >= shift, all
-/// constants divided by `unit`.
+/// Fills an SDP in the SDPA form X = sum x_i F_i - F_0 from blocks B(x) = B_0 + sum x_i B_i >=
+/// shift, all constants divided by `unit`.
 class Assembler {
  public:
   Assembler(int variables, double unit) : unit_(unit) {
@@ -60,7 +61,8 @@ class Assembler {
   void add(const Block& block, const std::vector<int>& kept, double shift) {
     constexpr int kDropped = -1;
     std::vector<int> moved(static_cast<std::size_t>(block.size), kDropped);
-    for (std::size_t k = 0; k < kept.size(); ++k) moved[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
+    for (std::size_t k = 0; k < kept.size(); ++k)
+      moved[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
     const int size = static_cast<int>(kept.size());
     const int at = add_block(size, false);
     for (const auto& [i, matrix] : block.terms) {
@@ -79,7 +81,8 @@ class Assembler {
   /// The coefficient of variable i (0: the constant B_0) at one place of the upper triangle.
   void add_entry(int i, int block, int row, int column, double value) {
     if (value == 0) return;
-    problem_.f[static_cast<std::size_t>(i)].push_back({block, row, column, i == 0 ? -value : value});
+    problem_.f[static_cast<std::size_t>(i)].push_back(
+        {block, row, column, i == 0 ? -value : value});
   }
 
   void add_identity(int i, int block, int size, double factor) {
@@ -149,7 +152,7 @@ Goal goal_of(const Lmi& lmi, const GainBounds& bounds) {
 }
 
 Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
-                      const model::SynthesisOptions& options, Goal goal) {
+                      const model::SynthesisOptions& options, Goal goal, double backoff) {
   Formulation result;
   result.goal = goal;
   result.margin = options.margin;
@@ -159,15 +162,16 @@ Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
   result.releases = find_releases(lmi, bound_blocks);
   const int m = lmi.unknowns.size();
   const bool extra = goal == Goal::homogeneous_feasibility || goal == Goal::feasibility;
-  const int own = m + bounds.scalars + 1;   // the goal's own variable, when it has one
+  const int own = m + bounds.scalars + 1;  // the goal's own variable, when it has one
   result.unit = result.homogeneous() ? 1.0 : data_size(lmi);
   Assembler assembler(extra ? own : own - 1, result.unit);
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     const Block& block = lmi.blocks[k];
     const double unit = block.strict ? result.scales[k] : 0.0;
     const bool variable_margin = goal == Goal::feasibility;
-    assembler.add(block, result.releases.kept[k],
-                  variable_margin ? 0.0 : unit * result.strict_margin());
+    assembler.add(
+        block, result.releases.kept[k],
+        variable_margin ? 0.0 : unit * result.strict_margin() + backoff * result.scales[k]);
     if (variable_margin && block.strict)
       assembler.add_identity(own, static_cast<int>(k), block.size, -unit / result.unit);
   }
@@ -182,24 +186,28 @@ Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
   } else if (goal == Goal::certificate) {
     add_limits(assembler, m, 0, kLimit);
   } else {
-    for (int i = 1; i <= m; ++i) assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1]);
+    for (int i = 1; i <= m; ++i)
+      assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1]);
   }
   result.problem = assembler.take();
   return result;
 }
 
-std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation, const sdp::Solution& solution) {
+std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
+                              const sdp::Solution& solution) {
   std::vector<double> x = solution.x;
   x.resize(static_cast<std::size_t>(lmi.unknowns.size()));
   for (double& value : x) value *= formulation.unit;
   std::vector<double> required;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
-    required.push_back(lmi.blocks[k].strict ? formulation.scales[k] * formulation.strict_margin() : 0.0);
+    required.push_back(lmi.blocks[k].strict ? formulation.scales[k] * formulation.strict_margin()
+                                            : 0.0);
   restore(lmi, formulation.releases, required, x);
   return x;
 }
 
-double objective_lower_bound(const Lmi& lmi, const Formulation& formulation, const sdp::Solution& solution) {
+double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
+                             const sdp::Solution& solution) {
   // F_0 holds the margins as +margin s_k on the diagonal of strict blocks: take them out again.
   double bound = formulation.unit * solution.dual_objective + lmi.objective_constant;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
@@ -225,7 +233,8 @@ model::NamedMatrices multipliers(const Lmi& lmi, const GainBounds& bounds,
         whole(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]) = y(i, j);
     result.emplace_back(name, std::move(whole));
   };
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) add(lmi.blocks[k], formulation.releases.kept[k], k);
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
+    add(lmi.blocks[k], formulation.releases.kept[k], k);
   for (std::size_t k = 0; k < bounds.blocks.size(); ++k)
     add(bounds.blocks[k], all_rows(bounds.blocks[k]), lmi.blocks.size() + k);
   return result;

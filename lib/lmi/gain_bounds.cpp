@@ -19,7 +19,8 @@ using expr::NodePtr;
 
 /// "inv(S)" of a symmetric unknown: its name.
 const Unknown* inverse_of(const Node& node, const Unknowns& unknowns) {
-  if (node.kind != NodeKind::call || node.text != "inv" || node.children.size() != 1) return nullptr;
+  if (node.kind != NodeKind::call || node.text != "inv" || node.children.size() != 1)
+    return nullptr;
   const Node& argument = *node.children.front();
   if (argument.kind != NodeKind::name) return nullptr;
   const Unknown* unknown = unknowns.find(argument.text);
@@ -50,14 +51,17 @@ void products_in(const NodePtr& node, const Unknowns& unknowns, std::vector<Prod
   factors_of(node, factors);
   for (std::size_t k = 0; k < factors.size(); ++k) {
     const Unknown* unknown = inverse_of(*factors[k], unknowns);
-    if (unknown != nullptr && k + 1 < factors.size()) found.push_back({unknown, factors[k + 1], true});
-    if (unknown != nullptr && k + 1 == factors.size() && k > 0) found.push_back({unknown, factors[k - 1], false});
+    if (unknown != nullptr && k + 1 < factors.size())
+      found.push_back({unknown, factors[k + 1], true});
+    if (unknown != nullptr && k + 1 == factors.size() && k > 0)
+      found.push_back({unknown, factors[k - 1], false});
     if (unknown == nullptr)
       for (const NodePtr& child : factors[k]->children) products_in(child, unknowns, found);
   }
 }
 
-AffineForm form_of(const model::Instance& instance, const Unknowns& unknowns, const expr::Expression& expression) {
+AffineForm form_of(const model::Instance& instance, const Unknowns& unknowns,
+                   const expr::Expression& expression) {
   AtomTable atoms;
   return evaluate_affine(expr::compile(expression, instance.design_scope()), unknowns, atoms,
                          instance.known_values(), "");
@@ -73,7 +77,8 @@ Block bound_block(const GainBound& bound, double beta) {
     for (const auto& [key, matrix] : form.terms)
       for (int column = 0; column < matrix.outerSize(); ++column)
         for (Sparse::InnerIterator it(matrix, column); it; ++it)
-          place(static_cast<int>(it.row()), static_cast<int>(it.col()), it.value(), elements[key.second]);
+          place(static_cast<int>(it.row()), static_cast<int>(it.col()), it.value(),
+                elements[key.second]);
   };
   add(bound.s, [](int i, int j, double value, Elements& out) { out.emplace_back(i, j, value); });
   add(bound.e, [&](int i, int j, double value, Elements& out) {
@@ -119,7 +124,8 @@ class Collector {
       const Unknown* itself = root.kind == NodeKind::name ? unknowns_.find(root.text) : nullptr;
       if (itself != nullptr) {
         const int rows = itself->shape.rows;
-        add({itself->name, constant_form(expr::Matrix::Identity(rows, rows)), unknown_form(*itself), 0});
+        add({itself->name, constant_form(expr::Matrix::Identity(rows, rows)), unknown_form(*itself),
+             0});
         continue;
       }
       std::vector<Product> products;
@@ -134,15 +140,18 @@ class Collector {
     const std::string inverse = "inv(" + product.unknown->name + ")";
     const std::size_t length = product.factor->end - product.factor->begin;
     std::string factor = gain.value.text->str().substr(product.factor->begin, length);
-    if (product.factor->kind == NodeKind::add || product.factor->kind == NodeKind::subtract) factor = "(" + factor + ")";
+    if (product.factor->kind == NodeKind::add || product.factor->kind == NodeKind::subtract)
+      factor = "(" + factor + ")";
     const std::string what = product.left ? inverse + "*" + factor : factor + "*" + inverse;
     const AffineForm e = form_of(instance_, unknowns_, {gain.value.text, product.factor});
-    add({what, unknown_form(*product.unknown), product.left ? e : transposed(e), scalar_of(*product.unknown)});
+    add({what, unknown_form(*product.unknown), product.left ? e : transposed(e),
+         scalar_of(*product.unknown)});
   }
 
   /// The scalar s of an unknown S, made when it is first asked for.
   int scalar_of(const Unknown& unknown) {
-    const auto [found, fresh] = scalars_.try_emplace(unknown.name, unknowns_.size() + result_.scalars + 1);
+    const auto [found, fresh] =
+        scalars_.try_emplace(unknown.name, unknowns_.size() + result_.scalars + 1);
     if (fresh) {
       ++result_.scalars;
       result_.blocks.push_back(floor_block(unknown_form(unknown), found->second, unknown.name));
@@ -167,7 +176,8 @@ class Collector {
 expr::Matrix value_of(const AffineForm& form, const std::vector<double>& x) {
   expr::Matrix result = expr::Matrix::Zero(form.shape.rows, form.shape.cols);
   for (const auto& [key, matrix] : form.terms)
-    result += (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) * expr::Matrix(matrix);
+    result += (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) *
+              expr::Matrix(matrix);
   return result;
 }
 
@@ -183,7 +193,8 @@ GainBounds gain_bounds(const model::Instance& instance, const Unknowns& unknowns
   return Collector(instance, unknowns, *beta).collect();
 }
 
-std::vector<model::GainBound> reached_bounds(const GainBounds& bounds, const std::vector<double>& x) {
+std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
+                                             const std::vector<double>& x) {
   constexpr double kActive = 0.99;
   std::vector<model::GainBound> result;
   for (const GainBound& bound : bounds.list) {

@@ -1,12 +1,13 @@
-// Bounds on gains, so that an infimum that is only approached with ever larger gains still gives gains
-// that can be built.
+// Bounds on gains, so that an infimum that is only approached with ever larger gains still gives
+// gains that can be built.
 //
-// A gain formula that holds inv(S)*E (or E*inv(S)), S a symmetric unknown and E affine in the unknowns,
-// is bounded by beta through a scalar s of its own:
-//   S >= s I,   [ S , E/beta ; * , s I ] >= 0    <=>    E' inv(S) E <= beta^2 s,  s <= lambda_min(S).
-// With G = inv(S) E that is G' S G <= beta^2 lambda_min(S), so the largest singular value of G is at most
-// beta. It does not change when the unknowns are scaled together. A gain that is an unknown itself is
-// bounded by its largest singular value: [ beta I , K ; * , beta I ] >= 0.
+// A gain formula that holds inv(S)*E (or E*inv(S)), S a symmetric unknown and E affine in the
+// unknowns, is bounded by beta through a scalar s of its own:
+//   S >= s I,   [ S , E/beta ; * , s I ] >= 0    <=>    E' inv(S) E <= beta^2 s,  s <=
+//   lambda_min(S).
+// With G = inv(S) E that is G' S G <= beta^2 lambda_min(S), so the largest singular value of G is
+// at most beta. It does not change when the unknowns are scaled together. A gain that is an unknown
+// itself is bounded by its largest singular value: [ beta I , K ; * , beta I ] >= 0.
 #pragma once
 
 #include <optional>
@@ -21,25 +22,26 @@ namespace gainsmith::lmi {
 
 /// The bound on one product. `s` and `e` are forms in the unknowns; `e` is transposed for E*inv(S).
 struct GainBound {
-  std::string what;   ///< "inv(P1)*Y"
-  AffineForm s;       ///< n x n
-  AffineForm e;       ///< n x k
-  int scalar = 0;     ///< index of the scalar s among the variables; 0: S is the identity and s = 1
+  std::string what;  ///< "inv(P1)*Y"
+  AffineForm s;      ///< n x n
+  AffineForm e;      ///< n x k
+  int scalar = 0;    ///< index of the scalar s among the variables; 0: S is the identity and s = 1
 };
 
 struct GainBounds {
   double beta = 0;
   std::vector<GainBound> list;
-  std::vector<Block> blocks;   ///< all non-strict, in terms of the unknowns and the scalars s
-  int scalars = 0;             ///< number of scalars s, with the indices m + 1, m + 2, ...
+  std::vector<Block> blocks;  ///< all non-strict, in terms of the unknowns and the scalars s
+  int scalars = 0;            ///< number of scalars s, with the indices m + 1, m + 2, ...
 };
 
 /// One bound for each different product in the gain formulas; none without `beta`.
 GainBounds gain_bounds(const model::Instance& instance, const Unknowns& unknowns,
                        std::optional<double> beta);
 
-/// How far each bound is used at x: sqrt(lambda_max(E' inv(S) E) / lambda_min(S)), never less than the
-/// largest singular value of the gain; `active` here: above 99 % of the bound.
-std::vector<model::GainBound> reached_bounds(const GainBounds& bounds, const std::vector<double>& x);
+/// How far each bound is used at x: sqrt(lambda_max(E' inv(S) E) / lambda_min(S)), never less than
+/// the largest singular value of the gain; `active` here: above 99 % of the bound.
+std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
+                                             const std::vector<double>& x);
 
 }  // namespace gainsmith::lmi

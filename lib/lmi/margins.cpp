@@ -13,7 +13,8 @@ namespace gainsmith::lmi {
 namespace {
 
 double smallest_eigenvalue(const expr::Matrix& matrix) {
-  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(0.5 * (matrix + matrix.transpose()), Eigen::EigenvaluesOnly)
+  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(0.5 * (matrix + matrix.transpose()),
+                                                     Eigen::EigenvaluesOnly)
       .eigenvalues()
       .minCoeff();
 }
@@ -21,7 +22,7 @@ double smallest_eigenvalue(const expr::Matrix& matrix) {
 /// The smallest eigenvalue met so far, and where.
 struct Worst {
   double value = std::numeric_limits<double>::infinity();
-  double element = 0;   ///< largest |element| of that block
+  double element = 0;  ///< largest |element| of that block
   std::string point;
 
   void meet(const expr::Matrix& block, const std::string& where) {
@@ -34,8 +35,9 @@ struct Worst {
 };
 
 /// Every point of `forall`: elements of sets and, of an interval, equidistant points.
-void sample(const model::Instance& instance, const model::Requirement& requirement, std::size_t depth,
-            expr::Values& values, const std::string& label, const expr::Program& program, Worst& worst) {
+void sample(const model::Instance& instance, const model::Requirement& requirement,
+            std::size_t depth, expr::Values& values, const std::string& label,
+            const expr::Program& program, Worst& worst) {
   if (depth == requirement.forall.size()) {
     worst.meet(expr::evaluate(program, values), label);
     return;
@@ -49,20 +51,22 @@ void sample(const model::Instance& instance, const model::Requirement& requireme
     const double low = points[0];
     const double high = points[1];
     points.clear();
-    for (int i = 0; i <= kPieces; ++i) points.push_back(i == kPieces ? high : low + (high - low) * i / kPieces);
+    for (int i = 0; i <= kPieces; ++i)
+      points.push_back(i == kPieces ? high : low + (high - low) * i / kPieces);
   }
   for (const double point : points) {
     values[forall.variable] = expr::Matrix::Constant(1, 1, point);
     const std::string text = forall.variable + " = " + brief(point);
-    sample(instance, requirement, depth + 1, values, label.empty() ? text : label + ", " + text, program, worst);
+    sample(instance, requirement, depth + 1, values, label.empty() ? text : label + ", " + text,
+           program, worst);
   }
 }
 
 }  // namespace
 
 std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& lmi,
-                                   const std::vector<double>& scales, bool homogeneous, double required,
-                                   const std::vector<double>& x) {
+                                   const std::vector<double>& scales, bool homogeneous,
+                                   double required, const std::vector<double>& x) {
   constexpr double kRounding = 1e-12;
   double size = 0;
   for (const double value : x) size = std::max(size, std::abs(value));
@@ -73,7 +77,8 @@ std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& l
   std::size_t at = 0;
   for (const model::Requirement& requirement : instance.method->require) {
     expr::Scope scope = instance.design_scope();
-    for (const model::Forall& forall : requirement.forall) scope.symbols[forall.variable] = {{}, std::nullopt};
+    for (const model::Forall& forall : requirement.forall)
+      scope.symbols[forall.variable] = {{}, std::nullopt};
     for (const auto& relation : expr::compile_relations(requirement.that, scope)) {
       model::Margin margin;
       margin.name = lmi.blocks[at].name;

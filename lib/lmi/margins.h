@@ -10,12 +10,14 @@ namespace gainsmith::lmi {
 
 /// One record for each comparison of each requirement. The smallest eigenvalue is taken over
 ///  - the vertices that were imposed, from the affine blocks, and
-///  - for intervals, 33 equidistant points of the interval, from the text itself evaluated over double,
+///  - for intervals, 33 equidistant points of the interval, from the text itself evaluated over
+///  double,
 /// so that a mistake in compiling the blocks shows up as a margin that does not hold. `scale` of a
-/// homogeneous problem is the coefficients' size times the largest |x_i|. A strict inequality holds when its
-/// smallest eigenvalue is positive, another when it is above -1e-12 times the block's largest element.
+/// homogeneous problem is the coefficients' size times the largest |x_i|. A strict inequality holds
+/// when its smallest eigenvalue is positive, another when it is above -1e-12 times the block's
+/// largest element.
 std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& lmi,
-                                   const std::vector<double>& scales, bool homogeneous, double required,
-                                   const std::vector<double>& x);
+                                   const std::vector<double>& scales, bool homogeneous,
+                                   double required, const std::vector<double>& x);
 
 }  // namespace gainsmith::lmi

@@ -43,10 +43,12 @@ double release_sign(const Lmi& lmi, int i) {
 }
 
 double smallest_eigenvalue(const expr::Matrix& matrix) {
-  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues()(0);
+  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(matrix, Eigen::EigenvaluesOnly)
+      .eigenvalues()(0);
 }
 
-bool satisfied(const Lmi& lmi, int i, const std::vector<double>& required, const std::vector<double>& x) {
+bool satisfied(const Lmi& lmi, int i, const std::vector<double>& required,
+               const std::vector<double>& x) {
   constexpr double kShare = 0.995;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
     if (coefficient(lmi.blocks[k], i) != nullptr &&
@@ -58,14 +60,16 @@ bool satisfied(const Lmi& lmi, int i, const std::vector<double>& required, const
 }  // namespace
 
 bool Releases::released(int unknown) const {
-  return std::any_of(list.begin(), list.end(), [&](const Release& release) { return release.unknown == unknown; });
+  return std::any_of(list.begin(), list.end(),
+                     [&](const Release& release) { return release.unknown == unknown; });
 }
 
 Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others) {
   Releases result;
   for (int i = 1; lmi.has_objective && i <= lmi.unknowns.size(); ++i) {
-    const bool elsewhere = std::any_of(others.begin(), others.end(),
-                                       [&](const Block* block) { return coefficient(*block, i) != nullptr; });
+    const bool elsewhere = std::any_of(others.begin(), others.end(), [&](const Block* block) {
+      return coefficient(*block, i) != nullptr;
+    });
     const double sign = release_sign(lmi, i);
     if (lmi.objective[static_cast<std::size_t>(i) - 1] == 0 && !elsewhere && sign != 0)
       result.list.push_back({i, sign});
@@ -89,7 +93,8 @@ void restore(const Lmi& lmi, const Releases& releases, const std::vector<double>
   for (const Release& release : releases.list) {
     double& value = x[static_cast<std::size_t>(release.unknown) - 1];
     value = release.sign * std::max(size, 1e-300) * 1e-6;
-    for (int k = 0; k < kMostDoublings && !satisfied(lmi, release.unknown, required, x); ++k) value *= 2;
+    for (int k = 0; k < kMostDoublings && !satisfied(lmi, release.unknown, required, x); ++k)
+      value *= 2;
   }
 }
 

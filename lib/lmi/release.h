@@ -1,7 +1,7 @@
-// Scalars that cost nothing and only help: x_i has cost 0 and every coefficient B_i is diagonal with
-// elements of one sign, so that sending x_i to +-infinity satisfies the rows where B_i is not zero. Example:
-// g of [P, Y; *, g I] > 0 when g has no price. With them the dual has no interior and a solver stalls;
-// without them and their rows the problem is the same:
+// Scalars that cost nothing and only help: x_i has cost 0 and every coefficient B_i is diagonal
+// with elements of one sign, so that sending x_i to +-infinity satisfies the rows where B_i is not
+// zero. Example: g of [P, Y; *, g I] > 0 when g has no price. With them the dual has no interior
+// and a solver stalls; without them and their rows the problem is the same:
 //   [ M , N ; N' , x_i D ] >= 0 for some x_i, D > 0   <=>   M >= 0 (up to its closure).
 #pragma once
 
@@ -12,8 +12,8 @@
 namespace gainsmith::lmi {
 
 struct Release {
-  int unknown = 0;     ///< i
-  double sign = 1;     ///< towards +infinity or -infinity
+  int unknown = 0;  ///< i
+  double sign = 1;  ///< towards +infinity or -infinity
 };
 
 struct Releases {
@@ -24,12 +24,13 @@ struct Releases {
   bool released(int unknown) const;
 };
 
-/// The scalars that can be released. Nothing is released without an objective. Scalars that stand in one of
-/// the `others` (bounds on gains) stay.
+/// The scalars that can be released. Nothing is released without an objective. Scalars that stand
+/// in one of the `others` (bounds on gains) stay.
 Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others);
 
-/// Gives the released scalars of x a size at which each block has at least 99.5 % of its required smallest
-/// eigenvalue, by doubling. Left as found after 2^80 when that does not happen; the margins then show it.
+/// Gives the released scalars of x a size at which each block has at least 99.5 % of its required
+/// smallest eigenvalue, by doubling. Left as found after 2^80 when that does not happen; the
+/// margins then show it.
 void restore(const Lmi& lmi, const Releases& releases, const std::vector<double>& required,
              std::vector<double>& x);
 

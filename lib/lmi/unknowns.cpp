@@ -5,7 +5,8 @@ namespace gainsmith::lmi {
 std::vector<std::pair<int, int>> Unknown::places(int k) const {
   const int rows = shape.rows;
   switch (structure) {
-    case model::Structure::diagonal: return {{k, k}};
+    case model::Structure::diagonal:
+      return {{k, k}};
     case model::Structure::symmetric: {
       int column = 0;
       while (k >= rows - column) {
@@ -17,7 +18,8 @@ std::vector<std::pair<int, int>> Unknown::places(int k) const {
       return {{row, column}, {column, row}};
     }
     case model::Structure::full:
-    case model::Structure::scalar: break;
+    case model::Structure::scalar:
+      break;
   }
   return {{k % rows, k / rows}};
 }

@@ -1,8 +1,9 @@
 // The unknown matrices as one vector x of scalars, and back.
 //
-// Packing: unknowns in the order of the method. A symmetric n x n matrix takes n(n+1)/2 scalars, column
-// by column of its lower triangle: x = (M11, M21, ..., Mn1, M22, ...), without factors sqrt(2); a full
-// r x c matrix takes r c scalars column by column; a diagonal matrix takes its diagonal.
+// Packing: unknowns in the order of the method. A symmetric n x n matrix takes n(n+1)/2 scalars,
+// column by column of its lower triangle: x = (M11, M21, ..., Mn1, M22, ...), without factors
+// sqrt(2); a full r x c matrix takes r c scalars column by column; a diagonal matrix takes its
+// diagonal.
 #pragma once
 
 #include <string>
@@ -18,7 +19,7 @@ struct Unknown {
   std::string name;
   model::Structure structure = model::Structure::full;
   expr::Shape shape;
-  int first = 1;   ///< index of its first scalar, counted from 1; x_0 = 1 is the constant
+  int first = 1;  ///< index of its first scalar, counted from 1; x_0 = 1 is the constant
   int count = 0;
 
   /// The places (row, column) of scalar `first + k`: one, or two mirrored ones.

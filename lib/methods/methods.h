@@ -10,7 +10,7 @@
 namespace gainsmith::methods {
 
 struct Text {
-  std::string_view name;   ///< of the file, without .yaml; equal to its `method:`
+  std::string_view name;  ///< of the file, without .yaml; equal to its `method:`
   std::string_view text;
 };
 

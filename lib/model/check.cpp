@@ -1,3 +1,4 @@
+#include "base/number.h"
 #include "expr/compile.h"
 #include "model/instance.h"
 
@@ -28,12 +29,66 @@ void check_requirements(const Instance& instance) {
   if (instance.method->minimize) expr::compile(*instance.method->minimize, design, kScalar);
 }
 
+/// The value of a scalar that uses data and parameters alone; none when it uses gains.
+std::optional<double> known_scalar(const Instance& instance, const expr::Expression& expression,
+                                   const expr::Scope& scope) {
+  const expr::Values values = instance.known_values();
+  const expr::Program program = expr::compile(expression, scope, kScalar);
+  for (const expr::Input& input : program.inputs)
+    if (!values.contains(input.name)) return std::nullopt;
+  return expr::evaluate(program, values)(0, 0);
+}
+
+/// InputError when the value is known and outside [low, high].
+void check_within(const Instance& instance, const expr::Expression& expression,
+                  const expr::Scope& scope, const expr::Expression& low,
+                  const expr::Expression& high, const std::string& what) {
+  const auto value = known_scalar(instance, expression, scope);
+  const auto least = known_scalar(instance, low, scope);
+  const auto most = known_scalar(instance, high, scope);
+  if (!value || !least || !most || (*value >= *least && *value <= *most)) return;
+  throw InputError(
+      expression.place(*expression.root),
+      what + " " + brief(*value) + " is outside [" + brief(*least) + ", " + brief(*most) + "]");
+}
+
+void check_box(const Instance& instance, const InitialValue& initial, const expr::Scope& scope) {
+  const expr::Values values = instance.known_values();
+  std::vector<expr::Matrix> ends;
+  for (const Value& value : initial.values) {
+    const expr::Program program = compile_value(value, scope, std::nullopt);
+    for (const expr::Input& input : program.inputs)
+      if (!values.contains(input.name)) return;
+    ends.push_back(expr::evaluate(program, values));
+  }
+  const bool same = ends[0].rows() == ends[1].rows() && ends[0].cols() == ends[1].cols();
+  if (same && (ends[0].array() > ends[1].array()).any())
+    throw InputError(initial.values[1].place,
+                     "the box of " + initial.state + " has its low end above its high end");
+}
+
 void check_campaign(const Instance& instance, const expr::Scope& scope) {
   const Campaign& campaign = instance.problem->campaign;
-  if (campaign.horizon) expr::compile(*campaign.horizon, scope, kScalar);
-  if (campaign.first) expr::compile(*campaign.first, scope, kScalar);
-  for (const SamplingLaw& law : campaign.sampling)
-    for (const expr::Expression& value : law.values) expr::compile(value, scope, kScalar);
+  const auto& timer = instance.method->timer;
+  if (campaign.horizon) {
+    const auto horizon = known_scalar(instance, *campaign.horizon, scope);
+    if (horizon && !(*horizon > 0))
+      throw InputError(campaign.horizon->place(*campaign.horizon->root),
+                       "the horizon must be positive, not " + brief(*horizon));
+  }
+  if (campaign.first) {
+    known_scalar(instance, *campaign.first, scope);
+    if (timer)
+      check_within(instance, *campaign.first, scope, timer->first_low, timer->first_high,
+                   "the first timer value");
+  }
+  for (const SamplingLaw& law : campaign.sampling) {
+    for (const expr::Expression& value : law.values) {
+      known_scalar(instance, value, scope);
+      if (timer)
+        check_within(instance, value, scope, timer->low, timer->high, "the sampling interval");
+    }
+  }
   for (const InitialValue& initial : campaign.initial) {
     const expr::Shape state = scope.symbols.at(initial.state).shape;
     for (const Value& value : initial.values) {
@@ -48,6 +103,7 @@ void check_campaign(const Instance& instance, const expr::Scope& scope) {
                                           " must be a number or " + to_string(state) + "; found " +
                                           to_string(shape));
     }
+    if (initial.kind == InitialValue::Kind::box) check_box(instance, initial, scope);
   }
 }
 

@@ -9,7 +9,9 @@ namespace {
 
 std::string problem_with(const std::string& expect) {
   return "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
-         "  require: {positive: P > I}\n  minimize: trace(P)\n  gains: {K: A*P}\ndata: {A: [[1, 0], [0, 2]]}\nexpect:\n" + expect;
+         "  require: {positive: P > I}\n  minimize: trace(P)\n  gains: {K: A*P}\ndata: {A: [[1, "
+         "0], [0, 2]]}\nexpect:\n" +
+         expect;
 }
 
 model::Gains result() {
@@ -23,32 +25,37 @@ model::Gains result() {
   return gains;
 }
 
-std::vector<std::string> differences_of(const std::string& expect,
-                                        std::optional<model::CampaignVerdict> campaign = std::nullopt) {
+std::vector<std::string> differences_of(
+    const std::string& expect, std::optional<model::CampaignVerdict> campaign = std::nullopt) {
   const tests::YamlProblem yaml(problem_with(expect));
   return differences(yaml.instance, result(), campaign);
 }
 
 TEST(ExpectationsTest, WhatIsAsExpectedGivesNoDifference) {
-  EXPECT_TRUE(differences_of("  verdict: yes\n  status: optimal\n  campaign: held\n  active_bounds: [A*P]\n"
-                             "  values:\n    objective: {value: 2.5001, relative: 1e-3}\n"
-                             "    K: {value: [[1, 0], [0, 2]], absolute: 0}\n    trace(P) + objective: {value: 4.5, absolute: 1e-12}\n",
-                             model::CampaignVerdict::held)
-                  .empty());
+  EXPECT_TRUE(
+      differences_of("  verdict: yes\n  status: optimal\n  campaign: held\n  active_bounds: [A*P]\n"
+                     "  values:\n    objective: {value: 2.5001, relative: 1e-3}\n"
+                     "    K: {value: [[1, 0], [0, 2]], absolute: 0}\n    trace(P) + objective: "
+                     "{value: 4.5, absolute: 1e-12}\n",
+                     model::CampaignVerdict::held)
+          .empty());
 }
 
 TEST(ExpectationsTest, EachDifferenceIsSaidWithItsPlace) {
   const auto found = differences_of(
-      "  verdict: no\n  campaign: held\n  active_bounds: []\n  values:\n    objective: {value: 2.6, relative: 1e-3}\n");
+      "  verdict: no\n  campaign: held\n  active_bounds: []\n  values:\n    objective: {value: "
+      "2.6, relative: 1e-3}\n");
   ASSERT_EQ(found.size(), 4U);
   EXPECT_NE(found[0].find("verdict: expected no, found yes"), std::string::npos);
   EXPECT_NE(found[1].find("campaign: expected held, found no campaign"), std::string::npos);
   EXPECT_NE(found[2].find("active bounds: expected none, found A*P"), std::string::npos);
-  EXPECT_NE(found[3].find("test.yaml:15:5: objective: expected 2.6"), std::string::npos) << found[3];
+  EXPECT_NE(found[3].find("test.yaml:15:5: objective: expected 2.6"), std::string::npos)
+      << found[3];
 }
 
 TEST(ExpectationsTest, AMatrixIsComparedElementByElement) {
-  const auto found = differences_of("  values:\n    K: {value: [[1, 0], [0.1, 2]], absolute: 0.05}\n");
+  const auto found =
+      differences_of("  values:\n    K: {value: [[1, 0], [0.1, 2]], absolute: 0.05}\n");
   ASSERT_EQ(found.size(), 1U);
   EXPECT_NE(found[0].find("found [1, 0; 0, 2]"), std::string::npos) << found[0];
 }

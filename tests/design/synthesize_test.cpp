@@ -19,15 +19,18 @@ std::string matrix_yaml(const expr::Matrix& matrix) {
   std::string text = "[";
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     text += i > 0 ? ", [" : "[";
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) text += (j > 0 ? ", " : "") + std::to_string(matrix(i, j));
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      text += (j > 0 ? ", " : "") + std::to_string(matrix(i, j));
     text += "]";
   }
   return text + "]";
 }
 
 std::string lyapunov(const expr::Matrix& A) {
-  return "problem: lyapunov\nmethod:\n  method: lyapunov\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
-         "  require: {positive: P > 0, stable: He(P*A) < 0}\ndata: {A: " + matrix_yaml(A) + "}\n";
+  return "problem: lyapunov\nmethod:\n  method: lyapunov\n  data: {A: n x n}\n  unknowns: {P: "
+         "symmetric n}\n"
+         "  require: {positive: P > 0, stable: He(P*A) < 0}\ndata: {A: " +
+         matrix_yaml(A) + "}\n";
 }
 
 /// A homogeneous LMI is feasible exactly when A is Hurwitz; the oracle is the eigenvalues.
@@ -51,13 +54,16 @@ TEST(SynthesizeTest, LyapunovDecidesStability) {
     ++stable_count;
     const expr::Matrix& P = *found.find("P");
     EXPECT_GT(Eigen::SelfAdjointEigenSolver<expr::Matrix>(P).eigenvalues()(0), 0);
-    EXPECT_LT(Eigen::SelfAdjointEigenSolver<expr::Matrix>(P * A + A.transpose() * P).eigenvalues().maxCoeff(), 0);
+    EXPECT_LT(Eigen::SelfAdjointEigenSolver<expr::Matrix>(P * A + A.transpose() * P)
+                  .eigenvalues()
+                  .maxCoeff(),
+              0);
   }
   EXPECT_EQ(stable_count, 10);
 }
 
-/// The certificate of an infeasible problem, recomputed here from the text: Y_1 + He(A Y_2) = 0 up to the
-/// residual, Y_1, Y_2 >= 0, not both zero.
+/// The certificate of an infeasible problem, recomputed here from the text: Y_1 + He(A Y_2) = 0 up
+/// to the residual, Y_1, Y_2 >= 0, not both zero.
 TEST(SynthesizeTest, TheStoredMultipliersProveInfeasibility) {
   expr::Matrix A(2, 2);
   A << 0.1, 1, -1, 0.1;
@@ -105,9 +111,11 @@ TEST(SynthesizeTest, HomogeneousProblemsWithAnObjectiveAreNormalised) {
 
 TEST(SynthesizeTest, FeasibilityWithConstantDataIsDecidedBothWays) {
   const auto problem = [](const std::string& bound) {
-    return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, k: scalar}\n  unknowns: {P: symmetric n}\n"
+    return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, k: scalar}\n  unknowns: {P: "
+           "symmetric n}\n"
            "  require: {box: I <= P, top: P <= k*I, stable: He(P*A) + I < 0}\n"
-           "data: {A: [[-0.1, 0], [0, -2]], k: " + bound + "}\n";
+           "data: {A: [[-0.1, 0], [0, -2]], k: " +
+           bound + "}\n";
   };
   // P11 > 5 is needed.
   EXPECT_EQ(solve(problem("5.5")).verdict, model::Verdict::yes);
@@ -116,6 +124,20 @@ TEST(SynthesizeTest, FeasibilityWithConstantDataIsDecidedBothWays) {
   ASSERT_TRUE(tight.certificate);
   EXPECT_TRUE(tight.certificate->checked);
   EXPECT_TRUE(tight.gains.empty());
+}
+
+/// The optimum lies on the boundary of one inequality alone; the solver's tolerance must not spoil
+/// the verdict.
+TEST(SynthesizeTest, ScalarInequalitiesThatHoldWithEqualityAreKept) {
+  for (const char* relation : {"g >= 1", "g > 1", "-g <= -1", "3*g >= 3"}) {
+    const model::Gains found =
+        solve(std::string("problem: p\nmethod:\n  method: m\n  data: {a: scalar}\n  unknowns: {g: "
+                          "scalar}\n  require: {bound: ") +
+              relation + "}\n  minimize: a*g\ndata: {a: 2}\n");
+    EXPECT_EQ(found.verdict, model::Verdict::yes) << relation << ": " << found.solver.message;
+    ASSERT_TRUE(found.objective);
+    EXPECT_NEAR(*found.objective, 2, 1e-5);
+  }
 }
 
 TEST(SynthesizeTest, AnUnboundedObjectiveIsNoAnswer) {
@@ -131,8 +153,8 @@ TEST(SynthesizeTest, GainsDoNotDependOnTheUnitsOfTheCost) {
   const auto gain = [](const std::string& weight) {
     const model::Gains found = solve(
         "problem: p\nmethod: sampled-data-hybrid\n"
-        "data: {A: [[0.2, -1.01], [1, 0]], C: [[0.5, -1]], T1: 0.5, T2: 0.7, QF: " + weight + "*I, QJ: 0.01*" + weight +
-        "*I}\nparameters: {a1: 100, a2: 1}\n");
+        "data: {A: [[0.2, -1.01], [1, 0]], C: [[0.5, -1]], T1: 0.5, T2: 0.7, QF: " +
+        weight + "*I, QJ: 0.01*" + weight + "*I}\nparameters: {a1: 100, a2: 1}\n");
     EXPECT_EQ(found.verdict, model::Verdict::yes) << weight;
     const expr::Matrix* L = found.find("L");
     return L == nullptr ? expr::Matrix(expr::Matrix::Zero(2, 1)) : *L;
@@ -144,22 +166,25 @@ TEST(SynthesizeTest, GainsDoNotDependOnTheUnitsOfTheCost) {
 
 TEST(SynthesizeTest, TheSameProblemGivesTheSameBits) {
   const std::string text =
-      "problem: p\nmethod: output-predictor\ndata: {A: [[0.2, -1.01], [1, 0]], C: [[0.5, -1]], T1: 0.5, T2: 0.6, QF: I}\n"
+      "problem: p\nmethod: output-predictor\ndata: {A: [[0.2, -1.01], [1, 0]], C: [[0.5, -1]], T1: "
+      "0.5, T2: 0.6, QF: I}\n"
       "parameters: {a1: 1}\n";
   const model::Gains first = solve(text);
   const model::Gains second = solve(text);
   EXPECT_EQ(first.verdict, model::Verdict::yes);
   ASSERT_EQ(first.gains.size(), second.gains.size());
-  for (std::size_t i = 0; i < first.gains.size(); ++i) EXPECT_EQ(first.gains[i].second, second.gains[i].second);
+  for (std::size_t i = 0; i < first.gains.size(); ++i)
+    EXPECT_EQ(first.gains[i].second, second.gains[i].second);
 }
 
 /// A plant with two outputs: every size that is 1 x 1 in the published example is not so here.
 TEST(SynthesizeTest, MethodsWorkForSeveralOutputs) {
-  for (const char* method : {"sampled-data-hybrid", "sampled-data-hybrid-from-t1", "output-predictor"}) {
-    const model::Gains found = solve(
-        std::string("problem: p\nmethod: ") + method +
-        "\ndata: {A: [[0, 1, 0], [-1, -0.1, 0.3], [0, 0.2, -0.5]], C: [[1, 0, 0], [0, 0, 1]], T1: 0.1, T2: 0.3, QF: I}\n"
-        "parameters: {a1: 1}\n");
+  for (const char* method :
+       {"sampled-data-hybrid", "sampled-data-hybrid-from-t1", "output-predictor"}) {
+    const model::Gains found = solve(std::string("problem: p\nmethod: ") + method +
+                                     "\ndata: {A: [[0, 1, 0], [-1, -0.1, 0.3], [0, 0.2, -0.5]], C: "
+                                     "[[1, 0, 0], [0, 0, 1]], T1: 0.1, T2: 0.3, QF: I}\n"
+                                     "parameters: {a1: 1}\n");
     EXPECT_EQ(found.verdict, model::Verdict::yes) << method << ": " << found.solver.message;
     ASSERT_NE(found.find("H"), nullptr) << method;
     EXPECT_EQ(found.find("H")->rows(), 2);
@@ -170,7 +195,8 @@ TEST(SynthesizeTest, AnalysisOfGoodGainsSucceedsAndOfBadOnesGivesThemBack) {
   const auto analyse = [](const std::string& L) {
     return solve(
         "problem: p\nmethod: zero-order-hold\n"
-        "data: {A: [[-1, 0.2], [0, -2]], C: [[1, 0]], T1: 0.1, T2: 0.2, L: " + L + "}\nparameters: {delta: 0.5, eta: 0.1}\n");
+        "data: {A: [[-1, 0.2], [0, -2]], C: [[1, 0]], T1: 0.1, T2: 0.2, L: " +
+        L + "}\nparameters: {delta: 0.5, eta: 0.1}\n");
   };
   const model::Gains good = analyse("[0.1, 0]");
   EXPECT_EQ(good.verdict, model::Verdict::yes) << good.solver.message;

@@ -14,10 +14,10 @@ const std::string kGood = "ferrante-seuret-2021/t2-0.70.yaml";
 
 struct Broken {
   const char* name;
-  const char* pattern;      ///< replaced in the good problem
+  const char* pattern;  ///< replaced in the good problem
   const char* replacement;
-  const char* message;      ///< in the error
-  int line;                 ///< where
+  const char* message;  ///< in the error
+  int line;             ///< where
   int column;
 };
 
@@ -31,10 +31,12 @@ TEST_P(BadInput, IsRefusedWithItsPlace) {
   ASSERT_NE(text, good);
   const Folder folder;
   const std::string file = folder.file("broken.yaml", text);
-  const std::string place = file + ":" + std::to_string(broken.line) + ":" + std::to_string(broken.column) + ":";
+  const std::string place =
+      file + ":" + std::to_string(broken.line) + ":" + std::to_string(broken.column) + ":";
   for (const char* command : {"check", "synth"}) {
     std::vector<std::string> arguments = {command, file};
-    if (std::string(command) == "synth") arguments.insert(arguments.end(), {"-o", folder.path("gains.json")});
+    if (std::string(command) == "synth")
+      arguments.insert(arguments.end(), {"-o", folder.path("gains.json")});
     const Outcome outcome = gainsmith(arguments);
     EXPECT_EQ(outcome.exit, 2) << outcome.out;
     EXPECT_NE(outcome.err.find(broken.message), std::string::npos) << outcome.err;
@@ -55,12 +57,18 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"not_a_number", "\\[1, 0\\]\\]", "[.nan, 0]]", "must be finite", 6, 22},
         Broken{"asymmetric", "QF: I", "QF: [[1, 2], [0, 1]]", "must be symmetric", 10, 17},
         Broken{"crossed_interval", "T1: 0.5", "T1: 0.9", "expected 0 < T1 <= T2", 9, 3},
-        Broken{"unknown_method", "method: sampled-data-hybrid", "method: sampled-data-hibrid", "did you mean 'sampled-data-hybrid'?", 4, 9},
+        Broken{"unknown_method", "method: sampled-data-hybrid", "method: sampled-data-hibrid",
+               "did you mean 'sampled-data-hybrid'?", 4, 9},
         Broken{"yaml_error", "\\[1, 0\\]\\]", "[1, 0]", "YAML", 7, 3},
         Broken{"ragged", "\\[1, 0\\]\\]", "[1]]", "1 elements", 6, 21},
         Broken{"unknown_name", "QJ: 0.01\\*I", "QJ: 0.01*J", "unknown name 'J'", 11, 12},
         Broken{"negative", "delta: 0.03", "delta: -1", "expected delta > 0", 12, 14},
-        Broken{"bad_law", "  horizon: 100", "  horizon: 100\n  sampling: [unifrm]", "did you mean 'uniform'?", 16, 14},
+        Broken{"bad_law", "  horizon: 100", "  horizon: 100\n  sampling: [unifrm]",
+               "did you mean 'uniform'?", 16, 14},
+        Broken{"negative_horizon", "horizon: 100", "horizon: -3", "must be positive", 15, 12},
+        Broken{"law_outside", "  horizon: 100", "  horizon: 100\n  sampling: [{constant: 5}]",
+               "outside [0.5, 0.7]", 16, 25},
+        Broken{"reversed_box", "box: \\[-10, 10\\]", "box: [10, -10]", "low end above", 17, 20},
         Broken{"no_state", "zh: 0", "zz: 0", "is no state", 18, 5}),
     [](const ::testing::TestParamInfo<Broken>& broken) { return std::string(broken.param.name); });
 
@@ -84,8 +92,10 @@ TEST(BadInputTest, GainFilesThatAreTruncatedOrEdited) {
   const std::string half = folder.file("half.json", text.substr(0, text.size() / 2));
   const Outcome truncated = gainsmith({"verify", half});
   EXPECT_EQ(truncated.exit, 2);
-  EXPECT_TRUE(std::regex_search(truncated.err, std::regex("half.json:[0-9]+:[0-9]+: "))) << truncated.err;
-  const std::string edited = folder.file("edited.json", std::regex_replace(text, std::regex("T2: 0\\.7"), "T2: 0.9"));
+  EXPECT_TRUE(std::regex_search(truncated.err, std::regex("half.json:[0-9]+:[0-9]+: ")))
+      << truncated.err;
+  const std::string edited =
+      folder.file("edited.json", std::regex_replace(text, std::regex("T2: 0\\.7"), "T2: 0.9"));
   const Outcome changed = gainsmith({"verify", edited});
   EXPECT_EQ(changed.exit, 2);
   EXPECT_NE(changed.err.find("sha256"), std::string::npos) << changed.err;
@@ -93,7 +103,8 @@ TEST(BadInputTest, GainFilesThatAreTruncatedOrEdited) {
 
 TEST(BadInputTest, AnOutputThatCannotBeWrittenLeavesNothing) {
   const Folder folder;
-  const Outcome outcome = gainsmith({"synth", problem(kGood), "-o", folder.path("no/such/folder/gains.json")});
+  const Outcome outcome =
+      gainsmith({"synth", problem(kGood), "-o", folder.path("no/such/folder/gains.json")});
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_TRUE(folder.names().empty());
 }

@@ -17,8 +17,13 @@ TEST(CommandLineTest, HelpHasExamplesForEverySubcommand) {
 TEST(CommandLineTest, WrongCommandLinesExitWithTwo) {
   const std::string good = problem("ferrante-seuret-2021/t2-0.70.yaml");
   for (const std::vector<std::string>& arguments :
-       std::vector<std::vector<std::string>>{{}, {"synt"}, {"synth"}, {"synth", good, "--bogus"}, {"verify", "x", "--runs", "0"},
-                                             {"verify", "x", "--runs", "many"}, {"methods", "sampled-data-hibrid"}}) {
+       std::vector<std::vector<std::string>>{{},
+                                             {"synt"},
+                                             {"synth"},
+                                             {"synth", good, "--bogus"},
+                                             {"verify", "x", "--runs", "0"},
+                                             {"verify", "x", "--runs", "many"},
+                                             {"methods", "sampled-data-hibrid"}}) {
     const Outcome outcome = gainsmith(arguments);
     EXPECT_EQ(outcome.exit, 2) << outcome.err;
     EXPECT_NE(outcome.err, "");

@@ -20,12 +20,16 @@ std::size_t files_below(const std::string& folder) {
 
 TEST(ProblemsTest, EveryProblemIsAsExpected) {
   const Folder folder;
-  const Outcome outcome = gainsmith({"run", problem(""), "-o", folder.path("out"), "--junit", folder.path("junit.xml")});
+  const Outcome outcome = gainsmith(
+      {"run", problem(""), "-o", folder.path("out"), "--junit", folder.path("junit.xml")});
   EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
   const std::size_t count = files_below(problem(""));
-  EXPECT_EQ(static_cast<std::size_t>(std::count(outcome.out.begin(), outcome.out.end(), '\n')), count);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(outcome.out.begin(), outcome.out.end(), '\n')),
+            count);
   const std::string junit = text_of(folder.path("junit.xml"));
-  EXPECT_NE(junit.find("tests=\"" + std::to_string(count) + "\" failures=\"0\" errors=\"0\""), std::string::npos) << junit;
+  EXPECT_NE(junit.find("tests=\"" + std::to_string(count) + "\" failures=\"0\" errors=\"0\""),
+            std::string::npos)
+      << junit;
   const std::string summary = text_of(folder.path("out/ferrante-seuret-2021/t2-0.70/summary.txt"));
   EXPECT_NE(summary.find("all as expected"), std::string::npos) << summary;
 }
@@ -36,7 +40,8 @@ TEST(ProblemsTest, AWrongExpectationFailsTheRun) {
   const std::string text = text_of(problem("ferrante-seuret-2021/t2-0.60.yaml"));
   const std::string wrong = folder.file(
       "wrong.yaml", std::regex_replace(text, std::regex("value: 688.572"), "value: 688.0"));
-  const Outcome outcome = gainsmith({"run", wrong, "-o", folder.path("out"), "--runs", "5", "--junit", folder.path("j.xml")});
+  const Outcome outcome = gainsmith(
+      {"run", wrong, "-o", folder.path("out"), "--runs", "5", "--junit", folder.path("j.xml")});
   EXPECT_EQ(outcome.exit, 1);
   EXPECT_NE(outcome.out.find("objective: expected 688 within"), std::string::npos) << outcome.out;
   EXPECT_NE(text_of(folder.path("j.xml")).find("<failure"), std::string::npos);

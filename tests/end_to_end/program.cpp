@@ -39,7 +39,8 @@ std::string Folder::file(const std::string& name, const std::string& text) const
 
 std::vector<std::string> Folder::names() const {
   std::vector<std::string> result;
-  for (const auto& entry : std::filesystem::directory_iterator(root_)) result.push_back(entry.path().filename().string());
+  for (const auto& entry : std::filesystem::directory_iterator(root_))
+    result.push_back(entry.path().filename().string());
   std::sort(result.begin(), result.end());
   return result;
 }
@@ -48,7 +49,8 @@ Outcome gainsmith(const std::vector<std::string>& arguments, const std::string& 
   const Folder folder;
   std::string command = quoted(GAINSMITH_PROGRAM);
   for (const std::string& argument : arguments) command += " " + quoted(argument);
-  command += " < " + quoted(folder.file("in", input)) + " > " + quoted(folder.path("out")) + " 2> " + quoted(folder.path("err"));
+  command += " < " + quoted(folder.file("in", input)) + " > " + quoted(folder.path("out")) +
+             " 2> " + quoted(folder.path("err"));
   const int status = std::system(command.c_str());
   Outcome outcome;
   outcome.exit = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
@@ -57,7 +59,9 @@ Outcome gainsmith(const std::vector<std::string>& arguments, const std::string& 
   return outcome;
 }
 
-std::string problem(const std::string& name) { return std::string(GAINSMITH_PROBLEMS) + "/" + name; }
+std::string problem(const std::string& name) {
+  return std::string(GAINSMITH_PROBLEMS) + "/" + name;
+}
 
 std::string text_of(const std::string& path) {
   std::ostringstream text;

@@ -10,14 +10,16 @@ namespace gainsmith::tests {
 namespace {
 
 /// min x1 + x2 with [x1 1; 1 x2] >= 0: the optimum is 2.
-constexpr const char* kSmall = "\"a comment\n2 = m\n1 = blocks\n{2}\n1.0 1.0\n0 1 1 2 -1.0\n1 1 1 1 1.0\n2 1 2 2 1.0\n";
+constexpr const char* kSmall =
+    "\"a comment\n2 = m\n1 = blocks\n{2}\n1.0 1.0\n0 1 1 2 -1.0\n1 1 1 1 1.0\n2 1 2 2 1.0\n";
 
 TEST(SolveTest, ASmallProblemFromStandardInput) {
   const Outcome outcome = gainsmith({"solve", "-", "--json"}, kSmall);
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
   const auto document = outcome.json();
-  for (const char* key : {"status", "cause", "primal_objective", "dual_objective", "relative_gap", "primal_infeasibility",
-                          "dual_infeasibility", "iterations", "precision", "seconds"})
+  for (const char* key :
+       {"status", "cause", "primal_objective", "dual_objective", "relative_gap",
+        "primal_infeasibility", "dual_infeasibility", "iterations", "precision", "seconds"})
     EXPECT_TRUE(document.contains(key)) << key;
   EXPECT_EQ(document["status"], "optimal");
   EXPECT_NEAR(document["primal_objective"].get<double>(), 2, 1e-7);
@@ -26,7 +28,8 @@ TEST(SolveTest, ASmallProblemFromStandardInput) {
 
 TEST(SolveTest, AnInfeasibleProblemExitsWithOne) {
   // x1 >= 1 and -x1 >= 0.
-  const Outcome outcome = gainsmith({"solve", "-", "--json"}, "1\n1\n-2\n1\n0 1 1 1 1\n1 1 1 1 1\n1 1 2 2 -1\n");
+  const Outcome outcome =
+      gainsmith({"solve", "-", "--json"}, "1\n1\n-2\n1\n0 1 1 1 1\n1 1 1 1 1\n1 1 2 2 -1\n");
   EXPECT_EQ(outcome.exit, 1) << outcome.err;
   EXPECT_EQ(outcome.json()["status"], "primal-infeasible");
   EXPECT_TRUE(outcome.json()["certificate"]["checked"]);
@@ -48,11 +51,15 @@ TEST(SolveTest, GarbledFilesAreRefusedWithTheLine) {
 }
 
 TEST(SolveTest, SmallSdplibInstances) {
-  if (!std::filesystem::exists(GAINSMITH_SDPLIB)) GTEST_SKIP() << "no SDPLIB at " << GAINSMITH_SDPLIB;
-  const std::map<std::string, double> optima = {
-      {"truss1", -8.999996315286891}, {"control1", 17.78462671752341}, {"theta1", 23}, {"truss4", -9.009996291004530}};
+  if (!std::filesystem::exists(GAINSMITH_SDPLIB))
+    GTEST_SKIP() << "no SDPLIB at " << GAINSMITH_SDPLIB;
+  const std::map<std::string, double> optima = {{"truss1", -8.999996315286891},
+                                                {"control1", 17.78462671752341},
+                                                {"theta1", 23},
+                                                {"truss4", -9.009996291004530}};
   for (const auto& [name, optimum] : optima) {
-    const Outcome outcome = gainsmith({"solve", std::string(GAINSMITH_SDPLIB) + "/" + name + ".dat-s", "--json"});
+    const Outcome outcome =
+        gainsmith({"solve", std::string(GAINSMITH_SDPLIB) + "/" + name + ".dat-s", "--json"});
     ASSERT_EQ(outcome.exit, 0) << name << outcome.err;
     for (const char* key : {"primal_objective", "dual_objective"})
       EXPECT_NEAR(outcome.json()[key].get<double>(), optimum, 1e-7 * std::abs(optimum)) << name;

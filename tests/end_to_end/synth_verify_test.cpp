@@ -26,7 +26,8 @@ TEST(SynthTest, JsonHasTheDocumentedKeys) {
   const Outcome outcome = gainsmith({"synth", problem(kTheorem), "--json"});
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
   const Json document = outcome.json();
-  for (const char* key : {"verdict", "status", "cause", "objective", "gains", "margins", "parameters"})
+  for (const char* key :
+       {"verdict", "status", "cause", "objective", "gains", "margins", "parameters"})
     EXPECT_TRUE(document.contains(key)) << key;
   EXPECT_EQ(document["verdict"], "yes");
   EXPECT_EQ(document["status"], "optimal");
@@ -49,7 +50,8 @@ TEST(SynthTest, TheWrittenGainsSatisfyTheTheoremsInequality) {
 TEST(SynthTest, AnInfeasibleProblemExitsWithOneAndItsCertificate) {
   const Folder folder;
   const std::string path = folder.path("gains.json");
-  const Outcome outcome = gainsmith({"synth", problem("ferrante-seuret-2021/published-theorem.yaml"), "-o", path});
+  const Outcome outcome =
+      gainsmith({"synth", problem("ferrante-seuret-2021/published-theorem.yaml"), "-o", path});
   EXPECT_EQ(outcome.exit, 1);
   EXPECT_NE(outcome.out.find("checked"), std::string::npos);
   const Json gains = Json::parse(text_of(path));
@@ -87,7 +89,8 @@ TEST(VerifyTest, TheReportDoesNotDependOnThreads) {
   EXPECT_EQ(one.exit, 0) << one.err;
   EXPECT_EQ(one.out, two.out);
   const Json document = one.json();
-  for (const char* key : {"verdict", "runs", "violations", "worst_run", "checks"}) EXPECT_TRUE(document.contains(key)) << key;
+  for (const char* key : {"verdict", "runs", "violations", "worst_run", "checks"})
+    EXPECT_TRUE(document.contains(key)) << key;
   EXPECT_EQ(document["runs"], 200);
 }
 
@@ -100,8 +103,8 @@ TEST(VerifyTest, AViolationReplaysFromItsSeedAndRun) {
   EXPECT_EQ(report["verdict"], "violated");
   EXPECT_GT(report["violations"].get<int>(), 0);
   const std::string csv = folder.path("run.csv");
-  const Outcome replayed =
-      gainsmith({"simulate", gains, "--run", std::to_string(report["worst_run"].get<int>()), "-o", csv});
+  const Outcome replayed = gainsmith(
+      {"simulate", gains, "--run", std::to_string(report["worst_run"].get<int>()), "-o", csv});
   ASSERT_EQ(replayed.exit, 0) << replayed.err;
   // The last line's claim column is the value that the campaign reported.
   std::istringstream lines(text_of(csv));

@@ -40,7 +40,8 @@ class AffineTest : public ::testing::Test {
     expr::Matrix sum = expr::Matrix::Zero(form.shape.rows, form.shape.cols);
     for (const auto& [key, matrix] : form.terms)
       sum += evaluate(atoms_[key.first], tau) *
-             (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) * expr::Matrix(matrix);
+             (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) *
+             expr::Matrix(matrix);
     return sum;
   }
 
@@ -57,7 +58,9 @@ class AffineTest : public ::testing::Test {
       for (const auto& [name, matrix] : unknowns_.values(x)) values[name] = matrix;
       values["tau"] = expr::Matrix::Constant(1, 1, tau);
       const expr::Matrix expected = expr::evaluate(direct, values);
-      EXPECT_LT((at(affine, x, tau) - expected).cwiseAbs().maxCoeff(), 1e-11 * (1 + expected.norm())) << text;
+      EXPECT_LT((at(affine, x, tau) - expected).cwiseAbs().maxCoeff(),
+                1e-11 * (1 + expected.norm()))
+          << text;
     }
   }
 
@@ -69,17 +72,19 @@ class AffineTest : public ::testing::Test {
 
 TEST_F(AffineTest, AgreesWithTheTextOverDouble) {
   for (const char* text :
-       {"P", "He(P*A - Y*C)", "[P, Y; *, g*I]", "-P/2 + 3*A'*P*A", "trace(P) + 2*g", "diag([g, 2*g, 1])", "diag(P)",
-        "P(1:2, :)", "Y'", "ones(2, 2)*g", "expm(A)*P", "blkdiag(P, g)", "inv(A)'*Y*C - Y*C", "(1/3)*P + eye(3)",
-        "[g, 1; 1, g]*C", "C*P*C' + trace(Y*C)*I", "(g + 1)*inv(A)"})
+       {"P", "He(P*A - Y*C)", "[P, Y; *, g*I]", "-P/2 + 3*A'*P*A", "trace(P) + 2*g",
+        "diag([g, 2*g, 1])", "diag(P)", "P(1:2, :)", "Y'", "ones(2, 2)*g", "expm(A)*P",
+        "blkdiag(P, g)", "inv(A)'*Y*C - Y*C", "(1/3)*P + eye(3)", "[g, 1; 1, g]*C",
+        "C*P*C' + trace(Y*C)*I", "(g + 1)*inv(A)"})
     expect_same(text);
 }
 
 TEST_F(AffineTest, AgreesWithTheTextForFunctionsOfTau) {
   for (const char* text :
-       {"exp(0.3*tau)*P", "(1.01*exp(0.2*tau) - 1)*(Y*C + P)", "tau*P + tau^2*A", "sin(2*tau + 0.3)*P",
-        "cos(1 - 3*tau)*A", "exp(tau)*sin(tau)*tau*P - exp(-tau)*cos(2*tau)*g*A", "[cos(tau), sin(tau); -sin(tau), cos(tau)]^2*C*P",
-        "exp(-2*tau)*exp(2*tau)*P"})
+       {"exp(0.3*tau)*P", "(1.01*exp(0.2*tau) - 1)*(Y*C + P)", "tau*P + tau^2*A",
+        "sin(2*tau + 0.3)*P", "cos(1 - 3*tau)*A",
+        "exp(tau)*sin(tau)*tau*P - exp(-tau)*cos(2*tau)*g*A",
+        "[cos(tau), sin(tau); -sin(tau), cos(tau)]^2*C*P", "exp(-2*tau)*exp(2*tau)*P"})
     expect_same(text);
 }
 
@@ -91,13 +96,17 @@ TEST_F(AffineTest, AProductOfUnknownsIsRefusedWithItsPlace) {
 }
 
 TEST_F(AffineTest, NonlinearFunctionsOfUnknownsAreRefused) {
-  for (const char* text : {"inv(P)", "exp(g)*A", "expm(P)", "A/g", "P^2", "abs(Y)", "max(g, 1)*A", "norm(Y)"})
-    EXPECT_NE(tests::input_error([&] { form(text); }).message().find("not affine"), std::string::npos) << text;
+  for (const char* text :
+       {"inv(P)", "exp(g)*A", "expm(P)", "A/g", "P^2", "abs(Y)", "max(g, 1)*A", "norm(Y)"})
+    EXPECT_NE(tests::input_error([&] { form(text); }).message().find("not affine"),
+              std::string::npos)
+        << text;
 }
 
 TEST_F(AffineTest, FunctionsOfTauThatAreNoAtomsAreRefused) {
   for (const char* text : {"exp(tau^2)*P", "P/tau", "sqrt(tau)*P", "expm(A*tau)"})
-    EXPECT_NE(tests::input_error([&] { form(text); }).message().find("forall"), std::string::npos) << text;
+    EXPECT_NE(tests::input_error([&] { form(text); }).message().find("forall"), std::string::npos)
+        << text;
 }
 
 }  // namespace

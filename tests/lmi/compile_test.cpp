@@ -11,13 +11,14 @@ namespace gainsmith::lmi {
 namespace {
 
 std::string problem_with(const std::string& require, const std::string& more = "") {
-  return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, T: scalar}\n  unknowns: {P: symmetric n, Y: n x n}\n" + more +
-         "  require:\n" + require + "data: {A: [[0, 1], [-2, -3]], T: 2}\n";
+  return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, T: scalar}\n  unknowns: {P: "
+         "symmetric n, Y: n x n}\n" +
+         more + "  require:\n" + require + "data: {A: [[0, 1], [-2, -3]], T: 2}\n";
 }
 
 TEST(CompileTest, AnIntervalBecomesTheVerticesOfItsAtoms) {
-  const tests::YamlProblem yaml(
-      problem_with("    flow: {forall: \"tau in [0, T]\", that: \"He(P*A) + exp(0.5*tau)*P < 0\"}\n"));
+  const tests::YamlProblem yaml(problem_with(
+      "    flow: {forall: \"tau in [0, T]\", that: \"He(P*A) + exp(0.5*tau)*P < 0\"}\n"));
   const Lmi lmi = compile(yaml.instance);
   ASSERT_EQ(lmi.blocks.size(), 2U);
   EXPECT_EQ(lmi.blocks[0].point, "tau = 0");
@@ -33,7 +34,8 @@ TEST(CompileTest, AnIntervalBecomesTheVerticesOfItsAtoms) {
 
 TEST(CompileTest, TwoAtomsMakeFourVertices) {
   const tests::YamlProblem yaml(
-      problem_with("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + cos(2*tau)*He(P*A) <= 5*I\"}\n"));
+      problem_with("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + "
+                   "cos(2*tau)*He(P*A) <= 5*I\"}\n"));
   const Lmi lmi = compile(yaml.instance);
   ASSERT_EQ(lmi.blocks.size(), 4U);
   std::set<std::string> points;
@@ -55,13 +57,14 @@ TEST(CompileTest, FiniteSetsAndChains) {
 }
 
 TEST(CompileTest, AFiniteSetTakesAnyFunction) {
-  const tests::YamlProblem yaml(
-      problem_with("    sampled: {forall: \"tau in {0.5, 1}\", that: \"expm(A*tau)'*P*expm(A*tau) < P\"}\n"));
+  const tests::YamlProblem yaml(problem_with(
+      "    sampled: {forall: \"tau in {0.5, 1}\", that: \"expm(A*tau)'*P*expm(A*tau) < P\"}\n"));
   EXPECT_EQ(compile(yaml.instance).blocks.size(), 2U);
 }
 
 TEST(CompileTest, ObjectivesKeepTheirConstant) {
-  const tests::YamlProblem yaml(problem_with("    positive: P > I\n  minimize: 2*trace(P) - 3 + Y(2,1)\n"));
+  const tests::YamlProblem yaml(
+      problem_with("    positive: P > I\n  minimize: 2*trace(P) - 3 + Y(2,1)\n"));
   const Lmi lmi = compile(yaml.instance);
   ASSERT_TRUE(lmi.has_objective);
   EXPECT_EQ(lmi.objective_constant, -3);
@@ -83,8 +86,10 @@ TEST(CompileTest, WhatIsNotSymmetricIsRefused) {
 }
 
 TEST(CompileTest, AnEmptyIntervalIsRefused) {
-  const tests::YamlProblem yaml(problem_with("    flow: {forall: \"tau in [T, 1]\", that: \"exp(tau)*P > 0\"}\n"));
-  EXPECT_NE(tests::input_error([&] { compile(yaml.instance); }).message().find("empty"), std::string::npos);
+  const tests::YamlProblem yaml(
+      problem_with("    flow: {forall: \"tau in [T, 1]\", that: \"exp(tau)*P > 0\"}\n"));
+  EXPECT_NE(tests::input_error([&] { compile(yaml.instance); }).message().find("empty"),
+            std::string::npos);
 }
 
 }  // namespace

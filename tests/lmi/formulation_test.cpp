@@ -10,7 +10,8 @@ namespace gainsmith::lmi {
 namespace {
 
 std::string problem_with(const std::string& require) {
-  return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, s: scalar}\n  unknowns: {P: symmetric n}\n  require:\n" +
+  return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, s: scalar}\n  unknowns: {P: "
+         "symmetric n}\n  require:\n" +
          require;
 }
 
@@ -46,13 +47,15 @@ TEST(FormulationTest, TheGoalFollowsFromObjectiveAndConstants) {
 
 TEST(FormulationTest, StrictBlocksKeepTheirMarginAndOthersDoNot) {
   const tests::YamlProblem yaml(
-      problem_with("    strict: He(P*A) + s*I < 0\n    loose: P >= s*I\n  minimize: trace(P)\n") + kData);
+      problem_with("    strict: He(P*A) + s*I < 0\n    loose: P >= s*I\n  minimize: trace(P)\n") +
+      kData);
   const Lmi lmi = compile(yaml.instance);
   const Formulation formulation = formulation_of(lmi);
   const std::vector<double> x = {1.5, 0.25, 2.5};
   for (int k = 0; k < 2; ++k) {
     const Block& block = lmi.blocks[static_cast<std::size_t>(k)];
-    const double margin = block.strict ? formulation.margin * formulation.scales[static_cast<std::size_t>(k)] : 0;
+    const double margin =
+        block.strict ? formulation.margin * formulation.scales[static_cast<std::size_t>(k)] : 0;
     const expr::Matrix expected = block.value(x) - margin * expr::Matrix::Identity(2, 2);
     std::vector<double> scaled = x;
     for (double& value : scaled) value /= formulation.unit;
@@ -63,14 +66,14 @@ TEST(FormulationTest, StrictBlocksKeepTheirMarginAndOthersDoNot) {
 
 TEST(FormulationTest, ScalesFollowTheData) {
   const auto scales = [](double s) {
-    const tests::YamlProblem yaml(
-        problem_with("    a: P > 0\n    b: He(P*A) + s*I < 0\n") + "data: {A: [[0, 1], [-2, -3]], s: " +
-        std::to_string(s) + "}\n");
+    const tests::YamlProblem yaml(problem_with("    a: P > 0\n    b: He(P*A) + s*I < 0\n") +
+                                  "data: {A: [[0, 1], [-2, -3]], s: " + std::to_string(s) + "}\n");
     return formulation_of(compile(yaml.instance)).scales;
   };
   const auto one = scales(1);
   const auto thousand = scales(1000);
-  for (std::size_t k = 0; k < one.size(); ++k) EXPECT_NEAR(thousand[k], 1000 * one[k], 1e-9 * thousand[k]);
+  for (std::size_t k = 0; k < one.size(); ++k)
+    EXPECT_NEAR(thousand[k], 1000 * one[k], 1e-9 * thousand[k]);
 }
 
 TEST(FormulationTest, HomogeneousFeasibilityAddsTheSizeOfX) {

@@ -14,7 +14,9 @@ namespace {
 std::string problem_with(const std::string& gains) {
   return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, C: p x n}\n"
          "  unknowns: {P: symmetric n, Q: symmetric p, Y: n x p, Z: p x n, K: p x n}\n"
-         "  require: {positive: P > 0}\n  gains: {" + gains + "}\n"
+         "  require: {positive: P > 0}\n  gains: {" +
+         gains +
+         "}\n"
          "data: {A: [[0, 1, 0], [0, 0, 1], [1, 0, 0]], C: [[1, 0, 0], [0, 1, 0]]}\n";
 }
 
@@ -25,9 +27,11 @@ std::vector<std::string> names(const GainBounds& bounds) {
 }
 
 TEST(GainBoundsTest, EveryProductWithAnInverseIsFoundOnce) {
-  const tests::YamlProblem yaml(problem_with("L: inv(P)*Y, H: inv(Q)*(Z*A + Z) - C*inv(P)*Y*C, G: Z*inv(P), K: K"));
+  const tests::YamlProblem yaml(
+      problem_with("L: inv(P)*Y, H: inv(Q)*(Z*A + Z) - C*inv(P)*Y*C, G: Z*inv(P), K: K"));
   const GainBounds bounds = gain_bounds(yaml.instance, Unknowns(yaml.instance), 100);
-  EXPECT_EQ(names(bounds), (std::vector<std::string>{"inv(P)*Y", "inv(Q)*(Z*A + Z)", "Z*inv(P)", "K"}));
+  EXPECT_EQ(names(bounds),
+            (std::vector<std::string>{"inv(P)*Y", "inv(Q)*(Z*A + Z)", "Z*inv(P)", "K"}));
   EXPECT_EQ(bounds.scalars, 2);
 }
 
@@ -36,8 +40,8 @@ TEST(GainBoundsTest, NoBoundNoBlocks) {
   EXPECT_TRUE(gain_bounds(yaml.instance, Unknowns(yaml.instance), std::nullopt).blocks.empty());
 }
 
-/// Random unknowns: the blocks are positive for some s exactly when the measure that is reported is below
-/// beta, and the measure is never below the gain's norm.
+/// Random unknowns: the blocks are positive for some s exactly when the measure that is reported is
+/// below beta, and the measure is never below the gain's norm.
 TEST(GainBoundsTest, BlocksSayTheSameAsTheMeasure) {
   const tests::YamlProblem yaml(problem_with("L: inv(P)*Y"));
   const Unknowns unknowns(yaml.instance);
@@ -64,7 +68,8 @@ TEST(GainBoundsTest, BlocksSayTheSameAsTheMeasure) {
     EXPECT_EQ(positive, reached.reached < beta) << reached.reached;
     const expr::Values values = unknowns.values(x);
     const expr::Matrix gain = P.inverse() * values.at("Y");
-    EXPECT_GE(reached.reached * (1 + 1e-9), Eigen::JacobiSVD<expr::Matrix>(gain).singularValues()(0));
+    EXPECT_GE(reached.reached * (1 + 1e-9),
+              Eigen::JacobiSVD<expr::Matrix>(gain).singularValues()(0));
     inside += positive ? 1 : 0;
   }
   EXPECT_GT(inside, 5);

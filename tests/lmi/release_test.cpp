@@ -13,8 +13,9 @@ namespace {
 std::string problem_with(const std::string& minimize, const std::string& extra = "") {
   return "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n"
          "  unknowns: {P: symmetric n, g: scalar, h: scalar}\n"
-         "  require:\n    positive: P > I\n    bound: \"[P, A; *, g*I] > 0\"\n    below: \"[P, A; *, -h*I] > 0\"\n" + extra +
-         "  minimize: " + minimize + "\ndata: {A: [[0, 1], [3, 1]]}\n";
+         "  require:\n    positive: P > I\n    bound: \"[P, A; *, g*I] > 0\"\n    below: \"[P, A; "
+         "*, -h*I] > 0\"\n" +
+         extra + "  minimize: " + minimize + "\ndata: {A: [[0, 1], [3, 1]]}\n";
 }
 
 TEST(ReleaseTest, ScalarsWithoutAPriceAreReleasedWithTheirRows) {

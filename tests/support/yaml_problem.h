@@ -16,7 +16,8 @@ struct YamlProblem {
   model::Instance instance;
 
   explicit YamlProblem(const std::string& text) {
-    const io::MethodLibrary library{[](const std::string& name) { return methods::find(name); }, methods::names()};
+    const io::MethodLibrary library{[](const std::string& name) { return methods::find(name); },
+                                    methods::names()};
     problem = std::make_unique<model::Problem>(io::parse_problem(text, "test.yaml", library));
     instance = model::make_instance(*problem);
   }
