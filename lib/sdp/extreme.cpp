@@ -8,11 +8,39 @@ namespace gainsmith::sdp {
 namespace {
 
 /// How sharp the bound must be, relative to the eigenvalue.
-constexpr double kSharpness = 0.01;
+constexpr double kSharpness = 0.01, kHalfPercent = 0.005;
 /// Ritz values are looked at from this step on, every few steps.
 constexpr Eigen::Index kFirstLook = 8, kBetweenLooks = 4;
 
+/// Are all eigenvalues of T above `shift`?
+bool all_above(const Eigen::Ref<const Eigen::VectorXd>& diagonal,
+               const Eigen::Ref<const Eigen::VectorXd>& subdiagonal, double shift) {
+  double pivot = diagonal[0] - shift;
+  for (Eigen::Index i = 1; i < diagonal.size(); ++i) {
+    if (!(pivot > 0)) return false;
+    pivot = diagonal[i] - shift - subdiagonal[i - 1] * subdiagonal[i - 1] / pivot;
+  }
+  return pivot > 0;
+}
+
 }  // namespace
+
+double smallest_of_tridiagonal(const Eigen::Ref<const Eigen::VectorXd>& diagonal,
+                               const Eigen::Ref<const Eigen::VectorXd>& subdiagonal,
+                               double enough) {
+  if (all_above(diagonal, subdiagonal, enough)) return enough;
+  // The smallest eigenvalue is in (low, high]: first by doubling, then by halving.
+  double high = enough, low = 2 * enough;
+  while (!all_above(diagonal, subdiagonal, low) && std::isfinite(low)) {
+    high = low;
+    low *= 2;
+  }
+  while (high - low > kHalfPercent * std::abs(low)) {
+    const double middle = 0.5 * (low + high);
+    (all_above(diagonal, subdiagonal, middle) ? low : high) = middle;
+  }
+  return low;
+}
 
 Lanczos::Lanczos(Eigen::Index n)
     : basis_(n, std::min(kSteps, n) + 1),

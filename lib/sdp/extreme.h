@@ -1,9 +1,15 @@
-// The smallest eigenvalue of L^-1 D L^-T without forming it.
+// Smallest eigenvalues, as sharply as a step length needs them.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace gainsmith::sdp {
+
+/// A lower bound of the smallest eigenvalue of the symmetric tridiagonal matrix, within half a
+/// percent; `enough` when all eigenvalues are above it. Bisection on the signs of the pivots of T -
+/// s I (Givens 1954). enough < 0.
+double smallest_of_tridiagonal(const Eigen::Ref<const Eigen::VectorXd>& diagonal,
+                               const Eigen::Ref<const Eigen::VectorXd>& subdiagonal, double enough);
 
 /// Lanczos with full reorthogonalisation on W = L^-1 D L^-T (Toh 2002): a lower bound of its
 /// smallest eigenvalue, theta - |beta s| of the smallest Ritz pair (theta, s), as soon as that is

@@ -20,10 +20,8 @@ ConeFactor<T>::ConeFactor(const Layout& layout)
       inverse_transpose_(layout),
       work_(layout),
       scaled_(layout) {
-  solvers_.reserve(layout.size.size());
   for (const int n : layout.size) {
-    solvers_.emplace_back(n);
-    rounded_.emplace_back(n, n);
+    spectra_.emplace_back(n);
     lanczos_.emplace_back(n);
   }
 }
@@ -72,10 +70,13 @@ double ConeFactor<T>::smallest_eigenvalue(const Blocks<T>& D, int b, double enou
   auto w = scaled_.dense(b);
   multiply(View<const T>(D.dense(b)), View<const T>(inverse_transpose_.dense(b)), View<T>(half));
   multiply(View<const T>(inverse_factor_.dense(b)), View<const T>(half), View<T>(w));
+  Spectrum& spectrum = spectra_[at];
   for (Eigen::Index j = 0; j < w.cols(); ++j)
-    for (Eigen::Index i = 0; i < w.rows(); ++i) rounded_[at](i, j) = static_cast<double>(w(i, j));
-  solvers_[at].compute(rounded_[at], Eigen::EigenvaluesOnly);
-  return solvers_[at].eigenvalues()[0];
+    for (Eigen::Index i = 0; i < w.rows(); ++i) spectrum.w(i, j) = static_cast<double>(w(i, j));
+  spectrum.reduction.compute(spectrum.w);
+  spectrum.diagonal = spectrum.reduction.diagonal();
+  spectrum.subdiagonal = spectrum.reduction.subDiagonal();
+  return smallest_of_tridiagonal(spectrum.diagonal, spectrum.subdiagonal, enough);
 }
 
 template <typename T>

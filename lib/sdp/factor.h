@@ -33,9 +33,15 @@ class ConeFactor {
   Blocks<T> inverse_factor_;     ///< L^-1, upper triangle zero; 1/v in the linear part
   Blocks<T> inverse_transpose_;  ///< L^-T
   Blocks<T> work_, scaled_;
-  std::vector<Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>> solvers_;  ///< one a block
-  std::vector<Eigen::MatrixXd> rounded_;
-  std::vector<Lanczos> lanczos_;  ///< one a block in double
+  /// L^-1 D L^-T of a block in double, on its way to its smallest eigenvalue.
+  struct Spectrum {
+    explicit Spectrum(int n) : w(n, n), reduction(n), diagonal(n), subdiagonal(n - 1) {}
+    Eigen::MatrixXd w;
+    Eigen::Tridiagonalization<Eigen::MatrixXd> reduction;
+    Eigen::VectorXd diagonal, subdiagonal;
+  };
+  std::vector<Spectrum> spectra_;
+  std::vector<Lanczos> lanczos_;
 };
 
 }  // namespace gainsmith::sdp

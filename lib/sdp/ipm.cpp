@@ -66,6 +66,7 @@ Cause Ipm<T>::run(const Run& run) {
   if (cause != Cause::converged && cause != Cause::certificate) {
     point_ = best_;
     residuals_.update(point_);
+    if (satisfied(options_.tolerance)) return Cause::converged;
   }
   return cause;
 }
@@ -134,12 +135,16 @@ Steps<T> Ipm<T>::shortened(const Steps<T>& longest, const Steps<T>& reach) const
 }
 
 template <typename T>
+bool Ipm<T>::satisfied(double tolerance) const {
+  const Residuals<T>& r = residuals_;
+  return r.worst() <= tolerance &&
+         r.primal_infeasibility <= run_.feasibility + kRounding * r.primal_rounding &&
+         r.dual_infeasibility <= run_.feasibility + kRounding * r.dual_rounding;
+}
+
+template <typename T>
 std::optional<Cause> Ipm<T>::stop() const {
-  const bool feasible =
-      residuals_.primal_infeasibility <=
-          run_.feasibility + kRounding * residuals_.primal_rounding &&
-      residuals_.dual_infeasibility <= run_.feasibility + kRounding * residuals_.dual_rounding;
-  if (residuals_.worst() <= run_.tolerance && feasible) return Cause::converged;
+  if (satisfied(run_.aim)) return Cause::converged;
   if (std::min(residuals_.primal_certificate, residuals_.dual_certificate) <=
       options_.certificate_tolerance / 2)
     return Cause::certificate;

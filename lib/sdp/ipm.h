@@ -15,7 +15,7 @@ namespace gainsmith::sdp {
 /// What one run of the loop is to do.
 struct Run {
   Model model = Model::fixed;
-  double tolerance = 1e-8;    ///< for the gap and all other errors
+  double aim = 1e-8;          ///< for all errors: stop here; what is below the tolerance counts
   double feasibility = 1e-8;  ///< for the two infeasibilities, where that is to be stricter
   int first_iteration = 0;    ///< continues the count of an earlier run
   std::chrono::steady_clock::time_point start;  ///< of the whole solve, for the time limit
@@ -49,6 +49,7 @@ class Ipm {
  private:
   void start(const T& X, const T& Y);
   Cause iterate();
+  bool satisfied(double tolerance) const;
   std::optional<Cause> stop() const;
   std::optional<Cause> limits() const;
   T centering(const Steps<T>& reach) const;

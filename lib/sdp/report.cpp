@@ -96,16 +96,17 @@ bool positive(const Problem& problem, const Packed<T>& matrix, double shift) {
   return true;
 }
 
-/// max(0, -lambda_min), rounded up to a power of two: the least shift that makes it positive.
+/// max(0, -lambda_min), rounded up to a power of two: the least shift that makes the matrix
+/// positive, between powers of 16 first.
 template <typename T>
 double negative_part(const Problem& problem, const Packed<T>& matrix) {
   if (positive(problem, matrix, 0)) return 0;
-  double shift = std::numeric_limits<double>::min();
-  while (shift < std::numeric_limits<double>::max() / 16 && !positive(problem, matrix, shift))
-    shift *= 16;
-  for (double lower = shift / 16; lower < shift; lower *= 2)
-    if (positive(problem, matrix, lower)) return lower;
-  return shift;
+  constexpr int kLeast = -1020, kMost = 1020;
+  int power = kLeast;
+  while (power < kMost && !positive(problem, matrix, std::ldexp(1.0, power))) power += 4;
+  int least = std::max(kLeast, power - 3);
+  while (least < power && !positive(problem, matrix, std::ldexp(1.0, least))) ++least;
+  return std::ldexp(1.0, least);
 }
 
 /// lambda_min: in double where the matrix is positive (never below 0 then), else a lower bound in

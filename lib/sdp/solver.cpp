@@ -113,9 +113,9 @@ class Ladder {
   /// they must hold to kWideFeasibility in wide arithmetic.
   static constexpr double kIllPosed = 100;
   static constexpr double kWideFeasibility = 1e-18;
-  /// Part of the tolerance that a run aims at, so that the errors recomputed from the raw problem
-  /// are below it as well; in wide arithmetic digits are cheap.
-  static constexpr double kAim = 0.95, kWideAim = 0.5;
+  /// Part of the tolerance that runs aim at: both objectives then have as many digits as the
+  /// tolerance, relative to the larger of 1 and their size.
+  static constexpr double kAim = 0.4;
   /// Multiplications an iteration up to which a wider arithmetic is tried unasked.
   static constexpr double kQuadCost = 1e9, kWideCost = 6e4;
 
@@ -158,9 +158,8 @@ class Ladder {
 
 template <typename T>
 void Ladder::run(Ipm<T>& ipm, Model model) {
-  const double aim = options_.tolerance * (std::is_same_v<T, double> ? kAim : kWideAim);
   const double feasibility = strict_ ? kWideFeasibility : options_.tolerance;
-  const Cause cause = ipm.run({model, aim, feasibility, iterations_, start_});
+  const Cause cause = ipm.run({model, kAim * options_.tolerance, feasibility, iterations_, start_});
   iterations_ = ipm.iterations();
   Solution found = conclude(problem_, presolved_, options_, ipm, cause);
   const double error = ipm.residuals().worst();

@@ -90,6 +90,19 @@ TYPED_TEST(Kernels, CholeskyRefusesWhatIsNotPositive) {
   EXPECT_FALSE(cholesky(View<T>(a)));
 }
 
+TEST(Tridiagonal, BoundsTheSmallestEigenvalueFromBelow) {
+  for (const int n : {2, 7, 40}) {
+    const VectorXd diagonal = varied(n, 1, 1).col(0), subdiagonal = varied(n - 1, 1, 2).col(0);
+    MatrixXd t = diagonal.asDiagonal();
+    t.diagonal(1) = t.diagonal(-1) = subdiagonal;
+    const double exact = Eigen::SelfAdjointEigenSolver<MatrixXd>(t).eigenvalues()[0];
+    const double bound = smallest_of_tridiagonal(diagonal, subdiagonal, -1e-3);
+    EXPECT_LE(bound, exact + 1e-12);
+    EXPECT_GT(bound, 1.006 * exact);
+    EXPECT_EQ(smallest_of_tridiagonal(diagonal, subdiagonal, 2 * exact), 2 * exact);
+  }
+}
+
 TEST(Lanczos, BoundsTheSmallestEigenvalueFromBelow) {
   for (const int n : {33, 60, 90}) {
     const MatrixXd v = positive(n, n), d = varied(n, n, 5) + varied(n, n, 5).transpose();
