@@ -1,8 +1,11 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/file.h"
 #include "base/number.h"
@@ -10,6 +13,7 @@
 #include "gainsmith/terminal.h"
 #include "io/json_text.h"
 #include "sdp/sdpa_file.h"
+#include "sdp/solution_file.h"
 #include "sdp/solver.h"
 
 namespace gainsmith::app {
@@ -18,6 +22,8 @@ namespace {
 
 struct SolveOptions {
   std::string file;
+  std::string output;
+  std::string format = "json";
   bool json = false;
   bool quiet = false;
   sdp::Options solver;
@@ -38,11 +44,13 @@ ExitCode exit_of(sdp::Status status) {
 
 void print_progress(const sdp::Progress& line) {
   if (line.iteration == 0)
-    fmt::print(stderr, "{:>4} {:>18} {:>18} {:>9} {:>9} {:>9} {:>6} {:>6}\n", "iter", "primal",
-               "dual", "gap", "p.infeas", "d.infeas", "p.step", "d.step");
-  fmt::print(stderr, "{:>4} {:>18.10e} {:>18.10e} {:>9.2e} {:>9.2e} {:>9.2e} {:>6.3f} {:>6.3f}\n",
+    fmt::print(stderr, "{:>4} {:>18} {:>18} {:>9} {:>9} {:>9} {:>6} {:>6}  {}\n", "iter", "primal",
+               "dual", "gap", "p.infeas", "d.infeas", "p.step", "d.step", "arithmetic");
+  fmt::print(stderr,
+             "{:>4} {:>18.10e} {:>18.10e} {:>9.2e} {:>9.2e} {:>9.2e} {:>6.3f} {:>6.3f}  {}\n",
              line.iteration, line.primal_objective, line.dual_objective, line.relative_gap,
-             line.primal_infeasibility, line.dual_infeasibility, line.step_primal, line.step_dual);
+             line.primal_infeasibility, line.dual_infeasibility, line.step_primal, line.step_dual,
+             line.precision);
 }
 
 io::Json certificate_json(const sdp::Certificate& certificate) {
@@ -72,6 +80,35 @@ std::string json_text(const sdp::Solution& solution) {
   return io::to_text(document);
 }
 
+/// A block matrix as a list of blocks: a list of rows, or of diagonal elements.
+io::Json matrix_json(const sdp::Problem& problem, const sdp::BlockMatrix& matrix) {
+  io::Json blocks = io::Json::array();
+  for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
+    const std::vector<double>& values = matrix.values[b];
+    if (problem.blocks[b].diagonal) {
+      blocks.push_back(values);
+      continue;
+    }
+    const auto n = static_cast<std::ptrdiff_t>(problem.blocks[b].size);
+    io::Json rows = io::Json::array();
+    for (auto row = values.begin(); row != values.end(); row += n)
+      rows.push_back(std::vector<double>(row, row + n));
+    blocks.push_back(std::move(rows));
+  }
+  return blocks;
+}
+
+/// The point itself: of an infeasible problem the certificate.
+std::string solution_text(const sdp::Problem& problem, const sdp::Solution& solution,
+                          const std::string& format) {
+  if (format == "csdp") return sdp::csdp_solution(problem, solution);
+  if (format == "sdpa") return sdp::sdpa_solution(problem, solution);
+  return io::to_text({{"status", to_string(solution.status)},
+                      {"x", solution.x},
+                      {"X", matrix_json(problem, solution.X)},
+                      {"Y", matrix_json(problem, solution.Y)}});
+}
+
 std::string summary(const sdp::Solution& solution) {
   std::string text = fmt::format("status            {} ({})\n", to_string(solution.status),
                                  to_string(solution.cause));
@@ -95,6 +132,17 @@ std::string summary(const sdp::Solution& solution) {
   return text + fmt::format("seconds           {:.3f}\n", solution.seconds);
 }
 
+/// What is wrong with a value of --precision; empty when nothing is.
+std::string precision_error(const std::string& text) {
+  constexpr int kMostDigits = 100;
+  int digits = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), digits);
+  const bool number = end.ec == std::errc() && end.ptr == text.data() + text.size() &&
+                      digits >= 1 && digits <= kMostDigits;
+  if (number || text == "auto" || text == "double" || text == "quad") return {};
+  return "expected auto, double, quad or a number of digits from 1 to 100, not '" + text + "'";
+}
+
 ExitCode solve(SolveOptions options) {
   const sdp::Problem problem = sdp::read_sdpa(read_text(options.file), options.file);
   catch_interrupts();
@@ -102,7 +150,17 @@ ExitCode solve(SolveOptions options) {
   if (!options.quiet && !options.json && progress_wanted())
     options.solver.progress = print_progress;
   const sdp::Solution solution = sdp::solve(problem, options.solver);
-  fmt::print("{}", options.json ? json_text(solution) : summary(solution));
+  const bool to_stdout = options.output == "-";
+  if (!options.output.empty()) {
+    const std::string text = solution_text(problem, solution, options.format);
+    if (to_stdout) {
+      fmt::print("{}", text);
+    } else {
+      write_atomically(options.output, text);
+    }
+  }
+  fmt::print(to_stdout ? stderr : stdout, "{}",
+             options.json ? json_text(solution) : summary(solution));
   return exit_of(solution.status);
 }
 
@@ -116,6 +174,16 @@ void add_solve(CLI::App& program, ExitCode& exit) {
       ->required();
   command->add_flag("--json", options->json, "print the result as JSON");
   command->add_flag("-q,--quiet", options->quiet, "no progress table");
+  command->add_option("-o,--output", options->output,
+                      "write x, X and Y here; - for standard output");
+  command->add_option("--format", options->format, "layout of that file: json, csdp or sdpa")
+      ->check(CLI::IsMember({"json", "csdp", "sdpa"}))
+      ->capture_default_str();
+  command
+      ->add_option("--precision", options->solver.precision,
+                   "auto (double, then more digits where double stalls), double, quad or digits")
+      ->check([](const std::string& text) { return precision_error(text); })
+      ->capture_default_str();
   command
       ->add_option("--tolerance", options->solver.tolerance,
                    "relative gap and DIMACS errors for 'optimal'")
@@ -132,8 +200,10 @@ void add_solve(CLI::App& program, ExitCode& exit) {
       ->capture_default_str();
   command->footer(
       "Exit code: 0 optimal, 1 proved infeasible, 2 wrong input, 3 undecided.\n"
-      "Example:\n"
-      "  gainsmith solve control1.dat-s --json");
+      "Examples:\n"
+      "  gainsmith solve control1.dat-s --json\n"
+      "  gainsmith solve hinf2.dat-s --precision quad -o hinf2.sol --format csdp\n"
+      "  gainsmith synth problem.yaml --sdpa problem.dat-s && gainsmith solve problem.dat-s");
   command->callback([options, &exit] { exit = solve(*options); });
 }
 

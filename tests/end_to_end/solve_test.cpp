@@ -42,6 +42,44 @@ TEST(SolveTest, AnIterationLimitIsUndecidedWithItsCause) {
   EXPECT_EQ(outcome.json()["cause"], "iteration-limit");
 }
 
+TEST(SolveTest, TheSolutionIsWrittenInThreeLayouts) {
+  const Folder folder;
+  for (const char* format : {"json", "csdp", "sdpa"}) {
+    const std::string file = folder.path(format);
+    ASSERT_EQ(gainsmith({"solve", "-", "-q", "-o", file, "--format", format}, kSmall).exit, 0);
+    EXPECT_FALSE(text_of(file).empty());
+  }
+  const auto document = nlohmann::ordered_json::parse(text_of(folder.path("json")));
+  // X = [x1, 1; 1, x2] and Y = [1, -1; -1, 1].
+  EXPECT_NEAR(document["x"][0].get<double>(), 1, 1e-3);
+  EXPECT_NEAR(document["X"][0][0][1].get<double>(), 1, 1e-6);
+  EXPECT_NEAR(document["Y"][0][1][0].get<double>(), -1, 1e-3);
+}
+
+TEST(SolveTest, PrecisionIsChosenOnTheCommandLine) {
+  const Outcome wide =
+      gainsmith({"solve", "-", "--json", "--precision", "quad", "--tolerance", "1e-20"}, kSmall);
+  ASSERT_EQ(wide.exit, 0) << wide.out << wide.err;
+  EXPECT_NE(wide.json()["precision"], "double");
+  EXPECT_DOUBLE_EQ(wide.json()["primal_objective"].get<double>(), 2);
+  EXPECT_EQ(gainsmith({"solve", "-", "--precision", "octuple"}, kSmall).exit, 2);
+}
+
+TEST(SolveTest, AnExportedProblemHasTheSameOptimum) {
+  const Folder folder;
+  const std::string file = folder.path("problem.dat-s");
+  const Outcome synthesized =
+      gainsmith({"synth", problem("own-lmi/hinf-norm.yaml"), "--json", "--sdpa", file});
+  const Outcome solved = gainsmith({"solve", file, "--json"});
+  ASSERT_EQ(solved.exit, 0) << solved.err;
+  // The program is written in units of the data, so the optima differ by a factor; the dual
+  // solution of the exported file reaches the primal one.
+  EXPECT_NEAR(solved.json()["primal_objective"].get<double>(),
+              solved.json()["dual_objective"].get<double>(),
+              1e-6 * std::abs(solved.json()["primal_objective"].get<double>()));
+  EXPECT_EQ(synthesized.exit, 0);
+}
+
 TEST(SolveTest, GarbledFilesAreRefusedWithTheLine) {
   const Folder folder;
   const std::string file = folder.file("bad.dat-s", "2\n1\n2\n1 1\n0 1 1 2 abc\n");
