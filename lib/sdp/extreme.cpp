@@ -8,7 +8,7 @@ namespace gainsmith::sdp {
 namespace {
 
 /// How sharp the bound must be, relative to the eigenvalue.
-constexpr double kSharpness = 0.01, kHalfPercent = 0.005;
+constexpr double kSharpness = 0.01, kTridiagonalSharpness = 0.001;
 /// Ritz values are looked at from this step on, every few steps.
 constexpr Eigen::Index kFirstLook = 8, kBetweenLooks = 4;
 
@@ -35,7 +35,7 @@ double smallest_of_tridiagonal(const Eigen::Ref<const Eigen::VectorXd>& diagonal
     high = low;
     low *= 2;
   }
-  while (high - low > kHalfPercent * std::abs(low)) {
+  while (high - low > kTridiagonalSharpness * std::abs(low)) {
     const double middle = 0.5 * (low + high);
     (all_above(diagonal, subdiagonal, middle) ? low : high) = middle;
   }

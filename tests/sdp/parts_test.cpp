@@ -98,7 +98,7 @@ TEST(Tridiagonal, BoundsTheSmallestEigenvalueFromBelow) {
     const double exact = Eigen::SelfAdjointEigenSolver<MatrixXd>(t).eigenvalues()[0];
     const double bound = smallest_of_tridiagonal(diagonal, subdiagonal, -1e-3);
     EXPECT_LE(bound, exact + 1e-12);
-    EXPECT_GT(bound, 1.006 * exact);
+    EXPECT_GT(bound, 1.002 * exact);
     EXPECT_EQ(smallest_of_tridiagonal(diagonal, subdiagonal, 2 * exact), 2 * exact);
   }
 }
