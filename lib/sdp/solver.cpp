@@ -98,7 +98,9 @@ class Ladder {
     if (!over()) attempt(wide, kFarther);
     if (over() || cost() > kWideCost) return std::move(best_);
     reason_ = reason(name_of<DoubleDouble>());
-    return settle<Decimal100>(kFarthest);
+    Ipm<Decimal100> widest(problem_, presolved_, options_);
+    relay(wide, widest, kFarthest);
+    return std::move(best_);
   }
 
  private:
@@ -108,6 +110,8 @@ class Ladder {
   /// How much farther than far_X, far_Y a run in wide arithmetic starts: problems that need it tend
   /// to have solutions of great norm, and it can afford the cancellation.
   static constexpr double kFarther = 1e4, kFarthest = 1e10;
+  /// The worst error at which 31 digits hand over to 100.
+  static constexpr double kHandOver = 1e-3;
   /// Where double ends farther than kIllPosed tolerances from an answer, the problem may be so ill
   /// posed that points which satisfy its equations to 1e-15 miss the optimum by any amount: then
   /// they must hold to kWideFeasibility in wide arithmetic.
@@ -130,6 +134,20 @@ class Ladder {
   void attempt(Ipm<T>& ipm, double factor) {
     ipm.start_far(factor);
     run(ipm, Model::fixed);
+  }
+
+  /// From a far point: `narrow` comes as near as kHandOver, well before its digits run out, and
+  /// `wide` goes on from there.
+  template <typename Narrow, typename Wide>
+  void relay(Ipm<Narrow>& narrow, Ipm<Wide>& wide, double factor) {
+    narrow.start_far(factor);
+    const Cause cause = narrow.run({Model::fixed, kHandOver, kHandOver, iterations_, start_});
+    iterations_ = narrow.iterations();
+    if (cause == Cause::converged)
+      wide.start_from(narrow.point());
+    else
+      wide.start_far(factor);
+    run(wide, Model::fixed);
   }
 
   template <typename T>
