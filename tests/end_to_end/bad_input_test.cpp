@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include <ostream>
 #include <regex>
 
 #include "end_to_end/program.h"
@@ -20,6 +21,8 @@ struct Broken {
   int line;             ///< where
   int column;
 };
+
+void PrintTo(const Broken& broken, std::ostream* out) { *out << broken.name; }
 
 class BadInput : public ::testing::TestWithParam<Broken> {};
 
