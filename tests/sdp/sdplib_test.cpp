@@ -74,9 +74,10 @@ TEST(Sdplib, ProvesInfeasibility) {
 TEST(Sdplib, GivesTheSameBitsOnTwoThreads) {
   if (absent()) GTEST_SKIP() << "no .dat-s files in " << GAINSMITH_SDPLIB;
   const Problem problem = load("control4");  // large enough for the threads to start
-  Options two;
+  Options one, two;
+  one.iteration_limit = two.iteration_limit = 8;
   two.threads = 2;
-  const Solution a = solve(problem), b = solve(problem, two);
+  const Solution a = solve(problem, one), b = solve(problem, two);
   EXPECT_EQ(a.x, b.x);
   EXPECT_EQ(a.X.values, b.X.values);
   EXPECT_EQ(a.Y.values, b.Y.values);
