@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <exception>
+#include <system_error>
 
 #include "base/file.h"
 #include "design/expectations.h"
@@ -42,23 +43,33 @@ class Job {
     sdp::Options solver;
     solver.interrupted = interrupted;
     const model::Gains gains = design::synthesize(loaded_.instance, solver);
-    std::filesystem::create_directories(folder_);
+    prepare_folder();
     write_atomically(folder_ / "gains.json", io::gains_text(gains));
     const auto campaign = verify_gains(gains);
     result.differences = design::differences(
         loaded_.instance, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
     result.exit = judge(*loaded_.problem, gains, campaign, result.differences);
-    result.line = verdict_line(gains) + "; " +
-                  (campaign ? campaign_line(*campaign) : "no campaign without gains");
+    result.line =
+        verdict_line(gains) + "; " + (campaign ? campaign_line(*campaign) : "no campaign");
     result.report = report(gains, campaign, result);
     write_atomically(folder_ / "summary.txt", summary(gains, campaign, result));
   }
 
  private:
-  /// A campaign when every gain has a value.
+  /// Makes the folder and removes what an earlier run left in it.
+  void prepare_folder() const {
+    std::error_code error;
+    std::filesystem::create_directories(folder_, error);
+    if (error) throw InputError({folder_.string()}, "cannot make this folder: " + error.message());
+    for (const char* name : {"gains.json", "campaign.json", "summary.txt", "worst-run.csv"})
+      std::filesystem::remove(folder_ / name, error);
+  }
+
+  /// A campaign when the method can be simulated and every gain has a value.
   std::optional<verify::Report> verify_gains(const model::Gains& gains) {
-    if (gains.gains.size() < loaded_.problem->method->gains.size() || gains.gains.empty())
-      return std::nullopt;
+    const model::Method& method = *loaded_.problem->method;
+    const bool simulated = method.timer && !method.claims.empty() && !method.gains.empty();
+    if (!simulated || gains.gains.size() < method.gains.size()) return std::nullopt;
     const verify::Report report = verify::run_campaign(
         loaded_.instance, gains, {options_.runs, options_.seed, options_.threads, {}});
     write_atomically(folder_ / "campaign.json", io::to_text(campaign_json(report)));

@@ -17,6 +17,31 @@ Loaded checked(model::Problem problem) {
   return loaded;
 }
 
+/// InputError when a file that says yes lacks a matrix of the method, or has another shape or
+/// parameter.
+void check_complete(const model::Gains& gains, const model::Instance& instance,
+                    const std::string& file) {
+  const auto require = [&](const std::string& name, expr::Shape shape) {
+    const expr::Matrix* found = gains.find(name);
+    if (found == nullptr)
+      throw InputError({file}, "the verdict is yes, but " + name + " is missing");
+    const expr::Shape actual{static_cast<int>(found->rows()), static_cast<int>(found->cols())};
+    if (actual != shape)
+      throw InputError({file},
+                       name + " is " + to_string(actual) + "; expected " + to_string(shape));
+  };
+  if (gains.verdict == model::Verdict::yes) {
+    for (const auto& [name, shape] : instance.unknowns) require(name, shape);
+    for (const auto& [name, shape] : model::gain_shapes(instance)) require(name, shape);
+  }
+  for (const auto& [name, value] : gains.parameters) {
+    const auto stated = instance.parameters.find(name);
+    if (stated == instance.parameters.end() || stated->second != value)
+      throw InputError({file},
+                       "parameters." + name + " differs from the problem that the file states");
+  }
+}
+
 }  // namespace
 
 io::MethodLibrary built_in_methods() {
@@ -30,6 +55,7 @@ Loaded load_problem(const std::filesystem::path& path) {
 LoadedGains load_gains(const std::filesystem::path& path) {
   model::Gains gains = io::parse_gains(read_text(path), path.string());
   Loaded stated = checked(io::stated_problem(gains, path.string()));
+  check_complete(gains, stated.instance, path.string());
   return {std::move(gains), std::move(stated)};
 }
 

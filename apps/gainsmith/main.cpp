@@ -3,9 +3,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
+#include <system_error>
 #include <vector>
 
 #include "base/error.h"
@@ -55,6 +57,8 @@ int main(int argc, char** argv) {
     gainsmith::app::add_methods(program, exit);
     refuse_unknown_word(program, argc, argv);
     program.parse(argc, argv);
+    if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
+      return report(ExitCode::bad_input, "cannot write to standard output");
     return static_cast<int>(exit);
   } catch (const CLI::CallForHelp& request) {
     return program.exit(request);
@@ -66,6 +70,8 @@ int main(int argc, char** argv) {
     program.exit(error);
     return static_cast<int>(ExitCode::bad_input);
   } catch (const gainsmith::InputError& error) {
+    return report(ExitCode::bad_input, error.what());
+  } catch (const std::system_error& error) {
     return report(ExitCode::bad_input, error.what());
   } catch (const std::bad_alloc&) {
     return report(ExitCode::fault, "out of memory");

@@ -119,7 +119,7 @@ std::string summary(const sdp::Solution& solution) {
         "certificate       checked on the raw data: {} = {}, residual {}, smallest eigenvalue {}\n",
         primal ? "F_0.Y" : "-c'x", brief(solution.certificate.value),
         brief(solution.certificate.residual, 3), brief(solution.certificate.min_eigenvalue, 3));
-    text += fmt::format("                  no {} solution is smaller than {}\n",
+    text += fmt::format("                  every {} solution is larger than {}\n",
                         primal ? "primal" : "dual", brief(solution.certificate.excluded_radius, 3));
   } else {
     text += fmt::format(

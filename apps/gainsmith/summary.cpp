@@ -24,8 +24,10 @@ std::string objective_text(const model::Gains& gains) {
   if (gains.objective_lower_bound) {
     const double price = *gains.objective - *gains.objective_lower_bound;
     const double relative = price / std::max(std::abs(*gains.objective), 1e-300);
-    text += fmt::format("  (no solution without margins is below {}: the margins cost at most {})",
-                        brief(*gains.objective_lower_bound, 10), brief(relative, 2));
+    text +=
+        fmt::format("  (no solution without margins{} is below {}: the margins cost at most {})",
+                    gains.bounds.empty() ? "" : ", within the gain bound,",
+                    brief(*gains.objective_lower_bound, 10), brief(relative, 2));
   }
   return text + "\n";
 }
@@ -48,9 +50,9 @@ std::string bounds_text(const model::Gains& gains) {
   std::string text;
   for (const model::GainBound& bound : gains.bounds)
     if (bound.active)
-      text += fmt::format(
-          "gain bound  active on {}: {} of the bound {}; nothing else limits this gain\n",
-          bound.what, brief(bound.reached), brief(bound.bound));
+      text +=
+          fmt::format("gain bound  active on {}: {} of the bound {}; the bound limits this gain\n",
+                      bound.what, brief(bound.reached), brief(bound.bound));
   return text;
 }
 
@@ -60,8 +62,7 @@ std::string certificate_text(const model::Gains& gains) {
   return fmt::format(
       "certificate multipliers Y >= 0 (smallest eigenvalue {}) with F_0.Y = {} and sum |F_i.Y| = "
       "{},\n"
-      "            recomputed from the problem's data: {}; no solution has entries below {} in "
-      "size\n",
+      "            recomputed from the problem's data: {}; every solution has an entry of at least {} in size\n",
       brief(c.min_eigenvalue, 3), brief(c.value), brief(c.residual, 3),
       c.checked ? "checked" : "NOT CHECKED", brief(c.excluded_radius, 3));
 }

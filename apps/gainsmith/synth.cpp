@@ -2,7 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
+#include <system_error>
 
 #include "base/file.h"
 #include "design/synthesize.h"
@@ -43,7 +45,16 @@ std::string json_text(const model::Gains& gains) {
   return io::to_text(document);
 }
 
+/// The gain file must not replace the problem.
+void refuse_overwriting(const SynthOptions& options) {
+  std::error_code ignored;
+  for (const std::string& path : {options.output, options.sdpa})
+    if (!path.empty() && std::filesystem::equivalent(path, options.problem, ignored))
+      throw InputError({path}, "this is the problem file; choose another output");
+}
+
 ExitCode synth(const SynthOptions& options) {
+  refuse_overwriting(options);
   const Loaded loaded = load_problem(options.problem);
   if (!options.sdpa.empty())
     write_atomically(options.sdpa, sdp::write_sdpa(design::semidefinite_program(loaded.instance)));

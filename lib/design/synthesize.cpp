@@ -51,6 +51,8 @@ class Synthesis {
     gains_.statement = model::statement_of(*instance.problem);
     for (const auto& parameter : instance.method->parameters)
       gains_.parameters.emplace_back(parameter.name, instance.parameters.at(parameter.name));
+    refuse_zero_solution();
+    options_.certificate_tolerance = std::min(options_.certificate_tolerance, kCertificateResidual);
     compile_seconds_ = seconds_since(start_);
   }
 
@@ -59,7 +61,7 @@ class Synthesis {
     if (solution_.status == sdp::Status::optimal) {
       accept_point();
     } else if (solution_.status == sdp::Status::primal_infeasible) {
-      accept_certificate();
+      decide_infeasible(formulation_.goal);
     } else if (solution_.status == sdp::Status::dual_infeasible) {
       gains_.solver.status = "undecided";
       gains_.solver.message =
@@ -72,6 +74,48 @@ class Synthesis {
   }
 
  private:
+  /// A certificate excludes solutions with entries below 1/residual in size: only far beyond what
+  /// can be built does that count as infeasible.
+  static constexpr double kCertificateResidual = 1e-12;
+
+  /// InputError when x = 0 satisfies everything because nothing is strict and nothing is constant.
+  void refuse_zero_solution() const {
+    const bool strict = std::any_of(lmi_.blocks.begin(), lmi_.blocks.end(),
+                                    [](const lmi::Block& block) { return block.strict; });
+    if (strict || !lmi::is_homogeneous(lmi_.blocks)) return;
+    const model::Requirement& first = instance_.method->require.front();
+    throw InputError(first.place,
+                     "every inequality is <= or >= without constant data, so 0 is a solution; make "
+                     "one strict (<, >)");
+  }
+
+  /// The gain bounds must not decide: without them either there is a certificate too, or that is
+  /// said.
+  void decide_infeasible(lmi::Goal goal) {
+    if (goal == lmi::Goal::feasibility) {
+      // Its certificate may rest on the limits on x.
+      solve(lmi::Goal::certificate);
+      if (solution_.status == sdp::Status::primal_infeasible) return decide_infeasible(lmi::Goal::certificate);
+      gains_.solver.status = "undecided";
+      gains_.solver.message = "solutions, if any, are far larger than the data suggest";
+      return;
+    }
+    if (bounds_.list.empty()) return accept_certificate();
+    const lmi::GainBounds bounds = std::exchange(bounds_, {});
+    const lmi::Formulation formulation = formulation_;
+    const sdp::Solution solution = solution_;
+    const model::SolverRecord record = gains_.solver;
+    solve(goal);
+    if (solution_.status == sdp::Status::primal_infeasible) return accept_certificate();
+    bounds_ = bounds;
+    formulation_ = formulation;
+    solution_ = solution;
+    gains_.solver = record;
+    accept_certificate();
+    gains_.solver.message = "no gains within the gain bound " + brief(bounds_.beta) +
+                            ": the certificate needs it; raise synthesis.gain_bound";
+  }
+
   void solve(lmi::Goal goal, double backoff = 0) {
     const auto start = Clock::now();
     formulation_ = lmi::formulate(lmi_, bounds_, choices_, goal, backoff);
@@ -82,20 +126,26 @@ class Synthesis {
 
   void accept_point() {
     const bool has_margin_variable = formulation_.goal == lmi::Goal::feasibility;
-    if (has_margin_variable && solution_.x.back() < choices_.margin) {
+    const double largest_margin = solution_.x.back();
+    if (has_margin_variable && largest_margin < choices_.margin) {
       solve(lmi::Goal::certificate);
-      if (solution_.status == sdp::Status::primal_infeasible) return accept_certificate();
+      if (solution_.status == sdp::Status::primal_infeasible)
+        return decide_infeasible(lmi::Goal::certificate);
       gains_.solver.status = "undecided";
       gains_.solver.message =
-          "the largest margin is " + brief(solution_.x.back()) + ", below the one asked for";
+          "the largest margin is " + brief(largest_margin) + ", below the one asked for";
       return;
     }
     read_margins();
     if (const double short_by = shortfall(); short_by > 0) {
       constexpr double kSafety = 4;
       const sdp::Solution first = solution_;
+      const lmi::Formulation first_formulation = formulation_;
       solve(formulation_.goal, kSafety * short_by);
-      if (solution_.status != sdp::Status::optimal) solution_ = first;
+      if (solution_.status != sdp::Status::optimal) {
+        solution_ = first;
+        formulation_ = first_formulation;
+      }
       gains_.solver = record_of(solution_);
       read_margins();
     }
@@ -216,7 +266,7 @@ class Synthesis {
 
   Clock::time_point start_ = Clock::now();
   const model::Instance& instance_;
-  const sdp::Options& options_;
+  sdp::Options options_;
   const model::SynthesisOptions& choices_;
   lmi::Lmi lmi_;
   lmi::GainBounds bounds_;

@@ -12,8 +12,11 @@ namespace gainsmith::design {
 /// verdict yes: every inequality holds at the matrices as written (margins recomputed in double),
 /// the solver
 ///   said optimal, and strict inequalities keep the margin that was asked for up to 1 %.
-/// verdict no: there is no solution, by a Farkas certificate that was checked on the raw data; the
-///   certificate and its multipliers are stored.
+/// verdict no: a Farkas certificate that was checked on the raw data excludes every solution with
+/// entries below
+///   1e12 times the size that the data set (of a homogeneous problem: with a relative margin above
+///   1e-12); it is stored with its multipliers. When only the gain bound makes it so, the message
+///   says so.
 /// verdict undecided: neither, with the cause. Then no gains are given but those that the method
 /// takes as
 ///   data.

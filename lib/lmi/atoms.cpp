@@ -26,47 +26,62 @@ std::string to_string(const Atom& atom, const std::string& variable) {
 
 namespace {
 
-double derivative(const Atom& atom, double t) {
-  const double b = atom.frequency;
-  const double wave = atom.sine ? std::sin(b * t) : std::cos(b * t);
-  const double wave_slope = atom.sine ? b * std::cos(b * t) : -b * std::sin(b * t);
-  const double power = std::pow(t, atom.power);
-  const double power_slope = atom.power == 0 ? 0 : atom.power * std::pow(t, atom.power - 1);
-  return std::exp(atom.rate * t) * ((power_slope + atom.rate * power) * wave + power * wave_slope);
+void meet(Range& range, double value) {
+  range.low = std::min(range.low, value);
+  range.high = std::max(range.high, value);
 }
 
-/// A zero of the derivative between two points of different sign.
-double stationary_point(const Atom& atom, double low, double high) {
-  const bool rising = derivative(atom, low) > 0;
-  for (int step = 0; step < 200 && low < high; ++step) {
-    const double middle = low + (high - low) / 2;
-    if (middle == low || middle == high) break;
-    ((derivative(atom, middle) > 0) == rising ? low : high) = middle;
+/// t^k exp(a t): stationary at 0 and at -k/a.
+Range envelope_range(const Atom& atom, double begin, double end) {
+  const Atom envelope{atom.power, atom.rate, 0, false};
+  Range result{evaluate(envelope, begin), evaluate(envelope, begin)};
+  meet(result, evaluate(envelope, end));
+  if (begin < 0 && end > 0) meet(result, evaluate(envelope, 0));
+  const double peak = atom.rate == 0 ? 0 : -atom.power / atom.rate;
+  if (begin < peak && peak < end) meet(result, evaluate(envelope, peak));
+  return result;
+}
+
+/// exp(a t) cos(b t) or sin: stationary where tan(b t) = a/b or tan(b t) = -b/a, half a wave apart;
+/// the envelope is monotone, so the two stationary points next to either end hold the extremes.
+Range wave_range(const Atom& atom, double begin, double end) {
+  const double b = atom.frequency;
+  const double first = (atom.sine ? std::atan2(-b, atom.rate) : std::atan2(atom.rate, b)) / b;
+  const double half_wave = std::numbers::pi / b;
+  Range result{evaluate(atom, begin), evaluate(atom, begin)};
+  meet(result, evaluate(atom, end));
+  const double from = std::ceil((begin - first) / half_wave);
+  const double to = std::floor((end - first) / half_wave);
+  for (const double m : {from, from + 1, to - 1, to})
+    if (m >= from && m <= to)
+      meet(result, evaluate(atom, std::clamp(first + m * half_wave, begin, end)));
+  return result;
+}
+
+/// t^k exp(a t) cos(b t), k > 0: interval products on pieces, a bound from outside that tightens
+/// with their number.
+Range product_range(const Atom& atom, double begin, double end) {
+  constexpr double kPiecesPerHalfWave = 64;
+  constexpr double kMostPieces = 1e5;
+  const double half_waves = atom.frequency * (end - begin) / std::numbers::pi;
+  const int pieces = static_cast<int>(std::min(kMostPieces, kPiecesPerHalfWave * (2 + half_waves)));
+  Range result{evaluate(atom, begin), evaluate(atom, begin)};
+  for (int i = 0; i < pieces; ++i) {
+    const double left = begin + (end - begin) * i / pieces;
+    const double right = i + 1 == pieces ? end : begin + (end - begin) * (i + 1) / pieces;
+    const Range envelope = envelope_range(atom, left, right);
+    const Range wave = wave_range({0, 0, atom.frequency, atom.sine}, left, right);
+    for (const double x : {envelope.low, envelope.high})
+      for (const double y : {wave.low, wave.high}) meet(result, x * y);
   }
-  return low;
+  return result;
 }
 
 }  // namespace
 
 Range range(const Atom& atom, double begin, double end) {
-  std::vector<double> candidates = {begin, end};
-  if (begin < 0 && end > 0) candidates.push_back(0);
-  // The derivative is exp(a t) times a function with at most k + 1 zeros per half wave.
-  const double half_waves = atom.frequency * (end - begin) / std::numbers::pi;
-  const int pieces = 8 * (atom.power + 2) * (1 + static_cast<int>(std::ceil(half_waves)));
-  double left = begin;
-  for (int i = 1; i <= pieces; ++i) {
-    const double right = i == pieces ? end : begin + (end - begin) * i / pieces;
-    if ((derivative(atom, left) > 0) != (derivative(atom, right) > 0))
-      candidates.push_back(stationary_point(atom, left, right));
-    left = right;
-  }
-  Range result{evaluate(atom, begin), evaluate(atom, begin)};
-  for (const double t : candidates) {
-    result.low = std::min(result.low, evaluate(atom, t));
-    result.high = std::max(result.high, evaluate(atom, t));
-  }
-  return result;
+  if (atom.frequency == 0) return envelope_range(atom, begin, end);
+  return atom.power == 0 ? wave_range(atom, begin, end) : product_range(atom, begin, end);
 }
 
 int AtomTable::index(const Atom& atom) {

@@ -166,7 +166,13 @@ void add_vertices(const AffineForm& form, const AtomTable& atoms, const Interval
                                 interval.variable + "; the box of more than " +
                                 std::to_string(kMostAtoms) + " has too many vertices");
   std::vector<Range> ranges;
-  for (const int atom : used) ranges.push_back(range(atoms[atom], interval.low, interval.high));
+  for (const int atom : used) {
+    ranges.push_back(range(atoms[atom], interval.low, interval.high));
+    if (!std::isfinite(ranges.back().low) || !std::isfinite(ranges.back().high))
+      throw InputError(place, to_string(atoms[atom], interval.variable) +
+                                  " is too large for double on [" + brief(interval.low) + ", " +
+                                  brief(interval.high) + "]");
+  }
   for (std::size_t vertex = 0; vertex < (std::size_t{1} << used.size()); ++vertex) {
     std::map<int, double> values;
     bool repeated = false;

@@ -169,9 +169,9 @@ Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
     const Block& block = lmi.blocks[k];
     const double unit = block.strict ? result.scales[k] : 0.0;
     const bool variable_margin = goal == Goal::feasibility;
-    assembler.add(
-        block, result.releases.kept[k],
+    result.shifts.push_back(
         variable_margin ? 0.0 : unit * result.strict_margin() + backoff * result.scales[k]);
+    assembler.add(block, result.releases.kept[k], result.shifts.back());
     if (variable_margin && block.strict)
       assembler.add_identity(own, static_cast<int>(k), block.size, -unit / result.unit);
   }
@@ -183,9 +183,7 @@ Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
     add_limits(assembler, m, 0, kLimit);
     add_cap(assembler, own);
     assembler.set_cost(own, -1);
-  } else if (goal == Goal::certificate) {
-    add_limits(assembler, m, 0, kLimit);
-  } else {
+  } else if (goal != Goal::certificate) {
     for (int i = 1; i <= m; ++i)
       assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1]);
   }
@@ -208,13 +206,12 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
 
 double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
                              const sdp::Solution& solution) {
-  // F_0 holds the margins as +margin s_k on the diagonal of strict blocks: take them out again.
+  // F_0 holds the shifts on the diagonals: take them out again.
   double bound = formulation.unit * solution.dual_objective + lmi.objective_constant;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
-    if (!lmi.blocks[k].strict) continue;
     const std::size_t n = formulation.releases.kept[k].size();
     for (std::size_t i = 0; i < n; ++i)
-      bound -= formulation.margin * formulation.scales[k] * solution.Y.values[k][i * n + i];
+      bound -= formulation.shifts[k] * solution.Y.values[k][i * n + i];
   }
   return bound;
 }

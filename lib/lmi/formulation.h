@@ -48,7 +48,8 @@ struct Formulation {
   std::vector<double> scales;  ///< s_k, or c_k when homogeneous; one a block of the Lmi
   sdp::Problem problem;  ///< its first blocks are those of the Lmi, then the gain bounds, then
                          ///< limits on x
-  Releases releases;     ///< scalars left out, and the rows of each block that stay
+  std::vector<double> shifts;  ///< what B_k(x) must keep: margin and back-off, in the data's units
+  Releases releases;           ///< scalars left out, and the rows of each block that stay
 
   bool homogeneous() const {
     return goal == Goal::normalised_objective || goal == Goal::homogeneous_feasibility;

@@ -22,17 +22,27 @@ double smallest_eigenvalue(const expr::Matrix& matrix) {
 /// The smallest eigenvalue met so far, and where.
 struct Worst {
   double value = std::numeric_limits<double>::infinity();
-  double element = 0;  ///< largest |element| of that block
   std::string point;
 
   void meet(const expr::Matrix& block, const std::string& where) {
     const double found = smallest_eigenvalue(block);
     if (!(found < value)) return;
     value = found;
-    element = block.cwiseAbs().maxCoeff();
     point = where;
   }
 };
+
+/// The largest |element| of a term x_i B_i: what cancels in a block is known to rounding of this.
+double term_size(const Block& block, const std::vector<double>& x) {
+  double size = 0;
+  for (const auto& [i, matrix] : block.terms) {
+    const double factor = i == 0 ? 1.0 : std::abs(x[static_cast<std::size_t>(i) - 1]);
+    for (int k = 0; k < matrix.outerSize(); ++k)
+      for (Sparse::InnerIterator it(matrix, k); it; ++it)
+        size = std::max(size, factor * std::abs(it.value()));
+  }
+  return size;
+}
 
 /// Every point of `forall`: elements of sets and, of an interval, equidistant points.
 void sample(const model::Instance& instance, const model::Requirement& requirement,
@@ -67,7 +77,7 @@ void sample(const model::Instance& instance, const model::Requirement& requireme
 std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& lmi,
                                    const std::vector<double>& scales, bool homogeneous,
                                    double required, const std::vector<double>& x) {
-  constexpr double kRounding = 1e-12;
+  constexpr double kRounding = 1e-11;
   double size = 0;
   for (const double value : x) size = std::max(size, std::abs(value));
   expr::Values values = instance.known_values();
@@ -86,13 +96,16 @@ std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& l
       margin.scale = scales[at] * (homogeneous ? size : 1.0);
       margin.required = relation.strict ? required : 0.0;
       Worst worst;
-      for (; at < lmi.blocks.size() && lmi.blocks[at].name == margin.name; ++at)
+      double terms = 0;
+      for (; at < lmi.blocks.size() && lmi.blocks[at].name == margin.name; ++at) {
         worst.meet(lmi.blocks[at].value(x), lmi.blocks[at].point);
+        terms = std::max(terms, term_size(lmi.blocks[at], x));
+      }
       sample(instance, requirement, 0, values, "", relation.difference, worst);
       margin.smallest_eigenvalue = worst.value;
       margin.worst_point = worst.point;
       margin.reached = margin.scale > 0 ? worst.value / margin.scale : 0.0;
-      margin.holds = relation.strict ? worst.value > 0 : worst.value >= -kRounding * worst.element;
+      margin.holds = relation.strict ? worst.value > 0 : worst.value >= -kRounding * terms;
       result.push_back(std::move(margin));
     }
   }

@@ -14,8 +14,8 @@ namespace gainsmith::lmi {
 ///  double,
 /// so that a mistake in compiling the blocks shows up as a margin that does not hold. `scale` of a
 /// homogeneous problem is the coefficients' size times the largest |x_i|. A strict inequality holds
-/// when its smallest eigenvalue is positive, another when it is above -1e-12 times the block's
-/// largest element.
+/// when its smallest eigenvalue is positive, another when it is above -1e-11 times the largest
+/// element of a term x_i B_i.
 std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& lmi,
                                    const std::vector<double>& scales, bool homogeneous,
                                    double required, const std::vector<double>& x);

@@ -42,6 +42,14 @@ double release_sign(const Lmi& lmi, int i) {
   return sign;
 }
 
+/// Whether every block keeps a row that scalar i does not cover.
+bool leaves_rows(const Lmi& lmi, int i) {
+  return std::all_of(lmi.blocks.begin(), lmi.blocks.end(), [&](const Block& block) {
+    const Sparse* matrix = coefficient(block, i);
+    return matrix == nullptr || matrix->nonZeros() < block.size;
+  });
+}
+
 double smallest_eigenvalue(const expr::Matrix& matrix) {
   return Eigen::SelfAdjointEigenSolver<expr::Matrix>(matrix, Eigen::EigenvaluesOnly)
       .eigenvalues()(0);
@@ -71,7 +79,8 @@ Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others) 
       return coefficient(*block, i) != nullptr;
     });
     const double sign = release_sign(lmi, i);
-    if (lmi.objective[static_cast<std::size_t>(i) - 1] == 0 && !elsewhere && sign != 0)
+    if (lmi.objective[static_cast<std::size_t>(i) - 1] == 0 && !elsewhere && sign != 0 &&
+        leaves_rows(lmi, i))
       result.list.push_back({i, sign});
   }
   for (const Block& block : lmi.blocks) {

@@ -50,6 +50,10 @@ double largest_state(const Arc& arc, std::size_t last) {
   return arc.states().leftCols(static_cast<Index>(last) + 1).cwiseAbs().maxCoeff();
 }
 
+/// Rounding excuses no value larger than the one at the start: then nothing of the claim is left to
+/// see.
+double forgiven(double floor, double start) { return std::min(floor, std::abs(start)); }
+
 }  // namespace
 
 Check::Check(const CompiledClaim& claim, const hybrid::System& system, const hybrid::Steps& steps)
@@ -119,7 +123,7 @@ Finding Check::nonincreasing(const Arc& arc) {
       Eigen::Map<const Eigen::VectorXd>(scales.data(), static_cast<Index>(scales.size())));
   for (std::size_t i = 0; i < rising.size(); ++i) {
     const double value = v(static_cast<Index>(rising[i]));
-    if (!exceeds(value, bounds[i], v(0), floors(static_cast<Index>(i)))) continue;
+    if (!exceeds(value, bounds[i], v(0), forgiven(floors(static_cast<Index>(i)), v(0)))) continue;
     const double score = score_of(value - bounds[i], v(0), true);
     if (worst.violated && !(score > worst.score)) continue;
     worst = finding_at(arc, rising[i], value, bounds[i]);
@@ -137,8 +141,9 @@ Finding Check::cost(const Arc& arc) {
     if (!(c(k) <= c(worst))) worst = k;
   const auto sample = static_cast<std::size_t>(worst);
   Finding finding = finding_at(arc, sample, c(worst), bound);
-  finding.violated = exceeds(c(worst), bound, bound) &&
-                     exceeds(c(worst), bound, bound, rounding_floor(arc, 0, sample));
+  finding.violated =
+      exceeds(c(worst), bound, bound) &&
+      exceeds(c(worst), bound, bound, forgiven(rounding_floor(arc, 0, sample), bound));
   finding.score = score_of(c(worst) - bound, bound, finding.violated);
   return finding;
 }
@@ -150,8 +155,9 @@ Finding Check::shrinks(const Arc& arc) {
   Finding finding = finding_at(arc, last, value_at(arc, last), factor * start);
   if (start == 0) return finding;
   const double bound = finding.bound;
-  finding.violated = exceeds(finding.value, bound, bound) &&
-                     exceeds(finding.value, bound, bound, rounding_floor(arc, last, last));
+  finding.violated =
+      exceeds(finding.value, bound, bound) &&
+      exceeds(finding.value, bound, bound, forgiven(rounding_floor(arc, last, last), start));
   finding.score = score_of(finding.value - bound, bound, finding.violated);
   return finding;
 }

@@ -34,8 +34,12 @@ CompiledClaim compile_claim(const model::Claim& claim, const hybrid::System& sys
 std::vector<CompiledClaim> compile_claims(const model::Instance& instance,
                                           const hybrid::System& system) {
   std::vector<CompiledClaim> claims;
-  for (const model::Claim& claim : instance.method->claims)
+  for (const model::Claim& claim : instance.method->claims) {
     claims.push_back(compile_claim(claim, system));
+    // How far an error shrinks says something only about a time that somebody chose.
+    if (claim.kind == model::Claim::Kind::shrinks && !instance.problem->campaign.horizon)
+      claims.back().missing.emplace_back("campaign.horizon");
+  }
   return claims;
 }
 

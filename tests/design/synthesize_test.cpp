@@ -5,6 +5,7 @@
 #include <Eigen/Eigenvalues>
 #include <random>
 
+#include "support/input_error.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::design {
@@ -138,6 +139,81 @@ TEST(SynthesizeTest, ScalarInequalitiesThatHoldWithEqualityAreKept) {
     ASSERT_TRUE(found.objective);
     EXPECT_NEAR(*found.objective, 2, 1e-5);
   }
+}
+
+/// Neither the limits on x nor the bound on the gain may pass for a proof.
+TEST(SynthesizeTest, OnlyTheProblemItselfMakesItInfeasible) {
+  const model::Gains far = solve(
+      "problem: p\nmethod: {method: m, data: {a: scalar}, unknowns: {x: scalar}, require: {a: x >= "
+      "1, b: 1e-8*x >= a}}\n"
+      "data: {a: 1}\n");
+  EXPECT_EQ(far.verdict, model::Verdict::undecided);
+  EXPECT_NE(far.solver.message.find("larger than the data suggest"), std::string::npos);
+  const auto feedback = [](const std::string& bound) {
+    return solve(
+        "problem: p\nmethod:\n  method: m\n  data: {A: n x n, B: n x m}\n  unknowns: {P: symmetric "
+        "n, Y: m x n}\n"
+        "  require: {p: P > 0, s: He(A*P + B*Y) < 0}\n  gains: {K: Y*inv(P)}\ndata: {A: [[1000]], "
+        "B: [[1]]}\n"
+        "synthesis: {gain_bound: " +
+        bound + "}\n");
+  };
+  EXPECT_EQ(feedback("none").verdict, model::Verdict::yes);
+  const model::Gains bounded = feedback("10");
+  EXPECT_EQ(bounded.verdict, model::Verdict::no);
+  EXPECT_NE(bounded.solver.message.find("gain bound 10"), std::string::npos)
+      << bounded.solver.message;
+}
+
+/// P = 5e8 I solves it: a certificate that excludes entries below 1e8 is no proof.
+TEST(SynthesizeTest, LargeSolutionsAreNotCalledInfeasible) {
+  const model::Gains found = solve(
+      "problem: p\nmethod: {method: m, data: {A: n x n}, unknowns: {P: symmetric n}, require: {p: "
+      "P >= 0, s: He(P*A) + I <= 0},\n"
+      "  minimize: trace(P)}\ndata: {A: [[-1e-9, 1], [-1, -1e-9]]}\n");
+  EXPECT_NE(found.verdict, model::Verdict::no);
+}
+
+TEST(SynthesizeTest, TheZeroSolutionIsRefused) {
+  const InputError error = tests::input_error([] {
+    solve(
+        "problem: p\nmethod: {method: m, data: {A: n x n}, unknowns: {P: symmetric n}, require: "
+        "{p: P >= 0, s: He(P*A) <= 0}}\n"
+        "data: {A: [[-1, 0], [0, -1]]}\n");
+  });
+  EXPECT_NE(error.message().find("0 is a solution"), std::string::npos);
+}
+
+/// He(P*A) <= 0 has no interior for an oscillator: it holds up to rounding or not at all.
+TEST(SynthesizeTest, InequalitiesWithoutInterior) {
+  const model::Gains found = solve(
+      "problem: p\nmethod: {method: m, data: {A: n x n}, unknowns: {P: symmetric n}, require: {p: "
+      "P > 0, s: He(P*A) <= 0}}\n"
+      "data: {A: [[0, 1], [-3, 0]]}\n");
+  EXPECT_EQ(found.verdict, model::Verdict::yes) << found.solver.message;
+  const expr::Matrix& P = *found.find("P");
+  EXPECT_NEAR(P(0, 0) / P(1, 1), 3, 1e-6);
+}
+
+TEST(SynthesizeTest, AScalarThatCostsNothingMayFillABlock) {
+  const model::Gains found = solve(
+      "problem: p\nmethod: {method: m, data: {A: n x n}, unknowns: {P: symmetric n, g: scalar}, "
+      "require: {p: P > A, s: g > 1},\n"
+      "  minimize: trace(P)}\ndata: {A: [[1, 1], [1, 3]]}\n");
+  ASSERT_EQ(found.verdict, model::Verdict::yes) << found.solver.message;
+  EXPECT_GT((*found.find("g"))(0, 0), 1);
+  EXPECT_NEAR(*found.objective, 4, 1e-5);
+}
+
+TEST(SynthesizeTest, FunctionsOfTauBeyondDoubleAreRefused) {
+  const InputError error = tests::input_error([] {
+    solve(
+        "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n  "
+        "require:\n"
+        "    p: {forall: \"tau in [0, 10]\", that: exp(1000*tau)*P > A}\n  minimize: "
+        "trace(P)\ndata: {A: [[1, 1], [1, 3]]}\n");
+  });
+  EXPECT_NE(error.message().find("too large for double"), std::string::npos);
 }
 
 TEST(SynthesizeTest, AnUnboundedObjectiveIsNoAnswer) {

@@ -41,6 +41,27 @@ TEST(CommandLineTest, MethodsAreListedAndPrintedAsText) {
   }
 }
 
+TEST(CommandLineTest, AGainFileDoesNotReplaceItsProblem) {
+  const Folder folder;
+  const std::string file =
+      folder.file("p.yaml", text_of(problem("own-lmi/quadratic-stability.yaml")));
+  EXPECT_EQ(gainsmith({"synth", file, "-o", file}).exit, 2);
+  EXPECT_EQ(text_of(file), text_of(problem("own-lmi/quadratic-stability.yaml")));
+}
+
+TEST(CommandLineTest, RunTakesAMethodThatCannotBeSimulated) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "sf.yaml",
+      "problem: sf\nmethod:\n  method: state-feedback\n  data: {A: n x n, B: n x m}\n  unknowns: "
+      "{P: symmetric n, Y: m x n}\n"
+      "  require: {p: P > I, s: He(A*P + B*Y) < 0}\n  minimize: trace(P)\n  gains: {K: Y*inv(P)}\n"
+      "data: {A: [[0, 1], [2, 1]], B: [[0], [1]]}\n");
+  const Outcome outcome = gainsmith({"run", file, "-o", folder.path("out")});
+  EXPECT_EQ(outcome.exit, 0) << outcome.out;
+  EXPECT_NE(outcome.out.find("no campaign"), std::string::npos);
+}
+
 TEST(CommandLineTest, TheVersionIsPrinted) {
   const Outcome outcome = gainsmith({"--version"});
   EXPECT_EQ(outcome.exit, 0);

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <regex>
 #include <sstream>
 
 #include "base/file.h"
@@ -35,8 +36,8 @@ TEST(SynthTest, JsonHasTheDocumentedKeys) {
   EXPECT_LE(document["objective_lower_bound"].get<double>(), document["objective"].get<double>());
 }
 
-/// Theorem 3 for the gains as written: (8) and V evaluated here, not by the program.
-TEST(SynthTest, TheWrittenGainsSatisfyTheTheoremsInequality) {
+/// (23): H = inv(P2) X - C inv(P1) Y.
+TEST(SynthTest, TheWrittenGainsAreThoseOfTheWrittenUnknowns) {
   const Folder folder;
   const Json gains = Json::parse(text_of(synthesized(folder, kTheorem)));
   const double P2 = gains["unknowns"]["P2"];
@@ -125,6 +126,31 @@ TEST(VerifyTest, AViolationReplaysFromItsSeedAndRun) {
   for (const auto& check : report["checks"])
     if (check["claim"] == "error") worst = check["worst"]["value"].get<double>();
   EXPECT_DOUBLE_EQ(std::stod(column(last, at)), worst);
+}
+
+TEST(VerifyTest, AYesWithoutItsMatricesIsRefused) {
+  const Folder folder;
+  Json gains = Json::parse(text_of(synthesized(folder, kTheorem)));
+  Json stripped = gains;
+  stripped["unknowns"].erase("P2");
+  const Outcome missing = gainsmith({"verify", folder.file("stripped.json", stripped.dump())});
+  EXPECT_EQ(missing.exit, 2);
+  EXPECT_NE(missing.err.find("P2 is missing"), std::string::npos) << missing.err;
+  gains["parameters"]["shrink"] = 1e9;
+  const Outcome changed = gainsmith({"verify", folder.file("changed.json", gains.dump())});
+  EXPECT_EQ(changed.exit, 2);
+  EXPECT_NE(changed.err.find("parameters.shrink"), std::string::npos) << changed.err;
+}
+
+/// Over so long a horizon the plant grows until rounding hides the error: that is not "held".
+TEST(VerifyTest, AnUnstableObserverIsNotHeldByRounding) {
+  const Folder folder;
+  const std::string text = text_of(problem("ferrante-seuret-2021/row-3.yaml"));
+  const std::string longer = folder.file(
+      "long.yaml", std::regex_replace(text, std::regex("horizon: 100"), "horizon: 500"));
+  const std::string path = folder.path("long.json");
+  ASSERT_EQ(gainsmith({"synth", longer, "-o", path}).exit, 1);
+  EXPECT_EQ(gainsmith({"verify", path, "--runs", "10"}).exit, 1);
 }
 
 TEST(VerifyTest, AFileWithoutGainsIsRefused) {
