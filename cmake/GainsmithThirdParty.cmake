@@ -1,0 +1,14 @@
+# Libraries whose Debian packages give a shared library as their target, under names that are static when
+# GAINSMITH_STATIC is on.
+add_library(gainsmith_fmt INTERFACE)
+add_library(third_party::fmt ALIAS gainsmith_fmt)
+add_library(gainsmith_yaml INTERFACE)
+add_library(third_party::yaml ALIAS gainsmith_yaml)
+if(GAINSMITH_STATIC)
+  target_link_libraries(gainsmith_fmt INTERFACE fmt::fmt-header-only)
+  find_library(GAINSMITH_YAML_ARCHIVE yaml-cpp REQUIRED)
+  target_link_libraries(gainsmith_yaml INTERFACE "${GAINSMITH_YAML_ARCHIVE}")
+else()
+  target_link_libraries(gainsmith_fmt INTERFACE fmt::fmt)
+  target_link_libraries(gainsmith_yaml INTERFACE yaml-cpp)
+endif()
