@@ -139,7 +139,7 @@ void require_a_claim(const model::Method& method, const std::vector<CompiledClai
     throw InputError(place, "the method makes no claims, so there is nothing to verify");
   for (const CompiledClaim& claim : claims)
     if (claim.stated()) return;
-  throw InputError(place, "no claim can be checked: the gain file has no value for " +
+  throw InputError(place, "no claim can be checked: there is no value for " +
                               claims.front().missing.front() + ", which '" + claims.front().name +
                               "' needs");
 }

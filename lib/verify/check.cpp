@@ -51,8 +51,10 @@ double largest_state(const Arc& arc, std::size_t last) {
 }
 
 /// Rounding excuses no value larger than the one at the start: then nothing of the claim is left to
-/// see.
-double forgiven(double floor, double start) { return std::min(floor, std::abs(start)); }
+/// see. A start at exactly 0 has no size of its own.
+double forgiven(double floor, double start) {
+  return start == 0 ? floor : std::min(floor, std::abs(start));
+}
 
 }  // namespace
 

@@ -60,7 +60,10 @@ TEST(Campaign, PublishedRowTwoShrinksItsErrorInEveryRun) {
 
 TEST(Campaign, PublishedRowThreeIsCaughtAtTheLongestInterval) {
   TextProblem problem = row_three();
-  problem.runs(30).shrinks("shrinks", "norm(e)", "0.5").law(SamplingLaw::Kind::constant, {"T1"});
+  problem.runs(30)
+      .horizon("44")
+      .shrinks("shrinks", "norm(e)", "0.5")
+      .law(SamplingLaw::Kind::constant, {"T1"});
   problem.law(SamplingLaw::Kind::constant, {"T2"});
   const Report report = run(problem);
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
@@ -87,7 +90,7 @@ TEST(Campaign, ReportDoesNotDependOnTheNumberOfThreads) {
 
 TEST(Campaign, ProgressReachesTheNumberOfRuns) {
   TextProblem problem = row_two();
-  problem.shrinks("shrinks", "norm(e)", "1");
+  problem.horizon("44").shrinks("shrinks", "norm(e)", "1");
   std::vector<std::uint64_t> seen;
   const auto note = [&](std::uint64_t done, std::uint64_t all) {
     EXPECT_EQ(all, 100U);
@@ -132,7 +135,7 @@ TEST(Campaign, HeldCampaignNamesTheRunNearestToViolation) {
 TEST(Campaign, ClaimWithoutValuesIsNotStated) {
   TextProblem problem = row_two();
   problem.unknown("P1", "symmetric n").runs(10);
-  problem.nonincreasing("V", "e'*P1*e").shrinks("shrinks", "norm(e)", "1");
+  problem.horizon("44").nonincreasing("V", "e'*P1*e").shrinks("shrinks", "norm(e)", "1");
   const Report report = run(problem);
   EXPECT_EQ(report.verdict, CampaignVerdict::held);
   EXPECT_FALSE(report.checks[0].stated);
@@ -175,6 +178,15 @@ TEST(Campaign, RefusesZeroRuns) {
   TextProblem problem = growing();
   problem.shrinks("bounded", "x", "10");
   EXPECT_THROW(run(problem, {.runs = 0, .seed = {}, .threads = 1, .progress = {}}), InputError);
+}
+
+TEST(Campaign, HowFarAnErrorShrinksNeedsAHorizon) {
+  TextProblem problem = row_two();
+  problem.runs(5).nonincreasing("zero", "0*norm(e)").shrinks("shrinks", "norm(e)", "0.01");
+  const Report report = run(problem);
+  ASSERT_EQ(report.checks.size(), 2U);
+  EXPECT_FALSE(report.checks[1].stated);
+  EXPECT_EQ(report.checks[1].missing, std::vector<std::string>{"campaign.horizon"});
 }
 
 TEST(Campaign, ExactEstimateHoldsInSpiteOfRounding) {

@@ -158,7 +158,7 @@ TEST(Shrinks, ComparesTheEndWithTheStart) {
 
 TEST(Shrinks, StartAtZeroHolds) {
   TextProblem problem = linear_plant("[0, 1; 0, 0]");
-  problem.shrinks("grows", "abs(x(1) - 1)", "0.1");
+  problem.horizon("40").shrinks("grows", "abs(x(1) - 1)", "0.1");
   const Finding finding = check(problem).findings[0];
   EXPECT_FALSE(finding.violated);
   EXPECT_EQ(finding.score, -1);
