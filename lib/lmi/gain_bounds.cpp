@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "expr/compile.h"
@@ -39,10 +41,10 @@ void factors_of(const NodePtr& node, std::vector<NodePtr>& factors) {
   factors_of(node->children[1], factors);
 }
 
-/// A product inv(S)*E, or E*inv(S) (then `left` is false).
+/// A product inv(S)*E, or E*inv(S) (then `left` is false); E is the product of the factors.
 struct Product {
   const Unknown* unknown = nullptr;
-  NodePtr factor;
+  std::vector<NodePtr> factors;
   bool left = true;
 };
 
@@ -51,13 +53,40 @@ void products_in(const NodePtr& node, const Unknowns& unknowns, std::vector<Prod
   factors_of(node, factors);
   for (std::size_t k = 0; k < factors.size(); ++k) {
     const Unknown* unknown = inverse_of(*factors[k], unknowns);
+    const auto at = factors.begin() + static_cast<std::ptrdiff_t>(k);
     if (unknown != nullptr && k + 1 < factors.size())
-      found.push_back({unknown, factors[k + 1], true});
+      found.push_back({unknown, {at + 1, factors.end()}, true});
     if (unknown != nullptr && k + 1 == factors.size() && k > 0)
-      found.push_back({unknown, factors[k - 1], false});
+      found.push_back({unknown, {factors.begin(), at}, false});
     if (unknown == nullptr)
       for (const NodePtr& child : factors[k]->children) products_in(child, unknowns, found);
   }
+}
+
+/// The product of factors as one expression.
+NodePtr product_of(const std::vector<NodePtr>& factors) {
+  NodePtr product = factors.front();
+  for (std::size_t k = 1; k < factors.size(); ++k) {
+    auto node = std::make_shared<Node>();
+    node->kind = NodeKind::multiply;
+    node->begin = factors.front()->begin;
+    node->end = factors[k]->end;
+    node->children = {product, factors[k]};
+    product = node;
+  }
+  return product;
+}
+
+/// The factors as they are written.
+std::string text_of(const expr::Expression& expression, const std::vector<NodePtr>& factors) {
+  std::string text;
+  for (const NodePtr& factor : factors) {
+    const std::string part =
+        expression.text->str().substr(factor->begin, factor->end - factor->begin);
+    const bool sum = factor->kind == NodeKind::add || factor->kind == NodeKind::subtract;
+    text += (text.empty() ? "" : "*") + (sum ? "(" + part + ")" : part);
+  }
+  return text;
 }
 
 AffineForm form_of(const model::Instance& instance, const Unknowns& unknowns,
@@ -120,31 +149,43 @@ class Collector {
 
   GainBounds collect() {
     for (const model::Named& gain : instance_.method->gains) {
-      const Node& root = *gain.value.root;
-      const Unknown* itself = root.kind == NodeKind::name ? unknowns_.find(root.text) : nullptr;
-      if (itself != nullptr) {
-        const int rows = itself->shape.rows;
-        add({itself->name, constant_form(expr::Matrix::Identity(rows, rows)), unknown_form(*itself),
-             0});
-        continue;
-      }
       std::vector<Product> products;
       products_in(gain.value.root, unknowns_, products);
       for (const Product& product : products) add_product(gain, product);
+      if (!products.empty()) continue;
+      const auto affine = affine_form({gain.value.text, gain.value.root});
+      if (!affine || !affine->has_unknown()) continue;
+      const int rows = affine->shape.rows;
+      add({text_of(gain.value, {gain.value.root}),
+           constant_form(expr::Matrix::Identity(rows, rows)), *affine, 0});
     }
     return std::move(result_);
   }
 
  private:
+  /// The form of an expression, when it is affine in the unknowns.
+  std::optional<AffineForm> affine_form(const expr::Expression& expression) const {
+    try {
+      return form_of(instance_, unknowns_, expression);
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  }
+
+  /// Bounds inv(S) times all factors beside it or, when their product is not affine, times the
+  /// nearest.
   void add_product(const model::Named& gain, const Product& product) {
+    std::vector<NodePtr> factors = product.factors;
+    auto e = affine_form({gain.value.text, product_of(factors)});
+    if (!e) {
+      factors = {product.left ? factors.front() : factors.back()};
+      e = affine_form({gain.value.text, factors.front()});
+    }
+    if (!e) return;
     const std::string inverse = "inv(" + product.unknown->name + ")";
-    const std::size_t length = product.factor->end - product.factor->begin;
-    std::string factor = gain.value.text->str().substr(product.factor->begin, length);
-    if (product.factor->kind == NodeKind::add || product.factor->kind == NodeKind::subtract)
-      factor = "(" + factor + ")";
-    const std::string what = product.left ? inverse + "*" + factor : factor + "*" + inverse;
-    const AffineForm e = form_of(instance_, unknowns_, {gain.value.text, product.factor});
-    add({what, unknown_form(*product.unknown), product.left ? e : transposed(e),
+    const std::string factor = text_of(gain.value, factors);
+    add({product.left ? inverse + "*" + factor : factor + "*" + inverse,
+         unknown_form(*product.unknown), product.left ? *e : transposed(*e),
          scalar_of(*product.unknown)});
   }
 

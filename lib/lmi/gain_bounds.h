@@ -6,8 +6,9 @@
 //   S >= s I,   [ S , E/beta ; * , s I ] >= 0    <=>    E' inv(S) E <= beta^2 s,  s <=
 //   lambda_min(S).
 // With G = inv(S) E that is G' S G <= beta^2 lambda_min(S), so the largest singular value of G is
-// at most beta. It does not change when the unknowns are scaled together. A gain that is an unknown
-// itself is bounded by its largest singular value: [ beta I , K ; * , beta I ] >= 0.
+// at most beta. It does not change when the unknowns are scaled together. A gain that is affine in
+// the unknowns
+// is bounded by its largest singular value: [ beta I , K ; * , beta I ] >= 0.
 #pragma once
 
 #include <optional>

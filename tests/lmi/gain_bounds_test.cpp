@@ -27,12 +27,19 @@ std::vector<std::string> names(const GainBounds& bounds) {
 }
 
 TEST(GainBoundsTest, EveryProductWithAnInverseIsFoundOnce) {
-  const tests::YamlProblem yaml(
-      problem_with("L: inv(P)*Y, H: inv(Q)*(Z*A + Z) - C*inv(P)*Y*C, G: Z*inv(P), K: K"));
+  const tests::YamlProblem yaml(problem_with(
+      "L: inv(P)*Y, M: 3*inv(P)*Y, H: inv(Q)*(Z*A + Z) - C*inv(P)*Y*C, G: Z*inv(P), K: K"));
+  const GainBounds bounds = gain_bounds(yaml.instance, Unknowns(yaml.instance), 100);
+  EXPECT_EQ(names(bounds), (std::vector<std::string>{"inv(P)*Y", "inv(Q)*(Z*A + Z)", "inv(P)*Y*C",
+                                                     "Z*inv(P)", "K"}));
+  EXPECT_EQ(bounds.scalars, 2);
+}
+
+TEST(GainBoundsTest, TheWholeProductAndAffineGainsAreBounded) {
+  const tests::YamlProblem yaml(problem_with("L: inv(P)*C'*Q*2, M: 2*K + K, N: inv(P)*Y*inv(Q)"));
   const GainBounds bounds = gain_bounds(yaml.instance, Unknowns(yaml.instance), 100);
   EXPECT_EQ(names(bounds),
-            (std::vector<std::string>{"inv(P)*Y", "inv(Q)*(Z*A + Z)", "Z*inv(P)", "K"}));
-  EXPECT_EQ(bounds.scalars, 2);
+            (std::vector<std::string>{"inv(P)*C'*Q*2", "(2*K + K)", "inv(P)*Y", "Y*inv(Q)"}));
 }
 
 TEST(GainBoundsTest, NoBoundNoBlocks) {
