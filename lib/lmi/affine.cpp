@@ -256,6 +256,8 @@ void AffineAlgebra::apply(const expr::Instruction& instruction,
   if (all_constant(operands)) {
     std::vector<expr::Matrix> dense;
     std::vector<const expr::Matrix*> pointers;
+    dense.reserve(operands.size());
+    pointers.reserve(operands.size());
     for (const AffineForm* operand : operands) dense.push_back(dense_constant(*operand));
     for (const expr::Matrix& matrix : dense) pointers.push_back(&matrix);
     expr::Matrix result;

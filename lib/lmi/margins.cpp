@@ -66,9 +66,10 @@ void sample(const model::Instance& instance, const model::Requirement& requireme
   }
   for (const double point : points) {
     values[forall.variable] = expr::Matrix::Constant(1, 1, point);
-    const std::string text = forall.variable + " = " + brief(point);
-    sample(instance, requirement, depth + 1, values, label.empty() ? text : label + ", " + text,
-           program, worst);
+    std::string extended = label;
+    extended += label.empty() ? "" : ", ";
+    extended += forall.variable + " = " + brief(point);
+    sample(instance, requirement, depth + 1, values, extended, program, worst);
   }
 }
 

@@ -62,7 +62,8 @@ expr::Values Unknowns::values(const std::vector<double>& x) const {
     expr::Matrix matrix = expr::Matrix::Zero(unknown.shape.rows, unknown.shape.cols);
     for (int k = 0; k < unknown.count; ++k)
       for (const auto& [row, column] : unknown.places(k))
-        matrix(row, column) = x[static_cast<std::size_t>(unknown.first - 1 + k)];
+        matrix(row, column) =
+            x[static_cast<std::size_t>(unknown.first) + static_cast<std::size_t>(k) - 1];
     result[unknown.name] = std::move(matrix);
   }
   return result;

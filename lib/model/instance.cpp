@@ -22,6 +22,7 @@ const Item* find_named(const std::vector<Item>& items, const std::string& name) 
 template <class Item>
 std::vector<std::string> names_of(const std::vector<Item>& items) {
   std::vector<std::string> names;
+  names.reserve(items.size());
   for (const Item& item : items) names.push_back(item.name);
   return names;
 }
@@ -45,9 +46,10 @@ Place element_place(const Value& value, const expr::Matrix& matrix, int i, int j
   const expr::Node& root = *value.value.root;
   const bool by_element = root.kind == expr::NodeKind::block && root.columns == matrix.cols() &&
                           std::ssize(root.children) == matrix.size();
-  return by_element
-             ? value.value.place(*root.children[static_cast<std::size_t>(i * root.columns + j)])
-             : value.place;
+  return by_element ? value.value.place(*root.children[static_cast<std::size_t>(i) *
+                                                           static_cast<std::size_t>(root.columns) +
+                                                       static_cast<std::size_t>(j)])
+                    : value.place;
 }
 
 std::string element_text(int i, int j, double value) {
