@@ -10,7 +10,6 @@
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/load.h"
 #include "gainsmith/summary.h"
-#include "gainsmith/terminal.h"
 #include "io/csv.h"
 #include "io/gains_json.h"
 #include "verify/campaign.h"
@@ -40,9 +39,7 @@ class Job {
       : loaded_(load_problem(file)), folder_(std::move(folder)), options_(options) {}
 
   void run(JobResult& result) {
-    sdp::Options solver;
-    solver.interrupted = interrupted;
-    const model::Gains gains = design::synthesize(loaded_.instance, solver);
+    const model::Gains gains = design::synthesize(loaded_.instance, {});
     prepare_folder();
     write_atomically(folder_ / "gains.json", io::gains_text(gains));
     const auto campaign = verify_gains(gains);

@@ -13,7 +13,6 @@
 #include "gainsmith/job.h"
 #include "gainsmith/junit.h"
 #include "gainsmith/option_checks.h"
-#include "gainsmith/terminal.h"
 
 namespace gainsmith::app {
 
@@ -96,7 +95,6 @@ void print_lines(const std::vector<JobResult>& results) {
 
 ExitCode run(const RunOptions& options) {
   const std::vector<Item> items = items_of(options.problems);
-  catch_interrupts();
   JobOptions job = options.job;
   job.threads = items.size() == 1 ? options.threads : 1;
   std::vector<JobResult> results(items.size());

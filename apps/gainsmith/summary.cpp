@@ -62,7 +62,8 @@ std::string certificate_text(const model::Gains& gains) {
   return fmt::format(
       "certificate multipliers Y >= 0 (smallest eigenvalue {}) with F_0.Y = {} and sum |F_i.Y| = "
       "{},\n"
-      "            recomputed from the problem's data: {}; every solution has an entry of at least {} in size\n",
+      "            recomputed from the problem's data: {}; every solution has an entry of at least "
+      "{} in size\n",
       brief(c.min_eigenvalue, 3), brief(c.value), brief(c.residual, 3),
       c.checked ? "checked" : "NOT CHECKED", brief(c.excluded_radius, 3));
 }

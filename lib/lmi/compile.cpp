@@ -1,5 +1,6 @@
 #include "lmi/compile.h"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <deque>
@@ -9,6 +10,13 @@
 #include "expr/compile.h"
 
 namespace gainsmith::lmi {
+
+double smallest_eigenvalue(const expr::Matrix& matrix) {
+  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(0.5 * (matrix + matrix.transpose()),
+                                                     Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .minCoeff();
+}
 
 expr::Matrix Block::value(const std::vector<double>& x) const {
   expr::Matrix result = expr::Matrix::Zero(size, size);

@@ -31,6 +31,9 @@ struct Block {
   expr::Matrix value(const std::vector<double>& x) const;
 };
 
+/// The smallest eigenvalue of the symmetric part.
+double smallest_eigenvalue(const expr::Matrix& matrix);
+
 struct Lmi {
   explicit Lmi(const model::Instance& instance) : unknowns(instance) {}
 

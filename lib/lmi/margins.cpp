@@ -1,6 +1,5 @@
 #include "lmi/margins.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,13 +10,6 @@
 namespace gainsmith::lmi {
 
 namespace {
-
-double smallest_eigenvalue(const expr::Matrix& matrix) {
-  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(0.5 * (matrix + matrix.transpose()),
-                                                     Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .minCoeff();
-}
 
 /// The smallest eigenvalue met so far, and where.
 struct Worst {

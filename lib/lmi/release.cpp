@@ -1,6 +1,5 @@
 #include "lmi/release.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -48,11 +47,6 @@ bool leaves_rows(const Lmi& lmi, int i) {
     const Sparse* matrix = coefficient(block, i);
     return matrix == nullptr || matrix->nonZeros() < block.size;
   });
-}
-
-double smallest_eigenvalue(const expr::Matrix& matrix) {
-  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(matrix, Eigen::EigenvaluesOnly)
-      .eigenvalues()(0);
 }
 
 bool satisfied(const Lmi& lmi, int i, const std::vector<double>& required,
