@@ -10,9 +10,9 @@ namespace gainsmith::app {
 
 namespace {
 
-Loaded checked(model::Problem problem) {
+Loaded checked(model::Problem problem, const model::Overrides& overrides = {}) {
   Loaded loaded{std::make_unique<model::Problem>(std::move(problem)), {}};
-  loaded.instance = model::make_instance(*loaded.problem);
+  loaded.instance = model::make_instance(*loaded.problem, overrides);
   model::check_everything(loaded.instance);
   return loaded;
 }
@@ -54,7 +54,7 @@ Loaded load_problem(const std::filesystem::path& path) {
 
 LoadedGains load_gains(const std::filesystem::path& path) {
   model::Gains gains = io::parse_gains(read_text(path), path.string());
-  Loaded stated = checked(io::stated_problem(gains, path.string()));
+  Loaded stated = checked(io::stated_problem(gains, path.string()), gains.searched);
   check_complete(gains, stated.instance, path.string());
   return {std::move(gains), std::move(stated)};
 }

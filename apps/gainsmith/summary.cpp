@@ -18,6 +18,13 @@ std::string named_matrices(const std::string& title, const model::NamedMatrices&
   return text;
 }
 
+std::string searched_text(const model::Overrides& searched) {
+  std::string text;
+  for (const auto& [name, value] : searched)
+    text += fmt::format("{:<12}{} = {}\n", text.empty() ? "searched" : "", name, brief(value, 10));
+  return text;
+}
+
 std::string objective_text(const model::Gains& gains) {
   if (!gains.objective) return "";
   std::string text = fmt::format("objective   {}", brief(*gains.objective, 10));
@@ -97,7 +104,7 @@ std::string synthesis_summary(const model::Gains& gains) {
       gains.solver.status, gains.solver.cause, gains.solver.iterations);
   if (!gains.solver.message.empty()) text += "            " + gains.solver.message + "\n";
   text += objective_text(gains) + named_matrices("gains", gains.gains) +
-          named_matrices("parameters", gains.parameters);
+          named_matrices("parameters", gains.parameters) + searched_text(gains.searched);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);
   return text;
 }

@@ -49,6 +49,7 @@ class Synthesis {
     gains_.problem_name = instance.problem->name;
     gains_.version = kVersion;
     gains_.statement = model::statement_of(*instance.problem);
+    gains_.searched = instance.overrides;
     for (const auto& parameter : instance.method->parameters)
       gains_.parameters.emplace_back(parameter.name, instance.parameters.at(parameter.name));
     refuse_zero_solution();

@@ -211,6 +211,7 @@ Json to_json(const model::Gains& gains) {
   document["gains"] = matrices_json(gains.gains);
   document["unknowns"] = matrices_json(gains.unknowns);
   document["parameters"] = matrices_json(gains.parameters);
+  if (!gains.searched.empty()) document["searched"] = gains.searched;
   document["margins"] = list_json(gains.margins, margin_json);
   document["bounds"] = list_json(gains.bounds, bound_json);
   if (gains.certificate) document["certificate"] = certificate_json(*gains.certificate);
@@ -237,6 +238,9 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   gains.gains = reader.at("gains").matrices();
   gains.unknowns = reader.at("unknowns").matrices();
   gains.parameters = reader.at("parameters").matrices();
+  if (reader.has("searched"))
+    for (const auto& [name, value] : reader.at("searched").members())
+      gains.searched[name] = value.number();
   for (const Reader& item : reader.at("margins").items()) gains.margins.push_back(margin_of(item));
   for (const Reader& item : reader.at("bounds").items())
     gains.bounds.push_back({item.at("gain").text(), item.at("bound").number(),

@@ -79,6 +79,7 @@ struct Gains {
   NamedMatrices gains;
   NamedMatrices unknowns;
   NamedMatrices parameters;
+  Overrides searched;  ///< scalars that a search set: they replace those of the statement
   std::vector<Margin> margins;
   std::vector<GainBound> bounds;
   std::optional<CertificateRecord> certificate;

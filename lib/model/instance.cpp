@@ -97,13 +97,15 @@ std::string declared(const Declaration& declaration, const Dimensions& dimension
 
 class Builder {
  public:
-  explicit Builder(const Problem& problem) {
+  Builder(const Problem& problem, const Overrides& overrides) {
     instance_.problem = &problem;
     instance_.method = problem.method.get();
+    instance_.overrides = overrides;
   }
 
   Instance build() {
     refuse_unknown_names();
+    check_overrides();
     for (const Declaration& datum : method().data) add_datum(datum);
     for (const Declaration& datum : method().data) check_shape(datum);
     for (const Parameter& parameter : method().parameters) add_parameter(parameter);
@@ -147,7 +149,24 @@ class Builder {
     refuse(problem().parameters, parameters, data, "parameter", "data");
   }
 
+  void check_overrides() const {
+    for (const auto& [name, value] : instance_.overrides) {
+      check_scalar_name(method(), name, {problem().file});
+      if (!std::isfinite(value))
+        throw InputError({problem().file}, name + ": expected a finite number");
+    }
+  }
+
+  /// The override of a scalar.
+  std::optional<expr::Matrix> overridden(const std::string& name) const {
+    const auto found = instance_.overrides.find(name);
+    if (found == instance_.overrides.end()) return std::nullopt;
+    return expr::Matrix::Constant(1, 1, found->second);
+  }
+
   void add_datum(const Declaration& datum) {
+    if (const auto value = overridden(datum.name))
+      return define(datum.name, *value, instance_.data);
     const Value* given = find_named(problem().data, datum.name);
     if (given == nullptr && !datum.fallback)
       throw InputError({problem().file}, "the datum " + datum.name + " (" + datum.shape.text +
@@ -184,6 +203,8 @@ class Builder {
   }
 
   void add_parameter(const Parameter& parameter) {
+    if (const auto value = overridden(parameter.name))
+      return define(parameter.name, *value, instance_.parameters);
     const Value* given = find_named(problem().parameters, parameter.name);
     if (given == nullptr && !parameter.fallback)
       throw InputError({problem().file}, "the parameter " + parameter.name + " of the method " +
@@ -240,7 +261,27 @@ class Builder {
 
 }  // namespace
 
-Instance make_instance(const Problem& problem) { return Builder(problem).build(); }
+Instance make_instance(const Problem& problem, const Overrides& overrides) {
+  return Builder(problem, overrides).build();
+}
+
+std::vector<std::string> scalar_names(const Method& method) {
+  std::vector<std::string> names;
+  for (const Declaration& datum : method.data)
+    if (datum.shape.structure == Structure::scalar) names.push_back(datum.name);
+  for (const Parameter& parameter : method.parameters) names.push_back(parameter.name);
+  return names;
+}
+
+void check_scalar_name(const Method& method, const std::string& name, const Place& place) {
+  const std::vector<std::string> known = scalar_names(method);
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  if (const Declaration* datum = find_named(method.data, name))
+    throw InputError(place, "'" + name + "' is a matrix (" + datum->shape.text +
+                                "); expected a scalar datum or parameter");
+  throw InputError(place, "the method " + method.name + " has no scalar datum or parameter '" +
+                              name + "'" + suggestion(name, known));
+}
 
 expr::Values Instance::known_values() const {
   expr::Values values = data;

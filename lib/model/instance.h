@@ -14,6 +14,7 @@ namespace gainsmith::model {
 struct Instance {
   const Problem* problem = nullptr;  ///< outlives the instance
   const Method* method = nullptr;
+  Overrides overrides;  ///< the values that replaced those of the problem
 
   Dimensions dimensions;
   expr::Values data;        ///< the problem's or the method's default
@@ -32,10 +33,19 @@ struct Instance {
   expr::Values known_values() const;
 };
 
-/// Finds dimensions, data, parameters and shapes and checks the method's assumptions. InputError
-/// for a datum that is missing, has the wrong shape or is not symmetric where it must be, for an
-/// assumption that fails (at the place of the datum), and for unknown names.
-Instance make_instance(const Problem& problem);
+/// Finds dimensions, data, parameters and shapes and checks the method's assumptions. An overridden
+/// scalar has that value whatever the problem gives; defaults that use it follow. InputError for a
+/// datum that is missing, has the wrong shape or is not symmetric where it must be, for an
+/// assumption that fails (at the place of the datum), for unknown names, and for an override that
+/// names no scalar datum or parameter or is not finite.
+Instance make_instance(const Problem& problem, const Overrides& overrides = {});
+
+/// The names of the scalar data and the parameters of a method, in its order: what may be
+/// overridden.
+std::vector<std::string> scalar_names(const Method& method);
+
+/// InputError at `place` when `name` is none of scalar_names, with the nearest that is.
+void check_scalar_name(const Method& method, const std::string& name, const Place& place);
 
 /// Compiles everything that the method and the problem say, without solving: flow and jump maps,
 /// claims, gains, the campaign and the expectations. InputError for the first that does not fit.

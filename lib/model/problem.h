@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -86,6 +87,9 @@ struct SynthesisOptions {
   double margin = 1e-7;                    ///< of strict inequalities, relative to their scale
   std::optional<double> gain_bound = 1e4;  ///< none: off
 };
+
+/// Values for scalar data and parameters, by name, in place of those of the problem.
+using Overrides = std::map<std::string, double>;
 
 struct Problem {
   std::string name;

@@ -33,6 +33,7 @@ class RandomGains {
     gains.gains = {{"L", matrix(2, 1)}, {"F", matrix(2, 2)}, {"H", matrix(1, 1)}};
     gains.unknowns = {{"P", matrix(3, 3)}, {"row", matrix(1, 3)}, {"empty", matrix(0, 0)}};
     gains.parameters = {{"delta", matrix(1, 1)}};
+    if (random_() % 2 == 0) gains.searched = {{"T2", number()}, {"delta", number()}};
     for (int i = 0; i < 2; ++i)
       gains.margins.push_back(
           {"flow", i == 0, number(), number(), number(), number(), "tau = 0", i == 1});
@@ -154,6 +155,7 @@ TEST(Gains, EveryKeyThatIsNotOptionalMustBeThere) {
   gains.objective.reset();
   gains.objective_lower_bound.reset();
   gains.certificate.reset();
+  gains.searched.clear();
   const Json document = to_json(gains);
   parse_gains(to_text(document), "g.json");
   for (const auto& [key, value] : document.items()) {

@@ -28,6 +28,25 @@ TEST(Instance, FindsDimensionsDataAndParameters) {
   EXPECT_EQ(instance.known_values().size(), instance.data.size() + 2);
 }
 
+TEST(Instance, AnOverrideReplacesAScalarAndWhatFollowsFromIt) {
+  const Small small;
+  const Instance instance = make_instance(*small.problem, {{"T1", 2.0}, {"rate", 7.0}});
+  EXPECT_EQ(instance.data.at("T1")(0, 0), 2.0);
+  EXPECT_EQ(instance.data.at("T2")(0, 0), 4.0) << "its default is 2*T1";
+  EXPECT_EQ(instance.parameters.at("delta")(0, 0), 2.0 / 10) << "its default is T1/10";
+  EXPECT_EQ(instance.parameters.at("rate")(0, 0), 7.0);
+  EXPECT_EQ(instance.data.at("A"), small.instance.data.at("A"));
+  EXPECT_EQ(instance.overrides, (Overrides{{"T1", 2.0}, {"rate", 7.0}}));
+}
+
+TEST(Instance, AnOverrideMayGiveADatumThatTheProblemLeavesOut) {
+  const io::MethodLibrary library{[](const std::string&) { return kSmallMethod; }, {"small"}};
+  const Problem problem =
+      io::parse_problem(changed(kSmallProblem, "  T1: 0.5\n", ""), "p.yaml", library);
+  EXPECT_THROW(make_instance(problem), InputError);
+  EXPECT_EQ(make_instance(problem, {{"T1", 0.25}}).data.at("T1")(0, 0), 0.25);
+}
+
 TEST(Instance, AFlatListIsAColumnWhereAColumnIsDeclared) {
   EXPECT_EQ(Small().instance.data.at("b"), (expr::Matrix{{5}, {6}}));
   const Small upright(changed(kSmallProblem, "b: [5, 6]", "b: [[5], [6]]"));

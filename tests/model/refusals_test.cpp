@@ -1,6 +1,7 @@
 // Data, parameters and assumptions that do not fit: the place and what is said.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "model/small_problem.h"
@@ -41,6 +42,19 @@ TEST(Refusal, MissingAndMisspeltParameters) {
   expect_refused({"problem: p", "problem: p", {"p.yaml"}, "the parameter rate"},
                  changed(kSmallMethod, "rate: 1", "rate:"));
   expect_refused({"campaign", "parameters: {rate: [1, 2]}\ncampaign", at(7, 20), "expected 1 x 1"});
+}
+
+TEST(Refusal, OverridesOfWhatIsNoScalar) {
+  const Small small;
+  const auto message = [&](const Overrides& overrides) {
+    return input_error([&] { make_instance(*small.problem, overrides); }).message();
+  };
+  EXPECT_NE(message({{"T11", 1}}).find("did you mean 'T1'?"), std::string::npos);
+  EXPECT_NE(message({{"A", 1}}).find("'A' is a matrix (n x n)"), std::string::npos);
+  EXPECT_NE(message({{"P", 1}}).find("no scalar datum or parameter 'P'"), std::string::npos);
+  EXPECT_NE(message({{"T1", std::nan("")}}).find("finite"), std::string::npos);
+  EXPECT_NE(message({{"delta", INFINITY}}).find("finite"), std::string::npos);
+  EXPECT_NE(message({{"T1", 3}, {"T2", 2}}).find("expected 0 < T1 <= T2"), std::string::npos);
 }
 
 TEST(Refusal, WrongShapes) {
