@@ -31,7 +31,7 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
                        name + " is " + to_string(actual) + "; expected " + to_string(shape));
   };
   if (gains.verdict == model::Verdict::yes) {
-    for (const auto& [name, shape] : instance.unknowns) require(name, shape);
+    for (const auto& unknown : instance.unknowns) require(unknown.name, unknown.shape);
     for (const auto& [name, shape] : model::gain_shapes(instance)) require(name, shape);
   }
   for (const auto& [name, value] : gains.parameters) {

@@ -125,7 +125,7 @@ expr::Values collect_constants(const model::Instance& instance, const model::Gai
   for (const auto& [name, value] : gains.parameters)
     if (instance.parameters.contains(name)) take(name, {}, value);
   auto named = model::gain_shapes(instance);
-  named.insert(named.end(), instance.unknowns.begin(), instance.unknowns.end());
+  for (const auto& unknown : instance.unknowns) named.emplace_back(unknown.name, unknown.shape);
   for (const auto& [name, shape] : named)
     if (const expr::Matrix* value = gains.find(name)) take(name, shape, *value);
   return constants;

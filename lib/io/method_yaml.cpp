@@ -37,6 +37,29 @@ model::Declaration declaration(const YamlFile& file, const YamlItem& item, bool 
   return result;
 }
 
+/// "Y: n x p", "Y: {shape: n x p, help: ...}" or "Y: {shape: n x p, of: tau, degree: 2}".
+model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {
+  model::UnknownDeclaration result;
+  if (item.value.IsScalar()) {
+    static_cast<model::Declaration&>(result) = declaration(file, item, false);
+    return result;
+  }
+  result.name = item.key;
+  result.place = item.place;
+  YamlMap map(file, item.value, item.key);
+  result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
+  result.help = optional_string(file, map.find("help"));
+  result.variable = optional_string(file, map.find("of"));
+  const auto degree = map.find("degree");
+  map.finish();
+  if (degree && result.variable.empty())
+    throw InputError(degree->place,
+                     "degree: only of an unknown that is a function; say of which "
+                     "variable by 'of'");
+  result.degree = optional_expression(file, degree);
+  return result;
+}
+
 std::vector<model::Declaration> declarations(const YamlFile& file,
                                              const std::optional<YamlItem>& item,
                                              const std::string& what, bool with_default = false) {
@@ -200,7 +223,8 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
   for (const YamlItem& item : items_of(file, map.find("parameters"), "parameters"))
     method.parameters.push_back(parameter(file, item));
   method.assume = named(file, map.find("assume"), "assume");
-  method.unknowns = declarations(file, map.find("unknowns"), "unknowns");
+  for (const YamlItem& item : items_of(file, map.find("unknowns"), "unknowns"))
+    method.unknowns.push_back(unknown(file, item));
   for (const YamlItem& item : items_of(file, map.find("let"), "let"))
     method.let.push_back(
         {expr::parse_signature(item.key_text), file.expression(item.value, item.key), item.place});

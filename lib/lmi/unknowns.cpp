@@ -25,11 +25,11 @@ std::vector<std::pair<int, int>> Unknown::places(int k) const {
 }
 
 Unknowns::Unknowns(const model::Instance& instance) {
-  for (std::size_t i = 0; i < instance.unknowns.size(); ++i) {
+  for (const model::UnknownMatrix& declared : instance.unknowns) {
     Unknown unknown;
-    unknown.name = instance.unknowns[i].first;
-    unknown.structure = instance.method->unknowns[i].shape.structure;
-    unknown.shape = instance.unknowns[i].second;
+    unknown.name = declared.name;
+    unknown.structure = declared.structure;
+    unknown.shape = declared.shape;
     unknown.first = size_ + 1;
     const int n = unknown.shape.rows;
     unknown.count = unknown.structure == model::Structure::symmetric  ? n * (n + 1) / 2

@@ -117,8 +117,7 @@ class Builder {
     for (const Named& signal : method().signals)
       instance_.scope.definitions[signal.name] = {{}, signal.value};
     for (const Named& assumption : method().assume) check_assumption(assumption);
-    for (const Declaration& unknown : method().unknowns)
-      instance_.unknowns.emplace_back(unknown.name, known_shape(unknown, "unknown"));
+    for (const UnknownDeclaration& unknown : method().unknowns) add_unknown(unknown);
     for (const Component* part : {&method().plant, &method().observer})
       for (const Declaration& state : part->states)
         instance_.states.emplace_back(state.name, known_shape(state, "state"));
@@ -249,6 +248,30 @@ class Builder {
     }
   }
 
+  void add_unknown(const UnknownDeclaration& unknown) {
+    const expr::Shape shape = known_shape(unknown, "unknown");
+    const Structure structure = unknown.shape.structure;
+    if (unknown.variable.empty()) {
+      instance_.unknowns.push_back({unknown.name, shape, structure});
+      return;
+    }
+    const UnknownFunction function{unknown.name, unknown.variable, shape, structure, {},
+                                   {},           unknown.place};
+    add_polynomial(instance_, function, degree_of(unknown));
+  }
+
+  int degree_of(const UnknownDeclaration& unknown) const {
+    constexpr int kLargest = 30;
+    if (!unknown.degree) return 0;
+    const double degree =
+        scalar_value(*unknown.degree, scope_with_dimensions(), instance_.known_values());
+    if (!(degree >= 0 && degree <= kLargest) || std::trunc(degree) != degree)
+      throw InputError(unknown.degree->place(*unknown.degree->root),
+                       "the degree of " + unknown.name + " must be a whole number from 0 to " +
+                           std::to_string(kLargest) + ", not " + brief(degree));
+    return static_cast<int>(degree);
+  }
+
   expr::Shape known_shape(const Declaration& declaration, const char* what) const {
     if (const auto shape = resolve(declaration.shape, instance_.dimensions)) return *shape;
     throw InputError(declaration.place, "the size of the " + std::string(what) + " " +
@@ -291,7 +314,8 @@ expr::Values Instance::known_values() const {
 
 expr::Scope Instance::design_scope() const {
   expr::Scope result = scope;
-  for (const auto& [name, shape] : unknowns) result.symbols[name] = {shape, std::nullopt};
+  for (const UnknownMatrix& unknown : unknowns)
+    result.symbols[unknown.name] = {unknown.shape, std::nullopt};
   return result;
 }
 

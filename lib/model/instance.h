@@ -8,8 +8,18 @@
 #include "expr/real.h"
 #include "expr/scope.h"
 #include "model/problem.h"
+#include "model/unknown_function.h"
 
 namespace gainsmith::model {
+
+/// An unknown matrix.
+struct UnknownMatrix {
+  std::string name;
+  expr::Shape shape;
+  Structure structure = Structure::full;
+
+  bool operator==(const UnknownMatrix&) const = default;
+};
 
 struct Instance {
   const Problem* problem = nullptr;  ///< outlives the instance
@@ -19,9 +29,11 @@ struct Instance {
   Dimensions dimensions;
   expr::Values data;        ///< the problem's or the method's default
   expr::Values parameters;  ///< 1 x 1
-  /// Data and parameters as symbols with values; `let`, outputs and signals as definitions.
+  /// Data and parameters as symbols with values; `let`, outputs, signals and unknown functions as
+  /// definitions.
   expr::Scope scope;
-  std::vector<std::pair<std::string, expr::Shape>> unknowns;
+  std::vector<UnknownMatrix> unknowns;     ///< of an unknown function its coefficients
+  std::vector<UnknownFunction> functions;  ///< the unknowns that are functions of a scalar
   std::vector<std::pair<std::string, expr::Shape>> states;  ///< plant first, then observer
 
   /// The scope with the unknowns as symbols: what `require`, `minimize` and `gains` may use.

@@ -22,6 +22,12 @@ struct Declaration {
   Place place;
 };
 
+/// An unknown: a matrix or, with `variable`, a function of a scalar given by coefficient matrices.
+struct UnknownDeclaration : Declaration {
+  std::string variable;                    ///< "tau" of `of: tau`; empty: a matrix
+  std::optional<expr::Expression> degree;  ///< of its polynomial; none: 0
+};
+
 /// A scalar that the engineer may tune.
 struct Parameter {
   std::string name;
@@ -108,7 +114,7 @@ struct Method {
   std::vector<Declaration> data;
   std::vector<Parameter> parameters;
   std::vector<Named> assume;  ///< comparisons of scalars that data and parameters must satisfy
-  std::vector<Declaration> unknowns;
+  std::vector<UnknownDeclaration> unknowns;
   std::vector<Let> let;
   std::vector<Requirement> require;
   std::optional<expr::Expression> minimize;

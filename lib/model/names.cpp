@@ -49,10 +49,29 @@ class Names {
     if (!fresh)
       throw InputError(place, "'" + name + "' names a " + what + " here, but it already names a " +
                                   found->second);
+    places_.emplace(name, place);
+  }
+
+  /// The coefficients of a function YL are YL_0, YL_1, ...: none of them may name anything else.
+  void reserve_coefficients(const std::string& function) const {
+    const std::string stem = function + "_";
+    for (const auto& [name, place] : places_)
+      if (name.starts_with(stem) && name.size() > stem.size() &&
+          name.find_first_not_of("0123456789", stem.size()) == std::string::npos)
+        throw InputError(place, "'" + name + "' is the name of a coefficient of " + function +
+                                    ", which is a function");
+  }
+
+  void check_parameter(const std::string& name, const Place& place) const {
+    if (!is_name(name))
+      throw InputError(place, "of: '" + name + "' is no name: expected letters, digits and _");
+    if (expr::is_reserved(name))
+      throw InputError(place, "of: '" + name + "' is a word of the language");
   }
 
  private:
   std::map<std::string, std::string> known_;
+  std::map<std::string, Place> places_;
 };
 
 void check_maps(const Component& component, const std::vector<Named>& map,
@@ -72,13 +91,13 @@ void check_maps(const Component& component, const std::vector<Named>& map,
 
 void check_names(const Method& method) {
   Names names;
-  for (const auto* list :
-       {&method.data, &method.unknowns, &method.plant.states, &method.observer.states})
+  for (const auto* list : {&method.data, &method.plant.states, &method.observer.states})
     for (const Declaration& declaration : *list) names.add_dimensions(declaration.shape);
+  for (const UnknownDeclaration& unknown : method.unknowns) names.add_dimensions(unknown.shape);
   for (const Declaration& datum : method.data) names.add(datum.name, "datum", datum.place);
   for (const Parameter& parameter : method.parameters)
     names.add(parameter.name, "parameter", parameter.place);
-  for (const Declaration& unknown : method.unknowns)
+  for (const UnknownDeclaration& unknown : method.unknowns)
     names.add(unknown.name, "unknown", unknown.place);
   for (const Let& let : method.let) names.add(let.signature.name, "definition", let.place);
   for (const Component* part : {&method.plant, &method.observer}) {
@@ -94,6 +113,11 @@ void check_names(const Method& method) {
     const expr::Node& root = *gain.value.root;
     const bool is_itself = root.kind == expr::NodeKind::name && root.text == gain.name;
     if (!is_itself) names.add(gain.name, "gain", gain.place);
+  }
+  for (const UnknownDeclaration& unknown : method.unknowns) {
+    if (unknown.variable.empty()) continue;
+    names.check_parameter(unknown.variable, unknown.place);
+    names.reserve_coefficients(unknown.name);
   }
   for (const Requirement& requirement : method.require)
     for (const Forall& forall : requirement.forall) names.check_variable(forall);

@@ -43,7 +43,7 @@ TextProblem& TextProblem::gain(const std::string& name, const expr::Matrix& valu
 }
 
 TextProblem& TextProblem::unknown(const std::string& name, const std::string& shape) {
-  method_.unknowns.push_back(declare(name, shape));
+  method_.unknowns.push_back({declare(name, shape), "", std::nullopt});
   return *this;
 }
 

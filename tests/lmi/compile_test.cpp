@@ -32,6 +32,25 @@ TEST(CompileTest, AnIntervalBecomesTheVerticesOfItsAtoms) {
   EXPECT_LT((lmi.blocks[1].value(x) - expected).norm(), 1e-14);
 }
 
+TEST(CompileTest, AnUnknownFunctionIsItsPolynomial) {
+  const auto blocks = [](const std::string& unknowns, const std::string& y) {
+    const tests::YamlProblem yaml(
+        "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n, " +
+        unknowns + "}\n  require:\n    flow: {forall: \"tau in [0, 2]\", that: \"He(P*A + " + y +
+        "*exp(tau)) < 0\"}\ndata: {A: [[0, 1], [-2, -3]]}\n");
+    return compile(yaml.instance).blocks;
+  };
+  const auto called = blocks("Y: {shape: n x n, of: tau, degree: 2}", "Y(tau)");
+  const auto written = blocks("Y_0: n x n, Y_1: n x n, Y_2: n x n", "(Y_0 + tau*Y_1 + tau^2*Y_2)");
+  ASSERT_EQ(called.size(), 8U);
+  ASSERT_EQ(written.size(), called.size());
+  const std::vector<double> x = {1, -2, 3, 0.5, 1, 2, -3, 4, 5, -6, 7, 8, 9, -1, 3};
+  for (std::size_t k = 0; k < called.size(); ++k) {
+    EXPECT_EQ(called[k].point, written[k].point);
+    EXPECT_TRUE(called[k].value(x).isApprox(written[k].value(x), 1e-14));
+  }
+}
+
 TEST(CompileTest, TwoAtomsMakeFourVertices) {
   const tests::YamlProblem yaml(
       problem_with("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + "

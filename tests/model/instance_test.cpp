@@ -55,7 +55,10 @@ TEST(Instance, AFlatListIsAColumnWhereAColumnIsDeclared) {
 
 TEST(Instance, KnowsTheShapesOfUnknownsStatesAndGains) {
   const Small small;
-  EXPECT_EQ(small.instance.unknowns, (Shapes{{"P", {2, 2}}, {"X", {2, 1}}, {"g", {1, 1}}}));
+  EXPECT_EQ(small.instance.unknowns,
+            (std::vector<UnknownMatrix>{{"P", {2, 2}, Structure::symmetric},
+                                        {"X", {2, 1}, Structure::full},
+                                        {"g", {1, 1}, Structure::scalar}}));
   EXPECT_EQ(small.instance.states, (Shapes{{"z", {2, 1}}, {"zh", {2, 1}}, {"th", {1, 1}}}));
   EXPECT_EQ(gain_shapes(small.instance), (Shapes{{"K", {1, 2}}, {"A", {2, 2}}}));
 }
