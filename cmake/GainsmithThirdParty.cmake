@@ -12,3 +12,14 @@ else()
   target_link_libraries(gainsmith_fmt INTERFACE fmt::fmt)
   target_link_libraries(gainsmith_yaml INTERFACE yaml-cpp)
 endif()
+
+# The optimisation libraries come as shared libraries only (Debian has no libnlopt.a), so a static program
+# cannot hold them: gainsmith-full does.
+add_library(gainsmith_nlopt INTERFACE)
+add_library(third_party::nlopt ALIAS gainsmith_nlopt)
+add_library(gainsmith_ipopt INTERFACE)
+add_library(third_party::ipopt ALIAS gainsmith_ipopt)
+find_library(GAINSMITH_NLOPT_LIBRARY NAMES libnlopt.so REQUIRED)
+find_library(GAINSMITH_IPOPT_LIBRARY NAMES libipopt.so REQUIRED)
+target_link_libraries(gainsmith_nlopt INTERFACE "${GAINSMITH_NLOPT_LIBRARY}")
+target_link_libraries(gainsmith_ipopt INTERFACE "${GAINSMITH_IPOPT_LIBRARY}")

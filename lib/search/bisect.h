@@ -1,0 +1,56 @@
+// The largest or smallest value of one scalar with the answer yes.
+//
+// A question has the answer yes, no (proved) or undecided at each value. First a few values spread
+// over the whole range are asked, both ends among them: they show an answer that is not monotone.
+// Then the bracket between the outermost yes and the nearest no beyond it is halved. A value that
+// is undecided ends neither side: the bracket is closed from the yes up to it and from the no down
+// to it, and what lies between stays open and is reported.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "search/axis.h"
+
+namespace gainsmith::search {
+
+enum class Answer { yes, no, undecided };
+
+using Question = std::function<Answer(double)>;
+
+struct BisectOptions {
+  bool largest = true;    ///< otherwise the smallest value with yes
+  double tolerance = 0;   ///< of each side of the bracket, absolute; positive
+  int spread = 9;         ///< values asked first, at least 2
+  int evaluations = 200;  ///< at most, those of the spread included
+  std::function<bool()> interrupted;
+};
+
+struct Sample {
+  double value = 0;
+  Answer answer = Answer::undecided;
+};
+
+/// `open` is empty when `yes` and `no` meet within the tolerance. Otherwise it holds the undecided
+/// values next to `yes` and next to `no`.
+struct Bisection {
+  std::optional<double> yes;  ///< the outermost value with yes
+  std::optional<double> no;   ///< the nearest value beyond it with no; none when there is none
+  struct Open {
+    double near_yes = 0;
+    double near_no = 0;
+  };
+  std::optional<Open> open;
+  /// Values with no that lie on the inner side of `yes`: the answer is not monotone, and other
+  /// borders may lie between the values that were asked.
+  std::vector<double> breaks;
+  std::vector<Sample> samples;  ///< all that were asked, by value
+  bool finished = false;        ///< not interrupted, and within the number of evaluations
+};
+
+/// Asks the question on axis.low ... axis.high. Deterministic, one value after the other.
+/// std::invalid_argument unless low < high, all is finite and the tolerance is positive.
+Bisection bisect(const Question& question, const Axis& axis, const BisectOptions& options);
+
+}  // namespace gainsmith::search
