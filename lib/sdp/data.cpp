@@ -1,5 +1,10 @@
 #include "sdp/data.h"
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include "sdp/panel.h"
 #include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
@@ -8,6 +13,39 @@ namespace {
 template <typename T>
 T multiplier(int constraint, const Vector<T>& x, const T& tau) {
   return constraint == 0 ? T(-tau) : T(x[constraint - 1]);
+}
+
+/// The sum over the terms of one F_i and their mirror images: F_i . S in one block.
+template <typename T>
+T inner_with(const Term* first, const Term* last, const ConstMatrixMap<T>& S) {
+  T off(0), on(0);
+  for (const Term* term = first; term != last; ++term)
+    (term->row == term->column ? on : off) += S(term->row, term->column) * coefficient<T>(*term);
+  return on + off + off;
+}
+
+/// The same at vector speed: kLanes terms at a time, with the accuracy of PairSums.
+template <>
+DoubleDouble inner_with(const Term* first, const Term* last,
+                        const ConstMatrixMap<DoubleDouble>& S) {
+  PairSums sums;
+  std::array<double, kLanes> a_high{}, a_low{}, b_high{}, b_low{};
+  while (first != last) {
+    const auto count = static_cast<std::size_t>(std::min<std::ptrdiff_t>(kLanes, last - first));
+    for (std::size_t r = 0; r < count; ++r, ++first) {
+      const DoubleDouble s = S(first->row, first->column);
+      const double twice = first->row == first->column ? 1 : 2;
+      a_high[r] = s.hi();
+      a_low[r] = s.lo();
+      b_high[r] = twice * first->value;
+      b_low[r] = twice * first->rest;
+    }
+    for (std::size_t r = count; r < kLanes; ++r) b_high[r] = b_low[r] = 0;
+    sums.add(a_high.data(), a_low.data(), b_high.data(), b_low.data());
+  }
+  DoubleDouble total = sums[0];
+  for (std::size_t r = 1; r < kLanes; ++r) total += sums[r];
+  return total;
 }
 
 }  // namespace
@@ -49,13 +87,8 @@ T apply(const Data& data, const Blocks<T>& s, Vector<T>& r) {
     const auto source = s.dense(b);
     for (int k = 0; k < block.lists(); ++k) {
       const auto list = static_cast<std::size_t>(k);
-      T off(0), on(0);
-      for (std::size_t t = block.start[list]; t < block.start[list + 1]; ++t) {
-        const Term& term = block.terms[t];
-        (term.row == term.column ? on : off) +=
-            source(term.row, term.column) * coefficient<T>(term);
-      }
-      add(block.constraint[list], on + off + off);
+      add(block.constraint[list], inner_with(block.terms.data() + block.start[list],
+                                             block.terms.data() + block.start[list + 1], source));
     }
   }
   const auto source = s.linear();

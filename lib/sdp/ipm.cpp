@@ -13,7 +13,7 @@ namespace {
 constexpr double kShortest = 0.9, kLongest = 0.98;
 /// Iterations without a better point before the arithmetic counts as exhausted: soon once the point
 /// is good to three digits, late while the errors may still rise before they fall.
-constexpr int kPatienceNear = 4, kPatienceFar = 25;
+constexpr int kPatienceNear = 4;
 constexpr double kNear = 1e-3;
 /// A step below this gets nowhere.
 constexpr double kNoStep = 1e-7;
@@ -62,6 +62,7 @@ Cause Ipm<T>::run(const Run& run) {
   iteration_ = run.first_iteration;
   best_error_ = best_certificate_ = std::numeric_limits<double>::infinity();
   since_best_ = 0;
+  exhausted_ = false;
   const Cause cause = iterate();
   if (cause != Cause::converged && cause != Cause::certificate) {
     point_ = best_;
@@ -80,13 +81,19 @@ Cause Ipm<T>::iterate() {
     report(step);
     keep_best();
     if (const auto cause = stop()) return *cause;
-    if (!newton_.prepare(point_, residuals_.defect, run_.model)) return Cause::numerical_breakdown;
+    if (!newton_.prepare(point_, residuals_.defect, run_.model,
+                         run_.feasibility * residuals_.dual_unit()))
+      return Cause::numerical_breakdown;
 
     newton_.predict(point_, residuals_.defect, predictor_);
     const Steps<T> reach = newton_.step(point_, predictor_, T(1));
     const T sigma = centering(reach);
     const T eta = run_.model == Model::fixed ? T(1) : T(T(1) - sigma);
     newton_.correct(point_, residuals_.defect, predictor_, sigma, eta, direction_);
+    if (run_.leave_early && newton_.exhausted()) {
+      exhausted_ = true;
+      return Cause::stalled;
+    }
 
     step = shortened(newton_.step(point_, direction_, T(2)), reach);
     if (!(static_cast<double>(std::max(step.primal, step.dual)) > kNoStep)) return Cause::stalled;
@@ -149,7 +156,7 @@ std::optional<Cause> Ipm<T>::stop() const {
       options_.certificate_tolerance / 2)
     return Cause::certificate;
   if (!std::isfinite(residuals_.worst())) return Cause::numerical_breakdown;
-  if (since_best_ > (best_error_ < kNear ? kPatienceNear : kPatienceFar)) return Cause::stalled;
+  if (since_best_ > (best_error_ < kNear ? kPatienceNear : run_.patience)) return Cause::stalled;
   return limits();
 }
 

@@ -17,6 +17,8 @@ struct Run {
   Model model = Model::fixed;
   double aim = 1e-8;          ///< for all errors: stop here; what is below the tolerance counts
   double feasibility = 1e-8;  ///< for the two infeasibilities, where that is to be stricter
+  bool leave_early = false;   ///< wider arithmetic follows: stop where this one is exhausted
+  int patience = 25;          ///< iterations without progress far from a solution
   int first_iteration = 0;    ///< continues the count of an earlier run
   std::chrono::steady_clock::time_point start;  ///< of the whole solve, for the time limit
 };
@@ -45,6 +47,8 @@ class Ipm {
   const Iterate<T>& point() const { return point_; }
   const Residuals<T>& residuals() const { return residuals_; }
   int iterations() const { return iteration_; }
+  /// Did the run end because its arithmetic was exhausted (Run::leave_early)?
+  bool exhausted() const { return exhausted_; }
 
  private:
   void start(const T& X, const T& Y);
@@ -70,6 +74,7 @@ class Ipm {
   /// pass near one on its way.
   double best_certificate_ = 0;
   int since_best_ = 0;
+  bool exhausted_ = false;
 };
 
 }  // namespace gainsmith::sdp

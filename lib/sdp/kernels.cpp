@@ -109,6 +109,69 @@ T dot(const T* a, const T* b, Index first, Index last) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
+/// (high, low) -= factor a, entry by entry.
+void subtract_multiple(const DoubleDouble* a, const DoubleDouble& factor, double* high, double* low,
+                       std::size_t count) {
+  for (std::size_t i = 0; i < count; ++i) {
+    const double p = a[i].hi() * factor.hi();
+    double e = std::fma(a[i].hi(), factor.hi(), -p);
+    e = std::fma(a[i].hi(), factor.lo(), e);
+    e = std::fma(a[i].lo(), factor.hi(), e);
+    const double s = high[i] - p;
+    const double t = s - high[i];
+    low[i] += ((high[i] - (s - t)) - (p + t)) - e;
+    high[i] = s;
+  }
+}
+
+/// sum of a_i (high_i + low_i).
+DoubleDouble inner_pairs(const DoubleDouble* a, const double* high, const double* low,
+                         std::size_t count) {
+  PairSums sums;
+  std::array<double, kLanes> a_high, a_low;
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes) {
+    for (std::size_t r = 0; r < kLanes; ++r) {
+      a_high[r] = a[i + r].hi();
+      a_low[r] = a[i + r].lo();
+    }
+    sums.add(a_high.data(), a_low.data(), high + i, low + i);
+  }
+  DoubleDouble total(0);
+  for (std::size_t r = 0; r < kLanes; ++r) total += sums[r];
+  for (; i < count; ++i) total += a[i] * (DoubleDouble(high[i]) + DoubleDouble(low[i]));
+  return total;
+}
+
+/// x := L^-T L^-1 x with x in halves; sums are kept as PairSums does.
+void solve_factored_pairs(const View<const DoubleDouble>& l, Vector<DoubleDouble>& x) {
+  static thread_local std::vector<double> high, low;
+  const auto m = static_cast<std::size_t>(l.rows);
+  high.resize(m);
+  low.resize(m);
+  for (std::size_t i = 0; i < m; ++i) {
+    high[i] = x[static_cast<Index>(i)].hi();
+    low[i] = x[static_cast<Index>(i)].lo();
+  }
+  const auto at = [&](std::size_t k) { return DoubleDouble(high[k]) + DoubleDouble(low[k]); };
+  for (std::size_t k = 0; k < m; ++k) {
+    const DoubleDouble* const column = l.data + l.stride * static_cast<Index>(k);
+    const DoubleDouble value = at(k) / column[k];
+    high[k] = value.hi();
+    low[k] = value.lo();
+    subtract_multiple(column + k + 1, value, high.data() + k + 1, low.data() + k + 1, m - k - 1);
+  }
+  for (std::size_t k = m; k-- > 0;) {
+    const DoubleDouble* const column = l.data + l.stride * static_cast<Index>(k);
+    const DoubleDouble value =
+        (at(k) - inner_pairs(column + k + 1, high.data() + k + 1, low.data() + k + 1, m - k - 1)) /
+        column[k];
+    high[k] = value.hi();
+    low[k] = value.lo();
+    x[static_cast<Index>(k)] = value;
+  }
+}
+
 // ---- Cholesky, blocked on multiply -------------------------------------------------------------
 
 constexpr Index kPanel = 32;
@@ -233,6 +296,8 @@ void solve_factored(const View<const T>& l, Vector<T>& x) {
     const ConstStrided lower = map(l);
     lower.triangularView<Eigen::Lower>().solveInPlace(x);
     lower.triangularView<Eigen::Lower>().transpose().solveInPlace(x);
+  } else if constexpr (std::is_same_v<T, DoubleDouble>) {
+    solve_factored_pairs(l, x);
   } else {
     for (Index k = 0; k < l.rows; ++k) {
       x[k] /= l(k, k);

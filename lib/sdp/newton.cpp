@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <type_traits>
 
 #include "sdp/kernels.h"
 #include "sdp/scalars.h"
@@ -9,9 +10,14 @@
 namespace gainsmith::sdp {
 namespace {
 
-/// Refinement of a direction: the residual aimed at, in units of epsilon but not below what any use
-/// of it needs; the most steps, and how many of them may pass without a smaller residual.
+/// Refinement of a direction: a residual that counts as none, in units of epsilon but not below
+/// what any use of it needs; the part of the present defect, and of what X.Y and the allowance
+/// permit, that it may be.
 constexpr double kRefineUnits = 1e4, kRefineGoal = 1e-20;
+constexpr double kRefineShare = 1e-3, kAllowanceShare = 0.1;
+/// A residual of this part of the defect stops progress.
+constexpr double kExhausted = 0.5;
+/// The most steps, and how many of them may pass without a smaller residual.
 constexpr int kRefineSteps = 100, kRefinePatience = 20;
 
 }  // namespace
@@ -63,13 +69,16 @@ bool Newton<T>::factorise(const Iterate<T>& point) {
 }
 
 template <typename T>
-bool Newton<T>::prepare(const Iterate<T>& point, const Defect<T>& defect, Model model) {
+bool Newton<T>::prepare(const Iterate<T>& point, const Defect<T>& defect, Model model,
+                        double allowance) {
   model_ = model;
   factor_X_.inverse(inverse_X_);
   schur_.assemble(inverse_X_, point.Y);
   if (!schur_.factorise()) return false;
 
   mu_ = model == Model::fixed ? point.mu_fixed() : point.mu();
+  harmless_ = inner(point.X, point.Y) / (T(1) + point.x.norm());
+  goal_ = refinement_goal(defect, allowance);
   scaled_product(defect.primal, point.Y, residual_term_);
   apply(data_, residual_term_, a_);
   if (model == Model::fixed) return true;
@@ -79,6 +88,15 @@ bool Newton<T>::prepare(const Iterate<T>& point, const Defect<T>& defect, Model 
   r_y_ = inner(defect.primal, point.Y);
   r_r_ = inner(defect.primal, residual_term_);
   return true;
+}
+
+// In double conjugate gradients cost little, and every digit of a direction helps.
+template <typename T>
+T Newton<T>::refinement_goal(const Defect<T>& defect, double allowance) const {
+  const T none = std::max(T(kRefineGoal), T(kRefineUnits * std::numeric_limits<T>::epsilon()));
+  if constexpr (std::is_same_v<T, double>) return none;
+  return std::max({none, T(T(kRefineShare) * defect.dual.norm()),
+                   std::min(T(T(kRefineShare) * harmless_), T(kAllowanceShare * allowance))});
 }
 
 template <typename T>
@@ -125,14 +143,14 @@ void Newton<T>::solve(const Iterate<T>& point, const Defect<T>& defect, const T&
 template <typename T>
 void Newton<T>::refine(const Iterate<T>& point, const Defect<T>& defect, const T& eta,
                        Iterate<T>& direction) {
-  const T goal = std::max(T(kRefineGoal), T(kRefineUnits * std::numeric_limits<T>::epsilon()));
   apply(data_, direction.Y, a_);
   h_ = a_ - eta * defect.dual - direction.tau * c_;
   T best = h_.norm(), rho(0);
-  if (!(best > goal)) return;
+  exhausted_ = false;
+  if (!(best > goal_)) return;
   trial_ = direction;
   int since_best = 0;
-  for (int step = 0; step < kRefineSteps && since_best < kRefinePatience && best > goal; ++step) {
+  for (int step = 0; step < kRefineSteps && since_best < kRefinePatience && best > goal_; ++step) {
     schur_.solve(h_, p_);
     const T next = h_.dot(p_);
     if (step == 0)
@@ -159,6 +177,9 @@ void Newton<T>::refine(const Iterate<T>& point, const Defect<T>& defect, const T
     direction.Y.flat() = trial_.Y.flat();
     since_best = 0;
   }
+  // Negative curvature ends the loop too, but that is a matter of luck and may be gone next time.
+  exhausted_ = since_best == kRefinePatience &&
+               best > std::max({goal_, harmless_, T(T(kExhausted) * defect.dual.norm())});
 }
 
 template <typename T>

@@ -45,7 +45,9 @@ class Newton {
   bool factorise(const Iterate<T>& point);
 
   /// Sets up the Schur complement at the point that was factored. False when it cannot be factored.
-  bool prepare(const Iterate<T>& point, const Defect<T>& defect, Model model);
+  /// In wide arithmetic, directions need not hold the dual equation to better than a part of its
+  /// present defect, nor of `allowance` where that moves the objective by less than X.Y.
+  bool prepare(const Iterate<T>& point, const Defect<T>& defect, Model model, double allowance);
 
   /// sigma = 0, eta = 1, C = 0.
   void predict(const Iterate<T>& point, const Defect<T>& defect, Iterate<T>& direction);
@@ -53,6 +55,11 @@ class Newton {
   /// The direction with second-order terms of `predictor`.
   void correct(const Iterate<T>& point, const Defect<T>& defect, const Iterate<T>& predictor,
                const T& sigma, const T& eta, Iterate<T>& direction);
+
+  /// Does the last direction, for all refinement, miss the dual equation by half of the present
+  /// defect, and by so much that the objective may move by X.Y? Then this arithmetic has no more to
+  /// give.
+  bool exhausted() const { return exhausted_; }
 
   /// The largest steps <= `longest` that keep point + step direction in the cone; in the
   /// homogeneous model both are the shorter one.
@@ -64,6 +71,7 @@ class Newton {
   /// dx, dtau and dkappa of the homogeneous model from u_ and h_.
   void move_tau(const Iterate<T>& point, const Defect<T>& defect, const T& sigma, const T& eta,
                 const T& trace_c, const T& c_tau_kappa, Iterate<T>& direction) const;
+  T refinement_goal(const Defect<T>& defect, double allowance) const;
   /// Lowers the residual of the dual equation that rounding left in `direction`.
   void refine(const Iterate<T>& point, const Defect<T>& defect, const T& eta,
               Iterate<T>& direction);
@@ -82,6 +90,9 @@ class Newton {
   Iterate<T> refinement_, trial_;
   Vector<T> a_, q_, p_, z_, u_, h_, c_;
   T mu_{0}, order_{0}, r_y_{0}, r_r_{0};
+  T goal_{0};      ///< residual of the dual equation that refinement aims at
+  T harmless_{0};  ///< residual that moves the objective by X.Y
+  bool exhausted_ = false;
 };
 
 }  // namespace gainsmith::sdp

@@ -15,9 +15,14 @@ Residuals<T>::Residuals(const Problem& problem, const Presolved& presolved)
       largest_c_(0),
       largest_f0_(0),
       norm_f0_(frobenius_norm(problem.f[0])),
+      dual_unit_(0),
       products_(Vector<T>::Zero(presolved.data.m())) {
   for (const double c : problem.c) largest_c_ = std::max(largest_c_, std::abs(c));
   for (const Entry& e : problem.f[0]) largest_f0_ = std::max(largest_f0_, std::abs(e.value));
+  const auto& scales = presolved.recovery.s;
+  if (!scales.empty())
+    dual_unit_ = (1 + largest_c_) * *std::min_element(scales.begin(), scales.end()) /
+                 presolved.recovery.gamma_c;
 }
 
 template <typename T>

@@ -35,12 +35,16 @@ class Residuals {
   double primal_certificate = 0;
   double dual_certificate = 0;
 
+  /// A dual defect of this norm, in working units and at tau = 1, has a dual infeasibility of 1 at
+  /// most.
+  double dual_unit() const { return dual_unit_; }
+
   /// The largest of the errors of the point.
   double worst() const;
 
  private:
   const Presolved& presolved_;
-  double largest_c_, largest_f0_, norm_f0_;
+  double largest_c_, largest_f0_, norm_f0_, dual_unit_;
   Vector<T> products_;
 };
 

@@ -81,13 +81,12 @@ class Ladder {
     if (digits > kQuadDigits) return settle<Decimal100>(kFarthest);
     if (digits > kDoubleDigits) return settle<DoubleDouble>(kFarther);
     Ipm<double> narrow(problem_, presolved_, options_);
+    wider_ = digits == 0 && cost() <= kQuadCost;
     attempt(narrow, 1);
-    if (!over() && best_error_ > kHopeless) {
-      narrow.start_at_identity();
-      run(narrow, Model::homogeneous);
-    }
-    if (over() || digits > 0 || cost() > kQuadCost) return std::move(best_);
+    if (!narrow.exhausted()) search_both_ways(narrow);
+    if (over() || !wider_) return std::move(best_);
 
+    wider_ = false;
     Ipm<DoubleDouble> wide(problem_, presolved_, options_);
     reason_ = reason("double");
     strict_ = best_error_ > kIllPosed * options_.tolerance;
@@ -95,7 +94,8 @@ class Ladder {
       wide.start_from(narrow.point());
       run(wide, Model::fixed);
     }
-    if (!over()) attempt(wide, kFarther);
+    if (!over() && !relay(narrow, wide, kFarther)) attempt(wide, kFarther);
+    search_both_ways(narrow);
     if (over() || cost() > kWideCost) return std::move(best_);
     reason_ = reason(name_of<DoubleDouble>());
     Ipm<Decimal100> widest(problem_, presolved_, options_);
@@ -110,8 +110,10 @@ class Ladder {
   /// How much farther than far_X, far_Y a run in wide arithmetic starts: problems that need it tend
   /// to have solutions of great norm, and it can afford the cancellation.
   static constexpr double kFarther = 1e4, kFarthest = 1e10;
-  /// The worst error at which 31 digits hand over to 100.
+  /// The worst error at which an arithmetic hands over to the next in a relay.
   static constexpr double kHandOver = 1e-3;
+  /// Iterations without progress before the first leg of a relay gives up.
+  static constexpr int kRelayPatience = 10;
   /// Where double ends farther than kIllPosed tolerances from an answer, the problem may be so ill
   /// posed that points which satisfy its equations to 1e-15 miss the optimum by any amount: then
   /// they must hold to kWideFeasibility in wide arithmetic.
@@ -136,18 +138,35 @@ class Ladder {
     run(ipm, Model::fixed);
   }
 
-  /// From a far point: `narrow` comes as near as kHandOver, well before its digits run out, and
-  /// `wide` goes on from there.
+  /// Where no solution is in sight: the homogeneous model, once.
+  void search_both_ways(Ipm<double>& narrow) {
+    if (over() || best_error_ <= kHopeless || searched_) return;
+    searched_ = true;
+    narrow.start_at_identity();
+    run(narrow, Model::homogeneous);
+  }
+
+  /// From a far point: `narrow` comes as near as kHandOver, well before its digits run out, or as
+  /// near as they take it, and `wide` goes on from there. False when `narrow` comes to nothing:
+  /// what it cannot find its way through, more digits rarely can.
   template <typename Narrow, typename Wide>
-  void relay(Ipm<Narrow>& narrow, Ipm<Wide>& wide, double factor) {
+  bool relay(Ipm<Narrow>& narrow, Ipm<Wide>& wide, double factor) {
     narrow.start_far(factor);
-    const Cause cause = narrow.run({Model::fixed, kHandOver, kHandOver, iterations_, start_});
-    iterations_ = narrow.iterations();
-    if (cause == Cause::converged)
-      wide.start_from(narrow.point());
-    else
-      wide.start_far(factor);
+    const Cause cause = narrow.run({.model = Model::fixed,
+                                    .aim = kHandOver,
+                                    .feasibility = kHandOver,
+                                    .leave_early = true,
+                                    .patience = kRelayPatience,
+                                    .first_iteration = iterations_,
+                                    .start = start_});
+    iterations_ = best_.iterations = narrow.iterations();
+    if (cause != Cause::converged && !narrow.exhausted()) {
+      best_.cause = cause == Cause::certificate ? Cause::stalled : cause;
+      return false;
+    }
+    wide.start_from(narrow.point());
     run(wide, Model::fixed);
+    return true;
   }
 
   template <typename T>
@@ -171,13 +190,20 @@ class Ladder {
   double best_error_ = std::numeric_limits<double>::infinity();
   int iterations_ = 0;
   std::string reason_;
-  bool strict_ = false;  ///< ask for kWideFeasibility
+  bool wider_ = false;     ///< wider arithmetic may follow
+  bool strict_ = false;    ///< ask for kWideFeasibility
+  bool searched_ = false;  ///< the homogeneous model had its turn
 };
 
 template <typename T>
 void Ladder::run(Ipm<T>& ipm, Model model) {
   const double feasibility = strict_ ? kWideFeasibility : options_.tolerance;
-  const Cause cause = ipm.run({model, kAim * options_.tolerance, feasibility, iterations_, start_});
+  const Cause cause = ipm.run({.model = model,
+                               .aim = kAim * options_.tolerance,
+                               .feasibility = feasibility,
+                               .leave_early = wider_,
+                               .first_iteration = iterations_,
+                               .start = start_});
   iterations_ = ipm.iterations();
   Solution found = conclude(problem_, presolved_, options_, ipm, cause);
   const double error = ipm.residuals().worst();

@@ -168,6 +168,22 @@ Data mixed_data(int n, int m) {
   return data;
 }
 
+TYPED_TEST(Kernels, ApplyIsTheTransposeOfAdjoint) {
+  using T = TypeParam;
+  Data data = mixed_data(19, 11);
+  for (Term& term : data.dense[0].terms) term.rest = 0x1p-60 * term.value;
+  Blocks<T> image(data.layout), s(data.layout);
+  const Vector<T> x = varied(11, 1, 6).col(0).cast<T>();
+  const T tau = T(0.7);
+  adjoint(data, x, tau, image);
+  s.dense(0) = positive(19, 5).cast<T>();
+  s.linear() << T(3), T(-1), T(2);
+  Vector<T> products(11);
+  const T with_f0 = apply(data, s, products);
+  const T difference = inner(image, s) - x.dot(products) + tau * with_f0;
+  EXPECT_LT(std::abs(static_cast<double>(difference)), 100 * this->tolerance());
+}
+
 TEST(Schur, SolvesWithTheMatrixOfItsDefinition) {
   for (const auto& [n, m] : {std::pair{5, 9}, std::pair{24, 31}}) {
     const Data data = mixed_data(n, m);

@@ -33,6 +33,7 @@ constexpr Known kOptima[] = {{"arch0", 5.665172732159296e-01},
                              {"hinf9", 2.362492582529188e+02, 8},
                              {"mcp100", 2.261573514833088e+02},
                              {"qap5", -436, 8},
+                             {"qap6", -3.814384021736792e+02, 8},
                              {"theta1", 23},
                              {"truss1", -8.999996315286891e+00},
                              {"truss2", -1.233803563640739e+02},
@@ -85,7 +86,7 @@ TEST(Sdplib, GivesTheSameBitsOnTwoThreads) {
 
 TEST(Sdplib, ClaimsNoDigitsThatAreNotThere) {
   if (absent()) GTEST_SKIP() << "no .dat-s files in " << GAINSMITH_SDPLIB;
-  for (const char* const name : {"hinf1", "hinf10"}) {
+  for (const char* const name : {"hinf1", "hinf10", "hinf13", "hinf15"}) {
     const Solution solution = solve(load(name));
     EXPECT_EQ(to_string(solution.status), "undecided") << name;
     EXPECT_FALSE(solution.message.empty());
