@@ -66,7 +66,8 @@ class Job {
   std::optional<verify::Report> verify_gains(const model::Gains& gains) {
     const model::Method& method = *loaded_.problem->method;
     const bool simulated = method.timer && !method.claims.empty() && !method.gains.empty();
-    if (!simulated || gains.gains.size() < method.gains.size()) return std::nullopt;
+    if (!simulated || gains.gains.size() + gains.gain_functions.size() < method.gains.size())
+      return std::nullopt;
     const verify::Report report = verify::run_campaign(
         loaded_.instance, gains, {options_.runs, options_.seed, options_.threads, {}});
     write_atomically(folder_ / "campaign.json", io::to_text(campaign_json(report)));

@@ -1,10 +1,12 @@
 #include "gainsmith/load.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "base/file.h"
 #include "io/gains_json.h"
 #include "methods/methods.h"
+#include "model/stated.h"
 
 namespace gainsmith::app {
 
@@ -30,9 +32,16 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
       throw InputError({file},
                        name + " is " + to_string(actual) + "; expected " + to_string(shape));
   };
+  model::state(instance, gains);  // throws when a function in it does not fit
   if (gains.verdict == model::Verdict::yes) {
-    for (const auto& unknown : instance.unknowns) require(unknown.name, unknown.shape);
-    for (const auto& [name, shape] : model::gain_shapes(instance)) require(name, shape);
+    for (const auto& unknown : model::with_functions(instance, gains).unknowns)
+      require(unknown.name, unknown.shape);
+    for (const auto& [name, shape] : model::gain_shapes(instance)) {
+      const bool function = std::any_of(
+          gains.gain_functions.begin(), gains.gain_functions.end(),
+          [&, wanted = name](const model::GainFunction& gain) { return gain.name == wanted; });
+      if (!function) require(name, shape);
+    }
   }
   for (const auto& [name, value] : gains.parameters) {
     const auto stated = instance.parameters.find(name);

@@ -25,6 +25,28 @@ std::string searched_text(const model::Overrides& searched) {
   return text;
 }
 
+/// "[1; 2] + [3; 4]*tau^2".
+std::string polynomial_text(const model::GainFunction& gain) {
+  std::string text;
+  for (std::size_t k = 0; k < gain.coefficients.size(); ++k) {
+    if (gain.coefficients[k].isZero(0)) continue;
+    text += (text.empty() ? "" : " + ") + matrix_text(gain.coefficients[k]);
+    if (k > 0) text += "*" + gain.variable + (k > 1 ? "^" + std::to_string(k) : "");
+  }
+  return text;
+}
+
+std::string functions_text(const model::Gains& gains) {
+  std::string text;
+  for (const model::GainFunction& gain : gains.gain_functions) {
+    const bool polynomial = gain.kind == model::GainFunction::Kind::polynomial;
+    text += fmt::format("{:<12}{}({}) = {}{}\n", text.empty() && gains.gains.empty() ? "gains" : "",
+                        gain.name, gain.variable, polynomial ? polynomial_text(gain) : gain.formula,
+                        polynomial ? "" : ", with the unknowns of the gain file");
+  }
+  return text;
+}
+
 std::string objective_text(const model::Gains& gains) {
   if (!gains.objective) return "";
   std::string text = fmt::format("objective   {}", brief(*gains.objective, 10));
@@ -103,7 +125,7 @@ std::string synthesis_summary(const model::Gains& gains) {
       gains.problem_name, gains.statement.method_name, to_string(gains.verdict),
       gains.solver.status, gains.solver.cause, gains.solver.iterations);
   if (!gains.solver.message.empty()) text += "            " + gains.solver.message + "\n";
-  text += objective_text(gains) + named_matrices("gains", gains.gains) +
+  text += objective_text(gains) + named_matrices("gains", gains.gains) + functions_text(gains) +
           named_matrices("parameters", gains.parameters) + searched_text(gains.searched);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);
   return text;

@@ -5,6 +5,7 @@
 
 #include "base/number.h"
 #include "expr/compile.h"
+#include "model/stated.h"
 
 namespace gainsmith::design {
 
@@ -31,15 +32,12 @@ class Comparison {
  public:
   Comparison(const model::Instance& instance, const model::Gains& gains)
       : instance_(instance), gains_(gains) {
-    values_ = instance.known_values();
-    scope_ = instance.design_scope();
-    for (const auto* list : {&gains.unknowns, &gains.gains}) {
-      for (const auto& [name, matrix] : *list) {
-        values_[name] = matrix;
-        scope_.symbols[name] = {{static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols())},
-                                matrix};
-      }
-    }
+    model::Stated stated = model::state(instance, gains);
+    scope_ = std::move(stated.scope);
+    values_ = std::move(stated.values);
+    for (const auto& [name, matrix] : values_)
+      if (const auto symbol = scope_.symbols.find(name); symbol != scope_.symbols.end())
+        symbol->second.value = matrix;
     scope_.symbols["objective"] = {{}, std::nullopt};
     if (gains.objective) values_["objective"] = expr::Matrix::Constant(1, 1, *gains.objective);
   }

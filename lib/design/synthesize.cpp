@@ -7,7 +7,7 @@
 
 #include "base/number.h"
 #include "base/version.h"
-#include "expr/compile.h"
+#include "design/gain_values.h"
 #include "lmi/formulation.h"
 #include "lmi/margins.h"
 
@@ -96,7 +96,8 @@ class Synthesis {
     if (goal == lmi::Goal::feasibility) {
       // Its certificate may rest on the limits on x.
       solve(lmi::Goal::certificate);
-      if (solution_.status == sdp::Status::primal_infeasible) return decide_infeasible(lmi::Goal::certificate);
+      if (solution_.status == sdp::Status::primal_infeasible)
+        return decide_infeasible(lmi::Goal::certificate);
       gains_.solver.status = "undecided";
       gains_.solver.message = "solutions, if any, are far larger than the data suggest";
       return;
@@ -255,14 +256,9 @@ class Synthesis {
     expr::Values values = instance_.known_values();
     if (gains_.verdict == model::Verdict::yes)
       for (const auto& [name, matrix] : gains_.unknowns) values[name] = matrix;
-    const expr::Scope scope = instance_.design_scope();
-    for (const model::Named& gain : instance_.method->gains) {
-      const auto program = expr::compile(gain.value, scope);
-      const bool known =
-          std::all_of(program.inputs.begin(), program.inputs.end(),
-                      [&](const expr::Input& input) { return values.contains(input.name); });
-      if (known) gains_.gains.emplace_back(gain.name, expr::evaluate(program, values));
-    }
+    for (const model::UnknownFunction& function : instance_.functions)
+      gains_.functions.emplace_back(function.signature(), function.text);
+    add_gain_values(instance_, values, gains_);
   }
 
   Clock::time_point start_ = Clock::now();

@@ -31,6 +31,11 @@ Text::Text(std::string text, std::string file, std::vector<Position> positions)
 Text::Text(std::string text, std::string file, Position start)
     : text_(std::move(text)), file_(std::move(file)), positions_(consecutive(text_, start)) {}
 
+Text Text::generated(std::string text, const Place& place) {
+  std::vector<Position> positions(text.size() + 1, {place.line, place.column});
+  return {std::move(text), place.file, std::move(positions)};
+}
+
 Place Text::place(std::size_t offset) const {
   if (positions_.empty()) return {file_};
   const Position at = positions_[std::min(offset, positions_.size() - 1)];

@@ -25,6 +25,9 @@ class Text {
   /// Text that stands in one piece at `start`.
   Text(std::string text, std::string file, Position start = {});
 
+  /// Text that was made, not read: each of its bytes has the place of what it was made from.
+  static Text generated(std::string text, const Place& place);
+
   const std::string& str() const { return text_; }
   const std::string& file() const { return file_; }
   /// The place of the byte `offset`; past the end: the place just behind the text.

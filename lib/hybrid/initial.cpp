@@ -81,6 +81,13 @@ std::vector<StartRule> make_start_rules(const model::Campaign& campaign, const S
       rules.push_back(make_rule(*found, slot, system));
       continue;
     }
+    if (const auto& start = system.starts[slot]) {
+      const Place place = start->place(*start->root);
+      rules.push_back(
+          make_rule({names[slot], Kind::expression, {{names[slot], *start, false, place}}, place},
+                    slot, system));
+      continue;
+    }
     const expr::Shape shape = system.layout.slots[slot].shape;
     const expr::Matrix ones = expr::Matrix::Ones(shape.rows, shape.cols);
     rules.push_back({Kind::box, {-ones, ones}, {}, {}});

@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "expr/compile.h"
+#include "model/stated.h"
 
 namespace gainsmith::hybrid {
 
@@ -111,26 +112,6 @@ void read_timer(const model::Timer& timer, System& system) {
                                  timer.name, brief(system.first_low), brief(system.first_high)));
 }
 
-/// Data and parameters, and what the gain file gives of parameters, gains and unknowns.
-expr::Values collect_constants(const model::Instance& instance, const model::Gains& gains) {
-  expr::Values constants = instance.known_values();
-  const auto take = [&](const std::string& name, expr::Shape shape, const expr::Matrix& value) {
-    const expr::Shape found{static_cast<int>(value.rows()), static_cast<int>(value.cols())};
-    if (found != shape)
-      throw InputError({}, fmt::format("{} in the gain file is {}, expected {}", name,
-                                       expr::to_string(found), expr::to_string(shape)));
-    if (!value.allFinite()) throw InputError({}, name + " in the gain file is not finite");
-    constants.insert_or_assign(name, value);
-  };
-  for (const auto& [name, value] : gains.parameters)
-    if (instance.parameters.contains(name)) take(name, {}, value);
-  auto named = model::gain_shapes(instance);
-  for (const auto& unknown : instance.unknowns) named.emplace_back(unknown.name, unknown.shape);
-  for (const auto& [name, shape] : named)
-    if (const expr::Matrix* value = gains.find(name)) take(name, shape, *value);
-  return constants;
-}
-
 }  // namespace
 
 System make_system(const model::Instance& instance, const model::Gains& gains) {
@@ -140,8 +121,12 @@ System make_system(const model::Instance& instance, const model::Gains& gains) {
                      "the method has no timer, so there is nothing to simulate");
   System system;
   system.layout = make_layout(instance.states, method.timer->name);
-  system.scope = instance.simulation_scope(model::gain_shapes(instance));
-  system.constants = collect_constants(instance, gains);
+  for (const model::Component* part : {&method.plant, &method.observer})
+    for (const model::Declaration& declared : part->states)
+      system.starts.push_back(declared.fallback);
+  model::Stated stated = model::state(instance, gains);
+  system.scope = std::move(stated.scope);
+  system.constants = std::move(stated.values);
   read_timer(*method.timer, system);
   system.flow = make_flow(system, method);
   system.jump = compile_map(system, method.plant.jump, method.observer.jump);

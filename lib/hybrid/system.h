@@ -29,6 +29,8 @@ struct JumpEntry {
 
 struct System {
   Layout layout;
+  /// Where a state starts when the campaign does not say; one a slot.
+  std::vector<std::optional<expr::Expression>> starts;
   expr::Values constants;  ///< data, parameters, gains and unknowns that have a value
   expr::Scope scope;       ///< of flow and jump maps, claims and signals
   AffineMap flow;

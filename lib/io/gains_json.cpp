@@ -17,6 +17,13 @@ Json matrices_json(const model::NamedMatrices& matrices) {
   return result;
 }
 
+template <class Item, class Write>
+Json list_json(const std::vector<Item>& items, Write write_item) {
+  Json list = Json::array();
+  for (const Item& item : items) list.push_back(write_item(item));
+  return list;
+}
+
 Json solver_json(const model::SolverRecord& solver) {
   return {{"status", solver.status},
           {"cause", solver.cause},
@@ -42,6 +49,13 @@ Json bound_json(const model::GainBound& bound) {
           {"active", bound.active}};
 }
 
+Json gain_function_json(const model::GainFunction& gain) {
+  Json result = {{"of", gain.variable}, {"kind", to_string(gain.kind)}, {"formula", gain.formula}};
+  if (gain.kind == model::GainFunction::Kind::polynomial)
+    result["coefficients"] = list_json(gain.coefficients, matrix_json);
+  return result;
+}
+
 Json certificate_json(const model::CertificateRecord& certificate) {
   return {{"checked", certificate.checked},
           {"value", certificate.value},
@@ -57,13 +71,6 @@ Json statement_json(const model::Statement& statement) {
           {"problem_file", statement.problem_file},
           {"problem_text", statement.problem_text},
           {"sha256", statement.hash}};
-}
-
-template <class Item, class Write>
-Json list_json(const std::vector<Item>& items, Write write_item) {
-  Json list = Json::array();
-  for (const Item& item : items) list.push_back(write_item(item));
-  return list;
 }
 
 /// Walks a document and says where it is when something is wrong.
@@ -162,6 +169,22 @@ model::SolverRecord solver_of(const Reader& reader) {
           reader.at("precision").text()};
 }
 
+model::GainFunction gain_function_of(const std::string& name, const Reader& reader) {
+  using Kind = model::GainFunction::Kind;
+  model::GainFunction gain{
+      name, reader.at("of").text(), Kind::formula, reader.at("formula").text(), {}};
+  const Reader kind = reader.at("kind");
+  for (const Kind candidate : {Kind::polynomial, Kind::vertices, Kind::formula}) {
+    if (to_string(candidate) != kind.text()) continue;
+    gain.kind = candidate;
+    if (candidate == Kind::polynomial)
+      for (const Reader& item : reader.at("coefficients").items())
+        gain.coefficients.push_back(item.matrix());
+    return gain;
+  }
+  kind.fail("expected polynomial, vertices or formula");
+}
+
 model::Margin margin_of(const Reader& reader) {
   return {reader.at("name").text(),
           reader.at("strict").truth(),
@@ -209,7 +232,16 @@ Json to_json(const model::Gains& gains) {
   if (gains.objective) document["objective"] = *gains.objective;
   if (gains.objective_lower_bound) document["objective_lower_bound"] = *gains.objective_lower_bound;
   document["gains"] = matrices_json(gains.gains);
+  if (!gains.gain_functions.empty()) {
+    document["gain_functions"] = Json::object();
+    for (const model::GainFunction& gain : gains.gain_functions)
+      document["gain_functions"][gain.name] = gain_function_json(gain);
+  }
   document["unknowns"] = matrices_json(gains.unknowns);
+  if (!gains.functions.empty()) {
+    document["functions"] = Json::object();
+    for (const auto& [name, text] : gains.functions) document["functions"][name] = text;
+  }
   document["parameters"] = matrices_json(gains.parameters);
   if (!gains.searched.empty()) document["searched"] = gains.searched;
   document["margins"] = list_json(gains.margins, margin_json);
@@ -229,6 +261,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   const Json document = parse_json(text, file);
   const Reader reader(document, file, "");
   model::Gains gains;
+  gains.file = file;
   gains.version = reader.at("gainsmith").text();
   gains.problem_name = reader.at("problem").text();
   gains.verdict = verdict_of(reader.at("verdict"));
@@ -236,7 +269,13 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   if (reader.has("objective_lower_bound"))
     gains.objective_lower_bound = reader.at("objective_lower_bound").number();
   gains.gains = reader.at("gains").matrices();
+  if (reader.has("gain_functions"))
+    for (const auto& [name, item] : reader.at("gain_functions").members())
+      gains.gain_functions.push_back(gain_function_of(name, item));
   gains.unknowns = reader.at("unknowns").matrices();
+  if (reader.has("functions"))
+    for (const auto& [name, item] : reader.at("functions").members())
+      gains.functions.emplace_back(name, item.text());
   gains.parameters = reader.at("parameters").matrices();
   if (reader.has("searched"))
     for (const auto& [name, value] : reader.at("searched").members())

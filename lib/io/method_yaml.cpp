@@ -20,8 +20,9 @@ std::string optional_string(const YamlFile& file, const std::optional<YamlItem>&
   return item ? file.string(item->value, item->key) : "";
 }
 
-/// "A: n x n" or "A: {shape: n x n, default: ..., help: ...}".
-model::Declaration declaration(const YamlFile& file, const YamlItem& item, bool with_default) {
+/// "A: n x n" or "A: {shape: n x n, default: ..., help: ...}"; `fallback` is the key of the value
+/// without a given one: "default" of a datum, "start" of a state.
+model::Declaration declaration(const YamlFile& file, const YamlItem& item, const char* fallback) {
   model::Declaration result;
   result.name = item.key;
   result.place = item.place;
@@ -31,7 +32,7 @@ model::Declaration declaration(const YamlFile& file, const YamlItem& item, bool 
   }
   YamlMap map(file, item.value, item.key);
   result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
-  if (with_default) result.fallback = optional_expression(file, map.find("default"));
+  result.fallback = optional_expression(file, map.find(fallback));
   result.help = optional_string(file, map.find("help"));
   map.finish();
   return result;
@@ -40,12 +41,12 @@ model::Declaration declaration(const YamlFile& file, const YamlItem& item, bool 
 /// "Y: n x p", "Y: {shape: n x p, help: ...}" or "Y: {shape: n x p, of: tau, degree: 2}".
 model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {
   model::UnknownDeclaration result;
-  if (item.value.IsScalar()) {
-    static_cast<model::Declaration&>(result) = declaration(file, item, false);
-    return result;
-  }
   result.name = item.key;
   result.place = item.place;
+  if (item.value.IsScalar()) {
+    result.shape = model::parse_shape(file.scalar(item.value, item.key));
+    return result;
+  }
   YamlMap map(file, item.value, item.key);
   result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
   result.help = optional_string(file, map.find("help"));
@@ -62,10 +63,10 @@ model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {
 
 std::vector<model::Declaration> declarations(const YamlFile& file,
                                              const std::optional<YamlItem>& item,
-                                             const std::string& what, bool with_default = false) {
+                                             const std::string& what, const char* fallback) {
   std::vector<model::Declaration> result;
   for (const YamlItem& entry : items_of(file, item, what))
-    result.push_back(declaration(file, entry, with_default));
+    result.push_back(declaration(file, entry, fallback));
   return result;
 }
 
@@ -92,6 +93,15 @@ std::vector<model::Named> named(const YamlFile& file, const std::optional<YamlIt
   return result;
 }
 
+/// "L: inv(P)*Y" or "F(tau): inv(P)*Z(tau)".
+model::Gain gain(const YamlFile& file, const YamlItem& item) {
+  const expr::Signature signature = expr::parse_signature(item.key_text);
+  if (signature.parameters.size() > 1)
+    throw InputError(item.place, "a gain is a matrix or a function of one variable");
+  return {signature.name, file.expression(item.value, item.key), item.place,
+          signature.parameters.empty() ? "" : signature.parameters.front()};
+}
+
 model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
   if (!item.value.IsMap()) return {item.key, {}, file.expression(item.value, item.key), item.place};
   YamlMap map(file, item.value, item.key);
@@ -114,7 +124,7 @@ model::Component component(const YamlFile& file, const std::optional<YamlItem>& 
   model::Component result;
   if (!item) return result;
   YamlMap map(file, item->value, what);
-  result.states = declarations(file, map.find("state"), what + ".state");
+  result.states = declarations(file, map.find("state"), what + ".state", "start");
   result.outputs = named(file, map.find("output"), what + ".output");
   result.flow = named(file, map.find("flow"), what + ".flow");
   result.jump = named(file, map.find("jump"), what + ".jump");
@@ -219,7 +229,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
   method.name = file.string(map.require("method").value, "method");
   method.source = optional_string(file, map.find("source"));
   method.summary = optional_string(file, map.find("summary"));
-  method.data = declarations(file, map.find("data"), "data", true);
+  method.data = declarations(file, map.find("data"), "data", "default");
   for (const YamlItem& item : items_of(file, map.find("parameters"), "parameters"))
     method.parameters.push_back(parameter(file, item));
   method.assume = named(file, map.find("assume"), "assume");
@@ -231,7 +241,8 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
   for (const YamlItem& item : items_of(file, map.find("require"), "require"))
     method.require.push_back(requirement(file, item));
   method.minimize = optional_expression(file, map.find("minimize"));
-  method.gains = named(file, map.find("gains"), "gains");
+  for (const YamlItem& item : items_of(file, map.find("gains"), "gains"))
+    method.gains.push_back(gain(file, item));
   method.plant = component(file, map.find("plant"), "plant");
   method.observer = component(file, map.find("observer"), "observer");
   method.timer = timer(file, map.find("timer"));

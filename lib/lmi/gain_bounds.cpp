@@ -6,10 +6,10 @@
 #include <cmath>
 #include <map>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include "expr/compile.h"
+#include "expr/parser.h"
 
 namespace gainsmith::lmi {
 
@@ -89,11 +89,69 @@ std::string text_of(const expr::Expression& expression, const std::vector<NodePt
   return text;
 }
 
-AffineForm form_of(const model::Instance& instance, const Unknowns& unknowns,
-                   const expr::Expression& expression) {
+/// A matrix that is a factor of a function of the gain's variable: "", "*tau", "*exp(-2*tau)".
+struct Part {
+  AffineForm form;
+  std::string factor;
+};
+
+/// An expression that is affine in the unknowns, split by the functions of the gain's variable.
+std::vector<Part> parts_of(const model::Instance& instance, const Unknowns& unknowns,
+                           const model::Gain& gain, const expr::Expression& expression) {
   AtomTable atoms;
-  return evaluate_affine(expr::compile(expression, instance.design_scope()), unknowns, atoms,
-                         instance.known_values(), "");
+  const expr::Program program = model::compile_gain(
+      {gain.name, expression, gain.place, gain.variable}, instance.design_scope());
+  const AffineForm form =
+      evaluate_affine(program, unknowns, atoms, instance.known_values(), gain.variable);
+  std::map<int, AffineForm> by_atom;
+  if (form.terms.empty()) by_atom[0].shape = form.shape;
+  for (const auto& [key, matrix] : form.terms) {
+    AffineForm& part = by_atom[key.first];
+    part.shape = form.shape;
+    part.terms.emplace(std::pair(0, key.second), matrix);
+  }
+  std::vector<Part> parts;
+  for (auto& [atom, part] : by_atom)
+    parts.push_back(
+        {std::move(part), atom == 0 ? "" : "*" + to_string(atoms[atom], gain.variable)});
+  return parts;
+}
+
+/// The calls of unknown functions in an expression.
+struct Call {
+  const model::UnknownFunction* function = nullptr;
+  std::size_t begin = 0;
+  std::size_t end = 0;
+};
+
+void calls_in(const Node& node, const model::Instance& instance, std::vector<Call>& calls) {
+  for (const model::UnknownFunction& function : instance.functions)
+    if (node.kind == NodeKind::call && node.text == function.name)
+      calls.push_back({&function, node.begin, node.end});
+  for (const NodePtr& child : node.children) calls_in(*child, instance, calls);
+}
+
+/// The gain's formula with each call Y(...) of an unknown function replaced by one of its
+/// coefficients, in all combinations: the gain is bounded when all of them are.
+std::vector<model::Gain> by_coefficients(const model::Instance& instance, const model::Gain& gain) {
+  std::vector<Call> calls;
+  calls_in(*gain.value.root, instance, calls);
+  std::sort(calls.begin(), calls.end(),
+            [](const Call& a, const Call& b) { return a.begin > b.begin; });
+  std::vector<std::string> texts = {gain.value.text->str()};
+  for (const Call& call : calls) {
+    std::vector<std::string> next;
+    for (const std::string& text : texts)
+      for (const std::string& coefficient : call.function->coefficients)
+        next.push_back(std::string(text).replace(call.begin, call.end - call.begin, coefficient));
+    texts = std::move(next);
+  }
+  if (calls.empty()) return {gain};
+  std::vector<model::Gain> result;
+  for (const std::string& text : texts)
+    result.push_back({gain.name, expr::parse(expr::Text::generated(text, gain.place)), gain.place,
+                      gain.variable});
+  return result;
 }
 
 /// [ S , E/beta ; * , s I ] with S n x n, E n x k and the scalar s (0: s = 1).
@@ -139,6 +197,15 @@ AffineForm transposed(const AffineForm& form) {
   return result;
 }
 
+bool is_same(const AffineForm& a, const AffineForm& b) {
+  return a.shape == b.shape && a.terms.size() == b.terms.size() &&
+         std::equal(a.terms.begin(), a.terms.end(), b.terms.begin(),
+                    [](const auto& left, const auto& right) {
+                      return left.first == right.first &&
+                             Sparse(left.second - right.second).norm() == 0;
+                    });
+}
+
 /// Collects the bounds of all gain formulas.
 class Collector {
  public:
@@ -148,45 +215,49 @@ class Collector {
   }
 
   GainBounds collect() {
-    for (const model::Named& gain : instance_.method->gains) {
-      std::vector<Product> products;
-      products_in(gain.value.root, unknowns_, products);
-      for (const Product& product : products) add_product(gain, product);
-      if (!products.empty()) continue;
-      const auto affine = affine_form({gain.value.text, gain.value.root});
-      if (!affine || !affine->has_unknown()) continue;
-      const int rows = affine->shape.rows;
-      add({text_of(gain.value, {gain.value.root}),
-           constant_form(expr::Matrix::Identity(rows, rows)), *affine, 0});
-    }
+    for (const model::Gain& gain : instance_.method->gains)
+      for (const model::Gain& formula : by_coefficients(instance_, gain)) add_formula(formula);
     return std::move(result_);
   }
 
  private:
-  /// The form of an expression, when it is affine in the unknowns.
-  std::optional<AffineForm> affine_form(const expr::Expression& expression) const {
+  void add_formula(const model::Gain& gain) {
+    std::vector<Product> products;
+    products_in(gain.value.root, unknowns_, products);
+    for (const Product& product : products) add_product(gain, product);
+    if (!products.empty()) return;
+    for (const Part& part : affine_parts(gain, gain.value.root)) {
+      if (!part.form.has_unknown()) continue;
+      const int rows = part.form.shape.rows;
+      add({text_of(gain.value, {gain.value.root}) + part.factor,
+           constant_form(expr::Matrix::Identity(rows, rows)), part.form, 0});
+    }
+  }
+
+  /// The parts of an expression; none when it is not affine in the unknowns.
+  std::vector<Part> affine_parts(const model::Gain& gain, const NodePtr& node) const {
     try {
-      return form_of(instance_, unknowns_, expression);
+      return parts_of(instance_, unknowns_, gain, {gain.value.text, node});
     } catch (const InputError&) {
-      return std::nullopt;
+      return {};
     }
   }
 
   /// Bounds inv(S) times all factors beside it or, when their product is not affine, times the
   /// nearest.
-  void add_product(const model::Named& gain, const Product& product) {
+  void add_product(const model::Gain& gain, const Product& product) {
     std::vector<NodePtr> factors = product.factors;
-    auto e = affine_form({gain.value.text, product_of(factors)});
-    if (!e) {
+    auto parts = affine_parts(gain, product_of(factors));
+    if (parts.empty()) {
       factors = {product.left ? factors.front() : factors.back()};
-      e = affine_form({gain.value.text, factors.front()});
+      parts = affine_parts(gain, factors.front());
     }
-    if (!e) return;
     const std::string inverse = "inv(" + product.unknown->name + ")";
     const std::string factor = text_of(gain.value, factors);
-    add({product.left ? inverse + "*" + factor : factor + "*" + inverse,
-         unknown_form(*product.unknown), product.left ? *e : transposed(*e),
-         scalar_of(*product.unknown)});
+    for (const Part& part : parts)
+      add({(product.left ? inverse + "*" + factor : factor + "*" + inverse) + part.factor,
+           unknown_form(*product.unknown), product.left ? part.form : transposed(part.form),
+           scalar_of(*product.unknown)});
   }
 
   /// The scalar s of an unknown S, made when it is first asked for.
@@ -202,7 +273,7 @@ class Collector {
 
   void add(GainBound bound) {
     for (const GainBound& known : result_.list)
-      if (known.what == bound.what) return;
+      if (known.scalar == bound.scalar && is_same(known.e, bound.e)) return;
     result_.blocks.push_back(bound_block(bound, result_.beta));
     result_.list.push_back(std::move(bound));
   }

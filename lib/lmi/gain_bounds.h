@@ -9,6 +9,9 @@
 // at most beta. It does not change when the unknowns are scaled together. A gain that is affine in
 // the unknowns
 // is bounded by its largest singular value: [ beta I , K ; * , beta I ] >= 0.
+//
+// A gain that is a function of a scalar is bounded coefficient by coefficient: inv(S)*Y_k for
+// inv(S)*Y(tau), and the matrix that each function theta(tau) in it multiplies.
 #pragma once
 
 #include <optional>

@@ -9,6 +9,8 @@ namespace {
 constexpr expr::Shape kScalar{};
 
 void check_component(const Component& part, const expr::Scope& scope) {
+  for (const Declaration& state : part.states)
+    if (state.fallback) expr::compile(*state.fallback, scope, scope.symbols.at(state.name).shape);
   for (const Named& output : part.outputs) expr::compile(output.value, scope);
   for (const auto* map : {&part.flow, &part.jump})
     for (const Named& entry : *map)
@@ -119,7 +121,7 @@ void check_claims(const Instance& instance, const expr::Scope& scope) {
 
 void check_everything(const Instance& instance) {
   check_requirements(instance);
-  const expr::Scope scope = instance.simulation_scope(gain_shapes(instance));
+  const expr::Scope scope = instance.simulation_scope();
   check_component(instance.method->plant, scope);
   check_component(instance.method->observer, scope);
   for (const Named& signal : instance.method->signals) expr::compile(signal.value, scope);

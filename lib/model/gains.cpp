@@ -13,6 +13,18 @@ const expr::Matrix* Gains::find(const std::string& name) const {
   return nullptr;
 }
 
+std::string to_string(GainFunction::Kind kind) {
+  switch (kind) {
+    case GainFunction::Kind::polynomial:
+      return "polynomial";
+    case GainFunction::Kind::vertices:
+      return "vertices";
+    case GainFunction::Kind::formula:
+      return "formula";
+  }
+  return "?";
+}
+
 std::string statement_hash(const Statement& statement) {
   return sha256(statement.method_text + '\0' + statement.problem_text);
 }

@@ -70,20 +70,40 @@ std::string statement_hash(const Statement& statement);
 /// The statement of a problem as it was read.
 Statement statement_of(const Problem& problem);
 
+/// A gain that is a function of a scalar.
+struct GainFunction {
+  enum class Kind {
+    polynomial,  ///< the sum of coefficients[k] * variable^k
+    vertices,    ///< the formula, over unknown functions with one coefficient a vertex
+    formula      ///< any other formula over data, parameters and unknowns
+  };
+  std::string name;
+  std::string variable;
+  Kind kind = Kind::formula;
+  std::string formula;                     ///< in the matrix language
+  std::vector<expr::Matrix> coefficients;  ///< polynomial
+};
+
+std::string to_string(GainFunction::Kind kind);
+
 struct Gains {
   std::string problem_name;
   Verdict verdict = Verdict::undecided;
   SolverRecord solver;
   std::optional<double> objective;
   std::optional<double> objective_lower_bound;  ///< of the problem without margins, by weak duality
-  NamedMatrices gains;
+  NamedMatrices gains;                          ///< constant ones
+  std::vector<GainFunction> gain_functions;     ///< the others
   NamedMatrices unknowns;
+  /// How unknown functions follow from `unknowns`: {"Y(tau)", "Y_0 + Y_1*tau"}.
+  std::vector<std::pair<std::string, std::string>> functions;
   NamedMatrices parameters;
   Overrides searched;  ///< scalars that a search set: they replace those of the statement
   std::vector<Margin> margins;
   std::vector<GainBound> bounds;
   std::optional<CertificateRecord> certificate;
   Statement statement;
+  std::string file;                                     ///< where it was read, for messages
   std::string version;                                  ///< of gainsmith
   std::vector<std::pair<std::string, double>> timings;  ///< seconds; apart from all results
 

@@ -319,21 +319,30 @@ expr::Scope Instance::design_scope() const {
   return result;
 }
 
-expr::Scope Instance::simulation_scope(
-    const std::vector<std::pair<std::string, expr::Shape>>& gains) const {
+expr::Scope Instance::simulation_scope() const {
   expr::Scope result = design_scope();
-  for (const auto& [name, shape] : gains)
+  for (const auto& [name, shape] : gain_shapes(*this))
     if (!result.symbols.contains(name)) result.symbols[name] = {shape, std::nullopt};
+  for (const Gain& gain : method->gains) {
+    if (gain.variable.empty()) continue;
+    result.symbols.erase(gain.name);
+    result.definitions[gain.name] = {{gain.variable}, gain.value};
+  }
   for (const auto& [name, shape] : states) result.symbols[name] = {shape, std::nullopt};
   if (method->timer) result.symbols[method->timer->name] = {expr::Shape{}, std::nullopt};
   return result;
 }
 
+expr::Program compile_gain(const Gain& gain, expr::Scope scope) {
+  if (!gain.variable.empty()) scope.symbols[gain.variable] = {expr::Shape{}, std::nullopt};
+  return expr::compile(gain.value, scope);
+}
+
 std::vector<std::pair<std::string, expr::Shape>> gain_shapes(const Instance& instance) {
   const expr::Scope scope = instance.design_scope();
   std::vector<std::pair<std::string, expr::Shape>> shapes;
-  for (const Named& gain : instance.method->gains)
-    shapes.emplace_back(gain.name, expr::compile(gain.value, scope).shape());
+  for (const Gain& gain : instance.method->gains)
+    shapes.emplace_back(gain.name, compile_gain(gain, scope).shape());
   return shapes;
 }
 

@@ -38,9 +38,9 @@ struct Instance {
 
   /// The scope with the unknowns as symbols: what `require`, `minimize` and `gains` may use.
   expr::Scope design_scope() const;
-  /// The scope with unknowns, gains (given by their shapes), states and the timer as symbols: what
-  /// flow and jump maps and claims may use.
-  expr::Scope simulation_scope(const std::vector<std::pair<std::string, expr::Shape>>& gains) const;
+  /// The scope with unknowns, gains, states and the timer as symbols, and gains that are functions
+  /// as definitions: what flow and jump maps and claims may use.
+  expr::Scope simulation_scope() const;
   /// Data and parameters together.
   expr::Values known_values() const;
 };
@@ -63,7 +63,10 @@ void check_scalar_name(const Method& method, const std::string& name, const Plac
 /// claims, gains, the campaign and the expectations. InputError for the first that does not fit.
 void check_everything(const Instance& instance);
 
-/// The shapes of the gains, in order.
+/// The program of a gain's formula; the variable of a function is an input.
+expr::Program compile_gain(const Gain& gain, expr::Scope scope);
+
+/// The shapes of the gains, in order; of a function that of its values.
 std::vector<std::pair<std::string, expr::Shape>> gain_shapes(const Instance& instance);
 
 /// The value of an expression that must be a scalar given by `values`.

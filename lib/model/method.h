@@ -16,7 +16,7 @@ namespace gainsmith::model {
 struct Declaration {
   std::string name;
   ShapeText shape;
-  /// A datum's default, used when the problem gives none.
+  /// A datum's default or a state's start, used when the problem gives none.
   std::optional<expr::Expression> fallback;
   std::string help;
   Place place;
@@ -48,6 +48,14 @@ struct Let {
   expr::Signature signature;
   expr::Expression body;
   Place place;
+};
+
+/// A gain: a matrix or, with `variable`, a function of a scalar: "F(tau): inv(P)*Z(tau)".
+struct Gain {
+  std::string name;
+  expr::Expression value;
+  Place place;
+  std::string variable;  ///< empty: a matrix
 };
 
 /// "forall: tau in [a, b]" or "forall: tau in {a, b, c}".
@@ -118,7 +126,7 @@ struct Method {
   std::vector<Let> let;
   std::vector<Requirement> require;
   std::optional<expr::Expression> minimize;
-  std::vector<Named> gains;
+  std::vector<Gain> gains;
 
   Component plant;
   Component observer;

@@ -64,9 +64,10 @@ class Names {
 
   void check_parameter(const std::string& name, const Place& place) const {
     if (!is_name(name))
-      throw InputError(place, "of: '" + name + "' is no name: expected letters, digits and _");
+      throw InputError(place,
+                       "the variable '" + name + "' is no name: expected letters, digits and _");
     if (expr::is_reserved(name))
-      throw InputError(place, "of: '" + name + "' is a word of the language");
+      throw InputError(place, "the variable '" + name + "' is a word of the language");
   }
 
  private:
@@ -108,16 +109,22 @@ void check_names(const Method& method) {
   }
   if (method.timer) names.add(method.timer->name, "timer", method.timer->place);
   for (const Named& signal : method.signals) names.add(signal.name, "signal", signal.place);
-  for (const Named& gain : method.gains) {
+  for (const Gain& gain : method.gains) {
     // "L: L": the gain is the datum (an analysis of given gains) or the unknown itself.
     const expr::Node& root = *gain.value.root;
-    const bool is_itself = root.kind == expr::NodeKind::name && root.text == gain.name;
+    const bool is_itself =
+        gain.variable.empty() && root.kind == expr::NodeKind::name && root.text == gain.name;
     if (!is_itself) names.add(gain.name, "gain", gain.place);
   }
   for (const UnknownDeclaration& unknown : method.unknowns) {
     if (unknown.variable.empty()) continue;
     names.check_parameter(unknown.variable, unknown.place);
     names.reserve_coefficients(unknown.name);
+  }
+  for (const Gain& gain : method.gains) {
+    if (gain.variable.empty()) continue;
+    names.check_parameter(gain.variable, gain.place);
+    names.reserve_coefficients(gain.name);
   }
   for (const Requirement& requirement : method.require)
     for (const Forall& forall : requirement.forall) names.check_variable(forall);

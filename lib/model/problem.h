@@ -59,7 +59,8 @@ struct Campaign {
   std::optional<expr::Expression> horizon;  ///< continuous time
   std::vector<SamplingLaw> sampling;  ///< empty: uniform, extremes, sinusoid, both ends constant
   std::optional<expr::Expression> first;  ///< first value of the timer; none: uniform in its range
-  std::vector<InitialValue> initial;      ///< a state that is not listed starts in the box [-1, 1]
+  std::vector<InitialValue>
+      initial;  ///< a state that is not listed starts where the method says, or in the box [-1, 1]
   Place place;
 };
 

@@ -12,12 +12,6 @@ namespace gainsmith::model {
 
 namespace {
 
-/// A text that stands nowhere in a file: all of it has the place of what it was made from.
-expr::Expression parse_at(const std::string& text, const Place& place) {
-  const std::vector<expr::Position> positions(text.size() + 1, {place.line, place.column});
-  return expr::parse(expr::Text(text, place.file, positions));
-}
-
 /// The text in the variable and the coefficients alone, and of the function's shape.
 void check_text(const UnknownFunction& function, const expr::Expression& body, const Place& place) {
   expr::Scope scope;
@@ -31,7 +25,7 @@ void check_text(const UnknownFunction& function, const expr::Expression& body, c
 }
 
 void define(Instance& instance, const UnknownFunction& function, const Place& place) {
-  const expr::Expression body = parse_at(function.text, place);
+  const expr::Expression body = expr::parse(expr::Text::generated(function.text, place));
   check_text(function, body, place);
   instance.scope.definitions[function.name] = {{function.variable}, body};
 }
@@ -62,6 +56,11 @@ std::string polynomial_text(const std::string& name, const std::string& variable
     if (k > 1) text += "^" + std::to_string(k);
   }
   return text;
+}
+
+bool is_polynomial(const UnknownFunction& function) {
+  const int degree = static_cast<int>(function.coefficients.size()) - 1;
+  return function.text == polynomial_text(function.name, function.variable, degree);
 }
 
 void add_polynomial(Instance& instance, UnknownFunction function, int degree) {

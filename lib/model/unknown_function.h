@@ -36,6 +36,9 @@ std::string coefficient_name(const std::string& name, std::size_t k);
 /// "YL_0 + YL_1*tau + YL_2*tau^2", for `degree` 2.
 std::string polynomial_text(const std::string& name, const std::string& variable, int degree);
 
+/// Whether the function is the polynomial of its coefficients.
+bool is_polynomial(const UnknownFunction& function);
+
 /// Adds the function as the polynomial of that degree: its coefficients to the instance's unknowns,
 /// its definition to the scope. `function` gives name, variable, shape, structure and place.
 void add_polynomial(Instance& instance, UnknownFunction function, int degree);

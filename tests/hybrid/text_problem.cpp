@@ -37,7 +37,8 @@ TextProblem& TextProblem::gain(const std::string& name, const expr::Matrix& valu
   method_.gains.push_back(
       {name,
        parse("zeros(" + std::to_string(value.rows()) + ", " + std::to_string(value.cols()) + ")"),
-       {}});
+       {},
+       ""});
   gains.gains.emplace_back(name, value);
   return *this;
 }

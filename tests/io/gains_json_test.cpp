@@ -33,6 +33,14 @@ class RandomGains {
     gains.gains = {{"L", matrix(2, 1)}, {"F", matrix(2, 2)}, {"H", matrix(1, 1)}};
     gains.unknowns = {{"P", matrix(3, 3)}, {"row", matrix(1, 3)}, {"empty", matrix(0, 0)}};
     gains.parameters = {{"delta", matrix(1, 1)}};
+    using Kind = model::GainFunction::Kind;
+    if (random_() % 2 == 0) {
+      gains.gain_functions = {
+          {"K", "tau", Kind::polynomial, "inv(P)*Y(tau)", {matrix(2, 1), matrix(2, 1)}},
+          {"M", "s", Kind::formula, "Y(s)'*Y(s)", {}},
+          {"N", "s", Kind::vertices, "Y(s)", {}}};
+      gains.functions = {{"Y(tau)", "Y_0 + \"Y_1\"*tau"}};
+    }
     if (random_() % 2 == 0) gains.searched = {{"T2", number()}, {"delta", number()}};
     for (int i = 0; i < 2; ++i)
       gains.margins.push_back(
@@ -156,6 +164,8 @@ TEST(Gains, EveryKeyThatIsNotOptionalMustBeThere) {
   gains.objective_lower_bound.reset();
   gains.certificate.reset();
   gains.searched.clear();
+  gains.gain_functions.clear();
+  gains.functions.clear();
   const Json document = to_json(gains);
   parse_gains(to_text(document), "g.json");
   for (const auto& [key, value] : document.items()) {

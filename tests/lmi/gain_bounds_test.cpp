@@ -4,6 +4,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <cmath>
 #include <random>
 
 #include "support/yaml_problem.h"
@@ -40,6 +41,30 @@ TEST(GainBoundsTest, TheWholeProductAndAffineGainsAreBounded) {
   const GainBounds bounds = gain_bounds(yaml.instance, Unknowns(yaml.instance), 100);
   EXPECT_EQ(names(bounds),
             (std::vector<std::string>{"inv(P)*C'*Q*2", "(2*K + K)", "inv(P)*Y", "Y*inv(Q)"}));
+}
+
+TEST(GainBoundsTest, FunctionsAreBoundedCoefficientByCoefficient) {
+  const std::string text =
+      "problem: p\nmethod:\n  method: m\n  data: {C: p x n}\n"
+      "  unknowns: {P: symmetric n, Y: {shape: n x p, of: t, degree: 2}, X: {shape: n x p, of: "
+      "t}}\n"
+      "  require: {positive: P > 0}\n"
+      "  gains: {L(t): inv(P)*Y(t), M(t): X(t) + t*Y(0), N(s): inv(P)*(exp(-s)*X(s) + C'*s)}\n"
+      "data: {C: [[1, 2]]}\n";
+  const tests::YamlProblem yaml(text);
+  const Unknowns unknowns(yaml.instance);
+  const GainBounds bounds = gain_bounds(yaml.instance, unknowns, 100);
+  EXPECT_EQ(names(bounds),
+            (std::vector<std::string>{"inv(P)*Y_0", "inv(P)*Y_1", "inv(P)*Y_2", "(X_0 + t*Y_0)",
+                                      "(X_0 + t*Y_0)*t", "(X_0 + t*Y_1)*t", "(X_0 + t*Y_2)*t",
+                                      "inv(P)*(exp(-s)*X_0 + C'*s)*s",
+                                      "inv(P)*(exp(-s)*X_0 + C'*s)*exp(-1*s)"}));
+  // P, Y_0, Y_1, Y_2, X_0, s: with P = 4 I the largest singular values count.
+  const std::vector<double> x = {4, 0, 4, 3, 4, 30, 40, 300, 400, 6, 8, 4};
+  const auto reached = reached_bounds(bounds, x);
+  const double expected[] = {5. / 4, 50. / 4, 500. / 4, 10, 5, 50, 500, std::sqrt(5.) / 4, 10. / 4};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    EXPECT_NEAR(reached[i].reached, expected[i], 1e-12 * expected[i]) << reached[i].what;
 }
 
 TEST(GainBoundsTest, NoBoundNoBlocks) {

@@ -84,7 +84,7 @@ TEST(Instance, ItsScopesHoldWhatEachPartMayUse) {
   EXPECT_FALSE(design.symbols.at("P").value);
   EXPECT_TRUE(design.symbols.at("A").value);
   EXPECT_FALSE(design.symbols.contains("z"));
-  const auto simulation = small.instance.simulation_scope(gain_shapes(small.instance));
+  const auto simulation = small.instance.simulation_scope();
   for (const char* name : {"P", "K", "z", "zh", "th", "s"})
     EXPECT_TRUE(simulation.symbols.contains(name)) << name;
   EXPECT_TRUE(simulation.symbols.at("A").value) << "a gain that is a datum keeps its value";
@@ -95,7 +95,7 @@ TEST(Instance, DefinitionsOutputsAndSignalsEvaluate) {
   expr::Values values = small.instance.known_values();
   values["z"] = expr::Matrix{{1}, {2}};
   values["zh"] = expr::Matrix{{3}, {5}};
-  const auto scope = small.instance.simulation_scope({});
+  const auto scope = small.instance.simulation_scope();
   const auto value = [&](const std::string& text) {
     return scalar_value(expr::parse({text, "t"}), scope, values);
   };

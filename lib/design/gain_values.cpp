@@ -1,0 +1,80 @@
+#include "design/gain_values.h"
+
+#include <algorithm>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lmi/compile.h"
+
+namespace gainsmith::design {
+
+namespace {
+
+/// The coefficients of 1, t, t^2, ... of a function of t; none when it is no polynomial.
+std::optional<std::vector<expr::Matrix>> polynomial(const expr::Program& program,
+                                                    const std::string& variable,
+                                                    const expr::Values& values) {
+  const lmi::Unknowns none{model::Instance{}};
+  lmi::AtomTable atoms;
+  lmi::AffineForm form;
+  try {
+    form = lmi::evaluate_affine(program, none, atoms, values, variable);
+  } catch (const InputError&) {
+    return std::nullopt;  // more than sums and products of the functions that atoms stand for
+  }
+  std::vector<expr::Matrix> coefficients;
+  for (const auto& [key, matrix] : form.terms) {
+    const lmi::Atom& atom = atoms[key.first];
+    if (atom.rate != 0 || atom.frequency != 0) return std::nullopt;
+    const auto power = static_cast<std::size_t>(atom.power);
+    if (power >= coefficients.size())
+      coefficients.resize(power + 1, expr::Matrix::Zero(form.shape.rows, form.shape.cols));
+    coefficients[power] = expr::Matrix(matrix);
+  }
+  if (coefficients.empty())
+    coefficients.emplace_back(expr::Matrix::Zero(form.shape.rows, form.shape.cols));
+  return coefficients;
+}
+
+/// Whether the program uses an unknown function that is given by other weights than powers.
+bool uses_vertices(const model::Instance& instance, const expr::Program& program) {
+  return std::any_of(instance.functions.begin(), instance.functions.end(),
+                     [&](const model::UnknownFunction& function) {
+                       return program.uses(function.coefficients.front()) &&
+                              !is_polynomial(function);
+                     });
+}
+
+}  // namespace
+
+void add_gain_values(const model::Instance& instance, const expr::Values& values,
+                     model::Gains& gains) {
+  using Kind = model::GainFunction::Kind;
+  const expr::Scope scope = instance.design_scope();
+  for (const model::Gain& gain : instance.method->gains) {
+    const expr::Program program = model::compile_gain(gain, scope);
+    const bool known =
+        std::all_of(program.inputs.begin(), program.inputs.end(), [&](const expr::Input& input) {
+          return input.name == gain.variable || values.contains(input.name);
+        });
+    if (!known) continue;
+    if (gain.variable.empty() || !program.uses(gain.variable)) {
+      gains.gains.emplace_back(gain.name, expr::evaluate(program, values));
+      continue;
+    }
+    auto coefficients = polynomial(program, gain.variable, values);
+    if (coefficients && coefficients->size() == 1) {
+      gains.gains.emplace_back(gain.name, coefficients->front());
+      continue;
+    }
+    const Kind kind = coefficients                       ? Kind::polynomial
+                      : uses_vertices(instance, program) ? Kind::vertices
+                                                         : Kind::formula;
+    gains.gain_functions.push_back(
+        {gain.name, gain.variable, kind, gain.value.text->str(),
+         coefficients ? std::move(*coefficients) : std::vector<expr::Matrix>{}});
+  }
+}
+
+}  // namespace gainsmith::design

@@ -1,0 +1,16 @@
+// The gains of a point.
+#pragma once
+
+#include "expr/real.h"
+#include "model/gains.h"
+#include "model/instance.h"
+
+namespace gainsmith::design {
+
+/// Evaluates every gain of the method whose formula needs nothing but `values` and puts it into
+/// `gains`: a matrix into `gains.gains`; a function of a scalar into `gains.gain_functions`, with
+/// its coefficients when it is a polynomial, or into `gains.gains` when it is constant.
+void add_gain_values(const model::Instance& instance, const expr::Values& values,
+                     model::Gains& gains);
+
+}  // namespace gainsmith::design

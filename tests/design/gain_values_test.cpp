@@ -1,0 +1,94 @@
+// Which kind of gain a formula gives, and its numbers.
+#include "design/gain_values.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <string>
+
+#include "support/yaml_problem.h"
+
+namespace gainsmith::design {
+namespace {
+
+using Kind = model::GainFunction::Kind;
+
+const expr::Matrix kP{{2, 0}, {0, 4}};
+const expr::Matrix kFirst{{2}, {4}};
+const expr::Matrix kSecond{{6}, {-8}};
+
+tests::YamlProblem problem(const std::string& gain, int degree) {
+  return tests::YamlProblem(
+      "problem: p\nmethod:\n  method: m\n  data: {C: p x n}\n  unknowns: {P: symmetric n, "
+      "Y: {shape: n x p, of: tau, degree: " +
+      std::to_string(degree) + "}}\n  require: {positive: P > 0}\n  gains: {" + gain +
+      "}\ndata: {C: [[1, 2]]}\n");
+}
+
+model::Gains gains_of(const tests::YamlProblem& yaml) {
+  expr::Values values = yaml.instance.known_values();
+  values["P"] = kP;
+  values["Y_0"] = kFirst;
+  values["Y_1"] = kSecond;
+  model::Gains gains;
+  add_gain_values(yaml.instance, values, gains);
+  return gains;
+}
+
+TEST(GainValues, APolynomialIsStoredByItsCoefficients) {
+  const auto gains = gains_of(problem("L(s): inv(P)*(Y(2*s)*s + C'*s^3)", 1));
+  ASSERT_EQ(gains.gain_functions.size(), 1U);
+  const model::GainFunction& gain = gains.gain_functions.front();
+  EXPECT_EQ(gain.kind, Kind::polynomial);
+  EXPECT_EQ(gain.variable, "s");
+  EXPECT_EQ(gain.formula, "inv(P)*(Y(2*s)*s + C'*s^3)");
+  ASSERT_EQ(gain.coefficients.size(), 4U);
+  const expr::Matrix inverse = kP.inverse();
+  EXPECT_TRUE(gain.coefficients[0].isZero(0));
+  EXPECT_TRUE(gain.coefficients[1].isApprox(inverse * kFirst, 1e-15));
+  EXPECT_TRUE(gain.coefficients[2].isApprox(2 * inverse * kSecond, 1e-15));
+  EXPECT_TRUE(gain.coefficients[3].isApprox(inverse * expr::Matrix{{1}, {2}}, 1e-15));
+}
+
+TEST(GainValues, WhatTurnsOutConstantIsAMatrix) {
+  for (const std::string formula : {"L(tau): inv(P)*Y(tau)", "L(s): inv(P)*(Y(s) + s*C' - C'*s)"}) {
+    const auto gains = gains_of(problem(formula, 0));
+    EXPECT_TRUE(gains.gain_functions.empty()) << formula;
+    ASSERT_EQ(gains.gains.size(), 1U) << formula;
+    EXPECT_TRUE(gains.gains[0].second.isApprox(kP.inverse() * kFirst, 1e-15));
+  }
+  const auto zero = gains_of(problem("L(s): s*C' - C'*s", 0));
+  ASSERT_EQ(zero.gains.size(), 1U);
+  EXPECT_EQ(zero.gains[0].second, expr::Matrix::Zero(2, 1));
+}
+
+TEST(GainValues, AnythingElseIsAFormula) {
+  for (const std::string formula : {"exp(-tau)*Y(tau)", "inv(P + tau*I)*Y(tau)", "sqrt(tau)*C'"}) {
+    const auto gains = gains_of(problem("L(tau): " + formula, 1));
+    ASSERT_EQ(gains.gain_functions.size(), 1U) << formula;
+    EXPECT_EQ(gains.gain_functions[0].kind, Kind::formula);
+    EXPECT_EQ(gains.gain_functions[0].formula, formula);
+    EXPECT_TRUE(gains.gain_functions[0].coefficients.empty());
+  }
+}
+
+TEST(GainValues, OneMatrixAVertexIsAKindOfItsOwn) {
+  tests::YamlProblem yaml = problem("L(tau): inv(P)*Y(tau)", 1);
+  redefine(yaml.instance, "Y", 2, "cos(tau)*Y_0 + (1 - cos(tau))*Y_1", {});
+  const auto gains = gains_of(yaml);
+  ASSERT_EQ(gains.gain_functions.size(), 1U);
+  EXPECT_EQ(gains.gain_functions[0].kind, Kind::vertices);
+}
+
+TEST(GainValues, WithoutAPointOnlyWhatFollowsFromDataIsKnown) {
+  const auto yaml = problem("L(tau): inv(P)*Y(tau), M(tau): C*tau, N: 2*C", 1);
+  model::Gains gains;
+  add_gain_values(yaml.instance, yaml.instance.known_values(), gains);
+  ASSERT_EQ(gains.gain_functions.size(), 1U);
+  EXPECT_EQ(gains.gain_functions[0].name, "M");
+  ASSERT_EQ(gains.gains.size(), 1U);
+  EXPECT_EQ(gains.gains[0].first, "N");
+}
+
+}  // namespace
+}  // namespace gainsmith::design

@@ -1,0 +1,117 @@
+// What expressions see of a gain file: the file's matrices and texts.
+#include "model/stated.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "expr/compile.h"
+#include "expr/parser.h"
+#include "model/small_problem.h"
+#include "support/input_error.h"
+
+namespace gainsmith::model {
+namespace {
+
+using Kind = GainFunction::Kind;
+using tests::input_error;
+
+/// The small method with an unknown function and a gain that is one.
+const std::string kMethod =
+    changed(changed(kSmallMethod, "X: n x m", "X: {shape: n x m, of: tau, degree: 1}"),
+            "gains: {K: b'*P, A: A}", "gains: {K: b'*P, A: A, G(t): inv(P)*X(t)}");
+
+const expr::Matrix kFirst{{1}, {2}};
+const expr::Matrix kSecond{{5}, {-7}};
+
+Gains file() {
+  Gains gains;
+  gains.file = "g.json";
+  gains.gains = {{"K", expr::Matrix{{9, 8}}}};
+  gains.unknowns = {{"P", 2 * expr::Matrix::Identity(2, 2)}, {"X_0", kFirst}, {"X_1", kSecond}};
+  gains.functions = {{"X(tau)", "X_0 + X_1*tau"}};
+  return gains;
+}
+
+expr::Matrix value(const Gains& gains, const std::string& text) {
+  const Small small(kSmallProblem, kMethod);
+  const Stated stated = state(small.instance, gains);
+  return expr::evaluate(expr::compile(expr::parse({text, "test"}), stated.scope), stated.values);
+}
+
+std::string refusal(const Gains& gains) {
+  const InputError error = input_error([&] { value(gains, "1"); });
+  EXPECT_EQ(error.place().file, "g.json");
+  return error.message();
+}
+
+TEST(Stated, AGainIsTheMatrixOfTheFile) { EXPECT_EQ(value(file(), "K"), (expr::Matrix{{9, 8}})); }
+
+TEST(Stated, AFormulaIsEvaluatedOverTheFilesTexts) {
+  Gains gains = file();
+  gains.gain_functions = {{"G", "t", Kind::formula, "inv(P)*X(t)", {}}};
+  EXPECT_TRUE(value(gains, "G(3)").isApprox((kFirst + 3 * kSecond) / 2, 1e-15));
+  gains.functions = {{"X(tau)", "exp(-tau)*X_0 + (1 - exp(-tau))*X_1"}};
+  const double w = std::exp(-3.0);
+  EXPECT_TRUE(value(gains, "G(3)").isApprox((w * kFirst + (1 - w) * kSecond) / 2, 1e-15));
+  gains.gain_functions[0].formula = "-X(2*t)";
+  gains.functions = {{"X(tau)", "X_0 + X_1*tau"}};
+  EXPECT_TRUE(value(gains, "G(3)").isApprox(-(kFirst + 6 * kSecond), 1e-15));
+}
+
+TEST(Stated, APolynomialIsItsCoefficients) {
+  Gains gains = file();
+  gains.gain_functions = {{"G", "t", Kind::polynomial, "anything", {kSecond, kFirst, kFirst}}};
+  EXPECT_TRUE(value(gains, "G(2)").isApprox(kSecond + 6 * kFirst, 1e-15));
+}
+
+TEST(Stated, AConstantMayBeCalled) {
+  Gains gains = file();
+  gains.gains.emplace_back("G", kSecond);
+  EXPECT_EQ(value(gains, "G(0.7)"), kSecond);
+}
+
+TEST(Stated, MoreCoefficientsThanTheDegreeAskFor) {
+  Gains gains = file();
+  gains.unknowns.emplace_back("X_2", kFirst);
+  gains.functions = {{"X(tau)", "X_0*tau + X_1*(1 - tau) + X_2"}};
+  const Small small(kSmallProblem, kMethod);
+  EXPECT_EQ(with_functions(small.instance, gains).unknowns.size(), 5U);
+  EXPECT_TRUE(value(gains, "X(0.5)").isApprox(1.5 * kFirst + 0.5 * kSecond, 1e-15));
+}
+
+TEST(Stated, WhatDoesNotFitIsRefused) {
+  Gains gains = file();
+  gains.functions = {{"Y(tau)", "X_0"}};
+  EXPECT_NE(refusal(gains).find("defines Y(tau), which is no unknown function"), std::string::npos);
+  gains = file();
+  gains.functions = {{"X(tau)", "X_0 + X_3"}};
+  EXPECT_NE(refusal(gains).find("unknown name 'X_3'"), std::string::npos);
+  gains = file();
+  gains.unknowns.erase(gains.unknowns.begin() + 1);
+  EXPECT_NE(refusal(gains).find("lacks the coefficients X_0"), std::string::npos);
+  gains = file();
+  gains.unknowns[1].second = expr::Matrix::Zero(3, 1);
+  EXPECT_NE(refusal(gains).find("X_0 in the gain file is 3 x 1, expected 2 x 1"),
+            std::string::npos);
+  gains = file();
+  gains.gain_functions = {{"G", "t", Kind::polynomial, "", {expr::Matrix::Zero(1, 2)}}};
+  EXPECT_NE(refusal(gains).find("G_0 in the gain file is 1 x 2"), std::string::npos);
+  gains.gain_functions = {{"G", "t", Kind::polynomial, "", {}}};
+  EXPECT_NE(refusal(gains).find("no coefficients"), std::string::npos);
+  gains.gain_functions = {{"G", "t", Kind::formula, "b'", {}}};
+  EXPECT_NE(refusal(gains).find("G in the gain file is 1 x 2, expected 2 x 1"), std::string::npos);
+}
+
+TEST(Stated, WithoutAPointNothingOfItHasAValue) {
+  Gains gains;
+  gains.functions = {{"X(tau)", "X_0 + X_1*tau"}};
+  const Small small(kSmallProblem, kMethod);
+  const Stated stated = state(small.instance, gains);
+  EXPECT_FALSE(stated.values.contains("X_0"));
+  EXPECT_TRUE(stated.scope.definitions.contains("G"));
+}
+
+}  // namespace
+}  // namespace gainsmith::model
