@@ -62,7 +62,7 @@ Cause Ipm<T>::run(const Run& run) {
   iteration_ = run.first_iteration;
   best_error_ = best_certificate_ = std::numeric_limits<double>::infinity();
   since_best_ = 0;
-  exhausted_ = false;
+  left_ = false;
   const Cause cause = iterate();
   if (cause != Cause::converged && cause != Cause::certificate) {
     point_ = best_;
@@ -90,10 +90,8 @@ Cause Ipm<T>::iterate() {
     const T sigma = centering(reach);
     const T eta = run_.model == Model::fixed ? T(1) : T(T(1) - sigma);
     newton_.correct(point_, residuals_.defect, predictor_, sigma, eta, direction_);
-    if (run_.leave_early && newton_.exhausted()) {
-      exhausted_ = true;
-      return Cause::stalled;
-    }
+    left_ = leaves();
+    if (left_) return Cause::stalled;
 
     step = shortened(newton_.step(point_, direction_, T(2)), reach);
     if (!(static_cast<double>(std::max(step.primal, step.dual)) > kNoStep)) return Cause::stalled;
@@ -169,6 +167,12 @@ std::optional<Cause> Ipm<T>::limits() const {
       Seconds(std::chrono::steady_clock::now() - run_.start).count() > options_.time_limit)
     return Cause::time_limit;
   return std::nullopt;
+}
+
+template <typename T>
+bool Ipm<T>::leaves() const {
+  return (run_.leave == Leave::exhausted && newton_.exhausted()) ||
+         (run_.leave == Leave::imprecise && newton_.imprecise());
 }
 
 template <typename T>

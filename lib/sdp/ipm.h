@@ -12,14 +12,18 @@
 
 namespace gainsmith::sdp {
 
+/// When to leave the rest to a wider arithmetic: as soon as a direction is imprecise (newton.h), or
+/// only where this arithmetic is exhausted.
+enum class Leave { never, exhausted, imprecise };
+
 /// What one run of the loop is to do.
 struct Run {
   Model model = Model::fixed;
   double aim = 1e-8;          ///< for all errors: stop here; what is below the tolerance counts
   double feasibility = 1e-8;  ///< for the two infeasibilities, where that is to be stricter
-  bool leave_early = false;   ///< wider arithmetic follows: stop where this one is exhausted
-  int patience = 25;          ///< iterations without progress far from a solution
-  int first_iteration = 0;    ///< continues the count of an earlier run
+  Leave leave = Leave::never;
+  int patience = 25;                            ///< iterations without progress far from a solution
+  int first_iteration = 0;                      ///< continues the count of an earlier run
   std::chrono::steady_clock::time_point start;  ///< of the whole solve, for the time limit
 };
 
@@ -47,8 +51,8 @@ class Ipm {
   const Iterate<T>& point() const { return point_; }
   const Residuals<T>& residuals() const { return residuals_; }
   int iterations() const { return iteration_; }
-  /// Did the run end because its arithmetic was exhausted (Run::leave_early)?
-  bool exhausted() const { return exhausted_; }
+  /// Did the run leave the rest to a wider arithmetic (Run::leave)?
+  bool left() const { return left_; }
 
  private:
   void start(const T& X, const T& Y);
@@ -56,6 +60,7 @@ class Ipm {
   bool satisfied(double tolerance) const;
   std::optional<Cause> stop() const;
   std::optional<Cause> limits() const;
+  bool leaves() const;
   T centering(const Steps<T>& reach) const;
   Steps<T> shortened(const Steps<T>& longest, const Steps<T>& reach) const;
   bool advance(Steps<T>& step);
@@ -74,7 +79,7 @@ class Ipm {
   /// pass near one on its way.
   double best_certificate_ = 0;
   int since_best_ = 0;
-  bool exhausted_ = false;
+  bool left_ = false;
 };
 
 }  // namespace gainsmith::sdp

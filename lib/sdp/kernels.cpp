@@ -6,7 +6,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "sdp/panel.h"
+#include "sdp/pairs.h"
 #include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
@@ -109,41 +109,7 @@ T dot(const T* a, const T* b, Index first, Index last) {
   return (sums[0] + sums[1]) + (sums[2] + sums[3]);
 }
 
-/// (high, low) -= factor a, entry by entry.
-void subtract_multiple(const DoubleDouble* a, const DoubleDouble& factor, double* high, double* low,
-                       std::size_t count) {
-  for (std::size_t i = 0; i < count; ++i) {
-    const double p = a[i].hi() * factor.hi();
-    double e = std::fma(a[i].hi(), factor.hi(), -p);
-    e = std::fma(a[i].hi(), factor.lo(), e);
-    e = std::fma(a[i].lo(), factor.hi(), e);
-    const double s = high[i] - p;
-    const double t = s - high[i];
-    low[i] += ((high[i] - (s - t)) - (p + t)) - e;
-    high[i] = s;
-  }
-}
-
-/// sum of a_i (high_i + low_i).
-DoubleDouble inner_pairs(const DoubleDouble* a, const double* high, const double* low,
-                         std::size_t count) {
-  PairSums sums;
-  std::array<double, kLanes> a_high, a_low;
-  std::size_t i = 0;
-  for (; i + kLanes <= count; i += kLanes) {
-    for (std::size_t r = 0; r < kLanes; ++r) {
-      a_high[r] = a[i + r].hi();
-      a_low[r] = a[i + r].lo();
-    }
-    sums.add(a_high.data(), a_low.data(), high + i, low + i);
-  }
-  DoubleDouble total(0);
-  for (std::size_t r = 0; r < kLanes; ++r) total += sums[r];
-  for (; i < count; ++i) total += a[i] * (DoubleDouble(high[i]) + DoubleDouble(low[i]));
-  return total;
-}
-
-/// x := L^-T L^-1 x with x in halves; sums are kept as PairSums does.
+/// x := L^-T L^-1 x with x in halves, so that the columns run at vector speed.
 void solve_factored_pairs(const View<const DoubleDouble>& l, Vector<DoubleDouble>& x) {
   static thread_local std::vector<double> high, low;
   const auto m = static_cast<std::size_t>(l.rows);
@@ -153,28 +119,24 @@ void solve_factored_pairs(const View<const DoubleDouble>& l, Vector<DoubleDouble
     high[i] = x[static_cast<Index>(i)].hi();
     low[i] = x[static_cast<Index>(i)].lo();
   }
-  const auto at = [&](std::size_t k) { return DoubleDouble(high[k]) + DoubleDouble(low[k]); };
   for (std::size_t k = 0; k < m; ++k) {
     const DoubleDouble* const column = l.data + l.stride * static_cast<Index>(k);
-    const DoubleDouble value = at(k) / column[k];
-    high[k] = value.hi();
-    low[k] = value.lo();
-    subtract_multiple(column + k + 1, value, high.data() + k + 1, low.data() + k + 1, m - k - 1);
+    const DoubleDouble value = (DoubleDouble(high[k]) + DoubleDouble(low[k])) / column[k];
+    x[static_cast<Index>(k)] = value;
+    for (std::size_t i = k + 1; i < m; ++i)
+      add_product(high[i], low[i], column[i].hi(), column[i].lo(), -value.hi(), -value.lo());
   }
   for (std::size_t k = m; k-- > 0;) {
     const DoubleDouble* const column = l.data + l.stride * static_cast<Index>(k);
-    const DoubleDouble value =
-        (at(k) - inner_pairs(column + k + 1, high.data() + k + 1, low.data() + k + 1, m - k - 1)) /
-        column[k];
-    high[k] = value.hi();
-    low[k] = value.lo();
-    x[static_cast<Index>(k)] = value;
+    const auto at = static_cast<Index>(k);
+    x[at] = (x[at] - inner_product(column + k + 1, x.data() + k + 1, m - k - 1)) / column[k];
   }
 }
 
 // ---- Cholesky, blocked on multiply -------------------------------------------------------------
 
-constexpr Index kPanel = 32;
+/// Columns of a panel, and of the panels that it is factored by.
+constexpr Index kPanel = 32, kInnerPanel = 8;
 
 template <typename T>
 bool cholesky_plain(const View<T>& a) {
@@ -193,23 +155,25 @@ bool cholesky_plain(const View<T>& a) {
 
 //   [ L11        ]   columns k .. k+w: the panel, factored by itself
 //   [ L21   A22  ]   A22 -= L21 L21', lower triangle, by block columns
+//   A may have more rows than columns: then they are a panel of a larger matrix.
 template <typename T>
-bool cholesky_blocked(const View<T>& a) {
+bool cholesky_blocked(const View<T>& a, Index width) {
   Matrix<T> transposed;
-  for (Index k = 0; k < a.columns; k += kPanel) {
-    const Index w = std::min(kPanel, a.columns - k);
+  for (Index k = 0; k < a.columns; k += width) {
+    const Index w = std::min(width, a.columns - k);
     const View<T> panel = a.part(k, k, a.rows - k, w);
-    if (!cholesky_plain(panel)) return false;
-    const Index rest = a.rows - k - w;
+    if (!(width > kInnerPanel ? cholesky_blocked(panel, kInnerPanel) : cholesky_plain(panel)))
+      return false;
+    const Index rest = a.columns - k - w;
     if (rest == 0) break;
     transposed.resize(w, rest);
     for (Index j = 0; j < rest; ++j)
       for (Index p = 0; p < w; ++p) transposed(p, j) = a(k + w + j, k + p);
-    for (Index j = 0; j < rest; j += kPanel) {
-      const Index wj = std::min(kPanel, rest - j);
-      multiply(constant(a.part(k + w + j, k, rest - j, w)),
+    for (Index j = 0; j < rest; j += width) {
+      const Index wj = std::min(width, rest - j);
+      multiply(constant(a.part(k + w + j, k, a.rows - k - w - j, w)),
                View<const T>(transposed.data() + w * j, w, wj, w),
-               a.part(k + w + j, k + w + j, rest - j, wj), Update::subtract);
+               a.part(k + w + j, k + w + j, a.rows - k - w - j, wj), Update::subtract);
     }
   }
   return true;
@@ -267,7 +231,7 @@ bool cholesky(const View<T>& a) {
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>> llt(in_place);
     return llt.info() == Eigen::Success;
   } else {
-    return cholesky_blocked(a);
+    return cholesky_blocked(a, kPanel);
   }
 }
 

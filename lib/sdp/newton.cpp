@@ -15,8 +15,8 @@ namespace {
 /// permit, that it may be.
 constexpr double kRefineUnits = 1e4, kRefineGoal = 1e-20;
 constexpr double kRefineShare = 1e-3, kAllowanceShare = 0.1;
-/// A residual of this part of the defect stops progress.
-constexpr double kExhausted = 0.5;
+/// A residual of this part of the defect delays progress, and stops it.
+constexpr double kImprecise = 0.1, kExhausted = 0.5;
 /// The most steps, and how many of them may pass without a smaller residual.
 constexpr int kRefineSteps = 100, kRefinePatience = 20;
 
@@ -146,7 +146,7 @@ void Newton<T>::refine(const Iterate<T>& point, const Defect<T>& defect, const T
   apply(data_, direction.Y, a_);
   h_ = a_ - eta * defect.dual - direction.tau * c_;
   T best = h_.norm(), rho(0);
-  exhausted_ = false;
+  exhausted_ = imprecise_ = false;
   if (!(best > goal_)) return;
   trial_ = direction;
   int since_best = 0;
@@ -177,6 +177,7 @@ void Newton<T>::refine(const Iterate<T>& point, const Defect<T>& defect, const T
     direction.Y.flat() = trial_.Y.flat();
     since_best = 0;
   }
+  imprecise_ = best > std::max(goal_, T(T(kImprecise) * defect.dual.norm()));
   // Negative curvature ends the loop too, but that is a matter of luck and may be gone next time.
   exhausted_ = since_best == kRefinePatience &&
                best > std::max({goal_, harmless_, T(T(kExhausted) * defect.dual.norm())});

@@ -60,6 +60,8 @@ class Newton {
   /// defect, and by so much that the objective may move by X.Y? Then this arithmetic has no more to
   /// give.
   bool exhausted() const { return exhausted_; }
+  /// Does it miss the equation by a tenth of the present defect?
+  bool imprecise() const { return imprecise_; }
 
   /// The largest steps <= `longest` that keep point + step direction in the cone; in the
   /// homogeneous model both are the shorter one.
@@ -92,7 +94,7 @@ class Newton {
   T mu_{0}, order_{0}, r_y_{0}, r_r_{0};
   T goal_{0};      ///< residual of the dual equation that refinement aims at
   T harmless_{0};  ///< residual that moves the objective by X.Y
-  bool exhausted_ = false;
+  bool exhausted_ = false, imprecise_ = false;
 };
 
 }  // namespace gainsmith::sdp

@@ -2,45 +2,12 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <type_traits>
 #include <vector>
 
-#include "sdp/data.h"
+#include "sdp/pairs.h"
 
 namespace gainsmith::sdp {
-
-constexpr int kLanes = 8;
-
-/// Sums of products with their rounding errors (Ogita, Rump, Oishi 2005, Dot2, extended to factors
-/// of two halves): as accurate as if computed in twice the precision and rounded.
-struct PairSums {
-  std::array<double, kLanes> high{}, low{};
-
-  /// One factor for all lanes.
-  void add(const double* a_high, const double* a_low, double b_high, double b_low) {
-    for (std::size_t r = 0; r < kLanes; ++r) add(r, a_high[r], a_low[r], b_high, b_low);
-  }
-  /// Each lane its own.
-  void add(const double* a_high, const double* a_low, const double* b_high, const double* b_low) {
-    for (std::size_t r = 0; r < kLanes; ++r) add(r, a_high[r], a_low[r], b_high[r], b_low[r]);
-  }
-  DoubleDouble operator[](std::size_t r) const {
-    return DoubleDouble(high[r]) + DoubleDouble(low[r]);
-  }
-
- private:
-  void add(std::size_t r, double a_high, double a_low, double b_high, double b_low) {
-    const double p = a_high * b_high;
-    double e = std::fma(a_high, b_high, -p);
-    e = std::fma(a_high, b_low, e);
-    e = std::fma(a_low, b_high, e);
-    const double s = high[r] + p;
-    const double t = s - high[r];
-    low[r] += ((high[r] - (s - t)) + (p - t)) + e;
-    high[r] = s;
-  }
-};
 
 /// Entry e of lane i is value(e, i); lanes lie next to each other.
 template <typename T>

@@ -5,6 +5,7 @@
 #include <limits>
 #include <numeric>
 #include <set>
+#include <type_traits>
 
 #include "base/parallel.h"
 #include "sdp/kernels.h"
@@ -16,6 +17,17 @@ namespace {
 std::size_t packed_index(int row, int column) {
   return static_cast<std::size_t>(column) * (static_cast<std::size_t>(column) + 1) / 2 +
          static_cast<std::size_t>(row);
+}
+
+template <typename T>
+T dot(const T* a, const T* b, Eigen::Index count) {
+  if constexpr (std::is_same_v<T, DoubleDouble>) {
+    return inner_product(a, b, static_cast<std::size_t>(count));
+  } else {
+    T sum(0);
+    for (Eigen::Index k = 0; k < count; ++k) sum += a[k] * b[k];
+    return sum;
+  }
 }
 
 /// Relative costs of one multiplication in a matrix product, in the panel's interleaved inner
@@ -219,15 +231,9 @@ void Schur<T>::add_rows(const Plan& plan, std::size_t position, const ConstMatri
     T sum(0);
     for (std::size_t t = other.first; t < other.last; ++t) {
       const Term& term = plan.terms[t];
-      const T* ua = u.data() + r * term.row;
-      const T* hb = h.data() + r * term.column;
-      T entry(0);
-      for (Eigen::Index k = 0; k < r; ++k) entry += ua[k] * hb[k];
-      if (term.row != term.column) {
-        const T* ub = u.data() + r * term.column;
-        const T* ha = h.data() + r * term.row;
-        for (Eigen::Index k = 0; k < r; ++k) entry += ub[k] * ha[k];
-      }
+      T entry = dot(u.data() + r * term.row, h.data() + r * term.column, r);
+      if (term.row != term.column)
+        entry += dot(u.data() + r * term.column, h.data() + r * term.row, r);
       sum += entry * coefficient<T>(term);
     }
     add(list.constraint, other.constraint, sum);

@@ -83,7 +83,7 @@ class Ladder {
     Ipm<double> narrow(problem_, presolved_, options_);
     wider_ = digits == 0 && cost() <= kQuadCost;
     attempt(narrow, 1);
-    if (!narrow.exhausted()) search_both_ways(narrow);
+    if (!narrow.left()) search_both_ways(narrow);
     if (over() || !wider_) return std::move(best_);
 
     wider_ = false;
@@ -113,7 +113,7 @@ class Ladder {
   /// The worst error at which an arithmetic hands over to the next in a relay.
   static constexpr double kHandOver = 1e-3;
   /// Iterations without progress before the first leg of a relay gives up.
-  static constexpr int kRelayPatience = 10;
+  static constexpr int kRelayPatience = 8;
   /// Where double ends farther than kIllPosed tolerances from an answer, the problem may be so ill
   /// posed that points which satisfy its equations to 1e-15 miss the optimum by any amount: then
   /// they must hold to kWideFeasibility in wide arithmetic.
@@ -155,12 +155,12 @@ class Ladder {
     const Cause cause = narrow.run({.model = Model::fixed,
                                     .aim = kHandOver,
                                     .feasibility = kHandOver,
-                                    .leave_early = true,
+                                    .leave = Leave::imprecise,
                                     .patience = kRelayPatience,
                                     .first_iteration = iterations_,
                                     .start = start_});
     iterations_ = best_.iterations = narrow.iterations();
-    if (cause != Cause::converged && !narrow.exhausted()) {
+    if (cause != Cause::converged && !narrow.left()) {
       best_.cause = cause == Cause::certificate ? Cause::stalled : cause;
       return false;
     }
@@ -201,7 +201,7 @@ void Ladder::run(Ipm<T>& ipm, Model model) {
   const Cause cause = ipm.run({.model = model,
                                .aim = kAim * options_.tolerance,
                                .feasibility = feasibility,
-                               .leave_early = wider_,
+                               .leave = wider_ ? Leave::exhausted : Leave::never,
                                .first_iteration = iterations_,
                                .start = start_});
   iterations_ = ipm.iterations();
