@@ -49,14 +49,14 @@ Lanczos::Lanczos(Eigen::Index n)
       alpha_(Eigen::VectorXd::Zero(kSteps + 1)),
       beta_(Eigen::VectorXd::Zero(kSteps + 1)) {}
 
-void Lanczos::apply(const Matrix& inverse, const Matrix& D, Eigen::Index k) {
-  image_.noalias() = inverse.triangularView<Eigen::Lower>().transpose() * basis_.col(k);
-  half_.noalias() = D.selfadjointView<Eigen::Lower>() * image_;
-  image_.noalias() = inverse.triangularView<Eigen::Lower>() * half_;
+void Lanczos::apply(const Matrix& factor, const Matrix& D, Eigen::Index k) {
+  half_ = basis_.col(k);
+  factor.triangularView<Eigen::Lower>().transpose().solveInPlace(half_);
+  image_.noalias() = D.selfadjointView<Eigen::Lower>() * half_;
+  factor.triangularView<Eigen::Lower>().solveInPlace(image_);
 }
 
-double Lanczos::lower_bound(const Matrix& inverse, const Matrix& D, double enough,
-                            bool& converged) {
+double Lanczos::lower_bound(const Matrix& factor, const Matrix& D, double enough, bool& converged) {
   converged = false;
   const Eigen::Index n = basis_.rows(), steps = basis_.cols() - 1;
   // A start that no eigenvector of a structured problem is orthogonal to.
@@ -65,7 +65,7 @@ double Lanczos::lower_bound(const Matrix& inverse, const Matrix& D, double enoug
   basis_.col(0).normalize();
   double bound = 0;
   for (Eigen::Index k = 0; k < steps; ++k) {
-    apply(inverse, D, k);
+    apply(factor, D, k);
     alpha_[k] = image_.dot(basis_.col(k));
     for (int pass = 0; pass < 2; ++pass) {
       half_.head(k + 1).noalias() = basis_.leftCols(k + 1).transpose() * image_;

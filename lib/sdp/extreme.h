@@ -19,12 +19,12 @@ class Lanczos {
   explicit Lanczos(Eigen::Index n);
 
   using Matrix = Eigen::Ref<const Eigen::MatrixXd>;
-  /// `inverse` is L^-1, lower triangular; `converged` says whether the bound may be used.
-  double lower_bound(const Matrix& inverse, const Matrix& D, double enough, bool& converged);
+  /// L is the lower triangle of `factor`; `converged` says whether the bound may be used.
+  double lower_bound(const Matrix& factor, const Matrix& D, double enough, bool& converged);
 
  private:
   static constexpr Eigen::Index kSteps = 60;
-  void apply(const Matrix& inverse, const Matrix& D, Eigen::Index k);
+  void apply(const Matrix& factor, const Matrix& D, Eigen::Index k);
 
   Eigen::MatrixXd basis_;
   Eigen::VectorXd image_, half_, alpha_, beta_;

@@ -16,8 +16,10 @@ constexpr int kLanczosSize = 32;
 template <typename T>
 ConeFactor<T>::ConeFactor(const Layout& layout)
     : layout_(layout),
+      factor_(layout),
       inverse_factor_(layout),
       inverse_transpose_(layout),
+      inverted_(layout.size.size()),
       work_(layout),
       scaled_(layout) {
   for (const int n : layout.size) {
@@ -29,12 +31,10 @@ ConeFactor<T>::ConeFactor(const Layout& layout)
 template <typename T>
 bool ConeFactor<T>::factorise(const Blocks<T>& V) {
   for (int b = 0; b < layout_.blocks(); ++b) {
-    auto l = work_.dense(b);
+    auto l = factor_.dense(b);
     l = V.dense(b);
+    inverted_[static_cast<std::size_t>(b)] = false;
     if (!cholesky(View<T>(l))) return false;
-    auto inverse = inverse_factor_.dense(b);
-    invert_lower(View<const T>(l), View<T>(inverse));
-    inverse_transpose_.dense(b) = inverse.transpose();
   }
   const auto v = V.linear();
   auto reciprocal = inverse_factor_.linear();
@@ -46,8 +46,18 @@ bool ConeFactor<T>::factorise(const Blocks<T>& V) {
 }
 
 template <typename T>
-void ConeFactor<T>::inverse(Blocks<T>& result) const {
+void ConeFactor<T>::invert(int b) {
+  if (inverted_[static_cast<std::size_t>(b)]) return;
+  auto inverse = inverse_factor_.dense(b);
+  invert_lower(View<const T>(factor_.dense(b)), View<T>(inverse));
+  inverse_transpose_.dense(b) = inverse.transpose();
+  inverted_[static_cast<std::size_t>(b)] = true;
+}
+
+template <typename T>
+void ConeFactor<T>::inverse(Blocks<T>& result) {
   for (int b = 0; b < layout_.blocks(); ++b) {
+    invert(b);
     auto target = result.dense(b);
     multiply_transposed(View<const T>(inverse_factor_.dense(b)),
                         View<const T>(inverse_transpose_.dense(b)), View<T>(target));
@@ -62,10 +72,11 @@ double ConeFactor<T>::smallest_eigenvalue(const Blocks<T>& D, int b, double enou
     if (layout_.size[at] >= kLanczosSize) {
       bool converged = false;
       const double bound =
-          lanczos_[at].lower_bound(inverse_factor_.dense(b), D.dense(b), enough, converged);
+          lanczos_[at].lower_bound(factor_.dense(b), D.dense(b), enough, converged);
       if (converged) return bound;
     }
   }
+  invert(b);
   auto half = work_.dense(b);
   auto w = scaled_.dense(b);
   multiply(View<const T>(D.dense(b)), View<const T>(inverse_transpose_.dense(b)), View<T>(half));

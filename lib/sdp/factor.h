@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Eigenvalues>
+#include <vector>
 
 #include "sdp/extreme.h"
 #include "sdp/linalg.h"
@@ -18,7 +19,7 @@ class ConeFactor {
   bool factorise(const Blocks<T>& V);
 
   /// V^-1 = L^-T L^-1; both triangles.
-  void inverse(Blocks<T>& result) const;
+  void inverse(Blocks<T>& result);
 
   /// The largest a <= `longest` with V + a D >= 0: a = -1 / lambda_min(L^-1 D L^-T) where that is
   /// negative. The eigenvalues of that well-scaled matrix are taken in double in every arithmetic:
@@ -29,9 +30,14 @@ class ConeFactor {
   /// Of L^-1 D L^-T in block b, or a close lower bound; anything above `enough` will do.
   double smallest_eigenvalue(const Blocks<T>& D, int b, double enough);
 
+  /// L^-1 and L^-T of block b, where they are not there yet.
+  void invert(int b);
+
   const Layout& layout_;
+  Blocks<T> factor_;             ///< L, in the lower triangle
   Blocks<T> inverse_factor_;     ///< L^-1, upper triangle zero; 1/v in the linear part
   Blocks<T> inverse_transpose_;  ///< L^-T
+  std::vector<bool> inverted_;   ///< are they of the present L?
   Blocks<T> work_, scaled_;
   /// L^-1 D L^-T of a block in double, on its way to its smallest eigenvalue.
   struct Spectrum {

@@ -17,6 +17,8 @@ constexpr double kRefineUnits = 1e4, kRefineGoal = 1e-20;
 constexpr double kRefineShare = 1e-3, kAllowanceShare = 0.1;
 /// A residual of this part of the defect delays progress, and stops it.
 constexpr double kImprecise = 0.1, kExhausted = 0.5;
+/// A bound of X^-1 R below which H(X^-1 R Y) is nothing beside Y.
+constexpr double kNegligible = 1e-4;
 /// The most steps, and how many of them may pass without a smaller residual.
 constexpr int kRefineSteps = 100, kRefinePatience = 20;
 
@@ -79,9 +81,14 @@ bool Newton<T>::prepare(const Iterate<T>& point, const Defect<T>& defect, Model 
   mu_ = model == Model::fixed ? point.mu_fixed() : point.mu();
   harmless_ = inner(point.X, point.Y) / (T(1) + point.x.norm());
   goal_ = refinement_goal(defect, allowance);
+  if (std::is_same_v<T, double> && model == Model::fixed &&
+      defect.primal.flat().norm() * inverse_X_.flat().norm() < T(kNegligible)) {
+    residual_term_.flat().setZero();
+    return true;
+  }
   scaled_product(defect.primal, point.Y, residual_term_);
-  apply(data_, residual_term_, a_);
   if (model == Model::fixed) return true;
+  apply(data_, residual_term_, a_);
   q_ = defect.dual - a_;
   schur_.solve(q_, p_);
   schur_.solve(c_, z_);

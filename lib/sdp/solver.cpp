@@ -113,7 +113,7 @@ class Ladder {
   /// The worst error at which an arithmetic hands over to the next in a relay.
   static constexpr double kHandOver = 1e-3;
   /// Iterations without progress before the first leg of a relay gives up.
-  static constexpr int kRelayPatience = 8;
+  static constexpr int kRelayPatience = 10;
   /// Where double ends farther than kIllPosed tolerances from an answer, the problem may be so ill
   /// posed that points which satisfy its equations to 1e-15 miss the optimum by any amount: then
   /// they must hold to kWideFeasibility in wide arithmetic.
