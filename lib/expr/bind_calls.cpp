@@ -1,3 +1,5 @@
+#include <algorithm>
+
 #include "expr/binder.h"
 #include "expr/real.h"
 
@@ -105,8 +107,16 @@ Bound Binder::bind_function(const Expression& expression, const Node& node,
       return basis(expression, node, Op::range_basis);
     case FunctionId::null:
       return basis(expression, node, Op::kernel_basis);
+    case FunctionId::svd: {
+      const int at = sized(expression, *node.children[0], argument(0));
+      return {emit(expression, node, Op::singular_values, {at},
+                   {std::min(shape(at).rows, shape(at).cols), 1})};
+    }
     case FunctionId::obsv:
       return observability(expression, node);
+    case FunctionId::gramian:
+    case FunctionId::backward_gramian:
+      return gramian(expression, node, function.id == FunctionId::backward_gramian);
   }
   fail(expression, node, "unknown function");
 }

@@ -71,6 +71,9 @@ class Binder {
   Bound block_diagonal(const Expression& expression, const Node& node);
   Bound basis(const Expression& expression, const Node& node, Op op);
   Bound observability(const Expression& expression, const Node& node);
+  // bind_gramian.cpp
+  Bound gramian(const Expression& expression, const Node& node, bool backward);
+
   int same_shape(const Expression& expression, const Node& node, Bound value, Shape shape);
   int square_argument(const Expression& expression, const Node& node, std::string_view function);
   int square(const Expression& expression, const Node& argument, Bound value,

@@ -8,7 +8,7 @@ namespace {
 
 using enum FunctionId;
 
-constexpr std::array<Function, 26> kFunctions = {{
+constexpr std::array<Function, 29> kFunctions = {{
     {He, "He", 1, 1, "He(M)", "M + M'"},
     {inv, "inv", 1, 1, "inv(M)", "the inverse"},
     {pinv, "pinv", 1, 1, "pinv(M)", "the Moore-Penrose inverse"},
@@ -35,7 +35,12 @@ constexpr std::array<Function, 26> kFunctions = {{
     {orth, "orth", 1, 2, "orth(M, tol)",
      "orthonormal basis of the range; singular values above tol (relative) count"},
     {null, "null", 1, 2, "null(M, tol)", "orthonormal basis of the kernel"},
+    {svd, "svd", 1, 1, "svd(M)", "the singular values, largest first, as a column"},
     {obsv, "obsv", 2, 2, "obsv(A, C)", "[C; C*A; ...; C*A^(n-1)]"},
+    {gramian, "gramian", 5, 5, "gramian(F, Hc, J, Hd, t)",
+     "observability Gramian over flows of the lengths t, of the state at their start"},
+    {backward_gramian, "backward_gramian", 5, 5, "backward_gramian(F, Hc, J, Hd, t)",
+     "the same of the state at their end; J must be invertible"},
 }};
 
 }  // namespace

@@ -34,7 +34,10 @@ enum class FunctionId {
   blkdiag,
   orth,
   null,
-  obsv
+  svd,
+  obsv,
+  gramian,
+  backward_gramian
 };
 
 struct Function {

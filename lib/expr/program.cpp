@@ -73,6 +73,8 @@ std::string to_string(Op op) {
     case Op::diagonal_matrix:
     case Op::diagonal_of:
       return "diag";
+    case Op::singular_values:
+      return "svd";
     case Op::range_basis:
       return "orth";
     case Op::kernel_basis:

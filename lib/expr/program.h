@@ -61,6 +61,7 @@ enum class Op {
   matrix_exponential,
   diagonal_matrix,  ///< the diagonal matrix of a vector
   diagonal_of,      ///< the diagonal of a matrix, as a column
+  singular_values,  ///< largest first, as a column
   range_basis,  ///< orthonormal columns that span the range of A; the rank is the shape's columns
   kernel_basis  ///< orthonormal columns that span the kernel of A
 };
@@ -73,7 +74,7 @@ struct Instruction {
   std::vector<int> operands;  ///< earlier instructions
   Shape shape;                ///< of the result
   std::array<int, 4> attributes{};
-  std::string text;  ///< constant: the decimal as written
+  std::string text;  ///< constant: the decimal as written; inverse: of what, for messages
   std::shared_ptr<const Text> origin;
   std::size_t offset = 0;  ///< where in the origin it was written
 

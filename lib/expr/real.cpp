@@ -36,12 +36,13 @@ void blocks(const Instruction& instruction, std::span<const Matrix* const> opera
   }
 }
 
-void inverse(const Matrix& a, Matrix& out) {
+void inverse(const Matrix& a, const std::string& what, Matrix& out) {
   out = a;
   if (a.size() == 0) return;
   const Eigen::PartialPivLU<Matrix> lu(a);
   if (!(lu.rcond() > 1e-15))
-    throw EvaluationError("inv: the matrix is singular to working precision");
+    throw EvaluationError((what.empty() ? "inv: the matrix" : what) +
+                          " is singular to working precision");
   out = lu.inverse();
 }
 
@@ -75,10 +76,15 @@ void kernel_basis(const Matrix& a, int count, Matrix& out) {
   if (a.size() > 0) out = full_svd(a).matrixV().rightCols(count);
 }
 
+Eigen::VectorXd singular_values(const Matrix& a) {
+  if (a.size() == 0) return Eigen::VectorXd::Zero(0);
+  return Eigen::JacobiSVD<Matrix>(a).singularValues();
+}
+
 double norm(const Matrix& a) {
   if (a.size() == 0) return 0;
   if (a.rows() == 1 || a.cols() == 1) return a.norm();
-  return Eigen::JacobiSVD<Matrix>(a).singularValues().maxCoeff();
+  return singular_values(a).maxCoeff();
 }
 
 void power(const Matrix& a, int exponent, Matrix& out) {
@@ -218,7 +224,7 @@ void RealAlgebra::apply(const Instruction& instruction, std::span<const Matrix* 
       out = Matrix::Constant(1, 1, norm(a()));
       break;
     case Op::inverse:
-      inverse(a(), out);
+      inverse(a(), instruction.text, out);
       break;
     case Op::pseudo_inverse:
       pseudo_inverse(a(), out);
@@ -231,6 +237,9 @@ void RealAlgebra::apply(const Instruction& instruction, std::span<const Matrix* 
       break;
     case Op::diagonal_of:
       out = a().diagonal();
+      break;
+    case Op::singular_values:
+      out = singular_values(a());
       break;
     case Op::range_basis:
       range_basis(a(), shape.cols, out);
@@ -257,7 +266,7 @@ int numerical_rank(const Matrix& matrix, double tolerance) {
   if (tolerance < 0)
     tolerance = static_cast<double>(std::max(matrix.rows(), matrix.cols())) *
                 std::numeric_limits<double>::epsilon();
-  const Eigen::VectorXd values = Eigen::JacobiSVD<Matrix>(matrix).singularValues();
+  const Eigen::VectorXd values = singular_values(matrix);
   const double threshold = tolerance * values.maxCoeff();
   return static_cast<int>((values.array() > threshold).count());
 }
