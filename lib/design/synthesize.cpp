@@ -44,7 +44,8 @@ class Synthesis {
       : instance_(instance),
         options_(options),
         choices_(instance.problem->synthesis),
-        lmi_(lmi::compile(instance)) {
+        plan_(lmi::make_plan(instance)),
+        lmi_(lmi::compile(instance, plan_)) {
     bounds_ = lmi::gain_bounds(instance, lmi_.unknowns, choices_.gain_bound);
     gains_.problem_name = instance.problem->name;
     gains_.version = kVersion;
@@ -58,16 +59,15 @@ class Synthesis {
   }
 
   model::Gains run() {
-    solve(lmi::goal_of(lmi_, bounds_));
-    if (solution_.status == sdp::Status::optimal) {
-      accept_point();
-    } else if (solution_.status == sdp::Status::primal_infeasible) {
-      decide_infeasible(formulation_.goal);
-    } else if (solution_.status == sdp::Status::dual_infeasible) {
-      gains_.solver.status = "undecided";
-      gains_.solver.message =
-          "the objective is unbounded below: some direction of the unknowns lowers it without end";
+    constexpr int kMostRounds = 60;
+    for (round_ = 1;; ++round_) {
+      may_grow_ = round_ < kMostRounds;
+      if (solve_and_judge() == Outcome::decided) break;
+      const auto start = Clock::now();
+      lmi_ = lmi::compile(instance_, plan_);
+      compile_seconds_ += seconds_since(start);
     }
+    report_ways();
     add_gains();
     gains_.timings = {
         {"compile", compile_seconds_}, {"solve", solve_seconds_}, {"total", seconds_since(start_)}};
@@ -75,6 +75,52 @@ class Synthesis {
   }
 
  private:
+  enum class Outcome { decided, more_points };
+
+  Outcome solve_and_judge() {
+    solve(lmi::goal_of(lmi_, bounds_));
+    if (solution_.status == sdp::Status::optimal) return accept_point();
+    if (solution_.status == sdp::Status::primal_infeasible) {
+      decide_infeasible(formulation_.goal);
+    } else if (solution_.status == sdp::Status::dual_infeasible) {
+      gains_.solver.status = "undecided";
+      gains_.solver.message =
+          "the objective is unbounded below: some direction of the unknowns lowers it without end";
+    }
+    return Outcome::decided;
+  }
+
+  /// Adds the points at which the solution fails to the exchanges; false when there is none.
+  bool grow(const std::vector<lmi::Violation>& violations) {
+    bool grown = false;
+    for (const lmi::Violation& violation : violations) {
+      lmi::Imposed& imposed = plan_.requirements[violation.requirement];
+      if (imposed.way != model::Way::exchange) continue;
+      const auto domain =
+          lmi::domain_of(instance_, instance_.method->require[violation.requirement]);
+      grown |= lmi::add_point(imposed, domain, violation.point);
+    }
+    return grown;
+  }
+
+  void add_message(const std::string& text) {
+    std::string& message = gains_.solver.message;
+    message += (message.empty() ? "" : "; ") + text;
+  }
+
+  /// What the verdict rests on where an inequality holds for all values of a variable.
+  void report_ways() {
+    if (plan_.uses_exchange())
+      add_message("exchange: " + std::to_string(plan_.points()) + " points in " +
+                  std::to_string(round_) + (round_ == 1 ? " round" : " rounds"));
+    const bool exact = std::all_of(plan_.requirements.begin(), plan_.requirements.end(),
+                                   [](const lmi::Imposed& imposed) { return imposed.exact; });
+    if (gains_.verdict == model::Verdict::no && !exact)
+      add_message(
+          "the certificate is about the hull, which is larger than what the variables reach; "
+          "the way exchange or more slices may still find a solution");
+  }
+
   /// A certificate excludes solutions with entries below 1/residual in size: only far beyond what
   /// can be built does that count as infeasible.
   static constexpr double kCertificateResidual = 1e-12;
@@ -126,19 +172,22 @@ class Synthesis {
     solve_seconds_ += seconds_since(start);
   }
 
-  void accept_point() {
+  Outcome accept_point() {
     const bool has_margin_variable = formulation_.goal == lmi::Goal::feasibility;
     const double largest_margin = solution_.x.back();
     if (has_margin_variable && largest_margin < choices_.margin) {
       solve(lmi::Goal::certificate);
-      if (solution_.status == sdp::Status::primal_infeasible)
-        return decide_infeasible(lmi::Goal::certificate);
+      if (solution_.status == sdp::Status::primal_infeasible) {
+        decide_infeasible(lmi::Goal::certificate);
+        return Outcome::decided;
+      }
       gains_.solver.status = "undecided";
       gains_.solver.message =
           "the largest margin is " + brief(largest_margin) + ", below the one asked for";
-      return;
+      return Outcome::decided;
     }
-    read_margins();
+    const auto violations = read_margins();
+    if (may_grow_ && grow(violations)) return Outcome::more_points;
     if (const double short_by = shortfall(); short_by > 0) {
       constexpr double kSafety = 4;
       const sdp::Solution first = solution_;
@@ -157,6 +206,7 @@ class Synthesis {
     set_objective();
     decide();
     find_free_gains();
+    return Outcome::decided;
   }
 
   /// A gain that the objective does not determine is limited by its bound alone, wherever between
@@ -194,16 +244,12 @@ class Synthesis {
     return objective;
   }
 
-  void read_margins() {
+  std::vector<lmi::Violation> read_margins() {
     x_ = lmi::read_back(lmi_, formulation_, solution_);
-    gains_.margins = lmi::margins(instance_, lmi_, formulation_.scales, formulation_.homogeneous(),
-                                  choices_.margin, x_);
-  }
-
-  /// Whether an inequality holds at the written decimals with the margin that was asked for.
-  static bool is_kept(const model::Margin& margin) {
-    constexpr double kSlack = 0.99;
-    return margin.holds && (!margin.strict || margin.reached >= kSlack * margin.required);
+    lmi::Check check = lmi::check_margins(instance_, lmi_, formulation_.scales,
+                                          formulation_.homogeneous(), choices_.margin, x_);
+    gains_.margins = std::move(check.margins);
+    return std::move(check.violations);
   }
 
   /// How much the worst inequality is short of its margin, relative to its scale, when that is no
@@ -212,7 +258,7 @@ class Synthesis {
     constexpr double kExplained = 1e-6;
     double worst = 0;
     for (const model::Margin& margin : gains_.margins)
-      if (!is_kept(margin))
+      if (!lmi::is_kept(margin))
         worst = std::max(worst, (margin.strict ? margin.required : 0.0) - margin.reached);
     return worst < kExplained ? worst : 0;
   }
@@ -230,7 +276,7 @@ class Synthesis {
   void decide() {
     std::string failed;
     for (const model::Margin& margin : gains_.margins) {
-      if (!is_kept(margin))
+      if (!lmi::is_kept(margin))
         failed += (failed.empty() ? "" : "; ") + margin.name + ": margin " + brief(margin.reached) +
                   ", asked for " + brief(margin.required);
     }
@@ -265,8 +311,11 @@ class Synthesis {
   const model::Instance& instance_;
   sdp::Options options_;
   const model::SynthesisOptions& choices_;
+  lmi::Plan plan_;
   lmi::Lmi lmi_;
   lmi::GainBounds bounds_;
+  int round_ = 1;
+  bool may_grow_ = true;
   lmi::Formulation formulation_;
   sdp::Solution solution_;
   std::vector<double> x_;

@@ -202,22 +202,28 @@ std::vector<expr::Expression> parse_list(const expr::Text& text) {
 }
 
 model::Forall parse_forall(const expr::Text& text) {
+  using Over = model::Forall::Over;
   const std::string& source = text.str();
   const auto fail = [&](std::size_t at) {
-    throw InputError(text.place(at), "expected 'NAME in [low, high]' or 'NAME in {a, b, ...}'");
+    throw InputError(text.place(at),
+                     "expected 'NAME in [low, high]', 'NAME in {a, b, ...}' or 'NAME in conv{A, B, "
+                     "...}'");
   };
   const std::size_t in = source.find(" in ");
   if (in == std::string::npos) fail(0);
   const expr::Signature signature = expr::parse_signature(text.part(0, in));
-  const std::size_t open = source.find_first_not_of(' ', in + 4);
+  constexpr std::string_view kHull = "conv";
+  std::size_t open = source.find_first_not_of(' ', in + 4);
   const std::size_t close = source.find_last_not_of(' ');
+  const bool hull = open != std::string::npos && source.compare(open, kHull.size(), kHull) == 0;
+  if (hull) open = source.find_first_not_of(' ', open + kHull.size());
   if (!signature.parameters.empty()) fail(0);
   if (open == std::string::npos || close <= open) fail(in);
-  const bool interval = source[open] == '[' && source[close] == ']';
+  const bool interval = !hull && source[open] == '[' && source[close] == ']';
   const bool set = source[open] == '{' && source[close] == '}';
   if (!interval && !set) fail(open);
-  model::Forall forall{signature.name, interval, parse_list(text.part(open + 1, close)),
-                       text.place(0)};
+  const Over over = interval ? Over::interval : hull ? Over::polytope : Over::set;
+  model::Forall forall{signature.name, over, parse_list(text.part(open + 1, close)), text.place(0)};
   if (interval && forall.points.size() != 2) fail(open);
   return forall;
 }

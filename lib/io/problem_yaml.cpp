@@ -34,6 +34,30 @@ std::vector<model::Value> values(const YamlFile& file, const std::optional<YamlI
   return result;
 }
 
+std::uint64_t whole(const YamlFile& file, const YamlItem& item, double least) {
+  constexpr double kMost = 1e15;
+  const double value = file.number(item.value, item.key);
+  if (!(value >= least && value <= kMost) ||
+      value != static_cast<double>(static_cast<std::uint64_t>(value)))
+    throw InputError(file.place(item.value), item.key + ": expected a whole number, at least " +
+                                                 std::to_string(static_cast<int>(least)));
+  return static_cast<std::uint64_t>(value);
+}
+
+constexpr int kMostSlices = 10000;
+
+model::Way way_of(const YamlFile& file, const YamlItem& item) {
+  using model::Way;
+  std::vector<std::string> words;
+  const std::string word = file.string(item.value, item.key);
+  for (const Way way : {Way::automatic, Way::hull, Way::exchange, Way::vertex_gains}) {
+    if (to_string(way) == word) return way;
+    words.push_back(to_string(way));
+  }
+  throw InputError(file.place(item.value),
+                   item.key + ": unknown way '" + word + "'" + suggestion(word, words));
+}
+
 model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<YamlItem>& item) {
   model::SynthesisOptions options;
   if (!item) return options;
@@ -54,18 +78,26 @@ model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<Yaml
     const bool off = bound->value.IsScalar() && bound->value.Scalar() == "none";
     options.gain_bound = off ? std::nullopt : std::optional(positive(*bound));
   }
+  if (const auto forall = map.find("forall")) {
+    if (forall->value.IsMap()) {
+      YamlMap parts(file, forall->value, "forall");
+      options.way = way_of(file, parts.require("way"));
+      if (const auto slices = parts.find("slices")) {
+        options.slices = static_cast<int>(whole(file, *slices, 1));
+        if (options.slices > kMostSlices)
+          throw InputError(file.place(slices->value),
+                           "slices: at most " + std::to_string(kMostSlices));
+        if (options.way != model::Way::hull)
+          throw InputError(file.place(slices->value), "slices: the way '" + to_string(options.way) +
+                                                          "' has none, only 'hull' has");
+      }
+      parts.finish();
+    } else {
+      options.way = way_of(file, *forall);
+    }
+  }
   map.finish();
   return options;
-}
-
-std::uint64_t whole(const YamlFile& file, const YamlItem& item, double least) {
-  constexpr double kMost = 1e15;
-  const double value = file.number(item.value, item.key);
-  if (!(value >= least && value <= kMost) ||
-      value != static_cast<double>(static_cast<std::uint64_t>(value)))
-    throw InputError(file.place(item.value), item.key + ": expected a whole number, at least " +
-                                                 std::to_string(static_cast<int>(least)));
-  return static_cast<std::uint64_t>(value);
 }
 
 model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {

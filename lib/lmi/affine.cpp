@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
 #include "expr/real.h"
+#include "lmi/residues.h"
 
 namespace gainsmith::lmi {
 
@@ -152,9 +154,18 @@ AffineForm unknown_form(const Unknown& unknown) {
   return result;
 }
 
-AffineForm variable_form(AtomTable& atoms) {
-  AffineForm result;
-  accumulate(result, {atoms.index({1, 0, 0, false}), 0}, sparse(expr::Matrix::Ones(1, 1)));
+AffineForm variable_form(MonomialTable& monomials, int variable) {
+  const Variable& v = monomials.variables()[static_cast<std::size_t>(variable)];
+  AffineForm result{v.shape, {}};
+  if (v.is_interval()) {
+    const int tau = monomials.index(variable, Atom{1, 0, 0, false});
+    accumulate(result, {tau, 0}, sparse(expr::Matrix::Ones(1, 1)));
+    return result;
+  }
+  accumulate(result, {0, 0}, sparse(v.elements[0]));
+  for (int j = 1; j < static_cast<int>(v.elements.size()); ++j)
+    accumulate(result, {monomials.index_of_weight(variable, j), 0},
+               sparse(v.elements[static_cast<std::size_t>(j)] - v.elements[0]));
   return result;
 }
 
@@ -163,7 +174,8 @@ namespace {
 /// The rules of one evaluation, with the tables for messages.
 class Rules {
  public:
-  Rules(AtomTable& atoms, const Unknowns& unknowns) : atoms_(atoms), unknowns_(unknowns) {}
+  Rules(MonomialTable& monomials, const Unknowns& unknowns)
+      : monomials_(monomials), unknowns_(unknowns) {}
 
   AffineForm product(const AffineForm& a, const AffineForm& b, expr::Shape shape,
                      bool scaling) const {
@@ -172,8 +184,8 @@ class Rules {
     for (const auto& [left_key, left] : a.terms) {
       for (const auto& [right_key, right] : b.terms) {
         const Sparse matrix = scaling ? Sparse(left.coeff(0, 0) * right) : Sparse(left * right);
-        for (const auto& [factor, atom] : atoms_.product(left_key.first, right_key.first))
-          accumulate(result, {atom, left_key.second + right_key.second}, matrix, factor);
+        for (const auto& [factor, monomial] : monomials_.product(left_key.first, right_key.first))
+          accumulate(result, {monomial, left_key.second + right_key.second}, matrix, factor);
       }
     }
     return result;
@@ -194,18 +206,14 @@ class Rules {
 
   /// exp, sin or cos of c0 + c1 tau.
   AffineForm function_of_tau(expr::Op op, const AffineForm& form) const {
-    double offset = 0;
-    double slope = 0;
-    for (const auto& [key, matrix] : form.terms) {
-      const Atom& atom = atoms_[key.first];
-      const bool linear = atom == Atom{1, 0, 0, false};
-      if (key.second != 0 || !form.shape.is_scalar() || (key.first != 0 && !linear))
-        refuse(op, form);
-      (linear ? slope : offset) = matrix.coeff(0, 0);
-    }
+    if (!form.shape.is_scalar()) refuse(op, form);
+    const Linear argument = linear(op, form);
+    const double offset = argument.constant(0, 0);
+    const double slope = argument.slope(0, 0);
     AffineForm result;
     const auto add = [&](double factor, const Atom& atom) {
-      accumulate(result, {atoms_.index(atom), 0}, sparse(expr::Matrix::Constant(1, 1, factor)));
+      accumulate(result, {monomials_.index(argument.variable, atom), 0},
+                 sparse(expr::Matrix::Constant(1, 1, factor)));
     };
     if (op == expr::Op::exp) {
       add(std::exp(offset), {0, slope, 0, false});
@@ -219,6 +227,23 @@ class Rules {
     return result;
   }
 
+  /// expm(M + F tau) = expm(M) expm(F tau) when M F = F M.
+  AffineForm matrix_exponential(const AffineForm& form) const {
+    constexpr double kCommutes = 1e-13;
+    const Linear argument = linear(expr::Op::matrix_exponential, form);
+    const expr::Matrix& M = argument.constant;
+    const expr::Matrix& F = argument.slope;
+    if ((M * F - F * M).norm() > kCommutes * M.norm() * F.norm())
+      refuse(expr::Op::matrix_exponential, form);
+    const Variable& tau = monomials_.variables()[static_cast<std::size_t>(argument.variable)];
+    const expr::Matrix before = M.exp();
+    AffineForm result{form.shape, {}};
+    for (const auto& [atom, matrix] : residue_expansion(F, tau.low, tau.high))
+      accumulate(result, {monomials_.index(argument.variable, atom), 0},
+                 sparse(M.isZero(0) ? matrix : expr::Matrix(before * matrix)));
+    return result;
+  }
+
   [[noreturn]] void refuse(expr::Op op, const AffineForm& form) const {
     int which = 0;
     if (form.has_unknown(&which))
@@ -226,12 +251,39 @@ class Rules {
                                   " depends on " + unknowns_.scalar_name(which));
     throw expr::EvaluationError(
         "the " + to_string(op) +
-        " of a function of the 'forall' variable: over an interval only sums and products of "
-        "powers, exp, sin "
-        "and cos of affine functions are taken; use a finite set {a, b, ...}");
+        " of a function of a 'forall' variable: the way hull takes sums and products of powers, "
+        "exp, sin and cos of affine functions and expm of multiples of one variable; use the way "
+        "exchange");
   }
 
  private:
+  /// constant + slope * (one interval variable).
+  struct Linear {
+    expr::Matrix constant;
+    expr::Matrix slope;
+    int variable = -1;
+  };
+
+  Linear linear(expr::Op op, const AffineForm& form) const {
+    const expr::Matrix zero = expr::Matrix::Zero(form.shape.rows, form.shape.cols);
+    Linear result{zero, zero};
+    for (const auto& [key, matrix] : form.terms) {
+      const Monomial& monomial = monomials_[key.first];
+      if (key.second != 0) refuse(op, form);
+      if (monomial.empty()) {
+        result.constant = expr::Matrix(matrix);
+        continue;
+      }
+      const Factor& factor = monomial.front();
+      if (result.variable >= 0 || monomial.size() > 1 || factor.weight > 0 ||
+          !(factor.atom == Atom{1, 0, 0, false}))
+        refuse(op, form);
+      result.slope = expr::Matrix(matrix);
+      result.variable = factor.variable;
+    }
+    return result;
+  }
+
   void refuse_two_unknowns(const AffineForm& a, const AffineForm& b) const {
     int first = 0;
     int second = 0;
@@ -241,7 +293,7 @@ class Rules {
                                 unknowns_.scalar_name(second));
   }
 
-  AtomTable& atoms_;
+  MonomialTable& monomials_;
   const Unknowns& unknowns_;
 };
 
@@ -250,7 +302,7 @@ class Rules {
 void AffineAlgebra::apply(const expr::Instruction& instruction,
                           std::span<const AffineForm* const> operands, AffineForm& out) const {
   using expr::Op;
-  const Rules rules(*atoms, *unknowns);
+  const Rules rules(*monomials, *unknowns);
   const auto a = [&]() -> const AffineForm& { return *operands[0]; };
   const auto b = [&]() -> const AffineForm& { return *operands[1]; };
   if (all_constant(operands)) {
@@ -316,6 +368,9 @@ void AffineAlgebra::apply(const expr::Instruction& instruction,
     case Op::sin:
     case Op::cos:
       out = rules.function_of_tau(instruction.op, a());
+      break;
+    case Op::matrix_exponential:
+      out = rules.matrix_exponential(a());
       break;
     default:
       for (const AffineForm* operand : operands)

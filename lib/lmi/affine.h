@@ -1,6 +1,6 @@
 // The number type "affine form": matrices that are affine in the unknown scalars x_1 ... x_m, with
-// coefficients that combine atoms theta_a(tau):
-//   M(x, tau) = sum over (a, i) of theta_a(tau) x_i M_ai,    theta_0 = 1, x_0 = 1.
+// coefficients that combine monomials phi_a in the variables of `forall` (monomials.h):
+//   M(x, tau) = sum over (a, i) of phi_a(tau) x_i M_ai,    phi_0 = 1, x_0 = 1.
 #pragma once
 
 #include <Eigen/SparseCore>
@@ -10,7 +10,7 @@
 
 #include "expr/evaluate.h"
 #include "expr/matrix.h"
-#include "lmi/atoms.h"
+#include "lmi/monomials.h"
 #include "lmi/unknowns.h"
 
 namespace gainsmith::lmi {
@@ -19,7 +19,7 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 struct AffineForm {
   expr::Shape shape;
-  std::map<std::pair<int, int>, Sparse> terms;  ///< (atom, unknown) -> M_ai; zeros are left out
+  std::map<std::pair<int, int>, Sparse> terms;  ///< (monomial, unknown) -> M_ai; zeros are left out
 
   bool is_constant() const;
   /// Whether an unknown stands in it; then `which` is the index of one.
@@ -30,16 +30,17 @@ struct AffineForm {
 AffineForm constant_form(const expr::Matrix& matrix);
 /// The unknown matrix itself.
 AffineForm unknown_form(const Unknown& unknown);
-/// slope * tau + offset as a 1 x 1 form.
-AffineForm variable_form(AtomTable& atoms);
+/// A variable of the table: the function tau itself, or the convex combination of the vertices.
+AffineForm variable_form(MonomialTable& monomials, int variable);
 
 /// The expr algebra. Sums, products with what has no unknown, blocks, transposes and the like are
 /// affine; any function may be applied to constants; exp, sin and cos also to an affine function of
-/// tau. Everything else throws EvaluationError with the unknown, or the function of tau, at fault.
+/// one variable, and expm to M + F*tau with M F = F M (residues.h). Everything else throws
+/// EvaluationError with the unknown, or the function of tau, at fault.
 struct AffineAlgebra {
   using Value = AffineForm;
 
-  AtomTable* atoms = nullptr;
+  MonomialTable* monomials = nullptr;
   const Unknowns* unknowns = nullptr;
 
   void apply(const expr::Instruction& instruction, std::span<const AffineForm* const> operands,

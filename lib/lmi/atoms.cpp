@@ -84,38 +84,23 @@ Range range(const Atom& atom, double begin, double end) {
   return atom.power == 0 ? wave_range(atom, begin, end) : product_range(atom, begin, end);
 }
 
-int AtomTable::index(const Atom& atom) {
-  const auto found = std::find(atoms_.begin(), atoms_.end(), atom);
-  if (found != atoms_.end()) return static_cast<int>(found - atoms_.begin());
-  atoms_.push_back(atom);
-  return static_cast<int>(atoms_.size()) - 1;
-}
-
-Combination AtomTable::product(int a, int b) {
-  if (a == 0) return {{1.0, b}};
-  if (b == 0) return {{1.0, a}};
-  const Atom first = (*this)[a];
-  const Atom second = (*this)[b];
-  Atom base{first.power + second.power, first.rate + second.rate, 0, false};
+std::vector<std::pair<double, Atom>> product(const Atom& a, const Atom& b) {
   const auto wave = [&](double frequency, bool sine) {
-    Atom atom = base;
-    atom.frequency = std::abs(frequency);
-    atom.sine = sine;
-    return index(atom);
+    return Atom{a.power + b.power, a.rate + b.rate, std::abs(frequency), sine};
   };
-  if (first.frequency == 0 || second.frequency == 0) {
-    const Atom& oscillating = first.frequency == 0 ? second : first;
+  if (a.frequency == 0 || b.frequency == 0) {
+    const Atom& oscillating = a.frequency == 0 ? b : a;
     return {{1.0, wave(oscillating.frequency, oscillating.sine)}};
   }
-  const double sum = first.frequency + second.frequency;
-  const double difference = first.frequency - second.frequency;
-  if (first.sine == second.sine) {
+  const double sum = a.frequency + b.frequency;
+  const double difference = a.frequency - b.frequency;
+  if (a.sine == b.sine) {
     // cos a cos b = (cos(a-b) + cos(a+b))/2, sin a sin b = (cos(a-b) - cos(a+b))/2
-    return {{0.5, wave(difference, false)}, {first.sine ? -0.5 : 0.5, wave(sum, false)}};
+    return {{0.5, wave(difference, false)}, {a.sine ? -0.5 : 0.5, wave(sum, false)}};
   }
   // sin a cos b = (sin(a+b) + sin(a-b))/2; the difference vanishes when both frequencies are equal.
-  const double signed_difference = first.sine ? difference : -difference;
-  Combination result = {{0.5, wave(sum, true)}};
+  const double signed_difference = a.sine ? difference : -difference;
+  std::vector<std::pair<double, Atom>> result = {{0.5, wave(sum, true)}};
   if (signed_difference != 0)
     result.emplace_back(signed_difference > 0 ? 0.5 : -0.5, wave(difference, true));
   return result;

@@ -37,25 +37,7 @@ struct Range {
 /// wave) otherwise.
 Range range(const Atom& atom, double begin, double end);
 
-/// A combination: coefficients and indices into a table.
-using Combination = std::vector<std::pair<double, int>>;
-
-/// The atoms in use; index 0 is the constant 1.
-class AtomTable {
- public:
-  AtomTable() : atoms_{Atom{}} {}
-
-  const Atom& operator[](int index) const { return atoms_[static_cast<std::size_t>(index)]; }
-  int size() const { return static_cast<int>(atoms_.size()); }
-  int index(const Atom& atom);
-
-  /// atoms_[a] * atoms_[b] as a combination.
-  Combination product(int a, int b);
-  /// exp, cos or sin of slope * t (the constant part of the argument is handled by the caller).
-  int exponential(double slope) { return index({0, slope, 0, false}); }
-
- private:
-  std::vector<Atom> atoms_;
-};
+/// theta_a theta_b as a combination of atoms.
+std::vector<std::pair<double, Atom>> product(const Atom& a, const Atom& b);
 
 }  // namespace gainsmith::lmi

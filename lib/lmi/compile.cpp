@@ -6,8 +6,8 @@
 #include <deque>
 #include <set>
 
-#include "base/number.h"
 #include "expr/compile.h"
+#include "lmi/hull.h"
 
 namespace gainsmith::lmi {
 
@@ -30,13 +30,13 @@ bool is_homogeneous(const std::vector<Block>& blocks) {
                      [](const Block& block) { return block.constant_size == 0; });
 }
 
-AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns, AtomTable& atoms,
-                           const expr::Values& values, const std::string& interval_variable) {
-  expr::Evaluator<AffineAlgebra> evaluator(program, {&atoms, &unknowns});
+AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
+                           MonomialTable& monomials, const expr::Values& values) {
+  expr::Evaluator<AffineAlgebra> evaluator(program, {&monomials, &unknowns});
   std::deque<AffineForm> inputs;
   for (const expr::Input& input : program.inputs) {
-    if (input.name == interval_variable) {
-      inputs.push_back(variable_form(atoms));
+    if (const int variable = monomials.find_variable(input.name); variable >= 0) {
+      inputs.push_back(variable_form(monomials, variable));
     } else if (const Unknown* unknown = unknowns.find(input.name)) {
       inputs.push_back(unknown_form(*unknown));
     } else {
@@ -74,157 +74,91 @@ Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place,
   return 0.5 * (matrix + mirrored);
 }
 
-/// The values of the variables of `forall` and how a message names them.
-struct Point {
-  expr::Values values;
-  std::string label;
-};
-
-/// All combinations of the elements of the finite sets.
-std::vector<Point> finite_points(const model::Instance& instance,
-                                 const model::Requirement& requirement) {
-  std::vector<Point> points = {{instance.known_values(), ""}};
-  for (const model::Forall& forall : requirement.forall) {
-    if (forall.interval) continue;
-    std::vector<Point> next;
-    for (const Point& point : points) {
-      for (const expr::Expression& element : forall.points) {
-        const double value = model::scalar_value(element, instance.scope, point.values);
-        Point extended = point;
-        extended.values[forall.variable] = expr::Matrix::Constant(1, 1, value);
-        extended.label +=
-            (extended.label.empty() ? "" : ", ") + forall.variable + " = " + brief(value);
-        next.push_back(std::move(extended));
-      }
-    }
-    points = std::move(next);
-  }
-  return points;
-}
-
-struct Interval {
-  std::string variable;
-  double low = 0;
-  double high = 0;
-};
-
-/// The interval of the requirement, if it has one. At most one variable may run over an interval.
-Interval interval_of(const model::Instance& instance, const model::Requirement& requirement) {
-  Interval result;
-  const expr::Values values = instance.known_values();
-  for (const model::Forall& forall : requirement.forall) {
-    if (!forall.interval) continue;
-    if (!result.variable.empty())
-      throw InputError(forall.place, "only one variable of 'forall' may run over an interval");
-    result.variable = forall.variable;
-    result.low = model::scalar_value(forall.points[0], instance.scope, values);
-    result.high = model::scalar_value(forall.points[1], instance.scope, values);
-    if (!(result.low <= result.high))
-      throw InputError(forall.place, "the interval [" + brief(result.low) + ", " +
-                                         brief(result.high) + "] is empty");
-  }
-  return result;
-}
-
-/// The atoms that stand in a form, but for the constant.
-std::vector<int> atoms_in(const AffineForm& form) {
-  std::set<int> found;
-  for (const auto& [key, matrix] : form.terms)
-    if (key.first != 0) found.insert(key.first);
-  return {found.begin(), found.end()};
-}
-
-/// The form with the given values for its atoms.
-AffineForm at_vertex(const AffineForm& form, const std::map<int, double>& values) {
-  AffineForm result{form.shape, {}};
-  for (const auto& [key, matrix] : form.terms) {
-    const double factor = key.first == 0 ? 1.0 : values.at(key.first);
-    const auto [found, fresh] = result.terms.try_emplace({0, key.second}, factor * matrix);
-    if (!fresh) found->second = found->second + factor * matrix;
-  }
-  return result;
-}
-
-std::string vertex_label(const AtomTable& atoms, const Interval& interval,
-                         const std::map<int, double>& values) {
-  if (values.size() == 1) {
-    const auto& [atom, value] = *values.begin();
-    for (const double end : {interval.low, interval.high})
-      if (evaluate(atoms[atom], end) == value) return interval.variable + " = " + brief(end);
-  }
-  std::string label;
-  for (const auto& [atom, value] : values)
-    label += (label.empty() ? "" : ", ") + to_string(atoms[atom], interval.variable) + " = " +
-             brief(value);
-  return label;
-}
-
 std::string joined(const std::string& a, const std::string& b) {
   return a.empty() || b.empty() ? a + b : a + ", " + b;
 }
 
-/// Adds the blocks of one form: itself, or its vertices over the interval.
-void add_vertices(const AffineForm& form, const AtomTable& atoms, const Interval& interval,
-                  const Block& frame, const Place& place, std::vector<Block>& blocks) {
-  constexpr std::size_t kMostAtoms = 12;
-  const std::vector<int> used = atoms_in(form);
-  if (used.size() > kMostAtoms)
-    throw InputError(place, "the inequality '" + frame.name + "' has " +
-                                std::to_string(used.size()) + " scalar functions of " +
-                                interval.variable + "; the box of more than " +
-                                std::to_string(kMostAtoms) + " has too many vertices");
-  std::vector<Range> ranges;
-  for (const int atom : used) {
-    ranges.push_back(range(atoms[atom], interval.low, interval.high));
-    if (!std::isfinite(ranges.back().low) || !std::isfinite(ranges.back().high))
-      throw InputError(place, to_string(atoms[atom], interval.variable) +
-                                  " is too large for double on [" + brief(interval.low) + ", " +
-                                  brief(interval.high) + "]");
-  }
-  for (std::size_t vertex = 0; vertex < (std::size_t{1} << used.size()); ++vertex) {
-    std::map<int, double> values;
-    bool repeated = false;
-    for (std::size_t k = 0; k < used.size(); ++k) {
-      const bool high = ((vertex >> k) & 1U) != 0;
-      repeated |= high && ranges[k].low == ranges[k].high;
-      values[used[k]] = high ? ranges[k].high : ranges[k].low;
-    }
-    if (repeated) continue;
-    const std::string label = used.empty() ? "" : vertex_label(atoms, interval, values);
-    blocks.push_back(block_of(at_vertex(form, values), frame.name, joined(frame.point, label),
-                              frame.strict, place));
-  }
-}
+using Over = model::Forall::Over;
 
-void add_requirement(const model::Instance& instance, const model::Requirement& requirement,
-                     Lmi& lmi) {
-  expr::Scope scope = instance.design_scope();
-  for (const model::Forall& forall : requirement.forall)
-    scope.symbols[forall.variable] = {{}, std::nullopt};
-  const auto relations = expr::compile_relations(requirement.that, scope);
-  const Interval interval = interval_of(instance, requirement);
-  const Place place = requirement.that.place(*requirement.that.root);
-  for (std::size_t k = 0; k < relations.size(); ++k) {
-    Block frame;
-    frame.name = requirement.name + (relations.size() > 1 ? "." + std::to_string(k + 1) : "");
-    frame.strict = relations[k].strict;
-    for (const Point& point : finite_points(instance, requirement)) {
-      AtomTable atoms;
-      const AffineForm form = evaluate_affine(relations[k].difference, lmi.unknowns, atoms,
-                                              point.values, interval.variable);
-      frame.point = point.label;
-      add_vertices(form, atoms, interval, frame, place, lmi.blocks);
+/// One requirement on its way to blocks.
+class Compiler {
+ public:
+  Compiler(const model::Instance& instance, const model::Requirement& requirement,
+           const Unknowns& unknowns, int slices)
+      : known_(instance.known_values()),
+        domain_(domain_of(instance, requirement)),
+        relations_(expr::compile_relations(requirement.that, scope_with(instance, domain_))),
+        place_(requirement.that.place(*requirement.that.root)),
+        name_(requirement.name),
+        unknowns_(unknowns),
+        slices_(slices) {}
+
+  std::vector<Block> blocks(Imposed& imposed) const {
+    if (imposed.way == model::Way::automatic) choose(imposed);
+    if (imposed.way == model::Way::exchange && !intervals(domain_).empty()) {
+      if (imposed.points.empty()) imposed.points = first_points(domain_);
+      return blocks_at(imposed.points, {Over::polytope}, imposed);
     }
+    return blocks_at(combinations(domain_, Over::set), {Over::polytope, Over::interval}, imposed);
   }
-}
+
+ private:
+  /// The hull when it loses nothing, otherwise exchange. What is wrong in both ways is found, and
+  /// said, by exchange.
+  void choose(Imposed& imposed) const {
+    imposed.way = model::Way::hull;
+    if (intervals(domain_).empty()) return;
+    try {
+      blocks(imposed);
+    } catch (const InputError&) {
+      imposed.exact = false;
+    }
+    if (imposed.exact) return;
+    imposed.way = model::Way::exchange;
+    imposed.exact = true;
+  }
+
+  /// Blocks at the given points; variables over the other kinds of domain stay symbolic.
+  std::vector<Block> blocks_at(const std::vector<Point>& points, const std::set<Over>& symbolic,
+                               Imposed& imposed) const {
+    Domain variables;
+    for (const Variable& variable : domain_)
+      if (symbolic.contains(variable.over)) variables.push_back(variable);
+    std::vector<Block> result;
+    for (std::size_t k = 0; k < relations_.size(); ++k) {
+      const std::string suffix = relations_.size() > 1 ? "." + std::to_string(k + 1) : "";
+      for (const Point& point : points) {
+        MonomialTable monomials(variables);
+        expr::Values values = known_;
+        for (const auto& [name, value] : point.values) values.insert_or_assign(name, value);
+        AffineForm form = evaluate_affine(relations_[k].difference, unknowns_, monomials, values);
+        remove_noise(form, monomials);
+        const Hull hull = hull_of(form, monomials, slices_, place_);
+        imposed.exact &= hull.exact;
+        for (const Vertex& vertex : hull.vertices)
+          result.push_back(block_of(at_vertex(form, vertex.values), name_ + suffix,
+                                    joined(point.label, vertex.label), relations_[k].strict,
+                                    place_));
+      }
+    }
+    return result;
+  }
+
+  expr::Values known_;
+  Domain domain_;
+  std::vector<expr::CompiledRelation> relations_;
+  Place place_;
+  std::string name_;
+  const Unknowns& unknowns_;
+  int slices_;
+};
 
 void set_objective(const model::Instance& instance, Lmi& lmi) {
   const auto& minimize = instance.method->minimize;
   if (!minimize) return;
-  AtomTable atoms;
+  MonomialTable none;
   const auto program = expr::compile(*minimize, instance.design_scope(), expr::Shape{});
-  const AffineForm form =
-      evaluate_affine(program, lmi.unknowns, atoms, instance.known_values(), "");
+  const AffineForm form = evaluate_affine(program, lmi.unknowns, none, instance.known_values());
   lmi.has_objective = true;
   lmi.objective.assign(static_cast<std::size_t>(lmi.unknowns.size()), 0.0);
   for (const auto& [key, matrix] : form.terms) {
@@ -253,12 +187,20 @@ Block block_of(const AffineForm& form, std::string name, std::string point, bool
   return block;
 }
 
-Lmi compile(const model::Instance& instance) {
+Lmi compile(const model::Instance& instance, Plan& plan) {
   Lmi lmi(instance);
-  for (const model::Requirement& requirement : instance.method->require)
-    add_requirement(instance, requirement, lmi);
+  for (std::size_t k = 0; k < instance.method->require.size(); ++k) {
+    const Compiler compiler(instance, instance.method->require[k], lmi.unknowns, plan.slices);
+    for (Block& block : compiler.blocks(plan.requirements[k]))
+      lmi.blocks.push_back(std::move(block));
+  }
   set_objective(instance, lmi);
   return lmi;
+}
+
+Lmi compile(const model::Instance& instance) {
+  Plan plan = make_plan(instance);
+  return compile(instance, plan);
 }
 
 }  // namespace gainsmith::lmi

@@ -1,9 +1,12 @@
 // From a method's inequalities to affine blocks  B(x) = B_0 + sum_i x_i B_i  that must be >= 0.
 //
-// "forall tau in {..}" gives one block a point. "forall tau in [a, b]" gives one block a vertex of
-// the box of the ranges of the atoms that stand in the inequality (atoms.h): B is affine in the
-// atoms, so it is >= 0 on the whole interval if it is so at the vertices. With one monotone atom
-// the vertices are the ends of the interval and nothing is lost.
+// "forall k in {..}" gives one block an element. Intervals and polytopes are imposed in one of two
+// ways, which the plan names (plan.h):
+//   hull      one block a vertex of what contains the functions of the variables (hull.h): B is
+//             affine in them, so it is >= 0 on the whole domain if it is so at the vertices
+//   exchange  one block a point of the plan, the variables over intervals being numbers there; the
+//             plan grows until the worst point of the domain is good enough (worst.h). Polytopes
+//             have their vertices as in the hull.
 #pragma once
 
 #include <string>
@@ -11,6 +14,7 @@
 #include <vector>
 
 #include "lmi/affine.h"
+#include "lmi/plan.h"
 #include "lmi/unknowns.h"
 #include "model/instance.h"
 
@@ -47,15 +51,19 @@ struct Lmi {
 /// Whether no block has a constant term: then x = 0 satisfies every inequality but for strictness.
 bool is_homogeneous(const std::vector<Block>& blocks);
 
-/// Compiles. InputError, with the place, for what is not affine in the unknowns, a difference that
-/// is not symmetric, an empty interval, or more than 2^12 vertices.
+/// Compiles. Where the plan leaves the way open it is the hull when nothing is lost by it, and
+/// otherwise an exchange with its first points; the plan is updated. InputError, with the place,
+/// for what is not affine in the unknowns, a difference that is not symmetric, an empty interval,
+/// what the hull cannot take when it is asked for, or more than 2^12 vertices.
+Lmi compile(const model::Instance& instance, Plan& plan);
+/// With the first points of the problem's own plan.
 Lmi compile(const model::Instance& instance);
 
-/// The affine form of a program, with the unknowns, and tau (if named) as variable of the atoms.
-AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns, AtomTable& atoms,
-                           const expr::Values& values, const std::string& interval_variable);
+/// The affine form of a program, with the unknowns and the variables of the table.
+AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
+                           MonomialTable& monomials, const expr::Values& values);
 
-/// The block of a symmetric affine form without atoms.
+/// The block of a symmetric affine form without monomials.
 Block block_of(const AffineForm& form, std::string name, std::string point, bool strict,
                const Place& place);
 

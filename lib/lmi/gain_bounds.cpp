@@ -95,25 +95,33 @@ struct Part {
   std::string factor;
 };
 
+/// The variable of a function gain; its functions have no range here.
+Domain domain_of_gain(const model::Gain& gain) {
+  if (gain.variable.empty()) return {};
+  Variable variable;
+  variable.name = gain.variable;
+  return {variable};
+}
+
 /// An expression that is affine in the unknowns, split by the functions of the gain's variable.
 std::vector<Part> parts_of(const model::Instance& instance, const Unknowns& unknowns,
                            const model::Gain& gain, const expr::Expression& expression) {
-  AtomTable atoms;
+  MonomialTable monomials(domain_of_gain(gain));
   const expr::Program program = model::compile_gain(
       {gain.name, expression, gain.place, gain.variable}, instance.design_scope());
-  const AffineForm form =
-      evaluate_affine(program, unknowns, atoms, instance.known_values(), gain.variable);
-  std::map<int, AffineForm> by_atom;
-  if (form.terms.empty()) by_atom[0].shape = form.shape;
+  const AffineForm form = evaluate_affine(program, unknowns, monomials, instance.known_values());
+  std::map<int, AffineForm> by_monomial;
+  if (form.terms.empty()) by_monomial[0].shape = form.shape;
   for (const auto& [key, matrix] : form.terms) {
-    AffineForm& part = by_atom[key.first];
+    AffineForm& part = by_monomial[key.first];
     part.shape = form.shape;
     part.terms.emplace(std::pair(0, key.second), matrix);
   }
   std::vector<Part> parts;
-  for (auto& [atom, part] : by_atom)
+  for (auto& [index, part] : by_monomial)
     parts.push_back(
-        {std::move(part), atom == 0 ? "" : "*" + to_string(atoms[atom], gain.variable)});
+        {std::move(part),
+         index == 0 ? "" : "*" + to_string(monomials[index].front().atom, gain.variable)});
   return parts;
 }
 

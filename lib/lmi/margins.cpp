@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "base/number.h"
 #include "expr/compile.h"
+#include "lmi/worst.h"
 
 namespace gainsmith::lmi {
 
@@ -16,8 +16,7 @@ struct Worst {
   double value = std::numeric_limits<double>::infinity();
   std::string point;
 
-  void meet(const expr::Matrix& block, const std::string& where) {
-    const double found = smallest_eigenvalue(block);
+  void meet(double found, const std::string& where) {
     if (!(found < value)) return;
     value = found;
     point = where;
@@ -36,53 +35,29 @@ double term_size(const Block& block, const std::vector<double>& x) {
   return size;
 }
 
-/// Every point of `forall`: elements of sets and, of an interval, equidistant points.
-void sample(const model::Instance& instance, const model::Requirement& requirement,
-            std::size_t depth, expr::Values& values, const std::string& label,
-            const expr::Program& program, Worst& worst) {
-  if (depth == requirement.forall.size()) {
-    worst.meet(expr::evaluate(program, values), label);
-    return;
-  }
-  const model::Forall& forall = requirement.forall[depth];
-  std::vector<double> points;
-  for (const expr::Expression& point : forall.points)
-    points.push_back(model::scalar_value(point, instance.scope, values));
-  if (forall.interval) {
-    constexpr int kPieces = 32;
-    const double low = points[0];
-    const double high = points[1];
-    points.clear();
-    for (int i = 0; i <= kPieces; ++i)
-      points.push_back(i == kPieces ? high : low + (high - low) * i / kPieces);
-  }
-  for (const double point : points) {
-    values[forall.variable] = expr::Matrix::Constant(1, 1, point);
-    std::string extended = label;
-    extended += label.empty() ? "" : ", ";
-    extended += forall.variable + " = " + brief(point);
-    sample(instance, requirement, depth + 1, values, extended, program, worst);
-  }
-}
-
 }  // namespace
 
-std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& lmi,
-                                   const std::vector<double>& scales, bool homogeneous,
-                                   double required, const std::vector<double>& x) {
+bool is_kept(const model::Margin& margin) {
+  constexpr double kSlack = 0.99;
+  return margin.holds && (!margin.strict || margin.reached >= kSlack * margin.required);
+}
+
+Check check_margins(const model::Instance& instance, const Lmi& lmi,
+                    const std::vector<double>& scales, bool homogeneous, double required,
+                    const std::vector<double>& x) {
   constexpr double kRounding = 1e-11;
   double size = 0;
   for (const double value : x) size = std::max(size, std::abs(value));
   expr::Values values = instance.known_values();
   for (auto& [name, matrix] : lmi.unknowns.values(x)) values[name] = matrix;
 
-  std::vector<model::Margin> result;
+  Check check;
   std::size_t at = 0;
-  for (const model::Requirement& requirement : instance.method->require) {
-    expr::Scope scope = instance.design_scope();
-    for (const model::Forall& forall : requirement.forall)
-      scope.symbols[forall.variable] = {{}, std::nullopt};
-    for (const auto& relation : expr::compile_relations(requirement.that, scope)) {
+  for (std::size_t k = 0; k < instance.method->require.size(); ++k) {
+    const model::Requirement& requirement = instance.method->require[k];
+    const Domain domain = domain_of(instance, requirement);
+    for (const auto& relation :
+         expr::compile_relations(requirement.that, scope_with(instance, domain))) {
       model::Margin margin;
       margin.name = lmi.blocks[at].name;
       margin.strict = relation.strict;
@@ -91,18 +66,25 @@ std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& l
       Worst worst;
       double terms = 0;
       for (; at < lmi.blocks.size() && lmi.blocks[at].name == margin.name; ++at) {
-        worst.meet(lmi.blocks[at].value(x), lmi.blocks[at].point);
+        worst.meet(smallest_eigenvalue(lmi.blocks[at].value(x)), lmi.blocks[at].point);
         terms = std::max(terms, term_size(lmi.blocks[at], x));
       }
-      sample(instance, requirement, 0, values, "", relation.difference, worst);
-      margin.smallest_eigenvalue = worst.value;
+      const auto set = [&](double value) {
+        margin.smallest_eigenvalue = value;
+        margin.reached = margin.scale > 0 ? value / margin.scale : 0.0;
+        margin.holds = relation.strict ? value > 0 : value >= -kRounding * terms;
+      };
+      for (const Minimum& minimum : local_minima(relation.difference, domain, values)) {
+        worst.meet(minimum.value, minimum.point.label);
+        set(minimum.value);
+        if (!domain.empty() && !is_kept(margin)) check.violations.push_back({k, minimum.point});
+      }
+      set(worst.value);
       margin.worst_point = worst.point;
-      margin.reached = margin.scale > 0 ? worst.value / margin.scale : 0.0;
-      margin.holds = relation.strict ? worst.value > 0 : worst.value >= -kRounding * terms;
-      result.push_back(std::move(margin));
+      check.margins.push_back(std::move(margin));
     }
   }
-  return result;
+  return check;
 }
 
 }  // namespace gainsmith::lmi

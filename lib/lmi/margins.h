@@ -8,16 +8,31 @@
 
 namespace gainsmith::lmi {
 
-/// One record for each comparison of each requirement. The smallest eigenvalue is taken over
-///  - the vertices that were imposed, from the affine blocks, and
-///  - for intervals, 33 equidistant points of the interval, from the text itself evaluated over
-///  double,
+/// A local minimum, over the domain of its `forall`, at which an inequality is short of what was
+/// asked for.
+struct Violation {
+  std::size_t requirement = 0;  ///< its index in the method
+  Point point;
+};
+
+struct Check {
+  std::vector<model::Margin> margins;  ///< one for each comparison of each requirement
+  std::vector<Violation> violations;   ///< of requirements with variables
+};
+
+/// How far every inequality holds. The smallest eigenvalue is taken over
+///  - the vertices and points that were imposed, from the affine blocks, and
+///  - the whole domain of `forall`, from the text itself evaluated over double (worst.h),
 /// so that a mistake in compiling the blocks shows up as a margin that does not hold. `scale` of a
 /// homogeneous problem is the coefficients' size times the largest |x_i|. A strict inequality holds
 /// when its smallest eigenvalue is positive, another when it is above -1e-11 times the largest
 /// element of a term x_i B_i.
-std::vector<model::Margin> margins(const model::Instance& instance, const Lmi& lmi,
-                                   const std::vector<double>& scales, bool homogeneous,
-                                   double required, const std::vector<double>& x);
+Check check_margins(const model::Instance& instance, const Lmi& lmi,
+                    const std::vector<double>& scales, bool homogeneous, double required,
+                    const std::vector<double>& x);
+
+/// Whether an inequality holds at the written decimals with the margin that was asked for, up to
+/// 1 % of it.
+bool is_kept(const model::Margin& margin);
 
 }  // namespace gainsmith::lmi

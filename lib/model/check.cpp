@@ -17,14 +17,29 @@ void check_component(const Component& part, const expr::Scope& scope) {
       expr::compile(entry.value, scope, scope.symbols.at(entry.name).shape);
 }
 
+/// The shape that all elements of a `forall` have; InputError when they differ.
+expr::Shape shape_of(const Forall& forall, const expr::Scope& scope) {
+  if (forall.over == Forall::Over::interval) {
+    for (const expr::Expression& end : forall.points) expr::compile(end, scope, kScalar);
+    return kScalar;
+  }
+  const expr::Shape first = expr::compile(forall.points.front(), scope).shape();
+  for (const expr::Expression& element : forall.points) {
+    const expr::Shape shape = expr::compile(element, scope).shape();
+    if (shape != first)
+      throw InputError(element.place(*element.root),
+                       "the elements of " + forall.variable + " must have one shape; found " +
+                           to_string(first) + " and " + to_string(shape));
+  }
+  return first;
+}
+
 void check_requirements(const Instance& instance) {
   const expr::Scope design = instance.design_scope();
   for (const Requirement& requirement : instance.method->require) {
     expr::Scope scope = design;
     for (const Forall& forall : requirement.forall) {
-      for (const expr::Expression& point : forall.points)
-        expr::compile(point, instance.scope, kScalar);
-      scope.symbols[forall.variable] = {kScalar, std::nullopt};
+      scope.symbols[forall.variable] = {shape_of(forall, instance.scope), std::nullopt};
     }
     expr::compile_relations(requirement.that, scope);
   }

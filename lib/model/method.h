@@ -58,11 +58,16 @@ struct Gain {
   std::string variable;  ///< empty: a matrix
 };
 
-/// "forall: tau in [a, b]" or "forall: tau in {a, b, c}".
+/// "forall: tau in [a, b]", "forall: k in {a, b, c}" or "forall: A in conv{A1, A2}".
 struct Forall {
+  enum class Over {
+    interval,  ///< all numbers between two ends
+    set,       ///< finitely many elements, numbers or matrices of one shape
+    polytope   ///< all convex combinations of matrices of one shape
+  };
   std::string variable;
-  bool interval = true;
-  std::vector<expr::Expression> points;  ///< the two ends, or the elements
+  Over over = Over::interval;
+  std::vector<expr::Expression> points;  ///< the two ends, the elements, or the vertices
   Place place;
 };
 

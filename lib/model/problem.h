@@ -83,8 +83,20 @@ struct Expectation {
   Place place;
 };
 
+/// How an inequality is imposed for all values of its variables.
+enum class Way {
+  automatic,    ///< hull where it loses nothing, exchange elsewhere
+  hull,         ///< at the vertices of the box of the ranges of its scalar functions
+  exchange,     ///< at few points, to which the worst ones are added until none is left
+  vertex_gains  ///< hull, with a gain of its own at each vertex
+};
+
+std::string to_string(Way way);
+
 /// Choices for the synthesis.
 struct SynthesisOptions {
+  Way way = Way::automatic;
+  int slices = 1;  ///< hull: equal parts of each interval
   double margin = 1e-7;                    ///< of strict inequalities, relative to their scale
   std::optional<double> gain_bound = 1e4;  ///< none: off
 };

@@ -20,6 +20,20 @@ std::string to_string(CampaignVerdict verdict) {
   return verdict == CampaignVerdict::held ? "held" : "violated";
 }
 
+std::string to_string(Way way) {
+  switch (way) {
+    case Way::automatic:
+      return "auto";
+    case Way::hull:
+      return "hull";
+    case Way::exchange:
+      return "exchange";
+    case Way::vertex_gains:
+      return "vertex_gains";
+  }
+  return "?";
+}
+
 std::string to_string(SamplingLaw::Kind kind) {
   switch (kind) {
     case SamplingLaw::Kind::constant:

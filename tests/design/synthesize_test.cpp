@@ -211,7 +211,7 @@ TEST(SynthesizeTest, FunctionsOfTauBeyondDoubleAreRefused) {
         "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n  "
         "require:\n"
         "    p: {forall: \"tau in [0, 10]\", that: exp(1000*tau)*P > A}\n  minimize: "
-        "trace(P)\ndata: {A: [[1, 1], [1, 3]]}\n");
+        "trace(P)\ndata: {A: [[1, 1], [1, 3]]}\nsynthesis: {forall: hull}\n");
   });
   EXPECT_NE(error.message().find("too large for double"), std::string::npos);
 }

@@ -29,7 +29,7 @@ TEST(Method, IsReadWhole) {
   EXPECT_EQ(method.let[0].signature.parameters, std::vector<std::string>{"tau"});
   ASSERT_EQ(method.require.size(), 2U);
   ASSERT_EQ(method.require[1].forall.size(), 1U);
-  EXPECT_TRUE(method.require[1].forall[0].interval);
+  EXPECT_EQ(method.require[1].forall[0].over, model::Forall::Over::interval);
   EXPECT_EQ(method.require[1].place, (Place{"m.yaml", 17, 3}));
   ASSERT_TRUE(method.timer);
   EXPECT_EQ(method.timer->first_high.text->str(), "2") << "first is like reset when left out";
@@ -45,11 +45,11 @@ model::Forall forall(const std::string& text) { return parse_forall({text, "f"})
 TEST(Forall, IsAnIntervalOrASet) {
   const model::Forall interval = forall("tau in [0, max(T1, T2)]");
   EXPECT_EQ(interval.variable, "tau");
-  EXPECT_TRUE(interval.interval);
+  EXPECT_EQ(interval.over, model::Forall::Over::interval);
   ASSERT_EQ(interval.points.size(), 2U);
   EXPECT_EQ(interval.points[1].text->str(), " max(T1, T2)");
   const model::Forall set = forall("s in  {1, 2*(3), A(1, 2)} ");
-  EXPECT_FALSE(set.interval);
+  EXPECT_EQ(set.over, model::Forall::Over::set);
   EXPECT_EQ(set.points.size(), 3U);
   EXPECT_EQ(forall("s in {0}").points.size(), 1U);
 }

@@ -37,7 +37,8 @@ TEST(CompileTest, AnUnknownFunctionIsItsPolynomial) {
     const tests::YamlProblem yaml(
         "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n, " +
         unknowns + "}\n  require:\n    flow: {forall: \"tau in [0, 2]\", that: \"He(P*A + " + y +
-        "*exp(tau)) < 0\"}\ndata: {A: [[0, 1], [-2, -3]]}\n");
+        "*exp(tau)) < 0\"}\ndata: {A: [[0, 1], [-2, -3]]}\n"
+        "synthesis: {forall: hull}\n");
     return compile(yaml.instance).blocks;
   };
   const auto called = blocks("Y: {shape: n x n, of: tau, degree: 2}", "Y(tau)");
@@ -54,13 +55,56 @@ TEST(CompileTest, AnUnknownFunctionIsItsPolynomial) {
 TEST(CompileTest, TwoAtomsMakeFourVertices) {
   const tests::YamlProblem yaml(
       problem_with("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + "
-                   "cos(2*tau)*He(P*A) <= 5*I\"}\n"));
+                   "cos(2*tau)*He(P*A) <= 5*I\"}\n") +
+      "synthesis: {forall: hull}\n");
   const Lmi lmi = compile(yaml.instance);
   ASSERT_EQ(lmi.blocks.size(), 4U);
   std::set<std::string> points;
   for (const Block& block : lmi.blocks) points.insert(block.point);
   EXPECT_EQ(points.size(), 4U);
   EXPECT_EQ(points.count("cos(2*tau) = 1, sin(2*tau) = 1"), 1U);
+}
+
+TEST(CompileTest, SlicesCutTheInterval) {
+  const tests::YamlProblem yaml(
+      problem_with("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + "
+                   "cos(2*tau)*He(P*A) <= 5*I\"}\n") +
+      "synthesis: {forall: {way: hull, slices: 3}}\n");
+  EXPECT_EQ(compile(yaml.instance).blocks.size(), 12U);
+}
+
+TEST(CompileTest, FunctionsOfDifferentVariablesAreExactAtTheirVertices) {
+  const tests::YamlProblem yaml(problem_with(
+      "    box: {forall: [\"tau in [0, T]\", \"k in [1, 3]\"], that: \"k*exp(tau)*P + k*Y*A + "
+      "(k*Y*A)' > 0\"}\n"));
+  Plan plan = make_plan(yaml.instance);
+  const Lmi lmi = compile(yaml.instance, plan);
+  ASSERT_EQ(lmi.blocks.size(), 4U);
+  EXPECT_EQ(lmi.blocks[3].point, "tau = 2, k = 3");
+  EXPECT_EQ(plan.requirements[0].way, model::Way::hull);
+  EXPECT_TRUE(plan.requirements[0].exact);
+}
+
+TEST(CompileTest, APolytopeHasItsVertices) {
+  const tests::YamlProblem yaml(problem_with(
+      "    stable: {forall: \"B in conv{A, 2*A, [0, 1; 1, 0]}\", that: \"He(P*B) < 0\"}\n"));
+  const Lmi lmi = compile(yaml.instance);
+  ASSERT_EQ(lmi.blocks.size(), 3U);
+  EXPECT_EQ(lmi.blocks[1].point, "B = 2*A");
+  EXPECT_TRUE(lmi.blocks[1]
+                  .value({1, 0, 1, 0, 0, 0, 0})
+                  .isApprox(2 * lmi.blocks[0].value({1, 0, 1, 0, 0, 0, 0}), 1e-14));
+}
+
+TEST(CompileTest, SeveralFunctionsMakeAnExchange) {
+  const tests::YamlProblem yaml(problem_with(
+      "    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + cos(2*tau)*He(P*A) <= "
+      "5*I\"}\n"));
+  Plan plan = make_plan(yaml.instance);
+  const Lmi lmi = compile(yaml.instance, plan);
+  EXPECT_EQ(plan.requirements[0].way, model::Way::exchange);
+  ASSERT_EQ(lmi.blocks.size(), 3U);
+  EXPECT_EQ(lmi.blocks[2].point, "tau = 1");
 }
 
 TEST(CompileTest, FiniteSetsAndChains) {

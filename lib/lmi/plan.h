@@ -1,0 +1,34 @@
+// How each inequality is imposed for all values of its variables, and where.
+#pragma once
+
+#include <vector>
+
+#include "lmi/domain.h"
+
+namespace gainsmith::lmi {
+
+struct Imposed {
+  model::Way way = model::Way::automatic;  ///< compile() decides and writes hull or exchange
+  bool exact = true;                       ///< hull: whether nothing is lost, see hull.h
+  std::vector<Point> points;  ///< exchange: values of the variables over intervals and sets
+};
+
+struct Plan {
+  int slices = 1;                     ///< hull
+  std::vector<Imposed> requirements;  ///< in the order of the method
+
+  bool uses_exchange() const;
+  std::size_t points() const;  ///< of all exchanges
+};
+
+/// As the problem asks for.
+Plan make_plan(const model::Instance& instance);
+
+/// The first points of an exchange: for all elements of the sets the corners and the centre of the
+/// box of the intervals.
+std::vector<Point> first_points(const Domain& domain);
+
+/// Adds a point to an exchange. False when one is there already, up to 1e-9 of each interval.
+bool add_point(Imposed& imposed, const Domain& domain, const Point& point);
+
+}  // namespace gainsmith::lmi

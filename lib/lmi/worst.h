@@ -1,0 +1,23 @@
+// Where an inequality holds least, the unknowns fixed.
+#pragma once
+
+#include <vector>
+
+#include "expr/program.h"
+#include "lmi/domain.h"
+
+namespace gainsmith::lmi {
+
+struct Minimum {
+  double value = 0;  ///< the smallest eigenvalue
+  Point point;       ///< values of all variables
+};
+
+/// The local minima over the domain of the smallest eigenvalue of a symmetric matrix given as text,
+/// the smallest first. The text is evaluated over double, so any dependence on the variables is
+/// taken. Over a polytope the vertices are enough: the eigenvalue is concave in its variable. Over
+/// one interval see local_minima; `known` gives data, parameters and unknowns.
+std::vector<Minimum> local_minima(const expr::Program& difference, const Domain& domain,
+                                  const expr::Values& known);
+
+}  // namespace gainsmith::lmi

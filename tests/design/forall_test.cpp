@@ -1,0 +1,138 @@
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "design/synthesize.h"
+#include "support/input_error.h"
+#include "support/yaml_problem.h"
+
+namespace gainsmith::design {
+namespace {
+
+model::Gains solve(const std::string& text) {
+  const tests::YamlProblem yaml(text);
+  return synthesize(yaml.instance, {});
+}
+
+/// The reset observer of a rotation, post-sample form: with y = z1 the samples that are pi apart
+/// see the same direction only.
+std::string reset_observer(double T2, const std::string& way) {
+  return "problem: reset\nmethod:\n  method: reset\n"
+         "  data: {A: n x n, C: p x n, T1: scalar, T2: scalar}\n"
+         "  unknowns: {P: symmetric n, Z: n x p}\n"
+         "  require:\n"
+         "    positive: P > 0\n"
+         "    step: {forall: \"tau in [T1, T2]\", that: \"[P, ((P - Z*C)*expm(A*tau))'; *, P] > "
+         "0\"}\n"
+         "  gains: {F: inv(P)*Z}\n"
+         "data: {A: [[0, 1], [-1, 0]], C: [[1, 0]], T1: 0.1, T2: " +
+         std::to_string(T2) + "}\nsynthesis: {forall: " + way + "}\n";
+}
+
+TEST(ForallTest, ExchangeDecidesWhatAGridDoesNotSee) {
+  for (const char* way : {"exchange", "auto"}) {
+    EXPECT_EQ(solve(reset_observer(3.0, way)).verdict, model::Verdict::yes);
+    for (const double T2 : {3.3, 4.0}) {
+      const model::Gains found = solve(reset_observer(T2, way));
+      EXPECT_EQ(found.verdict, model::Verdict::no) << T2 << ": " << found.solver.message;
+      ASSERT_TRUE(found.certificate);
+      EXPECT_TRUE(found.certificate->checked);
+    }
+  }
+}
+
+TEST(ForallTest, TheWorstPointIsOnTheWholeInterval) {
+  const model::Gains found = solve(reset_observer(3.0, "exchange"));
+  ASSERT_EQ(found.verdict, model::Verdict::yes);
+  const expr::Matrix& P = *found.find("P");
+  const expr::Matrix& Z = *found.find("Z");
+  double worst = 1e300;
+  for (int i = 0; i <= 2000; ++i) {
+    const double tau = 0.1 + 2.9 * i / 2000;
+    expr::Matrix E(2, 2);
+    E << std::cos(tau), std::sin(tau), -std::sin(tau), std::cos(tau);
+    expr::Matrix C(1, 2);
+    C << 1, 0;
+    const expr::Matrix S = (P - Z * C) * E;
+    expr::Matrix M(4, 4);
+    M << P, S.transpose(), S, P;
+    worst = std::min(worst, Eigen::SelfAdjointEigenSolver<expr::Matrix>(M).eigenvalues()(0));
+  }
+  for (const model::Margin& margin : found.margins) {
+    if (margin.name != "step") continue;
+    EXPECT_LE(margin.smallest_eigenvalue, worst * (1 + 1e-9));
+    EXPECT_NEAR(margin.smallest_eigenvalue, worst, 1e-4 * worst);
+  }
+}
+
+/// Example 2 of Tran, Bernard, Marconi with constant gains: the unobservable part of a plant whose
+/// jumps bring it back. Below: contraction factors to either side of the limit.
+std::string detectability(const std::string& interval, double rho, double kappa,
+                          const std::string& way) {
+  return "problem: example-2\nmethod:\n  method: example-2\n"
+         "  data: {F: n x n, H: p x n, rho: scalar, kappa: scalar}\n"
+         "  unknowns: {Q: symmetric 2, Y: 2 x 1, K: 2 x 1}\n"
+         "  let:\n"
+         "    J(tau): expm(F*tau)\n"
+         "    S(tau): Q*J(tau) - Y*H*J(tau) - K*[1, 0]*J(tau)\n"
+         "  require:\n"
+         "    metric: I <= Q <= kappa*I\n"
+         "    step: {forall: \"tau in " +
+         interval +
+         "\", that: \"[rho^2*Q, S(tau)'; *, Q] > 0\"}\n"
+         "data: {F: [[0, -2], [2, 0]], H: [[1, 0]], rho: " +
+         std::to_string(rho) + ", kappa: " + std::to_string(kappa) +
+         "}\nsynthesis: {forall: " + way + "}\n";
+}
+
+TEST(ForallTest, ContractionFactorsOfConstantGains) {
+  EXPECT_EQ(solve(detectability("[0.1, 1.4]", 0.9662, 1e4, "exchange")).verdict,
+            model::Verdict::yes);
+  EXPECT_EQ(solve(detectability("[0.1, 1.4]", 0.9659, 1e4, "exchange")).verdict,
+            model::Verdict::no);
+  EXPECT_EQ(solve(detectability("[0.1, 1.4]", 0.9750, 100, "hull")).verdict, model::Verdict::yes);
+  const model::Gains box = solve(detectability("[0.1, 1.4]", 0.9746, 100, "hull"));
+  EXPECT_EQ(box.verdict, model::Verdict::no);
+  EXPECT_NE(box.solver.message.find("hull"), std::string::npos);
+}
+
+TEST(ForallTest, SlicesTightenTheHull) {
+  const std::string text = detectability("[0.1, 1.4]", 0.97, 1e4, "{way: hull, slices: 16}");
+  EXPECT_EQ(solve(text).verdict, model::Verdict::yes);
+}
+
+/// x' = (A0 + k A1) x, k in a box or polytope: one P, imposed at the vertices.
+TEST(ForallTest, PolytopesAndBoxesAreImposedAtTheirVertices) {
+  const auto text = [](const std::string& forall, const std::string& matrix) {
+    return "problem: p\nmethod:\n  method: p\n  data: {A1: 2 x 2, A2: 2 x 2}\n"
+           "  unknowns: {P: symmetric 2}\n  require:\n    positive: P > 0\n"
+           "    stable: {forall: " +
+           forall + ", that: \"He(P*" + matrix +
+           ") < 0\"}\n"
+           "data: {A1: [[0, 1], [-2, -1]], A2: [[0, 1], [-5.8, -1]]}\n";
+  };
+  EXPECT_EQ(solve(text("\"A in conv{A1, A2}\"", "A")).verdict, model::Verdict::yes);
+  EXPECT_EQ(solve(text("\"A in conv{A1, A2 - [0, 0; 0.1, 0]}\"", "A")).verdict, model::Verdict::no);
+  EXPECT_EQ(solve(text("[\"k in [0, 1.9]\", \"s in [0, 2]\"]", "[0, 1; -2 - k*s, -1]")).verdict,
+            model::Verdict::yes);
+  EXPECT_EQ(solve(text("[\"k in [0, 2]\", \"s in [0, 2]\"]", "[0, 1; -2 - k*s, -1]")).verdict,
+            model::Verdict::no);
+  const std::string square = text("\"A in conv{A1, A2}\"", "A*A");
+  EXPECT_NE(tests::input_error([&] { solve(square); }).message().find("not affine in A"),
+            std::string::npos);
+}
+
+/// Dependence that no hull takes: the auto way falls back to exchange.
+TEST(ForallTest, AnyDependenceOnTheVariable) {
+  const auto found = solve(
+      "problem: p\nmethod:\n  method: p\n  unknowns: {x: scalar}\n  require:\n"
+      "    above: {forall: \"t in [0.2, 3]\", that: \"x > sqrt(t)/(1 + t^2)\"}\n"
+      "  minimize: x\nsynthesis: {gain_bound: none}\n");
+  ASSERT_EQ(found.verdict, model::Verdict::yes) << found.solver.message;
+  // The largest value of sqrt(t)/(1 + t^2) is at t = 1/sqrt(3).
+  EXPECT_NEAR(*found.objective, std::pow(3, 0.75) / 4, 1e-6);
+}
+
+}  // namespace
+}  // namespace gainsmith::design
