@@ -16,16 +16,17 @@ std::optional<std::vector<expr::Matrix>> polynomial(const expr::Program& program
                                                     const std::string& variable,
                                                     const expr::Values& values) {
   const lmi::Unknowns none{model::Instance{}};
-  lmi::AtomTable atoms;
+  lmi::MonomialTable monomials(lmi::free_variable(variable));
   lmi::AffineForm form;
   try {
-    form = lmi::evaluate_affine(program, none, atoms, values, variable);
+    form = lmi::evaluate_affine(program, none, monomials, values);
   } catch (const InputError&) {
-    return std::nullopt;  // more than sums and products of the functions that atoms stand for
+    return std::nullopt;  // more than sums and products of the functions that monomials stand for
   }
   std::vector<expr::Matrix> coefficients;
   for (const auto& [key, matrix] : form.terms) {
-    const lmi::Atom& atom = atoms[key.first];
+    const lmi::Monomial& monomial = monomials[key.first];
+    const lmi::Atom atom = monomial.empty() ? lmi::Atom{} : monomial.front().atom;
     if (atom.rate != 0 || atom.frequency != 0) return std::nullopt;
     const auto power = static_cast<std::size_t>(atom.power);
     if (power >= coefficients.size())

@@ -50,6 +50,13 @@ Domain domain_of(const model::Instance& instance, const model::Requirement& requ
   return domain;
 }
 
+Domain free_variable(const std::string& name) {
+  if (name.empty()) return {};
+  Variable variable;
+  variable.name = name;
+  return {variable};
+}
+
 expr::Scope scope_with(const model::Instance& instance, const Domain& domain) {
   expr::Scope scope = instance.design_scope();
   for (const Variable& variable : domain)

@@ -29,6 +29,9 @@ using Domain = std::vector<Variable>;
 /// are not finite or have different shapes.
 Domain domain_of(const model::Instance& instance, const model::Requirement& requirement);
 
+/// A variable whose functions are looked at without a range; none for an empty name.
+Domain free_variable(const std::string& name);
+
 /// The design scope with the variables as symbols.
 expr::Scope scope_with(const model::Instance& instance, const Domain& domain);
 

@@ -95,18 +95,10 @@ struct Part {
   std::string factor;
 };
 
-/// The variable of a function gain; its functions have no range here.
-Domain domain_of_gain(const model::Gain& gain) {
-  if (gain.variable.empty()) return {};
-  Variable variable;
-  variable.name = gain.variable;
-  return {variable};
-}
-
 /// An expression that is affine in the unknowns, split by the functions of the gain's variable.
 std::vector<Part> parts_of(const model::Instance& instance, const Unknowns& unknowns,
                            const model::Gain& gain, const expr::Expression& expression) {
-  MonomialTable monomials(domain_of_gain(gain));
+  MonomialTable monomials(free_variable(gain.variable));
   const expr::Program program = model::compile_gain(
       {gain.name, expression, gain.place, gain.variable}, instance.design_scope());
   const AffineForm form = evaluate_affine(program, unknowns, monomials, instance.known_values());

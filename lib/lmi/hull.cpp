@@ -188,6 +188,7 @@ void remove_noise(AffineForm& form, const MonomialTable& monomials) {
     size = std::max(size, largest(matrix) * monomial_size(monomials[key.first], monomials));
     whole = std::max(whole, size);
   }
+  if (!std::isfinite(whole)) return;  // hull_of says which function it is
   std::erase_if(form.terms, [&](const auto& term) {
     return term.first.first != 0 && sizes.at(term.first.first) <= kNoise * whole;
   });
