@@ -85,10 +85,9 @@ struct Expectation {
 
 /// How an inequality is imposed for all values of its variables.
 enum class Way {
-  automatic,    ///< hull where it loses nothing, exchange elsewhere
-  hull,         ///< at the vertices of the box of the ranges of its scalar functions
-  exchange,     ///< at few points, to which the worst ones are added until none is left
-  vertex_gains  ///< hull, with a gain of its own at each vertex
+  automatic,  ///< hull where it loses nothing, exchange elsewhere
+  hull,       ///< at the vertices of the box of the ranges of its scalar functions
+  exchange    ///< at few points, to which the worst ones are added until none is left
 };
 
 std::string to_string(Way way);

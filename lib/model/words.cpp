@@ -28,8 +28,6 @@ std::string to_string(Way way) {
       return "hull";
     case Way::exchange:
       return "exchange";
-    case Way::vertex_gains:
-      return "vertex_gains";
   }
   return "?";
 }
