@@ -126,7 +126,8 @@ std::string synthesis_summary(const model::Gains& gains) {
       gains.solver.status, gains.solver.cause, gains.solver.iterations);
   if (!gains.solver.message.empty()) text += "            " + gains.solver.message + "\n";
   text += objective_text(gains) + named_matrices("gains", gains.gains) + functions_text(gains) +
-          named_matrices("parameters", gains.parameters) + searched_text(gains.searched);
+          named_matrices("report", gains.report) + named_matrices("parameters", gains.parameters) +
+          searched_text(gains.searched);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);
   return text;
 }

@@ -5,11 +5,21 @@
 #include <utility>
 #include <vector>
 
+#include "expr/compile.h"
 #include "lmi/compile.h"
+#include "model/stated.h"
 
 namespace gainsmith::design {
 
 namespace {
+
+/// Whether every input but `free` has a value.
+bool has_values(const expr::Program& program, const expr::Values& values,
+                const std::string& free = "") {
+  return std::all_of(program.inputs.begin(), program.inputs.end(), [&](const expr::Input& input) {
+    return input.name == free || values.contains(input.name);
+  });
+}
 
 /// The coefficients of 1, t, t^2, ... of a function of t; none when it is no polynomial.
 std::optional<std::vector<expr::Matrix>> polynomial(const expr::Program& program,
@@ -75,6 +85,16 @@ void add_gain_values(const model::Instance& instance, const expr::Values& values
     gains.gain_functions.push_back(
         {gain.name, gain.variable, kind, gain.value.text->str(),
          coefficients ? std::move(*coefficients) : std::vector<expr::Matrix>{}});
+  }
+}
+
+void add_report(const model::Instance& instance, model::Gains& gains) {
+  if (instance.method->report.empty()) return;
+  const model::Stated stated = model::state(instance, gains);
+  for (const model::Named& value : instance.method->report) {
+    const expr::Program program = expr::compile(value.value, stated.scope);
+    if (has_values(program, stated.values))
+      gains.report.emplace_back(value.name, expr::evaluate(program, stated.values));
   }
 }
 

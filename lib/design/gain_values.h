@@ -13,4 +13,7 @@ namespace gainsmith::design {
 void add_gain_values(const model::Instance& instance, const expr::Values& values,
                      model::Gains& gains);
 
+/// Evaluates what the method asks to be shown and what has a value, into `gains.report`.
+void add_report(const model::Instance& instance, model::Gains& gains);
+
 }  // namespace gainsmith::design

@@ -305,6 +305,7 @@ class Synthesis {
     for (const model::UnknownFunction& function : instance_.functions)
       gains_.functions.emplace_back(function.signature(), function.text);
     add_gain_values(instance_, values, gains_);
+    add_report(instance_, gains_);
   }
 
   Clock::time_point start_ = Clock::now();

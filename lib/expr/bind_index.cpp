@@ -64,7 +64,8 @@ std::pair<int, int> Binder::index_range(const Expression& expression, const Node
   if (!from || !to)
     fail(expression, from ? to_node : from_node,
          "an index must be a whole number known beforehand");
-  if (*from < 1 || *to > size || *from > *to)
+  const bool empty = range && *to == *from - 1;
+  if (*from < 1 || *to > size || (*from > *to && !empty))
     fail(expression, node,
          "the index " + expression.quote(node) + " is outside 1:" + std::to_string(size));
   return {*from - 1, *to};

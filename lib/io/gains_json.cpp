@@ -242,6 +242,7 @@ Json to_json(const model::Gains& gains) {
     document["functions"] = Json::object();
     for (const auto& [name, text] : gains.functions) document["functions"][name] = text;
   }
+  if (!gains.report.empty()) document["report"] = matrices_json(gains.report);
   document["parameters"] = matrices_json(gains.parameters);
   if (!gains.searched.empty()) document["searched"] = gains.searched;
   document["margins"] = list_json(gains.margins, margin_json);
@@ -276,6 +277,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   if (reader.has("functions"))
     for (const auto& [name, item] : reader.at("functions").members())
       gains.functions.emplace_back(name, item.text());
+  if (reader.has("report")) gains.report = reader.at("report").matrices();
   gains.parameters = reader.at("parameters").matrices();
   if (reader.has("searched"))
     for (const auto& [name, value] : reader.at("searched").members())

@@ -249,6 +249,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
   method.minimize = optional_expression(file, map.find("minimize"));
   for (const YamlItem& item : items_of(file, map.find("gains"), "gains"))
     method.gains.push_back(gain(file, item));
+  method.report = named(file, map.find("report"), "report");
   method.plant = component(file, map.find("plant"), "plant");
   method.observer = component(file, map.find("observer"), "observer");
   method.timer = timer(file, map.find("timer"));

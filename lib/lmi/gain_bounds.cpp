@@ -272,6 +272,7 @@ class Collector {
   }
 
   void add(GainBound bound) {
+    if (bound.e.shape.size() == 0) return;
     for (const GainBound& known : result_.list)
       if (known.scalar == bound.scalar && is_same(known.e, bound.e)) return;
     result_.blocks.push_back(bound_block(bound, result_.beta));

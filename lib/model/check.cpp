@@ -139,6 +139,7 @@ void check_everything(const Instance& instance) {
   const expr::Scope scope = instance.simulation_scope();
   check_component(instance.method->plant, scope);
   check_component(instance.method->observer, scope);
+  for (const Named& value : instance.method->report) expr::compile(value.value, scope);
   for (const Named& signal : instance.method->signals) expr::compile(signal.value, scope);
   if (const auto& timer = instance.method->timer)
     for (const expr::Expression* bound :

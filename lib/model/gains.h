@@ -97,6 +97,7 @@ struct Gains {
   NamedMatrices unknowns;
   /// How unknown functions follow from `unknowns`: {"Y(tau)", "Y_0 + Y_1*tau"}.
   std::vector<std::pair<std::string, std::string>> functions;
+  NamedMatrices report;  ///< what the method asks to be shown
   NamedMatrices parameters;
   Overrides searched;  ///< scalars that a search set: they replace those of the statement
   std::vector<Margin> margins;

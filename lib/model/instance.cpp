@@ -188,8 +188,10 @@ class Builder {
   /// A size such as n + p may have been unknown when the datum was read.
   void check_shape(const Declaration& datum) {
     const expr::Shape shape = instance_.scope.symbols.at(datum.name).shape;
-    if (learn(datum.shape, shape, instance_.dimensions) && shape.rows > 0 && shape.cols > 0) return;
     const Value* given = find_named(problem().data, datum.name);
+    // A default may be empty: no output at jumps, nothing that is hidden.
+    const bool empty = shape.size() == 0 && given != nullptr;
+    if (learn(datum.shape, shape, instance_.dimensions) && !empty) return;
     throw InputError(given ? given->place : datum.place,
                      "the datum " + datum.name + " is declared " +
                          declared(datum, instance_.dimensions) + "; found " + to_string(shape));

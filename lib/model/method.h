@@ -132,6 +132,7 @@ struct Method {
   std::vector<Requirement> require;
   std::optional<expr::Expression> minimize;
   std::vector<Gain> gains;
+  std::vector<Named> report;  ///< values that the synthesis shows beside the gains
 
   Component plant;
   Component observer;

@@ -90,5 +90,20 @@ TEST(GainValues, WithoutAPointOnlyWhatFollowsFromDataIsKnown) {
   EXPECT_EQ(gains.gains[0].first, "N");
 }
 
+TEST(Report, HoldsWhatHasAValue) {
+  const auto yaml = tests::YamlProblem(
+      "problem: p\nmethod:\n  method: m\n  data: {C: p x n}\n  unknowns: {P: symmetric n}\n"
+      "  require: {positive: P > 0}\n  gains: {G(t): t*C}\n"
+      "  report: {sizes: svd(3*C), floor: trace(P), half: G(1/2)}\ndata: {C: [[3, 4]]}\n");
+  model::Gains gains;
+  add_gain_values(yaml.instance, yaml.instance.known_values(), gains);
+  add_report(yaml.instance, gains);
+  ASSERT_EQ(gains.report.size(), 2U);
+  EXPECT_EQ(gains.report[0].first, "sizes");
+  EXPECT_NEAR(gains.report[0].second(0, 0), 15, 1e-14);
+  EXPECT_EQ(gains.report[1].first, "half");
+  EXPECT_EQ(gains.report[1].second, (expr::Matrix{{1.5, 2}}));
+}
+
 }  // namespace
 }  // namespace gainsmith::design

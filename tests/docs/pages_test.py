@@ -66,7 +66,7 @@ class Pages(unittest.TestCase):
 
     def test_readme_shows_the_problem_file(self):
         shown = yaml_blocks("README.md", "problem")
-        lines = read("problems/own-lmi/hinf-norm.yaml").splitlines(keepends=True)
+        lines = read("problems/classics/hinf-norm.yaml").splitlines(keepends=True)
         self.assertEqual(shown, ["".join(line for line in lines if not line.startswith("#"))])
 
     def test_readme_shows_the_inequalities_of_the_method(self):

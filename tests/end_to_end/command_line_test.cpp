@@ -44,9 +44,9 @@ TEST(CommandLineTest, MethodsAreListedAndPrintedAsText) {
 TEST(CommandLineTest, AGainFileDoesNotReplaceItsProblem) {
   const Folder folder;
   const std::string file =
-      folder.file("p.yaml", text_of(problem("own-lmi/quadratic-stability.yaml")));
+      folder.file("p.yaml", text_of(problem("classics/quadratic-stability.yaml")));
   EXPECT_EQ(gainsmith({"synth", file, "-o", file}).exit, 2);
-  EXPECT_EQ(text_of(file), text_of(problem("own-lmi/quadratic-stability.yaml")));
+  EXPECT_EQ(text_of(file), text_of(problem("classics/quadratic-stability.yaml")));
 }
 
 TEST(CommandLineTest, RunTakesAMethodThatCannotBeSimulated) {

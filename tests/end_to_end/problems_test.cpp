@@ -49,7 +49,7 @@ TEST(ProblemsTest, AWrongExpectationFailsTheRun) {
 
 TEST(ProblemsTest, TheWorstExitCodeWins) {
   const Folder folder;
-  const std::string good = problem("own-lmi/quadratic-stability.yaml");
+  const std::string good = problem("classics/quadratic-stability.yaml");
   const std::string bad = folder.file("bad.yaml", "problem: bad\nmetod: x\n");
   const Outcome outcome = gainsmith({"run", good, bad, "-o", folder.path("out"), "--json"});
   EXPECT_EQ(outcome.exit, 2);

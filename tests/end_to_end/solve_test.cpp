@@ -69,7 +69,7 @@ TEST(SolveTest, AnExportedProblemHasTheSameOptimum) {
   const Folder folder;
   const std::string file = folder.path("problem.dat-s");
   const Outcome synthesized =
-      gainsmith({"synth", problem("own-lmi/hinf-norm.yaml"), "--json", "--sdpa", file});
+      gainsmith({"synth", problem("classics/hinf-norm.yaml"), "--json", "--sdpa", file});
   const Outcome solved = gainsmith({"solve", file, "--json"});
   ASSERT_EQ(solved.exit, 0) << solved.err;
   // The program is written in units of the data, so the optima differ by a factor; the dual

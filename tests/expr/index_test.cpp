@@ -53,13 +53,20 @@ TEST_F(Index, WorksOnAnyExpression) {
 }
 
 TEST_F(Index, OutsideIsRefusedWithTheRange) {
-  for (const char* text : {"A(4, 1)", "A(0, 1)", "A(-1, 1)", "A(2:4, 1)", "A(3:2, 1)", "v(4)"}) {
+  for (const char* text : {"A(4, 1)", "A(0, 1)", "A(-1, 1)", "A(2:4, 1)", "A(3:1, 1)", "A(5:4, 1)", "v(4)"}) {
     const InputError error = input_error([&] { world(text); });
     EXPECT_NE(error.message().find("outside 1:3"), std::string::npos) << text << error.what();
     EXPECT_EQ(error.place().column, 3) << text;
   }
   EXPECT_NE(input_error([&] { world("A(1, 5)"); }).message().find("outside 1:4"),
             std::string::npos);
+}
+
+TEST_F(Index, ARangeMayBeEmpty) {
+  EXPECT_EQ(world("A(:, 5:4)").rows(), 3);
+  EXPECT_EQ(world("A(:, 1:0)").cols(), 0);
+  EXPECT_EQ(world("A(2:1, :)").rows(), 0);
+  EXPECT_EQ(world("v(n + 1:n)").size(), 0);
 }
 
 TEST_F(Index, MustBeAWholeNumberKnownBeforehand) {

@@ -33,6 +33,7 @@ class RandomGains {
     gains.gains = {{"L", matrix(2, 1)}, {"F", matrix(2, 2)}, {"H", matrix(1, 1)}};
     gains.unknowns = {{"P", matrix(3, 3)}, {"row", matrix(1, 3)}, {"empty", matrix(0, 0)}};
     gains.parameters = {{"delta", matrix(1, 1)}};
+    if (random_() % 2 == 0) gains.report = {{"rank", matrix(3, 1)}};
     using Kind = model::GainFunction::Kind;
     if (random_() % 2 == 0) {
       gains.gain_functions = {
@@ -166,6 +167,7 @@ TEST(Gains, EveryKeyThatIsNotOptionalMustBeThere) {
   gains.searched.clear();
   gains.gain_functions.clear();
   gains.functions.clear();
+  gains.report.clear();
   const Json document = to_json(gains);
   parse_gains(to_text(document), "g.json");
   for (const auto& [key, value] : document.items()) {

@@ -67,6 +67,11 @@ TEST(GainBoundsTest, FunctionsAreBoundedCoefficientByCoefficient) {
     EXPECT_NEAR(reached[i].reached, expected[i], 1e-12 * expected[i]) << reached[i].what;
 }
 
+TEST(GainBoundsTest, AnEmptyGainNeedsNoBound) {
+  const tests::YamlProblem yaml(problem_with("L: \"inv(P)*Y*zeros(p, 0)\""));
+  EXPECT_TRUE(gain_bounds(yaml.instance, Unknowns(yaml.instance), 100).list.empty());
+}
+
 TEST(GainBoundsTest, NoBoundNoBlocks) {
   const tests::YamlProblem yaml(problem_with("L: inv(P)*Y"));
   EXPECT_TRUE(gain_bounds(yaml.instance, Unknowns(yaml.instance), std::nullopt).blocks.empty());
