@@ -53,7 +53,16 @@ TEST(Problems, EveryBuiltInMethodIsUsableWithItsDefaults) {
     std::string text = "problem: a\nmethod: " + name + "\ndata:\n";
     for (const model::Declaration& datum : method.data)
       if (!datum.fallback)
-        text += "  " + datum.name + ": " + (datum.name == "T2" ? "2" : "1") + "\n";
+        // With Hc = 0 flows show nothing: that is what the methods for hidden parts are for.
+        text += "  " + datum.name + ": " +
+                (datum.name == "T2"   ? "2"
+                 : datum.name == "Hc" ? "0"
+                                      : "1") +
+                "\n";
+    text += "parameters: {";
+    for (const model::Parameter& parameter : method.parameters)
+      if (!parameter.fallback) text += parameter.name + ": 1, ";
+    text += "}\n";
     const model::Problem problem = read_problem(text);
     const model::Instance instance = model::make_instance(problem);
     model::check_everything(instance);
