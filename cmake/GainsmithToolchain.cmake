@@ -7,8 +7,11 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Dev or Release" FORCE)
 endif()
-# Dev keeps asserts and line numbers; -O2, since Eigen without inlining is 100 times slower.
-set(CMAKE_CXX_FLAGS_DEV "-O2 -g1" CACHE STRING "")
+# Dev keeps asserts and line numbers; -O1, since Eigen without inlining is 100 times slower. project()
+# has put an empty string into the cache already.
+if(NOT CMAKE_CXX_FLAGS_DEV)
+  set(CMAKE_CXX_FLAGS_DEV "-O1 -g1" CACHE STRING "Flags of the build type Dev" FORCE)
+endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O3 -DNDEBUG" CACHE STRING "" FORCE)
 
 add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion)
