@@ -30,11 +30,10 @@ View<const T> constant(const View<T>& v) {
 
 // ---- double-double product -------------------------------------------------------------------
 
-constexpr Index kColumns = 4;  ///< columns at a time
-
-/// The halves of a matrix apart, rows padded to whole registers, for the vector unit.
+/// The halves of a matrix apart, rows padded to whole registers, for the vector unit; and for each
+/// row a power of two above its norm.
 struct Halves {
-  std::vector<double> high, low;
+  std::vector<double> high, low, bound;
   Index stride = 0;
 
   void take(const View<const DoubleDouble>& a) {
@@ -44,33 +43,41 @@ struct Halves {
       high.resize(size);
       low.resize(size);
     }
+    bound.assign(static_cast<std::size_t>(stride), 0);
     for (Index k = 0; k < a.columns; ++k)
       for (Index i = 0; i < stride; ++i) {
         const DoubleDouble value = i < a.rows ? a(i, k) : DoubleDouble(0);
         high[static_cast<std::size_t>(i + stride * k)] = value.hi();
         low[static_cast<std::size_t>(i + stride * k)] = value.lo();
+        bound[static_cast<std::size_t>(i)] += value.hi() * value.hi();
       }
+    for (double& square : bound) square = power_above(std::sqrt(square));
   }
 };
 
-/// The columns j .. j + count - 1 of C.
-template <Index count>
+/// The columns j .. j + count - 1 of C, to kLanes rows at a time.
+template <std::size_t count>
 void multiply_columns(const Halves& a, Index inner, const View<const DoubleDouble>& b,
                       const View<DoubleDouble>& c, Index j, Update update) {
+  std::array<double, count> bound{};
+  for (std::size_t q = 0; q < count; ++q) {
+    for (Index k = 0; k < inner; ++k) {
+      const double value = b(k, j + static_cast<Index>(q)).hi();
+      bound[q] += value * value;
+    }
+    bound[q] = power_above(std::sqrt(bound[q]));
+  }
   for (Index i = 0; i < c.rows; i += kLanes) {
-    std::array<PairSums, count> sums{};
+    BiasedSums<count> sums(a.bound.data() + i, bound);
     const double* high = a.high.data() + i;
     const double* low = a.low.data() + i;
     for (Index k = 0; k < inner; ++k, high += a.stride, low += a.stride)
-      for (Index q = 0; q < count; ++q)
-        sums[static_cast<std::size_t>(q)].add(high, low, b(k, j + q).hi(), b(k, j + q).lo());
-    for (Index q = 0; q < count; ++q)
+      sums.add(high, low, &b(k, j), b.stride);
+    for (std::size_t q = 0; q < count; ++q)
       for (Index r = 0; r < kLanes && i + r < c.rows; ++r) {
-        const DoubleDouble sum = sums[static_cast<std::size_t>(q)][static_cast<std::size_t>(r)];
-        if (update == Update::assign)
-          c(i + r, j + q) = sum;
-        else
-          c(i + r, j + q) -= sum;
+        const DoubleDouble sum = sums.value(q, static_cast<std::size_t>(r));
+        DoubleDouble& entry = c(i + r, j + static_cast<Index>(q));
+        entry = update == Update::assign ? sum : entry - sum;
       }
   }
 }
@@ -80,8 +87,8 @@ void multiply_pairs(const View<const DoubleDouble>& a, const View<const DoubleDo
   static thread_local Halves halves;
   halves.take(a);
   Index j = 0;
-  for (; j + kColumns <= c.columns; j += kColumns)
-    multiply_columns<kColumns>(halves, a.columns, b, c, j, update);
+  for (; j + 6 <= c.columns; j += 6) multiply_columns<6>(halves, a.columns, b, c, j, update);
+  for (; j + 3 <= c.columns; j += 3) multiply_columns<3>(halves, a.columns, b, c, j, update);
   for (; j < c.columns; ++j) multiply_columns<1>(halves, a.columns, b, c, j, update);
 }
 
@@ -221,6 +228,9 @@ void multiply_transposed(const View<const T>& a, const View<const T>& a_transpos
     result.template triangularView<Eigen::StrictlyUpper>() = result.transpose();
   } else {
     multiply(a_transposed, a, c);
+    // Rounding must not make a difference between the two: a wider arithmetic would see it.
+    for (Index j = 0; j < c.columns; ++j)
+      for (Index i = 0; i < j; ++i) c(i, j) = c(j, i);
   }
 }
 

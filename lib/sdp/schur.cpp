@@ -40,6 +40,9 @@ constexpr double kParallelCost = 1e6;
 /// The perturbation of a B that has no Cholesky factor: eps times this, growing by it, so often.
 constexpr double kGrowth = 8;
 constexpr int kAttempts = 20;
+/// The least perturbation in double, in units of epsilon: less than the errors of the assembly, and
+/// enough to keep a pivot of a nearly singular B from being one of them.
+constexpr double kLeastUnits = 16;
 
 }  // namespace
 
@@ -261,7 +264,7 @@ bool Schur<T>::factorise() {
     const T diagonal = sparse_.worthwhile() ? sparse_.diagonal(i) : b_(i, i);
     scale_[i] = diagonal > T(0) ? T(T(1) / sqrt(diagonal)) : T(1);
   }
-  T delta(0);
+  T delta(std::is_same_v<T, double> ? kLeastUnits * std::numeric_limits<double>::epsilon() : 0.0);
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (factorise(delta)) return true;
     delta = T(kGrowth) * (delta == T(0) ? T(std::numeric_limits<T>::epsilon()) : delta);

@@ -28,8 +28,9 @@ class Schur {
 
   void assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y);
 
-  /// Cholesky of B with its diagonal scaled to one; where that fails, of B + delta diag(B) with the
-  /// smallest delta = eps 8^k, k >= 1, that succeeds. False when none does.
+  /// Cholesky of B + delta diag(B) with its diagonal scaled to one, delta a few epsilon in double
+  /// and 0 in wider arithmetic; where that fails, with the smallest delta = eps 8^k, k >= 1, that
+  /// succeeds. False when none does.
   bool factorise();
 
   /// x = B^-1 r as the factor gives it; newton.h refines it.

@@ -86,7 +86,6 @@ class Ladder {
     if (!narrow.left()) search_both_ways(narrow);
     if (over() || !wider_) return std::move(best_);
 
-    wider_ = false;
     Ipm<DoubleDouble> wide(problem_, presolved_, options_);
     reason_ = reason("double");
     strict_ = best_error_ > kIllPosed * options_.tolerance;
@@ -94,12 +93,13 @@ class Ladder {
       wide.start_from(narrow.point());
       run(wide, Model::fixed);
     }
-    if (!over() && !relay(narrow, wide, kFarther)) attempt(wide, kFarther);
+    if (!over() && !relay(narrow, Leave::imprecise, wide, kFarther)) attempt(wide, kFarther);
     search_both_ways(narrow);
     if (over() || cost() > kWideCost) return std::move(best_);
     reason_ = reason(name_of<DoubleDouble>());
     Ipm<Decimal100> widest(problem_, presolved_, options_);
-    relay(wide, widest, kFarthest);
+    // 100 digits are dear: only for what 31 digits bring as near as kHandOver.
+    relay(wide, Leave::never, widest, kFarthest);
     return std::move(best_);
   }
 
@@ -146,16 +146,16 @@ class Ladder {
     run(narrow, Model::homogeneous);
   }
 
-  /// From a far point: `narrow` comes as near as kHandOver, well before its digits run out, or as
-  /// near as they take it, and `wide` goes on from there. False when `narrow` comes to nothing:
-  /// what it cannot find its way through, more digits rarely can.
+  /// From a far point: `narrow` comes as near as kHandOver, well before its digits run out, or to
+  /// where it leaves, and `wide` goes on from there. False when `narrow` comes to nothing: what it
+  /// cannot find its way through, more digits rarely can.
   template <typename Narrow, typename Wide>
-  bool relay(Ipm<Narrow>& narrow, Ipm<Wide>& wide, double factor) {
+  bool relay(Ipm<Narrow>& narrow, Leave leave, Ipm<Wide>& wide, double factor) {
     narrow.start_far(factor);
     const Cause cause = narrow.run({.model = Model::fixed,
                                     .aim = kHandOver,
                                     .feasibility = kHandOver,
-                                    .leave = Leave::imprecise,
+                                    .leave = leave,
                                     .patience = kRelayPatience,
                                     .first_iteration = iterations_,
                                     .start = start_});
