@@ -7,6 +7,7 @@
 #include "expr/compile.h"
 #include "expr/parser.h"
 #include "lmi/compile.h"
+#include "lmi/variables.h"
 #include "support/input_error.h"
 #include "support/yaml_problem.h"
 
@@ -22,14 +23,6 @@ method:
   require: {positive: P > 0}
 data: {A: [[0.3, -1.2, 2], [4, 0.5, -1], [0.7, 0, 1]], C: [[1, -2, 0.5], [0, 1, 3]]}
 )";
-
-Variable interval(const std::string& name, double low, double high) {
-  Variable variable;
-  variable.name = name;
-  variable.low = low;
-  variable.high = high;
-  return variable;
-}
 
 class AffineTest : public ::testing::Test {
  protected:
@@ -78,7 +71,7 @@ class AffineTest : public ::testing::Test {
 
   tests::YamlProblem yaml_{kProblem};
   Unknowns unknowns_{yaml_.instance};
-  MonomialTable monomials_{{interval("tau", -2, 2)}};
+  MonomialTable monomials_{{testing::interval("tau", -2, 2)}};
   std::mt19937 generator_{7};
 };
 
