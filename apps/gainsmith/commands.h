@@ -11,6 +11,10 @@ class App;
 namespace gainsmith::app {
 
 void add_synth(CLI::App& program, ExitCode& exit);
+void add_bisect(CLI::App& program, ExitCode& exit);
+void add_scan(CLI::App& program, ExitCode& exit);
+void add_optimize(CLI::App& program, ExitCode& exit);
+void add_explain(CLI::App& program, ExitCode& exit);
 void add_verify(CLI::App& program, ExitCode& exit);
 void add_simulate(CLI::App& program, ExitCode& exit);
 void add_run(CLI::App& program, ExitCode& exit);

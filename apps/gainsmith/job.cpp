@@ -6,9 +6,10 @@
 
 #include "base/file.h"
 #include "design/expectations.h"
-#include "design/synthesize.h"
+#include "design/optimize.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/load.h"
+#include "gainsmith/optimizers.h"
 #include "gainsmith/summary.h"
 #include "io/csv.h"
 #include "io/gains_json.h"
@@ -39,7 +40,12 @@ class Job {
       : loaded_(load_problem(file)), folder_(std::move(folder)), options_(options) {}
 
   void run(JobResult& result) {
-    const model::Gains gains = design::synthesize(loaded_.instance, {});
+    const design::SearchRequest request = design::request_of(*loaded_.problem);
+    const search::Optimizers* optimizers = optimizers_for(request, *loaded_.problem);
+    const model::Gains gains =
+        design::synthesize_searched(*loaded_.problem, request, optimizers, options_.threads, {});
+    loaded_.instance = model::make_instance(*loaded_.problem, gains.searched);
+    model::check_everything(loaded_.instance);
     prepare_folder();
     write_atomically(folder_ / "gains.json", io::gains_text(gains));
     const auto campaign = verify_gains(gains);

@@ -15,7 +15,7 @@ namespace gainsmith::app {
 struct JobOptions {
   std::optional<std::uint64_t> runs;
   std::optional<std::uint64_t> seed;
-  unsigned threads = 1;  ///< of the campaign
+  unsigned threads = 1;  ///< of the search and of the campaign
 };
 
 struct JobResult {
@@ -29,8 +29,8 @@ struct JobResult {
 
 /// Synthesizes, verifies when there are gains, compares with `expect:` and writes gains.json,
 /// campaign.json, summary.txt and, of a violated campaign, worst-run.csv into `folder`. What
-/// `expect:` does not name must be as usual: the verdict yes, the campaign held. Never throws: a
-/// wrong input is a result too.
+/// `expect:` does not name must be as usual: the verdict yes, the campaign held. Throws nothing but
+/// OptimizersNeeded, before anything is written: a wrong input is a result too.
 JobResult run_job(const std::filesystem::path& problem, const std::string& name,
                   const std::filesystem::path& folder, const JobOptions& options);
 

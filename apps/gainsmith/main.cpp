@@ -14,6 +14,7 @@
 #include "base/nearest.h"
 #include "base/version.h"
 #include "gainsmith/commands.h"
+#include "gainsmith/optimizers.h"
 
 namespace {
 
@@ -34,9 +35,8 @@ void refuse_unknown_word(const CLI::App& program, int argc, char** argv) {
                                       gainsmith::suggestion(argv[1], names));
 }
 
-}  // namespace
-
-int main(int argc, char** argv) {
+/// Runs the command line; the exit code.
+int run(int argc, char** argv) {
   ExitCode exit = ExitCode::yes;
   CLI::App program(
       "gainsmith: observer gains by linear matrix inequalities, verified by simulation",
@@ -49,6 +49,10 @@ int main(int argc, char** argv) {
       "Each subcommand has --help with examples.");
   try {
     gainsmith::app::add_synth(program, exit);
+    gainsmith::app::add_bisect(program, exit);
+    gainsmith::app::add_scan(program, exit);
+    gainsmith::app::add_optimize(program, exit);
+    gainsmith::app::add_explain(program, exit);
     gainsmith::app::add_verify(program, exit);
     gainsmith::app::add_simulate(program, exit);
     gainsmith::app::add_run(program, exit);
@@ -77,5 +81,19 @@ int main(int argc, char** argv) {
     return report(ExitCode::fault, "out of memory");
   } catch (const std::exception& error) {
     return report(ExitCode::fault, (std::string("internal error: ") + error.what()).c_str());
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const gainsmith::app::OptimizersNeeded& need) {
+    try {
+      gainsmith::app::continue_with_optimizers(argv, need);
+    } catch (const gainsmith::InputError& error) {
+      return report(ExitCode::bad_input, error.what());
+    }
   }
 }

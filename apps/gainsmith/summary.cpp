@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/number.h"
+#include "gainsmith/search_text.h"
 
 namespace gainsmith::app {
 
@@ -127,7 +128,7 @@ std::string synthesis_summary(const model::Gains& gains) {
   if (!gains.solver.message.empty()) text += "            " + gains.solver.message + "\n";
   text += objective_text(gains) + named_matrices("gains", gains.gains) + functions_text(gains) +
           named_matrices("report", gains.report) + named_matrices("parameters", gains.parameters) +
-          searched_text(gains.searched);
+          searched_text(gains.searched) + search_text(gains);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);
   return text;
 }

@@ -2,17 +2,19 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
-#include <system_error>
+#include <string>
 
 #include "base/file.h"
+#include "design/optimize.h"
 #include "design/synthesize.h"
 #include "gainsmith/commands.h"
+#include "gainsmith/explain_text.h"
 #include "gainsmith/load.h"
+#include "gainsmith/optimizers.h"
+#include "gainsmith/output.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
-#include "io/gains_json.h"
 #include "sdp/sdpa_file.h"
 
 namespace gainsmith::app {
@@ -23,55 +25,37 @@ struct SynthOptions {
   std::string problem;
   std::string output;
   std::string sdpa;
+  unsigned threads = 0;
   bool json = false;
 };
 
-ExitCode exit_of(model::Verdict verdict) {
-  switch (verdict) {
-    case model::Verdict::yes:
-      return ExitCode::yes;
-    case model::Verdict::no:
-      return ExitCode::no;
-    case model::Verdict::undecided:
-      break;
-  }
-  return ExitCode::undecided;
-}
-
-/// The result without the long texts of the statement.
-std::string json_text(const model::Gains& gains) {
-  io::Json document = io::to_json(gains);
-  document.erase("statement");
-  return io::to_text(document);
-}
-
-/// The gain file must not replace the problem.
-void refuse_overwriting(const SynthOptions& options) {
-  std::error_code ignored;
-  for (const std::string& path : {options.output, options.sdpa})
-    if (!path.empty() && std::filesystem::equivalent(path, options.problem, ignored))
-      throw InputError({path}, "this is the problem file; choose another output");
+/// Why there are no gains, in one line.
+std::string reason(const model::Problem& problem, const model::Gains& gains,
+                   const sdp::Options& solver) {
+  const auto conflict = design::find_conflict(problem, gains, solver);
+  return explanation_line(conflict.value(), design::find_reaches(problem, solver));
 }
 
 ExitCode synth(const SynthOptions& options) {
-  refuse_overwriting(options);
+  refuse_overwriting(options.problem, {options.output, options.sdpa});
   const Loaded loaded = load_problem(options.problem);
-  if (!options.sdpa.empty())
-    write_atomically(options.sdpa, sdp::write_sdpa(design::semidefinite_program(loaded.instance)));
+  const model::Problem& problem = *loaded.problem;
+  const design::SearchRequest request = design::request_of(problem);
+  const search::Optimizers* optimizers = optimizers_for(request, problem);
   catch_interrupts();
   sdp::Options solver;
   solver.interrupted = interrupted;
-  const model::Gains gains = design::synthesize(loaded.instance, solver);
-  const bool file_to_stdout = options.output == "-";
-  if (file_to_stdout) {
-    fmt::print("{}", io::gains_text(gains));
-  } else if (!options.output.empty()) {
-    write_atomically(options.output, io::gains_text(gains));
-  }
-  fmt::print(file_to_stdout ? stderr : stdout, "{}",
-             options.json ? json_text(gains) : synthesis_summary(gains));
-  if (!options.output.empty() && !file_to_stdout && !options.json)
-    fmt::print(stderr, "wrote {}\n", options.output);
+  const model::Gains gains =
+      design::synthesize_searched(problem, request, optimizers, options.threads, solver);
+  if (!options.sdpa.empty())
+    write_atomically(options.sdpa, sdp::write_sdpa(design::semidefinite_program(
+                                       model::make_instance(problem, gains.searched))));
+  write_result(gains, options.output,
+               options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),
+               options.json);
+  if (gains.verdict == model::Verdict::no && !options.json && !interrupted())
+    fmt::print(options.output == "-" ? stderr : stdout, "why         {}\n",
+               reason(problem, gains, solver));
   return exit_of(gains.verdict);
 }
 
@@ -86,6 +70,11 @@ void add_synth(CLI::App& program, ExitCode& exit) {
                       "write the gain file here; - for standard output");
   command->add_option("--sdpa", options->sdpa,
                       "write the semidefinite program here, for other solvers");
+  command
+      ->add_option("--threads", options->threads,
+                   "threads of a search, 0: one a core; the result does not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
   command->add_flag("--json", options->json, "print the result as JSON");
   command->footer(
       "Exit code: 0 gains found, 1 proved infeasible, 2 wrong input, 3 undecided.\n"

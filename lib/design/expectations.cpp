@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "base/number.h"
-#include "expr/compile.h"
-#include "model/stated.h"
+#include "design/results.h"
 
 namespace gainsmith::design {
 
@@ -31,16 +30,7 @@ std::string listed(std::vector<std::string> names) {
 class Comparison {
  public:
   Comparison(const model::Instance& instance, const model::Gains& gains)
-      : instance_(instance), gains_(gains) {
-    model::Stated stated = model::state(instance, gains);
-    scope_ = std::move(stated.scope);
-    values_ = std::move(stated.values);
-    for (const auto& [name, matrix] : values_)
-      if (const auto symbol = scope_.symbols.find(name); symbol != scope_.symbols.end())
-        symbol->second.value = matrix;
-    scope_.symbols["objective"] = {{}, std::nullopt};
-    if (gains.objective) values_["objective"] = expr::Matrix::Constant(1, 1, *gains.objective);
-  }
+      : instance_(instance), gains_(gains), results_(instance, gains) {}
 
   void words(const std::string& what, const std::optional<std::string>& expected,
              const std::string& found, const Place& place) {
@@ -48,14 +38,12 @@ class Comparison {
   }
 
   void value(const model::ExpectedValue& expected) {
-    const auto program = expr::compile(expected.what, scope_);
-    for (const expr::Input& input : program.inputs)
-      if (!values_.contains(input.name))
-        return add(expected.place, expected.name, "a value", "none");
-    const expr::Matrix found = expr::evaluate(program, values_);
+    const auto value = results_.value(expected.what);
+    if (!value) return add(expected.place, expected.name, "a value", "none");
+    const expr::Matrix& found = *value;
     const expr::Shape shape{static_cast<int>(found.rows()), static_cast<int>(found.cols())};
     const expr::Matrix wanted =
-        model::matrix_value(expected.value, instance_.scope, values_, shape);
+        model::matrix_value(expected.value, instance_.scope, results_.values(), shape);
     double allowed = expected.absolute.value_or(0);
     if (expected.relative)
       allowed = std::max(allowed, *expected.relative * wanted.cwiseAbs().maxCoeff());
@@ -84,8 +72,7 @@ class Comparison {
 
   const model::Instance& instance_;
   const model::Gains& gains_;
-  expr::Values values_;
-  expr::Scope scope_;
+  Results results_;
   std::vector<std::string> differences_;
 };
 

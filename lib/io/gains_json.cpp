@@ -65,6 +65,24 @@ Json certificate_json(const model::CertificateRecord& certificate) {
           {"multipliers", matrices_json(certificate.multipliers)}};
 }
 
+Json search_json(const model::SearchRecord& search) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? Json(*value) : Json();
+  };
+  Json result = {{"figure", search.figure},           {"value", number(search.value)},
+                 {"beyond", number(search.beyond)},   {"open", search.open},
+                 {"breaks", search.breaks},           {"over", search.over},
+                 {"evaluations", search.evaluations}, {"feasible", search.feasible},
+                 {"finished", search.finished}};
+  if (const auto& polish = search.polish)
+    result["polish"] = {{"before", polish->before},
+                        {"after", number(polish->after)},
+                        {"kept", polish->kept},
+                        {"cause", polish->cause}};
+  if (search.certificate) result["certificate"] = certificate_json(*search.certificate);
+  return result;
+}
+
 Json statement_json(const model::Statement& statement) {
   return {{"method", statement.method_name},
           {"method_text", statement.method_text},
@@ -85,6 +103,7 @@ class Reader {
     if (found == value_.end()) fail("the key '" + key + "' is missing");
     return {*found, file_, path_.empty() ? key : path_ + "." + key};
   }
+  bool is_null() const { return value_.is_null(); }
   bool has(const std::string& key) const { return value_.is_object() && value_.contains(key); }
 
   std::string text() const {
@@ -202,6 +221,34 @@ model::CertificateRecord certificate_of(const Reader& reader) {
           reader.at("checked").truth(),         reader.at("multipliers").matrices()};
 }
 
+model::SearchRecord search_of(const Reader& reader) {
+  const auto number = [](const Reader& value) {
+    return value.is_null() ? std::nullopt : std::optional(value.number());
+  };
+  const auto numbers = [](const Reader& list) {
+    std::vector<double> values;
+    for (const Reader& item : list.items()) values.push_back(item.number());
+    return values;
+  };
+  model::SearchRecord search;
+  search.figure = reader.at("figure").text();
+  search.value = number(reader.at("value"));
+  search.beyond = number(reader.at("beyond"));
+  search.open = numbers(reader.at("open"));
+  search.breaks = numbers(reader.at("breaks"));
+  for (const Reader& item : reader.at("over").items()) search.over.push_back(item.text());
+  search.evaluations = reader.at("evaluations").whole();
+  search.feasible = reader.at("feasible").whole();
+  search.finished = reader.at("finished").truth();
+  if (reader.has("polish")) {
+    const Reader polish = reader.at("polish");
+    search.polish = {polish.at("before").number(), number(polish.at("after")),
+                     polish.at("kept").truth(), polish.at("cause").text()};
+  }
+  if (reader.has("certificate")) search.certificate = certificate_of(reader.at("certificate"));
+  return search;
+}
+
 model::Statement statement_of(const Reader& reader) {
   model::Statement statement{reader.at("method").text(), reader.at("method_text").text(),
                              reader.at("problem_file").text(), reader.at("problem_text").text(),
@@ -245,6 +292,7 @@ Json to_json(const model::Gains& gains) {
   if (!gains.report.empty()) document["report"] = matrices_json(gains.report);
   document["parameters"] = matrices_json(gains.parameters);
   if (!gains.searched.empty()) document["searched"] = gains.searched;
+  if (gains.search) document["search"] = search_json(*gains.search);
   document["margins"] = list_json(gains.margins, margin_json);
   document["bounds"] = list_json(gains.bounds, bound_json);
   if (gains.certificate) document["certificate"] = certificate_json(*gains.certificate);
@@ -282,6 +330,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   if (reader.has("searched"))
     for (const auto& [name, value] : reader.at("searched").members())
       gains.searched[name] = value.number();
+  if (reader.has("search")) gains.search = search_of(reader.at("search"));
   for (const Reader& item : reader.at("margins").items()) gains.margins.push_back(margin_of(item));
   for (const Reader& item : reader.at("bounds").items())
     gains.bounds.push_back({item.at("gain").text(), item.at("bound").number(),

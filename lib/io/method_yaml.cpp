@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "io/method_node.h"
+#include "io/search_yaml.h"
 #include "model/names.h"
 
 namespace gainsmith::io {
@@ -70,7 +71,7 @@ std::vector<model::Declaration> declarations(const YamlFile& file,
   return result;
 }
 
-/// "delta: 0.03", "delta: {default: 0.03, help: ...}" or "delta:" (no default).
+/// "delta: 0.03", "delta: {default: 0.03, search: [1e-3, 10], help: ...}" or "delta:" (no default).
 model::Parameter parameter(const YamlFile& file, const YamlItem& item) {
   model::Parameter result{item.key, std::nullopt, "", item.place};
   if (item.value.IsNull()) return result;
@@ -81,6 +82,8 @@ model::Parameter parameter(const YamlFile& file, const YamlItem& item) {
   YamlMap map(file, item.value, item.key);
   result.fallback = optional_expression(file, map.find("default"));
   result.help = optional_string(file, map.find("help"));
+  if (const auto search = map.find("search"))
+    result.search = scalar_range(file, {item.key, item.key_text, search->place, search->value});
   map.finish();
   return result;
 }

@@ -7,6 +7,7 @@
 #include "io/expectation_yaml.h"
 #include "io/method_node.h"
 #include "io/method_yaml.h"
+#include "io/search_yaml.h"
 
 namespace gainsmith::io {
 
@@ -207,6 +208,9 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.data = values(yaml, map.find("data"), "data");
   problem.parameters = values(yaml, map.find("parameters"), "parameters");
   problem.synthesis = synthesis(yaml, map.find("synthesis"));
+  if (const auto search = map.find("search"))
+    problem.search = search_from(yaml, *search, *problem.method);
+  problem.negotiable = scalar_ranges(yaml, map.find("negotiable"), "negotiable", *problem.method);
   problem.campaign = campaign(yaml, map.find("campaign"), *problem.method);
   if (const auto expect = map.find("expect")) problem.expect = expectation_from(yaml, *expect);
   map.finish();

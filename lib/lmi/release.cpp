@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace gainsmith::lmi {
 
@@ -41,12 +42,20 @@ double release_sign(const Lmi& lmi, int i) {
   return sign;
 }
 
-/// Whether every block keeps a row that scalar i does not cover.
-bool leaves_rows(const Lmi& lmi, int i) {
-  return std::all_of(lmi.blocks.begin(), lmi.blocks.end(), [&](const Block& block) {
-    const Sparse* matrix = coefficient(block, i);
-    return matrix == nullptr || matrix->nonZeros() < block.size;
-  });
+/// The rows of a block that stay when scalar i is released.
+std::vector<int> without_rows(const Block& block, int i, std::vector<int> rows) {
+  if (const Sparse* matrix = coefficient(block, i))
+    std::erase_if(rows, [&](int row) { return matrix->coeff(row, row) != 0; });
+  return rows;
+}
+
+std::vector<std::vector<int>> all_rows(const Lmi& lmi) {
+  std::vector<std::vector<int>> kept;
+  for (const Block& block : lmi.blocks) {
+    kept.emplace_back(static_cast<std::size_t>(block.size));
+    std::iota(kept.back().begin(), kept.back().end(), 0);
+  }
+  return kept;
 }
 
 bool satisfied(const Lmi& lmi, int i, const std::vector<double>& required,
@@ -68,22 +77,20 @@ bool Releases::released(int unknown) const {
 
 Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others) {
   Releases result;
+  result.kept = all_rows(lmi);
   for (int i = 1; lmi.has_objective && i <= lmi.unknowns.size(); ++i) {
     const bool elsewhere = std::any_of(others.begin(), others.end(), [&](const Block* block) {
       return coefficient(*block, i) != nullptr;
     });
     const double sign = release_sign(lmi, i);
-    if (lmi.objective[static_cast<std::size_t>(i) - 1] == 0 && !elsewhere && sign != 0 &&
-        leaves_rows(lmi, i))
-      result.list.push_back({i, sign});
-  }
-  for (const Block& block : lmi.blocks) {
-    std::vector<int> rows(static_cast<std::size_t>(block.size));
-    std::iota(rows.begin(), rows.end(), 0);
-    for (const Release& release : result.list)
-      if (const Sparse* matrix = coefficient(block, release.unknown))
-        std::erase_if(rows, [&](int row) { return matrix->coeff(row, row) != 0; });
-    result.kept.push_back(std::move(rows));
+    if (lmi.objective[static_cast<std::size_t>(i) - 1] != 0 || elsewhere || sign == 0) continue;
+    std::vector<std::vector<int>> rest;
+    for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
+      rest.push_back(without_rows(lmi.blocks[k], i, result.kept[k]));
+    if (std::any_of(rest.begin(), rest.end(), [](const auto& rows) { return rows.empty(); }))
+      continue;
+    result.kept = std::move(rest);
+    result.list.push_back({i, sign});
   }
   return result;
 }

@@ -24,8 +24,9 @@ struct Releases {
   bool released(int unknown) const;
 };
 
-/// The scalars that can be released. Nothing is released without an objective, nor what covers a
-/// whole block. Scalars that stand in one of the `others` (bounds on gains) stay.
+/// The scalars that can be released. Nothing is released without an objective, nor what would, with
+/// those released before it, leave a block without rows. Scalars that stand in one of the `others`
+/// (bounds on gains) stay.
 Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others);
 
 /// Gives the released scalars of x a size at which each block has at least 99.5 % of its required

@@ -124,6 +124,21 @@ void check_campaign(const Instance& instance, const expr::Scope& scope) {
   }
 }
 
+void check_search(const Instance& instance) {
+  const expr::Values values = instance.known_values();
+  const auto check = [&](const ScalarRange& range) { ends_of(range, instance.scope, values); };
+  for (const ScalarRange& range : instance.problem->negotiable) check(range);
+  for (const ScalarRange& range : open_parameters(*instance.problem)) check(range);
+  const auto& search = instance.problem->search;
+  if (!search) return;
+  if (search->extreme) check(*search->extreme);
+  for (const ScalarRange& range : search->over) check(range);
+  if (!search->minimize) return;
+  expr::Scope scope = instance.simulation_scope();
+  scope.symbols["objective"] = {kScalar, std::nullopt};
+  expr::compile(*search->minimize, scope, kScalar);
+}
+
 void check_claims(const Instance& instance, const expr::Scope& scope) {
   for (const Claim& claim : instance.method->claims) {
     expr::compile(claim.value, scope, kScalar);
@@ -145,6 +160,7 @@ void check_everything(const Instance& instance) {
     for (const expr::Expression* bound :
          {&timer->low, &timer->high, &timer->first_low, &timer->first_high})
       expr::compile(*bound, instance.scope, kScalar);
+  check_search(instance);
   check_claims(instance, scope);
   check_campaign(instance, scope);
   if (!instance.problem->expect) return;

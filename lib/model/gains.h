@@ -56,6 +56,29 @@ struct SolverRecord {
   std::string precision;
 };
 
+/// What moving scalars and unknowns together at the end of a search did (design/polish.h).
+struct PolishRecord {
+  double before = 0;            ///< the figure
+  std::optional<double> after;  ///< none when there was nothing to compare
+  bool kept = false;            ///< the figure improved and every inequality holds with its margin
+  std::string cause;            ///< why the smooth solver stopped
+};
+
+/// How a search over scalars ended (docs/search.md). The gains are those of the best value.
+struct SearchRecord {
+  std::string figure;            ///< "largest T2", "objective", "trace(P1)", "margin"
+  std::optional<double> value;   ///< of the figure; none when nothing feasible was found
+  std::optional<double> beyond;  ///< the nearest value beyond it that is proved infeasible
+  std::vector<double> open;      ///< undecided ones next to `value` and `beyond`, or empty
+  std::vector<double> breaks;    ///< proved infeasible on the inner side of `value`
+  std::optional<CertificateRecord> certificate;  ///< at `beyond`
+  std::vector<std::string> over;                 ///< the scalars that were optimised outside
+  int evaluations = 0;
+  int feasible = 0;       ///< of the evaluations
+  bool finished = false;  ///< neither interrupted nor out of evaluations
+  std::optional<PolishRecord> polish;
+};
+
 struct Statement {
   std::string method_name;
   std::string method_text;
@@ -100,6 +123,7 @@ struct Gains {
   NamedMatrices report;  ///< what the method asks to be shown
   NamedMatrices parameters;
   Overrides searched;  ///< scalars that a search set: they replace those of the statement
+  std::optional<SearchRecord> search;
   std::vector<Margin> margins;
   std::vector<GainBound> bounds;
   std::optional<CertificateRecord> certificate;

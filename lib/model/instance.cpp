@@ -163,10 +163,30 @@ class Builder {
     return expr::Matrix::Constant(1, 1, found->second);
   }
 
+  /// The range in which the problem looks for a scalar.
+  const ScalarRange* find_searched(const std::string& name) const {
+    if (!problem().search) return nullptr;
+    const Search& search = *problem().search;
+    if (search.extreme && search.extreme->name == name) return &*search.extreme;
+    return find_named(search.over, name);
+  }
+
+  /// Where the search for a scalar begins.
+  expr::Matrix first_value(const ScalarRange& range) const {
+    const auto [low, high] = ends_of(range, scope_with_dimensions(), instance_.known_values());
+    const auto& search = problem().search;
+    const bool smallest =
+        search && !search->largest && search->extreme && search->extreme->name == range.name;
+    return expr::Matrix::Constant(1, 1, smallest ? high : low);
+  }
+
   void add_datum(const Declaration& datum) {
     if (const auto value = overridden(datum.name))
       return define(datum.name, *value, instance_.data);
     const Value* given = find_named(problem().data, datum.name);
+    const ScalarRange* searched = find_searched(datum.name);
+    if (given == nullptr && !datum.fallback && searched != nullptr)
+      return define(datum.name, first_value(*searched), instance_.data);
     if (given == nullptr && !datum.fallback)
       throw InputError({problem().file}, "the datum " + datum.name + " (" + datum.shape.text +
                                              ") of the method " + method().name +
@@ -207,6 +227,10 @@ class Builder {
     if (const auto value = overridden(parameter.name))
       return define(parameter.name, *value, instance_.parameters);
     const Value* given = find_named(problem().parameters, parameter.name);
+    const ScalarRange* searched = find_searched(parameter.name);
+    if (searched == nullptr && parameter.search) searched = &*parameter.search;
+    if (given == nullptr && !parameter.fallback && searched != nullptr)
+      return define(parameter.name, first_value(*searched), instance_.parameters);
     if (given == nullptr && !parameter.fallback)
       throw InputError({problem().file}, "the parameter " + parameter.name + " of the method " +
                                              method().name +
@@ -288,6 +312,25 @@ class Builder {
 
 Instance make_instance(const Problem& problem, const Overrides& overrides) {
   return Builder(problem, overrides).build();
+}
+
+std::pair<double, double> ends_of(const ScalarRange& range, const expr::Scope& scope,
+                                  const expr::Values& values) {
+  const double low = scalar_value(range.low, scope, values);
+  const double high = scalar_value(range.high, scope, values);
+  if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
+    throw InputError(range.place, range.name +
+                                      ": expected a range [low, high] with low < high, found [" +
+                                      brief(low) + ", " + brief(high) + "]");
+  return {low, high};
+}
+
+std::vector<ScalarRange> open_parameters(const Problem& problem) {
+  std::vector<ScalarRange> open;
+  for (const Parameter& parameter : problem.method->parameters)
+    if (parameter.search && find_named(problem.parameters, parameter.name) == nullptr)
+      open.push_back(*parameter.search);
+  return open;
 }
 
 std::vector<std::string> scalar_names(const Method& method) {

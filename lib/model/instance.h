@@ -46,11 +46,20 @@ struct Instance {
 };
 
 /// Finds dimensions, data, parameters and shapes and checks the method's assumptions. An overridden
-/// scalar has that value whatever the problem gives; defaults that use it follow. InputError for a
+/// scalar has that value whatever the problem gives; defaults that use it follow. A scalar that is
+/// searched and has neither value nor default stands at the end of its range from which the search
+/// goes: the high one of `smallest`, otherwise the low one. InputError for a
 /// datum that is missing, has the wrong shape or is not symmetric where it must be, for an
 /// assumption that fails (at the place of the datum), for unknown names, and for an override that
 /// names no scalar datum or parameter or is not finite.
 Instance make_instance(const Problem& problem, const Overrides& overrides = {});
+
+/// The ends of a range as numbers. InputError at its place unless low < high and both are finite.
+std::pair<double, double> ends_of(const ScalarRange& range, const expr::Scope& scope,
+                                  const expr::Values& values);
+
+/// The parameters that the problem gives no value and the method a range: synthesis looks for them.
+std::vector<ScalarRange> open_parameters(const Problem& problem);
 
 /// The names of the scalar data and the parameters of a method, in its order: what may be
 /// overridden.

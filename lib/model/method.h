@@ -28,12 +28,22 @@ struct UnknownDeclaration : Declaration {
   std::optional<expr::Expression> degree;  ///< of its polynomial; none: 0
 };
 
+/// A scalar and the range in which it is looked for: "T2: [0.5, 1.1]".
+struct ScalarRange {
+  std::string name;
+  expr::Expression low;
+  expr::Expression high;
+  Place place;
+};
+
 /// A scalar that the engineer may tune.
 struct Parameter {
   std::string name;
   std::optional<expr::Expression> fallback;
   std::string help;
   Place place;
+  /// Where synthesis looks for it when the problem gives no value.
+  std::optional<ScalarRange> search{};
 };
 
 /// A name and its expression, in the order of the file.

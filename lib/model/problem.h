@@ -95,9 +95,21 @@ std::string to_string(Way way);
 /// Choices for the synthesis.
 struct SynthesisOptions {
   Way way = Way::automatic;
-  int slices = 1;  ///< hull: equal parts of each interval
+  int slices = 1;                          ///< hull: equal parts of each interval
   double margin = 1e-7;                    ///< of strict inequalities, relative to their scale
   std::optional<double> gain_bound = 1e4;  ///< none: off
+};
+
+/// What is searched besides the unknowns (docs/search.md).
+struct Search {
+  /// The scalar whose largest or smallest feasible value is wanted, found by bisection.
+  std::optional<ScalarRange> extreme;
+  bool largest = true;
+  std::optional<double> tolerance;           ///< of the final bracket of `extreme`
+  std::vector<ScalarRange> over;             ///< scalars that are optimised outside
+  std::optional<expr::Expression> minimize;  ///< figure of `over` when there is no `extreme`
+  int evaluations = 200;                     ///< of the figure
+  Place place;
 };
 
 /// Values for scalar data and parameters, by name, in place of those of the problem.
@@ -113,6 +125,8 @@ struct Problem {
   std::vector<Value> data;
   std::vector<Value> parameters;
   SynthesisOptions synthesis;
+  std::optional<Search> search;
+  std::vector<ScalarRange> negotiable;  ///< scalars along which `explain` says how far one must go
   Campaign campaign;
   std::optional<Expectation> expect;
 };

@@ -16,7 +16,7 @@ double Axis::at(double fraction) const {
 }
 
 double Axis::fraction(double value) const {
-  if (!(high > low)) return 0;
+  if (!(high > low) || !(value > low)) return 0;
   const double part = logarithmic
                           ? (std::log(value) - std::log(low)) / (std::log(high) - std::log(low))
                           : (value - low) / (high - low);

@@ -17,8 +17,8 @@ class Halving {
       : question_(question), axis_(axis), options_(options) {}
 
   Bisection run() {
-    for (const double value : points_on(axis_, std::max(2, options_.spread)))
-      if (!ask(value)) return result(false);
+    if (!(options_.guess ? gallop(std::clamp(*options_.guess, axis_.low, axis_.high)) : spread()))
+      return result(false);
     while (const auto value = next())
       if (!ask(*value)) return result(false);
     return result(true);
@@ -33,6 +33,29 @@ class Halving {
     if (options_.interrupted && options_.interrupted()) return false;
     if (std::ssize(answers_) >= options_.evaluations) return false;
     answers_[sign() * value] = question_(value);
+    return true;
+  }
+
+  bool spread() {
+    for (const double value : points_on(axis_, std::max(2, options_.spread)))
+      if (!ask(value)) return false;
+    return true;
+  }
+
+  /// Steps outward while the answer is yes, inward while it is not, each step four times the last.
+  bool gallop(double guess) {
+    constexpr double kFirst = 2;  // tolerances
+    constexpr double kGrowth = 4;
+    if (!ask(guess)) return false;
+    const bool outward = answers_.at(sign() * guess) == Answer::yes;
+    const double direction = outward ? sign() : -sign();
+    const double end = direction > 0 ? axis_.high : axis_.low;
+    double value = guess;
+    for (double step = kFirst * options_.tolerance; value != end; step *= kGrowth) {
+      value = std::clamp(guess + direction * step, axis_.low, axis_.high);
+      if (!ask(value)) return false;
+      if ((answers_.at(sign() * value) == Answer::yes) != outward) break;
+    }
     return true;
   }
 

@@ -20,9 +20,12 @@ enum class Answer { yes, no, undecided };
 using Question = std::function<Answer(double)>;
 
 struct BisectOptions {
-  bool largest = true;    ///< otherwise the smallest value with yes
-  double tolerance = 0;   ///< of each side of the bracket, absolute; positive
-  int spread = 9;         ///< values asked first, at least 2
+  bool largest = true;   ///< otherwise the smallest value with yes
+  double tolerance = 0;  ///< of each side of the bracket, absolute; positive
+  int spread = 9;        ///< values asked first, at least 2
+  /// Instead of the spread: the border is expected here. It is bracketed by growing steps from
+  /// there; a border further inward, or an answer that is not monotone, may stay unseen.
+  std::optional<double> guess;
   int evaluations = 200;  ///< at most, those of the spread included
   std::function<bool()> interrupted;
 };

@@ -33,14 +33,9 @@ class Search {
       return a.value.value_or(kInfinity) < b.value.value_or(kInfinity);
     });
     set_penalty(trials);
-    constexpr int kMostSearches = 3;
-    std::vector<Point> started;
-    for (const Trial& trial : trials) {
-      if (!trial.value || std::ssize(started) == kMostSearches || !may_go_on()) break;
-      if (is_near(trial.unit, started)) continue;
-      started.push_back(trial.unit);
-      descend(trial.unit, (kMostSearches + 1 - static_cast<int>(started.size())));
-    }
+    const std::vector<Point> starts = separate(trials);
+    for (std::size_t i = 0; i < starts.size() && may_go_on(); ++i)
+      descend(starts[i], static_cast<int>(starts.size() - i));
     found_.finished = !(options_.interrupted && options_.interrupted());
     return found_;
   }
@@ -145,19 +140,29 @@ class Search {
     if (low <= high) penalty_ = high + (high - low) + std::max(std::abs(high), 1e-300);
   }
 
-  /// Whether a search that started from a neighbouring cell has covered this one.
-  bool is_near(const Point& unit, const std::vector<Point>& started) const {
+  /// The best feasible trials, each beyond the cells that a search from a better one covers.
+  std::vector<Point> separate(const std::vector<Trial>& sorted) const {
+    constexpr std::ptrdiff_t kMost = 3;
     const double reach = 1.5 / cells();
-    return std::any_of(started.begin(), started.end(), [&](const Point& other) {
-      for (std::size_t i = 0; i < unit.size(); ++i)
-        if (std::abs(unit[i] - other[i]) > reach) return false;
+    const auto near = [&](const Point& a, const Point& b) {
+      for (std::size_t i = 0; i < a.size(); ++i)
+        if (std::abs(a[i] - b[i]) > reach) return false;
       return true;
-    });
+    };
+    std::vector<Point> starts;
+    for (const Trial& trial : sorted) {
+      if (!trial.value || std::ssize(starts) == kMost) break;
+      if (std::none_of(starts.begin(), starts.end(),
+                       [&](const Point& start) { return near(start, trial.unit); }))
+        starts.push_back(trial.unit);
+    }
+    return starts;
   }
 
   void descend(const Point& start, int share) {
     const auto function = [&](const Point& unit) {
-      const auto value = figure_(point(unit));
+      const auto value =
+          options_.warm ? options_.warm(point(unit), found_.value) : figure_(point(unit));
       record(unit, value);
       return value.value_or(penalty_);
     };

@@ -25,6 +25,9 @@ struct MinimizeOptions {
   double tolerance = 1e-5;    ///< of the point, in fractions of the axes
   unsigned threads = 1;       ///< of the grid; the result does not depend on it
   std::vector<Point> starts;  ///< tried besides the grid
+  /// The figure as the local searches ask for it, one point after the other: the best value so far
+  /// may make it cheaper. Without it they use the figure itself.
+  std::function<std::optional<double>(const Point&, double best)> warm;
   /// How far a point is from feasible, >= 0; not called unless the grid has no feasible point.
   std::function<double(const Point&)> violation;
   std::function<bool()> interrupted;

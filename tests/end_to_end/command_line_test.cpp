@@ -6,7 +6,8 @@ namespace gainsmith::tests {
 namespace {
 
 TEST(CommandLineTest, HelpHasExamplesForEverySubcommand) {
-  for (const char* command : {"synth", "verify", "simulate", "solve", "check", "run", "methods"}) {
+  for (const char* command : {"synth", "bisect", "scan", "optimize", "explain", "verify",
+                              "simulate", "solve", "check", "run", "methods"}) {
     const Outcome outcome = gainsmith({command, "--help"});
     EXPECT_EQ(outcome.exit, 0) << command;
     EXPECT_NE(outcome.out.find("Example"), std::string::npos) << command;

@@ -50,12 +50,30 @@ class RandomGains {
     if (random_() % 2 == 0)
       gains.certificate = model::CertificateRecord{number(), number(), number(),
                                                    number(), true,     {{"flow", matrix(2, 2)}}};
+    if (random_() % 2 == 0) gains.search = search();
     gains.statement = model::statement_of(read_problem(kProblem));
     gains.timings = {{"solve", number()}, {"total", 0.25}};
     return gains;
   }
 
  private:
+  model::SearchRecord search() {
+    model::SearchRecord record;
+    record.figure = "largest T2";
+    if (random_() % 2 == 0) {
+      record.value = number();
+      record.beyond = number();
+      record.certificate =
+          model::CertificateRecord{number(), number(), number(), number(), true, {}};
+    }
+    record.polish = {number(), number(), true, "converged"};
+    record.open = {number(), number()};
+    record.over = {"delta"};
+    record.evaluations = 17;
+    record.feasible = 9;
+    record.finished = true;
+    return record;
+  }
   double number() {
     constexpr double kEdges[] = {0.0, -0.0, 1e308, -1e308, 5e-324, -5e-324, 2.2e-308, 1, -3, 1e17};
     const auto kind = random_() % 20;
@@ -168,6 +186,7 @@ TEST(Gains, EveryKeyThatIsNotOptionalMustBeThere) {
   gains.gain_functions.clear();
   gains.functions.clear();
   gains.report.clear();
+  gains.search.reset();
   const Json document = to_json(gains);
   parse_gains(to_text(document), "g.json");
   for (const auto& [key, value] : document.items()) {

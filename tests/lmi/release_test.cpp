@@ -37,6 +37,16 @@ TEST(ReleaseTest, APriceOrAnotherUseKeepsThem) {
   EXPECT_TRUE(find_releases(compile(capped.instance), {}).list.empty());
 }
 
+/// g1 and g2 have no price and would take both rows of one block.
+TEST(ReleaseTest, NoBlockLosesAllItsRowsToSeveralScalars) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  unknowns: {g1: scalar, g2: scalar, t: scalar}\n"
+      "  require:\n    both: \"[g1, 1; *, g2] > 0\"\n    price: t > 1\n  minimize: t\n");
+  const Releases releases = find_releases(compile(yaml.instance), {});
+  EXPECT_EQ(releases.list.size(), 1U);
+  for (const std::vector<int>& rows : releases.kept) EXPECT_EQ(rows.size(), 1U);
+}
+
 TEST(ReleaseTest, RestoredScalarsSatisfyTheWholeBlocks) {
   const tests::YamlProblem yaml(problem_with("trace(P)"));
   const Lmi lmi = compile(yaml.instance);

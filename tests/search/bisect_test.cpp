@@ -40,6 +40,30 @@ TEST(Bisect, BracketsTheBorder) {
   }
 }
 
+/// From a guess near the border fewer values are asked; the bracket is as good.
+TEST(Bisect, AGuessSavesQuestions) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> uniform(0.01, 0.99);
+  for (int i = 0; i < 200; ++i) {
+    const double border = uniform(random);
+    const bool largest = i % 2 == 0;
+    int asked = 0;
+    const auto question = [&](double value) {
+      ++asked;
+      return (value <= border) == largest ? Answer::yes : Answer::no;
+    };
+    BisectOptions warm = options(largest, 1e-5);
+    warm.guess = i % 3 == 0 ? uniform(random) : border + 1e-4 * (uniform(random) - 0.5);
+    const Bisection found = bisect(question, axis(0, 1), warm);
+    ASSERT_TRUE(found.yes && found.no);
+    EXPECT_LE(std::abs(*found.yes - *found.no), 1e-5);
+    EXPECT_NEAR(*found.yes, border, 1e-5);
+    if (i % 3 != 0) {
+      EXPECT_LE(asked, 10);
+    }
+  }
+}
+
 /// Values near the border are undecided: each side is closed up to them and the rest is said.
 TEST(Bisect, ReportsWhatIsUndecidedBetween) {
   for (const bool largest : {true, false}) {

@@ -1,0 +1,146 @@
+#include "design/bisect.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "base/number.h"
+#include "gainsmith/commands.h"
+#include "gainsmith/load.h"
+#include "gainsmith/output.h"
+#include "gainsmith/range_option.h"
+#include "gainsmith/summary.h"
+#include "gainsmith/terminal.h"
+#include "io/gains_json.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+struct BisectOptions {
+  std::string problem;
+  std::string largest;
+  std::string smallest;
+  std::vector<std::string> range;
+  std::optional<double> tolerance;
+  std::string output;
+  bool json = false;
+};
+
+const char* word(search::Answer answer) {
+  switch (answer) {
+    case search::Answer::yes:
+      return "yes";
+    case search::Answer::no:
+      return "no";
+    case search::Answer::undecided:
+      break;
+  }
+  return "undecided";
+}
+
+/// The range of a scalar that the command line names: --in, or what the problem says of it.
+model::ScalarRange range_of(const BisectOptions& options, const model::Problem& problem,
+                            const std::string& name) {
+  model::check_scalar_name(*problem.method, name, {"--largest, --smallest"});
+  if (!options.range.empty())
+    return {name,
+            parse_expression(options.range[0], "--in"),
+            parse_expression(options.range[1], "--in"),
+            {"--in"}};
+  if (problem.search && problem.search->extreme && problem.search->extreme->name == name)
+    return *problem.search->extreme;
+  for (const model::ScalarRange& range : problem.negotiable)
+    if (range.name == name) return range;
+  throw InputError({options.problem}, "no range for " + name + "; give --in LOW HIGH");
+}
+
+/// What the command line asks for, or else the problem.
+design::BisectChoices choices_of(const BisectOptions& options, const model::Problem& problem) {
+  const bool named = !options.largest.empty() || !options.smallest.empty();
+  const auto& search = problem.search;
+  if (!named && !(search && search->extreme))
+    throw InputError({options.problem},
+                     "nothing to bisect: give --largest NAME or --smallest NAME, or write "
+                     "search: {largest: {NAME: [low, high]}} into the problem");
+  design::BisectChoices choices;
+  choices.largest = named ? options.smallest.empty() : search->largest;
+  const std::string name = !named                     ? search->extreme->name
+                           : options.smallest.empty() ? options.largest
+                                                      : options.smallest;
+  choices.scalar = design::searched_scalar(problem, range_of(options, problem, name));
+  choices.tolerance = options.tolerance.value_or(
+      search && search->tolerance ? *search->tolerance
+                                  : design::default_tolerance(choices.scalar.axis));
+  return choices;
+}
+
+io::Json json_of(const design::BisectResult& result, const design::BisectChoices& choices) {
+  io::Json samples = io::Json::array();
+  for (const search::Sample& sample : result.found.samples)
+    samples.push_back({{"value", sample.value}, {"answer", word(sample.answer)}});
+  return {{"scalar", choices.scalar.name},
+          {"goal", choices.largest ? "largest" : "smallest"},
+          {"tolerance", choices.tolerance},
+          {"samples", samples},
+          {"result", json_without_statement(result.gains)}};
+}
+
+std::string table(const design::BisectResult& result, const std::string& name) {
+  std::string text = fmt::format("{:<16}{}\n", name, "feasible");
+  for (const search::Sample& sample : result.found.samples)
+    text += fmt::format("{:<16}{}\n", brief(sample.value, 12), word(sample.answer));
+  return text;
+}
+
+ExitCode bisect(const BisectOptions& options) {
+  refuse_overwriting(options.problem, {options.output});
+  const Loaded loaded = load_problem(options.problem);
+  const design::BisectChoices choices = choices_of(options, *loaded.problem);
+  catch_interrupts();
+  sdp::Options solver;
+  solver.interrupted = interrupted;
+  const design::BisectResult result = design::bisect(*loaded.problem, {}, choices, solver);
+  const std::string report =
+      options.json ? io::to_text(json_of(result, choices))
+                   : table(result, choices.scalar.name) + "\n" + synthesis_summary(result.gains);
+  write_result(result.gains, options.output, report, options.json);
+  return exit_of(result.gains.verdict);
+}
+
+}  // namespace
+
+void add_bisect(CLI::App& program, ExitCode& exit) {
+  auto options = std::make_shared<BisectOptions>();
+  CLI::App* command = program.add_subcommand(
+      "bisect", "Find the largest or smallest value of a scalar for which there are gains");
+  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
+      ->required();
+  auto* largest = command->add_option("--largest", options->largest,
+                                      "this scalar (default: what the problem's search says)");
+  command->add_option("--smallest", options->smallest, "this scalar")->excludes(largest);
+  command->add_option("--in", options->range, "LOW HIGH: the range (default: the problem's)")
+      ->expected(2);
+  command
+      ->add_option("--tolerance", options->tolerance,
+                   "width of the final bracket (default: 1e-4 of the range)")
+      ->check(CLI::PositiveNumber);
+  command->add_option("-o,--output", options->output,
+                      "write the gains of the feasible end here; - for standard output");
+  command->add_flag("--json", options->json, "print the result as JSON");
+  command->footer(
+      "Both ends of the bracket are proved: gains with recomputed margins, and a checked\n"
+      "certificate. The other scalars keep the problem's values.\n"
+      "Exit code: 0 a feasible value was found, 1 proved infeasible where it is easiest, 2 wrong\n"
+      "input, 3 undecided.\n"
+      "Examples:\n"
+      "  gainsmith bisect problem.yaml --largest T2 --in 0.5 1.1 --tolerance 1e-5 -o gains.json\n"
+      "  gainsmith bisect problem.yaml --smallest rho --in 0.05 1 --json | jq .samples");
+  command->callback([options, &exit] { exit = bisect(*options); });
+}
+
+}  // namespace gainsmith::app

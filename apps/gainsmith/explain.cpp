@@ -1,0 +1,54 @@
+#include "design/explain.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+
+#include "gainsmith/commands.h"
+#include "gainsmith/explain_text.h"
+#include "gainsmith/load.h"
+#include "gainsmith/output.h"
+#include "gainsmith/terminal.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+struct ExplainOptions {
+  std::string problem;
+  bool json = false;
+};
+
+ExitCode explain(const ExplainOptions& options) {
+  const Loaded loaded = load_problem(options.problem);
+  catch_interrupts();
+  sdp::Options solver;
+  solver.interrupted = interrupted;
+  const design::Explanation explanation = design::explain(*loaded.problem, solver);
+  fmt::print("{}", options.json ? io::to_text(explanation_json(explanation))
+                                : explanation_text(explanation));
+  return exit_of(explanation.gains.verdict);
+}
+
+}  // namespace
+
+void add_explain(CLI::App& program, ExitCode& exit) {
+  auto options = std::make_shared<ExplainOptions>();
+  CLI::App* command = program.add_subcommand(
+      "explain", "Say why a problem has no solution and what would have to give");
+  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
+      ->required();
+  command->add_flag("--json", options->json, "print as JSON");
+  command->footer(
+      "The problem is taken at its own values: what it wants searched is not searched.\n"
+      "Exit code: 0 there is nothing to explain: it is feasible, 1 infeasible, 2 wrong input,\n"
+      "3 undecided.\n"
+      "Examples:\n"
+      "  gainsmith explain problems/ferrante-seuret-2021/published-theorem.yaml\n"
+      "  gainsmith explain problem.yaml --json | jq .conflict.requirements");
+  command->callback([options, &exit] { exit = explain(*options); });
+}
+
+}  // namespace gainsmith::app

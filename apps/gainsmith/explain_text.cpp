@@ -1,0 +1,127 @@
+#include "gainsmith/explain_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.h"
+#include "gainsmith/output.h"
+#include "gainsmith/summary.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    text += (i == 0 ? "" : i + 1 == names.size() ? " and " : ", ") + names[i];
+  return text;
+}
+
+/// The value with the decimals that its bracket settles, rounded to the feasible side.
+std::string settled(const design::Reach& reach) {
+  const double width = reach.beyond ? std::abs(*reach.beyond - *reach.feasible) : 0;
+  if (!(width > 0)) return brief(*reach.feasible, 10);
+  const double unit = std::pow(10.0, std::ceil(std::log10(width)));
+  const double steps = *reach.feasible / unit;
+  const double rounded = unit * (reach.at_most ? std::floor(steps) : std::ceil(steps));
+  return brief(rounded, 10);
+}
+
+std::string reach_text(const design::Reach& reach) {
+  return fmt::format("{} at {} {}", reach.name, reach.at_most ? "most" : "least", settled(reach));
+}
+
+std::string conflict_statement(const design::Conflict& conflict) {
+  if (conflict.gain_bound)
+    return "the inequalities hold together, but not within the gain bound; raise "
+           "synthesis.gain_bound";
+  if (conflict.names.size() == 1) return conflict.names.front() + " cannot hold";
+  return listed(conflict.names) + " cannot hold together";
+}
+
+std::string conflict_text(const design::Conflict& conflict) {
+  std::string text = "conflict    " + conflict_statement(conflict) + "\n";
+  if (conflict.gain_bound) return text;
+  text +=
+      fmt::format("            certificate of these alone: F_0.Y = {} and sum |F_i.Y| = {}, {}\n",
+                  brief(conflict.certificate.value), brief(conflict.certificate.residual, 3),
+                  conflict.certificate.checked ? "checked" : "NOT CHECKED");
+  if (conflict.undecided.empty())
+    return text + "            without any one of them the others can be satisfied\n";
+  return text + fmt::format("            whether {} {} needed is undecided\n",
+                            listed(conflict.undecided),
+                            conflict.undecided.size() == 1 ? "is" : "are");
+}
+
+std::string relaxations_text(const std::vector<design::Relaxation>& relaxations) {
+  if (relaxations.empty()) return "";
+  std::size_t width = 10;
+  for (const auto& relaxation : relaxations) width = std::max(width, relaxation.name.size());
+  std::string text = fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}\n", "relax by", width, "it alone",
+                                 "all together", "of scale");
+  const auto number = [](const std::optional<double>& value, const char* none) {
+    return value ? brief(*value, 4) : std::string(none);
+  };
+  for (const auto& relaxation : relaxations)
+    text += fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}\n", relaxation.name, width,
+                        number(relaxation.alone, "does not help"),
+                        number(relaxation.together, "undecided"), brief(relaxation.scale, 3));
+  return text;
+}
+
+}  // namespace
+
+std::string explanation_line(const design::Conflict& conflict,
+                             const std::vector<design::Reach>& reaches) {
+  std::string text = conflict_statement(conflict);
+  std::string ways;
+  for (const design::Reach& reach : reaches)
+    ways += (ways.empty() ? "" : ", or ") + reach_text(reach);
+  return text + (ways.empty() ? "" : "; " + ways + " would do");
+}
+
+std::string explanation_text(const design::Explanation& explanation) {
+  std::string text = fmt::format("problem     {}\nverdict     {}\n", explanation.gains.problem_name,
+                                 verdict_line(explanation.gains));
+  if (explanation.conflict) text += conflict_text(*explanation.conflict);
+  text += relaxations_text(explanation.relaxations);
+  for (const design::Reach& reach : explanation.reaches)
+    text += fmt::format(
+        "negotiable  {} (it is {}{})\n", reach_text(reach), brief(reach.value),
+        reach.beyond ? "; " + brief(*reach.beyond, 10) + " is proved infeasible" : std::string());
+  return text;
+}
+
+io::Json explanation_json(const design::Explanation& explanation) {
+  const auto number = [](const std::optional<double>& value) {
+    return value ? io::Json(*value) : io::Json();
+  };
+  io::Json document = {{"problem", explanation.gains.problem_name},
+                       {"verdict", to_string(explanation.gains.verdict)},
+                       {"conflict", nullptr},
+                       {"relaxations", io::Json::array()},
+                       {"negotiable", io::Json::array()}};
+  if (const auto& conflict = explanation.conflict)
+    document["conflict"] = {{"requirements", conflict->names},
+                            {"undecided", conflict->undecided},
+                            {"gain_bound", conflict->gain_bound},
+                            {"checked", conflict->certificate.checked},
+                            {"residual", conflict->certificate.residual}};
+  for (const auto& relaxation : explanation.relaxations)
+    document["relaxations"].push_back({{"requirement", relaxation.name},
+                                       {"scale", relaxation.scale},
+                                       {"alone", number(relaxation.alone)},
+                                       {"together", number(relaxation.together)}});
+  for (const auto& reach : explanation.reaches)
+    document["negotiable"].push_back({{"scalar", reach.name},
+                                      {"value", reach.value},
+                                      {"side", reach.at_most ? "at most" : "at least"},
+                                      {"feasible", number(reach.feasible)},
+                                      {"beyond", number(reach.beyond)}});
+  return document;
+}
+
+}  // namespace gainsmith::app

@@ -1,0 +1,132 @@
+#include "design/optimize.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "gainsmith/commands.h"
+#include "gainsmith/load.h"
+#include "gainsmith/optimizers.h"
+#include "gainsmith/output.h"
+#include "gainsmith/range_option.h"
+#include "gainsmith/summary.h"
+#include "gainsmith/terminal.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+struct OptimizeOptions {
+  std::string problem;
+  std::vector<std::string> over;
+  std::string largest;
+  std::string smallest;
+  std::string minimize;
+  std::optional<double> tolerance;
+  std::optional<int> evaluations;
+  unsigned threads = 0;
+  bool polish = false;
+  std::string output;
+  bool json = false;
+};
+
+model::ScalarRange range_of(const std::string& text, const char* option,
+                            const model::Problem& problem) {
+  const RangeOption parsed = parse_range(text, option);
+  model::check_scalar_name(*problem.method, parsed.range.name, {option});
+  if (parsed.count) throw InputError({option}, "expected NAME=LOW:HIGH, not '" + text + "'");
+  return parsed.range;
+}
+
+/// The problem with what the command line says in its search.
+model::Problem asked(const OptimizeOptions& options, model::Problem problem) {
+  model::Search search = problem.search.value_or(model::Search{});
+  if (!options.over.empty()) search.over.clear();
+  for (const std::string& text : options.over)
+    search.over.push_back(range_of(text, "--over", problem));
+  for (const bool largest : {true, false}) {
+    const std::string& text = largest ? options.largest : options.smallest;
+    if (text.empty()) continue;
+    search.extreme = range_of(text, largest ? "--largest" : "--smallest", problem);
+    search.largest = largest;
+    search.minimize.reset();
+  }
+  if (!options.minimize.empty()) {
+    search.minimize = parse_expression(options.minimize, "--minimize");
+    search.extreme.reset();
+  }
+  if (options.tolerance) search.tolerance = *options.tolerance;
+  if (options.evaluations) search.evaluations = *options.evaluations;
+  problem.search = search;
+  return problem;
+}
+
+ExitCode optimize(const OptimizeOptions& options) {
+  refuse_overwriting(options.problem, {options.output});
+  const Loaded loaded = load_problem(options.problem);
+  const model::Problem problem = asked(options, *loaded.problem);
+  model::check_everything(model::make_instance(problem));
+  design::SearchRequest request = design::request_of(problem);
+  request.polish = options.polish;
+  if (request.over.empty())
+    throw InputError({options.problem},
+                     "nothing to optimise over: give --over NAME=LOW:HIGH, or write search: {over: "
+                     "{NAME: [low, high]}} into the problem");
+  const search::Optimizers* optimizers = optimizers_for(request, problem);
+  catch_interrupts();
+  sdp::Options solver;
+  solver.interrupted = interrupted;
+  const model::Gains gains =
+      design::optimize(problem, request, *optimizers, options.threads, solver);
+  write_result(gains, options.output,
+               options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),
+               options.json);
+  return exit_of(gains.verdict);
+}
+
+}  // namespace
+
+void add_optimize(CLI::App& program, ExitCode& exit) {
+  auto options = std::make_shared<OptimizeOptions>();
+  CLI::App* command = program.add_subcommand(
+      "optimize", "Find the best values of a few scalars outside the inequalities");
+  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
+      ->required();
+  command->add_option("--over", options->over,
+                      "NAME=LOW:HIGH, once for each scalar (default: the problem's search)");
+  auto* largest = command->add_option("--largest", options->largest,
+                                      "NAME=LOW:HIGH: make this scalar as large as it can be");
+  auto* smallest =
+      command->add_option("--smallest", options->smallest, "NAME=LOW:HIGH: as small as it can be");
+  auto* minimize = command->add_option("--minimize", options->minimize,
+                                       "an expression (default: the method's objective)");
+  largest->excludes(smallest)->excludes(minimize);
+  smallest->excludes(minimize);
+  command->add_option("--tolerance", options->tolerance, "of --largest or --smallest")
+      ->check(CLI::PositiveNumber);
+  command->add_flag(
+      "--polish", options->polish,
+      "at the end move scalars and unknowns together (Ipopt); kept when it is better");
+  command->add_option("--evaluations", options->evaluations, "of the figure, at most")
+      ->check(CLI::Range(1, 1000000));
+  command
+      ->add_option("--threads", options->threads,
+                   "threads, 0: one a core; the result does not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output,
+                      "write the gain file here; - for standard output");
+  command->add_flag("--json", options->json, "print the result as JSON");
+  command->footer(
+      "Exit code: 0 gains found, 2 wrong input, 3 nothing feasible was found.\n"
+      "Examples:\n"
+      "  gainsmith optimize problem.yaml --over delta=1e-3:10 --over eta=1e-6:1 -o gains.json\n"
+      "  gainsmith optimize problem.yaml --over delta=1e-3:10 --largest T2=0.5:1.1\n"
+      "  gainsmith optimize problem.yaml --over delta=1e-3:10 --minimize 'trace(P1)' --polish");
+  command->callback([options, &exit] { exit = optimize(*options); });
+}
+
+}  // namespace gainsmith::app

@@ -1,0 +1,51 @@
+#include "gainsmith/output.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "base/file.h"
+#include "io/gains_json.h"
+
+namespace gainsmith::app {
+
+void refuse_overwriting(const std::string& problem, const std::vector<std::string>& outputs) {
+  std::error_code ignored;
+  for (const std::string& path : outputs)
+    if (!path.empty() && std::filesystem::equivalent(path, problem, ignored))
+      throw InputError({path}, "this is the problem file; choose another output");
+}
+
+void write_result(const model::Gains& gains, const std::string& output, const std::string& report,
+                  bool quiet) {
+  const bool to_stdout = output == "-";
+  if (to_stdout) {
+    fmt::print("{}", io::gains_text(gains));
+  } else if (!output.empty()) {
+    write_atomically(output, io::gains_text(gains));
+  }
+  fmt::print(to_stdout ? stderr : stdout, "{}", report);
+  if (!output.empty() && !to_stdout && !quiet) fmt::print(stderr, "wrote {}\n", output);
+}
+
+io::Json json_without_statement(const model::Gains& gains) {
+  io::Json document = io::to_json(gains);
+  document.erase("statement");
+  return document;
+}
+
+ExitCode exit_of(model::Verdict verdict) {
+  switch (verdict) {
+    case model::Verdict::yes:
+      return ExitCode::yes;
+    case model::Verdict::no:
+      return ExitCode::no;
+    case model::Verdict::undecided:
+      break;
+  }
+  return ExitCode::undecided;
+}
+
+}  // namespace gainsmith::app

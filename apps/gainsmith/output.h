@@ -1,0 +1,28 @@
+// Where results go: a gain file, standard output, or both.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+#include "io/json_text.h"
+#include "model/gains.h"
+
+namespace gainsmith::app {
+
+/// InputError when an output would replace the problem file.
+void refuse_overwriting(const std::string& problem, const std::vector<std::string>& outputs);
+
+/// Writes the gain file to `output` (nowhere when empty, standard output for "-") and the report to
+/// standard output, or to standard error when the gain file goes there. `quiet`: no line on where
+/// the file went.
+void write_result(const model::Gains& gains, const std::string& output, const std::string& report,
+                  bool quiet);
+
+/// The gain file's document without the long texts of the statement.
+io::Json json_without_statement(const model::Gains& gains);
+
+/// 0, 1 or 3.
+ExitCode exit_of(model::Verdict verdict);
+
+}  // namespace gainsmith::app

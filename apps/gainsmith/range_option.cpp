@@ -1,0 +1,62 @@
+#include "gainsmith/range_option.h"
+
+#include <charconv>
+#include <vector>
+
+#include "base/error.h"
+#include "base/nearest.h"
+#include "expr/parser.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+std::vector<std::string> split(const std::string& text, char mark) {
+  std::vector<std::string> parts;
+  std::size_t begin = 0;
+  for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, begin)) {
+    parts.push_back(text.substr(begin, at - begin));
+    begin = at + 1;
+  }
+  parts.push_back(text.substr(begin));
+  return parts;
+}
+
+int count_of(const std::string& text, const std::string& option) {
+  constexpr int kMost = 1000000;
+  int count = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), count);
+  if (end.ec != std::errc() || end.ptr != text.data() + text.size() || count < 1 || count > kMost)
+    throw InputError({option}, "expected a number of points from 1 to 1000000, not '" + text + "'");
+  return count;
+}
+
+bool scale_of(const std::string& text, const std::string& option) {
+  if (text != "log" && text != "lin")
+    throw InputError({option}, "unknown scale '" + text + "'" + suggestion(text, {"log", "lin"}));
+  return text == "log";
+}
+
+}  // namespace
+
+RangeOption parse_range(const std::string& text, const std::string& option) {
+  const std::size_t equals = text.find('=');
+  const auto parts = split(equals == std::string::npos ? "" : text.substr(equals + 1), ':');
+  if (equals == 0 || parts.size() < 2 || parts.size() > 4)
+    throw InputError({option},
+                     "expected NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT[:log], not '" + text + "'");
+  RangeOption result;
+  result.range = {text.substr(0, equals),
+                  parse_expression(parts[0], option),
+                  parse_expression(parts[1], option),
+                  {option}};
+  if (parts.size() > 2) result.count = count_of(parts[2], option);
+  if (parts.size() > 3) result.logarithmic = scale_of(parts[3], option);
+  return result;
+}
+
+expr::Expression parse_expression(const std::string& text, const std::string& option) {
+  return expr::parse(expr::Text(text, option));
+}
+
+}  // namespace gainsmith::app

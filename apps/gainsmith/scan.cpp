@@ -1,0 +1,212 @@
+#include "design/scan.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "base/number.h"
+#include "design/search_request.h"
+#include "gainsmith/commands.h"
+#include "gainsmith/load.h"
+#include "gainsmith/range_option.h"
+#include "gainsmith/terminal.h"
+#include "io/json_text.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+struct ScanOptions {
+  std::string problem;
+  std::vector<std::string> over;
+  std::vector<std::string> show;
+  unsigned threads = 0;
+  std::string output;
+  bool json = false;
+};
+
+struct Grid {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> values;
+};
+
+Grid grid_of(const ScanOptions& options, const model::Problem& problem) {
+  constexpr int kDefault = 11;
+  constexpr double kMost = 1e7;
+  Grid grid;
+  double count = 1;
+  for (const std::string& text : options.over) {
+    const RangeOption option = parse_range(text, "--over");
+    model::check_scalar_name(*problem.method, option.range.name, {"--over"});
+    if (std::find(grid.names.begin(), grid.names.end(), option.range.name) != grid.names.end())
+      throw InputError({"--over"}, option.range.name + " stands twice");
+    search::Axis axis = design::searched_scalar(problem, option.range).axis;
+    axis.logarithmic = option.logarithmic.value_or(axis.logarithmic);
+    if (axis.logarithmic && !(axis.low > 0))
+      throw InputError({"--over"},
+                       option.range.name + ": a logarithmic scale needs a low end above 0");
+    grid.names.push_back(option.range.name);
+    grid.values.push_back(points_on(axis, option.count.value_or(kDefault)));
+    count *= static_cast<double>(grid.values.back().size());
+  }
+  if (count > kMost) throw InputError({"--over"}, "the grid has more than 1e7 points");
+  return grid;
+}
+
+/// Columns and cells, for the table and the CSV file.
+struct Table {
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;
+};
+
+std::string verdict_of(const design::ScanRow& row) {
+  return row.refused.empty() ? to_string(row.gains.verdict) : "refused";
+}
+
+/// `digits`: as many as reading back needs (17), or fewer for people.
+Table table_of(const std::vector<design::ScanRow>& rows, const std::vector<std::string>& names,
+               const std::vector<std::string>& figures, int digits) {
+  const auto number = [&](const std::optional<double>& value) {
+    return value ? brief(*value, digits) : std::string();
+  };
+  Table table;
+  table.columns = names;
+  table.columns.insert(table.columns.end(), {"verdict", "objective"});
+  table.columns.insert(table.columns.end(), figures.begin(), figures.end());
+  for (const design::ScanRow& row : rows) {
+    std::vector<std::string> cells;
+    for (const double value : row.at) cells.push_back(brief(value, digits));
+    const bool yes = row.refused.empty() && row.gains.verdict == model::Verdict::yes;
+    cells.push_back(verdict_of(row));
+    cells.push_back(yes ? number(row.gains.objective) : "");
+    for (std::size_t k = 0; k < figures.size(); ++k)
+      cells.push_back(k < row.figures.size() ? number(row.figures[k]) : "");
+    table.rows.push_back(std::move(cells));
+  }
+  return table;
+}
+
+std::string csv(const Table& table) {
+  const auto quoted = [](const std::string& cell) {
+    if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
+    std::string text = "\"";
+    for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
+    return text + "\"";
+  };
+  std::string text;
+  const auto line = [&](const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i) text += (i > 0 ? "," : "") + quoted(cells[i]);
+    text += "\n";
+  };
+  line(table.columns);
+  for (const auto& row : table.rows) line(row);
+  return text;
+}
+
+std::string aligned(const Table& table) {
+  std::vector<std::size_t> widths;
+  for (std::size_t i = 0; i < table.columns.size(); ++i) {
+    std::size_t width = table.columns[i].size();
+    for (const auto& row : table.rows) width = std::max(width, row[i].size());
+    widths.push_back(width);
+  }
+  std::string text;
+  const auto line = [&](const std::vector<std::string>& cells) {
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      text += fmt::format("{:>{}}{}", cells[i], widths[i], i + 1 < cells.size() ? "  " : "\n");
+  };
+  line(table.columns);
+  for (const auto& row : table.rows) line(row);
+  return text;
+}
+
+std::string json(const std::vector<design::ScanRow>& rows, const Grid& grid,
+                 const std::vector<std::string>& figures) {
+  io::Json list = io::Json::array();
+  for (const design::ScanRow& row : rows) {
+    io::Json values = io::Json::object();
+    for (std::size_t k = 0; k < grid.names.size(); ++k) values[grid.names[k]] = row.at[k];
+    io::Json entry = {{"at", values}, {"verdict", verdict_of(row)}};
+    if (!row.refused.empty()) entry["message"] = row.refused;
+    if (row.refused.empty() && row.gains.verdict == model::Verdict::yes && row.gains.objective)
+      entry["objective"] = *row.gains.objective;
+    for (std::size_t k = 0; k < row.figures.size(); ++k)
+      entry["figures"][figures[k]] =
+          row.figures[k] ? io::finite_or_null(*row.figures[k]) : io::Json();
+    list.push_back(std::move(entry));
+  }
+  return io::to_text(list);
+}
+
+/// Yes when some point is feasible, no when every point is proved infeasible.
+ExitCode exit_of(const std::vector<design::ScanRow>& rows) {
+  const auto has = [&](model::Verdict verdict) {
+    return std::any_of(rows.begin(), rows.end(), [&](const design::ScanRow& row) {
+      return row.refused.empty() && row.gains.verdict == verdict;
+    });
+  };
+  if (has(model::Verdict::yes)) return ExitCode::yes;
+  return has(model::Verdict::undecided) ? ExitCode::undecided : ExitCode::no;
+}
+
+ExitCode scan(const ScanOptions& options) {
+  const Loaded loaded = load_problem(options.problem);
+  const Grid grid = grid_of(options, *loaded.problem);
+  std::vector<expr::Expression> figures;
+  for (const std::string& text : options.show) figures.push_back(parse_expression(text, "--show"));
+  catch_interrupts();
+  sdp::Options solver;
+  solver.interrupted = interrupted;
+  const auto rows = design::scan(*loaded.problem, grid.names, search::grid(grid.values), figures,
+                                 options.threads, solver);
+  constexpr int kForPeople = 8;
+  constexpr int kExact = 17;
+  const std::string file = csv(table_of(rows, grid.names, options.show, kExact));
+  if (options.output == "-") {
+    fmt::print("{}", file);
+    return exit_of(rows);
+  }
+  if (!options.output.empty()) write_atomically(options.output, file);
+  fmt::print("{}", options.json ? json(rows, grid, options.show)
+                                : aligned(table_of(rows, grid.names, options.show, kForPeople)));
+  return exit_of(rows);
+}
+
+}  // namespace
+
+void add_scan(CLI::App& program, ExitCode& exit) {
+  auto options = std::make_shared<ScanOptions>();
+  CLI::App* command =
+      program.add_subcommand("scan", "Solve a problem at every point of a grid of scalars");
+  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
+      ->required();
+  command
+      ->add_option("--over", options->over,
+                   "NAME=LOW:HIGH[:COUNT[:log|lin]]; several make a grid (default: 11 points)")
+      ->required();
+  command->add_option("--show", options->show,
+                      "a column more: an expression such as trace(P1) or norm(L)");
+  command
+      ->add_option("--threads", options->threads,
+                   "threads, 0: one a core; the table does not depend on it")
+      ->check(CLI::Range(0, 1024))
+      ->capture_default_str();
+  command->add_option("-o,--output", options->output,
+                      "write the table as CSV here; - for standard output");
+  command->add_flag("--json", options->json, "print the table as JSON");
+  command->footer(
+      "A point that the method's assumptions exclude is 'refused'.\n"
+      "Exit code: 0 some point is feasible, 1 all are proved infeasible, 2 wrong input, 3 "
+      "otherwise.\n"
+      "Examples:\n"
+      "  gainsmith scan problem.yaml --over T2=0.5:0.8:13\n"
+      "  gainsmith scan problem.yaml --over delta=1e-3:10:20:log --over eta=1e-6:1:7 -o table.csv");
+  command->callback([options, &exit] { exit = scan(*options); });
+}
+
+}  // namespace gainsmith::app

@@ -1,0 +1,66 @@
+#include "gainsmith/search_text.h"
+
+#include <fmt/format.h>
+
+#include "base/number.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+constexpr int kDigits = 9;
+
+/// The no end of a bracket.
+std::string beyond_text(const model::SearchRecord& search) {
+  std::string text;
+  if (search.beyond)
+    text += fmt::format(
+        "            {} is proved infeasible{}\n", brief(*search.beyond, kDigits),
+        search.certificate && search.certificate->checked ? " by a checked certificate" : "");
+  if (!search.open.empty())
+    text += fmt::format("            undecided from {} to {}\n", brief(search.open[0], kDigits),
+                        brief(search.open[1], kDigits));
+  return text;
+}
+
+std::string breaks_text(const model::SearchRecord& search) {
+  if (search.breaks.empty()) return "";
+  std::string values;
+  for (const double value : search.breaks)
+    values += (values.empty() ? "" : ", ") + brief(value, kDigits);
+  return fmt::format(
+      "            NOT MONOTONE: proved infeasible at {} as well; other borders may lie between "
+      "the values tried\n",
+      values);
+}
+
+std::string polish_text(const model::SearchRecord& search) {
+  if (!search.polish) return "";
+  const model::PolishRecord& polish = *search.polish;
+  const std::string after = polish.after ? brief(*polish.after, kDigits) : std::string("no value");
+  return fmt::format("            polish: {} before, {} after: {} ({})\n",
+                     brief(polish.before, kDigits), after, polish.kept ? "kept" : "not kept",
+                     polish.cause);
+}
+
+}  // namespace
+
+std::string search_text(const model::Gains& gains) {
+  if (!gains.search) return "";
+  const model::SearchRecord& search = *gains.search;
+  const bool bracket =
+      search.figure.starts_with("largest ") || search.figure.starts_with("smallest ");
+  std::string text;
+  if (search.value)
+    text = fmt::format("search      {} = {}{}\n", search.figure, brief(*search.value, kDigits),
+                       bracket ? " is feasible, every margin recomputed" : "");
+  else
+    text = fmt::format("search      {}: nothing feasible was found\n", search.figure);
+  if (bracket && search.value && !search.beyond && search.open.empty())
+    text += "            that is the end of the range: the border lies beyond it\n";
+  text += beyond_text(search) + breaks_text(search) + polish_text(search);
+  return text + fmt::format("            {} evaluations, {} feasible{}\n", search.evaluations,
+                            search.feasible, search.finished ? "" : "; STOPPED EARLY");
+}
+
+}  // namespace gainsmith::app

@@ -1,0 +1,39 @@
+// The largest or smallest value of a scalar for which a problem has gains.
+#pragma once
+
+#include <string>
+
+#include "design/search_request.h"
+#include "model/gains.h"
+#include "sdp/solver.h"
+#include "search/bisect.h"
+
+namespace gainsmith::design {
+
+struct BisectChoices {
+  SearchedScalar scalar;
+  bool largest = true;
+  double tolerance = 0;
+  std::optional<double> guess;  ///< see search::BisectOptions
+};
+
+/// Both ends of a bracket with what proves them.
+struct BisectResult {
+  search::Bisection found;
+  /// The gains at the outermost yes, with every margin recomputed; when no value is feasible, the
+  /// result at the end where it should have been easiest. Its `search` says how the bisection
+  /// ended, with the checked certificate at the no end.
+  model::Gains gains;
+};
+
+/// Synthesizes at the values that search::bisect asks for, the scalars in `fixed` held. A value is
+/// yes when synthesize() says yes, no when a certificate was checked. `gains.search` holds the
+/// bracket. InputError when a value in the range does not fit the problem's assumptions.
+BisectResult bisect(const model::Problem& problem, const model::Overrides& fixed,
+                    const BisectChoices& choices, const sdp::Options& solver);
+
+/// synthesize() with other values for some scalars.
+model::Gains synthesize_at(const model::Problem& problem, const model::Overrides& overrides,
+                           const sdp::Options& solver);
+
+}  // namespace gainsmith::design

@@ -1,0 +1,172 @@
+#include "design/explain.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+#include "design/bisect.h"
+#include "design/synthesize.h"
+#include "design/variants.h"
+#include "lmi/formulation.h"
+
+namespace gainsmith::design {
+
+namespace {
+
+/// Whether nothing keeps all unknowns from being 0.
+bool holds_at_zero(const model::Problem& problem) {
+  if (problem.method->require.empty()) return true;
+  const lmi::Lmi lmi = lmi::compile(model::make_instance(problem));
+  return lmi::is_homogeneous(lmi.blocks) &&
+         std::none_of(lmi.blocks.begin(), lmi.blocks.end(),
+                      [](const lmi::Block& block) { return block.strict; });
+}
+
+std::vector<std::string> in_reverse(const std::vector<model::Requirement>& requirements) {
+  std::vector<std::string> names;
+  for (auto at = requirements.rbegin(); at != requirements.rend(); ++at) names.push_back(at->name);
+  return names;
+}
+
+/// Whether the requirements named hold together: with the objective, which leads to solutions of
+/// the problem's own size, and where that is not decided (it may be unbounded) without it.
+model::Gains subset(const model::Problem& problem, const std::set<std::string>& names,
+                    const sdp::Options& solver) {
+  const model::Problem part = with_requirements(problem, names);
+  if (holds_at_zero(part)) {
+    model::Gains trivial;
+    trivial.verdict = model::Verdict::yes;
+    return trivial;
+  }
+  model::Gains gains = synthesize_at(part, {}, solver);
+  if (gains.verdict == model::Verdict::undecided && part.method->minimize)
+    gains = synthesize_at(without_objective(part), {}, solver);
+  return gains;
+}
+
+/// The scale of each requirement, as its margins are measured.
+std::map<std::string, double> scales_of(const model::Problem& problem) {
+  const lmi::Lmi lmi = lmi::compile(model::make_instance(problem));
+  const lmi::Formulation formulation =
+      lmi::formulate(lmi, {}, problem.synthesis, lmi::goal_of(lmi, {}));
+  std::map<std::string, double> scales;
+  for (const model::Requirement& requirement : problem.method->require) {
+    double& scale = scales[requirement.name];
+    for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
+      if (lmi.blocks[k].name == requirement.name ||
+          lmi.blocks[k].name.starts_with(requirement.name + "."))
+        scale = std::max(scale, formulation.scales[k]);
+  }
+  return scales;
+}
+
+/// The slacks, by requirement, of the elastic problem with the smallest sum; none without a
+/// solution. A slack below the margin is none.
+std::optional<std::map<std::string, double>> smallest_slacks(
+    const model::Problem& problem, const std::map<std::string, double>& scales,
+    const sdp::Options& solver) {
+  std::map<std::string, std::string> names;
+  const model::Problem relaxed = elastic(problem, scales, names);
+  const model::Gains gains = synthesize_at(relaxed, {}, solver);
+  if (gains.verdict != model::Verdict::yes) return std::nullopt;
+  std::map<std::string, double> slacks;
+  for (const auto& [requirement, slack] : names)
+    if (const double value = (*gains.find(slack))(0, 0); value > problem.synthesis.margin)
+      slacks[requirement] = value;
+    else
+      slacks[requirement] = 0;
+  return slacks;
+}
+
+std::vector<Relaxation> find_relaxations(const model::Problem& problem,
+                                         const sdp::Options& solver) {
+  const model::Problem plain = without_gains(problem);
+  const auto scales = scales_of(plain);
+  const auto together = smallest_slacks(plain, scales, solver);
+  std::vector<Relaxation> relaxations;
+  for (const model::Requirement& requirement : problem.method->require) {
+    const std::string& name = requirement.name;
+    Relaxation relaxation{name, scales.at(name), {}, {}};
+    if (together) relaxation.together = together->at(name);
+    const auto alone = smallest_slacks(plain, {{name, scales.at(name)}}, solver);
+    if (alone) relaxation.alone = alone->at(name);
+    relaxations.push_back(std::move(relaxation));
+  }
+  return relaxations;
+}
+
+/// The reach in one direction, within the range.
+Reach reach(const model::Problem& problem, const SearchedScalar& scalar, double value, bool at_most,
+            const sdp::Options& solver) {
+  // A fine bracket: the number is what people remember.
+  constexpr double kFine = 0.1;
+  const BisectResult result =
+      bisect(problem, {}, {scalar, at_most, kFine * default_tolerance(scalar.axis), {}}, solver);
+  return {scalar.name, value, at_most, result.found.yes, result.found.no};
+}
+
+}  // namespace
+
+std::optional<Conflict> find_conflict(const model::Problem& problem, const model::Gains& gains,
+                                      const sdp::Options& solver) {
+  if (gains.verdict != model::Verdict::no) return std::nullopt;
+  const model::Problem plain = without_gains(problem);
+  std::set<std::string> names;
+  for (const model::Requirement& requirement : problem.method->require)
+    names.insert(requirement.name);
+  Conflict conflict;
+  model::Gains proof = subset(plain, names, solver);
+  if (proof.verdict != model::Verdict::no) {
+    conflict.gain_bound = true;
+    conflict.certificate = gains.certificate.value();
+    for (const model::Requirement& requirement : problem.method->require)
+      conflict.names.push_back(requirement.name);
+    return conflict;
+  }
+  // Later requirements often imply earlier, simpler ones; those are what is kept.
+  for (const std::string& name : in_reverse(problem.method->require)) {
+    names.erase(name);
+    model::Gains rest = subset(plain, names, solver);
+    if (rest.verdict == model::Verdict::no) {
+      proof = std::move(rest);
+      continue;
+    }
+    names.insert(name);
+    if (rest.verdict == model::Verdict::undecided) conflict.undecided.push_back(name);
+  }
+  for (const model::Requirement& requirement : problem.method->require)
+    if (names.contains(requirement.name)) conflict.names.push_back(requirement.name);
+  conflict.certificate = proof.certificate.value();
+  return conflict;
+}
+
+std::vector<Reach> find_reaches(const model::Problem& problem, const sdp::Options& solver) {
+  std::vector<Reach> reaches;
+  const expr::Values values = model::make_instance(problem).known_values();
+  for (const model::ScalarRange& range : problem.negotiable) {
+    const SearchedScalar whole = searched_scalar(problem, range);
+    const double value = values.at(range.name)(0, 0);
+    for (const bool at_most : {true, false}) {
+      SearchedScalar side = whole;
+      (at_most ? side.axis.high : side.axis.low) =
+          at_most ? std::min(value, whole.axis.high) : std::max(value, whole.axis.low);
+      if (!(side.axis.low < side.axis.high)) continue;
+      const Reach found = reach(problem, side, value, at_most, solver);
+      if (found.feasible) reaches.push_back(found);
+    }
+  }
+  return reaches;
+}
+
+Explanation explain(const model::Problem& problem, const sdp::Options& solver) {
+  Explanation explanation;
+  explanation.gains = synthesize_at(problem, {}, solver);
+  if (explanation.gains.verdict == model::Verdict::yes) return explanation;
+  explanation.conflict = find_conflict(problem, explanation.gains, solver);
+  if (explanation.conflict && !explanation.conflict->gain_bound)
+    explanation.relaxations = find_relaxations(problem, solver);
+  explanation.reaches = find_reaches(problem, solver);
+  return explanation;
+}
+
+}  // namespace gainsmith::design

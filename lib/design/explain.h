@@ -1,0 +1,60 @@
+// Why a problem has no solution: what conflicts, how much would have to give, how far one must go.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/gains.h"
+#include "sdp/solver.h"
+
+namespace gainsmith::design {
+
+/// A set of requirements that cannot hold together, found by deletion: one requirement after the
+/// other, from the last to the first, is left out, for good when the rest is still proved
+/// infeasible. So leaving out any one of `names` leaves a set that is feasible or, for those in
+/// `undecided`, not decided.
+struct Conflict {
+  std::vector<std::string> names;  ///< in the order of the method
+  std::vector<std::string> undecided;
+  model::CertificateRecord certificate;  ///< of these requirements alone, checked
+  /// All requirements hold together without the bounds on the gains: these are the conflict.
+  bool gain_bound = false;
+};
+
+/// How much a requirement would have to give, as the identity times `scale` times these numbers.
+struct Relaxation {
+  std::string name;
+  double scale = 0;                ///< of the inequality, see docs/conventions.md
+  std::optional<double> alone;     ///< when all others hold; none: it alone does not help
+  std::optional<double> together;  ///< in the solution with the smallest sum
+};
+
+/// How far one must go along a scalar from the problem's value.
+struct Reach {
+  std::string name;
+  double value = 0;                ///< the problem's
+  bool at_most = true;             ///< go down to `feasible`; otherwise up
+  std::optional<double> feasible;  ///< the nearest value found, with every margin recomputed
+  std::optional<double> beyond;    ///< next to it, proved infeasible
+};
+
+struct Explanation {
+  model::Gains gains;  ///< the problem's own result
+  std::optional<Conflict> conflict;
+  std::vector<Relaxation> relaxations;  ///< one a requirement, in the order of the method
+  std::vector<Reach> reaches;           ///< of `negotiable`
+};
+
+/// The conflict of a problem whose result is `gains`; none unless that is a proved no.
+std::optional<Conflict> find_conflict(const model::Problem& problem, const model::Gains& gains,
+                                      const sdp::Options& solver);
+
+/// Along every negotiable scalar, the others held: the nearest feasible value below the problem's
+/// own, and above it, as far as the range goes; only directions that have one.
+std::vector<Reach> find_reaches(const model::Problem& problem, const sdp::Options& solver);
+
+/// All of it. With another verdict than no there is no conflict and no relaxation.
+Explanation explain(const model::Problem& problem, const sdp::Options& solver);
+
+}  // namespace gainsmith::design

@@ -1,0 +1,209 @@
+#include "design/optimize.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <tuple>
+#include <utility>
+
+#include "base/number.h"
+#include "design/polish.h"
+#include "design/results.h"
+#include "design/synthesize.h"
+#include "search/minimize.h"
+
+namespace gainsmith::design {
+
+namespace {
+
+/// The smallest margin of the strict inequalities.
+double smallest_margin(const model::Gains& gains) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const model::Margin& margin : gains.margins)
+    if (margin.strict) smallest = std::min(smallest, margin.reached);
+  return smallest;
+}
+
+class OuterSearch {
+ public:
+  OuterSearch(const model::Problem& problem, const SearchRequest& request,
+              const search::Optimizers& optimizers, unsigned threads, const sdp::Options& solver)
+      : problem_(problem),
+        request_(request),
+        optimizers_(optimizers),
+        threads_(threads),
+        solver_(solver) {}
+
+  model::Gains run() {
+    std::vector<search::Axis> axes;
+    for (const SearchedScalar& scalar : request_.over) axes.push_back(scalar.axis);
+    search::MinimizeOptions options;
+    options.evaluations = request_.evaluations;
+    options.threads = threads_;
+    options.interrupted = solver_.interrupted;
+    options.starts = {own_values()};
+    const auto cold = [&](const search::Point& point) { return figure(point, std::nullopt); };
+    if (request_.extreme)
+      options.warm = [&](const search::Point& point, double best) {
+        return figure(point, request_.largest ? -best : best);
+      };
+    const search::Minimum minimum = search::minimize(cold, axes, optimizers_.local, options);
+    return result(minimum);
+  }
+
+ private:
+  /// The values that the problem or the method gives, or the nearest in the ranges.
+  search::Point own_values() const {
+    const expr::Values values = model::make_instance(problem_).known_values();
+    search::Point point;
+    for (const SearchedScalar& scalar : request_.over)
+      point.push_back(std::clamp(values.at(scalar.name)(0, 0), scalar.axis.low, scalar.axis.high));
+    return point;
+  }
+
+  model::Overrides overrides(const search::Point& point) const {
+    model::Overrides values;
+    for (std::size_t i = 0; i < point.size(); ++i) values[request_.over[i].name] = point[i];
+    return values;
+  }
+
+  /// What is minimised: none where there are no gains, or where the values are refused.
+  std::optional<double> figure(const search::Point& point, std::optional<double> guess) const {
+    const model::Overrides values = overrides(point);
+    try {
+      if (request_.extreme) {
+        const auto found = bracket(values, kSharper, guess).found.yes;
+        if (!found) return std::nullopt;
+        return request_.largest ? -*found : *found;
+      }
+      const model::Instance instance = model::make_instance(problem_, values);
+      const model::Gains gains = synthesize(instance, solver_);
+      if (gains.verdict != model::Verdict::yes) return std::nullopt;
+      return value(instance, gains);
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  }
+
+  /// The figure of gains, without the sign that makes it a minimum.
+  std::optional<double> value(const model::Instance& instance, const model::Gains& gains) const {
+    if (request_.minimize) {
+      const auto found = Results(instance, gains).value(*request_.minimize);
+      return found ? std::optional((*found)(0, 0)) : std::nullopt;
+    }
+    return gains.objective ? *gains.objective : -smallest_margin(gains);
+  }
+
+  BisectResult bracket(const model::Overrides& values, double sharper,
+                       std::optional<double> guess) const {
+    return bisect(problem_, values,
+                  {*request_.extreme, request_.largest, request_.tolerance * sharper, guess},
+                  solver_);
+  }
+
+  /// The gains at values of the outer scalars, with the figure's value; for an extreme its bracket
+  /// is in their record.
+  std::pair<model::Gains, std::optional<double>> design_at(const model::Overrides& values) const {
+    if (request_.extreme) {
+      BisectResult result = bracket(values, 1, std::nullopt);
+      return {std::move(result.gains), result.found.yes};
+    }
+    const model::Instance instance = model::make_instance(problem_, values);
+    model::Gains gains = synthesize(instance, solver_);
+    if (gains.verdict != model::Verdict::yes) return {std::move(gains), std::nullopt};
+    const auto found = value(instance, gains);
+    return {std::move(gains), found};
+  }
+
+  /// Whether figure a is better than b.
+  bool is_better(double a, double b) const {
+    return request_.extreme && request_.largest ? a > b : a < b;
+  }
+
+  /// Replaces a design by what polishing proposes, if that is better.
+  model::PolishRecord polish_design(model::Gains& gains, std::optional<double>& figure) const {
+    const Proposal proposal = polish(problem_, request_, gains, optimizers_.smooth);
+    model::PolishRecord record{*figure, std::nullopt, false, proposal.cause};
+    if (!proposal.scalars) return record;
+    model::Overrides values = *proposal.scalars;
+    if (request_.extreme) values.erase(request_.extreme->name);
+    auto [polished, after] = design_at(values);
+    record.after = after;
+    record.kept = after && is_better(*after, *figure);
+    if (record.kept) {
+      gains = std::move(polished);
+      figure = after;
+    }
+    return record;
+  }
+
+  /// The gains at the best point, with the record of the search.
+  model::Gains result(const search::Minimum& minimum) const {
+    model::Gains gains;
+    std::optional<double> best;
+    std::optional<model::PolishRecord> polished;
+    if (minimum.point) {
+      std::tie(gains, best) = design_at(overrides(*minimum.point));
+      if (request_.polish && best) polished = polish_design(gains, best);
+    } else {
+      gains = nothing_found();
+    }
+    model::SearchRecord record = gains.search.value_or(model::SearchRecord{});
+    record.figure = figure_name(request_, *problem_.method);
+    record.value = record.figure == "margin" && best ? std::optional(-*best) : best;
+    record.polish = std::move(polished);
+    for (const SearchedScalar& scalar : request_.over) record.over.push_back(scalar.name);
+    record.evaluations = minimum.evaluations;
+    record.feasible = minimum.feasible;
+    record.finished = minimum.finished;
+    gains.search = std::move(record);
+    return gains;
+  }
+
+  /// The result at the problem's own values, where there are no gains; it decides nothing of the
+  /// ranges.
+  model::Gains nothing_found() const {
+    model::Gains gains = synthesize_at(problem_, overrides(own_values()), solver_);
+    gains.verdict = model::Verdict::undecided;
+    gains.solver.status = "undecided";
+    gains.certificate.reset();
+    std::string ranges;
+    for (const SearchedScalar& scalar : request_.over)
+      ranges += (ranges.empty() ? "" : ", ") + scalar.name + " in [" + brief(scalar.axis.low) +
+                ", " + brief(scalar.axis.high) + "]";
+    gains.solver.message = "no feasible point was found for " + ranges;
+    return gains;
+  }
+
+  /// Brackets inside the search are closer than the final one, so that their width does not look
+  /// like a slope.
+  static constexpr double kSharper = 0.1;
+
+  const model::Problem& problem_;
+  const SearchRequest& request_;
+  const search::Optimizers& optimizers_;
+  unsigned threads_;
+  const sdp::Options& solver_;
+};
+
+}  // namespace
+
+model::Gains optimize(const model::Problem& problem, const SearchRequest& request,
+                      const search::Optimizers& optimizers, unsigned threads,
+                      const sdp::Options& solver) {
+  return OuterSearch(problem, request, optimizers, threads, solver).run();
+}
+
+model::Gains synthesize_searched(const model::Problem& problem, const SearchRequest& request,
+                                 const search::Optimizers* optimizers, unsigned threads,
+                                 const sdp::Options& solver) {
+  if (request.empty()) return synthesize_at(problem, {}, solver);
+  if (request.over.empty())
+    return bisect(problem, {}, {*request.extreme, request.largest, request.tolerance, std::nullopt},
+                  solver)
+        .gains;
+  if (optimizers == nullptr) throw std::invalid_argument("a search over scalars needs optimizers");
+  return optimize(problem, request, *optimizers, threads, solver);
+}
+
+}  // namespace gainsmith::design

@@ -1,0 +1,26 @@
+// What an expression about a result may use, with its values.
+#pragma once
+
+#include <optional>
+
+#include "model/gains.h"
+#include "model/instance.h"
+#include "model/stated.h"
+
+namespace gainsmith::design {
+
+/// Data, parameters, unknowns, gains and `objective` of a result.
+class Results {
+ public:
+  Results(const model::Instance& instance, const model::Gains& gains);
+
+  /// The value; none when the expression uses something that has none, such as a gain of a problem
+  /// without solution. InputError when it does not compile.
+  std::optional<expr::Matrix> value(const expr::Expression& expression) const;
+  const expr::Values& values() const { return stated_.values; }
+
+ private:
+  model::Stated stated_;
+};
+
+}  // namespace gainsmith::design

@@ -1,0 +1,27 @@
+// A problem solved at every point of a grid of scalars.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/gains.h"
+#include "sdp/solver.h"
+
+namespace gainsmith::design {
+
+struct ScanRow {
+  std::vector<double> at;  ///< one value for each name
+  model::Gains gains;
+  std::vector<std::optional<double>> figures;  ///< one for each expression; none without a value
+  std::string refused;  ///< why the values do not fit the problem's assumptions; then no gains
+};
+
+/// The rows in the order of the points; the same for any number of threads (0: one a core).
+/// `figures` are scalar expressions about the result. InputError when every point is refused, for
+/// unknown names, and for expressions that do not compile.
+std::vector<ScanRow> scan(const model::Problem& problem, const std::vector<std::string>& names,
+                          const std::vector<std::vector<double>>& points,
+                          const std::vector<expr::Expression>& figures, unsigned threads,
+                          const sdp::Options& solver);
+
+}  // namespace gainsmith::design

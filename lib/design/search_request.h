@@ -1,0 +1,46 @@
+// What is searched besides the unknowns, with its ranges as numbers.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/instance.h"
+#include "search/axis.h"
+
+namespace gainsmith::design {
+
+struct SearchedScalar {
+  std::string name;
+  search::Axis axis;
+};
+
+/// The figure is `extreme` when it is there, then `minimize`, then the method's objective, and
+/// without an objective the margin: the smallest one of the strict inequalities, as large as it can
+/// be.
+struct SearchRequest {
+  std::optional<SearchedScalar> extreme;
+  bool largest = true;
+  double tolerance = 0;  ///< of the bracket of `extreme`, positive when that is there
+  std::vector<SearchedScalar> over;
+  std::optional<expr::Expression> minimize;
+  int evaluations = 200;
+  bool polish = false;  ///< move scalars and unknowns together at the end (polish.h)
+
+  bool empty() const { return !extreme && over.empty(); }
+};
+
+/// What the problem's `search:` asks for, and the parameters that it leaves open as far as
+/// `search:` does not name them.
+SearchRequest request_of(const model::Problem& problem);
+
+/// The part of the range that counts as one value unless the problem gives a tolerance.
+double default_tolerance(const search::Axis& axis);
+
+/// The scalar with the range's ends as numbers, at the problem's own values.
+SearchedScalar searched_scalar(const model::Problem& problem, const model::ScalarRange& range);
+
+/// The name of the figure: "largest T2", "trace(P1)", "objective", "margin".
+std::string figure_name(const SearchRequest& request, const model::Method& method);
+
+}  // namespace gainsmith::design

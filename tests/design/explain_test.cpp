@@ -1,0 +1,100 @@
+#include "design/explain.h"
+
+#include <gtest/gtest.h>
+
+#include "support/yaml_problem.h"
+
+namespace gainsmith::design {
+namespace {
+
+using tests::YamlProblem;
+
+/// x >= c and x <= 1 conflict for c > 1; y has nothing to do with it.
+const std::string kGap = R"(problem: gap
+method:
+  method: gap
+  data: {c: scalar}
+  unknowns: {x: scalar, y: symmetric 2}
+  require:
+    other: y > I
+    floor: x > c
+    middle: x > -7
+    ceiling: {forall: "s in {1, 2}", that: "s*x < s"}
+  minimize: trace(y)
+data: {c: 3}
+negotiable: {c: [-2, 5]}
+)";
+
+TEST(Explain, NamesTheConflictWhatItTakesAndHowFar) {
+  const YamlProblem problem(kGap);
+  const Explanation found = explain(*problem.problem, {});
+  ASSERT_EQ(found.gains.verdict, model::Verdict::no);
+  ASSERT_TRUE(found.conflict);
+  EXPECT_EQ(found.conflict->names, (std::vector<std::string>{"floor", "ceiling"}));
+  EXPECT_TRUE(found.conflict->undecided.empty());
+  EXPECT_TRUE(found.conflict->certificate.checked);
+  EXPECT_FALSE(found.conflict->gain_bound);
+  ASSERT_EQ(found.relaxations.size(), 4U);
+  for (const Relaxation& relaxation : found.relaxations) {
+    const bool helps = relaxation.name == "floor" || relaxation.name == "ceiling";
+    EXPECT_EQ(relaxation.alone.has_value(), helps) << relaxation.name;
+    ASSERT_TRUE(relaxation.together);
+    EXPECT_TRUE(helps || *relaxation.together == 0) << relaxation.name;
+  }
+  // x > 3 must give 2; s x < s must give 2 s, so 4 at its harder point.
+  EXPECT_NEAR(*found.relaxations[1].alone * found.relaxations[1].scale, 2, 1e-4);
+  EXPECT_NEAR(*found.relaxations[3].alone * found.relaxations[3].scale, 4, 1e-4);
+  ASSERT_EQ(found.reaches.size(), 1U);
+  EXPECT_TRUE(found.reaches[0].at_most);
+  EXPECT_EQ(found.reaches[0].value, 3);
+  EXPECT_NEAR(*found.reaches[0].feasible, 1, 1e-4);
+  EXPECT_LE(*found.reaches[0].feasible, 1);
+  EXPECT_GE(*found.reaches[0].beyond, 1 - 1e-6);
+}
+
+/// A chain is one requirement with one slack.
+TEST(Explain, AChainAloneCanConflict) {
+  const YamlProblem problem(
+      "problem: chain\nmethod:\n  method: m\n  unknowns: {x: scalar}\n"
+      "  require: {range: 2 < x < 1}\ndata: {}\n");
+  const Explanation found = explain(*problem.problem, {});
+  ASSERT_TRUE(found.conflict);
+  EXPECT_EQ(found.conflict->names, std::vector<std::string>{"range"});
+  EXPECT_NEAR(*found.relaxations[0].alone * found.relaxations[0].scale, 0.5, 1e-4);
+}
+
+TEST(Explain, AFeasibleProblemHasNothingToExplain) {
+  const YamlProblem feasible(std::string(kGap).replace(kGap.find("{c: 3}"), 6, "{c: 0}"));
+  const Explanation found = explain(*feasible.problem, {});
+  EXPECT_EQ(found.gains.verdict, model::Verdict::yes);
+  EXPECT_FALSE(found.conflict);
+  EXPECT_TRUE(found.relaxations.empty());
+  EXPECT_TRUE(found.reaches.empty());
+}
+
+/// K must be 5, the bound allows 1: the bound is the conflict, not an inequality.
+TEST(Explain, AGainBoundThatIsTooTightIsNamed) {
+  const YamlProblem problem(
+      "problem: bound\nmethod:\n  method: m\n  unknowns: {x: scalar}\n"
+      "  require: {floor: x > 5}\n  minimize: x\n  gains: {K: x}\n"
+      "synthesis: {gain_bound: 1}\n");
+  const Explanation found = explain(*problem.problem, {});
+  ASSERT_EQ(found.gains.verdict, model::Verdict::no);
+  ASSERT_TRUE(found.conflict);
+  EXPECT_TRUE(found.conflict->gain_bound);
+  EXPECT_TRUE(found.relaxations.empty());
+}
+
+/// Without an objective and homogeneous: P > 0 and He(P A) < 0 for an unstable A.
+TEST(Explain, AHomogeneousConflict) {
+  const YamlProblem problem(
+      "problem: unstable\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
+      "  require: {positive: P > 0, decrease: He(P*A) < 0, weak: P >= 0}\n"
+      "data: {A: [[1, 0], [0, -1]]}\n");
+  const Explanation found = explain(*problem.problem, {});
+  ASSERT_TRUE(found.conflict);
+  EXPECT_EQ(found.conflict->names, (std::vector<std::string>{"positive", "decrease"}));
+}
+
+}  // namespace
+}  // namespace gainsmith::design

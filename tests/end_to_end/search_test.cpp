@@ -1,0 +1,211 @@
+// Searches over scalars and explanations, as a person runs them.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <regex>
+
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+const std::string kTheorem = "ferrante-seuret-2021/published-theorem.yaml";
+
+/// The smallest x is (a - 2)^2 + 1; a is left open. A gain to verify, a cheap problem.
+const std::string kOpen = R"(problem: open
+method:
+  method: open
+  parameters: {a: {default: 1, search: [0, 9]}}
+  unknowns: {x: scalar}
+  require: {floor: "x > (a - 2)^2 + 1", ceiling: x < 6}
+  minimize: x
+  gains: {K: 2*x}
+)";
+
+TEST(BisectTest, TheLargestT2OfThePublishedExampleIsProvedOnBothSides) {
+  const Folder folder;
+  const std::string path = folder.path("gains.json");
+  const Outcome outcome = gainsmith({"bisect", problem(kTheorem), "--largest", "T2", "--in", "0.5",
+                                     "1.1", "--tolerance", "1e-4", "-o", path, "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  const Json document = outcome.json();
+  EXPECT_EQ(document["goal"], "largest");
+  const Json& search = document["result"]["search"];
+  EXPECT_NEAR(search["value"].get<double>(), 0.7683, 2e-4);
+  EXPECT_NEAR(search["beyond"].get<double>(), 0.7683, 2e-4);
+  EXPECT_LT(search["value"].get<double>(), search["beyond"].get<double>());
+  EXPECT_TRUE(search["certificate"]["checked"]);
+  EXPECT_TRUE(search["open"].empty());
+  EXPECT_TRUE(search["breaks"].empty());
+  for (const Json& margin : document["result"]["margins"]) EXPECT_TRUE(margin["holds"]);
+  EXPECT_GE(document["samples"].size(), 9U);
+
+  // The gain file is verified with the value that was found, not with the T2 of its statement.
+  const Json gains = Json::parse(text_of(path));
+  EXPECT_EQ(gains["searched"]["T2"], search["value"]);
+  EXPECT_NE(gains["statement"]["problem_text"].get<std::string>().find("T2: 1.1"),
+            std::string::npos);
+  const Outcome verified = gainsmith({"verify", path, "--runs", "20", "--json"});
+  EXPECT_EQ(verified.exit, 0) << verified.err;
+  const double horizon = verified.json()["horizon"];
+  EXPECT_NEAR(horizon, 40 * search["value"].get<double>(), 1e-9);
+}
+
+TEST(BisectTest, ASearchedValueThatIsNoScalarIsRefused) {
+  const Folder folder;
+  const std::string file = folder.file("open.yaml", kOpen + "parameters: {a: 1}\n");
+  const std::string path = folder.path("gains.json");
+  ASSERT_EQ(gainsmith({"bisect", file, "--largest", "a", "--in", "1", "9", "-o", path}).exit, 0);
+  Json gains = Json::parse(text_of(path));
+  EXPECT_NEAR(gains["searched"]["a"].get<double>(), 2 + std::sqrt(5.0), 1e-3);
+  gains["searched"] = {{"aa", 1}};
+  const Outcome outcome = gainsmith({"verify", folder.file("edited.json", gains.dump())});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.err.find("did you mean 'a'?"), std::string::npos) << outcome.err;
+}
+
+TEST(BisectTest, WrongCommandLinesAreNamed) {
+  const std::string file = problem(kTheorem);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
+      {{"bisect", file}, "nothing to bisect"},
+      {{"bisect", file, "--largest", "T3", "--in", "1", "2"}, "did you mean 'T1'?"},
+      {{"bisect", file, "--largest", "A", "--in", "1", "2"}, "is a matrix"},
+      {{"bisect", file, "--largest", "T1"}, "no range for T1"},
+      {{"bisect", file, "--largest", "T2", "--in", "2", "1"}, "low < high"},
+      {{"bisect", file, "--largest", "T2", "--in", "0.1", "1"}, "expected 0 < T1 <= T2"},
+      {{"bisect", file, "--largest", "T2", "--in", "nan", "1"}, "nan"},
+      {{"scan", file, "--over", "T2"}, "expected NAME=LOW:HIGH"},
+      {{"scan", file, "--over", "T2=1:2:3:4:5"}, "expected NAME=LOW:HIGH"},
+      {{"scan", file, "--over", "T2=1:2:0"}, "number of points"},
+      {{"scan", file, "--over", "T2=1:2:3:logg"}, "did you mean 'log'?"},
+      {{"scan", file, "--over", "T2=0:2:3:log"}, "above 0"},
+      {{"scan", file, "--over", "T2=1:2", "--over", "T2=1:2"}, "stands twice"},
+      {{"scan", file, "--over", "delta=1:2:5000", "--over", "eta=1:2:5000"}, "1e7"},
+      {{"optimize", file}, "nothing to optimise over"},
+      {{"optimize", file, "--over", "dleta=1:2"}, "did you mean 'delta'?"},
+      {{"optimize", file, "--over", "delta=1:2", "--minimize", "P3"}, "P3"},
+      {{"explain", file + ".none"}, "none"}};
+  for (const auto& [arguments, message] : wrong) {
+    const Outcome outcome = gainsmith(arguments);
+    EXPECT_EQ(outcome.exit, 2) << message << "\n" << outcome.out;
+    EXPECT_NE(outcome.err.find(message), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+  }
+}
+
+TEST(ScanTest, TheTableIsTheSameForAnyThreadsAndAsCsv) {
+  const Folder folder;
+  const std::string csv = folder.path("table.csv");
+  const std::vector<std::string> arguments = {
+      "scan",     problem("ferrante-seuret-2021/t2-0.70.yaml"),
+      "--over",   "T2=0.4:0.8:3",
+      "--over",   "delta=1e-2:1:2:log",
+      "--show",   "trace(P1)",
+      "--threads"};
+  auto one = arguments;
+  one.insert(one.end(), {"1", "-o", csv});
+  auto three = arguments;
+  three.push_back("3");
+  const Outcome first = gainsmith(one);
+  EXPECT_EQ(first.exit, 0) << first.err;
+  EXPECT_EQ(first.out, gainsmith(three).out);
+  EXPECT_NE(first.out.find("refused"), std::string::npos) << first.out;
+  const std::string text = text_of(csv);
+  EXPECT_EQ(text.substr(0, text.find('\n')), "T2,delta,verdict,objective,trace(P1)");
+  EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 7);
+  EXPECT_NE(text.find("0.60000000000000009,0.01,yes,"), std::string::npos) << text;
+}
+
+TEST(ScanTest, AllInfeasibleExitsWithOne) {
+  const Outcome outcome =
+      gainsmith({"scan", problem(kTheorem), "--over", "T2=0.9:1.1:2", "--json"});
+  EXPECT_EQ(outcome.exit, 1);
+  ASSERT_EQ(outcome.json().size(), 2U);
+  EXPECT_EQ(outcome.json()[1]["verdict"], "no");
+  EXPECT_EQ(outcome.json()[1]["at"]["T2"], 1.1);
+}
+
+TEST(OptimizeTest, AnOpenParameterIsFoundBySynthAndByOptimize) {
+  const Folder folder;
+  const std::string file = folder.file("open.yaml", kOpen);
+  for (const char* command : {"synth", "optimize"}) {
+    const std::string path = folder.path("gains.json");
+    const Outcome outcome = gainsmith({command, file, "-o", path, "--threads", "2"});
+    ASSERT_EQ(outcome.exit, 0) << outcome.err;
+    EXPECT_NE(outcome.out.find("searched"), std::string::npos);
+    const Json gains = Json::parse(text_of(path));
+    EXPECT_NEAR(gains["searched"]["a"].get<double>(), 2, 0.02);
+    EXPECT_NEAR(gains["objective"].get<double>(), 1, 1e-3);
+    EXPECT_EQ(gains["search"]["figure"], "objective");
+  }
+  const Outcome piped = gainsmith({"synth", "-", "--json"}, kOpen);
+  EXPECT_EQ(piped.exit, 0) << piped.err;
+  EXPECT_NEAR(piped.json()["searched"]["a"].get<double>(), 2, 0.02);
+}
+
+TEST(OptimizeTest, RunHonoursTheSearchAndItsExpectations) {
+  const Folder folder;
+  const std::string file =
+      folder.file("open.yaml", kOpen +
+                                   "expect: {values: {a: {value: 2, absolute: 0.02}, K: {value: 2, "
+                                   "absolute: 1e-2}}}\n");
+  const Outcome outcome = gainsmith({"run", file, "-o", folder.path("out")});
+  EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
+  const std::string wrong =
+      folder.file("wrong.yaml", kOpen + "expect: {values: {a: {value: 3, absolute: 0.02}}}\n");
+  EXPECT_EQ(gainsmith({"run", wrong, "-o", folder.path("out")}).exit, 1);
+}
+
+TEST(OptimizeTest, TheLargestScalarOverAnother) {
+  const Folder folder;
+  const std::string file = folder.file("open.yaml", kOpen);
+  // x lies between (a - 2)^2 + 1 and c.
+  const std::string ridge = folder.file(
+      "ridge.yaml",
+      std::regex_replace(std::regex_replace(kOpen, std::regex("x < 6"), "x < 6 - c"),
+                         std::regex("  parameters:"), "  data: {c: scalar}\n  parameters:") +
+          "data: {c: 0}\n");
+  const Outcome outcome = gainsmith({"optimize", ridge, "--over", "a=0:9", "--largest", "c=0:20",
+                                     "--json", "--tolerance", "1e-3", "--evaluations", "60"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_NEAR(outcome.json()["searched"]["c"].get<double>(), 5, 5e-3);
+  EXPECT_NEAR(outcome.json()["searched"]["a"].get<double>(), 2, 0.1);
+  EXPECT_GE(outcome.json()["search"]["beyond"].get<double>(), 5 - 1e-6);
+}
+
+TEST(OptimizeTest, NothingFeasibleIsUndecided) {
+  const Folder folder;
+  const std::string file = folder.file("open.yaml", kOpen);
+  const Outcome outcome = gainsmith({"optimize", file, "--over", "a=6:9", "--evaluations", "12"});
+  EXPECT_EQ(outcome.exit, 3);
+  EXPECT_NE(outcome.out.find("no feasible point was found"), std::string::npos) << outcome.out;
+}
+
+TEST(ExplainTest, ThePublishedDataConflictAndT2MustBeSmaller) {
+  const Outcome outcome = gainsmith({"explain", problem(kTheorem)});
+  EXPECT_EQ(outcome.exit, 1);
+  EXPECT_NE(outcome.out.find("positive_P1 and flow cannot hold together"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("checked"), std::string::npos);
+  EXPECT_NE(outcome.out.find("T2 at most 0.7683"), std::string::npos) << outcome.out;
+  const Json document = gainsmith({"explain", problem(kTheorem), "--json"}).json();
+  EXPECT_EQ(document["conflict"]["requirements"], (Json{"positive_P1", "flow"}));
+  EXPECT_NEAR(document["negotiable"][0]["feasible"].get<double>(), 0.7683, 2e-4);
+  const Outcome synth = gainsmith({"synth", problem(kTheorem)});
+  EXPECT_EQ(synth.exit, 1);
+  EXPECT_TRUE(std::regex_search(
+      synth.out, std::regex("why +positive_P1 and flow cannot hold together; T2 at most 0.7683")))
+      << synth.out;
+}
+
+TEST(ExplainTest, AFeasibleProblemExitsWithZero) {
+  const Outcome outcome = gainsmith({"explain", problem("classics/quadratic-stability.yaml")});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.out.find("conflict"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gainsmith::tests
