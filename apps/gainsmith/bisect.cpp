@@ -99,6 +99,7 @@ std::string table(const design::BisectResult& result, const std::string& name) {
 
 ExitCode bisect(const BisectOptions& options) {
   refuse_overwriting(options.problem, {options.output});
+  check_positive(options.tolerance, "--tolerance");
   const Loaded loaded = load_problem(options.problem);
   const design::BisectChoices choices = choices_of(options, *loaded.problem);
   catch_interrupts();
@@ -125,10 +126,8 @@ void add_bisect(CLI::App& program, ExitCode& exit) {
   command->add_option("--smallest", options->smallest, "this scalar")->excludes(largest);
   command->add_option("--in", options->range, "LOW HIGH: the range (default: the problem's)")
       ->expected(2);
-  command
-      ->add_option("--tolerance", options->tolerance,
-                   "width of the final bracket (default: 1e-4 of the range)")
-      ->check(CLI::PositiveNumber);
+  command->add_option("--tolerance", options->tolerance,
+                      "width of the final bracket (default: the problem's, or 1e-4 of the range)");
   command->add_option("-o,--output", options->output,
                       "write the gains of the feasible end here; - for standard output");
   command->add_flag("--json", options->json, "print the result as JSON");

@@ -58,7 +58,9 @@ model::Problem asked(const OptimizeOptions& options, model::Problem problem) {
     search.minimize = parse_expression(options.minimize, "--minimize");
     search.extreme.reset();
   }
-  if (options.tolerance) search.tolerance = *options.tolerance;
+  if (options.tolerance && !search.extreme)
+    throw InputError({"--tolerance"}, "it belongs to --largest or --smallest");
+  if (options.tolerance) search.tolerance = options.tolerance;
   if (options.evaluations) search.evaluations = *options.evaluations;
   problem.search = search;
   return problem;
@@ -66,6 +68,7 @@ model::Problem asked(const OptimizeOptions& options, model::Problem problem) {
 
 ExitCode optimize(const OptimizeOptions& options) {
   refuse_overwriting(options.problem, {options.output});
+  check_positive(options.tolerance, "--tolerance");
   const Loaded loaded = load_problem(options.problem);
   const model::Problem problem = asked(options, *loaded.problem);
   model::check_everything(model::make_instance(problem));
@@ -95,8 +98,10 @@ void add_optimize(CLI::App& program, ExitCode& exit) {
       "optimize", "Find the best values of a few scalars outside the inequalities");
   command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
       ->required();
-  command->add_option("--over", options->over,
-                      "NAME=LOW:HIGH, once for each scalar (default: the problem's search)");
+  command
+      ->add_option("--over", options->over,
+                   "NAME=LOW:HIGH, once for each scalar (default: the problem's search)")
+      ->allow_extra_args(false);
   auto* largest = command->add_option("--largest", options->largest,
                                       "NAME=LOW:HIGH: make this scalar as large as it can be");
   auto* smallest =
@@ -105,8 +110,8 @@ void add_optimize(CLI::App& program, ExitCode& exit) {
                                        "an expression (default: the method's objective)");
   largest->excludes(smallest)->excludes(minimize);
   smallest->excludes(minimize);
-  command->add_option("--tolerance", options->tolerance, "of --largest or --smallest")
-      ->check(CLI::PositiveNumber);
+  command->add_option("--tolerance", options->tolerance,
+                      "width of the bracket of --largest or --smallest");
   command->add_flag(
       "--polish", options->polish,
       "at the end move scalars and unknowns together (Ipopt); kept when it is better");

@@ -1,6 +1,7 @@
 #include "gainsmith/range_option.h"
 
 #include <charconv>
+#include <cmath>
 #include <vector>
 
 #include "base/error.h"
@@ -53,6 +54,11 @@ RangeOption parse_range(const std::string& text, const std::string& option) {
   if (parts.size() > 2) result.count = count_of(parts[2], option);
   if (parts.size() > 3) result.logarithmic = scale_of(parts[3], option);
   return result;
+}
+
+void check_positive(const std::optional<double>& number, const std::string& option) {
+  if (number && !(*number > 0 && std::isfinite(*number)))
+    throw InputError({option}, "expected a positive number");
 }
 
 expr::Expression parse_expression(const std::string& text, const std::string& option) {

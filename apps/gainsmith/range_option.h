@@ -18,6 +18,9 @@ struct RangeOption {
 /// `option` as its place, for anything else.
 RangeOption parse_range(const std::string& text, const std::string& option);
 
+/// InputError, with `option` as its place, unless the number is positive and finite.
+void check_positive(const std::optional<double>& number, const std::string& option);
+
 /// An expression given as an option's value.
 expr::Expression parse_expression(const std::string& text, const std::string& option);
 

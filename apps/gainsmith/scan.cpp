@@ -65,7 +65,7 @@ struct Table {
 };
 
 std::string verdict_of(const design::ScanRow& row) {
-  return row.refused.empty() ? to_string(row.gains.verdict) : "refused";
+  return row.refused.empty() ? to_string(row.verdict) : "refused";
 }
 
 /// `digits`: as many as reading back needs (17), or fewer for people.
@@ -81,9 +81,8 @@ Table table_of(const std::vector<design::ScanRow>& rows, const std::vector<std::
   for (const design::ScanRow& row : rows) {
     std::vector<std::string> cells;
     for (const double value : row.at) cells.push_back(brief(value, digits));
-    const bool yes = row.refused.empty() && row.gains.verdict == model::Verdict::yes;
     cells.push_back(verdict_of(row));
-    cells.push_back(yes ? number(row.gains.objective) : "");
+    cells.push_back(number(row.objective));
     for (std::size_t k = 0; k < figures.size(); ++k)
       cells.push_back(k < row.figures.size() ? number(row.figures[k]) : "");
     table.rows.push_back(std::move(cells));
@@ -133,8 +132,7 @@ std::string json(const std::vector<design::ScanRow>& rows, const Grid& grid,
     for (std::size_t k = 0; k < grid.names.size(); ++k) values[grid.names[k]] = row.at[k];
     io::Json entry = {{"at", values}, {"verdict", verdict_of(row)}};
     if (!row.refused.empty()) entry["message"] = row.refused;
-    if (row.refused.empty() && row.gains.verdict == model::Verdict::yes && row.gains.objective)
-      entry["objective"] = *row.gains.objective;
+    if (row.objective) entry["objective"] = *row.objective;
     for (std::size_t k = 0; k < row.figures.size(); ++k)
       entry["figures"][figures[k]] =
           row.figures[k] ? io::finite_or_null(*row.figures[k]) : io::Json();
@@ -147,7 +145,7 @@ std::string json(const std::vector<design::ScanRow>& rows, const Grid& grid,
 ExitCode exit_of(const std::vector<design::ScanRow>& rows) {
   const auto has = [&](model::Verdict verdict) {
     return std::any_of(rows.begin(), rows.end(), [&](const design::ScanRow& row) {
-      return row.refused.empty() && row.gains.verdict == verdict;
+      return row.refused.empty() && row.verdict == verdict;
     });
   };
   if (has(model::Verdict::yes)) return ExitCode::yes;
@@ -187,10 +185,14 @@ void add_scan(CLI::App& program, ExitCode& exit) {
       ->required();
   command
       ->add_option("--over", options->over,
-                   "NAME=LOW:HIGH[:COUNT[:log|lin]]; several make a grid (default: 11 points)")
-      ->required();
-  command->add_option("--show", options->show,
-                      "a column more: an expression such as trace(P1) or norm(L)");
+                   "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT; may be repeated for "
+                   "a grid")
+      ->required()
+      ->allow_extra_args(false);
+  command
+      ->add_option("--show", options->show,
+                   "a column more: an expression such as trace(P1) or norm(L); may be repeated")
+      ->allow_extra_args(false);
   command
       ->add_option("--threads", options->threads,
                    "threads, 0: one a core; the table does not depend on it")

@@ -1,11 +1,10 @@
 #include "design/explain.h"
 
 #include <algorithm>
-#include <map>
 #include <set>
 
 #include "design/bisect.h"
-#include "design/synthesize.h"
+#include "design/elastic.h"
 #include "design/variants.h"
 #include "lmi/formulation.h"
 
@@ -44,51 +43,17 @@ model::Gains subset(const model::Problem& problem, const std::set<std::string>& 
   return gains;
 }
 
-/// The scale of each requirement, as its margins are measured.
-std::map<std::string, double> scales_of(const model::Problem& problem) {
-  const lmi::Lmi lmi = lmi::compile(model::make_instance(problem));
-  const lmi::Formulation formulation =
-      lmi::formulate(lmi, {}, problem.synthesis, lmi::goal_of(lmi, {}));
-  std::map<std::string, double> scales;
-  for (const model::Requirement& requirement : problem.method->require) {
-    double& scale = scales[requirement.name];
-    for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
-      if (lmi.blocks[k].name == requirement.name ||
-          lmi.blocks[k].name.starts_with(requirement.name + "."))
-        scale = std::max(scale, formulation.scales[k]);
-  }
-  return scales;
-}
-
-/// The slacks, by requirement, of the elastic problem with the smallest sum; none without a
-/// solution. A slack below the margin is none.
-std::optional<std::map<std::string, double>> smallest_slacks(
-    const model::Problem& problem, const std::map<std::string, double>& scales,
-    const sdp::Options& solver) {
-  std::map<std::string, std::string> names;
-  const model::Problem relaxed = elastic(problem, scales, names);
-  const model::Gains gains = synthesize_at(relaxed, {}, solver);
-  if (gains.verdict != model::Verdict::yes) return std::nullopt;
-  std::map<std::string, double> slacks;
-  for (const auto& [requirement, slack] : names)
-    if (const double value = (*gains.find(slack))(0, 0); value > problem.synthesis.margin)
-      slacks[requirement] = value;
-    else
-      slacks[requirement] = 0;
-  return slacks;
-}
-
 std::vector<Relaxation> find_relaxations(const model::Problem& problem,
                                          const sdp::Options& solver) {
   const model::Problem plain = without_gains(problem);
-  const auto scales = scales_of(plain);
-  const auto together = smallest_slacks(plain, scales, solver);
+  const auto scales = scales_of(plain, {});
+  const auto together = smallest_slacks(plain, scales, {}, solver);
   std::vector<Relaxation> relaxations;
   for (const model::Requirement& requirement : problem.method->require) {
     const std::string& name = requirement.name;
     Relaxation relaxation{name, scales.at(name), {}, {}};
     if (together) relaxation.together = together->at(name);
-    const auto alone = smallest_slacks(plain, {{name, scales.at(name)}}, solver);
+    const auto alone = smallest_slacks(plain, {{name, scales.at(name)}}, {}, solver);
     if (alone) relaxation.alone = alone->at(name);
     relaxations.push_back(std::move(relaxation));
   }

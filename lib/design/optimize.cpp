@@ -7,9 +7,11 @@
 #include <utility>
 
 #include "base/number.h"
+#include "design/elastic.h"
 #include "design/polish.h"
 #include "design/results.h"
 #include "design/synthesize.h"
+#include "design/variants.h"
 #include "search/minimize.h"
 
 namespace gainsmith::design {
@@ -47,6 +49,11 @@ class OuterSearch {
       options.warm = [&](const search::Point& point, double best) {
         return figure(point, request_.largest ? -best : best);
       };
+    const model::Problem plain = without_gains(problem_);
+    if (const auto scales = scales_at(plain, options.starts.front()))
+      options.violation = [&, scales = *scales](const search::Point& point) {
+        return violation(plain, scales, point);
+      };
     const search::Minimum minimum = search::minimize(cold, axes, optimizers_.local, options);
     return result(minimum);
   }
@@ -82,6 +89,40 @@ class OuterSearch {
       return value(instance, gains);
     } catch (const InputError&) {
       return std::nullopt;
+    }
+  }
+
+  /// The overrides of a point, the scalar that is bisected at the end where it is easy.
+  model::Overrides at_easy_end(const search::Point& point) const {
+    model::Overrides values = overrides(point);
+    if (const auto& extreme = request_.extreme)
+      values[extreme->name] = request_.largest ? extreme->axis.low : extreme->axis.high;
+    return values;
+  }
+
+  /// What the slacks of all points are measured in; none where the values of the point are refused.
+  std::optional<ByRequirement> scales_at(const model::Problem& plain,
+                                         const search::Point& point) const {
+    try {
+      return scales_of(plain, at_easy_end(point));
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
+  }
+
+  /// How far a point is from feasible: the smallest sum of slacks. Infinite where the values are
+  /// refused or the slacks are not decided.
+  double violation(const model::Problem& plain, const ByRequirement& scales,
+                   const search::Point& point) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    try {
+      const auto slacks = smallest_slacks(plain, scales, at_easy_end(point), solver_);
+      if (!slacks) return kInfinity;
+      double sum = 0;
+      for (const auto& [requirement, slack] : *slacks) sum += slack;
+      return sum;
+    } catch (const InputError&) {
+      return kInfinity;
     }
   }
 

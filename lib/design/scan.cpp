@@ -35,14 +35,17 @@ std::vector<ScanRow> scan(const model::Problem& problem, const std::vector<std::
     model::Overrides overrides;
     for (std::size_t k = 0; k < names.size(); ++k) overrides[names[k]] = points[i][k];
     std::optional<model::Instance> instance;
+    model::Gains gains;
     try {
       instance = model::make_instance(problem, overrides);
-      row.gains = synthesize(*instance, solver);
+      gains = synthesize(*instance, solver);
     } catch (const InputError& error) {
       row.refused = error.what();
       return;
     }
-    const Results results(*instance, row.gains);
+    row.verdict = gains.verdict;
+    if (gains.verdict == model::Verdict::yes) row.objective = gains.objective;
+    const Results results(*instance, gains);
     for (const expr::Expression& figure : figures) row.figures.push_back(scalar(results, figure));
   });
   const bool any =

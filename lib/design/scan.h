@@ -11,9 +11,10 @@ namespace gainsmith::design {
 
 struct ScanRow {
   std::vector<double> at;  ///< one value for each name
-  model::Gains gains;
+  std::string refused;     ///< why the values do not fit the problem's assumptions; then no result
+  model::Verdict verdict = model::Verdict::undecided;
+  std::optional<double> objective;             ///< of gains, where the method has one
   std::vector<std::optional<double>> figures;  ///< one for each expression; none without a value
-  std::string refused;  ///< why the values do not fit the problem's assumptions; then no gains
 };
 
 /// The rows in the order of the points; the same for any number of threads (0: one a core).

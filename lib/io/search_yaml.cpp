@@ -35,14 +35,6 @@ int evaluations(const YamlFile& file, const YamlItem& item) {
   return static_cast<int>(value);
 }
 
-/// One scalar stands in one place.
-void refuse_repetition(const model::Search& search) {
-  if (!search.extreme) return;
-  for (const model::ScalarRange& range : search.over)
-    if (range.name == search.extreme->name)
-      throw InputError(range.place, "over: '" + range.name + "' is already bisected");
-}
-
 }  // namespace
 
 model::ScalarRange scalar_range(const YamlFile& file, const YamlItem& item) {
@@ -92,7 +84,6 @@ model::Search search_from(const YamlFile& file, const YamlItem& item, const mode
   if (tolerance) search.tolerance = positive(file, *tolerance);
   if (minimize) search.minimize = file.expression(minimize->value, "minimize");
   if (count) search.evaluations = evaluations(file, *count);
-  refuse_repetition(search);
   return search;
 }
 

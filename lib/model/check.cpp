@@ -1,3 +1,5 @@
+#include <set>
+
 #include "base/number.h"
 #include "expr/compile.h"
 #include "model/instance.h"
@@ -124,6 +126,15 @@ void check_campaign(const Instance& instance, const expr::Scope& scope) {
   }
 }
 
+/// Each scalar is searched in one way.
+void refuse_repetition(const Search& search) {
+  std::set<std::string> names;
+  if (search.extreme) names.insert(search.extreme->name);
+  for (const ScalarRange& range : search.over)
+    if (!names.insert(range.name).second)
+      throw InputError(range.place, "'" + range.name + "' is searched already");
+}
+
 void check_search(const Instance& instance) {
   const expr::Values values = instance.known_values();
   const auto check = [&](const ScalarRange& range) { ends_of(range, instance.scope, values); };
@@ -131,6 +142,7 @@ void check_search(const Instance& instance) {
   for (const ScalarRange& range : open_parameters(*instance.problem)) check(range);
   const auto& search = instance.problem->search;
   if (!search) return;
+  refuse_repetition(*search);
   if (search->extreme) check(*search->extreme);
   for (const ScalarRange& range : search->over) check(range);
   if (!search->minimize) return;

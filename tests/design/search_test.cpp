@@ -222,6 +222,20 @@ TEST(Polish, IsNotKeptWithoutGain) {
   EXPECT_NE(gains.search->polish->cause, "");
 }
 
+/// Feasible for |a - 700| < 1 only, which no cell of the grid meets: the slacks lead there.
+TEST(Search, ANarrowFeasibleRangeIsFound) {
+  const YamlProblem problem(
+      "problem: narrow\nmethod:\n  method: m\n  parameters: {a: {default: 100, search: [0, "
+      "1000]}}\n"
+      "  unknowns: {x: scalar}\n  require: {floor: \"x > (a - 700)^2\", ceiling: x < 1}\n"
+      "  minimize: x\nsearch: {over: {a: [0, 1000]}, evaluations: 100}\n");
+  const model::Gains gains =
+      synthesize_searched(*problem.problem, request_of(*problem.problem), &kOptimizers, 2, {});
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  EXPECT_NEAR(gains.searched.at("a"), 700, 0.1);
+  EXPECT_LT(*gains.objective, 0.01);
+}
+
 TEST(Search, NothingFeasibleIsUndecided) {
   const YamlProblem problem(kBowl +
                             "search: {over: {a: [6, 9]}, evaluations: 20}\nparameters: {b: 3}\n");
@@ -243,10 +257,10 @@ TEST(Scan, GivesEveryPointInOrderForAnyThreads) {
     EXPECT_EQ(rows[i].at, points[i]);
     const double value = std::pow(points[i][0] - 2, 2) + std::pow(points[i][1] - 3, 2) + 1;
     if (value < 6) {
-      EXPECT_NEAR(*rows[i].gains.objective, value, 1e-5);
+      EXPECT_NEAR(*rows[i].objective, value, 1e-5);
       EXPECT_NEAR(rows[i].figures[0].value(), 4 * value, 1e-4);
     } else {
-      EXPECT_EQ(rows[i].gains.verdict, model::Verdict::no);
+      EXPECT_EQ(rows[i].verdict, model::Verdict::no);
       EXPECT_FALSE(rows[i].figures[0]);
     }
   }

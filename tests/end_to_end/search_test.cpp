@@ -87,6 +87,11 @@ TEST(BisectTest, WrongCommandLinesAreNamed) {
       {{"optimize", file}, "nothing to optimise over"},
       {{"optimize", file, "--over", "dleta=1:2"}, "did you mean 'delta'?"},
       {{"optimize", file, "--over", "delta=1:2", "--minimize", "P3"}, "P3"},
+      {{"bisect", file, "--largest", "T2", "--in", "0.5", "1", "--tolerance", "nan"},
+       "expected a positive number"},
+      {{"optimize", file, "--over", "delta=1:2", "--tolerance", "1"}, "belongs to --largest"},
+      {{"optimize", file, "--over", "delta=1:2", "--over", "delta=1:2"}, "searched already"},
+      {{"optimize", file, "--over", "delta=1:2", "--largest", "delta=1:2"}, "searched already"},
       {{"explain", file + ".none"}, "none"}};
   for (const auto& [arguments, message] : wrong) {
     const Outcome outcome = gainsmith(arguments);
@@ -112,6 +117,11 @@ TEST(ScanTest, TheTableIsTheSameForAnyThreadsAndAsCsv) {
   const Outcome first = gainsmith(one);
   EXPECT_EQ(first.exit, 0) << first.err;
   EXPECT_EQ(first.out, gainsmith(three).out);
+  // The problem may stand after the options.
+  EXPECT_EQ(first.out,
+            gainsmith({"scan", "--over", "T2=0.4:0.8:3", "--over", "delta=1e-2:1:2:log", "--show",
+                       "trace(P1)", problem("ferrante-seuret-2021/t2-0.70.yaml")})
+                .out);
   EXPECT_NE(first.out.find("refused"), std::string::npos) << first.out;
   const std::string text = text_of(csv);
   EXPECT_EQ(text.substr(0, text.find('\n')), "T2,delta,verdict,objective,trace(P1)");

@@ -56,7 +56,6 @@ TEST(Search, MistakesAreShownAtTheirPlace) {
       {"search: {over: {delta: [1, 2]}, evaluations: 0.5}", "whole number"},
       {"search: {over: {delta: [1, 2]}, evaluations: 1e9}", "whole number"},
       {"search: {largest: {T2: [1, 2]}, minimize: g1}", "leave out 'minimize'"},
-      {"search: {largest: {T2: [1, 2]}, over: {T2: [1, 2]}}", "already bisected"},
       {"negotiable: {T22: [0, 1]}", "did you mean 'T2'?"}};
   for (const auto& [block, message] : mistakes) {
     const InputError error = input_error([&] { read_problem(with(block)); });
@@ -74,11 +73,20 @@ TEST(Search, RangesAreCheckedWithTheProblem) {
         input_error([&] { model::check_everything(model::make_instance(problem)); });
     EXPECT_NE(error.message().find("low < high"), std::string::npos) << error.what();
   }
-  const model::Problem problem =
-      read_problem(with("search: {over: {delta: [1, 2]}, minimize: trace(P3)}"));
-  const InputError error =
-      input_error([&] { model::check_everything(model::make_instance(problem)); });
-  EXPECT_NE(error.message().find("P3"), std::string::npos) << error.what();
+}
+
+TEST(Search, FiguresAndRepetitionsAreCheckedWithTheProblem) {
+  const std::vector<std::pair<std::string, std::string>> mistakes = {
+      {"search: {over: {delta: [1, 2]}, minimize: trace(P3)}", "P3"},
+      {"search: {over: {delta: [1, 2]}, minimize: P1}", "1 x 1"},
+      {"search: {largest: {T2: [1, 2]}, over: {T2: [1, 2]}}", "'T2' is searched already"}};
+  for (const auto& [block, message] : mistakes) {
+    const model::Problem problem = read_problem(with(block));
+    const InputError error =
+        input_error([&] { model::check_everything(model::make_instance(problem)); });
+    EXPECT_NE(error.message().find(message), std::string::npos) << error.what();
+    EXPECT_EQ(error.place().line, 11) << block;
+  }
 }
 
 /// What is searched need not be given: it stands at the end from which the search goes.

@@ -1,0 +1,70 @@
+#include "design/elastic.h"
+
+#include <gtest/gtest.h>
+
+#include "support/yaml_problem.h"
+
+namespace gainsmith::design {
+namespace {
+
+using tests::YamlProblem;
+
+/// An interval [a, b] for x, empty by a - b when that is positive, and a block that has room.
+const std::string kInterval = R"(problem: interval
+method:
+  method: interval
+  data: {a: scalar, b: scalar}
+  unknowns: {x: scalar, y: symmetric 2}
+  require:
+    room: y > I
+    between: a < x < b
+    again: x < b
+data: {a: 3, b: 1}
+)";
+
+/// What a chain gives counts at both of its ends: a - t s < x < b + t s.
+TEST(Elastic, TheSmallestSlacksCloseTheGap) {
+  const YamlProblem problem(kInterval);
+  const ByRequirement scales = scales_of(*problem.problem, {});
+  ASSERT_EQ(scales.size(), 3U);
+  // A slack of the chain alone leaves x < b: it gives a - b at its lower end.
+  const auto alone = smallest_slacks(*problem.problem, {{"between", scales.at("between")}}, {}, {});
+  ASSERT_TRUE(alone);
+  ASSERT_EQ(alone->size(), 1U);
+  EXPECT_NEAR(alone->at("between") * scales.at("between"), 2, 1e-4);
+  // The other requirements alone cannot close the gap.
+  EXPECT_FALSE(smallest_slacks(*problem.problem, {{"room", 1}, {"again", 1}}, {}, {}));
+  // a - t < x < b + min(t, u) with the slacks t of the chain and u of the other needs t + u > a -
+  // b.
+  const auto all =
+      smallest_slacks(*problem.problem, {{"between", 1}, {"again", 1}, {"room", 1}}, {}, {});
+  ASSERT_TRUE(all);
+  EXPECT_NEAR(all->at("between") + all->at("again"), 2, 1e-4);
+  EXPECT_EQ(all->at("room"), 0);
+}
+
+TEST(Elastic, AFeasibleProblemNeedsNoSlack) {
+  const YamlProblem problem(kInterval);
+  const model::Overrides wider = {{"b", 5}};
+  const auto slacks =
+      smallest_slacks(*problem.problem, scales_of(*problem.problem, wider), wider, {});
+  ASSERT_TRUE(slacks);
+  for (const auto& [requirement, slack] : *slacks) EXPECT_EQ(slack, 0) << requirement;
+}
+
+/// Every comparison of a chain gives by the same slack, which is not negative.
+TEST(Elastic, AChainBecomesOneRequirementForEachComparison) {
+  const YamlProblem problem(kInterval);
+  std::map<std::string, std::string> names;
+  const model::Problem relaxed = elastic(*problem.problem, {{"between", 2}}, names);
+  ASSERT_EQ(names.size(), 1U);
+  std::vector<std::string> found;
+  for (const model::Requirement& requirement : relaxed.method->require)
+    found.push_back(requirement.name);
+  EXPECT_EQ(found, (std::vector<std::string>{"room", "between.1", "between.2", names.at("between"),
+                                             "again"}));
+  EXPECT_EQ(relaxed.method->minimize->text->str(), names.at("between"));
+}
+
+}  // namespace
+}  // namespace gainsmith::design
