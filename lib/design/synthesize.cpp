@@ -10,6 +10,7 @@
 #include "design/gain_values.h"
 #include "lmi/formulation.h"
 #include "lmi/margins.h"
+#include "lmi/vertex_gains.h"
 
 namespace gainsmith::design {
 
@@ -41,12 +42,12 @@ model::SolverRecord record_of(const sdp::Solution& solution) {
 class Synthesis {
  public:
   Synthesis(const model::Instance& instance, const sdp::Options& options)
-      : instance_(instance),
+      : instance_(lmi::with_vertex_gains(instance)),
         options_(options),
         choices_(instance.problem->synthesis),
-        plan_(lmi::make_plan(instance)),
-        lmi_(lmi::compile(instance, plan_)) {
-    bounds_ = lmi::gain_bounds(instance, lmi_.unknowns, choices_.gain_bound);
+        plan_(lmi::make_plan(instance_)),
+        lmi_(lmi::compile(instance_, plan_)) {
+    bounds_ = lmi::gain_bounds(instance_, lmi_.unknowns, choices_.gain_bound);
     gains_.problem_name = instance.problem->name;
     gains_.version = kVersion;
     gains_.statement = model::statement_of(*instance.problem);
@@ -115,10 +116,12 @@ class Synthesis {
                   std::to_string(round_) + (round_ == 1 ? " round" : " rounds"));
     const bool exact = std::all_of(plan_.requirements.begin(), plan_.requirements.end(),
                                    [](const lmi::Imposed& imposed) { return imposed.exact; });
-    if (gains_.verdict == model::Verdict::no && !exact)
-      add_message(
-          "the certificate is about the hull, which is larger than what the variables reach; "
-          "the way exchange or more slices may still find a solution");
+    if (gains_.verdict != model::Verdict::no || exact) return;
+    add_message(plan_.uses_vertex_gains()
+                    ? "the certificate is about the test at the vertices of the box, which is only "
+                      "sufficient; the way exchange with a polynomial may still find a solution"
+                    : "the certificate is about the hull, which is larger than what the variables "
+                      "reach; the way exchange or more slices may still find a solution");
   }
 
   /// A certificate excludes solutions with entries below 1/residual in size: only far beyond what
@@ -309,7 +312,7 @@ class Synthesis {
   }
 
   Clock::time_point start_ = Clock::now();
-  const model::Instance& instance_;
+  const model::Instance instance_;
   sdp::Options options_;
   const model::SynthesisOptions& choices_;
   lmi::Plan plan_;
@@ -331,7 +334,8 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   return Synthesis(instance, options).run();
 }
 
-sdp::Problem semidefinite_program(const model::Instance& instance) {
+sdp::Problem semidefinite_program(const model::Instance& stated) {
+  const model::Instance instance = lmi::with_vertex_gains(stated);
   const model::SynthesisOptions& choices = instance.problem->synthesis;
   const lmi::Lmi lmi = lmi::compile(instance);
   const lmi::GainBounds bounds = lmi::gain_bounds(instance, lmi.unknowns, choices.gain_bound);

@@ -51,7 +51,7 @@ model::Way way_of(const YamlFile& file, const YamlItem& item) {
   using model::Way;
   std::vector<std::string> words;
   const std::string word = file.string(item.value, item.key);
-  for (const Way way : {Way::automatic, Way::hull, Way::exchange}) {
+  for (const Way way : {Way::automatic, Way::hull, Way::exchange, Way::vertex_gains}) {
     if (to_string(way) == word) return way;
     words.push_back(to_string(way));
   }

@@ -124,6 +124,14 @@ bool all_constant(std::span<const AffineForm* const> operands) {
 
 }  // namespace
 
+double largest_element(const Sparse& matrix) {
+  double result = 0;
+  for (int k = 0; k < matrix.outerSize(); ++k)
+    for (Sparse::InnerIterator it(matrix, k); it; ++it)
+      result = std::max(result, std::abs(it.value()));
+  return result;
+}
+
 bool AffineForm::is_constant() const {
   return terms.empty() || (terms.size() == 1 && terms.begin()->first == Key{0, 0});
 }

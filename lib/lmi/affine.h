@@ -17,6 +17,9 @@ namespace gainsmith::lmi {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
+/// The largest |element|.
+double largest_element(const Sparse& matrix);
+
 struct AffineForm {
   expr::Shape shape;
   std::map<std::pair<int, int>, Sparse> terms;  ///< (monomial, unknown) -> M_ai; zeros are left out

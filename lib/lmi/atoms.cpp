@@ -13,14 +13,15 @@ double evaluate(const Atom& atom, double t) {
   return std::pow(t, atom.power) * std::exp(atom.rate * t) * wave;
 }
 
-std::string to_string(const Atom& atom, const std::string& variable) {
+std::string to_string(const Atom& atom, const std::string& variable, int digits) {
   std::string text;
   const auto factor = [&](const std::string& part) { text += (text.empty() ? "" : "*") + part; };
   if (atom.power == 1) factor(variable);
   if (atom.power > 1) factor(variable + "^" + std::to_string(atom.power));
-  if (atom.rate != 0) factor("exp(" + brief(atom.rate) + "*" + variable + ")");
+  if (atom.rate != 0) factor("exp(" + brief(atom.rate, digits) + "*" + variable + ")");
   if (atom.frequency != 0)
-    factor(std::string(atom.sine ? "sin(" : "cos(") + brief(atom.frequency) + "*" + variable + ")");
+    factor(std::string(atom.sine ? "sin(" : "cos(") + brief(atom.frequency, digits) + "*" +
+           variable + ")");
   return text.empty() ? "1" : text;
 }
 

@@ -24,8 +24,8 @@ struct Atom {
 
 double evaluate(const Atom& atom, double t);
 
-/// "exp(0.03*tau)", with the variable's name.
-std::string to_string(const Atom& atom, const std::string& variable);
+/// "exp(0.03*tau)", with the variable's name; with 17 digits the text gives back the same atom.
+std::string to_string(const Atom& atom, const std::string& variable, int digits = 6);
 
 struct Range {
   double low = 0;

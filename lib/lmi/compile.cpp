@@ -1,78 +1,15 @@
 #include "lmi/compile.h"
 
-#include <Eigen/Eigenvalues>
-#include <algorithm>
-#include <cmath>
-#include <deque>
+#include <optional>
 #include <set>
 
 #include "expr/compile.h"
 #include "lmi/hull.h"
+#include "lmi/vertex_gains.h"
 
 namespace gainsmith::lmi {
 
-double smallest_eigenvalue(const expr::Matrix& matrix) {
-  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(0.5 * (matrix + matrix.transpose()),
-                                                     Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .minCoeff();
-}
-
-expr::Matrix Block::value(const std::vector<double>& x) const {
-  expr::Matrix result = expr::Matrix::Zero(size, size);
-  for (const auto& [i, matrix] : terms)
-    result += (i == 0 ? 1.0 : x[static_cast<std::size_t>(i) - 1]) * expr::Matrix(matrix);
-  return result;
-}
-
-bool is_homogeneous(const std::vector<Block>& blocks) {
-  return std::all_of(blocks.begin(), blocks.end(),
-                     [](const Block& block) { return block.constant_size == 0; });
-}
-
-AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
-                           MonomialTable& monomials, const expr::Values& values) {
-  expr::Evaluator<AffineAlgebra> evaluator(program, {&monomials, &unknowns});
-  std::deque<AffineForm> inputs;
-  for (const expr::Input& input : program.inputs) {
-    if (const int variable = monomials.find_variable(input.name); variable >= 0) {
-      inputs.push_back(variable_form(monomials, variable));
-    } else if (const Unknown* unknown = unknowns.find(input.name)) {
-      inputs.push_back(unknown_form(*unknown));
-    } else {
-      inputs.push_back(constant_form(values.at(input.name)));
-    }
-    evaluator.set(input.name, inputs.back());
-  }
-  // An input alone is its own result.
-  return evaluator.run();
-}
-
 namespace {
-
-double largest(const Sparse& matrix) {
-  double result = 0;
-  for (int k = 0; k < matrix.outerSize(); ++k)
-    for (Sparse::InnerIterator it(matrix, k); it; ++it)
-      result = std::max(result, std::abs(it.value()));
-  return result;
-}
-
-/// Makes a coefficient exactly symmetric; InputError when it is not so up to rounding.
-Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place,
-                      const std::string& name) {
-  const Sparse mirrored = matrix.transpose();
-  const Sparse difference = matrix - mirrored;
-  for (int k = 0; k < difference.outerSize(); ++k)
-    for (Sparse::InnerIterator it(difference, k); it; ++it)
-      if (std::abs(it.value()) > 1e-12 * scale)
-        throw InputError(place, "the inequality '" + name + "' is not symmetric: elements (" +
-                                    std::to_string(it.row() + 1) + ", " +
-                                    std::to_string(it.col() + 1) + ") and (" +
-                                    std::to_string(it.col() + 1) + ", " +
-                                    std::to_string(it.row() + 1) + ") differ");
-  return 0.5 * (matrix + mirrored);
-}
 
 std::string joined(const std::string& a, const std::string& b) {
   return a.empty() || b.empty() ? a + b : a + ", " + b;
@@ -170,28 +107,17 @@ void set_objective(const model::Instance& instance, Lmi& lmi) {
 
 }  // namespace
 
-Block block_of(const AffineForm& form, std::string name, std::string point, bool strict,
-               const Place& place) {
-  Block block;
-  block.name = std::move(name);
-  block.point = std::move(point);
-  block.strict = strict;
-  block.size = form.shape.rows;
-  for (const auto& [key, matrix] : form.terms) {
-    double& size = key.second == 0 ? block.constant_size : block.coefficient_size;
-    size = std::max(size, largest(matrix));
-  }
-  const double scale = std::max(block.constant_size, block.coefficient_size);
-  for (const auto& [key, matrix] : form.terms)
-    block.terms.emplace_back(key.second, symmetric_part(matrix, scale, place, block.name));
-  return block;
-}
-
 Lmi compile(const model::Instance& instance, Plan& plan) {
   Lmi lmi(instance);
+  std::optional<Box> box;
+  if (plan.uses_vertex_gains()) box = vertex_box(instance);
   for (std::size_t k = 0; k < instance.method->require.size(); ++k) {
-    const Compiler compiler(instance, instance.method->require[k], lmi.unknowns, plan.slices);
-    for (Block& block : compiler.blocks(plan.requirements[k]))
+    const model::Requirement& requirement = instance.method->require[k];
+    const Compiler compiler(instance, requirement, lmi.unknowns, plan.slices);
+    Imposed& imposed = plan.requirements[k];
+    for (Block& block : imposed.way == model::Way::vertex_gains
+                            ? vertex_blocks(instance, requirement, lmi.unknowns, *box)
+                            : compiler.blocks(imposed))
       lmi.blocks.push_back(std::move(block));
   }
   set_objective(instance, lmi);

@@ -2,16 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
-#include "base/number.h"
+#include "lmi/box.h"
 
 namespace gainsmith::lmi {
 
 namespace {
-
-constexpr std::size_t kMostVertices = 4096;
 
 /// The vertices of what contains the factors of one variable.
 struct Corners {
@@ -40,52 +39,14 @@ std::vector<Factor> factors_in(const AffineForm& form, const MonomialTable& mono
   return factors;
 }
 
-[[noreturn]] void refuse_vertices(const Place& place) {
-  throw InputError(place, "the hull of this inequality has more than " +
-                              std::to_string(kMostVertices) +
-                              " vertices; use the way exchange or fewer slices");
-}
-
-Range finite_range(const Atom& atom, const Variable& variable, double low, double high,
-                   const Place& place) {
-  const Range result = range(atom, low, high);
-  if (std::isfinite(result.low) && std::isfinite(result.high)) return result;
-  throw InputError(place, to_string(atom, variable.name) + " is too large for double on [" +
-                              brief(low) + ", " + brief(high) + "]");
-}
-
-std::string box_label(const Variable& variable, const std::vector<Factor>& factors,
-                      const std::vector<double>& values, double low, double high) {
-  if (factors.size() == 1)
-    for (const double end : {low, high})
-      if (evaluate(factors[0].atom, end) == values[0]) return variable.name + " = " + brief(end);
-  std::string label;
-  for (std::size_t k = 0; k < factors.size(); ++k)
-    label += (label.empty() ? "" : ", ") + to_string(factors[k].atom, variable.name) + " = " +
-             brief(values[k]);
-  return label;
-}
-
 /// Adds the vertices of the box of the factors' ranges on [low, high].
 void add_box(Corners& corners, const Variable& variable, double low, double high,
              const Place& place) {
-  const std::size_t count = corners.factors.size();
-  if (count > 12) refuse_vertices(place);
-  std::vector<Range> ranges;
-  for (const Factor& factor : corners.factors)
-    ranges.push_back(finite_range(factor.atom, variable, low, high, place));
-  for (std::size_t vertex = 0; vertex < (std::size_t{1} << count); ++vertex) {
-    std::vector<double> values;
-    bool repeated = false;
-    for (std::size_t k = 0; k < count; ++k) {
-      const bool upper = ((vertex >> k) & 1U) != 0;
-      repeated |= upper && ranges[k].low == ranges[k].high;
-      values.push_back(upper ? ranges[k].high : ranges[k].low);
-    }
-    if (repeated) continue;
-    corners.labels.push_back(box_label(variable, corners.factors, values, low, high));
-    corners.values.push_back(std::move(values));
-  }
+  std::vector<Atom> atoms;
+  for (const Factor& factor : corners.factors) atoms.push_back(factor.atom);
+  Box box = box_of(std::move(atoms), variable.name, low, high, place);
+  std::move(box.vertices.begin(), box.vertices.end(), std::back_inserter(corners.values));
+  std::move(box.labels.begin(), box.labels.end(), std::back_inserter(corners.labels));
 }
 
 Corners interval_corners(const Variable& variable, std::vector<Factor> factors, int slices,
@@ -134,14 +95,6 @@ double monomial_size(const Monomial& monomial, const MonomialTable& monomials) {
   return size;
 }
 
-double largest(const Sparse& matrix) {
-  double result = 0;
-  for (int k = 0; k < matrix.outerSize(); ++k)
-    for (Sparse::InnerIterator it(matrix, k); it; ++it)
-      result = std::max(result, std::abs(it.value()));
-  return result;
-}
-
 /// One vertex for each choice of a corner of every variable.
 std::vector<Vertex> all_vertices(const std::vector<Corners>& corners,
                                  const MonomialTable& monomials, const Place& place) {
@@ -185,7 +138,7 @@ void remove_noise(AffineForm& form, const MonomialTable& monomials) {
   double whole = 0;
   for (const auto& [key, matrix] : form.terms) {
     double& size = sizes[key.first];
-    size = std::max(size, largest(matrix) * monomial_size(monomials[key.first], monomials));
+    size = std::max(size, largest_element(matrix) * monomial_size(monomials[key.first], monomials));
     whole = std::max(whole, size);
   }
   if (!std::isfinite(whole)) return;  // hull_of says which function it is

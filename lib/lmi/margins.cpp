@@ -28,9 +28,7 @@ double term_size(const Block& block, const std::vector<double>& x) {
   double size = 0;
   for (const auto& [i, matrix] : block.terms) {
     const double factor = i == 0 ? 1.0 : std::abs(x[static_cast<std::size_t>(i) - 1]);
-    for (int k = 0; k < matrix.outerSize(); ++k)
-      for (Sparse::InnerIterator it(matrix, k); it; ++it)
-        size = std::max(size, factor * std::abs(it.value()));
+    size = std::max(size, factor * largest_element(matrix));
   }
   return size;
 }

@@ -3,11 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "lmi/vertex_gains.h"
+
 namespace gainsmith::lmi {
 
 bool Plan::uses_exchange() const {
   return std::any_of(requirements.begin(), requirements.end(),
                      [](const Imposed& imposed) { return !imposed.points.empty(); });
+}
+
+bool Plan::uses_vertex_gains() const {
+  return std::any_of(requirements.begin(), requirements.end(), [](const Imposed& imposed) {
+    return imposed.way == model::Way::vertex_gains;
+  });
 }
 
 std::size_t Plan::points() const {
@@ -19,8 +27,15 @@ std::size_t Plan::points() const {
 Plan make_plan(const model::Instance& instance) {
   Plan plan;
   plan.slices = instance.problem->synthesis.slices;
-  plan.requirements.assign(instance.method->require.size(),
-                           {instance.problem->synthesis.way, true, {}});
+  const model::Way way = instance.problem->synthesis.way;
+  for (const model::Requirement& requirement : instance.method->require) {
+    Imposed imposed{way, true, {}};
+    if (way == model::Way::vertex_gains) {
+      imposed.exact = !uses_functions(instance, requirement);
+      if (imposed.exact) imposed.way = model::Way::automatic;
+    }
+    plan.requirements.push_back(std::move(imposed));
+  }
   return plan;
 }
 

@@ -9,7 +9,7 @@ namespace gainsmith::lmi {
 
 struct Imposed {
   model::Way way = model::Way::automatic;  ///< compile() decides and writes hull or exchange
-  bool exact = true;                       ///< hull: whether nothing is lost, see hull.h
+  bool exact = true;                       ///< whether nothing is lost: always but for boxes
   std::vector<Point> points;  ///< exchange: values of the variables over intervals and sets
 };
 
@@ -18,6 +18,7 @@ struct Plan {
   std::vector<Imposed> requirements;  ///< in the order of the method
 
   bool uses_exchange() const;
+  bool uses_vertex_gains() const;
   std::size_t points() const;  ///< of all exchanges
 };
 

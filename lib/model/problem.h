@@ -85,9 +85,10 @@ struct Expectation {
 
 /// How an inequality is imposed for all values of its variables.
 enum class Way {
-  automatic,  ///< hull where it loses nothing, exchange elsewhere
-  hull,       ///< at the vertices of the box of the ranges of its scalar functions
-  exchange    ///< at few points, to which the worst ones are added until none is left
+  automatic,    ///< hull where it loses nothing, exchange elsewhere
+  hull,         ///< at the vertices of the box of the ranges of its scalar functions
+  exchange,     ///< at few points, to which the worst ones are added until none is left
+  vertex_gains  ///< hull, with one matrix for each vertex in unknowns that are functions
 };
 
 std::string to_string(Way way);

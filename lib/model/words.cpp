@@ -28,6 +28,8 @@ std::string to_string(Way way) {
       return "hull";
     case Way::exchange:
       return "exchange";
+    case Way::vertex_gains:
+      return "vertex_gains";
   }
   return "?";
 }

@@ -1,9 +1,15 @@
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <cmath>
 
 #include "design/synthesize.h"
+#include "expr/compile.h"
+#include "expr/evaluate.h"
+#include "expr/parser.h"
+#include "model/stated.h"
 #include "support/input_error.h"
 #include "support/yaml_problem.h"
 
@@ -100,6 +106,51 @@ TEST(ForallTest, ContractionFactorsOfConstantGains) {
 TEST(ForallTest, SlicesTightenTheHull) {
   const std::string text = detectability("[0.1, 1.4]", 0.97, 1e4, "{way: hull, slices: 16}");
   EXPECT_EQ(solve(text).verdict, model::Verdict::yes);
+}
+
+/// Gains at the vertices of the box of (cos 2 tau, sin 2 tau) reach a contraction that constant
+/// gains on the same box do not.
+TEST(ForallTest, GainsAtTheVerticesOfTheBox) {
+  const auto text = [](double rho, const std::string& way) {
+    return "problem: example-2\nmethod: detectability\n"
+           "data: {F: [[0, -1, 0, 0], [1, 0, 0, 0], [0, 0, 0, -2], [0, 0, 2, 0]],\n"
+           "  Hc: [[1, 0, 0, 0]], Hd: [[0, 0, 1, 0]], T1: 0.1, T2: 1.4,\n"
+           "  J: [[0, 0, 1, 0], [0, 0, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]],\n"
+           "  Do: [[1, 0], [0, 1], [0, 0], [0, 0]], Dno: [[0, 0], [0, 0], [1, 0], [0, 1]]}\n"
+           "parameters: {kappa: 100, rho: " +
+           std::to_string(rho) + "}\nsynthesis: {forall: " + way + "}\n";
+  };
+  EXPECT_EQ(solve(text(0.8, "hull")).verdict, model::Verdict::no);
+  const model::Gains none = solve(text(0.3, "vertex_gains"));
+  EXPECT_EQ(none.verdict, model::Verdict::no);
+  EXPECT_NE(none.solver.message.find("only sufficient"), std::string::npos);
+
+  const tests::YamlProblem yaml(text(0.8, "vertex_gains"));
+  const model::Gains found = synthesize(yaml.instance, {});
+  ASSERT_EQ(found.verdict, model::Verdict::yes) << found.solver.message;
+  ASSERT_EQ(found.gain_functions.size(), 1U);
+  EXPECT_EQ(found.gain_functions[0].kind, model::GainFunction::Kind::vertices);
+
+  // As an observer evaluates them: the norm of A(tau) in the metric Q is below rho everywhere.
+  const model::Stated stated = model::state(yaml.instance, found);
+  expr::Scope scope = stated.scope;
+  scope.symbols["s"] = {expr::Shape{}, std::nullopt};
+  const auto gain = expr::compile(expr::parse(expr::Text::generated("Ldno(s)", {})), scope);
+  const Eigen::LLT<expr::Matrix> factor(*found.find("Q"));
+  const expr::Matrix U = factor.matrixU();
+  for (int i = 0; i <= 500; ++i) {
+    const double tau = 0.1 + 1.3 * i / 500;
+    expr::Values values = stated.values;
+    values["s"] = expr::Matrix::Constant(1, 1, tau);
+    const expr::Matrix L = expr::evaluate(gain, values);
+    expr::Matrix E(2, 2);
+    E << std::cos(2 * tau), -std::sin(2 * tau), std::sin(2 * tau), std::cos(2 * tau);
+    expr::Matrix seen(2, 2);  // Jono = [1 0; 0 0] E
+    seen << 1, 0, 0, 0;
+    const expr::Matrix row = seen.topRows(1);
+    const expr::Matrix A = (expr::Matrix::Identity(2, 2) - L * row - *found.find("Kno") * seen) * E;
+    EXPECT_LT((U * A * U.inverse()).operatorNorm(), 0.8) << tau;
+  }
 }
 
 /// x' = (A0 + k A1) x, k in a box or polytope: one P, imposed at the vertices.

@@ -1,0 +1,42 @@
+// From a matrix inequality as text to blocks  B(x) = B_0 + sum_i x_i B_i  that must be >= 0.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "lmi/affine.h"
+#include "lmi/unknowns.h"
+
+namespace gainsmith::lmi {
+
+/// One symmetric block. `terms` are (i, B_i) in the order of i, with i = 0 the constant.
+struct Block {
+  std::string name;   ///< of the requirement, "name.2" for the second comparison of a chain
+  std::string point;  ///< "tau = 0.7", "cos(2*tau) = 1"; empty without forall
+  bool strict = true;
+  int size = 0;
+  std::vector<std::pair<int, Sparse>> terms;
+  /// b: largest |element| of B_0; c: largest |element| of the other B_i.
+  double constant_size = 0;
+  double coefficient_size = 0;
+
+  /// B(x), for m scalars x.
+  expr::Matrix value(const std::vector<double>& x) const;
+};
+
+/// The smallest eigenvalue of the symmetric part.
+double smallest_eigenvalue(const expr::Matrix& matrix);
+
+/// Whether no block has a constant term: then x = 0 satisfies every inequality but for strictness.
+bool is_homogeneous(const std::vector<Block>& blocks);
+
+/// The affine form of a program, with the unknowns and the variables of the table.
+AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
+                           MonomialTable& monomials, const expr::Values& values);
+
+/// The block of a symmetric affine form without monomials.
+Block block_of(const AffineForm& form, std::string name, std::string point, bool strict,
+               const Place& place);
+
+}  // namespace gainsmith::lmi

@@ -1,0 +1,138 @@
+#include "lmi/vertex_gains.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "expr/compile.h"
+#include "expr/evaluate.h"
+#include "expr/real.h"
+#include "lmi/compile.h"
+#include "support/input_error.h"
+#include "support/yaml_problem.h"
+
+namespace gainsmith::lmi {
+namespace {
+
+/// The hidden part of a rotating plant, with gains at the vertices.
+std::string rotation(const std::string& require) {
+  return "problem: p\nmethod:\n  method: m\n  data: {F: n x n, H: p x n, w: scalar}\n"
+         "  unknowns: {Q: symmetric n, Y: {shape: n x p, of: s}}\n"
+         "  let: {E(t): expm(F*t), S(t): \"(Q - Y(t)*H)*E(t)\"}\n  require:\n" +
+         require +
+         "data: {F: [[-0.1, -2], [2, -0.1]], H: [[1, 0.3]], w: 0.2}\n"
+         "synthesis: {forall: vertex_gains}\n";
+}
+
+const char* const kStep =
+    "    size: I <= Q <= 100*I\n"
+    "    step: {forall: \"tau in [0.1, 1.2]\", that: \"[Q, S(tau)'; *, Q] > 0\"}\n";
+
+/// sum over the blocks of alpha_i alpha_j M_ij is the inequality itself, at every tau and x.
+TEST(VertexGainsTest, TheBlocksSumUpToTheInequality) {
+  const tests::YamlProblem yaml(rotation(kStep));
+  const model::Instance instance = with_vertex_gains(yaml.instance);
+  const Box box = vertex_box(yaml.instance);
+  ASSERT_EQ(box.vertices.size(), 4U);
+  ASSERT_EQ(instance.functions.at(0).coefficients.size(), 4U);
+  const Lmi lmi = compile(instance);
+  ASSERT_EQ(lmi.blocks.size(), 2U + 10U);
+
+  const model::Requirement& step = instance.method->require[1];
+  const Domain domain = domain_of(instance, step);
+  const auto relation = expr::compile_relations(step.that, scope_with(instance, domain)).at(0);
+  std::mt19937 generator(11);
+  std::normal_distribution<double> number;
+  for (int trial = 0; trial < 20; ++trial) {
+    std::vector<double> x;
+    for (int i = 0; i < lmi.unknowns.size(); ++i) x.push_back(number(generator));
+    const double tau = 0.1 + 1.1 * trial / 19;
+    std::vector<double> alpha;
+    for (const auto& vertex : box.vertices) {
+      double weight = 1;
+      for (std::size_t k = 0; k < box.atoms.size(); ++k) {
+        const auto [low, high] = box.ranges[k];
+        const double share = (evaluate(box.atoms[k], tau) - low) / (high - low);
+        weight *= vertex[k] == high ? share : 1 - share;
+      }
+      alpha.push_back(weight);
+    }
+    expr::Matrix sum = expr::Matrix::Zero(4, 4);
+    std::size_t at = 2;
+    for (std::size_t i = 0; i < 4; ++i)
+      for (std::size_t j = i; j < 4; ++j)
+        sum += (i == j ? 1 : 2) * alpha[i] * alpha[j] * lmi.blocks[at++].value(x);
+
+    expr::Values values = instance.known_values();
+    for (auto& [name, matrix] : lmi.unknowns.values(x)) values[name] = matrix;
+    values["tau"] = expr::Matrix::Constant(1, 1, tau);
+    const expr::Matrix direct = expr::evaluate(relation.difference, values);
+    EXPECT_LT((sum - direct).norm(), 1e-13 * (1 + direct.norm())) << tau;
+  }
+}
+
+/// With equal coefficients the function is that constant: the weights sum to 1.
+TEST(VertexGainsTest, WeightsSumToOne) {
+  const tests::YamlProblem yaml(rotation(kStep));
+  const model::Instance instance = with_vertex_gains(yaml.instance);
+  const auto gain = expr::parse(expr::Text::generated("Y(t)", {}));
+  expr::Scope scope = instance.design_scope();
+  scope.symbols["t"] = {expr::Shape{}, std::nullopt};
+  const auto program = expr::compile(gain, scope);
+  expr::Values values;
+  for (const std::string& name : instance.functions.at(0).coefficients)
+    values[name] = expr::Matrix::Constant(2, 1, 3);
+  for (const double t : {0.1, 0.4, 0.77, 1.2}) {
+    values["t"] = expr::Matrix::Constant(1, 1, t);
+    EXPECT_LT((expr::evaluate(program, values) - expr::Matrix::Constant(2, 1, 3)).norm(), 1e-14);
+  }
+}
+
+TEST(VertexGainsTest, SetsAndPolytopesMultiplyTheBlocks) {
+  const tests::YamlProblem yaml(rotation(
+      "    step:\n      forall: [\"tau in [0.1, 1.2]\", \"k in {1, 2, 3}\", \"A in conv{F, "
+      "2*F}\"]\n"
+      "      that: \"[Q, S(tau)'; *, Q] + [A, 0*I; 0*I, A]'*[A, 0*I; 0*I, 0*I]*0 > k*I\"\n"));
+  EXPECT_NE(tests::input_error([&] { with_vertex_gains(yaml.instance); })
+                .message()
+                .find("not affine in A"),
+            std::string::npos);
+  const tests::YamlProblem affine(
+      rotation("    step:\n      forall: [\"tau in [0.1, 1.2]\", \"k in {1, 2, 3}\", \"A in "
+               "conv{F, 2*F}\"]\n"
+               "      that: \"He(A*Q) + [S(tau) + S(tau)'] < k*I\"\n"));
+  const auto blocks = compile(with_vertex_gains(affine.instance)).blocks;
+  EXPECT_EQ(blocks.size(), 3U * 2U * 10U);
+}
+
+TEST(VertexGainsTest, OtherWaysLeaveTheInstanceAlone) {
+  const std::string text = rotation(kStep);
+  const tests::YamlProblem hull(text.substr(0, text.find("synthesis")));
+  EXPECT_EQ(with_vertex_gains(hull.instance).functions.at(0).text, "Y_0");
+}
+
+TEST(VertexGainsTest, Refusals) {
+  const auto refusal = [](const std::string& text) {
+    const tests::YamlProblem yaml(text);
+    return tests::input_error([&] { compile(with_vertex_gains(yaml.instance)); }).message();
+  };
+  EXPECT_NE(refusal(rotation("    set: {forall: \"k in {1, 2}\", that: \"He(S(k)) < 0\"}\n"))
+                .find("'set' has 0"),
+            std::string::npos);
+  EXPECT_NE(refusal(rotation("    two: {forall: [\"a in [0, 1]\", \"b in [0, 1]\"], that: "
+                             "\"He(S(a)) < b*I\"}\n"))
+                .find("'two' has 2"),
+            std::string::npos);
+  EXPECT_NE(refusal(rotation("    one: {forall: \"a in [0, 1]\", that: \"He(S(a)) < I\"}\n"
+                             "    two: {forall: \"b in [0, 1.5]\", that: \"He(S(b)) < I\"}\n"))
+                .find("found [0, 1.5] and [0, 1]"),
+            std::string::npos);
+  EXPECT_NE(refusal("problem: p\nmethod: {method: m, unknowns: {P: symmetric 2}, require: {a: P > "
+                    "0}}\nsynthesis: {forall: vertex_gains}\n")
+                .find("'m' has none"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace gainsmith::lmi
