@@ -11,6 +11,7 @@
 #include "design/variants.h"
 #include "expr/parser.h"
 #include "lmi/formulation.h"
+#include "lmi/vertex_gains.h"
 
 namespace gainsmith::design {
 
@@ -85,7 +86,8 @@ model::Requirement not_negative(const std::string& slack, const model::Requireme
 }  // namespace
 
 ByRequirement scales_of(const model::Problem& problem, const model::Overrides& overrides) {
-  const lmi::Lmi lmi = lmi::compile(model::make_instance(problem, overrides));
+  const lmi::Lmi lmi =
+      lmi::compile(lmi::with_vertex_gains(model::make_instance(problem, overrides)));
   const lmi::Formulation formulation =
       lmi::formulate(lmi, {}, problem.synthesis, lmi::goal_of(lmi, {}));
   ByRequirement scales;

@@ -7,6 +7,7 @@
 #include "design/elastic.h"
 #include "design/variants.h"
 #include "lmi/formulation.h"
+#include "lmi/vertex_gains.h"
 
 namespace gainsmith::design {
 
@@ -15,7 +16,7 @@ namespace {
 /// Whether nothing keeps all unknowns from being 0.
 bool holds_at_zero(const model::Problem& problem) {
   if (problem.method->require.empty()) return true;
-  const lmi::Lmi lmi = lmi::compile(model::make_instance(problem));
+  const lmi::Lmi lmi = lmi::compile(lmi::with_vertex_gains(model::make_instance(problem)));
   return lmi::is_homogeneous(lmi.blocks) &&
          std::none_of(lmi.blocks.begin(), lmi.blocks.end(),
                       [](const lmi::Block& block) { return block.strict; });

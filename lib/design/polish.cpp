@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "lmi/formulation.h"
+#include "lmi/vertex_gains.h"
 
 namespace gainsmith::design {
 
@@ -113,7 +114,8 @@ class Program {
       scalars_.push_back(*request.extreme);
     }
     Vector start;
-    const model::Instance instance = model::make_instance(problem_, gains.searched);
+    const model::Instance instance =
+        lmi::with_vertex_gains(model::make_instance(problem_, gains.searched));
     const expr::Values values = instance.known_values();
     for (const SearchedScalar& scalar : scalars_)
       start.push_back(scalar.axis.fraction(values.at(scalar.name)(0, 0)));
@@ -162,7 +164,7 @@ class Program {
     if (const auto found = cache_.find(key); found != cache_.end()) return found->second;
     constexpr std::size_t kKept = 32;
     if (cache_.size() > kKept) cache_.clear();
-    Blocks blocks = blocks_of(model::make_instance(problem_, scalars(key)));
+    Blocks blocks = blocks_of(lmi::with_vertex_gains(model::make_instance(problem_, scalars(key))));
     if (!factors_.empty()) {
       bool same = blocks.list.size() == factors_.size();
       for (std::size_t k = 0; same && k < factors_.size(); ++k)

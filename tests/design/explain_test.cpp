@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "design/synthesize.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::design {
@@ -94,6 +95,33 @@ TEST(Explain, AHomogeneousConflict) {
   const Explanation found = explain(*problem.problem, {});
   ASSERT_TRUE(found.conflict);
   EXPECT_EQ(found.conflict->names, (std::vector<std::string>{"positive", "decrease"}));
+}
+
+/// With gains at the vertices of a box the requirements are their own double sums.
+TEST(Explain, GainsAtTheVertices) {
+  const YamlProblem problem(R"yaml(problem: vertices
+method:
+  method: m
+  data: {F: n x n, H: p x n, rho: scalar}
+  unknowns: {Q: symmetric n, Y: {shape: n x p, of: s}}
+  let: {S(t): "(Q - Y(t)*H)*expm(F*t)"}
+  require:
+    size: I <= Q <= 100*I
+    step: {forall: "tau in [0.1, 1.4]", that: "[rho^2*Q, S(tau)'; *, Q] > 0"}
+data: {F: [[0, -2], [2, 0]], H: [[1, 0]], rho: 0.2}
+negotiable: {rho: [0.1, 1]}
+synthesis: {forall: vertex_gains}
+)yaml");
+  const Explanation found = explain(*problem.problem, {});
+  ASSERT_EQ(found.gains.verdict, model::Verdict::no);
+  ASSERT_TRUE(found.conflict);
+  EXPECT_EQ(found.conflict->names.back(), "step");
+  ASSERT_EQ(found.relaxations.size(), 2U);
+  ASSERT_EQ(found.reaches.size(), 1U);
+  EXPECT_FALSE(found.reaches[0].at_most);
+  const model::Gains there =
+      synthesize(model::make_instance(*problem.problem, {{"rho", *found.reaches[0].feasible}}), {});
+  EXPECT_EQ(there.verdict, model::Verdict::yes);
 }
 
 }  // namespace
