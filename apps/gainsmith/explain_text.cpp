@@ -34,6 +34,21 @@ std::string reach_text(const design::Reach& reach) {
   return fmt::format("{} at {} {}", reach.name, reach.at_most ? "most" : "least", settled(reach));
 }
 
+io::Json side_of(const design::Reach& reach) {
+  if (!reach.feasible) return nullptr;
+  return reach.at_most ? "at most" : "at least";
+}
+
+std::string negotiable_text(const design::Reach& reach) {
+  if (!reach.feasible)
+    return fmt::format("negotiable  {} does not help: nothing feasible was found in its range\n",
+                       reach.name);
+  const std::string beyond =
+      reach.beyond ? "; " + brief(*reach.beyond, 10) + " is proved infeasible" : "";
+  return fmt::format("negotiable  {} (it is {}{})\n", reach_text(reach), brief(reach.value),
+                     beyond);
+}
+
 std::string conflict_statement(const design::Conflict& conflict) {
   if (conflict.gain_bound)
     return "the inequalities hold together, but not within the gain bound; raise "
@@ -79,7 +94,7 @@ std::string explanation_line(const design::Conflict& conflict,
   std::string text = conflict_statement(conflict);
   std::string ways;
   for (const design::Reach& reach : reaches)
-    ways += (ways.empty() ? "" : ", or ") + reach_text(reach);
+    if (reach.feasible) ways += (ways.empty() ? "" : ", or ") + reach_text(reach);
   return text + (ways.empty() ? "" : "; " + ways + " would do");
 }
 
@@ -88,10 +103,7 @@ std::string explanation_text(const design::Explanation& explanation) {
                                  verdict_line(explanation.gains));
   if (explanation.conflict) text += conflict_text(*explanation.conflict);
   text += relaxations_text(explanation.relaxations);
-  for (const design::Reach& reach : explanation.reaches)
-    text += fmt::format(
-        "negotiable  {} (it is {}{})\n", reach_text(reach), brief(reach.value),
-        reach.beyond ? "; " + brief(*reach.beyond, 10) + " is proved infeasible" : std::string());
+  for (const design::Reach& reach : explanation.reaches) text += negotiable_text(reach);
   return text;
 }
 
@@ -118,7 +130,7 @@ io::Json explanation_json(const design::Explanation& explanation) {
   for (const auto& reach : explanation.reaches)
     document["negotiable"].push_back({{"scalar", reach.name},
                                       {"value", reach.value},
-                                      {"side", reach.at_most ? "at most" : "at least"},
+                                      {"side", side_of(reach)},
                                       {"feasible", number(reach.feasible)},
                                       {"beyond", number(reach.beyond)}});
   return document;

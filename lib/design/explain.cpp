@@ -112,6 +112,7 @@ std::vector<Reach> find_reaches(const model::Problem& problem, const sdp::Option
   for (const model::ScalarRange& range : problem.negotiable) {
     const SearchedScalar whole = searched_scalar(problem, range);
     const double value = values.at(range.name)(0, 0);
+    const std::size_t count = reaches.size();
     for (const bool at_most : {true, false}) {
       SearchedScalar side = whole;
       (at_most ? side.axis.high : side.axis.low) =
@@ -120,6 +121,7 @@ std::vector<Reach> find_reaches(const model::Problem& problem, const sdp::Option
       const Reach found = reach(problem, side, value, at_most, solver);
       if (found.feasible) reaches.push_back(found);
     }
+    if (reaches.size() == count) reaches.push_back({range.name, value, true, {}, {}});
   }
   return reaches;
 }

@@ -33,10 +33,11 @@ struct Relaxation {
 /// How far one must go along a scalar from the problem's value.
 struct Reach {
   std::string name;
-  double value = 0;                ///< the problem's
-  bool at_most = true;             ///< go down to `feasible`; otherwise up
-  std::optional<double> feasible;  ///< the nearest value found, with every margin recomputed
-  std::optional<double> beyond;    ///< next to it, proved infeasible
+  double value = 0;     ///< the problem's
+  bool at_most = true;  ///< go down to `feasible`; otherwise up
+  /// The nearest value found, with every margin recomputed; none when nothing in the range is.
+  std::optional<double> feasible;
+  std::optional<double> beyond;  ///< next to it, proved infeasible
 };
 
 struct Explanation {
@@ -51,7 +52,8 @@ std::optional<Conflict> find_conflict(const model::Problem& problem, const model
                                       const sdp::Options& solver);
 
 /// Along every negotiable scalar, the others held: the nearest feasible value below the problem's
-/// own, and above it, as far as the range goes; only directions that have one.
+/// own, and above it, as far as the range goes: the directions that have one, or one entry for a
+/// scalar that does not help.
 std::vector<Reach> find_reaches(const model::Problem& problem, const sdp::Options& solver);
 
 /// All of it. With another verdict than no there is no conflict and no relaxation.

@@ -14,16 +14,16 @@ using tests::YamlProblem;
 const std::string kGap = R"(problem: gap
 method:
   method: gap
-  data: {c: scalar}
+  data: {c: scalar, d: {shape: scalar, default: 1}}
   unknowns: {x: scalar, y: symmetric 2}
   require:
-    other: y > I
+    other: y > d*I
     floor: x > c
     middle: x > -7
     ceiling: {forall: "s in {1, 2}", that: "s*x < s"}
   minimize: trace(y)
 data: {c: 3}
-negotiable: {c: [-2, 5]}
+negotiable: {c: [-2, 5], d: [0, 9]}
 )";
 
 TEST(Explain, NamesTheConflictWhatItTakesAndHowFar) {
@@ -45,12 +45,14 @@ TEST(Explain, NamesTheConflictWhatItTakesAndHowFar) {
   // x > 3 must give 2; s x < s must give 2 s, so 4 at its harder point.
   EXPECT_NEAR(*found.relaxations[1].alone * found.relaxations[1].scale, 2, 1e-4);
   EXPECT_NEAR(*found.relaxations[3].alone * found.relaxations[3].scale, 4, 1e-4);
-  ASSERT_EQ(found.reaches.size(), 1U);
+  ASSERT_EQ(found.reaches.size(), 2U);
   EXPECT_TRUE(found.reaches[0].at_most);
   EXPECT_EQ(found.reaches[0].value, 3);
   EXPECT_NEAR(*found.reaches[0].feasible, 1, 1e-4);
   EXPECT_LE(*found.reaches[0].feasible, 1);
   EXPECT_GE(*found.reaches[0].beyond, 1 - 1e-6);
+  EXPECT_EQ(found.reaches[1].name, "d");
+  EXPECT_FALSE(found.reaches[1].feasible);
 }
 
 /// A chain is one requirement with one slack.

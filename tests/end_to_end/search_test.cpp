@@ -211,6 +211,20 @@ TEST(ExplainTest, ThePublishedDataConflictAndT2MustBeSmaller) {
       << synth.out;
 }
 
+TEST(ExplainTest, AScalarThatDoesNotHelpIsSaid) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "more.yaml", std::regex_replace(text_of(problem(kTheorem)), std::regex("T1, 1.1\\]"),
+                                      "T1, 1.1], delta: [1e-3, 10]"));
+  const Outcome outcome = gainsmith({"explain", file});
+  EXPECT_NE(outcome.out.find("delta does not help"), std::string::npos) << outcome.out;
+  const Json reaches = gainsmith({"explain", file, "--json"}).json()["negotiable"];
+  ASSERT_EQ(reaches.size(), 2U);
+  EXPECT_EQ(reaches[1]["scalar"], "delta");
+  EXPECT_TRUE(reaches[1]["feasible"].is_null());
+  EXPECT_TRUE(std::regex_search(gainsmith({"synth", file}).out, std::regex("0.76831 would do\n")));
+}
+
 TEST(ExplainTest, AFeasibleProblemExitsWithZero) {
   const Outcome outcome = gainsmith({"explain", problem("classics/quadratic-stability.yaml")});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
