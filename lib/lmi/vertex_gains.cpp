@@ -214,6 +214,7 @@ std::vector<Block> vertex_blocks(const model::Instance& instance,
     for (const Point& point : points) {
       MonomialTable monomials({first.interval});
       std::vector<AffineForm> forms;
+      forms.reserve(count);
       for (const Held& h : held) forms.push_back(h.form(k, unknowns, monomials, point));
       const auto at = [&](std::size_t i, std::size_t j) {
         return at_vertex(forms[i], values_at(monomials, box, j));
