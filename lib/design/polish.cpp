@@ -307,7 +307,8 @@ class Program {
 
   /// The number of element (i, j), i >= j, in a lower triangle column by column.
   static std::size_t place(int n, int i, int j) {
-    return static_cast<std::size_t>(j * n - j * (j - 1) / 2 + (i - j));
+    const int before = j * n - j * (j - 1) / 2;
+    return static_cast<std::size_t>(before) + static_cast<std::size_t>(i - j);
   }
 
   void add_structure(search::SmoothProgram& program) const {

@@ -108,7 +108,7 @@ model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
   model::SamplingLaw result;
   result.place = file.place(node);
   if (node.IsScalar()) {
-    const std::string word = node.Scalar();
+    const std::string& word = node.Scalar();
     if (word == "uniform") return {Kind::uniform, {}, result.place};
     if (word == "extremes") return {Kind::extremes, {}, result.place};
     if (word == "sinusoid") return {Kind::sinusoid, {}, result.place};

@@ -55,11 +55,14 @@ class Names {
   /// The coefficients of a function YL are YL_0, YL_1, ...: none of them may name anything else.
   void reserve_coefficients(const std::string& function) const {
     const std::string stem = function + "_";
-    for (const auto& [name, place] : places_)
-      if (name.starts_with(stem) && name.size() > stem.size() &&
-          name.find_first_not_of("0123456789", stem.size()) == std::string::npos)
-        throw InputError(place, "'" + name + "' is the name of a coefficient of " + function +
-                                    ", which is a function");
+    const auto clash = std::find_if(places_.begin(), places_.end(), [&](const auto& entry) {
+      const std::string& name = entry.first;
+      return name.starts_with(stem) && name.size() > stem.size() &&
+             name.find_first_not_of("0123456789", stem.size()) == std::string::npos;
+    });
+    if (clash == places_.end()) return;
+    throw InputError(clash->second, "'" + clash->first + "' is the name of a coefficient of " +
+                                        function + ", which is a function");
   }
 
   void check_parameter(const std::string& name, const Place& place) const {

@@ -16,6 +16,12 @@ std::size_t count_coefficients(const std::string& name, const Gains& gains) {
   return count;
 }
 
+[[noreturn]] void refuse_missing_coefficients(const UnknownFunction& function, const Gains& gains) {
+  throw InputError({gains.file}, "the gain file lacks the coefficients " +
+                                     coefficient_name(function.name, 0) + ", ... of " +
+                                     function.signature());
+}
+
 class Builder {
  public:
   Builder(const Instance& instance, const Gains& gains)
@@ -108,9 +114,7 @@ Instance with_functions(Instance instance, const Gains& gains) {
     const std::string name = known->name;
     const std::size_t count = count_coefficients(name, gains);
     if (count == 0 && gains.unknowns.empty()) continue;  // there is no point
-    if (count == 0)
-      throw InputError({gains.file},
-                       "the gain file lacks the coefficients " + name + "_0, ... of " + key);
+    if (count == 0) refuse_missing_coefficients(*known, gains);
     redefine(instance, name, count, text, {gains.file});
   }
   return instance;

@@ -31,6 +31,7 @@ Axis axis(double low, double high) {
 std::vector<double> points_on(const Axis& axis, int count) {
   if (count == 1) return {axis.at(0.5)};
   std::vector<double> points;
+  points.reserve(static_cast<std::size_t>(count));
   for (int i = 0; i < count; ++i)
     points.push_back(axis.at(static_cast<double>(i) / static_cast<double>(count - 1)));
   return points;

@@ -69,6 +69,7 @@ class Search {
     }
     const int count = cells();
     std::vector<double> middles;
+    middles.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) middles.push_back((i + 0.5) / count);
     for (Point& unit : grid(std::vector<std::vector<double>>(axes_.size(), middles)))
       trials.push_back({std::move(unit), std::nullopt});
