@@ -177,8 +177,8 @@ class Synthesis {
 
   Outcome accept_point() {
     const bool has_margin_variable = formulation_.goal == lmi::Goal::feasibility;
-    const double largest_margin = solution_.x.back();
-    if (has_margin_variable && largest_margin < choices_.margin) {
+    if (has_margin_variable && solution_.x.back() < choices_.margin) {
+      const double largest_margin = solution_.x.back();
       solve(lmi::Goal::certificate);
       if (solution_.status == sdp::Status::primal_infeasible) {
         decide_infeasible(lmi::Goal::certificate);

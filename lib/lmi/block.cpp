@@ -73,6 +73,7 @@ Block block_of(const AffineForm& form, std::string name, std::string point, bool
   block.point = std::move(point);
   block.strict = strict;
   block.size = form.shape.rows;
+  if (block.size == 0) throw InputError(place, "the inequality '" + block.name + "' has no rows");
   for (const auto& [key, matrix] : form.terms) {
     double& size = key.second == 0 ? block.constant_size : block.coefficient_size;
     size = std::max(size, largest_element(matrix));

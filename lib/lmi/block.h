@@ -35,7 +35,8 @@ bool is_homogeneous(const std::vector<Block>& blocks);
 AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
                            MonomialTable& monomials, const expr::Values& values);
 
-/// The block of a symmetric affine form without monomials.
+/// The block of a symmetric affine form without monomials. InputError, at `place`, when it is not
+/// symmetric or has no rows.
 Block block_of(const AffineForm& form, std::string name, std::string point, bool strict,
                const Place& place);
 

@@ -32,8 +32,8 @@ struct Lmi {
 /// Compiles an instance, which comes from with_vertex_gains. Where the plan leaves the way open it
 /// is the hull when nothing is lost by it, and otherwise an exchange with its first points; the
 /// plan is updated. InputError, with the place, for what is not affine in the unknowns, a
-/// difference that is not symmetric, an empty interval, what the hull cannot take when it is asked
-/// for, or more than 2^12 vertices.
+/// difference that is not symmetric or has no rows, an empty interval, what the hull cannot take
+/// when it is asked for, or more than 2^12 vertices.
 Lmi compile(const model::Instance& instance, Plan& plan);
 /// With the first points of the problem's own plan.
 Lmi compile(const model::Instance& instance);

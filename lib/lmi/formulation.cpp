@@ -126,6 +126,7 @@ std::vector<int> all_rows(const Block& block) {
 
 /// -r <= x_i <= r with r the variable `size_variable`, or the constant `limit` when it is 0.
 void add_limits(Assembler& assembler, int m, int size_variable, double limit) {
+  if (m == 0) return;  // a method without unknowns
   const int at = assembler.add_block(2 * m, true);
   for (int i = 1; i <= m; ++i) {
     for (int side = 0; side < 2; ++side) {

@@ -174,6 +174,20 @@ TEST(SynthesizeTest, LargeSolutionsAreNotCalledInfeasible) {
   EXPECT_NE(found.verdict, model::Verdict::no);
 }
 
+/// Without unknowns the data decide: exp(-k tau) sin(tau) reaches its peak at tan(tau) = 1/k, which
+/// is exp(-pi/4)/sqrt(2) = 0.32240 for k = 1.
+TEST(SynthesizeTest, AMethodMayHaveNoUnknowns) {
+  for (const char* minimize : {"", "  minimize: 3\n"}) {
+    for (const double bound : {0.3225, 0.3223}) {
+      const model::Gains found = solve(
+          "problem: peak\nmethod:\n  method: peak\n  data: {bound: scalar}\n  require:\n"
+          "    below: {forall: \"tau in [0, 2]\", that: \"exp(-tau)*sin(tau) < bound\"}\n" +
+          std::string(minimize) + "data: {bound: " + std::to_string(bound) + "}\n");
+      EXPECT_EQ(found.verdict, bound > 0.3224 ? model::Verdict::yes : model::Verdict::no);
+    }
+  }
+}
+
 TEST(SynthesizeTest, TheZeroSolutionIsRefused) {
   const InputError error = tests::input_error([] {
     solve(

@@ -6,18 +6,12 @@
 #include <numbers>
 #include <random>
 
+#include "lmi/random_atom.h"
+
 namespace gainsmith::lmi {
 namespace {
 
-Atom random_atom(std::mt19937& generator) {
-  std::uniform_real_distribution<double> number(-2, 2);
-  Atom atom;
-  atom.power = static_cast<int>(generator() % 3);
-  atom.rate = generator() % 2 == 0 ? 0 : number(generator);
-  atom.frequency = generator() % 2 == 0 ? 0 : std::abs(number(generator));
-  atom.sine = atom.frequency != 0 && generator() % 2 == 0;
-  return atom;
-}
+using testing::random_atom;
 
 TEST(AtomsTest, ProductsOfAtomsAreCombinationsOfAtoms) {
   std::mt19937 generator(1);

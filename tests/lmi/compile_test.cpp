@@ -148,6 +148,13 @@ TEST(CompileTest, WhatIsNotSymmetricIsRefused) {
   EXPECT_NE(error.message().find("not symmetric"), std::string::npos);
 }
 
+TEST(CompileTest, WhatHasNoRowsIsRefused) {
+  const tests::YamlProblem yaml(problem_with("    empty: P(1:0, 1:0) > 0\n"));
+  const InputError error = tests::input_error([&] { compile(yaml.instance); });
+  EXPECT_EQ(error.place().line, 7);
+  EXPECT_NE(error.message().find("'empty' has no rows"), std::string::npos) << error.message();
+}
+
 TEST(CompileTest, AnEmptyIntervalIsRefused) {
   const tests::YamlProblem yaml(
       problem_with("    flow: {forall: \"tau in [T, 1]\", that: \"exp(tau)*P > 0\"}\n"));

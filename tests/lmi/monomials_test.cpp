@@ -6,10 +6,13 @@
 #include <random>
 
 #include "expr/evaluate.h"
+#include "lmi/random_atom.h"
 #include "lmi/variables.h"
 
 namespace gainsmith::lmi {
 namespace {
+
+using testing::random_atom;
 
 /// Two intervals and a polytope with three vertices: two weights.
 Domain three_variables() {
@@ -37,16 +40,6 @@ double evaluate(const Combination& combination, const MonomialTable& table, cons
   for (const auto& [coefficient, index] : combination)
     sum += coefficient * evaluate(table[index], at);
   return sum;
-}
-
-Atom random_atom(std::mt19937& generator) {
-  std::uniform_real_distribution<double> number(-2, 2);
-  Atom atom;
-  atom.power = static_cast<int>(generator() % 3);
-  atom.rate = generator() % 2 == 0 ? 0 : number(generator);
-  atom.frequency = generator() % 2 == 0 ? 0 : std::abs(number(generator));
-  atom.sine = atom.frequency != 0 && generator() % 2 == 0;
-  return atom;
 }
 
 TEST(MonomialsTest, TheConstantComesFirst) {
