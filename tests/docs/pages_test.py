@@ -2,6 +2,7 @@
 
     pages_test.py TREE GAINSMITH
 """
+import fnmatch
 import json
 import os
 import re
@@ -20,7 +21,7 @@ def read(path):
 
 
 def pages():
-    found = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md"]
+    found = ["README.md", "CONTRIBUTING.md", "CHANGELOG.md", "problems/README.md"]
     for folder, _, names in os.walk(os.path.join(TREE, "docs")):
         found += [os.path.relpath(os.path.join(folder, name), TREE) for name in names if name.endswith(".md")]
     return found
@@ -42,12 +43,42 @@ def check(text):
         return run("check", path)
 
 
+def transcripts(page):
+    """What a page shows of a shell, as pairs of a command and the lines that it prints, and the problems that it shows."""
+    problems = {}
+    found = []
+    for fenced, indented in re.findall(r"```yaml\n(.*?)```|((?:^    [^\n]*\n)+)", read(page), re.M | re.S):
+        if fenced.startswith("problem:"):
+            problems[fenced.splitlines()[0].split()[-1].split("/")[-1] + ".yaml"] = fenced
+        lines = [line[4:].rstrip() for line in indented.splitlines()]
+        for line in lines if indented.startswith("    $ ") else []:
+            if line.startswith("$ "):
+                found.append((line[2:], []))
+            else:
+                found[-1][1].append(line)
+    return problems, found
+
+
+def prints(shown, printed):
+    """Whether the output is as shown, where ... stands for the rest of a line, and in a line of its own for more lines."""
+    pattern = "\n".join(re.escape(line) for line in shown)
+    return re.fullmatch(pattern.replace("\n" + r"\.\.\.", r"(?:\n.*)*").replace(r"\.\.\.", ".*"), printed) is not None
+
+
 class Pages(unittest.TestCase):
     def test_links_lead_somewhere(self):
         for page in pages():
             for target in re.findall(r"\]\(([^)#:]+)(?:#[^)]*)?\)", read(page)):
                 path = os.path.join(TREE, os.path.dirname(page), target)
                 self.assertTrue(os.path.exists(path), f"{page}: {target}")
+
+    def test_every_problem_is_listed(self):
+        listed = re.findall(r"`([\w.*-]+)`", read("problems/README.md"))
+        for folder, _, names in os.walk(os.path.join(TREE, "problems")):
+            for name in names:
+                if name.endswith(".yaml"):
+                    self.assertTrue(any(fnmatch.fnmatch(name[:-5], pattern) for pattern in listed), f"{folder}/{name}")
+                    self.assertIn(os.path.basename(folder), read("problems/README.md"))
 
     def test_every_decision_has_its_number(self):
         for name in os.listdir(os.path.join(TREE, "docs/decisions")):
@@ -76,8 +107,13 @@ class Pages(unittest.TestCase):
         for text in quoted:
             self.assertIn(re.sub(r"\s+", " ", text), method)
 
+    def test_add_a_method_shows_the_method(self):
+        page = re.findall(r"```yaml\n(.*?)```", read("docs/add-a-method.md"), re.S)
+        shown = [block for block in page if not block.startswith("problem:")]
+        self.assertEqual("\n".join(shown), read("lib/methods/reset-observer.yaml"))
+
     def test_example_problem_is_valid(self):
-        for page in ("docs/language.md", "README.md"):
+        for page in ("docs/language.md", "README.md", "docs/add-a-method.md"):
             for block in yaml_blocks(page, "problem"):
                 found = check(block)
                 self.assertEqual(found.returncode, 0, found.stderr)
@@ -88,6 +124,22 @@ class Pages(unittest.TestCase):
             found = check("problem: example\nmethod:\n" + inline +
                           'data: {A: "[0.2, -1.01; 1, 0]", C: "[0.5, -1]", T1: 0.5, T2: 0.7}\n')
             self.assertEqual(found.returncode, 0, found.stderr)
+
+    def test_commands_print_what_is_shown(self):
+        for page in ("README.md", "docs/add-a-method.md", "docs/forall.md"):
+            problems, found = transcripts(page)
+            self.assertGreater(len(found), 0, page)
+            with tempfile.TemporaryDirectory() as folder:
+                os.symlink(os.path.abspath(os.path.join(TREE, "problems")), os.path.join(folder, "problems"))
+                for name, text in problems.items():
+                    with open(os.path.join(folder, name), "w", encoding="utf-8") as file:
+                        file.write(text)
+                path = os.path.dirname(os.path.abspath(PROGRAM)) + os.pathsep + os.environ["PATH"]
+                for command, shown in found:
+                    printed = subprocess.run(["bash", "-c", command + " 2>&1"], cwd=folder, env={**os.environ, "PATH": path},
+                                             capture_output=True, text=True, check=False).stdout
+                    printed = "\n".join(line.rstrip() for line in printed.strip().splitlines())
+                    self.assertTrue(prints(shown, printed), f"{page}: {command}\n{printed}")
 
     def test_readme_lists_the_subcommands(self):
         listed = re.findall(r"^\| `gainsmith (\w+)", read("README.md"), re.M)
