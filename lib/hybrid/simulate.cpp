@@ -46,7 +46,7 @@ Scenario make_scenario(const model::Campaign& campaign, const System& system) {
 }
 
 Steps make_steps(const System& system) {
-  return {system.flow, std::max(system.high, system.first_high)};
+  return {system.flow, std::max(system.high, system.first_high), system.flow_place};
 }
 
 Simulator::Simulator(const System& system, const Scenario& scenario, const Steps& steps)

@@ -70,13 +70,13 @@ const std::array<double, Steps::kNodes>& Steps::node_weights() {
   return weights;
 }
 
-Steps::Steps(const AffineMap& flow, double longest) : flow_(flow) {
+Steps::Steps(const AffineMap& flow, double longest, const Place& place) : flow_(flow) {
   const Eigen::Index n = flow.linear.rows();
   const double norm = n > 0 ? one_norm(flow.linear) : 0;
   if (!std::isfinite(norm) || !flow.constant.allFinite() ||
       !(norm * longest <= std::ldexp(1, kMostLevels)))
-    throw InputError({}, "the flow is too fast to be stepped: norm of its matrix " + brief(norm) +
-                             ", longest interval " + brief(longest));
+    throw InputError(place, "the flow is too fast to be stepped: norm of its matrix " +
+                                brief(norm) + ", longest interval " + brief(longest));
   const double rate = n > 0 ? fastest_rate(flow.linear) : 0;
   const double top = std::min(longest / kStepsPerInterval, rate > 0 ? 1 / rate : longest);
   int last = kFewestLevels;

@@ -71,13 +71,23 @@ void require_exact_flow(const expr::Program& program, const Layout& layout) {
                        ": this version steps flows that depend on the states alone");
 }
 
-AffineMap make_flow(const System& system, const model::Method& method) {
+void make_flow(const model::Method& method, System& system) {
   const auto map = compile_map(system, method.plant.flow, method.observer.flow);
   for (const JumpEntry& entry : map) require_exact_flow(entry.program, system.layout);
   const Eigen::Index n = system.layout.size;
-  return sample_affine(
+  system.flow = sample_affine(
       [&](const Eigen::VectorXd& x) { return values_at(system, map, x, Eigen::VectorXd::Zero(n)); },
       n);
+  double fastest = 0;
+  for (const auto* part : {&method.plant, &method.observer}) {
+    for (const model::Named& entry : part->flow) {
+      const Slot& slot = system.layout.slots[slot_of(entry, system.layout)];
+      const double size =
+          system.flow.linear.middleRows(slot.offset, slot.shape.size()).cwiseAbs().sum();
+      if (size > fastest) system.flow_place = entry.place;
+      fastest = std::max(fastest, size);
+    }
+  }
 }
 
 std::optional<AffineMap> make_affine_jump(const System& system) {
@@ -128,7 +138,7 @@ System make_system(const model::Instance& instance, const model::Gains& gains) {
   system.scope = std::move(stated.scope);
   system.constants = std::move(stated.values);
   read_timer(*method.timer, system);
-  system.flow = make_flow(system, method);
+  make_flow(method, system);
   system.jump = compile_map(system, method.plant.jump, method.observer.jump);
   system.affine_jump = make_affine_jump(system);
   return system;

@@ -34,6 +34,7 @@ struct System {
   expr::Values constants;  ///< data, parameters, gains and unknowns that have a value
   expr::Scope scope;       ///< of flow and jump maps, claims and signals
   AffineMap flow;
+  Place flow_place;                      ///< where the fastest part of the flow stands
   std::vector<JumpEntry> jump;           ///< states that change; the others keep their value
   std::optional<AffineMap> affine_jump;  ///< when every entry of `jump` is affine
   double low = 0;                        ///< of the timer's reset values

@@ -1,10 +1,8 @@
 #include "io/gains_json.h"
 
-#include <cstdint>
-#include <limits>
 #include <utility>
 
-#include "base/error.h"
+#include "io/json_reader.h"
 
 namespace gainsmith::io {
 
@@ -91,93 +89,13 @@ Json statement_json(const model::Statement& statement) {
           {"sha256", statement.hash}};
 }
 
-/// Walks a document and says where it is when something is wrong.
-class Reader {
- public:
-  Reader(const Json& value, std::string file, std::string path)
-      : value_(value), file_(std::move(file)), path_(std::move(path)) {}
-
-  Reader at(const std::string& key) const {
-    if (!value_.is_object()) fail("expected an object");
-    const auto found = value_.find(key);
-    if (found == value_.end()) fail("the key '" + key + "' is missing");
-    return {*found, file_, path_.empty() ? key : path_ + "." + key};
-  }
-  bool is_null() const { return value_.is_null(); }
-  bool has(const std::string& key) const { return value_.is_object() && value_.contains(key); }
-
-  std::string text() const {
-    if (!value_.is_string()) fail("expected a text");
-    return value_.get<std::string>();
-  }
-  double number() const {
-    if (!value_.is_number()) fail("expected a number");
-    return value_.get<double>();
-  }
-  /// null stands for infinity.
-  double number_or_infinity() const {
-    return value_.is_null() ? std::numeric_limits<double>::infinity() : number();
-  }
-  int whole() const {
-    if (!value_.is_number_integer()) fail("expected a whole number");
-    const bool fits = value_.is_number_unsigned() ? std::in_range<int>(value_.get<std::uint64_t>())
-                                                  : std::in_range<int>(value_.get<std::int64_t>());
-    if (!fits) fail("this whole number is too large");
-    return value_.get<int>();
-  }
-  bool truth() const {
-    if (!value_.is_boolean()) fail("expected true or false");
-    return value_.get<bool>();
-  }
-  std::vector<Reader> items() const {
-    if (!value_.is_array()) fail("expected a list");
-    std::vector<Reader> result;
-    for (std::size_t i = 0; i < value_.size(); ++i)
-      result.emplace_back(value_[i], file_, path_ + "[" + std::to_string(i) + "]");
-    return result;
-  }
-  std::vector<std::pair<std::string, Reader>> members() const {
-    if (!value_.is_object()) fail("expected an object");
-    std::vector<std::pair<std::string, Reader>> result;
-    for (const auto& item : value_.items()) result.emplace_back(item.key(), at(item.key()));
-    return result;
-  }
-  expr::Matrix matrix() const {
-    if (value_.is_number()) return expr::Matrix::Constant(1, 1, number());
-    const auto rows = items();
-    expr::Matrix result(rows.size(), rows.empty() ? 0 : rows.front().items().size());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const auto row = rows[i].items();
-      if (row.size() != static_cast<std::size_t>(result.cols()))
-        rows[i].fail("a row of another length");
-      for (std::size_t j = 0; j < row.size(); ++j)
-        result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = row[j].number();
-    }
-    return result;
-  }
-  model::NamedMatrices matrices() const {
-    model::NamedMatrices result;
-    for (const auto& [name, reader] : members()) result.emplace_back(name, reader.matrix());
-    return result;
-  }
-
-  [[noreturn]] void fail(const std::string& message) const {
-    throw InputError({file_}, (path_.empty() ? "" : path_ + ": ") + message);
-  }
-
- private:
-  const Json& value_;
-  std::string file_;
-  std::string path_;
-};
-
-model::Verdict verdict_of(const Reader& reader) {
+model::Verdict verdict_of(const JsonReader& reader) {
   for (const auto verdict : {model::Verdict::yes, model::Verdict::no, model::Verdict::undecided})
     if (to_string(verdict) == reader.text()) return verdict;
   reader.fail("expected yes, no or undecided");
 }
 
-model::SolverRecord solver_of(const Reader& reader) {
+model::SolverRecord solver_of(const JsonReader& reader) {
   return {reader.at("status").text(),
           reader.at("cause").text(),
           reader.at("message").text(),
@@ -188,23 +106,23 @@ model::SolverRecord solver_of(const Reader& reader) {
           reader.at("precision").text()};
 }
 
-model::GainFunction gain_function_of(const std::string& name, const Reader& reader) {
+model::GainFunction gain_function_of(const std::string& name, const JsonReader& reader) {
   using Kind = model::GainFunction::Kind;
   model::GainFunction gain{
       name, reader.at("of").text(), Kind::formula, reader.at("formula").text(), {}};
-  const Reader kind = reader.at("kind");
+  const JsonReader kind = reader.at("kind");
   for (const Kind candidate : {Kind::polynomial, Kind::vertices, Kind::formula}) {
     if (to_string(candidate) != kind.text()) continue;
     gain.kind = candidate;
     if (candidate == Kind::polynomial)
-      for (const Reader& item : reader.at("coefficients").items())
+      for (const JsonReader& item : reader.at("coefficients").items())
         gain.coefficients.push_back(item.matrix());
     return gain;
   }
   kind.fail("expected polynomial, vertices or formula");
 }
 
-model::Margin margin_of(const Reader& reader) {
+model::Margin margin_of(const JsonReader& reader) {
   return {reader.at("name").text(),
           reader.at("strict").truth(),
           reader.at("reached").number(),
@@ -215,19 +133,19 @@ model::Margin margin_of(const Reader& reader) {
           reader.at("holds").truth()};
 }
 
-model::CertificateRecord certificate_of(const Reader& reader) {
+model::CertificateRecord certificate_of(const JsonReader& reader) {
   return {reader.at("value").number(),          reader.at("residual").number(),
           reader.at("min_eigenvalue").number(), reader.at("excluded_radius").number_or_infinity(),
           reader.at("checked").truth(),         reader.at("multipliers").matrices()};
 }
 
-model::SearchRecord search_of(const Reader& reader) {
-  const auto number = [](const Reader& value) {
+model::SearchRecord search_of(const JsonReader& reader) {
+  const auto number = [](const JsonReader& value) {
     return value.is_null() ? std::nullopt : std::optional(value.number());
   };
-  const auto numbers = [](const Reader& list) {
+  const auto numbers = [](const JsonReader& list) {
     std::vector<double> values;
-    for (const Reader& item : list.items()) values.push_back(item.number());
+    for (const JsonReader& item : list.items()) values.push_back(item.number());
     return values;
   };
   model::SearchRecord search;
@@ -236,12 +154,12 @@ model::SearchRecord search_of(const Reader& reader) {
   search.beyond = number(reader.at("beyond"));
   search.open = numbers(reader.at("open"));
   search.breaks = numbers(reader.at("breaks"));
-  for (const Reader& item : reader.at("over").items()) search.over.push_back(item.text());
+  for (const JsonReader& item : reader.at("over").items()) search.over.push_back(item.text());
   search.evaluations = reader.at("evaluations").whole();
   search.feasible = reader.at("feasible").whole();
   search.finished = reader.at("finished").truth();
   if (reader.has("polish")) {
-    const Reader polish = reader.at("polish");
+    const JsonReader polish = reader.at("polish");
     search.polish = {polish.at("before").number(), number(polish.at("after")),
                      polish.at("kept").truth(), polish.at("cause").text()};
   }
@@ -249,7 +167,7 @@ model::SearchRecord search_of(const Reader& reader) {
   return search;
 }
 
-model::Statement statement_of(const Reader& reader) {
+model::Statement statement_of(const JsonReader& reader) {
   model::Statement statement{reader.at("method").text(), reader.at("method_text").text(),
                              reader.at("problem_file").text(), reader.at("problem_text").text(),
                              reader.at("sha256").text()};
@@ -308,7 +226,7 @@ std::string gains_text(const model::Gains& gains) { return to_text(to_json(gains
 
 model::Gains parse_gains(const std::string& text, const std::string& file) {
   const Json document = parse_json(text, file);
-  const Reader reader(document, file, "");
+  const JsonReader reader(document, file);
   model::Gains gains;
   gains.file = file;
   gains.version = reader.at("gainsmith").text();
@@ -331,15 +249,21 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
     for (const auto& [name, value] : reader.at("searched").members())
       gains.searched[name] = value.number();
   if (reader.has("search")) gains.search = search_of(reader.at("search"));
-  for (const Reader& item : reader.at("margins").items()) gains.margins.push_back(margin_of(item));
-  for (const Reader& item : reader.at("bounds").items())
+  for (const JsonReader& item : reader.at("margins").items())
+    gains.margins.push_back(margin_of(item));
+  for (const JsonReader& item : reader.at("bounds").items())
     gains.bounds.push_back({item.at("gain").text(), item.at("bound").number(),
                             item.at("reached").number(), item.at("active").truth()});
   if (reader.has("certificate")) gains.certificate = certificate_of(reader.at("certificate"));
   gains.solver = solver_of(reader.at("solver"));
+  for (const auto& [key, value] :
+       {std::pair{"status", &gains.solver.status}, {"cause", &gains.solver.cause}})
+    if (reader.has(key) && reader.at(key).text() != *value)
+      reader.at(key).fail("differs from solver." + std::string(key));
   gains.statement = statement_of(reader.at("statement"));
   for (const auto& [name, seconds] : reader.at("timings").members())
     gains.timings.emplace_back(name, seconds.number());
+  reader.finish();
   return gains;
 }
 

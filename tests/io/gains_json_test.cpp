@@ -167,6 +167,8 @@ TEST(Gains, ValuesOfTheWrongKindAreShownByTheirPath) {
       {"/solver/iterations", 2.5, "solver.iterations: expected a whole number"},
       {"/solver/iterations", 10000000000, "solver.iterations: this whole number is too large"},
       {"/solver/iterations", 18446744073709551615U, "solver.iterations: this whole number"},
+      {"/status", "infeasible", "status: differs from solver.status"},
+      {"/cause", 3, "cause: expected a text"},
       {"/timings/solve", "fast", "timings.solve: expected a number"}};
   for (const Edit& edit : edits) {
     Json edited = document;
@@ -196,6 +198,28 @@ TEST(Gains, EveryKeyThatIsNotOptionalMustBeThere) {
     const InputError error = input_error([&] { parse_gains(to_text(without), "g.json"); });
     EXPECT_EQ(error.message(), "the key '" + key + "' is missing");
   }
+}
+
+TEST(Gains, UnknownKeysAreRefusedWithTheNearestOne) {
+  const Json document = to_json(RandomGains(4).make());
+  const std::vector<std::pair<std::string, std::string>> edits = {
+      {"/gian", "unknown key 'gian'; known: "},
+      {"/objectives", "unknown key 'objectives'; did you mean 'objective'?"},
+      {"/solver/Status", "solver: unknown key 'Status'; did you mean 'status'?"},
+      {"/margins/1/hold", "margins[1]: unknown key 'hold'; did you mean 'holds'?"},
+      {"/bounds/0/comment", "bounds[0]: unknown key 'comment'; known: "},
+      {"/statement/method_txt", "statement: unknown key 'method_txt'; did you mean"}};
+  for (const auto& [pointer, message] : edits) {
+    Json edited = document;
+    edited[Json::json_pointer(pointer)] = 1;
+    const InputError error = input_error([&] { parse_gains(to_text(edited), "g.json"); });
+    EXPECT_EQ(error.message().substr(0, message.size()), message);
+  }
+  Json misspelt = document;
+  misspelt["margin"] = misspelt["margins"];
+  misspelt.erase("margins");
+  EXPECT_EQ(input_error([&] { parse_gains(to_text(misspelt), "g.json"); }).message(),
+            "unknown key 'margin'; did you mean 'margins'?");
 }
 
 TEST(Gains, AnEditedStatementIsDetectedByItsHash) {

@@ -1,0 +1,119 @@
+#include "io/json_reader.h"
+
+#include <cstdint>
+#include <limits>
+
+#include "base/error.h"
+#include "base/nearest.h"
+
+namespace gainsmith::io {
+
+JsonReader::JsonReader(const Json& document, std::string file)
+    : value_(document), file_(std::move(file)), asked_(std::make_shared<Asked>()) {}
+
+JsonReader::JsonReader(const Json& value, const JsonReader& parent, std::string path)
+    : value_(value), file_(parent.file_), path_(std::move(path)), asked_(parent.asked_) {}
+
+JsonReader JsonReader::below(const std::string& key, const Json& value) const {
+  return {value, *this, path_.empty() ? key : path_ + "." + key};
+}
+
+JsonReader JsonReader::at(const std::string& key) const {
+  if (!value_.is_object()) fail("expected an object");
+  auto& asked = (*asked_)[&value_];
+  asked.insert(key);
+  if (const auto found = value_.find(key); found != value_.end()) return below(key, *found);
+  for (const auto& item : value_.items())
+    if (!asked.contains(item.key()) && nearest(item.key(), {key}))
+      fail("unknown key '" + item.key() + "'; did you mean '" + key + "'?");
+  fail("the key '" + key + "' is missing");
+}
+
+bool JsonReader::has(const std::string& key) const {
+  (*asked_)[&value_].insert(key);
+  return value_.is_object() && value_.contains(key);
+}
+
+std::string JsonReader::text() const {
+  if (!value_.is_string()) fail("expected a text");
+  return value_.get<std::string>();
+}
+
+double JsonReader::number() const {
+  if (!value_.is_number()) fail("expected a number");
+  return value_.get<double>();
+}
+
+double JsonReader::number_or_infinity() const {
+  return value_.is_null() ? std::numeric_limits<double>::infinity() : number();
+}
+
+int JsonReader::whole() const {
+  if (!value_.is_number_integer()) fail("expected a whole number");
+  const bool fits = value_.is_number_unsigned() ? std::in_range<int>(value_.get<std::uint64_t>())
+                                                : std::in_range<int>(value_.get<std::int64_t>());
+  if (!fits) fail("this whole number is too large");
+  return value_.get<int>();
+}
+
+bool JsonReader::truth() const {
+  if (!value_.is_boolean()) fail("expected true or false");
+  return value_.get<bool>();
+}
+
+std::vector<JsonReader> JsonReader::items() const {
+  if (!value_.is_array()) fail("expected a list");
+  std::vector<JsonReader> result;
+  for (std::size_t i = 0; i < value_.size(); ++i)
+    result.push_back({value_[i], *this, path_ + "[" + std::to_string(i) + "]"});
+  return result;
+}
+
+std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
+  if (!value_.is_object()) fail("expected an object");
+  std::vector<std::pair<std::string, JsonReader>> result;
+  for (const auto& item : value_.items()) {
+    (*asked_)[&value_].insert(item.key());
+    result.emplace_back(item.key(), below(item.key(), item.value()));
+  }
+  return result;
+}
+
+expr::Matrix JsonReader::matrix() const {
+  if (value_.is_number()) return expr::Matrix::Constant(1, 1, number());
+  const auto rows = items();
+  expr::Matrix result(rows.size(), rows.empty() ? 0 : rows.front().items().size());
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto row = rows[i].items();
+    if (row.size() != static_cast<std::size_t>(result.cols()))
+      rows[i].fail("a row of another length");
+    for (std::size_t j = 0; j < row.size(); ++j)
+      result(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) = row[j].number();
+  }
+  return result;
+}
+
+model::NamedMatrices JsonReader::matrices() const {
+  model::NamedMatrices result;
+  for (const auto& [name, reader] : members()) result.emplace_back(name, reader.matrix());
+  return result;
+}
+
+void JsonReader::finish() const {
+  if (value_.is_array())
+    for (const JsonReader& item : items()) item.finish();
+  const auto asked = asked_->find(&value_);
+  if (!value_.is_object() || asked == asked_->end()) return;
+  for (const auto& item : value_.items()) {
+    if (!asked->second.contains(item.key()))
+      fail("unknown key '" + item.key() + "'" +
+           suggestion(item.key(), {asked->second.begin(), asked->second.end()}));
+    below(item.key(), item.value()).finish();
+  }
+}
+
+void JsonReader::fail(const std::string& message) const {
+  throw InputError({file_}, (path_.empty() ? "" : path_ + ": ") + message);
+}
+
+}  // namespace gainsmith::io

@@ -1,0 +1,60 @@
+// Reads a JSON document whose keys are known, and says where it is when something is wrong.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "io/json_text.h"
+#include "model/gains.h"
+
+namespace gainsmith::io {
+
+/// A value of a document, with its path: "solver.iterations", "margins[2].name". All members throw
+/// InputError with the file and the path for a value of another kind. The document must outlive its
+/// readers, which note together which keys were asked for.
+class JsonReader {
+ public:
+  JsonReader(const Json& document, std::string file);
+
+  /// The value of a key that must be there. Of a missing key the message names a misspelling.
+  JsonReader at(const std::string& key) const;
+  /// Whether the optional key is there.
+  bool has(const std::string& key) const;
+  bool is_null() const { return value_.is_null(); }
+
+  std::string text() const;
+  double number() const;
+  /// null stands for infinity.
+  double number_or_infinity() const;
+  int whole() const;
+  bool truth() const;
+  std::vector<JsonReader> items() const;
+  /// All keys, whatever they are, with their values.
+  std::vector<std::pair<std::string, JsonReader>> members() const;
+  /// A list of rows, or a number.
+  expr::Matrix matrix() const;
+  model::NamedMatrices matrices() const;
+
+  /// InputError for the first key below here that nothing asked for, with the nearest known one.
+  void finish() const;
+
+  [[noreturn]] void fail(const std::string& message) const;
+
+ private:
+  /// The keys that were asked for, by the object that was asked.
+  using Asked = std::map<const Json*, std::set<std::string>>;
+
+  JsonReader(const Json& value, const JsonReader& parent, std::string path);
+  JsonReader below(const std::string& key, const Json& value) const;
+
+  const Json& value_;
+  std::string file_;
+  std::string path_;
+  std::shared_ptr<Asked> asked_;
+};
+
+}  // namespace gainsmith::io
