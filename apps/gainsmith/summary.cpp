@@ -89,13 +89,16 @@ std::string bounds_text(const model::Gains& gains) {
 std::string certificate_text(const model::Gains& gains) {
   if (!gains.certificate) return "";
   const model::CertificateRecord& c = *gains.certificate;
+  const std::string excluded =
+      std::isfinite(c.excluded_radius)
+          ? "every solution has an entry of at least " + brief(c.excluded_radius, 3) + " in size"
+          : "no solution of any size";
   return fmt::format(
       "certificate multipliers Y >= 0 (smallest eigenvalue {}) with F_0.Y = {} and sum |F_i.Y| = "
       "{},\n"
-      "            recomputed from the problem's data: {}; every solution has an entry of at least "
-      "{} in size\n",
+      "            recomputed from the problem's data: {}; {}\n",
       brief(c.min_eigenvalue, 3), brief(c.value), brief(c.residual, 3),
-      c.checked ? "checked" : "NOT CHECKED", brief(c.excluded_radius, 3));
+      c.checked ? "checked" : "NOT CHECKED", excluded);
 }
 
 }  // namespace

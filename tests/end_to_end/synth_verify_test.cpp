@@ -63,6 +63,15 @@ TEST(SynthTest, AnInfeasibleProblemExitsWithOneAndItsCertificate) {
   EXPECT_LT(gains["certificate"]["residual"].get<double>(), 1e-6);
 }
 
+TEST(SynthTest, WithoutUnknownsTheDataDecide) {
+  const std::string text =
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  require: {short: A'*A < I}\n";
+  EXPECT_EQ(gainsmith({"synth", "-"}, text + "data: {A: [[0, 0.9], [0, 0]]}\n").exit, 0);
+  const Outcome no = gainsmith({"synth", "-"}, text + "data: {A: [[0, 1.1], [0, 0]]}\n");
+  EXPECT_EQ(no.exit, 1);
+  EXPECT_NE(no.out.find("checked; no solution of any size"), std::string::npos) << no.out;
+}
+
 TEST(SynthTest, TwiceTheSameBytesApartFromTimings) {
   const Folder folder;
   const std::string first = synthesized(folder, kTheorem);
