@@ -9,6 +9,7 @@
 #include "gainsmith/load.h"
 #include "io/json_text.h"
 #include "lmi/compile.h"
+#include "lmi/vertex_gains.h"
 
 namespace gainsmith::app {
 
@@ -21,7 +22,7 @@ struct CheckOptions {
 
 /// What a valid problem asks for.
 io::Json description(const Loaded& loaded) {
-  const lmi::Lmi lmi = lmi::compile(loaded.instance);
+  const lmi::Lmi lmi = lmi::compile(lmi::with_vertex_gains(loaded.instance));
   io::Json sizes = io::Json::object();
   for (const auto& [name, size] : loaded.instance.dimensions) sizes[name] = size;
   return {{"valid", true},

@@ -11,11 +11,20 @@
 namespace gainsmith::tests {
 namespace {
 
-std::size_t files_below(const std::string& folder) {
-  std::size_t count = 0;
+std::vector<std::string> files_below(const std::string& folder) {
+  std::vector<std::string> files;
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    count += entry.path().extension() == ".yaml" ? 1U : 0U;
-  return count;
+    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  return files;
+}
+
+TEST(ProblemsTest, EveryProblemIsValid) {
+  std::vector<std::string> arguments = {"check"};
+  for (const std::string& file : files_below(problem(""))) arguments.push_back(file);
+  const Outcome outcome = gainsmith(arguments);
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(static_cast<std::size_t>(std::count(outcome.out.begin(), outcome.out.end(), '\n')),
+            arguments.size() - 1);
 }
 
 TEST(ProblemsTest, EveryProblemIsAsExpected) {
@@ -23,7 +32,7 @@ TEST(ProblemsTest, EveryProblemIsAsExpected) {
   const Outcome outcome = gainsmith({"run", problem(""), "-o", folder.path("out"), "--runs", "100",
                                      "--junit", folder.path("junit.xml")});
   EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
-  const std::size_t count = files_below(problem(""));
+  const std::size_t count = files_below(problem("")).size();
   EXPECT_EQ(static_cast<std::size_t>(std::count(outcome.out.begin(), outcome.out.end(), '\n')),
             count);
   const std::string junit = text_of(folder.path("junit.xml"));
