@@ -34,7 +34,10 @@ class OuterSearch {
         request_(request),
         optimizers_(optimizers),
         threads_(threads),
-        solver_(solver) {}
+        solver_(solver),
+        last_(solver) {
+    last_.interrupted = nullptr;
+  }
 
   model::Gains run() {
     std::vector<search::Axis> axes;
@@ -79,7 +82,7 @@ class OuterSearch {
     const model::Overrides values = overrides(point);
     try {
       if (request_.extreme) {
-        const auto found = bracket(values, kSharper, guess).found.yes;
+        const auto found = bracket(values, kSharper, guess, solver_).found.yes;
         if (!found) return std::nullopt;
         return request_.largest ? -*found : *found;
       }
@@ -135,22 +138,22 @@ class OuterSearch {
     return gains.objective ? *gains.objective : -smallest_margin(gains);
   }
 
-  BisectResult bracket(const model::Overrides& values, double sharper,
-                       std::optional<double> guess) const {
+  BisectResult bracket(const model::Overrides& values, double sharper, std::optional<double> guess,
+                       const sdp::Options& solver) const {
     return bisect(problem_, values,
                   {*request_.extreme, request_.largest, request_.tolerance * sharper, guess},
-                  solver_);
+                  solver);
   }
 
   /// The gains at values of the outer scalars, with the figure's value; for an extreme its bracket
-  /// is in their record.
+  /// is in their record. An interrupt does not end it: what was found is worth having.
   std::pair<model::Gains, std::optional<double>> design_at(const model::Overrides& values) const {
     if (request_.extreme) {
-      BisectResult result = bracket(values, 1, std::nullopt);
+      BisectResult result = bracket(values, 1, std::nullopt, last_);
       return {std::move(result.gains), result.found.yes};
     }
     const model::Instance instance = model::make_instance(problem_, values);
-    model::Gains gains = synthesize(instance, solver_);
+    model::Gains gains = synthesize(instance, last_);
     if (gains.verdict != model::Verdict::yes) return {std::move(gains), std::nullopt};
     const auto found = value(instance, gains);
     return {std::move(gains), found};
@@ -185,7 +188,7 @@ class OuterSearch {
     std::optional<model::PolishRecord> polished;
     if (minimum.point) {
       std::tie(gains, best) = design_at(overrides(*minimum.point));
-      if (request_.polish && best) polished = polish_design(gains, best);
+      if (request_.polish && best && minimum.finished) polished = polish_design(gains, best);
     } else {
       gains = nothing_found();
     }
@@ -204,7 +207,7 @@ class OuterSearch {
   /// The result at the problem's own values, where there are no gains; it decides nothing of the
   /// ranges.
   model::Gains nothing_found() const {
-    model::Gains gains = synthesize_at(problem_, overrides(own_values()), solver_);
+    model::Gains gains = synthesize_at(problem_, overrides(own_values()), last_);
     gains.verdict = model::Verdict::undecided;
     gains.solver.status = "undecided";
     gains.certificate.reset();
@@ -225,6 +228,7 @@ class OuterSearch {
   const search::Optimizers& optimizers_;
   unsigned threads_;
   const sdp::Options& solver_;
+  sdp::Options last_;  ///< of the solves after the search, which no interrupt ends
 };
 
 }  // namespace

@@ -16,7 +16,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 /// A cell of the grid or a start: its middle in the unit box, and what was found there.
 struct Trial {
   Point unit;
-  std::optional<double> value;
+  std::optional<double> value{};
+  bool tried = false;  ///< false when an interrupt came first
 };
 
 class Search {
@@ -27,8 +28,7 @@ class Search {
 
   Minimum run() {
     std::vector<Trial> trials = spread();
-    // A third goes to the grid; the local searches share the rest.
-    if (found_.feasible == 0 && options_.violation) approach(trials);
+    if (found_.feasible == 0 && options_.violation && may_go_on()) approach(trials);
     std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
       return a.value.value_or(kInfinity) < b.value.value_or(kInfinity);
     });
@@ -65,21 +65,23 @@ class Search {
     for (const Point& start : options_.starts) {
       Point unit(axes_.size());
       for (std::size_t i = 0; i < axes_.size(); ++i) unit[i] = axes_[i].fraction(start[i]);
-      trials.push_back({std::move(unit), std::nullopt});
+      trials.push_back({std::move(unit)});
     }
     const int count = cells();
     std::vector<double> middles;
     middles.reserve(static_cast<std::size_t>(count));
     for (int i = 0; i < count; ++i) middles.push_back((i + 0.5) / count);
     for (Point& unit : grid(std::vector<std::vector<double>>(axes_.size(), middles)))
-      trials.push_back({std::move(unit), std::nullopt});
+      trials.push_back({std::move(unit)});
     if (std::ssize(trials) > options_.evaluations)
       trials.resize(static_cast<std::size_t>(options_.evaluations));
     parallel_for(trials.size(), options_.threads, [&](std::size_t i) {
       if (options_.interrupted && options_.interrupted()) return;
       trials[i].value = figure_(point(trials[i].unit));
+      trials[i].tried = true;
     });
-    for (const Trial& trial : trials) record(trial.unit, trial.value);
+    for (const Trial& trial : trials)
+      if (trial.tried) record(trial.unit, trial.value);
     return trials;
   }
 
@@ -109,7 +111,7 @@ class Search {
       const auto value = figure_(point(unit));
       record(unit, value);
       if (value) {
-        feasible = Trial{unit, value};
+        feasible = Trial{unit, value, true};
         return -1.0;
       }
       const double violation = options_.violation(point(unit));

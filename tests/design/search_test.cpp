@@ -222,6 +222,22 @@ TEST(Polish, IsNotKeptWithoutGain) {
   EXPECT_NE(gains.search->polish->cause, "");
 }
 
+/// What was found before an interrupt is designed with all its margins.
+TEST(Search, AnInterruptLeavesTheBestSoFar) {
+  const YamlProblem problem(kBowl);
+  const SearchRequest request = request_of(*problem.problem);
+  int asked = 0;
+  sdp::Options solver;
+  solver.interrupted = [&] { return ++asked > 90; };
+  const model::Gains gains =
+      synthesize_searched(*problem.problem, request, &kOptimizers, 1, solver);
+  EXPECT_EQ(gains.verdict, model::Verdict::yes);
+  EXPECT_FALSE(gains.search->finished);
+  EXPECT_GT(gains.search->feasible, 0);
+  EXPECT_LT(gains.search->evaluations, request.evaluations);
+  EXPECT_TRUE(gains.search->value);
+}
+
 /// Feasible for |a - 700| < 1 only, which no cell of the grid meets: the slacks lead there.
 TEST(Search, ANarrowFeasibleRangeIsFound) {
   const YamlProblem problem(
