@@ -20,6 +20,9 @@ constexpr double kNoStep = 1e-7;
 /// Part of a step taken back when it leaves the cone, and how often.
 constexpr double kRetreat = 0.125;
 constexpr int kRetreats = 6;
+/// Roundings that bring a point back into the cone: from one on, each time more, so often.
+constexpr double kLiftGrowth = 8;
+constexpr int kLifts = 6;
 /// Infeasibility of so many roundings is none.
 constexpr double kRounding = 10;
 /// The least sigma at a fixed tau.
@@ -54,6 +57,17 @@ void Ipm<T>::start(const T& X, const T& Y) {
   point_.X.set_identity(X);
   point_.Y.set_identity(Y);
   point_.tau = point_.kappa = T(1);
+}
+
+/// Adds a few roundings of its largest entry to the diagonal of every block, as many as it takes.
+template <typename T>
+void Ipm<T>::lift(double rounding) {
+  for (int k = 0; k < kLifts && !newton_.factorise(point_); ++k, rounding *= kLiftGrowth)
+    for (Blocks<T>* const V : {&point_.X, &point_.Y})
+      for (int b = 0; b < V->layout().blocks(); ++b) {
+        auto diagonal = V->dense(b).diagonal();
+        diagonal.array() += T(rounding) * diagonal.maxCoeff();
+      }
 }
 
 template <typename T>

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <limits>
 #include <optional>
 
 #include "sdp/iterate.h"
@@ -37,10 +38,12 @@ class Ipm {
   void start_far(double factor);
   /// X = Y = I, tau = kappa = 1: for the homogeneous model, which finds the scale itself.
   void start_at_identity();
-  /// The best point of an earlier run in a narrower arithmetic.
+  /// The best point of an earlier run in a narrower arithmetic, moved into the cone where rounding
+  /// there had hidden that it is outside.
   template <typename Narrow>
   void start_from(const Iterate<Narrow>& point) {
     convert(point, point_);
+    lift(static_cast<double>(std::numeric_limits<Narrow>::epsilon()));
   }
 
   /// Iterates until something stops it.
@@ -56,6 +59,7 @@ class Ipm {
 
  private:
   void start(const T& X, const T& Y);
+  void lift(double rounding);
   Cause iterate();
   bool satisfied(double tolerance) const;
   std::optional<Cause> stop() const;

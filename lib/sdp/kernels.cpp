@@ -1,25 +1,31 @@
 #include "sdp/kernels.h"
 
-#include <Eigen/Cholesky>
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 #include <vector>
 
 #include "sdp/pairs.h"
+#include "sdp/product.h"
 #include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {
 
 using Index = Eigen::Index;
-using Strided = Eigen::Map<Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
-using ConstStrided = Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>;
+template <typename T>
+using Strided = Eigen::Map<Matrix<T>, 0, Eigen::OuterStride<>>;
+template <typename T>
+using ConstStrided = Eigen::Map<const Matrix<T>, 0, Eigen::OuterStride<>>;
 
-ConstStrided map(const View<const double>& v) {
+template <typename T>
+ConstStrided<T> map(const View<const T>& v) {
   return {v.data, v.rows, v.columns, Eigen::OuterStride<>(v.stride)};
 }
-Strided map(const View<double>& v) {
+template <typename T>
+Strided<T> map(const View<T>& v) {
   return {v.data, v.rows, v.columns, Eigen::OuterStride<>(v.stride)};
 }
 
@@ -30,28 +36,44 @@ View<const T> constant(const View<T>& v) {
 
 // ---- double-double product -------------------------------------------------------------------
 
-/// The halves of a matrix apart, rows padded to whole registers, for the vector unit; and for each
-/// row a power of two above its norm.
+/// The halves of a matrix apart, in panels of kLanes rows (zeros below the last one), for the
+/// vector unit; and for each row a power of two above its norm.
 struct Halves {
   std::vector<double> high, low, bound;
-  Index stride = 0;
 
   void take(const View<const DoubleDouble>& a) {
-    stride = (a.rows + kLanes - 1) / kLanes * kLanes;
-    const auto size = static_cast<std::size_t>(stride * a.columns);
+    const Index panels = (a.rows + kLanes - 1) / kLanes;
+    const auto rows = static_cast<std::size_t>(panels * kLanes);
+    const std::size_t size = rows * static_cast<std::size_t>(a.columns);
     if (high.size() < size) {
       high.resize(size);
       low.resize(size);
     }
-    bound.assign(static_cast<std::size_t>(stride), 0);
-    for (Index k = 0; k < a.columns; ++k)
-      for (Index i = 0; i < stride; ++i) {
-        const DoubleDouble value = i < a.rows ? a(i, k) : DoubleDouble(0);
-        high[static_cast<std::size_t>(i + stride * k)] = value.hi();
-        low[static_cast<std::size_t>(i + stride * k)] = value.lo();
-        bound[static_cast<std::size_t>(i)] += value.hi() * value.hi();
+    bound.resize(rows);
+    for (Index p = 0; p < panels; ++p) take_panel(a, p);
+  }
+
+ private:
+  void take_panel(const View<const DoubleDouble>& a, Index p) {
+    const Index first = p * kLanes, count = std::min<Index>(kLanes, a.rows - first);
+    double* to_high = high.data() + first * a.columns;
+    double* to_low = low.data() + first * a.columns;
+    PairLanes squares = {};
+    for (Index k = 0; k < a.columns; ++k, to_high += kLanes, to_low += kLanes) {
+      PairLanes upper, lower;
+      if (count == kLanes) {
+        split_pairs(&a(first, k), upper, lower);
+      } else {
+        std::array<DoubleDouble, kLanes> part{};
+        std::copy_n(&a(first, k), count, part.begin());
+        split_pairs(part.data(), upper, lower);
       }
-    for (double& square : bound) square = power_above(std::sqrt(square));
+      std::memcpy(to_high, &upper, sizeof upper);
+      std::memcpy(to_low, &lower, sizeof lower);
+      squares += upper * upper;
+    }
+    for (int r = 0; r < kLanes; ++r)
+      bound[static_cast<std::size_t>(first + r)] = power_above(std::sqrt(squares[r]));
   }
 };
 
@@ -69,16 +91,23 @@ void multiply_columns(const Halves& a, Index inner, const View<const DoubleDoubl
   }
   for (Index i = 0; i < c.rows; i += kLanes) {
     BiasedSums<count> sums(a.bound.data() + i, bound);
-    const double* high = a.high.data() + i;
-    const double* low = a.low.data() + i;
-    for (Index k = 0; k < inner; ++k, high += a.stride, low += a.stride)
+    const double* high = a.high.data() + i * inner;
+    const double* low = a.low.data() + i * inner;
+    for (Index k = 0; k < inner; ++k, high += kLanes, low += kLanes)
       sums.add(high, low, &b(k, j), b.stride);
-    for (std::size_t q = 0; q < count; ++q)
-      for (Index r = 0; r < kLanes && i + r < c.rows; ++r) {
-        const DoubleDouble sum = sums.value(q, static_cast<std::size_t>(r));
-        DoubleDouble& entry = c(i + r, j + static_cast<Index>(q));
-        entry = update == Update::assign ? sum : entry - sum;
+      // Unrolled, or the sums are not kept in registers.
+#pragma GCC unroll 8
+    for (std::size_t q = 0; q < count; ++q) {
+      DoubleDouble* const entries = &c(i, j + static_cast<Index>(q));
+      if (c.rows - i >= kLanes) {
+        sums.store(q, update == Update::subtract, entries);
+      } else {
+        std::array<DoubleDouble, kLanes> part;
+        std::copy_n(entries, c.rows - i, part.begin());
+        sums.store(q, update == Update::subtract, part.data());
+        std::copy_n(part.begin(), c.rows - i, entries);
       }
+    }
   }
 }
 
@@ -140,10 +169,37 @@ void solve_factored_pairs(const View<const DoubleDouble>& l, Vector<DoubleDouble
   }
 }
 
-// ---- Cholesky, blocked on multiply -------------------------------------------------------------
+/// C -= A B'
+template <typename T>
+void subtract_outer(const View<const T>& a, const View<const T>& b, const View<T>& c) {
+  if constexpr (std::is_same_v<T, double>) {
+    subtract_outer_doubles(a, b, c);
+  } else {
+    Matrix<T> transposed(b.columns, b.rows);
+    for (Index j = 0; j < b.rows; ++j)
+      for (Index p = 0; p < b.columns; ++p) transposed(p, j) = b(j, p);
+    multiply(a, View<const T>(transposed), c, Update::subtract);
+  }
+}
+
+// ---- Cholesky and inverse, blocked on products
+// ---------------------------------------------------
 
 /// Columns of a panel, and of the panels that it is factored by.
 constexpr Index kPanel = 32, kInnerPanel = 8;
+
+template <typename T>
+void invert_lower_plain(const View<const T>& l, const View<T>& result) {
+  for (Index k = 0; k < l.rows; ++k) {
+    const T root = T(1) / l(k, k);
+    result(k, k) = T(1);
+    for (Index j = 0; j <= k; ++j) {
+      const T value = result(k, j) * root;
+      result(k, j) = value;
+      for (Index i = k + 1; i < l.rows; ++i) result(i, j) -= l(i, k) * value;
+    }
+  }
+}
 
 template <typename T>
 bool cholesky_plain(const View<T>& a) {
@@ -165,25 +221,41 @@ bool cholesky_plain(const View<T>& a) {
 //   A may have more rows than columns: then they are a panel of a larger matrix.
 template <typename T>
 bool cholesky_blocked(const View<T>& a, Index width) {
-  Matrix<T> transposed;
   for (Index k = 0; k < a.columns; k += width) {
     const Index w = std::min(width, a.columns - k);
     const View<T> panel = a.part(k, k, a.rows - k, w);
     if (!(width > kInnerPanel ? cholesky_blocked(panel, kInnerPanel) : cholesky_plain(panel)))
       return false;
-    const Index rest = a.columns - k - w;
-    if (rest == 0) break;
-    transposed.resize(w, rest);
-    for (Index j = 0; j < rest; ++j)
-      for (Index p = 0; p < w; ++p) transposed(p, j) = a(k + w + j, k + p);
-    for (Index j = 0; j < rest; j += width) {
-      const Index wj = std::min(width, rest - j);
-      multiply(constant(a.part(k + w + j, k, a.rows - k - w - j, w)),
-               View<const T>(transposed.data() + w * j, w, wj, w),
-               a.part(k + w + j, k + w + j, a.rows - k - w - j, wj), Update::subtract);
+    for (Index j = k + w; j < a.columns; j += width) {
+      const Index wj = std::min(width, a.columns - j);
+      subtract_outer(constant(a.part(j, k, a.rows - j, w)), constant(a.part(j, k, wj, w)),
+                     a.part(j, j, a.rows - j, wj));
     }
   }
   return true;
+}
+
+// By block rows K of L X = I:  X_K = L_KK^-1 B_K,  where B, I at first, loses L_.K X_K in the rows
+// below once X_K is known. The result is zero to begin with.
+template <typename T>
+void invert_lower_blocked(const View<const T>& l, const View<T>& result, Index width) {
+  static thread_local Matrix<T> copied(kPanel, kPanel);
+  const Index n = l.rows;
+  for (Index k = 0; k < n; k += width) {
+    const Index w = std::min(width, n - k);
+    const View<T> corner = result.part(k, k, w, w);
+    if (width > kInnerPanel)
+      invert_lower_blocked(l.part(k, k, w, w), corner, kInnerPanel);
+    else
+      invert_lower_plain(l.part(k, k, w, w), corner);
+    for (Index j = 0; j < k; j += width) {
+      const View<T> block = result.part(k, j, w, width), copy(copied.data(), w, width, kPanel);
+      map(copy) = map(block);
+      multiply(constant(corner), constant(copy), block);
+    }
+    multiply(l.part(k + w, k, n - k - w, w), constant(result.part(k, 0, w, k + w)),
+             result.part(k + w, 0, n - k - w, k + w), Update::subtract);
+  }
 }
 
 }  // namespace
@@ -191,10 +263,7 @@ bool cholesky_blocked(const View<T>& a, Index width) {
 template <typename T>
 void multiply(const View<const T>& a, const View<const T>& b, const View<T>& c, Update update) {
   if constexpr (std::is_same_v<T, double>) {
-    if (update == Update::assign)
-      map(c).noalias() = map(a) * map(b);
-    else
-      map(c).noalias() -= map(a) * map(b);
+    multiply_doubles(a, b, c, update);
   } else if constexpr (std::is_same_v<T, DoubleDouble>) {
     multiply_pairs(a, b, c, update);
   } else {
@@ -218,56 +287,35 @@ void multiply_sparse(const View<const T>& a, const View<const T>& s, const std::
   }
 }
 
+// By block rows: A' has zeros to the left of its diagonal block.
 template <typename T>
 void multiply_transposed(const View<const T>& a, const View<const T>& a_transposed,
                          const View<T>& c) {
-  if constexpr (std::is_same_v<T, double>) {
-    auto result = map(c);
-    result.setZero();
-    result.template selfadjointView<Eigen::Lower>().rankUpdate(map(a_transposed));
-    result.template triangularView<Eigen::StrictlyUpper>() = result.transpose();
-  } else {
-    multiply(a_transposed, a, c);
-    // Rounding must not make a difference between the two: a wider arithmetic would see it.
-    for (Index j = 0; j < c.columns; ++j)
-      for (Index i = 0; i < j; ++i) c(i, j) = c(j, i);
+  const Index n = c.rows;
+  for (Index k = 0; k < n; k += kPanel) {
+    const Index w = std::min(kPanel, n - k);
+    multiply(a_transposed.part(k, k, w, n - k), a.part(k, 0, n - k, k + w), c.part(k, 0, w, k + w));
   }
+  // Rounding must not make a difference between the two: a wider arithmetic would see it.
+  for (Index j = 0; j < n; ++j)
+    for (Index i = 0; i < j; ++i) c(i, j) = c(j, i);
 }
 
 template <typename T>
 bool cholesky(const View<T>& a) {
-  if constexpr (std::is_same_v<T, double>) {
-    Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> in_place(map(a));
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>>> llt(in_place);
-    return llt.info() == Eigen::Success;
-  } else {
-    return cholesky_blocked(a, kPanel);
-  }
+  return cholesky_blocked(a, kPanel);
 }
 
 template <typename T>
 void invert_lower(const View<const T>& l, const View<T>& result) {
-  if constexpr (std::is_same_v<T, double>) {
-    auto inverse = map(result);
-    inverse.setIdentity();
-    const ConstStrided lower = map(l);
-    lower.triangularView<Eigen::Lower>().solveInPlace(inverse);
-  } else {
-    for (Index j = 0; j < l.columns; ++j) {
-      for (Index i = 0; i < l.rows; ++i) result(i, j) = T(i == j ? 1 : 0);
-      for (Index k = j; k < l.rows; ++k) {
-        const T value = result(k, j) / l(k, k);
-        result(k, j) = value;
-        for (Index i = k + 1; i < l.rows; ++i) result(i, j) -= l(i, k) * value;
-      }
-    }
-  }
+  map(result).setZero();
+  invert_lower_blocked(l, result, kPanel);
 }
 
 template <typename T>
 void solve_factored(const View<const T>& l, Vector<T>& x) {
   if constexpr (std::is_same_v<T, double>) {
-    const ConstStrided lower = map(l);
+    const ConstStrided<double> lower = map(l);
     lower.triangularView<Eigen::Lower>().solveInPlace(x);
     lower.triangularView<Eigen::Lower>().transpose().solveInPlace(x);
   } else if constexpr (std::is_same_v<T, DoubleDouble>) {

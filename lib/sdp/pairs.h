@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include "sdp/double_double.h"
@@ -65,9 +67,28 @@ struct PairSums {
   }
 };
 
-/// A power of two above `value`; 0 for 0.
+/// A power of two above `value`; 0 for 0 (and for what is not normalised).
 inline double power_above(double value) {
-  return value > 0 ? std::ldexp(1.0, std::ilogb(value) + 1) : 0.0;
+  constexpr std::uint64_t kExponent = 0x7ff0000000000000;
+  return 2 * std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & kExponent);
+}
+
+/// kLanes doubles: one register, if the machine has such.
+using PairLanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+
+/// The halves of kLanes numbers apart, and together again.
+inline void split_pairs(const DoubleDouble* from, PairLanes& high, PairLanes& low) {
+  PairLanes first, second;
+  std::memcpy(&first, from, sizeof first);
+  std::memcpy(&second, from + kLanes / 2, sizeof second);
+  high = __builtin_shufflevector(first, second, 0, 2, 4, 6, 8, 10, 12, 14);
+  low = __builtin_shufflevector(first, second, 1, 3, 5, 7, 9, 11, 13, 15);
+}
+inline void join_pairs(const PairLanes& high, const PairLanes& low, DoubleDouble* to) {
+  const PairLanes first = __builtin_shufflevector(high, low, 0, 8, 1, 9, 2, 10, 3, 11);
+  const PairLanes second = __builtin_shufflevector(high, low, 4, 12, 5, 13, 6, 14, 7, 15);
+  std::memcpy(static_cast<void*>(to), &first, sizeof first);
+  std::memcpy(static_cast<void*>(to + kLanes / 2), &second, sizeof second);
 }
 
 /// kLanes x count sums for matrix products, at half the operations of PairSums: `high` starts from
@@ -90,6 +111,7 @@ class BiasedSums {
     Lanes high, low;
     std::memcpy(&high, a_high, sizeof high);
     std::memcpy(&low, a_low, sizeof low);
+#pragma GCC unroll 8
     for (std::size_t q = 0; q < count; ++q, b += stride) {
       const Lanes b_high = Lanes{} + b->hi(), b_low = Lanes{} + b->lo();
       Lanes sum, error;
@@ -102,13 +124,25 @@ class BiasedSums {
       low_[q] += error;
     }
   }
-  DoubleDouble value(std::size_t q, std::size_t r) const {
-    return DoubleDouble(high_[q][r] - bias_[q][r]) + DoubleDouble(low_[q][r]);
+
+  /// c_r = the sum q of lane r, or c_r loses it; with an error of 2^-105 of the larger one.
+  void store(std::size_t q, bool subtract, DoubleDouble* c) const {
+    Lanes high = high_[q] - bias_[q], low = low_[q];
+    if (subtract) {
+      Lanes c_high, c_low;
+      split_pairs(c, c_high, c_low);
+      const Lanes difference = c_high - high;
+      const Lanes moved = difference - c_high;
+      low = ((c_high - (difference - moved)) - (high + moved)) + (c_low - low);
+      high = difference;
+    }
+    const Lanes sum = high + low;
+    const Lanes moved = sum - high;
+    join_pairs(sum, (high - (sum - moved)) + (low - moved), c);
   }
 
  private:
-  /// One register, if the machine has such.
-  using Lanes = double __attribute__((vector_size(kLanes * sizeof(double))));
+  using Lanes = PairLanes;
 
   static void multiply_add(const Lanes& a, const Lanes& b, const Lanes& c, Lanes& result) {
     for (int r = 0; r < kLanes; ++r) result[r] = std::fma(a[r], b[r], c[r]);
