@@ -66,6 +66,13 @@ void ConeFactor<T>::inverse(Blocks<T>& result) {
 }
 
 template <typename T>
+void ConeFactor<T>::divide(int b, const View<T>& M, const View<T>& work) {
+  invert(b);
+  multiply_upper(constant(M), View<const T>(inverse_transpose_.dense(b)), work);
+  multiply_lower(constant(work), View<const T>(inverse_factor_.dense(b)), M);
+}
+
+template <typename T>
 double ConeFactor<T>::smallest_eigenvalue(const Blocks<T>& D, int b, double enough) {
   const auto at = static_cast<std::size_t>(b);
   if constexpr (std::is_same_v<T, double>) {

@@ -6,6 +6,7 @@
 
 #include "sdp/extreme.h"
 #include "sdp/linalg.h"
+#include "sdp/view.h"
 
 namespace gainsmith::sdp {
 
@@ -20,6 +21,10 @@ class ConeFactor {
 
   /// V^-1 = L^-T L^-1; both triangles.
   void inverse(Blocks<T>& result);
+
+  /// M := M V^-1 = (M L^-T) L^-1 for a matrix M like block b. Rounding counts with the condition
+  /// of L twice; with a stored V^-1 it would with that of V.
+  void divide(int b, const View<T>& M, const View<T>& work);
 
   /// The largest a <= `longest` with V + a D >= 0: a = -1 / lambda_min(L^-1 D L^-T) where that is
   /// negative. The eigenvalues of that well-scaled matrix are taken in double in every arithmetic:

@@ -29,11 +29,6 @@ Strided<T> map(const View<T>& v) {
   return {v.data, v.rows, v.columns, Eigen::OuterStride<>(v.stride)};
 }
 
-template <typename T>
-View<const T> constant(const View<T>& v) {
-  return {v.data, v.rows, v.columns, v.stride};
-}
-
 // ---- double-double product -------------------------------------------------------------------
 
 /// The halves of a matrix apart, in panels of kLanes rows (zeros below the last one), for the
@@ -287,6 +282,24 @@ void multiply_sparse(const View<const T>& a, const View<const T>& s, const std::
   }
 }
 
+// By block columns, without the zeros.
+template <typename T>
+void multiply_upper(const View<const T>& a, const View<const T>& u, const View<T>& c) {
+  for (Index j = 0; j < c.columns; j += kPanel) {
+    const Index w = std::min(kPanel, c.columns - j);
+    multiply(a.part(0, 0, a.rows, j + w), u.part(0, j, j + w, w), c.part(0, j, c.rows, w));
+  }
+}
+
+template <typename T>
+void multiply_lower(const View<const T>& a, const View<const T>& l, const View<T>& c) {
+  const Index n = c.columns;
+  for (Index j = 0; j < n; j += kPanel) {
+    const Index w = std::min(kPanel, n - j);
+    multiply(a.part(0, j, a.rows, n - j), l.part(j, j, n - j, w), c.part(0, j, c.rows, w));
+  }
+}
+
 // By block rows: A' has zeros to the left of its diagonal block.
 template <typename T>
 void multiply_transposed(const View<const T>& a, const View<const T>& a_transposed,
@@ -337,6 +350,8 @@ void solve_factored(const View<const T>& l, Vector<T>& x) {
                                    const View<T>&);                                              \
   template void multiply_transposed<T>(const View<const T>&, const View<const T>&,               \
                                        const View<T>&);                                          \
+  template void multiply_upper<T>(const View<const T>&, const View<const T>&, const View<T>&);   \
+  template void multiply_lower<T>(const View<const T>&, const View<const T>&, const View<T>&);   \
   template bool cholesky<T>(const View<T>&);                                                     \
   template void invert_lower<T>(const View<const T>&, const View<T>&);                           \
   template void solve_factored<T>(const View<const T>&, Vector<T>&);

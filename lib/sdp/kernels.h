@@ -19,6 +19,13 @@ template <typename T>
 void multiply_sparse(const View<const T>& a, const View<const T>& s, const std::vector<int>& start,
                      const std::vector<int>& rows, const View<T>& c);
 
+/// C = A U, C = A L for an upper triangular U, a lower triangular L, with zeros in the other
+/// triangle.
+template <typename T>
+void multiply_upper(const View<const T>& a, const View<const T>& u, const View<T>& c);
+template <typename T>
+void multiply_lower(const View<const T>& a, const View<const T>& l, const View<T>& c);
+
 /// C = A' A, both triangles; A is lower triangular with zeros above.
 template <typename T>
 void multiply_transposed(const View<const T>& a, const View<const T>& a_transposed,

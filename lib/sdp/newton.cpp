@@ -47,7 +47,7 @@ Newton<T>::Newton(const Data& data, unsigned threads)
 }
 
 // As the symmetric part of (right left) X^-1, which is the same: `left` is the factor with the
-// data's pattern.
+// data's pattern. Wide arithmetic has the digits for the shorter way.
 template <typename T>
 void Newton<T>::scaled_product(const Blocks<T>& left, const Blocks<T>& right, Blocks<T>& out) {
   for (int b = 0; b < data_.layout.blocks(); ++b) {
@@ -59,8 +59,13 @@ void Newton<T>::scaled_product(const Blocks<T>& left, const Blocks<T>& right, Bl
                       block.pattern_start, block.pattern_row, View<T>(half));
     else
       multiply(View<const T>(right.dense(b)), View<const T>(left.dense(b)), View<T>(half));
-    multiply(View<const T>(half), View<const T>(inverse_X_.dense(b)), View<T>(product));
-    out.dense(b) = T(0.5) * (product + product.transpose());
+    if constexpr (std::is_same_v<T, double>) {
+      factor_X_.divide(b, View<T>(half), View<T>(product));
+      out.dense(b) = T(0.5) * (half + half.transpose());
+    } else {
+      multiply(View<const T>(half), View<const T>(inverse_X_.dense(b)), View<T>(product));
+      out.dense(b) = T(0.5) * (product + product.transpose());
+    }
   }
   out.linear() = inverse_X_.linear().cwiseProduct(left.linear()).cwiseProduct(right.linear());
 }

@@ -24,6 +24,11 @@ struct View {
   }
 };
 
+template <typename T>
+View<const T> constant(const View<T>& v) {
+  return {v.data, v.rows, v.columns, v.stride};
+}
+
 /// C = A B, or C -= A B.
 enum class Update { assign, subtract };
 
