@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 
 #include "sdp/extreme.h"
 #include "sdp/factor.h"
@@ -61,6 +62,40 @@ TYPED_TEST(Kernels, ProductsAgreeWithTheDefinition) {
   EXPECT_LT(this->norm(c), this->tolerance());
 }
 
+/// Shapes around the widths of registers, tiles and panels.
+TYPED_TEST(Kernels, ProductsOfAllShapesAgreeWithTheDefinition) {
+  using T = TypeParam;
+  const bool narrow = !std::is_same_v<T, Decimal100>;
+  for (const int rows : {1, 7, 8, 17, 24, 33, 250})
+    for (const int columns : {1, 3, 6, 11, 40})
+      for (const int inner : {0, 1, 5, 32, 300}) {
+        if (!narrow && rows * columns * inner > 5000) continue;
+        const Matrix<T> a = varied(rows, inner, 1).cast<T>(),
+                        b = varied(inner, columns, 2).cast<T>();
+        Matrix<T> c = varied(rows, columns, 3).cast<T>();
+        const double tolerance = (1 + inner) * this->tolerance();
+        const Matrix<T> before = c, expected = a.lazyProduct(b);
+        multiply(View<const T>(a), View<const T>(b), View<T>(c), Update::subtract);
+        EXPECT_LT(this->norm(c + expected - before), tolerance) << rows << columns << inner;
+        multiply(View<const T>(a), View<const T>(b), View<T>(c));
+        EXPECT_LT(this->norm(c - expected), tolerance) << rows << columns << inner;
+      }
+}
+
+TYPED_TEST(Kernels, TriangularProductsAreProducts) {
+  using T = TypeParam;
+  for (const int n : {1, 9, 50}) {
+    const Matrix<T> a = varied(n, n, 1).cast<T>(), full = varied(n, n, 2).cast<T>();
+    const Matrix<T> upper = full.template triangularView<Eigen::Upper>();
+    const Matrix<T> lower = full.template triangularView<Eigen::Lower>();
+    Matrix<T> c(n, n);
+    multiply_upper(View<const T>(a), View<const T>(upper), View<T>(c));
+    EXPECT_LT(this->norm(c - a.lazyProduct(upper)), n * this->tolerance());
+    multiply_lower(View<const T>(a), View<const T>(lower), View<T>(c));
+    EXPECT_LT(this->norm(c - a.lazyProduct(lower)), n * this->tolerance());
+  }
+}
+
 TYPED_TEST(Kernels, CholeskyFactorsInverts) {
   using T = TypeParam;
   constexpr int n = 70;  // three panels
@@ -116,6 +151,21 @@ TEST(Lanczos, BoundsTheSmallestEigenvalueFromBelow) {
     EXPECT_TRUE(converged);
     EXPECT_LE(bound, exact + 1e-10);
     EXPECT_GT(bound, 1.03 * exact);
+  }
+}
+
+TEST(ConeFactor, DividesByItsMatrix) {
+  const Layout layout({40, 3}, 0);
+  Blocks<double> v(layout);
+  for (int b = 0; b < 2; ++b) v.dense(b) = positive(layout.size[static_cast<std::size_t>(b)], 1);
+  ConeFactor<double> factor(layout);
+  ASSERT_TRUE(factor.factorise(v));
+  for (int b = 0; b < 2; ++b) {
+    const Eigen::Index n = v.dense(b).rows();
+    const MatrixXd m = varied(static_cast<int>(n), static_cast<int>(n), 2);
+    MatrixXd quotient = m, work(n, n);
+    factor.divide(b, View<double>(quotient), View<double>(work));
+    EXPECT_LT((quotient * v.dense(b) - m).norm(), 1e-9);
   }
 }
 
