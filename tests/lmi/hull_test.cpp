@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "lmi/compile.h"
@@ -57,6 +58,8 @@ struct Family {
   }
 };
 
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
 expr::Matrix random_matrix(int rows, int cols, std::mt19937& generator) {
   std::uniform_real_distribution<double> number(-1, 1);
   return expr::Matrix::NullaryExpr(rows, cols, [&] { return number(generator); });
@@ -64,7 +67,7 @@ expr::Matrix random_matrix(int rows, int cols, std::mt19937& generator) {
 
 /// The range of the functional M -> sum W_ij M_ij over matrices.
 Range range_of(const expr::Matrix& functional, const std::vector<expr::Matrix>& matrices) {
-  Range range{INFINITY, -INFINITY};
+  Range range{kInfinity, -kInfinity};
   for (const expr::Matrix& matrix : matrices) {
     const double value = functional.cwiseProduct(matrix).sum();
     range.low = std::min(range.low, value);
@@ -160,7 +163,7 @@ TEST(HullTest, MoreSlicesNeverWidenTheHull) {
     const Family family("expm(F*tau)", {interval("tau", 0.2, 2)},
                         {{"F", 2 * random_matrix(2, 2, generator)}});
     const expr::Matrix functional = random_matrix(2, 2, generator);
-    double width = INFINITY;
+    double width = kInfinity;
     for (const int slices : {1, 2, 4, 8}) {
       const Range range = range_of(functional, family.vertices(slices));
       EXPECT_LE(range.high - range.low, width * (1 + 1e-12));

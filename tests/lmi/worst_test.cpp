@@ -124,9 +124,9 @@ TEST(WorstTest, OfAPolytopeTheWorstVertex) {
   std::mt19937 generator(23);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int trial = 0; trial < 20; ++trial) {
-    std::vector<expr::Matrix> corners;
-    for (int k = 0; k < 4; ++k)
-      corners.push_back(expr::Matrix::NullaryExpr(3, 3, [&] { return unit(generator); }));
+    std::vector<expr::Matrix> corners(4);
+    for (expr::Matrix& corner : corners)
+      corner = expr::Matrix::NullaryExpr(3, 3, [&] { return unit(generator); });
     const Domain domain = {testing::polytope("B", corners)};
     const auto found = minima_of("He(B)", domain);
     ASSERT_EQ(found.size(), corners.size());
