@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <map>
 #include <utility>
 
 #include "base/number.h"
 #include "base/version.h"
 #include "design/gain_values.h"
+#include "lmi/centres.h"
 #include "lmi/formulation.h"
 #include "lmi/margins.h"
 #include "lmi/vertex_gains.h"
@@ -91,15 +93,23 @@ class Synthesis {
     return Outcome::decided;
   }
 
-  /// Adds the points at which the solution fails to the exchanges; false when there is none.
+  /// Adds the points at which the solution fails to the exchanges, and those where their points
+  /// draw together; false when there is none.
   bool grow(const std::vector<lmi::Violation>& violations) {
+    std::map<std::size_t, std::vector<lmi::Point>> fresh;
+    for (const lmi::Violation& violation : violations)
+      if (plan_.requirements[violation.requirement].way == model::Way::exchange)
+        fresh[violation.requirement].push_back(violation.point);
     bool grown = false;
-    for (const lmi::Violation& violation : violations) {
-      lmi::Imposed& imposed = plan_.requirements[violation.requirement];
-      if (imposed.way != model::Way::exchange) continue;
-      const auto domain =
-          lmi::domain_of(instance_, instance_.method->require[violation.requirement]);
-      grown |= lmi::add_point(imposed, domain, violation.point);
+    for (auto& [k, points] : fresh) {
+      const model::Requirement& requirement = instance_.method->require[k];
+      const auto domain = lmi::domain_of(instance_, requirement);
+      lmi::Imposed& imposed = plan_.requirements[k];
+      const auto sizes = lmi::multiplier_sizes(lmi_, formulation_, solution_, requirement.name,
+                                               imposed.points.size());
+      for (lmi::Point& centre : lmi::centres(imposed, domain, sizes))
+        points.push_back(std::move(centre));
+      for (const lmi::Point& point : points) grown |= lmi::add_point(imposed, domain, point);
     }
     return grown;
   }

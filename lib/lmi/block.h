@@ -12,8 +12,9 @@ namespace gainsmith::lmi {
 
 /// One symmetric block. `terms` are (i, B_i) in the order of i, with i = 0 the constant.
 struct Block {
-  std::string name;   ///< of the requirement, "name.2" for the second comparison of a chain
-  std::string point;  ///< "tau = 0.7", "cos(2*tau) = 1"; empty without forall
+  std::string name;    ///< of the requirement, "name.2" for the second comparison of a chain
+  std::string point;   ///< "tau = 0.7", "cos(2*tau) = 1"; empty without forall
+  std::size_t at = 0;  ///< which of the points it was imposed at, see Imposed
   bool strict = true;
   int size = 0;
   std::vector<std::pair<int, Sparse>> terms;

@@ -64,7 +64,8 @@ class Compiler {
     std::vector<Block> result;
     for (std::size_t k = 0; k < relations_.size(); ++k) {
       const std::string suffix = relations_.size() > 1 ? "." + std::to_string(k + 1) : "";
-      for (const Point& point : points) {
+      for (std::size_t at = 0; at < points.size(); ++at) {
+        const Point& point = points[at];
         MonomialTable monomials(variables);
         expr::Values values = known_;
         for (const auto& [name, value] : point.values) values.insert_or_assign(name, value);
@@ -72,10 +73,12 @@ class Compiler {
         remove_noise(form, monomials);
         const Hull hull = hull_of(form, monomials, slices_, place_);
         imposed.exact &= hull.exact;
-        for (const Vertex& vertex : hull.vertices)
+        for (const Vertex& vertex : hull.vertices) {
           result.push_back(block_of(at_vertex(form, vertex.values), name_ + suffix,
                                     joined(point.label, vertex.label), relations_[k].strict,
                                     place_));
+          result.back().at = at;
+        }
       }
     }
     return result;
