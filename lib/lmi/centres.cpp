@@ -19,48 +19,58 @@ std::vector<double> multiplier_sizes(const Lmi& lmi, const Formulation& formulat
   return sizes;
 }
 
+namespace {
+
+/// Points in the order of the interval, with the sizes of their multipliers.
+using Line = std::map<double, double>;
+
+/// The weighted means of the runs of two or more points above `least`.
+std::vector<double> means_of_runs(const Line& line, double least) {
+  std::vector<double> means;
+  double weight = 0;
+  double moment = 0;
+  int count = 0;
+  const auto close_run = [&] {
+    if (count > 1) means.push_back(moment / weight);
+    weight = moment = 0;
+    count = 0;
+  };
+  for (const auto& [at, size] : line) {
+    if (!(size > least)) {
+      close_run();
+      continue;
+    }
+    weight += size;
+    moment += size * at;
+    ++count;
+  }
+  close_run();
+  return means;
+}
+
+bool has_values_of(const Point& point, const Point& element) {
+  return std::all_of(element.values.begin(), element.values.end(), [&](const auto& value) {
+    return point.values.at(value.first) == value.second;
+  });
+}
+
+}  // namespace
+
 std::vector<Point> centres(const Imposed& imposed, const Domain& domain,
                            const std::vector<double>& sizes) {
   constexpr double kSmall = 1e-3;  // of the largest: not in contact
   const auto axes = intervals(domain);
-  if (axes.size() != 1 || sizes.size() != imposed.points.size()) return {};
+  if (axes.size() != 1 || sizes.empty() || sizes.size() != imposed.points.size()) return {};
   const std::string& axis = axes.front()->name;
   const double least = kSmall * *std::max_element(sizes.begin(), sizes.end());
-  // Points in the order of the interval, those of other elements of the sets apart.
-  std::map<std::string, std::map<double, double>> lines;
-  std::map<std::string, Point> elements;
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    Point element;
-    for (const Point& candidate : combinations(domain, model::Forall::Over::set)) {
-      const bool same =
-          std::all_of(candidate.values.begin(), candidate.values.end(), [&](const auto& value) {
-            return imposed.points[k].values.at(value.first) == value.second;
-          });
-      if (same) element = candidate;
-    }
-    lines[element.label][imposed.points[k].values.at(axis)(0, 0)] = sizes[k];
-    elements[element.label] = element;
-  }
   std::vector<Point> found;
-  for (const auto& [label, line] : lines) {
-    double weight = 0;
-    double moment = 0;
-    int count = 0;
-    const auto close_run = [&] {
-      if (count > 1) found.push_back(extended(elements.at(label), axis, moment / weight));
-      weight = moment = 0;
-      count = 0;
-    };
-    for (const auto& [at, size] : line) {
-      if (!(size > least)) {
-        close_run();
-        continue;
-      }
-      weight += size;
-      moment += size * at;
-      ++count;
-    }
-    close_run();
+  for (const Point& element : combinations(domain, model::Forall::Over::set)) {
+    Line line;
+    for (std::size_t k = 0; k < sizes.size(); ++k)
+      if (has_values_of(imposed.points[k], element))
+        line[imposed.points[k].values.at(axis)(0, 0)] = sizes[k];
+    for (const double mean : means_of_runs(line, least))
+      found.push_back(extended(element, axis, mean));
   }
   return found;
 }
