@@ -37,6 +37,8 @@ const char* word(search::Answer answer) {
       return "yes";
     case search::Answer::no:
       return "no";
+    case search::Answer::refused:
+      return "refused";
     case search::Answer::undecided:
       break;
   }
@@ -73,9 +75,9 @@ design::BisectChoices choices_of(const BisectOptions& options, const model::Prob
                            : options.smallest.empty() ? options.largest
                                                       : options.smallest;
   choices.scalar = design::searched_scalar(problem, range_of(options, problem, name));
-  choices.tolerance = options.tolerance.value_or(
-      search && search->tolerance ? *search->tolerance
-                                  : design::default_tolerance(choices.scalar.axis));
+  std::optional<double> width = options.tolerance;
+  if (!width && search) width = search->tolerance;
+  choices.tolerance = design::tolerance_of(width, choices.scalar.axis);
   return choices;
 }
 
@@ -85,7 +87,8 @@ io::Json json_of(const design::BisectResult& result, const design::BisectChoices
     samples.push_back({{"value", sample.value}, {"answer", word(sample.answer)}});
   return {{"scalar", choices.scalar.name},
           {"goal", choices.largest ? "largest" : "smallest"},
-          {"tolerance", choices.tolerance},
+          {"tolerance", choices.tolerance.width},
+          {"relative", choices.tolerance.relative},
           {"samples", samples},
           {"result", json_without_statement(result.gains)}};
 }
@@ -126,16 +129,19 @@ void add_bisect(CLI::App& program, ExitCode& exit) {
   command->add_option("--smallest", options->smallest, "this scalar")->excludes(largest);
   command->add_option("--in", options->range, "LOW HIGH: the range (default: the problem's)")
       ->expected(2);
-  command->add_option("--tolerance", options->tolerance,
-                      "width of the final bracket (default: the problem's, or 1e-4 of the range)");
+  command->add_option(
+      "--tolerance", options->tolerance,
+      "width of the final bracket (default: the problem's, or 1e-4 of the range; of the "
+      "value on a logarithmic scale)");
   command->add_option("-o,--output", options->output,
                       "write the gains of the feasible end here; - for standard output");
   command->add_flag("--json", options->json, "print the result as JSON");
   command->footer(
       "Both ends of the bracket are proved: gains with recomputed margins, and a checked\n"
       "certificate. The other scalars keep the problem's values.\n"
-      "Exit code: 0 a feasible value was found, 1 proved infeasible where it is easiest, 2 wrong\n"
-      "input, 3 undecided.\n"
+      "Values that the assumptions exclude are 'refused'.\n"
+      "Exit code: 0 a feasible value was found, 2 wrong input, 3 none was found (which proves\n"
+      "nothing of the values between those tried).\n"
       "Examples:\n"
       "  gainsmith bisect problem.yaml --largest T2 --in 0.5 1.1 --tolerance 1e-5 -o gains.json\n"
       "  gainsmith bisect problem.yaml --smallest rho --in 0.05 1 --json | jq .samples");

@@ -18,8 +18,8 @@ std::string beyond_text(const model::SearchRecord& search) {
         "            {} is proved infeasible{}\n", brief(*search.beyond, kDigits),
         search.certificate && search.certificate->checked ? " by a checked certificate" : "");
   if (!search.open.empty())
-    text += fmt::format("            undecided from {} to {}\n", brief(search.open[0], kDigits),
-                        brief(search.open[1], kDigits));
+    text += fmt::format("            undecided or refused from {} to {}\n",
+                        brief(search.open[0], kDigits), brief(search.open[1], kDigits));
   return text;
 }
 

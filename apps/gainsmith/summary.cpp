@@ -19,9 +19,11 @@ std::string named_matrices(const std::string& title, const model::NamedMatrices&
   return text;
 }
 
-std::string searched_text(const model::Overrides& searched) {
+/// The scalars that a search found.
+std::string searched_text(const model::Gains& gains) {
+  if (gains.search && !gains.search->value) return "";
   std::string text;
-  for (const auto& [name, value] : searched)
+  for (const auto& [name, value] : gains.searched)
     text += fmt::format("{:<12}{} = {}\n", text.empty() ? "searched" : "", name, brief(value, 10));
   return text;
 }
@@ -131,7 +133,7 @@ std::string synthesis_summary(const model::Gains& gains) {
   if (!gains.solver.message.empty()) text += "            " + gains.solver.message + "\n";
   text += objective_text(gains) + named_matrices("gains", gains.gains) + functions_text(gains) +
           named_matrices("report", gains.report) + named_matrices("parameters", gains.parameters) +
-          searched_text(gains.searched) + search_text(gains);
+          searched_text(gains) + search_text(gains);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);
   return text;
 }

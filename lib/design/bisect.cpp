@@ -1,5 +1,6 @@
 #include "design/bisect.h"
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -37,16 +38,36 @@ model::SearchRecord record_of(const search::Bisection& found, const BisectChoice
   return record;
 }
 
-/// What is said when no value is feasible. That each value asked is proved infeasible proves
-/// nothing of those between, so the easiest end speaks for the whole only where feasibility is
-/// monotone.
-std::string nothing_found(const search::Bisection& found, const BisectChoices& choices) {
-  std::size_t proved = 0;
+/// The values with an answer: "0, 0.5, 1".
+std::string values_with(const search::Bisection& found, search::Answer answer) {
+  std::string values;
   for (const search::Sample& sample : found.samples)
-    proved += sample.answer == search::Answer::no ? 1U : 0U;
-  return "no feasible " + choices.scalar.name + " in [" + brief(choices.scalar.axis.low) + ", " +
-         brief(choices.scalar.axis.high) + "]: " + std::to_string(proved) + " of the " +
-         std::to_string(found.samples.size()) + " values tried are proved infeasible";
+    if (sample.answer == answer) values += (values.empty() ? "" : ", ") + brief(sample.value);
+  return values;
+}
+
+/// What is said when no value is feasible: nothing of those that were not tried.
+std::string nothing_found(const search::Bisection& found, const BisectChoices& choices) {
+  std::string text = "no feasible " + choices.scalar.name + " among the " +
+                     std::to_string(found.samples.size()) + " values tried in [" +
+                     brief(choices.scalar.axis.low) + ", " + brief(choices.scalar.axis.high) + "]";
+  const bool all = std::all_of(found.samples.begin(), found.samples.end(), [](const auto& sample) {
+    return sample.answer == search::Answer::no;
+  });
+  if (all) return text + "; each is proved infeasible, which says nothing of those between";
+  const std::string proved = values_with(found, search::Answer::no);
+  const std::string refused = values_with(found, search::Answer::refused);
+  if (!proved.empty()) text += "; those at " + proved + " are proved infeasible";
+  if (!refused.empty()) text += "; those at " + refused + " are refused by the assumptions";
+  return text;
+}
+
+/// A result that is not feasible as that of a whole search.
+void set_undecided(model::Gains& gains, const std::string& message) {
+  gains.verdict = model::Verdict::undecided;
+  gains.solver.status = "undecided";
+  gains.solver.message = message;
+  gains.certificate.reset();
 }
 
 }  // namespace
@@ -59,26 +80,34 @@ model::Gains synthesize_at(const model::Problem& problem, const model::Overrides
 BisectResult bisect(const model::Problem& problem, const model::Overrides& fixed,
                     const BisectChoices& choices, const sdp::Options& solver) {
   std::map<double, model::Gains> tried;
+  std::optional<InputError> refusal;
   const auto question = [&](double value) {
     model::Overrides overrides = fixed;
     overrides[choices.scalar.name] = value;
-    model::Gains gains = synthesize_at(problem, overrides, solver);
-    const search::Answer answer = answer_of(gains.verdict);
-    tried.insert_or_assign(value, std::move(gains));
-    return answer;
+    try {
+      model::Gains gains = synthesize_at(problem, overrides, solver);
+      const search::Answer answer = answer_of(gains.verdict);
+      tried.insert_or_assign(value, std::move(gains));
+      return answer;
+    } catch (const InputError& error) {
+      if (!refusal) refusal = error;
+      return search::Answer::refused;
+    }
   };
   search::BisectOptions options;
   options.largest = choices.largest;
   options.tolerance = choices.tolerance;
+  options.known = model::make_instance(problem).known_values().at(choices.scalar.name)(0, 0);
   options.guess = choices.guess;
   options.interrupted = solver.interrupted;
   BisectResult result;
   result.found = search::bisect(question, choices.scalar.axis, options);
+  if (tried.empty() && refusal) throw InputError(*refusal);
   if (tried.empty()) return result;
   const double easiest = choices.largest ? tried.begin()->first : tried.rbegin()->first;
   result.gains = tried.at(result.found.yes.value_or(easiest));
   result.gains.search = record_of(result.found, choices);
-  if (!result.found.yes) result.gains.solver.message = nothing_found(result.found, choices);
+  if (!result.found.yes) set_undecided(result.gains, nothing_found(result.found, choices));
   if (result.found.no) result.gains.search->certificate = tried.at(*result.found.no).certificate;
   return result;
 }

@@ -13,22 +13,24 @@ namespace gainsmith::design {
 struct BisectChoices {
   SearchedScalar scalar;
   bool largest = true;
-  double tolerance = 0;
+  search::Tolerance tolerance;
   std::optional<double> guess;  ///< see search::BisectOptions
 };
 
 /// Both ends of a bracket with what proves them.
 struct BisectResult {
   search::Bisection found;
-  /// The gains at the outermost yes, with every margin recomputed; when no value is feasible, the
-  /// result at the end where it should have been easiest. Its `search` says how the bisection
-  /// ended, with the checked certificate at the no end.
+  /// The gains at the outermost yes, with every margin recomputed. When no value tried is feasible
+  /// the verdict is undecided, as nothing is known of the values between; the rest is the result at
+  /// the end where it should have been easiest. Its `search` says how the bisection ended, with the
+  /// checked certificate at the no end.
   model::Gains gains;
 };
 
-/// Synthesizes at the values that search::bisect asks for, the scalars in `fixed` held. A value is
-/// yes when synthesize() says yes, no when a certificate was checked. `gains.search` holds the
-/// bracket. InputError when a value in the range does not fit the problem's assumptions.
+/// Synthesizes at the values that search::bisect asks for, the problem's own among them, the
+/// scalars in `fixed` held. A value is yes when synthesize() says yes, no when a certificate was
+/// checked, refused when it does not fit the problem's assumptions. `gains.search` holds the
+/// bracket. InputError when every value tried is refused.
 BisectResult bisect(const model::Problem& problem, const model::Overrides& fixed,
                     const BisectChoices& choices, const sdp::Options& solver);
 

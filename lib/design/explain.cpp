@@ -66,9 +66,16 @@ Reach reach(const model::Problem& problem, const SearchedScalar& scalar, double 
             const sdp::Options& solver) {
   // A fine bracket: the number is what people remember.
   constexpr double kFine = 0.1;
-  const BisectResult result =
-      bisect(problem, {}, {scalar, at_most, kFine * default_tolerance(scalar.axis), {}}, solver);
-  return {scalar.name, value, at_most, result.found.yes, result.found.no};
+  Reach found{scalar.name, value, at_most, {}, {}};
+  try {
+    const BisectResult result =
+        bisect(problem, {}, {scalar, at_most, default_tolerance(scalar.axis) * kFine, {}}, solver);
+    found.feasible = result.found.yes;
+    found.beyond = result.found.no;
+  } catch (const InputError&) {
+    // The assumptions refuse the whole side: nothing there is feasible.
+  }
+  return found;
 }
 
 }  // namespace

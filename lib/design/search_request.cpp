@@ -25,7 +25,7 @@ SearchRequest request_of(const model::Problem& problem) {
   if (const auto& search = problem.search) {
     if (search->extreme) {
       request.extreme = with_numbers(instance, *search->extreme);
-      request.tolerance = search->tolerance.value_or(default_tolerance(request.extreme->axis));
+      request.tolerance = tolerance_of(search->tolerance, request.extreme->axis);
     }
     request.largest = search->largest;
     for (const model::ScalarRange& range : search->over)
@@ -38,9 +38,14 @@ SearchRequest request_of(const model::Problem& problem) {
   return request;
 }
 
-double default_tolerance(const search::Axis& axis) {
+search::Tolerance default_tolerance(const search::Axis& axis) {
   constexpr double kPart = 1e-4;
-  return kPart * (axis.high - axis.low);
+  if (axis.logarithmic) return {kPart, true};
+  return {kPart * (axis.high - axis.low), false};
+}
+
+search::Tolerance tolerance_of(const std::optional<double>& width, const search::Axis& axis) {
+  return width ? search::Tolerance{*width, false} : default_tolerance(axis);
 }
 
 SearchedScalar searched_scalar(const model::Problem& problem, const model::ScalarRange& range) {

@@ -7,6 +7,7 @@
 
 #include "model/instance.h"
 #include "search/axis.h"
+#include "search/bisect.h"
 
 namespace gainsmith::design {
 
@@ -21,7 +22,7 @@ struct SearchedScalar {
 struct SearchRequest {
   std::optional<SearchedScalar> extreme;
   bool largest = true;
-  double tolerance = 0;  ///< of the bracket of `extreme`, positive when that is there
+  search::Tolerance tolerance;  ///< of the bracket of `extreme`
   std::vector<SearchedScalar> over;
   std::optional<expr::Expression> minimize;
   int evaluations = 200;
@@ -34,8 +35,12 @@ struct SearchRequest {
 /// `search:` does not name them.
 SearchRequest request_of(const model::Problem& problem);
 
-/// The part of the range that counts as one value unless the problem gives a tolerance.
-double default_tolerance(const search::Axis& axis);
+/// What counts as one value unless the problem gives a tolerance: 1e-4 of the range, or of the
+/// value on a logarithmic scale.
+search::Tolerance default_tolerance(const search::Axis& axis);
+
+/// A width that a person gives, or else the default.
+search::Tolerance tolerance_of(const std::optional<double>& width, const search::Axis& axis);
 
 /// The scalar with the range's ends as numbers, at the problem's own values.
 SearchedScalar searched_scalar(const model::Problem& problem, const model::ScalarRange& range);

@@ -39,7 +39,10 @@ class Halving {
   bool spread() {
     for (const double value : points_on(axis_, std::max(2, options_.spread)))
       if (!ask(value)) return false;
-    return true;
+    const auto& known = options_.known;
+    if (!known || *known < axis_.low || *known > axis_.high || answers_.contains(sign() * *known))
+      return true;
+    return ask(*known);
   }
 
   /// Steps outward while the answer is yes, inward while it is not, each step four times the last.
@@ -51,7 +54,7 @@ class Halving {
     const double direction = outward ? sign() : -sign();
     const double end = direction > 0 ? axis_.high : axis_.low;
     double value = guess;
-    for (double step = kFirst * options_.tolerance; value != end; step *= kGrowth) {
+    for (double step = kFirst * options_.tolerance.at(guess); value != end; step *= kGrowth) {
       value = std::clamp(guess + direction * step, axis_.low, axis_.high);
       if (!ask(value)) return false;
       if ((answers_.at(sign() * value) == Answer::yes) != outward) break;
@@ -73,7 +76,8 @@ class Halving {
   /// The middle of a gap on the axis's scale; none when it is within the tolerance, or too small
   /// for double.
   std::optional<double> middle(double inner, double outer) const {
-    if (outer - inner <= options_.tolerance) return std::nullopt;
+    if (outer - inner <= options_.tolerance.at(std::min(std::abs(inner), std::abs(outer))))
+      return std::nullopt;
     const double a = sign() * inner;
     const double b = sign() * outer;
     const double value = axis_.logarithmic ? std::sqrt(a) * std::sqrt(b) : a + 0.5 * (b - a);
@@ -121,8 +125,10 @@ class Halving {
 
 Bisection bisect(const Question& question, const Axis& axis, const BisectOptions& options) {
   if (!(axis.low < axis.high) || !std::isfinite(axis.low) || !std::isfinite(axis.high) ||
-      !(options.tolerance > 0))
-    throw std::invalid_argument("bisect: expected finite low < high and a positive tolerance");
+      !(options.tolerance.width > 0) || (options.tolerance.relative && !(axis.low > 0)))
+    throw std::invalid_argument(
+        "bisect: expected finite low < high and a positive tolerance, and low > 0 if it is "
+        "relative");
   return Halving(question, axis, options).run();
 }
 

@@ -1,12 +1,14 @@
 // The largest or smallest value of one scalar with the answer yes.
 //
-// A question has the answer yes, no (proved) or undecided at each value. First a few values spread
-// over the whole range are asked, both ends among them: they show an answer that is not monotone.
+// A question has the answer yes, no (proved), undecided, or refused (the value makes no sense) at
+// each value. First a few values spread over the whole range are asked, both ends among them: they
+// show an answer that is not monotone.
 // Then the bracket between the outermost yes and the nearest no beyond it is halved. A value that
-// is undecided ends neither side: the bracket is closed from the yes up to it and from the no down
-// to it, and what lies between stays open and is reported.
+// is undecided or refused ends neither side: the bracket is closed from the yes up to it and from
+// the no down to it, and what lies between stays open and is reported.
 #pragma once
 
+#include <cmath>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -15,14 +17,29 @@
 
 namespace gainsmith::search {
 
-enum class Answer { yes, no, undecided };
+enum class Answer { yes, no, undecided, refused };
 
 using Question = std::function<Answer(double)>;
 
+/// Two values count as one when they are within `width`, or, relative, within `width` times the
+/// smaller one in size.
+struct Tolerance {
+  double width = 0;  ///< positive
+  bool relative = false;
+
+  /// Smaller by a factor.
+  Tolerance operator*(double factor) const { return {width * factor, relative}; }
+  /// The width that is allowed at a value.
+  double at(double value) const { return relative ? width * std::abs(value) : width; }
+};
+
 struct BisectOptions {
-  bool largest = true;   ///< otherwise the smallest value with yes
-  double tolerance = 0;  ///< of each side of the bracket, absolute; positive
-  int spread = 9;        ///< values asked first, at least 2
+  bool largest = true;  ///< otherwise the smallest value with yes
+  Tolerance tolerance;  ///< of each side of the bracket
+  int spread = 9;       ///< values asked first, at least 2
+  /// Asked after the spread: a value that may be a yes where the spread has none. Left out when it
+  /// is outside of the axis.
+  std::optional<double> known;
   /// Instead of the spread: the border is expected here. It is bracketed by growing steps from
   /// there; a border further inward, or an answer that is not monotone, may stay unseen.
   std::optional<double> guess;
@@ -36,7 +53,7 @@ struct Sample {
 };
 
 /// `open` is empty when `yes` and `no` meet within the tolerance. Otherwise it holds the undecided
-/// values next to `yes` and next to `no`.
+/// or refused values next to `yes` and next to `no`.
 struct Bisection {
   std::optional<double> yes;  ///< the outermost value with yes
   std::optional<double> no;   ///< the nearest value beyond it with no; none when there is none
@@ -53,7 +70,8 @@ struct Bisection {
 };
 
 /// Asks the question on axis.low ... axis.high. Deterministic, one value after the other.
-/// std::invalid_argument unless low < high, all is finite and the tolerance is positive.
+/// std::invalid_argument unless low < high, all is finite and the tolerance is positive; a relative
+/// one needs low > 0.
 Bisection bisect(const Question& question, const Axis& axis, const BisectOptions& options);
 
 }  // namespace gainsmith::search

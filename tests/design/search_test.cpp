@@ -68,7 +68,7 @@ const search::Optimizers kOptimizers{search::nlopt_search(), search::ipopt_solve
 TEST(Bisect, FindsTheLimitOfQuadraticStabilityWithProofsOnBothSides) {
   const YamlProblem problem(kCircle);
   const BisectResult result =
-      bisect(*problem.problem, {}, {{"kmax", search::axis(1, 10)}, true, 1e-4, {}}, {});
+      bisect(*problem.problem, {}, {{"kmax", search::axis(1, 10)}, true, {1e-4}, {}}, {});
   ASSERT_EQ(result.gains.verdict, model::Verdict::yes);
   const double limit = 1 + 2 * std::sqrt(2.0);
   const model::SearchRecord& record = *result.gains.search;
@@ -84,14 +84,73 @@ TEST(Bisect, FindsTheLimitOfQuadraticStabilityWithProofsOnBothSides) {
   EXPECT_EQ(result.gains.searched, (model::Overrides{{"kmax", *record.value}}));
 }
 
-TEST(Bisect, WithoutAFeasibleValueTheEasiestEndSpeaks) {
+TEST(Bisect, WithoutAFeasibleValueNothingIsSaidOfThoseBetween) {
   const YamlProblem problem(kCircle);
   const BisectResult result =
-      bisect(*problem.problem, {}, {{"kmax", search::axis(4, 10)}, true, 0.1, {}}, {});
-  EXPECT_EQ(result.gains.verdict, model::Verdict::no);
-  EXPECT_EQ(result.gains.searched.at("kmax"), 4);
+      bisect(*problem.problem, {}, {{"kmax", search::axis(4, 10)}, true, {0.1}, {}}, {});
+  EXPECT_EQ(result.gains.verdict, model::Verdict::undecided);
+  EXPECT_FALSE(result.gains.certificate);
   EXPECT_FALSE(result.gains.search->value);
-  EXPECT_NE(result.gains.solver.message.find("9 of the 9 values"), std::string::npos);
+  EXPECT_NE(result.gains.solver.message.find("among the 9 values tried in [4, 10]; each is proved "
+                                             "infeasible"),
+            std::string::npos)
+      << result.gains.solver.message;
+}
+
+/// Feasible exactly for 0.29 < k < 0.31, between two values of the spread.
+std::string window(double k) {
+  return R"(problem: window
+method:
+  method: window
+  data: {k: scalar}
+  unknowns: {P: scalar}
+  require: {pos: P > 1, win: "P*(1e-4 - (k - 0.3)^2) > 0"}
+search: {largest: {k: [0, 1]}}
+data: {k: )" +
+         std::to_string(k) + "}\n";
+}
+
+TEST(Bisect, TheProblemsOwnValueIsTried) {
+  const YamlProblem inside(window(0.3));
+  const BisectResult found =
+      bisect(*inside.problem, {}, {{"k", search::axis(0, 1)}, true, {1e-4}, {}}, {});
+  EXPECT_EQ(found.gains.verdict, model::Verdict::yes);
+  EXPECT_NEAR(found.found.yes.value(), 0.31, 2e-4);
+  const YamlProblem outside(window(0));
+  EXPECT_EQ(
+      synthesize_searched(*outside.problem, request_of(*outside.problem), nullptr, 1, {}).verdict,
+      model::Verdict::undecided);
+}
+
+/// Feasible for 0 < k < 1; k <= 0 makes no sense.
+const std::string kAssumed = R"(problem: assumed
+method:
+  method: assumed
+  data: {k: scalar}
+  assume: {pos: k > 0}
+  unknowns: {P: scalar}
+  require: {pos: P > 1, win: "P*(1 - k) > 0"}
+data: {k: 1.5}
+)";
+
+TEST(Bisect, RefusedValuesAreNoErrorUnlessAllAre) {
+  const YamlProblem problem(kAssumed);
+  const auto over = [&](double low, double high) {
+    return bisect(*problem.problem, {}, {{"k", search::axis(low, high)}, true, {1e-4}, {}}, {});
+  };
+  const BisectResult found = over(-1, 5);
+  EXPECT_NEAR(found.found.yes.value(), 1, 2e-4);
+  EXPECT_EQ(found.found.samples.front().answer, search::Answer::refused);
+  EXPECT_NE(over(-80, 80).gains.solver.message.find("are refused by the assumptions"),
+            std::string::npos);
+  EXPECT_NE(tests::input_error([&] { over(-3, -1); }).message().find("k > 0"), std::string::npos);
+}
+
+TEST(Bisect, TheDefaultToleranceIsRelativeOnALogarithmicScale) {
+  EXPECT_TRUE(default_tolerance(search::axis(1e-6, 1)).relative);
+  EXPECT_EQ(default_tolerance(search::axis(1e-6, 1)).at(0.5), 0.5e-4);
+  EXPECT_EQ(default_tolerance(search::axis(0, 10)).at(0.5), 1e-3);
+  EXPECT_EQ(tolerance_of(0.25, search::axis(1e-6, 1)).at(0.5), 0.25);
 }
 
 /// A generalised eigenvalue problem is a bisection.
@@ -182,7 +241,7 @@ TEST(Polish, MovesScalarsAndUnknownsTogetherToTheOptimum) {
 TEST(Polish, TheLargestScalarIsPolishedToo) {
   const YamlProblem problem(std::string(kRidge).replace(kRidge.find("60"), 2, "12"));
   SearchRequest request = request_of(*problem.problem);
-  request.tolerance = 1e-6;
+  request.tolerance = {1e-6};
   request.polish = true;
   const model::Gains gains = optimize(*problem.problem, request, kOptimizers, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);

@@ -54,6 +54,41 @@ TEST(BisectTest, TheLargestT2OfThePublishedExampleIsProvedOnBothSides) {
   EXPECT_NEAR(horizon, 40 * search["value"].get<double>(), 1e-9);
 }
 
+/// Feasible exactly for 0.29 < k < 0.31, which the values of the spread miss.
+const std::string kWindow = R"(problem: window
+method:
+  method: window
+  data: {k: scalar}
+  assume: {valid: k >= 0}
+  unknowns: {P: scalar}
+  require: {pos: P > 1, win: "P*(1e-4 - (k - 0.3)^2) > 0"}
+data: {k: 0.9}
+)";
+
+TEST(BisectTest, NothingFeasibleAmongTheValuesTriedIsNoProof) {
+  const Folder folder;
+  const std::string file = folder.file("window.yaml", kWindow + "search: {largest: {k: [0, 1]}}\n");
+  for (const char* command : {"bisect", "synth"}) {
+    const Outcome outcome = gainsmith({command, file});
+    EXPECT_EQ(outcome.exit, 3) << outcome.out;
+    EXPECT_NE(outcome.out.find("no feasible k among the 10 values tried"), std::string::npos)
+        << outcome.out;
+    EXPECT_EQ(outcome.out.find("certificate multipliers"), std::string::npos);
+    EXPECT_EQ(outcome.out.find("searched "), std::string::npos);
+  }
+}
+
+TEST(ExplainTest, ARangeThatTheAssumptionsCutIsNoError) {
+  const Folder folder;
+  const std::string file = folder.file("window.yaml", kWindow + "negotiable: {k: [-0.3, 0.9]}\n");
+  const Outcome synth = gainsmith({"synth", file});
+  EXPECT_EQ(synth.exit, 1) << synth.err;
+  EXPECT_NE(synth.out.find("k at most 0.3"), std::string::npos) << synth.out;
+  const Outcome refused = gainsmith({"bisect", file, "--largest", "k", "--in", "-2", "-1"});
+  EXPECT_EQ(refused.exit, 2);
+  EXPECT_NE(refused.err.find("k >= 0"), std::string::npos) << refused.err;
+}
+
 TEST(BisectTest, ASearchedValueThatIsNoScalarIsRefused) {
   const Folder folder;
   const std::string file = folder.file("open.yaml", kOpen + "parameters: {a: 1}\n");
@@ -75,7 +110,7 @@ TEST(BisectTest, WrongCommandLinesAreNamed) {
       {{"bisect", file, "--largest", "A", "--in", "1", "2"}, "is a matrix"},
       {{"bisect", file, "--largest", "T1"}, "no range for T1"},
       {{"bisect", file, "--largest", "T2", "--in", "2", "1"}, "low < high"},
-      {{"bisect", file, "--largest", "T2", "--in", "0.1", "1"}, "expected 0 < T1 <= T2"},
+      {{"bisect", file, "--largest", "T2", "--in", "0.1", "0.2"}, "expected 0 < T1 <= T2"},
       {{"bisect", file, "--largest", "T2", "--in", "nan", "1"}, "nan"},
       {{"scan", file, "--over", "T2"}, "expected NAME=LOW:HIGH"},
       {{"scan", file, "--over", "T2=1:2:3:4:5"}, "expected NAME=LOW:HIGH"},

@@ -13,7 +13,7 @@ namespace {
 BisectOptions options(bool largest, double tolerance) {
   BisectOptions result;
   result.largest = largest;
-  result.tolerance = tolerance;
+  result.tolerance.width = tolerance;
   return result;
 }
 
@@ -154,6 +154,60 @@ TEST(Bisect, EndsAtItsEvaluationsAtDoublePrecisionAndOnInterruption) {
   interrupted.interrupted = [&] { return asked >= 3; };
   EXPECT_FALSE(bisect(question, axis(0, 1), interrupted).finished);
   EXPECT_EQ(asked, 3);
+}
+
+TEST(Bisect, ARelativeToleranceMeansDigits) {
+  for (const bool largest : {true, false}) {
+    BisectOptions relative = options(largest, 1e-4);
+    relative.tolerance.relative = true;
+    for (const double border : {3e-6, 2e-3, 0.7}) {
+      const auto question = [&](double value) {
+        return (value <= border) == largest ? Answer::yes : Answer::no;
+      };
+      const Bisection found = bisect(question, axis(1e-6, 1), relative);
+      ASSERT_TRUE(found.yes && found.no);
+      EXPECT_LE(std::abs(*found.yes - *found.no), 1e-4 * border * (1 + 1e-9));
+      relative.guess = 1.1 * border;
+      EXPECT_NEAR(*bisect(question, axis(1e-6, 1), relative).yes, border, 1.1e-4 * border);
+      relative.guess.reset();
+    }
+  }
+  BisectOptions relative = options(true, 1e-4);
+  relative.tolerance.relative = true;
+  EXPECT_THROW(bisect([](double) { return Answer::yes; }, axis(-1, 1), relative),
+               std::invalid_argument);
+}
+
+/// A window that the spread misses is found from a value known to lie in it.
+TEST(Bisect, AKnownValueIsAskedToo) {
+  const auto question = [](double value) {
+    return value > 0.29 && value < 0.31 ? Answer::yes : Answer::no;
+  };
+  BisectOptions with = options(true, 1e-4);
+  EXPECT_FALSE(bisect(question, axis(0, 1), with).yes);
+  with.known = 0.3;
+  EXPECT_NEAR(bisect(question, axis(0, 1), with).yes.value(), 0.31, 1e-4);
+  for (const double useless : {-1.0, 0.0, 0.5, 2.0}) {
+    with.known = useless;
+    EXPECT_EQ(bisect(question, axis(0, 1), with).samples.size(), 9U);
+  }
+}
+
+/// Values that make no sense end neither side of the bracket.
+TEST(Bisect, RefusedValuesAreNeitherYesNorNo) {
+  const auto question = [](double value) {
+    if (value > 0.7) return Answer::refused;
+    return value <= 0.4 ? Answer::yes : Answer::no;
+  };
+  const Bisection found = bisect(question, axis(0, 1), options(true, 1e-4));
+  EXPECT_NEAR(found.yes.value(), 0.4, 1e-4);
+  EXPECT_NEAR(found.no.value(), 0.4, 1e-4);
+  const auto to_the_refused = [](double value) {
+    return value > 0.7 ? Answer::refused : Answer::yes;
+  };
+  const Bisection open = bisect(to_the_refused, axis(0, 1), options(true, 1e-4));
+  EXPECT_NEAR(open.yes.value(), 0.7, 1e-4);
+  EXPECT_FALSE(open.no);
 }
 
 TEST(Bisect, RefusesEmptyRangesAndTolerances) {
