@@ -93,12 +93,14 @@ class Synthesis {
     return Outcome::decided;
   }
 
-  /// Adds the points at which the solution fails to the exchanges, and those where their points
-  /// draw together; false when there is none.
+  /// Adds the worst points at which the solution fails to the exchanges, and those where their
+  /// points draw together; false when there is none.
   bool grow(const std::vector<lmi::Violation>& violations) {
+    constexpr std::size_t kMostAtOnce = 24;  // the worst come first
     std::map<std::size_t, std::vector<lmi::Point>> fresh;
     for (const lmi::Violation& violation : violations)
-      if (plan_.requirements[violation.requirement].way == model::Way::exchange)
+      if (plan_.requirements[violation.requirement].way == model::Way::exchange &&
+          fresh[violation.requirement].size() < kMostAtOnce)
         fresh[violation.requirement].push_back(violation.point);
     bool grown = false;
     for (auto& [k, points] : fresh) {
@@ -121,9 +123,13 @@ class Synthesis {
 
   /// What the verdict rests on where an inequality holds for all values of a variable.
   void report_ways() {
-    if (plan_.uses_exchange())
-      add_message("exchange: " + std::to_string(plan_.points()) + " points in " +
-                  std::to_string(round_) + (round_ == 1 ? " round" : " rounds"));
+    if (plan_.uses_exchange()) {
+      std::string text = "exchange: " + std::to_string(plan_.points()) + " points in " +
+                         std::to_string(round_) + (round_ == 1 ? " round" : " rounds");
+      if (gains_.verdict == model::Verdict::yes)
+        text += !searched_ ? ", proved between them" : ", searched between them";
+      add_message(text);
+    }
     const bool exact = std::all_of(plan_.requirements.begin(), plan_.requirements.end(),
                                    [](const lmi::Imposed& imposed) { return imposed.exact; });
     if (gains_.verdict != model::Verdict::no || exact) return;
@@ -259,9 +265,11 @@ class Synthesis {
 
   std::vector<lmi::Violation> read_margins() {
     x_ = lmi::read_back(lmi_, formulation_, solution_);
-    lmi::Check check = lmi::check_margins(instance_, lmi_, formulation_.scales,
+    lmi::Check check = lmi::check_margins(instance_, lmi_, plan_, formulation_.scales,
                                           formulation_.homogeneous(), choices_.margin, x_);
     gains_.margins = std::move(check.margins);
+    open_ = std::move(check.open);
+    searched_ = check.searched;
     return std::move(check.violations);
   }
 
@@ -293,11 +301,13 @@ class Synthesis {
         failed += (failed.empty() ? "" : "; ") + margin.name + ": margin " + brief(margin.reached) +
                   ", asked for " + brief(margin.required);
     }
-    gains_.verdict = failed.empty() ? model::Verdict::yes : model::Verdict::undecided;
-    if (failed.empty()) return;
+    const bool settled = failed.empty() && open_.empty();
+    gains_.verdict = settled ? model::Verdict::yes : model::Verdict::undecided;
+    if (settled) return;
     gains_.solver.status = "undecided";
     gains_.solver.message =
-        "the solver converged, but recomputed from the written decimals " + failed;
+        failed.empty() ? "the solver converged, but for all values " + open_
+                       : "the solver converged, but recomputed from the written decimals " + failed;
   }
 
   void accept_certificate() {
@@ -333,6 +343,8 @@ class Synthesis {
   lmi::Formulation formulation_;
   sdp::Solution solution_;
   std::vector<double> x_;
+  std::string open_;  ///< see lmi::Check
+  bool searched_ = false;
   model::Gains gains_;
   double compile_seconds_ = 0;
   double solve_seconds_ = 0;

@@ -132,6 +132,15 @@ double largest_element(const Sparse& matrix) {
   return result;
 }
 
+bool is_same(const AffineForm& a, const AffineForm& b) {
+  return a.shape == b.shape && a.terms.size() == b.terms.size() &&
+         std::equal(a.terms.begin(), a.terms.end(), b.terms.begin(),
+                    [](const auto& left, const auto& right) {
+                      return left.first == right.first &&
+                             Sparse(left.second - right.second).norm() == 0;
+                    });
+}
+
 bool AffineForm::is_constant() const {
   return terms.empty() || (terms.size() == 1 && terms.begin()->first == Key{0, 0});
 }

@@ -29,6 +29,9 @@ struct AffineForm {
   bool has_unknown(int* which = nullptr) const;
 };
 
+/// Whether both have the same shape and the same terms, bit by bit.
+bool is_same(const AffineForm& a, const AffineForm& b);
+
 /// A constant matrix.
 AffineForm constant_form(const expr::Matrix& matrix);
 /// The unknown matrix itself.

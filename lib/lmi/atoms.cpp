@@ -85,6 +85,22 @@ Range range(const Atom& atom, double begin, double end) {
   return atom.power == 0 ? wave_range(atom, begin, end) : product_range(atom, begin, end);
 }
 
+std::vector<std::pair<double, Atom>> derivative(const Atom& atom) {
+  std::vector<std::pair<double, Atom>> terms;
+  if (atom.power > 0) {
+    Atom lower = atom;
+    --lower.power;
+    terms.emplace_back(atom.power, lower);
+  }
+  if (atom.rate != 0) terms.emplace_back(atom.rate, atom);
+  if (atom.frequency != 0) {
+    Atom turned = atom;
+    turned.sine = !atom.sine;
+    terms.emplace_back(atom.sine ? atom.frequency : -atom.frequency, turned);
+  }
+  return terms;
+}
+
 std::vector<std::pair<double, Atom>> product(const Atom& a, const Atom& b) {
   const auto wave = [&](double frequency, bool sine) {
     return Atom{a.power + b.power, a.rate + b.rate, std::abs(frequency), sine};

@@ -37,6 +37,9 @@ struct Range {
 /// wave) otherwise.
 Range range(const Atom& atom, double begin, double end);
 
+/// d theta/dt as a combination of atoms.
+std::vector<std::pair<double, Atom>> derivative(const Atom& atom);
+
 /// theta_a theta_b as a combination of atoms.
 std::vector<std::pair<double, Atom>> product(const Atom& a, const Atom& b);
 

@@ -89,6 +89,16 @@ std::vector<Point> combinations(const Domain& domain, Over over) {
   return points;
 }
 
+std::vector<Point> finite_points(const Domain& domain) {
+  Domain finite;
+  for (Variable variable : domain) {
+    if (variable.is_interval()) continue;
+    variable.over = Over::set;
+    finite.push_back(std::move(variable));
+  }
+  return combinations(finite, Over::set);
+}
+
 std::vector<const Variable*> intervals(const Domain& domain) {
   std::vector<const Variable*> result;
   for (const Variable& variable : domain)

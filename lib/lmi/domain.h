@@ -50,6 +50,9 @@ Point extended(const Point& point, const std::string& name, double value);
 /// there is no such variable.
 std::vector<Point> combinations(const Domain& domain, model::Forall::Over over);
 
+/// All combinations of the elements of sets and the vertices of polytopes.
+std::vector<Point> finite_points(const Domain& domain);
+
 /// The interval variables, in order.
 std::vector<const Variable*> intervals(const Domain& domain);
 

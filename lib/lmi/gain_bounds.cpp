@@ -197,15 +197,6 @@ AffineForm transposed(const AffineForm& form) {
   return result;
 }
 
-bool is_same(const AffineForm& a, const AffineForm& b) {
-  return a.shape == b.shape && a.terms.size() == b.terms.size() &&
-         std::equal(a.terms.begin(), a.terms.end(), b.terms.begin(),
-                    [](const auto& left, const auto& right) {
-                      return left.first == right.first &&
-                             Sparse(left.second - right.second).norm() == 0;
-                    });
-}
-
 /// Collects the bounds of all gain formulas.
 class Collector {
  public:

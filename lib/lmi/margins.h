@@ -1,6 +1,7 @@
 // How far every inequality holds, recomputed in double from the matrices as they are written.
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "lmi/compile.h"
@@ -18,16 +19,23 @@ struct Violation {
 struct Check {
   std::vector<model::Margin> margins;  ///< one for each comparison of each requirement
   std::vector<Violation> violations;   ///< of requirements with variables
+  /// What is not settled of inequalities that hold wherever they were looked at: "contraction:
+  /// too many pieces near tau in [0.2, 0.25]". Empty when there is nothing.
+  std::string open;
+  /// Whether an inequality imposed by exchange was only searched between its points, because its
+  /// functions have no known derivatives.
+  bool searched = false;
 };
 
 /// How far every inequality holds. The smallest eigenvalue is taken over
 ///  - the vertices and points that were imposed, from the affine blocks, and
 ///  - the whole domain of `forall`, from the text itself evaluated over double (worst.h),
-/// so that a mistake in compiling the blocks shows up as a margin that does not hold. `scale` of a
-/// homogeneous problem is the coefficients' size times the largest |x_i|. A strict inequality holds
-/// when its smallest eigenvalue is positive, another when it is above -1e-11 times the largest
-/// element of a term x_i B_i.
-Check check_margins(const model::Instance& instance, const Lmi& lmi,
+/// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where the
+/// plan imposed points, what holds at all of them is then proved, or not, between them (prove.h).
+/// `scale` of a homogeneous problem is the coefficients' size times the largest |x_i|. A strict
+/// inequality holds when its smallest eigenvalue is positive, another when it is above -1e-11 times
+/// the largest element of a term x_i B_i.
+Check check_margins(const model::Instance& instance, const Lmi& lmi, const Plan& plan,
                     const std::vector<double>& scales, bool homogeneous, double required,
                     const std::vector<double>& x);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <map>
 
 namespace gainsmith::lmi {
@@ -14,14 +15,21 @@ class Samples {
  public:
   Samples(const Curve& curve, double low, double high) : curve_(curve) {
     constexpr int kFirst = 48;
-    for (int i = 0; i <= kFirst; ++i)
-      evaluate(i == kFirst ? high : low + (high - low) * i / kFirst);
+    constexpr double kGolden = 0.6180339887498949;
+    constexpr double kShift = 0.6;  // of a piece: no wave is met at one phase everywhere
+    evaluate(low);
+    evaluate(high);
+    for (int i = 1; i < kFirst; ++i) {
+      const double shift = kShift * (std::fmod(i * kGolden, 1.0) - 0.5);
+      evaluate(low + (high - low) * (i + shift) / kFirst);
+    }
     const std::map<double, double> first = values_;
     for (auto left = first.begin(); std::next(left) != first.end(); ++left)
       refine(left->first, std::next(left)->first, 0);
   }
 
   const std::map<double, double>& values() const { return values_; }
+  bool resolved() const { return resolved_; }
 
  private:
   double evaluate(double at) {
@@ -31,27 +39,37 @@ class Samples {
     return value;
   }
 
-  void refine(double left, double right, int depth) {
+  /// `earlier` is the bend around here at the depth kEarlier.
+  void refine(double left, double right, int depth, double earlier = 0) {
     constexpr int kDeepest = 24;
+    constexpr int kEarlier = kDeepest - 8;
     constexpr double kSafety = 4;
     constexpr double kResolved = 1e-10;
     const double middle = left + (right - left) / 2;
-    if (depth == kDeepest || !(left < middle && middle < right)) return;
     const double a = values_.at(left);
     const double b = values_.at(right);
+    if (!(left < middle && middle < right)) return;
     const double m = evaluate(middle);
     // A parabola through the three points dips below the lowest of them by less than the bend.
     const double bend = std::abs(m - 0.5 * (a + b));
+    if (depth == kEarlier) earlier = bend;
+    if (depth == kDeepest) {
+      // Of a kink the bend has shrunk, of a step it has stayed; it grows at a pole.
+      constexpr double kGrown = 4;
+      resolved_ &= bend <= kGrown * earlier;
+      return;
+    }
     if (std::min({a, b, m}) - kSafety * bend > lowest_) return;
     if (bend <= kResolved * std::max(std::abs(a), std::abs(b))) return;
     if (depth > 0 && bend <= 1e-3 * std::abs(std::min({a, b, m}) - lowest_)) return;
-    refine(left, middle, depth + 1);
-    refine(middle, right, depth + 1);
+    refine(left, middle, depth + 1, earlier);
+    refine(middle, right, depth + 1, earlier);
   }
 
   const Curve& curve_;
   std::map<double, double> values_;
   double lowest_ = std::numeric_limits<double>::infinity();
+  bool resolved_ = true;
 };
 
 /// The crossing from falling to rising in [left, right], by regula falsi with halved weights
@@ -86,11 +104,11 @@ double stationary_point(const Curve& curve, double left, double right) {
 
 }  // namespace
 
-std::vector<CurveMinimum> local_minima(const Curve& curve, double low, double high) {
-  if (low == high) return {{low, curve.value(low)}};
+CurveMinima local_minima(const Curve& curve, double low, double high) {
+  if (low == high) return {{{low, curve.value(low)}}, true};
   const Samples samples(curve, low, high);
   const auto& values = samples.values();
-  std::vector<CurveMinimum> minima;
+  CurveMinima minima{{}, samples.resolved()};
   for (auto here = values.begin(); here != values.end(); ++here) {
     const auto before = here == values.begin() ? here : std::prev(here);
     const auto after = std::next(here) == values.end() ? here : std::next(here);
@@ -100,7 +118,7 @@ std::vector<CurveMinimum> local_minima(const Curve& curve, double low, double hi
     CurveMinimum found{here->first, here->second};
     const double at = stationary_point(curve, before->first, after->first);
     if (const double value = curve.value(at); value <= found.value) found = {at, value};
-    minima.push_back(found);
+    minima.list.push_back(found);
   }
   return minima;
 }
@@ -132,45 +150,69 @@ BoxMinimum descend(const BoxFunction& f, BoxMinimum start, const std::vector<dou
   return start;
 }
 
+/// The values of a function on a regular grid, the first coordinate fastest.
+class Grid {
+ public:
+  Grid(const BoxFunction& f, const std::vector<double>& low, const std::vector<double>& high)
+      : dimensions_(low.size()) {
+    constexpr double kPoints = 1200;
+    const double side = std::pow(kPoints, 1.0 / static_cast<double>(dimensions_));
+    side_ = std::max<std::size_t>(2, static_cast<std::size_t>(side));
+    std::size_t count = 1;
+    for (std::size_t i = 0; i < dimensions_; ++i) count *= side_;
+    for (std::size_t which = 0; which < count; ++which) {
+      std::vector<double> at;
+      for (std::size_t i = 0, rest = which; i < dimensions_; ++i, rest /= side_) {
+        const std::size_t step = rest % side_;
+        at.push_back(step + 1 == side_
+                         ? high[i]
+                         : low[i] + (high[i] - low[i]) * static_cast<double>(step) * spacing());
+      }
+      const double found = f(at);
+      points_.push_back({std::move(at), found});
+    }
+  }
+
+  /// As a fraction of the edges.
+  double spacing() const { return 1.0 / static_cast<double>(side_ - 1); }
+
+  /// The points that are no higher than their neighbours along each coordinate, and lower than
+  /// those before them.
+  std::vector<BoxMinimum> local_minima() const {
+    std::vector<BoxMinimum> minima;
+    for (std::size_t which = 0; which < points_.size(); ++which)
+      if (is_minimum(which)) minima.push_back(points_[which]);
+    return minima;
+  }
+
+ private:
+  bool is_minimum(std::size_t which) const {
+    const double here = points_[which].value;
+    std::size_t stride = 1;
+    for (std::size_t i = 0; i < dimensions_; ++i, stride *= side_) {
+      const std::size_t step = which / stride % side_;
+      if (step > 0 && !(here < points_[which - stride].value)) return false;
+      if (step + 1 < side_ && !(here <= points_[which + stride].value)) return false;
+    }
+    return true;
+  }
+
+  std::size_t dimensions_;
+  std::size_t side_ = 2;
+  std::vector<BoxMinimum> points_;
+};
+
 }  // namespace
 
 std::vector<BoxMinimum> local_minima(const BoxFunction& value, const std::vector<double>& low,
                                      const std::vector<double>& high) {
-  constexpr double kGridPoints = 1200;
-  constexpr std::size_t kStarts = 8;
-  const std::size_t n = low.size();
-  const int side =
-      std::max(3, static_cast<int>(std::pow(kGridPoints, 1.0 / static_cast<double>(n))));
-  std::vector<BoxMinimum> grid;
-  std::vector<int> index(n, 0);
-  for (bool more = true; more;) {
-    std::vector<double> at(n);
-    for (std::size_t i = 0; i < n; ++i)
-      at[i] = index[i] + 1 == side ? high[i] : low[i] + (high[i] - low[i]) * index[i] / (side - 1);
-    const double found = value(at);
-    grid.push_back({std::move(at), found});
-    more = false;
-    for (std::size_t i = 0; i < n && !more; ++i) {
-      more = ++index[i] < side;
-      if (!more) index[i] = 0;
-    }
-  }
+  constexpr std::size_t kStarts = 32;
+  const Grid grid(value, low, high);
+  std::vector<BoxMinimum> minima = grid.local_minima();
   const auto is_lower = [](const BoxMinimum& a, const BoxMinimum& b) { return a.value < b.value; };
-  std::stable_sort(grid.begin(), grid.end(), is_lower);
-  const double spacing = 1.0 / (side - 1);
-  std::vector<BoxMinimum> minima;
-  for (const BoxMinimum& start : grid) {
-    if (minima.size() == kStarts) break;
-    // A neighbour of a start that was taken leads to the same minimum.
-    const auto is_covered = [&](const BoxMinimum& other) {
-      for (std::size_t i = 0; i < n; ++i)
-        if (std::abs(other.at[i] - start.at[i]) > 2.5 * spacing * (high[i] - low[i])) return false;
-      return true;
-    };
-    if (std::any_of(minima.begin(), minima.end(), is_covered)) continue;
-    minima.push_back(start);
-  }
-  for (BoxMinimum& minimum : minima) minimum = descend(value, minimum, low, high, spacing);
+  std::stable_sort(minima.begin(), minima.end(), is_lower);
+  if (minima.size() > kStarts) minima.resize(kStarts);
+  for (BoxMinimum& minimum : minima) minimum = descend(value, minimum, low, high, grid.spacing());
   std::stable_sort(minima.begin(), minima.end(), is_lower);
   return minima;
 }

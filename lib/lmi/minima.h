@@ -19,19 +19,25 @@ struct CurveMinimum {
   double value = 0;
 };
 
-/// The local minima on [low, high], ends included, from the left. The interval is halved until the
-/// bend of each piece shows that no minimum below the smallest value found hides in it; each
-/// bracketed minimum is then refined to a root of the derivative.
-std::vector<CurveMinimum> local_minima(const Curve& curve, double low, double high);
+struct CurveMinima {
+  std::vector<CurveMinimum> list;  ///< from the left
+  bool resolved = true;            ///< false when the shortest pieces hold a pole
+};
+
+/// The local minima on [low, high], ends included. The interval is halved until the bend of each
+/// piece suggests that no minimum below the smallest value found hides in it; each bracketed
+/// minimum is then refined to a root of the derivative. A search: what turns many times between
+/// the first 49 points, which have different distances, can be missed (prove.h does not miss it).
+CurveMinima local_minima(const Curve& curve, double low, double high);
 
 struct BoxMinimum {
   std::vector<double> at;
   double value = 0;
 };
 
-/// Local minima on the box low_i <= t_i <= high_i, at least two variables, by descent from the best
-/// points of a grid, coordinate by coordinate; the smallest first. A search, not a proof: a minimum
-/// between the points of the grid can be missed.
+/// Local minima on the box low_i <= t_i <= high_i, at least two variables, by descent from the
+/// lowest 32 local minima of a grid, coordinate by coordinate; the smallest first. A search, not a
+/// proof: a minimum between the points of the grid can be missed.
 std::vector<BoxMinimum> local_minima(const std::function<double(const std::vector<double>&)>& value,
                                      const std::vector<double>& low,
                                      const std::vector<double>& high);

@@ -39,8 +39,19 @@ Plan make_plan(const model::Instance& instance) {
   return plan;
 }
 
+namespace {
+
+/// With more, the corners alone are too many.
+constexpr std::size_t kMostIntervals = 10;
+
+}  // namespace
+
 std::vector<Point> first_points(const Domain& domain) {
   const auto axes = intervals(domain);
+  if (axes.size() > kMostIntervals)
+    throw InputError(axes.front()->place, "an exchange over " + std::to_string(axes.size()) +
+                                              " intervals; at most " +
+                                              std::to_string(kMostIntervals));
   std::vector<Point> points;
   for (const Point& element : combinations(domain, model::Forall::Over::set)) {
     for (std::size_t corner = 0; corner < (std::size_t{1} << axes.size()); ++corner) {

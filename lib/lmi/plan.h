@@ -26,7 +26,7 @@ struct Plan {
 Plan make_plan(const model::Instance& instance);
 
 /// The first points of an exchange: for all elements of the sets the corners and the centre of the
-/// box of the intervals.
+/// box of the intervals. InputError for more than ten intervals.
 std::vector<Point> first_points(const Domain& domain);
 
 /// Adds a point to an exchange. False when one is there already, up to 1e-9 of each interval.

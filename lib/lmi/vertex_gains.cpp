@@ -16,12 +16,12 @@ namespace {
 
 using Over = model::Forall::Over;
 
-/// The functions as their coefficient i, whatever their argument.
-model::Instance held_at(model::Instance instance, std::size_t i) {
+/// The functions as their coefficient i, times `factor`, a text in the function's argument "s".
+model::Instance held_at(model::Instance instance, std::size_t i, const std::string& factor = "") {
   for (const model::UnknownFunction& function : instance.functions)
     instance.scope.definitions[function.name] = {
-        {function.variable},
-        expr::parse(expr::Text::generated(function.coefficients.at(i), function.place))};
+        {"s"},
+        expr::parse(expr::Text::generated(function.coefficients.at(i) + factor, function.place))};
   return instance;
 }
 
@@ -60,15 +60,20 @@ struct Held {
   expr::Values known;
 };
 
+/// Symbolic in intervals and polytopes.
+Domain symbolic_part(const Domain& domain) {
+  Domain symbolic;
+  for (const Variable& variable : domain)
+    if (variable.over != Over::set) symbolic.push_back(variable);
+  return symbolic;
+}
+
 /// Adds the atoms of the interval that stand in a requirement. Polytopes stay symbolic, so that
 /// what is not affine in them is refused.
 void collect_atoms(const Held& held, const Unknowns& unknowns, std::vector<Atom>& atoms) {
-  Domain symbolic;
-  for (const Variable& variable : held.domain)
-    if (variable.over != Over::set) symbolic.push_back(variable);
   for (const Point& point : combinations(held.domain, Over::set)) {
     for (std::size_t k = 0; k < held.relations.size(); ++k) {
-      MonomialTable monomials(symbolic);
+      MonomialTable monomials(symbolic_part(held.domain));
       const int tau = monomials.find_variable(held.interval.name);
       const AffineForm form = held.form(k, unknowns, monomials, point);
       for (const auto& [key, matrix] : form.terms)
@@ -76,6 +81,26 @@ void collect_atoms(const Held& held, const Unknowns& unknowns, std::vector<Atom>
           if (factor.variable == tau &&
               std::find(atoms.begin(), atoms.end(), factor.atom) == atoms.end())
             atoms.push_back(factor.atom);
+    }
+  }
+}
+
+/// InputError when a function is called with anything but the variable: the weights of the box are
+/// those of its value at the variable.
+void check_arguments(const model::Instance& instance, const model::Requirement& requirement,
+                     const Unknowns& unknowns, const std::string& variable) {
+  // A function that gives its argument back, and one that gives the variable whatever it is given.
+  const Held own(held_at(instance, 0, "*s"), requirement);
+  const Held fixed(held_at(instance, 0, "*" + variable), requirement);
+  for (const Point& point : combinations(own.domain, Over::set)) {
+    for (std::size_t k = 0; k < own.relations.size(); ++k) {
+      MonomialTable monomials(symbolic_part(own.domain));
+      if (is_same(own.form(k, unknowns, monomials, point),
+                  fixed.form(k, unknowns, monomials, point)))
+        continue;
+      throw InputError(requirement.place, "gains at the vertices of a box are functions of " +
+                                              variable + " alone; '" + requirement.name +
+                                              "' calls one with another argument");
     }
   }
 }
@@ -106,17 +131,6 @@ std::string function_text(const Box& box, const model::UnknownFunction& function
     text += (text.empty() ? "" : " + ") + weight_text(box, box.vertices[i], function.variable) +
             model::coefficient_name(function.name, i);
   return text;
-}
-
-/// All points of sets and vertices of polytopes.
-std::vector<Point> finite_points(const Domain& domain) {
-  Domain finite;
-  for (Variable variable : domain) {
-    if (variable.is_interval()) continue;
-    variable.over = Over::set;
-    finite.push_back(std::move(variable));
-  }
-  return combinations(finite, Over::set);
 }
 
 /// Values of all monomials of a table of one variable at a vertex.
@@ -180,6 +194,7 @@ Box vertex_box(const model::Instance& instance) {
                        "gains at the vertices of a box need one interval; found [" +
                            brief(held.interval.low) + ", " + brief(held.interval.high) + "] and [" +
                            brief(interval->low) + ", " + brief(interval->high) + "]");
+    check_arguments(instance, requirement, unknowns, held.interval.name);
     collect_atoms(held, unknowns, atoms);
   }
   if (!interval) return box_of({}, "", 0, 0, {});

@@ -28,7 +28,8 @@ bool uses_functions(const model::Instance& instance, const model::Requirement& r
 
 /// The box of the functions of tau in all requirements that use an unknown function. InputError, at
 /// the place of the requirement, when one has not exactly one variable over an interval, or another
-/// interval than the first, or is not affine in functions of tau; at that of the method's name when
+/// interval than the first, calls a function with anything but its variable, or is not affine in
+/// functions of tau; at that of the method's name when
 /// there is no unknown function.
 Box vertex_box(const model::Instance& instance);
 

@@ -61,17 +61,19 @@ class Family {
 };
 
 void add_minima(Family& family, const Point& fixed, const std::vector<const Variable*>& axes,
-                std::vector<Minimum>& minima) {
+                Minima& minima) {
   if (axes.empty()) {
-    minima.push_back({family.value({}), fixed});
+    minima.list.push_back({family.value({}), fixed});
     return;
   }
   if (axes.size() == 1) {
     const Variable& axis = *axes.front();
     const Curve curve{[&](double t) { return family.value({t}); },
                       [&](double t) { return family.slope(t, axis.low, axis.high); }};
-    for (const CurveMinimum& found : local_minima(curve, axis.low, axis.high))
-      minima.push_back({found.value, extended(fixed, axis.name, found.at)});
+    const CurveMinima curves = local_minima(curve, axis.low, axis.high);
+    minima.resolved &= curves.resolved;
+    for (const CurveMinimum& found : curves.list)
+      minima.list.push_back({found.value, extended(fixed, axis.name, found.at)});
     return;
   }
   std::vector<double> low;
@@ -85,27 +87,21 @@ void add_minima(Family& family, const Point& fixed, const std::vector<const Vari
     Point point = fixed;
     for (std::size_t i = 0; i < axes.size(); ++i)
       point = extended(point, axes[i]->name, found.at[i]);
-    minima.push_back({found.value, std::move(point)});
+    minima.list.push_back({found.value, std::move(point)});
   }
 }
 
 }  // namespace
 
-std::vector<Minimum> local_minima(const expr::Program& difference, const Domain& domain,
-                                  const expr::Values& known) {
-  using Over = model::Forall::Over;
-  std::vector<Minimum> minima;
+Minima local_minima(const expr::Program& difference, const Domain& domain,
+                    const expr::Values& known) {
+  Minima minima;
   const auto axes = intervals(domain);
-  for (const Point& element : combinations(domain, Over::set)) {
-    for (const Point& vertex : combinations(domain, Over::polytope)) {
-      Point fixed = element;
-      fixed.values.insert(vertex.values.begin(), vertex.values.end());
-      fixed.label += (fixed.label.empty() || vertex.label.empty() ? "" : ", ") + vertex.label;
-      Family family(difference, known, fixed, axes);
-      add_minima(family, fixed, axes, minima);
-    }
+  for (const Point& fixed : finite_points(domain)) {
+    Family family(difference, known, fixed, axes);
+    add_minima(family, fixed, axes, minima);
   }
-  std::stable_sort(minima.begin(), minima.end(),
+  std::stable_sort(minima.list.begin(), minima.list.end(),
                    [](const Minimum& a, const Minimum& b) { return a.value < b.value; });
   return minima;
 }

@@ -13,11 +13,18 @@ struct Minimum {
   Point point;       ///< values of all variables
 };
 
-/// The local minima over the domain of the smallest eigenvalue of a symmetric matrix given as text,
-/// the smallest first. The text is evaluated over double, so any dependence on the variables is
+struct Minima {
+  std::vector<Minimum> list;  ///< the smallest first
+  /// False when the eigenvalue grows without end where an interval was divided as far as doubles
+  /// go: a pole.
+  bool resolved = true;
+};
+
+/// The local minima over the domain of the smallest eigenvalue of a symmetric matrix given as text.
+/// The text is evaluated over double, so any dependence on the variables is
 /// taken. Over a polytope the vertices are enough: the eigenvalue is concave in its variable. Over
 /// one interval see local_minima; `known` gives data, parameters and unknowns.
-std::vector<Minimum> local_minima(const expr::Program& difference, const Domain& domain,
-                                  const expr::Values& known);
+Minima local_minima(const expr::Program& difference, const Domain& domain,
+                    const expr::Values& known);
 
 }  // namespace gainsmith::lmi

@@ -174,6 +174,30 @@ TEST(ForallTest, PolytopesAndBoxesAreImposedAtTheirVertices) {
             std::string::npos);
 }
 
+/// A wave that equidistant points meet at one phase: the exchange is proved between its points.
+TEST(ForallTest, AWaveBetweenThePointsIsNotMissed) {
+  for (const int k : {48, 96, 144}) {
+    const auto found = solve(
+        "problem: p\nmethod:\n  method: p\n  data: {k: scalar}\n  unknowns: {x: scalar}\n  "
+        "require:\n"
+        "    below: {forall: \"t in [0, 1]\", that: \"-x < 1 - 0.5*t + cos(2*pi*k*t)\"}\n"
+        "  minimize: x\ndata: {k: " +
+        std::to_string(k) + "}\nsynthesis: {gain_bound: none, forall: exchange}\n");
+    ASSERT_EQ(found.verdict, model::Verdict::yes) << found.solver.message;
+    EXPECT_NE(found.solver.message.find("proved between them"), std::string::npos);
+    // The last trough is half a period before the end, where 0.5*t has fallen by 1/(4 k).
+    EXPECT_NEAR(*found.objective, 0.5 - 0.25 / k, 1e-4);
+  }
+}
+
+TEST(ForallTest, APoleInTheIntervalIsNoYes) {
+  const auto found = solve(
+      "problem: p\nmethod:\n  method: p\n  unknowns: {x: scalar}\n  require:\n"
+      "    above: {forall: \"t in [0, 1]\", that: \"x > 1/(t - 0.3)\"}\n"
+      "  minimize: x\nsynthesis: {gain_bound: none, forall: exchange}\n");
+  EXPECT_NE(found.verdict, model::Verdict::yes) << found.solver.message;
+}
+
 /// Dependence that no hull takes: the auto way falls back to exchange.
 TEST(ForallTest, AnyDependenceOnTheVariable) {
   const auto found = solve(

@@ -128,6 +128,12 @@ TEST(VertexGainsTest, Refusals) {
                              "    two: {forall: \"b in [0, 1.5]\", that: \"He(S(b)) < I\"}\n"))
                 .find("found [0, 1.5] and [0, 1]"),
             std::string::npos);
+  for (const char* argument : {"0", "1 - a", "2*a"})
+    EXPECT_NE(refusal(rotation("    one: {forall: \"a in [0, 1]\", that: \"He(S(a)) + He(Y(" +
+                               std::string(argument) + ")*H) < I\"}\n"))
+                  .find("functions of a alone"),
+              std::string::npos)
+        << argument;
   EXPECT_NE(refusal("problem: p\nmethod: {method: m, unknowns: {P: symmetric 2}, require: {a: P > "
                     "0}}\nsynthesis: {forall: vertex_gains}\n")
                 .find("'m' has none"),

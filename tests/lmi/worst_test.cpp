@@ -19,7 +19,7 @@ using testing::number;
 
 std::vector<Minimum> minima_of(const std::string& text, const Domain& domain,
                                const expr::Values& known = {}) {
-  return local_minima(testing::program(text, domain, known), domain, known);
+  return local_minima(testing::program(text, domain, known), domain, known).list;
 }
 
 expr::Matrix random_rotation(int n, std::mt19937& generator) {
