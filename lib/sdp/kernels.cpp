@@ -164,19 +164,6 @@ void solve_factored_pairs(const View<const DoubleDouble>& l, Vector<DoubleDouble
   }
 }
 
-/// C -= A B'
-template <typename T>
-void subtract_outer(const View<const T>& a, const View<const T>& b, const View<T>& c) {
-  if constexpr (std::is_same_v<T, double>) {
-    subtract_outer_doubles(a, b, c);
-  } else {
-    Matrix<T> transposed(b.columns, b.rows);
-    for (Index j = 0; j < b.rows; ++j)
-      for (Index p = 0; p < b.columns; ++p) transposed(p, j) = b(j, p);
-    multiply(a, View<const T>(transposed), c, Update::subtract);
-  }
-}
-
 // ---- Cholesky and inverse, blocked on products
 // ---------------------------------------------------
 
@@ -223,8 +210,8 @@ bool cholesky_blocked(const View<T>& a, Index width) {
       return false;
     for (Index j = k + w; j < a.columns; j += width) {
       const Index wj = std::min(width, a.columns - j);
-      subtract_outer(constant(a.part(j, k, a.rows - j, w)), constant(a.part(j, k, wj, w)),
-                     a.part(j, j, a.rows - j, wj));
+      multiply_outer(constant(a.part(j, k, a.rows - j, w)), constant(a.part(j, k, wj, w)),
+                     a.part(j, j, a.rows - j, wj), Update::subtract);
     }
   }
   return true;
@@ -279,6 +266,21 @@ void multiply_sparse(const View<const T>& a, const View<const T>& s, const std::
       const int k = rows[static_cast<std::size_t>(p)];
       target += ConstColumn(a.data + a.stride * k, a.rows) * s(k, j);
     }
+  }
+}
+
+template <typename T>
+void multiply_outer(const View<const T>& a, const View<const T>& b, const View<T>& c,
+                    Update update) {
+  if constexpr (std::is_same_v<T, double>) {
+    multiply_outer_doubles(a, b, c, update);
+  } else {
+    static thread_local Matrix<T> transposed;
+    if (transposed.size() < b.rows * b.columns) transposed.resize(b.columns, b.rows);
+    const View<T> copy(transposed.data(), b.columns, b.rows, b.columns);
+    for (Index j = 0; j < b.rows; ++j)
+      for (Index p = 0; p < b.columns; ++p) copy(p, j) = b(j, p);
+    multiply(a, constant(copy), c, update);
   }
 }
 
@@ -350,6 +352,8 @@ void solve_factored(const View<const T>& l, Vector<T>& x) {
                                    const View<T>&);                                              \
   template void multiply_transposed<T>(const View<const T>&, const View<const T>&,               \
                                        const View<T>&);                                          \
+  template void multiply_outer<T>(const View<const T>&, const View<const T>&, const View<T>&,    \
+                                  Update);                                                       \
   template void multiply_upper<T>(const View<const T>&, const View<const T>&, const View<T>&);   \
   template void multiply_lower<T>(const View<const T>&, const View<const T>&, const View<T>&);   \
   template bool cholesky<T>(const View<T>&);                                                     \

@@ -19,6 +19,11 @@ template <typename T>
 void multiply_sparse(const View<const T>& a, const View<const T>& s, const std::vector<int>& start,
                      const std::vector<int>& rows, const View<T>& c);
 
+/// C = A B'.
+template <typename T>
+void multiply_outer(const View<const T>& a, const View<const T>& b, const View<T>& c,
+                    Update update = Update::assign);
+
 /// C = A U, C = A L for an upper triangular U, a lower triangular L, with zeros in the other
 /// triangle.
 template <typename T>

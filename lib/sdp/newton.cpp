@@ -15,8 +15,9 @@ namespace {
 /// permit, that it may be.
 constexpr double kRefineUnits = 1e4, kRefineGoal = 1e-20;
 constexpr double kRefineShare = 1e-3, kAllowanceShare = 0.1;
-/// A residual of this part of the defect delays progress, and stops it.
-constexpr double kImprecise = 0.1, kExhausted = 0.5;
+/// A residual of this part of the defect is the first sign of lost digits; one of that part stops
+/// progress.
+constexpr double kImprecise = 0.02, kExhausted = 0.5;
 /// A bound of X^-1 R below which H(X^-1 R Y) is nothing beside Y.
 constexpr double kNegligible = 1e-4;
 /// The most steps, and how many of them may pass without a smaller residual.

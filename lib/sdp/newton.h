@@ -60,7 +60,7 @@ class Newton {
   /// defect, and by so much that the objective may move by X.Y? Then this arithmetic has no more to
   /// give.
   bool exhausted() const { return exhausted_; }
-  /// Does it miss the equation by a tenth of the present defect?
+  /// Does it miss the equation by a fiftieth of the present defect?
   bool imprecise() const { return imprecise_; }
 
   /// The largest steps <= `longest` that keep point + step direction in the cone; in the

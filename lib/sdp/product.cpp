@@ -144,9 +144,10 @@ void multiply_doubles(const View<const double>& a, const View<const double>& b,
                   update == Update::assign ? Write::assign : Write::subtract);
 }
 
-void subtract_outer_doubles(const View<const double>& a, const View<const double>& b,
-                            const View<double>& c) {
-  multiply_blocks(a, {b.data, b.stride, 1}, c, Write::subtract);
+void multiply_outer_doubles(const View<const double>& a, const View<const double>& b,
+                            const View<double>& c, Update update) {
+  multiply_blocks(a, {b.data, b.stride, 1}, c,
+                  update == Update::assign ? Write::assign : Write::subtract);
 }
 
 }  // namespace gainsmith::sdp

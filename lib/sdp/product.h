@@ -11,8 +11,8 @@ namespace gainsmith::sdp {
 void multiply_doubles(const View<const double>& a, const View<const double>& b,
                       const View<double>& c, Update update);
 
-/// C -= A B'
-void subtract_outer_doubles(const View<const double>& a, const View<const double>& b,
-                            const View<double>& c);
+/// C = A B' or C -= A B'
+void multiply_outer_doubles(const View<const double>& a, const View<const double>& b,
+                            const View<double>& c, Update update);
 
 }  // namespace gainsmith::sdp

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "base/parallel.h"
+#include "sdp/cover.h"
 #include "sdp/kernels.h"
 #include "sdp/scalars.h"
 
@@ -35,6 +36,8 @@ T dot(const T* a, const T* b, Eigen::Index count) {
 constexpr double kProductCost = 0.06;
 constexpr double kPanelCost = 0.2;
 constexpr double kDotCost = 1.0;
+/// What a product by rank costs beside its multiplications, in units of inner length.
+constexpr double kRankRest = 8;
 /// A block cheaper than this is not worth starting threads for.
 constexpr double kParallelCost = 1e6;
 /// The perturbation of a B that has no Cholesky factor: eps times this, growing by it, so often.
@@ -97,17 +100,36 @@ typename Schur<T>::Plan Schur<T>::plan_block(const BlockData& block, int n) cons
     }
     list.last = plan.terms.size();
     const double order_n = n, r = static_cast<double>(rows.size());
-    const double dense = kProductCost * order_n * order_n * order_n + kPanelCost * following;
+    double cost = kProductCost * order_n * order_n * order_n + kPanelCost * following;
     const double by_rows = kDotCost * 2 * r * following + kPanelCost * r * order_n;
-    list.by_rows = by_rows < dense;
-    if (list.by_rows) list.rows.assign(rows.begin(), rows.end());
-    plan.cost += std::min(dense, by_rows);
+    Cover cover = cover_of(plan.terms.data() + list.first, plan.terms.data() + list.last, n);
+    const double by_rank =
+        cover.found
+            ? kProductCost * order_n *
+                      (order_n * (2.0 * static_cast<double>(cover.rows.size()) + kRankRest) +
+                       2.0 * static_cast<double>(nonzeros(k))) +
+                  kPanelCost * following
+            : std::numeric_limits<double>::infinity();
+    if (by_rank < cost) {
+      list.formula = Formula::rank;
+      list.rows = std::move(cover.rows);
+      cost = by_rank;
+    }
+    if (by_rows < cost) {
+      list.formula = Formula::rows;
+      list.rows.assign(rows.begin(), rows.end());
+      cost = by_rows;
+    }
+    cover.slot.resize(nonzeros(k));
+    plan.slot.insert(plan.slot.end(), cover.slot.begin(), cover.slot.end());
+    plan.cost += cost;
     following -= static_cast<double>(nonzeros(k));
   }
   for (std::size_t first = 0; first < plan.lists.size();) {
     std::size_t last = first + 1;
-    while (!plan.lists[first].by_rows && last < plan.lists.size() && last < first + kBatch &&
-           !plan.lists[last].by_rows)
+    const Formula formula = plan.lists[first].formula;
+    while (formula != Formula::rows && last < plan.lists.size() && last < first + kBatch &&
+           plan.lists[last].formula == formula)
       ++last;
     plan.batches.push_back({first, last});
     first = last;
@@ -117,12 +139,16 @@ typename Schur<T>::Plan Schur<T>::plan_block(const BlockData& block, int n) cons
 
 template <typename T>
 void Schur<T>::size_workspaces() {
-  std::size_t product = 0, panel = 0;
+  std::size_t product = 0, panel = 0, rank_rows = 0, rank = 0;
   for (std::size_t b = 0; b < plans_.size(); ++b) {
     const auto n = static_cast<std::size_t>(data_.layout.size[b]);
     for (const List& list : plans_[b].lists) {
-      product = std::max(product, n * (list.by_rows ? list.rows.size() : n * kBatch));
-      if (!list.by_rows) panel = std::max(panel, n * (n + 1) / 2);
+      const bool by_rows = list.formula == Formula::rows;
+      product = std::max(product, n * (by_rows ? list.rows.size() : n * kBatch));
+      if (!by_rows) panel = std::max(panel, n * (n + 1) / 2);
+      if (list.formula != Formula::rank) continue;
+      rank_rows = std::max(rank_rows, n);
+      rank = std::max(rank, 2 * list.rows.size());
     }
   }
   work_.resize(threads_);
@@ -130,6 +156,8 @@ void Schur<T>::size_workspaces() {
     w.h.resize(static_cast<Eigen::Index>(product));
     w.u.resize(static_cast<Eigen::Index>(product));
     w.panel.resize(panel);
+    w.p.resize(static_cast<Eigen::Index>(rank_rows), static_cast<Eigen::Index>(rank));
+    w.q = w.p;
   }
 }
 
@@ -159,21 +187,27 @@ void Schur<T>::assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y) {
 template <typename T>
 void Schur<T>::add_batch(const Plan& plan, const Batch& batch, const ConstMatrixMap<T>& inverse_X,
                          const ConstMatrixMap<T>& Y, Workspace& w) {
-  if (plan.lists[batch.first].by_rows)
+  if (plan.lists[batch.first].formula == Formula::rows)
     add_rows(plan, batch.first, inverse_X, Y, w);
   else
     add_dense(plan, batch.first, batch.last, inverse_X, Y, w);
 }
 
 // h, transposed and stacked: row b + n i, column c holds (F_i Y)(c, b), so that one product gives
-//   u = h X^-1:  row b + n i, column a holds U_i(a, b),
-// and the panel at (a, b), a <= b, holds U_i(a, b) + U_i(b, a) (once when a = b) for the batch's i.
+//   u = h X^-1:  row b + n i, column a holds U_i(a, b).
 template <typename T>
-void Schur<T>::add_dense(const Plan& plan, std::size_t first, std::size_t last,
-                         const ConstMatrixMap<T>& inverse_X, const ConstMatrixMap<T>& Y,
-                         Workspace& w) {
+void Schur<T>::multiply_lists(const Plan& plan, std::size_t first, std::size_t last,
+                              const ConstMatrixMap<T>& inverse_X, const ConstMatrixMap<T>& Y,
+                              Workspace& w) const {
   const Eigen::Index n = Y.rows();
   const auto count = static_cast<Eigen::Index>(last - first);
+  MatrixMap<T> u(w.u.data(), n * count, n);
+  if (plan.lists[first].formula == Formula::rank) {
+    for (Eigen::Index i = 0; i < count; ++i)
+      multiply_by_rank(plan, plan.lists[first + static_cast<std::size_t>(i)], inverse_X, Y, w,
+                       View<T>(u).part(n * i, 0, n, n));
+    return;
+  }
   MatrixMap<T> h(w.h.data(), n * count, n);
   h.setZero();
   for (Eigen::Index i = 0; i < count; ++i) {
@@ -185,9 +219,44 @@ void Schur<T>::add_dense(const Plan& plan, std::size_t first, std::size_t last,
         h.col(term.column).segment(n * i, n) += Y.col(term.row) * coefficient<T>(term);
     }
   }
-  MatrixMap<T> u(w.u.data(), n * count, n);
   multiply(View<const T>(h), View<const T>(inverse_X), View<T>(u));
+}
 
+// P = [X^-1 e_s, X^-1 g_s], Q = [Y g_s, Y e_s]; the diagonal entries of F_i are halved in g_s.
+template <typename T>
+void Schur<T>::multiply_by_rank(const Plan& plan, const List& list,
+                                const ConstMatrixMap<T>& inverse_X, const ConstMatrixMap<T>& Y,
+                                Workspace& w, const View<T>& u) const {
+  const Eigen::Index n = Y.rows();
+  const auto r = static_cast<Eigen::Index>(list.rows.size());
+  MatrixMap<T> p(w.p.data(), n, 2 * r), q(w.q.data(), n, 2 * r);
+  for (Eigen::Index k = 0; k < r; ++k) {
+    const int s = list.rows[static_cast<std::size_t>(k)];
+    p.col(k) = inverse_X.col(s);
+    q.col(r + k) = Y.col(s);
+  }
+  p.rightCols(r).setZero();
+  q.leftCols(r).setZero();
+  for (std::size_t t = list.first; t < list.last; ++t) {
+    const Term& term = plan.terms[t];
+    const int k = plan.slot[t];
+    const int other = list.rows[static_cast<std::size_t>(k)] == term.row ? term.column : term.row;
+    const T factor = term.row == term.column ? T(T(0.5) * plan.value[t]) : plan.value[t];
+    p.col(r + k) += inverse_X.col(other) * factor;
+    q.col(k) += Y.col(other) * factor;
+  }
+  multiply_outer(View<const T>(q), View<const T>(p), u);
+}
+
+// The panel at (a, b), a <= b, holds U_i(a, b) + U_i(b, a) (once when a = b) for the batch's i.
+template <typename T>
+void Schur<T>::add_dense(const Plan& plan, std::size_t first, std::size_t last,
+                         const ConstMatrixMap<T>& inverse_X, const ConstMatrixMap<T>& Y,
+                         Workspace& w) {
+  multiply_lists(plan, first, last, inverse_X, Y, w);
+  const Eigen::Index n = Y.rows();
+  const auto count = static_cast<Eigen::Index>(last - first);
+  const ConstMatrixMap<T> u(w.u.data(), n * count, n);
   std::size_t entry = 0;
   for (Eigen::Index b = 0; b < n; ++b)
     for (Eigen::Index a = 0; a <= b; ++a, ++entry)

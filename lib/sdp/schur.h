@@ -8,6 +8,7 @@
 #include "sdp/linalg.h"
 #include "sdp/panel.h"
 #include "sdp/sparse_schur.h"
+#include "sdp/view.h"
 
 namespace gainsmith::sdp {
 
@@ -18,6 +19,9 @@ namespace gainsmith::sdp {
 ///   dense: U = X^-1 (F_i Y) by one matrix product for eight F_i at a time, then F_j . U for the
 ///   F_j
 ///          that follow, eight at a time from an interleaved panel;
+///   rank:  the same, with F_i = sum_{s in S} (e_s g_s' + g_s e_s'), S a few rows that cover its
+///          entries (as in A'P + PA): U = sum X^-1 e_s (Y g_s)' + X^-1 g_s (Y e_s)', a product of
+///          inner length 2 |S|;
 ///   rows:  with R the nonzero rows of F_i, (F_i Y)_R is formed and only the entries of
 ///          U = X^-1(:,R) (F_i Y)_R where F_j has one, as dot products of length |R|.
 /// Both triangles' share comes from the symmetric part of U, so each pair is visited once.
@@ -38,15 +42,16 @@ class Schur {
 
  private:
   static constexpr int kBatch = kLanes;
+  enum class Formula { dense, rank, rows };
   /// A list of one block in the order of assembly.
   struct List {
     int constraint = 0;     ///< from 0
     std::size_t first = 0;  ///< its terms in Plan::packed / value
     std::size_t last = 0;
-    bool by_rows = false;
-    std::vector<int> rows;  ///< R, when by_rows
+    Formula formula = Formula::dense;
+    std::vector<int> rows;  ///< R by rows, S by rank
   };
-  /// Lists first .. last - 1, which are assembled together.
+  /// Lists first .. last - 1, of one formula, which are assembled together.
   struct Batch {
     std::size_t first = 0;
     std::size_t last = 0;
@@ -56,12 +61,14 @@ class Schur {
     std::vector<Term> terms;  ///< regrouped in the order of `lists`
     std::vector<int> packed;  ///< place of a term in the packed upper triangle
     std::vector<T> value;     ///< of a term
+    std::vector<int> slot;    ///< by rank: the place in S of the row that covers the term
     std::vector<Batch> batches;
     double cost = 0;  ///< in multiplications, about
   };
   struct Workspace {
     Vector<T> h;     ///< F_i Y, transposed: (n * kBatch) x n, or |R| x n
     Vector<T> u;     ///< X^-1 F_i Y
+    Matrix<T> p, q;  ///< by rank: U = P Q'
     Panel<T> panel;  ///< symmetric part of U, packed upper triangle
   };
 
@@ -71,6 +78,11 @@ class Schur {
   Plan plan_block(const BlockData& block, int n) const;
   void add_dense(const Plan& plan, std::size_t first, std::size_t last,
                  const ConstMatrixMap<T>& inverse_X, const ConstMatrixMap<T>& Y, Workspace& w);
+  void multiply_lists(const Plan& plan, std::size_t first, std::size_t last,
+                      const ConstMatrixMap<T>& inverse_X, const ConstMatrixMap<T>& Y,
+                      Workspace& w) const;
+  void multiply_by_rank(const Plan& plan, const List& list, const ConstMatrixMap<T>& inverse_X,
+                        const ConstMatrixMap<T>& Y, Workspace& w, const View<T>& u) const;
   void add_rows(const Plan& plan, std::size_t position, const ConstMatrixMap<T>& inverse_X,
                 const ConstMatrixMap<T>& Y, Workspace& w);
   void add_linear(const ConstVectorMap<T>& inverse_x, const ConstVectorMap<T>& y);

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <vector>
 
+#include "sdp/cover.h"
 #include "sdp/extreme.h"
 #include "sdp/factor.h"
 #include "sdp/kernels.h"
@@ -264,6 +266,29 @@ TEST(Schur, SolvesWithTheMatrixOfItsDefinition) {
       EXPECT_LT((b * (x - expected)).norm(), 1e-9 * (b * expected).norm());
     }
   }
+}
+
+TEST(Cover, HoldsEveryEntry) {
+  // A row and a column, an entry on the diagonal, one elsewhere.
+  std::vector<Term> terms;
+  for (int k = 0; k < 20; ++k) terms.push_back({std::min(k, 7), std::max(k, 7), 1, 0});
+  terms.push_back({3, 3, 1, 0});
+  terms.push_back({11, 15, 1, 0});
+  const Cover cover = cover_of(terms.data(), terms.data() + terms.size(), 20);
+  ASSERT_TRUE(cover.found);
+  EXPECT_EQ(cover.rows, (std::vector<int>{7, 3, 11}));
+  ASSERT_EQ(cover.slot.size(), terms.size());
+  for (std::size_t t = 0; t < terms.size(); ++t) {
+    const int row = cover.rows[static_cast<std::size_t>(cover.slot[t])];
+    EXPECT_TRUE(terms[t].row == row || terms[t].column == row);
+  }
+}
+
+TEST(Cover, GivesUpOnFullMatrices) {
+  std::vector<Term> terms;
+  for (int j = 0; j < 8; ++j)
+    for (int i = 0; i <= j; ++i) terms.push_back({i, j, 1, 0});
+  EXPECT_FALSE(cover_of(terms.data(), terms.data() + terms.size(), 8).found);
 }
 
 TEST(Presolve, SplitsComponentsAndPutsThemBack) {
