@@ -15,6 +15,8 @@ constexpr double kShortest = 0.9, kLongest = 0.98;
 /// is good to three digits, late while the errors may still rise before they fall.
 constexpr int kPatienceNear = 4;
 constexpr double kNear = 1e-3;
+/// Far from a solution, a point that is better by less than this factor is no progress.
+constexpr double kProgress = 0.5;
 /// A step below this gets nowhere.
 constexpr double kNoStep = 1e-7;
 /// Part of a step taken back when it leaves the cone, and how often.
@@ -74,7 +76,7 @@ template <typename T>
 Cause Ipm<T>::run(const Run& run) {
   run_ = run;
   iteration_ = run.first_iteration;
-  best_error_ = best_certificate_ = std::numeric_limits<double>::infinity();
+  best_error_ = progress_error_ = best_certificate_ = std::numeric_limits<double>::infinity();
   since_best_ = 0;
   left_ = false;
   const Cause cause = iterate();
@@ -193,7 +195,7 @@ template <typename T>
 void Ipm<T>::keep_best() {
   ++since_best_;
   const double certificate = std::min(residuals_.primal_certificate, residuals_.dual_certificate);
-  if (certificate < best_certificate_) {
+  if (certificate < kProgress * best_certificate_) {
     best_certificate_ = certificate;
     since_best_ = 0;
   }
@@ -201,6 +203,8 @@ void Ipm<T>::keep_best() {
   if (!(error < best_error_)) return;
   best_error_ = error;
   best_ = point_;
+  if (error > kNear && !(error < kProgress * progress_error_)) return;
+  progress_error_ = error;
   since_best_ = 0;
 }
 

@@ -79,6 +79,7 @@ class Ipm {
   Newton<T> newton_;
   int iteration_ = 0;
   double best_error_ = 0;
+  double progress_error_ = 0;  ///< of the last point that was progress
   /// Smallest certificate residual so far: its progress counts, but a problem with an optimum may
   /// pass near one on its way.
   double best_certificate_ = 0;
