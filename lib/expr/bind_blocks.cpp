@@ -28,7 +28,10 @@ int Binder::assemble(const Expression& expression, const Node& node, std::vector
 Bound Binder::bind_block(const Expression& expression, const Node& node) {
   const int columns = node.columns;
   const int rows = static_cast<int>(node.children.size()) / columns;
-  const auto place = [&](int i, int j) { return static_cast<std::size_t>(i * columns + j); };
+  const auto place = [&](int i, int j) {
+    return static_cast<std::size_t>(i) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(j);
+  };
   bool mirrored = false;
   for (const NodePtr& child : node.children) mirrored |= child->kind == NodeKind::mirror;
   if (mirrored && rows != columns)
@@ -121,6 +124,7 @@ Bound Binder::bind_block(const Expression& expression, const Node& node) {
     }
   }
   std::vector<int> operands;
+  operands.reserve(entries.size());
   for (const Bound& value : entries) operands.push_back(value.at);
   return {assemble(expression, node, std::move(operands), columns, partition.heights,
                    partition.widths)};
