@@ -131,7 +131,8 @@ using BoxFunction = std::function<double(const std::vector<double>&)>;
 BoxMinimum descend(const BoxFunction& f, BoxMinimum start, const std::vector<double>& low,
                    const std::vector<double>& high, double first_step) {
   constexpr double kLast = 1e-10;
-  for (double step = first_step; step > kLast; step /= 2) {
+  double step = first_step;
+  while (step > kLast) {
     for (bool better = true; better;) {
       better = false;
       for (std::size_t i = 0; i < low.size(); ++i) {
@@ -146,6 +147,7 @@ BoxMinimum descend(const BoxFunction& f, BoxMinimum start, const std::vector<dou
         }
       }
     }
+    step /= 2;
   }
   return start;
 }
