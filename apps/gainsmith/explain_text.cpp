@@ -43,8 +43,10 @@ std::string negotiable_text(const design::Reach& reach) {
   if (!reach.feasible)
     return fmt::format("negotiable  {} does not help: nothing feasible was found in its range\n",
                        reach.name);
-  const std::string beyond =
-      reach.beyond ? "; " + brief(*reach.beyond, 10) + " is proved infeasible" : "";
+  const std::string beyond = reach.beyond
+                                 ? "; " + brief(*reach.beyond, 10) + " is proved infeasible" +
+                                       model::limits_of(*reach.certificate)
+                                 : "";
   return fmt::format("negotiable  {} (it is {}{})\n", reach_text(reach), brief(reach.value),
                      beyond);
 }
@@ -53,8 +55,10 @@ std::string conflict_statement(const design::Conflict& conflict) {
   if (conflict.gain_bound)
     return "the inequalities hold together, but not within the gain bound; raise "
            "synthesis.gain_bound";
-  if (conflict.names.size() == 1) return conflict.names.front() + " cannot hold";
-  return listed(conflict.names) + " cannot hold together";
+  const std::string limits = (conflict.within_gain_bound ? " within the gain bound" : "") +
+                             model::limits_of(conflict.certificate);
+  if (conflict.names.size() == 1) return conflict.names.front() + " cannot hold" + limits;
+  return listed(conflict.names) + " cannot hold together" + limits;
 }
 
 std::string conflict_text(const design::Conflict& conflict) {
@@ -81,9 +85,10 @@ std::string relaxations_text(const std::vector<design::Relaxation>& relaxations)
     return value ? brief(*value, 4) : std::string(none);
   };
   for (const auto& relaxation : relaxations)
-    text += fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}\n", relaxation.name, width,
-                        number(relaxation.alone, "does not help"),
-                        number(relaxation.together, "undecided"), brief(relaxation.scale, 3));
+    text += fmt::format(
+        "{:<{}}  {:>14}  {:>14}  {:>10}\n", relaxation.name, width,
+        number(relaxation.alone, relaxation.alone_undecided ? "undecided" : "does not help"),
+        number(relaxation.together, "undecided"), brief(relaxation.scale, 3));
   return text;
 }
 
@@ -120,19 +125,24 @@ io::Json explanation_json(const design::Explanation& explanation) {
     document["conflict"] = {{"requirements", conflict->names},
                             {"undecided", conflict->undecided},
                             {"gain_bound", conflict->gain_bound},
+                            {"within_gain_bound", conflict->within_gain_bound},
                             {"checked", conflict->certificate.checked},
+                            {"about", conflict->certificate.about},
                             {"residual", conflict->certificate.residual}};
   for (const auto& relaxation : explanation.relaxations)
     document["relaxations"].push_back({{"requirement", relaxation.name},
                                        {"scale", relaxation.scale},
                                        {"alone", number(relaxation.alone)},
+                                       {"alone_undecided", relaxation.alone_undecided},
                                        {"together", number(relaxation.together)}});
   for (const auto& reach : explanation.reaches)
-    document["negotiable"].push_back({{"scalar", reach.name},
-                                      {"value", reach.value},
-                                      {"side", side_of(reach)},
-                                      {"feasible", number(reach.feasible)},
-                                      {"beyond", number(reach.beyond)}});
+    document["negotiable"].push_back(
+        {{"scalar", reach.name},
+         {"value", reach.value},
+         {"side", side_of(reach)},
+         {"feasible", number(reach.feasible)},
+         {"beyond", number(reach.beyond)},
+         {"beyond_about", reach.certificate ? io::Json(reach.certificate->about) : io::Json()}});
   return document;
 }
 

@@ -10,13 +10,25 @@ namespace {
 
 constexpr int kDigits = 9;
 
-/// The no end of a bracket.
-std::string beyond_text(const model::SearchRecord& search) {
+/// " at delta = 0.12, eta = 0.3": where a bracket holds when other scalars were searched too.
+std::string place_text(const model::Gains& gains) {
   std::string text;
-  if (search.beyond)
-    text += fmt::format(
-        "            {} is proved infeasible{}\n", brief(*search.beyond, kDigits),
-        search.certificate && search.certificate->checked ? " by a checked certificate" : "");
+  for (const std::string& name : gains.search->over)
+    text += (text.empty() ? " at " : ", ") + name + " = " + brief(gains.searched.at(name), kDigits);
+  return text;
+}
+
+/// The no end of a bracket.
+std::string beyond_text(const model::Gains& gains) {
+  const model::SearchRecord& search = *gains.search;
+  std::string text;
+  if (search.beyond) {
+    text += fmt::format("            {} is proved infeasible", brief(*search.beyond, kDigits));
+    if (const auto& certificate = search.certificate)
+      text += model::limits_of(*certificate) +
+              (certificate->checked ? " by a checked certificate" : "");
+    text += place_text(gains) + "\n";
+  }
   if (!search.open.empty())
     text += fmt::format("            undecided or refused from {} to {}\n",
                         brief(search.open[0], kDigits), brief(search.open[1], kDigits));
@@ -29,9 +41,17 @@ std::string breaks_text(const model::SearchRecord& search) {
   for (const double value : search.breaks)
     values += (values.empty() ? "" : ", ") + brief(value, kDigits);
   return fmt::format(
-      "            NOT MONOTONE: proved infeasible at {} as well; other borders may lie between "
+      "            NOT MONOTONE: proved infeasible{} at {} as well; other borders may lie between "
       "the values tried\n",
-      values);
+      search.certificate ? model::limits_of(*search.certificate) : "", values);
+}
+
+std::string ends_text(const model::SearchRecord& search) {
+  std::string text;
+  for (const std::string& name : search.at_end)
+    text += fmt::format(
+        "            {} was found at an end of its range: a wider one may do better\n", name);
+  return text;
 }
 
 std::string polish_text(const model::SearchRecord& search) {
@@ -58,7 +78,7 @@ std::string search_text(const model::Gains& gains) {
     text = fmt::format("search      {}: nothing feasible was found\n", search.figure);
   if (bracket && search.value && !search.beyond && search.open.empty())
     text += "            that is the end of the range: the border lies beyond it\n";
-  text += beyond_text(search) + breaks_text(search) + polish_text(search);
+  text += beyond_text(gains) + breaks_text(search) + ends_text(search) + polish_text(search);
   return text + fmt::format("            {} evaluations, {} feasible{}\n", search.evaluations,
                             search.feasible, search.finished ? "" : "; STOPPED EARLY");
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <memory>
 #include <string>
@@ -119,8 +120,12 @@ std::string summary(const sdp::Solution& solution) {
         "certificate       checked on the raw data: {} = {}, residual {}, smallest eigenvalue {}\n",
         primal ? "F_0.Y" : "-c'x", brief(solution.certificate.value),
         brief(solution.certificate.residual, 3), brief(solution.certificate.min_eigenvalue, 3));
-    text += fmt::format("                  every {} solution is larger than {}\n",
-                        primal ? "primal" : "dual", brief(solution.certificate.excluded_radius, 3));
+    const char* side = primal ? "primal" : "dual";
+    const double radius = solution.certificate.excluded_radius;
+    text += std::isfinite(radius)
+                ? fmt::format("                  every {} solution is larger than {}\n", side,
+                              brief(radius, 3))
+                : fmt::format("                  no {} solution of any size\n", side);
   } else {
     text += fmt::format(
         "primal objective  {:.15e}\ndual objective    {:.15e}\nrelative gap      {:.2e}\n",

@@ -98,8 +98,11 @@ std::string certificate_text(const model::Gains& gains) {
   return fmt::format(
       "certificate multipliers Y >= 0 (smallest eigenvalue {}) with F_0.Y = {} and sum |F_i.Y| = "
       "{},\n"
-      "            recomputed from the problem's data: {}; {}\n",
+      "            recomputed from the {}: {}; {}\n",
       brief(c.min_eigenvalue, 3), brief(c.value), brief(c.residual, 3),
+      c.exact()           ? "problem's data"
+      : c.about == "hull" ? "data of the hull"
+                          : "data of the vertex test",
       c.checked ? "checked" : "NOT CHECKED", excluded);
 }
 
@@ -118,8 +121,12 @@ std::string matrix_text(const expr::Matrix& matrix) {
 
 std::string verdict_line(const model::Gains& gains) {
   std::string text = to_string(gains.verdict);
-  if (gains.verdict == model::Verdict::no) text += ", infeasible by a checked certificate";
-  if (gains.verdict == model::Verdict::undecided) text += ", " + gains.solver.cause;
+  if (gains.verdict == model::Verdict::no)
+    text +=
+        ", infeasible" + model::limits_of(gains.certificate.value()) + " by a checked certificate";
+  if (gains.verdict == model::Verdict::undecided)
+    text += gains.search && !gains.search->value ? ", nothing feasible was found"
+                                                 : ", " + gains.solver.cause;
   if (gains.objective && gains.verdict == model::Verdict::yes)
     text += ", objective " + brief(*gains.objective);
   return text;

@@ -47,19 +47,30 @@ std::string values_with(const search::Bisection& found, search::Answer answer) {
 }
 
 /// What is said when no value is feasible: nothing of those that were not tried.
-std::string nothing_found(const search::Bisection& found, const BisectChoices& choices) {
+/// `limits`: what the proofs are limited to (model::limits_of).
+std::string nothing_found(const search::Bisection& found, const BisectChoices& choices,
+                          const std::string& limits) {
   std::string text = "no feasible " + choices.scalar.name + " among the " +
                      std::to_string(found.samples.size()) + " values tried in [" +
                      brief(choices.scalar.axis.low) + ", " + brief(choices.scalar.axis.high) + "]";
   const bool all = std::all_of(found.samples.begin(), found.samples.end(), [](const auto& sample) {
     return sample.answer == search::Answer::no;
   });
-  if (all) return text + "; each is proved infeasible, which says nothing of those between";
+  if (all)
+    return text + "; each is proved infeasible" + limits + ", which says nothing of those between";
   const std::string proved = values_with(found, search::Answer::no);
   const std::string refused = values_with(found, search::Answer::refused);
-  if (!proved.empty()) text += "; those at " + proved + " are proved infeasible";
+  if (!proved.empty()) text += "; those at " + proved + " are proved infeasible" + limits;
   if (!refused.empty()) text += "; those at " + refused + " are refused by the assumptions";
   return text;
+}
+
+/// What the weakest of the certificates is limited to.
+std::string limits_of(const std::map<double, model::Gains>& tried) {
+  for (const auto& [value, gains] : tried)
+    if (gains.certificate && !gains.certificate->exact())
+      return model::limits_of(*gains.certificate);
+  return "";
 }
 
 /// A result that is not feasible as that of a whole search.
@@ -107,7 +118,8 @@ BisectResult bisect(const model::Problem& problem, const model::Overrides& fixed
   const double easiest = choices.largest ? tried.begin()->first : tried.rbegin()->first;
   result.gains = tried.at(result.found.yes.value_or(easiest));
   result.gains.search = record_of(result.found, choices);
-  if (!result.found.yes) set_undecided(result.gains, nothing_found(result.found, choices));
+  if (!result.found.yes)
+    set_undecided(result.gains, nothing_found(result.found, choices, limits_of(tried)));
   if (result.found.no) result.gains.search->certificate = tried.at(*result.found.no).certificate;
   return result;
 }

@@ -124,18 +124,16 @@ model::Problem elastic(model::Problem problem, const ByRequirement& scales,
   });
 }
 
-std::optional<ByRequirement> smallest_slacks(const model::Problem& problem,
-                                             const ByRequirement& scales,
-                                             const model::Overrides& overrides,
-                                             const sdp::Options& solver) {
+Slacks smallest_slacks(const model::Problem& problem, const ByRequirement& scales,
+                       const model::Overrides& overrides, const sdp::Options& solver) {
   std::map<std::string, std::string> names;
   const model::Problem relaxed = elastic(problem, scales, names);
   const model::Gains gains = synthesize_at(relaxed, overrides, solver);
-  if (gains.verdict != model::Verdict::yes) return std::nullopt;
-  ByRequirement slacks;
+  Slacks slacks{gains.verdict, {}};
+  if (gains.verdict != model::Verdict::yes) return slacks;
   for (const auto& [requirement, slack] : names) {
     const double value = (*gains.find(slack))(0, 0);
-    slacks[requirement] = value > problem.synthesis.margin ? value : 0;
+    slacks.by_requirement[requirement] = value > problem.synthesis.margin ? value : 0;
   }
   return slacks;
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "model/instance.h"
+#include "model/words.h"
 #include "sdp/solver.h"
 
 namespace gainsmith::design {
@@ -23,11 +24,14 @@ ByRequirement scales_of(const model::Problem& problem, const model::Overrides& o
 model::Problem elastic(model::Problem problem, const ByRequirement& scales,
                        std::map<std::string, std::string>& slacks);
 
-/// The slacks of the elastic problem with the smallest sum; none when that is not decided or has no
-/// solution. A slack below the margin counts as 0.
-std::optional<ByRequirement> smallest_slacks(const model::Problem& problem,
-                                             const ByRequirement& scales,
-                                             const model::Overrides& overrides,
-                                             const sdp::Options& solver);
+/// Slacks when the verdict is yes; no when also the elastic problem is proved infeasible.
+struct Slacks {
+  model::Verdict verdict = model::Verdict::undecided;
+  ByRequirement by_requirement;
+};
+
+/// The slacks of the elastic problem with the smallest sum. One below the margin counts as 0.
+Slacks smallest_slacks(const model::Problem& problem, const ByRequirement& scales,
+                       const model::Overrides& overrides, const sdp::Options& solver);
 
 }  // namespace gainsmith::design

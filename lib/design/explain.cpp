@@ -48,14 +48,18 @@ std::vector<Relaxation> find_relaxations(const model::Problem& problem,
                                          const sdp::Options& solver) {
   const model::Problem plain = without_gains(problem);
   const auto scales = scales_of(plain, {});
-  const auto together = smallest_slacks(plain, scales, {}, solver);
+  const Slacks together = smallest_slacks(plain, scales, {}, solver);
   std::vector<Relaxation> relaxations;
   for (const model::Requirement& requirement : problem.method->require) {
     const std::string& name = requirement.name;
-    Relaxation relaxation{name, scales.at(name), {}, {}};
-    if (together) relaxation.together = together->at(name);
-    const auto alone = smallest_slacks(plain, {{name, scales.at(name)}}, {}, solver);
-    if (alone) relaxation.alone = alone->at(name);
+    Relaxation relaxation;
+    relaxation.name = name;
+    relaxation.scale = scales.at(name);
+    if (together.verdict == model::Verdict::yes)
+      relaxation.together = together.by_requirement.at(name);
+    const Slacks alone = smallest_slacks(plain, {{name, scales.at(name)}}, {}, solver);
+    if (alone.verdict == model::Verdict::yes) relaxation.alone = alone.by_requirement.at(name);
+    relaxation.alone_undecided = alone.verdict == model::Verdict::undecided;
     relaxations.push_back(std::move(relaxation));
   }
   return relaxations;
@@ -66,12 +70,13 @@ Reach reach(const model::Problem& problem, const SearchedScalar& scalar, double 
             const sdp::Options& solver) {
   // A fine bracket: the number is what people remember.
   constexpr double kFine = 0.1;
-  Reach found{scalar.name, value, at_most, {}, {}};
+  Reach found{scalar.name, value, at_most, {}, {}, {}};
   try {
     const BisectResult result =
         bisect(problem, {}, {scalar, at_most, default_tolerance(scalar.axis) * kFine, {}}, solver);
     found.feasible = result.found.yes;
     found.beyond = result.found.no;
+    if (found.beyond) found.certificate = result.gains.search->certificate;
   } catch (const InputError&) {
     // The assumptions refuse the whole side: nothing there is feasible.
   }
@@ -90,10 +95,13 @@ std::optional<Conflict> find_conflict(const model::Problem& problem, const model
   Conflict conflict;
   model::Gains proof = subset(plain, names, solver);
   if (proof.verdict != model::Verdict::no) {
-    conflict.gain_bound = true;
+    const bool bounded = problem.synthesis.gain_bound && !problem.method->gains.empty();
+    conflict.gain_bound = bounded && proof.verdict == model::Verdict::yes;
+    conflict.within_gain_bound = bounded && !conflict.gain_bound;
     conflict.certificate = gains.certificate.value();
     for (const model::Requirement& requirement : problem.method->require)
       conflict.names.push_back(requirement.name);
+    if (!conflict.gain_bound) conflict.undecided = conflict.names;
     return conflict;
   }
   // Later requirements often imply earlier, simpler ones; those are what is kept.
@@ -128,7 +136,7 @@ std::vector<Reach> find_reaches(const model::Problem& problem, const sdp::Option
       const Reach found = reach(problem, side, value, at_most, solver);
       if (found.feasible) reaches.push_back(found);
     }
-    if (reaches.size() == count) reaches.push_back({range.name, value, true, {}, {}});
+    if (reaches.size() == count) reaches.push_back({range.name, value, true, {}, {}, {}});
   }
   return reaches;
 }

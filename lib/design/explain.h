@@ -17,9 +17,12 @@ namespace gainsmith::design {
 struct Conflict {
   std::vector<std::string> names;  ///< in the order of the method
   std::vector<std::string> undecided;
-  model::CertificateRecord certificate;  ///< of these requirements alone, checked
+  model::CertificateRecord certificate;  ///< of these requirements, checked
   /// All requirements hold together without the bounds on the gains: these are the conflict.
   bool gain_bound = false;
+  /// Whether they do is not decided: all of them are in `names` and in `undecided`, and the
+  /// certificate may need the bounds.
+  bool within_gain_bound = false;
 };
 
 /// How much a requirement would have to give, as the identity times `scale` times these numbers.
@@ -27,6 +30,7 @@ struct Relaxation {
   std::string name;
   double scale = 0;                ///< of the inequality, see docs/conventions.md
   std::optional<double> alone;     ///< when all others hold; none: it alone does not help
+  bool alone_undecided = false;    ///< or whether it does is not decided
   std::optional<double> together;  ///< in the solution with the smallest sum
 };
 
@@ -37,7 +41,8 @@ struct Reach {
   bool at_most = true;  ///< go down to `feasible`; otherwise up
   /// The nearest value found, with every margin recomputed; none when nothing in the range is.
   std::optional<double> feasible;
-  std::optional<double> beyond;  ///< next to it, proved infeasible
+  std::optional<double> beyond;                         ///< next to it, proved infeasible
+  std::optional<model::CertificateRecord> certificate;  ///< there
 };
 
 struct Explanation {

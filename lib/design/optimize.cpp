@@ -120,9 +120,9 @@ class OuterSearch {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     try {
       const auto slacks = smallest_slacks(plain, scales, at_easy_end(point), solver_);
-      if (!slacks) return kInfinity;
+      if (slacks.verdict != model::Verdict::yes) return kInfinity;
       double sum = 0;
-      for (const auto& [requirement, slack] : *slacks) sum += slack;
+      for (const auto& [requirement, slack] : slacks.by_requirement) sum += slack;
       return sum;
     } catch (const InputError&) {
       return kInfinity;
@@ -181,6 +181,13 @@ class OuterSearch {
     return record;
   }
 
+  /// Whether a value is an end of its axis, as far as the search tells values apart.
+  static bool is_at_end(const search::Axis& axis, double value) {
+    constexpr double kNear = 1e-4;
+    const double fraction = axis.fraction(value);
+    return std::min(fraction, 1 - fraction) < kNear;
+  }
+
   /// The gains at the best point, with the record of the search.
   model::Gains result(const search::Minimum& minimum) const {
     model::Gains gains;
@@ -196,7 +203,11 @@ class OuterSearch {
     record.figure = figure_name(request_, *problem_.method);
     record.value = record.figure == "margin" && best ? std::optional(-*best) : best;
     record.polish = std::move(polished);
-    for (const SearchedScalar& scalar : request_.over) record.over.push_back(scalar.name);
+    for (const SearchedScalar& scalar : request_.over) {
+      record.over.push_back(scalar.name);
+      if (best && is_at_end(scalar.axis, gains.searched.at(scalar.name)))
+        record.at_end.push_back(scalar.name);
+    }
     record.evaluations = minimum.evaluations;
     record.feasible = minimum.feasible;
     record.finished = minimum.finished;

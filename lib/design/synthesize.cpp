@@ -133,6 +133,7 @@ class Synthesis {
     const bool exact = std::all_of(plan_.requirements.begin(), plan_.requirements.end(),
                                    [](const lmi::Imposed& imposed) { return imposed.exact; });
     if (gains_.verdict != model::Verdict::no || exact) return;
+    gains_.certificate->about = plan_.uses_vertex_gains() ? "vertices" : "hull";
     add_message(plan_.uses_vertex_gains()
                     ? "the certificate is about the test at the vertices of the box, which is only "
                       "sufficient; the way exchange with a polynomial may still find a solution"

@@ -56,6 +56,7 @@ Json gain_function_json(const model::GainFunction& gain) {
 
 Json certificate_json(const model::CertificateRecord& certificate) {
   return {{"checked", certificate.checked},
+          {"about", certificate.about},
           {"value", certificate.value},
           {"residual", certificate.residual},
           {"min_eigenvalue", certificate.min_eigenvalue},
@@ -67,11 +68,11 @@ Json search_json(const model::SearchRecord& search) {
   const auto number = [](const std::optional<double>& value) {
     return value ? Json(*value) : Json();
   };
-  Json result = {{"figure", search.figure},           {"value", number(search.value)},
-                 {"beyond", number(search.beyond)},   {"open", search.open},
-                 {"breaks", search.breaks},           {"over", search.over},
-                 {"evaluations", search.evaluations}, {"feasible", search.feasible},
-                 {"finished", search.finished}};
+  Json result = {{"figure", search.figure},         {"value", number(search.value)},
+                 {"beyond", number(search.beyond)}, {"open", search.open},
+                 {"breaks", search.breaks},         {"over", search.over},
+                 {"at_end", search.at_end},         {"evaluations", search.evaluations},
+                 {"feasible", search.feasible},     {"finished", search.finished}};
   if (const auto& polish = search.polish)
     result["polish"] = {{"before", polish->before},
                         {"after", number(polish->after)},
@@ -134,9 +135,13 @@ model::Margin margin_of(const JsonReader& reader) {
 }
 
 model::CertificateRecord certificate_of(const JsonReader& reader) {
-  return {reader.at("value").number(),          reader.at("residual").number(),
-          reader.at("min_eigenvalue").number(), reader.at("excluded_radius").number_or_infinity(),
-          reader.at("checked").truth(),         reader.at("multipliers").matrices()};
+  return {reader.at("value").number(),
+          reader.at("residual").number(),
+          reader.at("min_eigenvalue").number(),
+          reader.at("excluded_radius").number_or_infinity(),
+          reader.at("checked").truth(),
+          reader.at("multipliers").matrices(),
+          reader.has("about") ? reader.at("about").text() : "problem"};
 }
 
 model::SearchRecord search_of(const JsonReader& reader) {
@@ -155,6 +160,8 @@ model::SearchRecord search_of(const JsonReader& reader) {
   search.open = numbers(reader.at("open"));
   search.breaks = numbers(reader.at("breaks"));
   for (const JsonReader& item : reader.at("over").items()) search.over.push_back(item.text());
+  if (reader.has("at_end"))
+    for (const JsonReader& item : reader.at("at_end").items()) search.at_end.push_back(item.text());
   search.evaluations = reader.at("evaluations").whole();
   search.feasible = reader.at("feasible").whole();
   search.finished = reader.at("finished").truth();

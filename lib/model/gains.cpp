@@ -25,6 +25,11 @@ std::string to_string(GainFunction::Kind kind) {
   return "?";
 }
 
+std::string limits_of(const CertificateRecord& certificate) {
+  if (certificate.exact()) return "";
+  return certificate.about == "hull" ? " for the hull only" : " for the vertex test only";
+}
+
 std::string statement_hash(const Statement& statement) {
   return sha256(statement.method_text + '\0' + statement.problem_text);
 }

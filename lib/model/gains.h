@@ -43,7 +43,15 @@ struct CertificateRecord {
   bool checked = false;
   /// One multiplier matrix for each inequality and point: its name and the matrix.
   NamedMatrices multipliers;
+  /// What it proves infeasible: "problem", or a condition that is only sufficient for the problem's
+  /// inequalities: their "hull", or the test at the "vertices" (docs/language.md).
+  std::string about = "problem";
+
+  bool exact() const { return about == "problem"; }
 };
+
+/// What is added to "proved infeasible": "", " for the hull only", " for the vertex test only".
+std::string limits_of(const CertificateRecord& certificate);
 
 struct SolverRecord {
   std::string status;  ///< optimal, infeasible, undecided
@@ -73,6 +81,7 @@ struct SearchRecord {
   std::vector<double> breaks;    ///< proved infeasible on the inner side of `value`
   std::optional<CertificateRecord> certificate;  ///< at `beyond`
   std::vector<std::string> over;                 ///< the scalars that were optimised outside
+  std::vector<std::string> at_end;               ///< those of `over` found at an end of their range
   int evaluations = 0;
   int feasible = 0;       ///< of the evaluations
   bool finished = false;  ///< neither interrupted nor out of evaluations

@@ -50,6 +50,7 @@ TEST(Explain, NamesTheConflictWhatItTakesAndHowFar) {
   EXPECT_EQ(found.reaches[0].value, 3);
   EXPECT_NEAR(*found.reaches[0].feasible, 1, 1e-4);
   EXPECT_LE(*found.reaches[0].feasible, 1);
+  EXPECT_TRUE(found.reaches[0].certificate.value().exact());
   EXPECT_GE(*found.reaches[0].beyond, 1 - 1e-6);
   EXPECT_EQ(found.reaches[1].name, "d");
   EXPECT_FALSE(found.reaches[1].feasible);
@@ -73,6 +74,25 @@ TEST(Explain, AFeasibleProblemHasNothingToExplain) {
   EXPECT_FALSE(found.conflict);
   EXPECT_TRUE(found.relaxations.empty());
   EXPECT_TRUE(found.reaches.empty());
+}
+
+/// A solve that decides nothing does not make the gain bound the conflict.
+TEST(Explain, AnUndecidedRestIsNotBlamedOnTheGainBound) {
+  for (const bool with_gains : {false, true}) {
+    const YamlProblem problem(
+        std::string("problem: bound\nmethod:\n  method: m\n  unknowns: {x: scalar}\n"
+                    "  require: {floor: x > 5, ceiling: x < 4}\n") +
+        (with_gains ? "  gains: {K: x}\n" : ""));
+    const model::Gains gains = synthesize(problem.instance, {});
+    sdp::Options interrupted;
+    interrupted.interrupted = [] { return true; };
+    const auto conflict = find_conflict(*problem.problem, gains, interrupted);
+    ASSERT_TRUE(conflict);
+    EXPECT_FALSE(conflict->gain_bound);
+    EXPECT_EQ(conflict->within_gain_bound, with_gains);
+    EXPECT_EQ(conflict->names.size(), 2U);
+    EXPECT_EQ(conflict->undecided, conflict->names);
+  }
 }
 
 /// K must be 5, the bound allows 1: the bound is the conflict, not an inequality.

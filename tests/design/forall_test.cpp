@@ -101,6 +101,7 @@ TEST(ForallTest, ContractionFactorsOfConstantGains) {
   const model::Gains box = solve(detectability("[0.1, 1.4]", 0.9746, 100, "hull"));
   EXPECT_EQ(box.verdict, model::Verdict::no);
   EXPECT_NE(box.solver.message.find("hull"), std::string::npos);
+  EXPECT_EQ(box.certificate.value().about, "hull");
 }
 
 TEST(ForallTest, SlicesTightenTheHull) {

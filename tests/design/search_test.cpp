@@ -146,6 +146,40 @@ TEST(Bisect, RefusedValuesAreNoErrorUnlessAllAre) {
   EXPECT_NE(tests::input_error([&] { over(-3, -1); }).message().find("k > 0"), std::string::npos);
 }
 
+/// 1 > c (k - k^2) on [0, 1] holds for c < 4; the hull lets k^2 be less than that.
+const std::string kHull = R"(problem: hull
+method:
+  method: hull
+  data: {c: scalar}
+  unknowns: {x: scalar}
+  require: {pos: x > 1, win: {forall: "k in [0, 1]", that: "x*(1 - c*(k - k^2)) > 0"}}
+data: {c: 3.9}
+synthesis: {forall: hull}
+)";
+
+TEST(Bisect, AnEndThatOnlyTheHullProvesSaysSo) {
+  const YamlProblem problem(kHull);
+  const BisectResult found =
+      bisect(*problem.problem, {}, {{"c", search::axis(0, 9)}, true, {1e-3}, {}}, {});
+  ASSERT_TRUE(found.found.no);
+  EXPECT_LT(*found.found.no, 3.9);
+  EXPECT_EQ(found.gains.search->certificate.value().about, "hull");
+  const BisectResult none =
+      bisect(*problem.problem, {}, {{"c", search::axis(3.5, 9)}, true, {1e-3}, {}}, {});
+  EXPECT_NE(none.gains.solver.message.find("proved infeasible for the hull only"),
+            std::string::npos)
+      << none.gains.solver.message;
+}
+
+TEST(Search, AnOptimumAtTheEndOfARangeIsNamed) {
+  const YamlProblem problem(kBowl + "search: {over: {a: [2.5, 9], b: [1, 4]}, evaluations: 150}\n");
+  const model::Gains gains =
+      synthesize_searched(*problem.problem, request_of(*problem.problem), &kOptimizers, 1, {});
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  EXPECT_NEAR(gains.searched.at("b"), 3, 0.03);
+  EXPECT_EQ(gains.search->at_end, std::vector<std::string>{"a"});
+}
+
 TEST(Bisect, TheDefaultToleranceIsRelativeOnALogarithmicScale) {
   EXPECT_TRUE(default_tolerance(search::axis(1e-6, 1)).relative);
   EXPECT_EQ(default_tolerance(search::axis(1e-6, 1)).at(0.5), 0.5e-4);

@@ -221,6 +221,23 @@ TEST(OptimizeTest, TheLargestScalarOverAnother) {
   EXPECT_GE(outcome.json()["search"]["beyond"].get<double>(), 5 - 1e-6);
 }
 
+/// The proof beyond a bracket holds at the values found for the other scalars.
+TEST(OptimizeTest, AProvedEndNamesItsPlace) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "ridge.yaml",
+      std::regex_replace(std::regex_replace(kOpen, std::regex("x < 6"), "x < 6 - c"),
+                         std::regex("  parameters:"), "  data: {c: scalar}\n  parameters:") +
+          "data: {c: 0}\n");
+  const Outcome outcome = gainsmith({"optimize", file, "--over", "a=3:9", "--largest", "c=0:20",
+                                     "--tolerance", "1e-3", "--evaluations", "40"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("by a checked certificate at a = 3"), std::string::npos)
+      << outcome.out;
+  EXPECT_NE(outcome.out.find("a was found at an end of its range"), std::string::npos)
+      << outcome.out;
+}
+
 TEST(OptimizeTest, NothingFeasibleIsUndecided) {
   const Folder folder;
   const std::string file = folder.file("open.yaml", kOpen);

@@ -48,8 +48,8 @@ class RandomGains {
           {"flow", i == 0, number(), number(), number(), number(), "tau = 0", i == 1});
     gains.bounds.push_back({"inv(P1)*Y", number(), number(), true});
     if (random_() % 2 == 0)
-      gains.certificate = model::CertificateRecord{number(), number(), number(),
-                                                   number(), true,     {{"flow", matrix(2, 2)}}};
+      gains.certificate = model::CertificateRecord{
+          number(), number(), number(), number(), true, {{"flow", matrix(2, 2)}}, "hull"};
     if (random_() % 2 == 0) gains.search = search();
     gains.statement = model::statement_of(read_problem(kProblem));
     gains.timings = {{"solve", number()}, {"total", 0.25}};
@@ -64,11 +64,12 @@ class RandomGains {
       record.value = number();
       record.beyond = number();
       record.certificate =
-          model::CertificateRecord{number(), number(), number(), number(), true, {}};
+          model::CertificateRecord{number(), number(), number(), number(), true, {}, "vertices"};
     }
     record.polish = {number(), number(), true, "converged"};
     record.open = {number(), number()};
-    record.over = {"delta"};
+    record.over = {"delta", "eta"};
+    record.at_end = {"eta"};
     record.evaluations = 17;
     record.feasible = 9;
     record.finished = true;
