@@ -11,11 +11,11 @@
 
 namespace gainsmith::app {
 
-void refuse_overwriting(const std::string& problem, const std::vector<std::string>& outputs) {
+void refuse_overwriting(const std::string& input, const std::vector<std::string>& outputs) {
   std::error_code ignored;
   for (const std::string& path : outputs)
-    if (!path.empty() && std::filesystem::equivalent(path, problem, ignored))
-      throw InputError({path}, "this is the problem file; choose another output");
+    if (!path.empty() && std::filesystem::equivalent(path, input, ignored))
+      throw InputError({path}, "this is the input file; choose another output");
 }
 
 void write_result(const model::Gains& gains, const std::string& output, const std::string& report,

@@ -10,8 +10,8 @@
 
 namespace gainsmith::app {
 
-/// InputError when an output would replace the problem file.
-void refuse_overwriting(const std::string& problem, const std::vector<std::string>& outputs);
+/// InputError when an output would replace the input file.
+void refuse_overwriting(const std::string& input, const std::vector<std::string>& outputs);
 
 /// Writes the gain file to `output` (nowhere when empty, standard output for "-") and the report to
 /// standard output, or to standard error when the gain file goes there. `quiet`: no line on where

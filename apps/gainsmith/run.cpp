@@ -2,8 +2,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdio>
 #include <filesystem>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -13,6 +15,7 @@
 #include "gainsmith/job.h"
 #include "gainsmith/junit.h"
 #include "gainsmith/option_checks.h"
+#include "gainsmith/output.h"
 
 namespace gainsmith::app {
 
@@ -83,32 +86,49 @@ std::string json_text(const std::vector<JobResult>& results, ExitCode worst) {
       {{"exit", static_cast<int>(worst)}, {"problems", problems}, {"timings", seconds}});
 }
 
-void print_lines(const std::vector<JobResult>& results) {
-  std::size_t width = 10;
-  for (const JobResult& result : results) width = std::max(width, result.name.size());
-  for (const JobResult& result : results) {
-    fmt::print("{:<11} {:<{}}  {}\n", mark_of(result.exit), result.name, width, result.line);
+/// Prints the results in their order, each as soon as all before it are there: what is finished is
+/// on paper when the program is stopped.
+class Lines {
+ public:
+  explicit Lines(const std::vector<Item>& items) : results_(items.size()) {
+    for (const Item& item : items) width_ = std::max(width_, item.name.size());
+  }
+
+  void add(std::size_t index, const JobResult& result) {
+    const std::scoped_lock lock(mutex_);
+    results_[index] = &result;
+    for (; next_ < results_.size() && results_[next_] != nullptr; ++next_) print(*results_[next_]);
+    std::fflush(stdout);
+  }
+
+ private:
+  void print(const JobResult& result) const {
+    fmt::print("{:<11} {:<{}}  {}\n", mark_of(result.exit), result.name, width_, result.line);
     for (const std::string& difference : result.differences)
       fmt::print("            {}\n", difference);
   }
-}
+
+  std::mutex mutex_;
+  std::vector<const JobResult*> results_;  ///< null: not finished
+  std::size_t next_ = 0;                   ///< the first that is not printed
+  std::size_t width_ = 10;
+};
 
 ExitCode run(const RunOptions& options) {
   const std::vector<Item> items = items_of(options.problems);
+  for (const Item& item : items) refuse_overwriting(item.file.string(), {options.junit});
   JobOptions job = options.job;
   job.threads = items.size() == 1 ? options.threads : 1;
   std::vector<JobResult> results(items.size());
+  Lines lines(items);
   parallel_for(items.size(), options.threads, [&](std::size_t i) {
     results[i] =
         run_job(items[i].file, items[i].name, fs::path(options.output) / items[i].name, job);
+    if (!options.json) lines.add(i, results[i]);
   });
   ExitCode worst = ExitCode::yes;
   for (const JobResult& result : results) worst = std::max(worst, result.exit);
-  if (options.json) {
-    fmt::print("{}", json_text(results, worst));
-  } else {
-    print_lines(results);
-  }
+  if (options.json) fmt::print("{}", json_text(results, worst));
   if (!options.junit.empty()) write_atomically(options.junit, junit_text(results));
   return worst;
 }

@@ -13,6 +13,7 @@
 #include "design/search_request.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
+#include "gainsmith/output.h"
 #include "gainsmith/range_option.h"
 #include "gainsmith/terminal.h"
 #include "io/json_text.h"
@@ -65,6 +66,7 @@ struct Table {
 };
 
 std::string verdict_of(const design::ScanRow& row) {
+  if (row.interrupted) return "interrupted";
   return row.refused.empty() ? to_string(row.verdict) : "refused";
 }
 
@@ -141,8 +143,15 @@ std::string json(const std::vector<design::ScanRow>& rows, const Grid& grid,
   return io::to_text(list);
 }
 
-/// Yes when some point is feasible, no when every point is proved infeasible.
+/// Undecided when some point was not finished; yes when some point is feasible, no when every point
+/// is proved infeasible.
 ExitCode exit_of(const std::vector<design::ScanRow>& rows) {
+  const auto unfinished =
+      std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.interrupted; });
+  if (unfinished > 0) {
+    fmt::print(stderr, "interrupted: {} of {} points have no answer\n", unfinished, rows.size());
+    return ExitCode::undecided;
+  }
   const auto has = [&](model::Verdict verdict) {
     return std::any_of(rows.begin(), rows.end(), [&](const design::ScanRow& row) {
       return row.refused.empty() && row.verdict == verdict;
@@ -153,6 +162,7 @@ ExitCode exit_of(const std::vector<design::ScanRow>& rows) {
 }
 
 ExitCode scan(const ScanOptions& options) {
+  refuse_overwriting(options.problem, {options.output});
   const Loaded loaded = load_problem(options.problem);
   const Grid grid = grid_of(options, *loaded.problem);
   std::vector<expr::Expression> figures;
@@ -204,7 +214,8 @@ void add_scan(CLI::App& program, ExitCode& exit) {
   command->footer(
       "A point that the method's assumptions exclude is 'refused'.\n"
       "Exit code: 0 some point is feasible, 1 all are proved infeasible, 2 wrong input, 3 "
-      "otherwise.\n"
+      "otherwise\n"
+      "and when interrupted.\n"
       "Examples:\n"
       "  gainsmith scan problem.yaml --over T2=0.5:0.8:13\n"
       "  gainsmith scan problem.yaml --over delta=1e-3:10:20:log --over eta=1e-6:1:7 -o table.csv");

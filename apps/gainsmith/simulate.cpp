@@ -11,6 +11,7 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/option_checks.h"
+#include "gainsmith/output.h"
 #include "io/csv.h"
 #include "io/json_text.h"
 #include "verify/replay.h"
@@ -41,6 +42,7 @@ io::Json replay_json(const verify::Replay& replay) {
 }
 
 ExitCode simulate(const SimulateOptions& options) {
+  refuse_overwriting(options.gains, {options.output});
   const LoadedGains loaded = load_gains(options.gains);
   const std::uint64_t seed = options.seed.value_or(loaded.stated.problem->campaign.seed);
   const verify::Replay replay =

@@ -32,6 +32,9 @@ std::vector<ScanRow> scan(const model::Problem& problem, const std::vector<std::
   parallel_for(points.size(), threads, [&](std::size_t i) {
     ScanRow& row = rows[i];
     row.at = points[i];
+    const auto interrupted = [&] { return solver.interrupted && solver.interrupted(); };
+    row.interrupted = interrupted();
+    if (row.interrupted) return;
     model::Overrides overrides;
     for (std::size_t k = 0; k < names.size(); ++k) overrides[names[k]] = points[i][k];
     std::optional<model::Instance> instance;
@@ -44,6 +47,7 @@ std::vector<ScanRow> scan(const model::Problem& problem, const std::vector<std::
       return;
     }
     row.verdict = gains.verdict;
+    row.interrupted = gains.verdict == model::Verdict::undecided && interrupted();
     if (gains.verdict == model::Verdict::yes) row.objective = gains.objective;
     const Results results(*instance, gains);
     for (const expr::Expression& figure : figures) row.figures.push_back(scalar(results, figure));

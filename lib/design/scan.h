@@ -12,14 +12,17 @@ namespace gainsmith::design {
 struct ScanRow {
   std::vector<double> at;  ///< one value for each name
   std::string refused;     ///< why the values do not fit the problem's assumptions; then no result
+  bool interrupted = false;  ///< before it was decided
   model::Verdict verdict = model::Verdict::undecided;
   std::optional<double> objective;             ///< of gains, where the method has one
   std::vector<std::optional<double>> figures;  ///< one for each expression; none without a value
 };
 
 /// The rows in the order of the points; the same for any number of threads (0: one a core).
-/// `figures` are scalar expressions about the result. InputError when every point is refused, for
-/// unknown names, and for expressions that do not compile.
+/// After
+/// `solver.interrupted` the remaining points are not tried. `figures` are scalar expressions about
+/// the result. InputError when every point is refused, for unknown names, and for expressions that
+/// do not compile.
 std::vector<ScanRow> scan(const model::Problem& problem, const std::vector<std::string>& names,
                           const std::vector<std::vector<double>>& points,
                           const std::vector<expr::Expression>& figures, unsigned threads,

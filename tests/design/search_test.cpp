@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <utility>
 
 #include "design/bisect.h"
 #include "design/optimize.h"
@@ -373,6 +374,18 @@ TEST(Scan, GivesEveryPointInOrderForAnyThreads) {
       EXPECT_FALSE(rows[i].figures[0]);
     }
   }
+}
+
+TEST(Scan, AnInterruptMarksWhatHasNoAnswer) {
+  const YamlProblem problem(window(0.3));
+  bool enough = false;
+  sdp::Options solver;
+  solver.interrupted = [&] { return std::exchange(enough, true); };
+  const auto rows = scan(*problem.problem, {"k"}, {{0.3}, {0.3}, {0.3}}, {}, 1, solver);
+  ASSERT_EQ(rows.size(), 3U);
+  for (const ScanRow& row : rows) EXPECT_TRUE(row.interrupted);
+  const auto whole = scan(*problem.problem, {"k"}, {{0.3}}, {}, 1, {});
+  EXPECT_FALSE(whole[0].interrupted);
 }
 
 TEST(Scan, RefusesUnknownNamesAndKeepsRefusedPoints) {

@@ -164,6 +164,24 @@ TEST(ScanTest, TheTableIsTheSameForAnyThreadsAndAsCsv) {
   EXPECT_NE(text.find("0.60000000000000009,0.01,yes,"), std::string::npos) << text;
 }
 
+TEST(OutputTest, NoCommandReplacesItsInput) {
+  const Folder folder;
+  const std::string file = folder.file("open.yaml", kOpen + "parameters: {a: 1}\n");
+  const std::string gains = folder.path("gains.json");
+  ASSERT_EQ(gainsmith({"synth", file, "-o", gains}).exit, 0);
+  const std::vector<std::vector<std::string>> commands = {
+      {"scan", file, "--over", "a=1:2:2", "-o", file},
+      {"run", file, "-o", folder.path("out"), "--junit", file},
+      {"simulate", gains, "-o", gains}};
+  for (const auto& command : commands) {
+    const std::string before = text_of(command[1]);
+    const Outcome outcome = gainsmith(command);
+    EXPECT_EQ(outcome.exit, 2) << command[0];
+    EXPECT_NE(outcome.err.find("this is the input file"), std::string::npos) << outcome.err;
+    EXPECT_EQ(text_of(command[1]), before);
+  }
+}
+
 TEST(ScanTest, AllInfeasibleExitsWithOne) {
   const Outcome outcome =
       gainsmith({"scan", problem(kTheorem), "--over", "T2=0.9:1.1:2", "--json"});
