@@ -48,6 +48,16 @@ AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknown
 
 namespace {
 
+/// InputError when a product or sum of the data left the range of double.
+void check_finite(const Sparse& matrix, const Place& place, const std::string& name) {
+  for (int k = 0; k < matrix.outerSize(); ++k)
+    for (Sparse::InnerIterator it(matrix, k); it; ++it)
+      if (!std::isfinite(it.value()))
+        throw InputError(place, "the inequality '" + name +
+                                    "' has a coefficient that is not "
+                                    "finite: its data are too large for double");
+}
+
 /// Makes a coefficient exactly symmetric; InputError when it is not so up to rounding.
 Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place,
                       const std::string& name) {
@@ -75,6 +85,7 @@ Block block_of(const AffineForm& form, std::string name, std::string point, bool
   block.size = form.shape.rows;
   if (block.size == 0) throw InputError(place, "the inequality '" + block.name + "' has no rows");
   for (const auto& [key, matrix] : form.terms) {
+    check_finite(matrix, place, block.name);
     double& size = key.second == 0 ? block.constant_size : block.coefficient_size;
     size = std::max(size, largest_element(matrix));
   }

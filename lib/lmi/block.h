@@ -37,7 +37,7 @@ AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknown
                            MonomialTable& monomials, const expr::Values& values);
 
 /// The block of a symmetric affine form without monomials. InputError, at `place`, when it is not
-/// symmetric or has no rows.
+/// symmetric, has no rows, or has a coefficient that is not finite.
 Block block_of(const AffineForm& form, std::string name, std::string point, bool strict,
                const Place& place);
 

@@ -19,7 +19,7 @@ using expr::Node;
 using expr::NodeKind;
 using expr::NodePtr;
 
-/// "inv(S)" of a symmetric unknown: its name.
+/// "inv(S)" of a symmetric unknown, such as every 1 x 1 one: its name.
 const Unknown* inverse_of(const Node& node, const Unknowns& unknowns) {
   if (node.kind != NodeKind::call || node.text != "inv" || node.children.size() != 1)
     return nullptr;
@@ -27,7 +27,8 @@ const Unknown* inverse_of(const Node& node, const Unknowns& unknowns) {
   if (argument.kind != NodeKind::name) return nullptr;
   const Unknown* unknown = unknowns.find(argument.text);
   const bool symmetric = unknown != nullptr && (unknown->structure == model::Structure::symmetric ||
-                                                unknown->structure == model::Structure::diagonal);
+                                                unknown->structure == model::Structure::diagonal ||
+                                                unknown->shape == expr::Shape{1, 1});
   return symmetric ? unknown : nullptr;
 }
 

@@ -148,6 +148,16 @@ TEST(CompileTest, WhatIsNotSymmetricIsRefused) {
   EXPECT_NE(error.message().find("not symmetric"), std::string::npos);
 }
 
+TEST(CompileTest, DataTooLargeForDoubleAreRefused) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
+      "  require: {p: P > I, l: He(P*A) < 0}\ndata: {A: \"-1e308*eye(2)\"}\n");
+  const InputError error = tests::input_error([&] { compile(yaml.instance); });
+  EXPECT_NE(error.message().find("'l' has a coefficient that is not finite"), std::string::npos)
+      << error.what();
+  EXPECT_EQ(error.place().line, 6);
+}
+
 TEST(CompileTest, WhatHasNoRowsIsRefused) {
   const tests::YamlProblem yaml(problem_with("    empty: P(1:0, 1:0) > 0\n"));
   const InputError error = tests::input_error([&] { compile(yaml.instance); });

@@ -36,6 +36,18 @@ TEST(GainBoundsTest, EveryProductWithAnInverseIsFoundOnce) {
   EXPECT_EQ(bounds.scalars, 2);
 }
 
+/// A 1 x 1 unknown is symmetric, whatever it is declared as.
+TEST(GainBoundsTest, ScalarsAreBoundedAlike) {
+  for (const char* kind : {"scalar", "symmetric 1", "1 x 1"}) {
+    const tests::YamlProblem yaml(
+        std::string("problem: p\nmethod:\n  method: m\n  unknowns: {P: ") + kind +
+        ", Y: scalar}\n  require: {p: P > 0}\n  gains: {L: inv(P)*Y}\n");
+    EXPECT_EQ(names(gain_bounds(yaml.instance, Unknowns(yaml.instance), 100)),
+              std::vector<std::string>{"inv(P)*Y"})
+        << kind;
+  }
+}
+
 TEST(GainBoundsTest, TheWholeProductAndAffineGainsAreBounded) {
   const tests::YamlProblem yaml(problem_with("L: inv(P)*C'*Q*2, M: 2*K + K, N: inv(P)*Y*inv(Q)"));
   const GainBounds bounds = gain_bounds(yaml.instance, Unknowns(yaml.instance), 100);
