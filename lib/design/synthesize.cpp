@@ -294,6 +294,14 @@ class Synthesis {
           std::min(*gains_.objective, lmi::objective_lower_bound(lmi_, formulation_, solution_));
   }
 
+  /// Whether what fails is short of its margin only, in a problem whose solutions have any size.
+  bool needs_less_margin() const {
+    return formulation_.homogeneous() &&
+           std::all_of(gains_.margins.begin(), gains_.margins.end(), [](const auto& margin) {
+             return lmi::is_kept(margin) || margin.reached > 0;
+           });
+  }
+
   /// The verdict comes from the margins as recomputed, never from the solver's word alone.
   void decide() {
     std::string failed;
@@ -309,6 +317,8 @@ class Synthesis {
     gains_.solver.message =
         failed.empty() ? "the solver converged, but for all values " + open_
                        : "the solver converged, but recomputed from the written decimals " + failed;
+    if (!failed.empty() && needs_less_margin())
+      add_message("a smaller synthesis.margin, or P > I instead of P > 0, may do");
   }
 
   void accept_certificate() {

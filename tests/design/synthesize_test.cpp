@@ -296,5 +296,24 @@ TEST(SynthesizeTest, AnalysisOfGoodGainsSucceedsAndOfBadOnesGivesThemBack) {
   EXPECT_EQ((*bad.find("L"))(0, 0), -50);
 }
 
+/// Badly balanced coordinates leave less margin than is asked for: the message names the remedy.
+TEST(SynthesizeTest, AMarginThatIsOutOfReachNamesTheRemedy) {
+  const auto solve = [](const std::string& positive, const std::string& options) {
+    const tests::YamlProblem yaml(
+        "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
+        "  require: {pos: " +
+        positive +
+        ", l: He(P*A) < 0}\n"
+        "data: {A: [[-1, 300], [0, -1]]}\n" +
+        options);
+    return synthesize(yaml.instance, {});
+  };
+  const model::Gains short_of = solve("P > 0", "");
+  EXPECT_EQ(short_of.verdict, model::Verdict::undecided);
+  EXPECT_NE(short_of.solver.message.find("a smaller synthesis.margin"), std::string::npos)
+      << short_of.solver.message;
+  EXPECT_EQ(solve("P > 0", "synthesis: {margin: 1e-8}\n").verdict, model::Verdict::yes);
+}
+
 }  // namespace
 }  // namespace gainsmith::design
