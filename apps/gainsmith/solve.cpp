@@ -116,15 +116,18 @@ std::string summary(const sdp::Solution& solution) {
   if (!solution.message.empty()) text += fmt::format("                  {}\n", solution.message);
   if (solution.certificate.checked) {
     const bool primal = solution.status == sdp::Status::primal_infeasible;
+    const sdp::Certificate& certificate = solution.certificate;
     text += fmt::format(
-        "certificate       checked on the raw data: {} = {}, residual {}, smallest eigenvalue {}\n",
-        primal ? "F_0.Y" : "-c'x", brief(solution.certificate.value),
-        brief(solution.certificate.residual, 3), brief(solution.certificate.min_eigenvalue, 3));
+        "certificate       checked on the raw data: {} = {}, {} = {}, smallest eigenvalue of {} "
+        "{}\n",
+        primal ? "F_0.Y" : "-c'x", brief(certificate.value), primal ? "sum |F_i.Y|" : "defect",
+        brief(certificate.residual, 3), primal ? "Y" : "sum x_i F_i",
+        brief(certificate.min_eigenvalue, 3));
     const char* side = primal ? "primal" : "dual";
-    const double radius = solution.certificate.excluded_radius;
+    const double radius = certificate.excluded_radius;
     text += std::isfinite(radius)
-                ? fmt::format("                  every {} solution is larger than {}\n", side,
-                              brief(radius, 3))
+                ? fmt::format("                  every {} solution has {} above {}\n", side,
+                              primal ? "an |x_i|" : "a trace", brief(radius, 3))
                 : fmt::format("                  no {} solution of any size\n", side);
   } else {
     text += fmt::format(

@@ -91,12 +91,11 @@ Vector packed(const model::Instance& instance, const Blocks& blocks, const model
   return x;
 }
 
-/// A lower triangular L with L L' = M, M made positive definite.
+/// A lower triangular L with L L' = M, M (whose terms are of size 1) made positive definite.
 Matrix factor(const Matrix& matrix) {
   constexpr double kFloor = 1e-8;
   const Eigen::SelfAdjointEigenSolver<Matrix> eigen(matrix);
-  const double largest = std::max(eigen.eigenvalues().cwiseAbs().maxCoeff(), 1e-300);
-  const Eigen::VectorXd lifted = eigen.eigenvalues().cwiseMax(kFloor * largest);
+  const Eigen::VectorXd lifted = eigen.eigenvalues().cwiseMax(kFloor);
   const Matrix definite =
       eigen.eigenvectors() * lifted.asDiagonal() * eigen.eigenvectors().transpose();
   return definite.llt().matrixL();
@@ -196,7 +195,7 @@ class Program {
     for (std::size_t k = 0; k < blocks.list.size(); ++k) {
       const Matrix block = shifted(blocks, k, x);
       Factor entry{start_.size(), rows_, blocks.list[k].size, 1};
-      entry.scale = std::max(block.cwiseAbs().maxCoeff(), 1e-300);
+      entry.scale = size_of(blocks.list[k]);
       const Matrix lower = factor(block / entry.scale);
       for (int j = 0; j < entry.size; ++j) {
         for (int i = j; i < entry.size; ++i) {
@@ -207,6 +206,17 @@ class Program {
       factors_.push_back(entry);
     }
     if (extreme_ < 0) figure_scale_ = std::max(std::abs(value(blocks, x)), 1e-300);
+  }
+
+  /// The largest element of the terms that add up to a block. The sum may be rounding alone: at an
+  /// optimum blocks are singular, those of size 1 vanish.
+  double size_of(const lmi::Block& block) const {
+    double size = 0;
+    for (const auto& [i, matrix] : block.terms) {
+      const double unit = i == 0 ? 1 : units_[static_cast<std::size_t>(i) - 1];
+      size = std::max(size, unit * Matrix(matrix).cwiseAbs().maxCoeff());
+    }
+    return std::max(size, 1e-300);
   }
 
   Vector unknowns(const Vector& v) const {

@@ -1,6 +1,7 @@
 // Bisection, scans and outer optimisation of designs with known answers.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -271,6 +272,23 @@ TEST(Polish, MovesScalarsAndUnknownsTogetherToTheOptimum) {
   EXPECT_NEAR(fine.searched.at("a"), 2, 1e-3);
   EXPECT_NEAR(fine.searched.at("b"), 3, 1e-3);
   for (const model::Margin& margin : fine.margins) EXPECT_TRUE(margin.holds);
+}
+
+/// The floor vanishes at a design; what is left of it, rounding, is no unit for its row.
+TEST(Polish, RowsOfVanishingBlocksHaveTheSizeOfTheirTerms) {
+  const YamlProblem problem(kBowl +
+                            "search: {over: {a: [0, 9], b: [0.01, 90]}, evaluations: 20}\n");
+  SearchRequest request = request_of(*problem.problem);
+  request.polish = true;
+  double largest = 0;
+  const search::SmoothSolver recorder = [&](const search::SmoothProgram& program, double, int) {
+    for (const double element : program.jacobian(program.start))
+      largest = std::max(largest, std::abs(element));
+    return search::SmoothSolution{program.start, true, "recorded", 0};
+  };
+  optimize(*problem.problem, request, {kOptimizers.local, recorder}, 1, {});
+  EXPECT_GT(largest, 1);
+  EXPECT_LT(largest, 100);
 }
 
 TEST(Polish, TheLargestScalarIsPolishedToo) {
