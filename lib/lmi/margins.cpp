@@ -104,18 +104,19 @@ class Checker {
     };
     const Minima minima = local_minima(relation.difference, domain, values_);
     for (const Minimum& minimum : minima.list) meet(minimum);
-    if (!minima.resolved) leave_open(margin.name, "it grows without end within the interval");
     if (check_.violations.size() == violations &&
         plan_.requirements[requirement].way == model::Way::exchange)
-      for (const Minimum& violation : prove(margin.name, domain, relation, terms)) meet(violation);
+      for (const Minimum& violation : prove(margin.name, domain, relation, terms, minima.resolved))
+        meet(violation);
     set(worst.value);
     margin.worst_point = worst.point;
     check_.margins.push_back(std::move(margin));
   }
 
-  /// The points that show that the inequality does not hold.
+  /// The points that show that the inequality does not hold. What has no known derivatives must
+  /// at least have been resolved by the search.
   std::vector<Minimum> prove(const std::string& name, const Domain& domain,
-                             const expr::CompiledRelation& relation, double terms) {
+                             const expr::CompiledRelation& relation, double terms, bool resolved) {
     // What may be 0 is proved up to a part of its terms that is small for them, and large enough
     // to be reached with few pieces.
     constexpr double kAllowed = 1e-7;
@@ -123,7 +124,10 @@ class Checker {
     if (intervals(domain).empty()) return {};
     DomainProof proof = prove_on_domain(relation.difference, domain, values_,
                                         relation.strict ? 0.0 : kAllowed * terms);
-    check_.searched |= proof.status == Status::unknown;
+    if (proof.status == Status::unknown) {
+      check_.searched = true;
+      if (!resolved) leave_open(name, "it grows without end within the interval");
+    }
     if (proof.status == Status::open) leave_open(name, "not settled for " + proof.where);
     return std::move(proof.violations);
   }

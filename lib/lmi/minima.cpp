@@ -55,8 +55,10 @@ class Samples {
     if (depth == kEarlier) earlier = bend;
     if (depth == kDeepest) {
       // Of a kink the bend has shrunk, of a step it has stayed; it grows at a pole.
-      constexpr double kGrown = 4;
-      resolved_ &= bend <= kGrown * earlier;
+      // Rounding stays far below the values.
+      constexpr double kGrown = 16;
+      constexpr double kPart = 0.1;
+      resolved_ &= bend <= std::max(kGrown * earlier, kPart * std::max(std::abs(a), std::abs(b)));
       return;
     }
     if (std::min({a, b, m}) - kSafety * bend > lowest_) return;
