@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "lmi/formulation.h"
+#include "design/polish_blocks.h"
 #include "lmi/vertex_gains.h"
 
 namespace gainsmith::design {
@@ -22,22 +22,6 @@ using Vector = std::vector<double>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The design changes its shape with the scalars: no smooth program.
-struct NoProgram {
-  std::string cause;
-};
-
-/// The affine blocks at one value of the scalars, shifts taken off, with the figure's coefficients.
-/// `unknowns` counts the scalars of the gain bounds too.
-struct Blocks {
-  int unknowns = 0;
-  std::vector<lmi::Block> list;
-  Vector shifts;
-  Vector cost;  ///< of the unknowns; empty when the figure is a scalar
-  double constant = 0;
-  lmi::GainBounds bounds;
-};
-
 /// The problem with the request's own figure as its objective.
 model::Problem with_figure(const model::Problem& problem, const SearchRequest& request) {
   model::Problem result = problem;
@@ -46,49 +30,6 @@ model::Problem with_figure(const model::Problem& problem, const SearchRequest& r
   method->minimize = request.minimize;
   result.method = std::move(method);
   return result;
-}
-
-Blocks blocks_of(const model::Instance& instance) {
-  const lmi::Lmi lmi = lmi::compile(instance);
-  const model::SynthesisOptions& choices = instance.problem->synthesis;
-  Blocks result;
-  result.bounds = lmi::gain_bounds(instance, lmi.unknowns, choices.gain_bound);
-  lmi::Goal goal = lmi::goal_of(lmi, result.bounds);
-  if (goal == lmi::Goal::feasibility) goal = lmi::Goal::certificate;
-  result.shifts = lmi::formulate(lmi, result.bounds, choices, goal).shifts;
-  result.list = lmi.blocks;
-  result.list.insert(result.list.end(), result.bounds.blocks.begin(), result.bounds.blocks.end());
-  result.shifts.resize(result.list.size(), 0.0);
-  result.unknowns = lmi.unknowns.size() + result.bounds.scalars;
-  if (lmi.has_objective) {
-    result.cost = lmi.objective;
-    result.cost.resize(static_cast<std::size_t>(result.unknowns), 0.0);
-    result.constant = lmi.objective_constant;
-  }
-  return result;
-}
-
-/// The unknowns of the gains as one vector, and the scalars of the gain bounds at their largest.
-Vector packed(const model::Instance& instance, const Blocks& blocks, const model::Gains& gains) {
-  const lmi::Unknowns unknowns(instance);
-  Vector x(static_cast<std::size_t>(blocks.unknowns), 0.0);
-  for (const lmi::Unknown& unknown : unknowns.list()) {
-    const Matrix* matrix = gains.find(unknown.name);
-    if (matrix == nullptr) throw NoProgram{unknown.name + " has no value"};
-    for (int k = 0; k < unknown.count; ++k) {
-      const auto [row, column] = unknown.places(k).front();
-      x[static_cast<std::size_t>(unknown.first + k - 1)] = (*matrix)(row, column);
-    }
-  }
-  for (const lmi::GainBound& bound : blocks.bounds.list) {
-    if (bound.scalar == 0) continue;
-    Matrix s = Matrix::Zero(bound.s.shape.rows, bound.s.shape.cols);
-    for (const auto& [key, coefficient] : bound.s.terms)
-      s += (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) *
-           Matrix(coefficient);
-    x[static_cast<std::size_t>(bound.scalar) - 1] = lmi::smallest_eigenvalue(s);
-  }
-  return x;
 }
 
 /// A lower triangular L with L L' = M, M (whose terms are of size 1) made positive definite.
@@ -118,7 +59,7 @@ class Program {
     const expr::Values values = instance.known_values();
     for (const SearchedScalar& scalar : scalars_)
       start.push_back(scalar.axis.fraction(values.at(scalar.name)(0, 0)));
-    const Blocks& blocks = at(start);
+    const SmoothBlocks& blocks = at(start);
     if (extreme_ < 0 && blocks.cost.empty()) throw NoProgram{"the margin is no smooth figure"};
     add_unknowns(packed(instance, blocks, gains), start);
     add_factors(blocks);
@@ -158,12 +99,13 @@ class Program {
   }
 
   /// The blocks at the scalars of v; the last few are kept.
-  const Blocks& at(const Vector& v) {
+  const SmoothBlocks& at(const Vector& v) {
     const Vector key(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(scalars_.size()));
     if (const auto found = cache_.find(key); found != cache_.end()) return found->second;
     constexpr std::size_t kKept = 32;
     if (cache_.size() > kKept) cache_.clear();
-    Blocks blocks = blocks_of(lmi::with_vertex_gains(model::make_instance(problem_, scalars(key))));
+    SmoothBlocks blocks =
+        smooth_blocks(lmi::with_vertex_gains(model::make_instance(problem_, scalars(key))));
     if (!factors_.empty()) {
       bool same = blocks.list.size() == factors_.size();
       for (std::size_t k = 0; same && k < factors_.size(); ++k)
@@ -190,7 +132,7 @@ class Program {
     }
   }
 
-  void add_factors(const Blocks& blocks) {
+  void add_factors(const SmoothBlocks& blocks) {
     const Vector x = unknowns(start_);
     for (std::size_t k = 0; k < blocks.list.size(); ++k) {
       const Matrix block = shifted(blocks, k, x);
@@ -225,13 +167,13 @@ class Program {
     return x;
   }
 
-  static Matrix shifted(const Blocks& blocks, std::size_t k, const Vector& x) {
+  static Matrix shifted(const SmoothBlocks& blocks, std::size_t k, const Vector& x) {
     Matrix block = blocks.list[k].value(x);
     block.diagonal().array() -= blocks.shifts[k];
     return block;
   }
 
-  static double value(const Blocks& blocks, const Vector& x) {
+  static double value(const SmoothBlocks& blocks, const Vector& x) {
     double sum = blocks.constant;
     for (std::size_t i = 0; i < x.size(); ++i) sum += blocks.cost[i] * x[i];
     return sum;
@@ -258,7 +200,7 @@ class Program {
       result[static_cast<std::size_t>(extreme_)] = direction_;
       return result;
     }
-    const Blocks& blocks = at(v);
+    const SmoothBlocks& blocks = at(v);
     for (std::size_t i = 0; i < units_.size(); ++i)
       result[scalars_.size() + i] = blocks.cost[i] * units_[i] / figure_scale_;
     for (std::size_t j = 0; j < scalars_.size(); ++j) {
@@ -283,7 +225,7 @@ class Program {
   }
 
   Vector residuals(const Vector& v) {
-    const Blocks& blocks = at(v);
+    const SmoothBlocks& blocks = at(v);
     const Vector x = unknowns(v);
     Vector result;
     for (std::size_t k = 0; k < factors_.size(); ++k) {
@@ -333,7 +275,7 @@ class Program {
     const Vector x = unknowns(v);
     std::vector<std::vector<Matrix>> slopes;  // by scalar, by block
     for (std::size_t j = 0; j < scalars_.size(); ++j) slopes.push_back(slope(v, x, j));
-    const Blocks& blocks = at(v);
+    const SmoothBlocks& blocks = at(v);
     Vector result;
     for (std::size_t k = 0; k < factors_.size(); ++k) {
       const Factor& entry = factors_[k];
@@ -352,9 +294,9 @@ class Program {
   std::vector<Matrix> slope(const Vector& v, const Vector& x, std::size_t j) {
     const auto [ends, distance] = steps(v, j);
     std::vector<Matrix> forward;
-    const Blocks& ahead = at(ends.first);
+    const SmoothBlocks& ahead = at(ends.first);
     for (std::size_t k = 0; k < factors_.size(); ++k) forward.push_back(shifted(ahead, k, x));
-    const Blocks& behind = at(ends.second);
+    const SmoothBlocks& behind = at(ends.second);
     for (std::size_t k = 0; k < factors_.size(); ++k)
       forward[k] = (forward[k] - shifted(behind, k, x)) / distance;
     return forward;
@@ -379,7 +321,7 @@ class Program {
   std::vector<Factor> factors_;
   std::size_t rows_ = 0;
   Vector start_, low_, high_;
-  std::map<Vector, Blocks> cache_;
+  std::map<Vector, SmoothBlocks> cache_;
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "expr/compile.h"
+#include "model/structure.h"
 
 namespace gainsmith::model {
 
@@ -38,45 +39,6 @@ expr::Expression oriented(const Value& value, bool column) {
   turned->end = value.value.root->end;
   turned->children = {value.value.root};
   return {value.value.text, turned};
-}
-
-/// The place of element (i, j) when the matrix is written element by element, of the whole
-/// otherwise.
-Place element_place(const Value& value, const expr::Matrix& matrix, int i, int j) {
-  const expr::Node& root = *value.value.root;
-  const bool by_element = root.kind == expr::NodeKind::block && root.columns == matrix.cols() &&
-                          std::ssize(root.children) == matrix.size();
-  return by_element ? value.value.place(*root.children[static_cast<std::size_t>(i) *
-                                                           static_cast<std::size_t>(root.columns) +
-                                                       static_cast<std::size_t>(j)])
-                    : value.place;
-}
-
-std::string element_text(int i, int j, double value) {
-  return "element (" + std::to_string(i + 1) + ", " + std::to_string(j + 1) + ") is " +
-         brief(value, 17);
-}
-
-/// Checks a declared structure and makes a matrix that is symmetric to rounding exactly so.
-void enforce_structure(const Declaration& datum, const Value& value, expr::Matrix& matrix) {
-  const Structure structure = datum.shape.structure;
-  if (structure != Structure::symmetric && structure != Structure::diagonal) return;
-  const double rounding = 1e-12 * matrix.lpNorm<Eigen::Infinity>();
-  for (int i = 0; i < matrix.rows(); ++i) {
-    for (int j = 0; j < i; ++j) {
-      const double upper = matrix(j, i);
-      const double lower = matrix(i, j);
-      if (structure == Structure::symmetric && std::abs(upper - lower) > rounding)
-        throw InputError(element_place(value, matrix, i, j),
-                         "the datum " + datum.name + " must be symmetric, but " +
-                             element_text(i, j, lower) + " and " + element_text(j, i, upper));
-      if (structure == Structure::diagonal && (upper != 0 || lower != 0))
-        throw InputError(element_place(value, matrix, i, j),
-                         "the datum " + datum.name + " must be diagonal, but " +
-                             element_text(i, j, lower != 0 ? lower : upper));
-    }
-  }
-  matrix = (0.5 * (matrix + matrix.transpose())).eval();
 }
 
 std::string declared(const Declaration& declaration, const Dimensions& dimensions) {

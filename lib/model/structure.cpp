@@ -1,0 +1,52 @@
+#include "model/structure.h"
+
+#include <cmath>
+#include <string>
+
+#include "base/number.h"
+
+namespace gainsmith::model {
+
+namespace {
+
+/// The place of element (i, j) when the matrix is written element by element, of the whole
+/// otherwise.
+Place element_place(const Value& value, const expr::Matrix& matrix, int i, int j) {
+  const expr::Node& root = *value.value.root;
+  const bool by_element = root.kind == expr::NodeKind::block && root.columns == matrix.cols() &&
+                          std::ssize(root.children) == matrix.size();
+  return by_element ? value.value.place(*root.children[static_cast<std::size_t>(i) *
+                                                           static_cast<std::size_t>(root.columns) +
+                                                       static_cast<std::size_t>(j)])
+                    : value.place;
+}
+
+std::string element_text(int i, int j, double value) {
+  return "element (" + std::to_string(i + 1) + ", " + std::to_string(j + 1) + ") is " +
+         brief(value, 17);
+}
+
+}  // namespace
+
+void enforce_structure(const Declaration& datum, const Value& value, expr::Matrix& matrix) {
+  const Structure structure = datum.shape.structure;
+  if (structure != Structure::symmetric && structure != Structure::diagonal) return;
+  const double rounding = 1e-12 * matrix.lpNorm<Eigen::Infinity>();
+  for (int i = 0; i < matrix.rows(); ++i) {
+    for (int j = 0; j < i; ++j) {
+      const double upper = matrix(j, i);
+      const double lower = matrix(i, j);
+      if (structure == Structure::symmetric && std::abs(upper - lower) > rounding)
+        throw InputError(element_place(value, matrix, i, j),
+                         "the datum " + datum.name + " must be symmetric, but " +
+                             element_text(i, j, lower) + " and " + element_text(j, i, upper));
+      if (structure == Structure::diagonal && (upper != 0 || lower != 0))
+        throw InputError(element_place(value, matrix, i, j),
+                         "the datum " + datum.name + " must be diagonal, but " +
+                             element_text(i, j, lower != 0 ? lower : upper));
+    }
+  }
+  matrix = (0.5 * (matrix + matrix.transpose())).eval();
+}
+
+}  // namespace gainsmith::model

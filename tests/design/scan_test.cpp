@@ -1,0 +1,67 @@
+#include "design/scan.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "design/search_problems.h"
+#include "search/axis.h"
+#include "support/input_error.h"
+#include "support/yaml_problem.h"
+
+namespace gainsmith::design {
+namespace {
+
+using testing::kBowl;
+using testing::window;
+using tests::YamlProblem;
+
+TEST(Scan, GivesEveryPointInOrderForAnyThreads) {
+  const YamlProblem problem(kBowl);
+  const std::vector<expr::Expression> figures = {expr::parse(expr::Text("2*K", "--show"))};
+  const auto points = search::grid({{1, 2, 9}, {3, 4}});
+  const auto rows = scan(*problem.problem, {"a", "b"}, points, figures, 4, {});
+  ASSERT_EQ(rows.size(), 6U);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    EXPECT_EQ(rows[i].at, points[i]);
+    const double value = std::pow(points[i][0] - 2, 2) + std::pow(points[i][1] - 3, 2) + 1;
+    if (value < 6) {
+      EXPECT_NEAR(*rows[i].objective, value, 1e-5);
+      EXPECT_NEAR(rows[i].figures[0].value(), 4 * value, 1e-4);
+    } else {
+      EXPECT_EQ(rows[i].verdict, model::Verdict::no);
+      EXPECT_FALSE(rows[i].figures[0]);
+    }
+  }
+}
+
+TEST(Scan, AnInterruptMarksWhatHasNoAnswer) {
+  const YamlProblem problem(window(0.3));
+  bool enough = false;
+  sdp::Options solver;
+  solver.interrupted = [&] { return std::exchange(enough, true); };
+  const auto rows = scan(*problem.problem, {"k"}, {{0.3}, {0.3}, {0.3}}, {}, 1, solver);
+  ASSERT_EQ(rows.size(), 3U);
+  for (const ScanRow& row : rows) EXPECT_TRUE(row.interrupted);
+  const auto whole = scan(*problem.problem, {"k"}, {{0.3}}, {}, 1, {});
+  EXPECT_FALSE(whole[0].interrupted);
+}
+
+TEST(Scan, RefusesUnknownNamesAndKeepsRefusedPoints) {
+  const YamlProblem problem(
+      "problem: p\nmethod:\n  method: m\n  data: {a: scalar}\n  assume: {low: a < 2}\n"
+      "  unknowns: {x: scalar}\n  require: {r: x > a}\n  minimize: x\ndata: {a: 1}\n");
+  EXPECT_THROW(scan(*problem.problem, {"b"}, {{1}}, {}, 1, {}), InputError);
+  const auto rows = scan(*problem.problem, {"a"}, {{1}, {3}}, {}, 1, {});
+  EXPECT_EQ(rows[0].refused, "");
+  EXPECT_NE(rows[1].refused.find("expected a < 2"), std::string::npos);
+  const InputError error = tests::input_error([&] {
+    scan(*problem.problem, {"a"}, {{3}, {4}}, {}, 1, {});
+  });
+  EXPECT_NE(error.message().find("expected a < 2"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gainsmith::design
