@@ -24,7 +24,7 @@ Loaded checked(model::Problem problem, const model::Overrides& overrides = {}) {
 void check_complete(const model::Gains& gains, const model::Instance& instance,
                     const std::string& file) {
   const auto require = [&](const std::string& name, expr::Shape shape) {
-    const expr::Matrix* found = gains.find(name);
+    const numbers::Matrix* found = gains.find(name);
     if (found == nullptr)
       throw InputError({file}, "the verdict is yes, but " + name + " is missing");
     const expr::Shape actual{static_cast<int>(found->rows()), static_cast<int>(found->cols())};

@@ -108,7 +108,7 @@ std::string certificate_text(const model::Gains& gains) {
 
 }  // namespace
 
-std::string matrix_text(const expr::Matrix& matrix) {
+std::string matrix_text(const numbers::Matrix& matrix) {
   if (matrix.size() == 1) return brief(matrix(0, 0));
   std::string text = "[";
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {

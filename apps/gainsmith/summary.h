@@ -3,14 +3,14 @@
 
 #include <string>
 
-#include "expr/matrix.h"
+#include "numbers/matrix.h"
 #include "model/gains.h"
 #include "model/instance.h"
 
 namespace gainsmith::app {
 
 /// "[0.85, -0.84; 1, 0]", six significant digits; a 1 x 1 matrix without brackets.
-std::string matrix_text(const expr::Matrix& matrix);
+std::string matrix_text(const numbers::Matrix& matrix);
 
 /// Verdict, objective with the price of the margin, gains, margins, bounds, certificate.
 std::string synthesis_summary(const model::Gains& gains);

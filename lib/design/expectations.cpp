@@ -10,7 +10,7 @@ namespace gainsmith::design {
 
 namespace {
 
-std::string text_of(const expr::Matrix& matrix) {
+std::string text_of(const numbers::Matrix& matrix) {
   std::string text;
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     if (i > 0) text += "; ";
@@ -40,9 +40,9 @@ class Comparison {
   void value(const model::ExpectedValue& expected) {
     const auto value = results_.value(expected.what);
     if (!value) return add(expected.place, expected.name, "a value", "none");
-    const expr::Matrix& found = *value;
+    const numbers::Matrix& found = *value;
     const expr::Shape shape{static_cast<int>(found.rows()), static_cast<int>(found.cols())};
-    const expr::Matrix wanted =
+    const numbers::Matrix wanted =
         model::matrix_value(expected.value, instance_.scope, results_.values(), shape);
     double allowed = expected.absolute.value_or(0);
     if (expected.relative)

@@ -123,7 +123,7 @@ std::optional<Conflict> find_conflict(const model::Problem& problem, const model
 
 std::vector<Reach> find_reaches(const model::Problem& problem, const sdp::Options& solver) {
   std::vector<Reach> reaches;
-  const expr::Values values = model::make_instance(problem).known_values();
+  const numbers::Values values = model::make_instance(problem).known_values();
   for (const model::ScalarRange& range : problem.negotiable) {
     const SearchedScalar whole = searched_scalar(problem, range);
     const double value = values.at(range.name)(0, 0);

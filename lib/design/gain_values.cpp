@@ -14,7 +14,7 @@ namespace gainsmith::design {
 namespace {
 
 /// Whether every input but `free` has a value.
-bool has_values(const expr::Program& program, const expr::Values& values,
+bool has_values(const expr::Program& program, const numbers::Values& values,
                 const std::string& free = "") {
   return std::all_of(program.inputs.begin(), program.inputs.end(), [&](const expr::Input& input) {
     return input.name == free || values.contains(input.name);
@@ -22,9 +22,9 @@ bool has_values(const expr::Program& program, const expr::Values& values,
 }
 
 /// The coefficients of 1, t, t^2, ... of a function of t; none when it is no polynomial.
-std::optional<std::vector<expr::Matrix>> polynomial(const expr::Program& program,
+std::optional<std::vector<numbers::Matrix>> polynomial(const expr::Program& program,
                                                     const std::string& variable,
-                                                    const expr::Values& values) {
+                                                    const numbers::Values& values) {
   const lmi::Unknowns none{model::Instance{}};
   lmi::MonomialTable monomials(lmi::free_variable(variable));
   lmi::AffineForm form;
@@ -33,18 +33,18 @@ std::optional<std::vector<expr::Matrix>> polynomial(const expr::Program& program
   } catch (const InputError&) {
     return std::nullopt;  // more than sums and products of the functions that monomials stand for
   }
-  std::vector<expr::Matrix> coefficients;
+  std::vector<numbers::Matrix> coefficients;
   for (const auto& [key, matrix] : form.terms) {
     const lmi::Monomial& monomial = monomials[key.first];
     const lmi::Atom atom = monomial.empty() ? lmi::Atom{} : monomial.front().atom;
     if (atom.rate != 0 || atom.frequency != 0) return std::nullopt;
     const auto power = static_cast<std::size_t>(atom.power);
     if (power >= coefficients.size())
-      coefficients.resize(power + 1, expr::Matrix::Zero(form.shape.rows, form.shape.cols));
-    coefficients[power] = expr::Matrix(matrix);
+      coefficients.resize(power + 1, numbers::Matrix::Zero(form.shape.rows, form.shape.cols));
+    coefficients[power] = numbers::Matrix(matrix);
   }
   if (coefficients.empty())
-    coefficients.emplace_back(expr::Matrix::Zero(form.shape.rows, form.shape.cols));
+    coefficients.emplace_back(numbers::Matrix::Zero(form.shape.rows, form.shape.cols));
   return coefficients;
 }
 
@@ -59,7 +59,7 @@ bool uses_vertices(const model::Instance& instance, const expr::Program& program
 
 }  // namespace
 
-void add_gain_values(const model::Instance& instance, const expr::Values& values,
+void add_gain_values(const model::Instance& instance, const numbers::Values& values,
                      model::Gains& gains) {
   using Kind = model::GainFunction::Kind;
   const expr::Scope scope = instance.design_scope();
@@ -71,7 +71,7 @@ void add_gain_values(const model::Instance& instance, const expr::Values& values
         });
     if (!known) continue;
     if (gain.variable.empty() || !program.uses(gain.variable)) {
-      gains.gains.emplace_back(gain.name, expr::evaluate(program, values));
+      gains.gains.emplace_back(gain.name, numbers::evaluate(program, values));
       continue;
     }
     auto coefficients = polynomial(program, gain.variable, values);
@@ -84,7 +84,7 @@ void add_gain_values(const model::Instance& instance, const expr::Values& values
                                                          : Kind::formula;
     gains.gain_functions.push_back(
         {gain.name, gain.variable, kind, gain.value.text->str(),
-         coefficients ? std::move(*coefficients) : std::vector<expr::Matrix>{}});
+         coefficients ? std::move(*coefficients) : std::vector<numbers::Matrix>{}});
   }
 }
 
@@ -94,7 +94,7 @@ void add_report(const model::Instance& instance, model::Gains& gains) {
   for (const model::Named& value : instance.method->report) {
     const expr::Program program = expr::compile(value.value, stated.scope);
     if (has_values(program, stated.values))
-      gains.report.emplace_back(value.name, expr::evaluate(program, stated.values));
+      gains.report.emplace_back(value.name, numbers::evaluate(program, stated.values));
   }
 }
 

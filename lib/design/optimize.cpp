@@ -64,7 +64,7 @@ class OuterSearch {
  private:
   /// The values that the problem or the method gives, or the nearest in the ranges.
   search::Point own_values() const {
-    const expr::Values values = model::make_instance(problem_).known_values();
+    const numbers::Values values = model::make_instance(problem_).known_values();
     search::Point point;
     for (const SearchedScalar& scalar : request_.over)
       point.push_back(std::clamp(values.at(scalar.name)(0, 0), scalar.axis.low, scalar.axis.high));

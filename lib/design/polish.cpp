@@ -17,7 +17,7 @@ namespace gainsmith::design {
 
 namespace {
 
-using expr::Matrix;
+using numbers::Matrix;
 using Vector = std::vector<double>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -56,7 +56,7 @@ class Program {
     Vector start;
     const model::Instance instance =
         lmi::with_vertex_gains(model::make_instance(problem_, gains.searched));
-    const expr::Values values = instance.known_values();
+    const numbers::Values values = instance.known_values();
     for (const SearchedScalar& scalar : scalars_)
       start.push_back(scalar.axis.fraction(values.at(scalar.name)(0, 0)));
     const SmoothBlocks& blocks = at(start);

@@ -27,7 +27,7 @@ std::vector<double> packed(const model::Instance& instance, const SmoothBlocks& 
   const lmi::Unknowns unknowns(instance);
   std::vector<double> x(static_cast<std::size_t>(blocks.unknowns), 0.0);
   for (const lmi::Unknown& unknown : unknowns.list()) {
-    const expr::Matrix* matrix = gains.find(unknown.name);
+    const numbers::Matrix* matrix = gains.find(unknown.name);
     if (matrix == nullptr) throw NoProgram{unknown.name + " has no value"};
     for (int k = 0; k < unknown.count; ++k) {
       const auto [row, column] = unknown.places(k).front();
@@ -36,10 +36,10 @@ std::vector<double> packed(const model::Instance& instance, const SmoothBlocks& 
   }
   for (const lmi::GainBound& bound : blocks.bounds.list) {
     if (bound.scalar == 0) continue;
-    expr::Matrix s = expr::Matrix::Zero(bound.s.shape.rows, bound.s.shape.cols);
+    numbers::Matrix s = numbers::Matrix::Zero(bound.s.shape.rows, bound.s.shape.cols);
     for (const auto& [key, coefficient] : bound.s.terms)
       s += (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) *
-           expr::Matrix(coefficient);
+           numbers::Matrix(coefficient);
     x[static_cast<std::size_t>(bound.scalar) - 1] = lmi::smallest_eigenvalue(s);
   }
   return x;

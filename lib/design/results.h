@@ -16,8 +16,8 @@ class Results {
 
   /// The value; none when the expression uses something that has none, such as a gain of a problem
   /// without solution. InputError when it does not compile.
-  std::optional<expr::Matrix> value(const expr::Expression& expression) const;
-  const expr::Values& values() const { return stated_.values; }
+  std::optional<numbers::Matrix> value(const expr::Expression& expression) const;
+  const numbers::Values& values() const { return stated_.values; }
 
  private:
   model::Stated stated_;

@@ -333,7 +333,7 @@ class Synthesis {
   /// Gains whose formulas use nothing but data are known in any case, the others when the verdict
   /// is yes.
   void add_gains() {
-    expr::Values values = instance_.known_values();
+    numbers::Values values = instance_.known_values();
     if (gains_.verdict == model::Verdict::yes)
       for (const auto& [name, matrix] : gains_.unknowns) values[name] = matrix;
     for (const model::UnknownFunction& function : instance_.functions)

@@ -1,7 +1,8 @@
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "expr/binder.h"
-#include "expr/real.h"
 
 namespace gainsmith::expr {
 
@@ -27,6 +28,8 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
     for (const NodePtr& child : node.children) arguments.push_back(bind(expression, *child));
     return bind_definition(expression, node, name, std::move(arguments));
   }
+  if (const auto found = scope_.functions.find(name); found != scope_.functions.end())
+    return bind_given_function(expression, node, found->second);
   const Function* function = find_function(name);
   if (function == nullptr) unknown_name(expression, node);
   const int count = static_cast<int>(node.children.size());
@@ -35,6 +38,19 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
          "'" + name + "' is written " + std::string(function->usage) + "; found " +
              std::to_string(count) + " arguments");
   return bind_function(expression, node, *function);
+}
+
+Bound Binder::bind_given_function(const Expression& expression, const Node& node, Shape of) {
+  if (node.children.size() != 1)
+    fail(expression, node,
+         "'" + node.text + "' takes 1 arguments, not " + std::to_string(node.children.size()));
+  const Node& argument = *node.children.front();
+  const int at = materialise(expression, argument, bind(expression, argument), {});
+  Instruction like;
+  like.origin = expression.text;
+  like.offset = node.begin;
+  like.text = expression.text->str().substr(node.begin, node.end - node.begin);
+  return {assembly_.add_call(node.text, of, at, like)};
 }
 
 Bound Binder::bind_function(const Expression& expression, const Node& node,
@@ -249,33 +265,35 @@ Bound Binder::block_diagonal(const Expression& expression, const Node& node) {
                    widths)};
 }
 
-Matrix Binder::known_value(const Expression& expression, const Node& node, int at,
-                           std::string_view why) {
-  const Program program = extract(at);
-  Values values;
-  for (const Input& input : program.inputs) {
-    const auto& symbol = scope_.symbols.at(input.name);
-    if (!symbol.value)
-      fail(expression, node,
-           std::string(why) + " must not depend on '" + input.name +
-               "', whose value is not known beforehand");
-    values[input.name] = *symbol.value;
-  }
-  return evaluate(program, values);
+Program Binder::known_program(const Expression& expression, const Node& node, int at,
+                              std::string_view why) {
+  Program program = extract(at);
+  const auto refuse = [&](const std::string& name) {
+    fail(expression, node,
+         std::string(why) + " must not depend on '" + name +
+             "', whose value is not known beforehand");
+  };
+  for (const Input& input : program.inputs)
+    if (!scope_.known || !scope_.symbols.at(input.name).known) refuse(input.name);
+  for (const Input& function : program.functions) refuse(function.name);
+  return program;
 }
 
 Bound Binder::basis(const Expression& expression, const Node& node, Op op) {
   const Node& argument = *node.children[0];
   const int at = sized(expression, argument, bind(expression, argument));
-  double tolerance = -1;
+  std::optional<Program> tolerance;
   if (node.children.size() == 2) {
     const Node& second = *node.children[1];
     const int tolerance_at = materialise(expression, second, bind(expression, second), {});
-    tolerance = known_value(expression, second, tolerance_at, "the tolerance")(0, 0);
-    if (tolerance < 0) fail(expression, second, "the tolerance must not be negative");
+    tolerance = known_program(expression, second, tolerance_at, "the tolerance");
   }
-  const int rank = numerical_rank(
-      known_value(expression, argument, at, "the argument of " + node.text), tolerance);
+  const Program matrix = known_program(expression, argument, at, "the argument of " + node.text);
+  if (!scope_.known) fail(expression, node, node.text + ": no value is known beforehand");
+  const double given = tolerance ? scope_.known->number(*tolerance) : -1;
+  if (tolerance && given < 0)
+    fail(expression, *node.children[1], "the tolerance must not be negative");
+  const int rank = scope_.known->rank(matrix, given);
   const Shape from = shape(at);
   const Shape result =
       op == Op::range_basis ? Shape{from.rows, rank} : Shape{from.cols, from.cols - rank};

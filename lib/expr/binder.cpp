@@ -15,6 +15,7 @@ std::vector<std::string> Scope::names() const {
   std::vector<std::string> all;
   for (const auto& [name, value] : symbols) all.push_back(name);
   for (const auto& [name, value] : definitions) all.push_back(name);
+  for (const auto& [name, value] : functions) all.push_back(name);
   for (const auto& [name, value] : dimensions) all.push_back(name);
   return all;
 }
@@ -35,15 +36,8 @@ int Binder::emit(const Expression& expression, const Node& node, Op op, std::vec
   constexpr std::int64_t kMostElements = 10'000'000;
   if (std::int64_t{shape.rows} * shape.cols > kMostElements)
     fail(expression, node, "the " + to_string(op) + " is too large: " + to_string(shape));
-  Key key{op, operands, shape.rows, shape.cols, attributes, text};
-  const auto found = known_.find(key);
-  if (found != known_.end()) return found->second;
-  Instruction instruction{
-      op, std::move(operands), shape, attributes, std::move(text), expression.text, node.begin};
-  program_.code.push_back(std::move(instruction));
-  const int at = static_cast<int>(program_.code.size()) - 1;
-  known_.emplace(std::move(key), at);
-  return at;
+  return assembly_.add(
+      {op, std::move(operands), shape, attributes, std::move(text), expression.text, node.begin});
 }
 
 int Binder::number(const Expression& expression, const Node& node, const std::string& text) {
@@ -51,7 +45,7 @@ int Binder::number(const Expression& expression, const Node& node, const std::st
 }
 
 bool Binder::is_zero(Bound value) const {
-  const Instruction& instruction = program_.code[static_cast<std::size_t>(value.at)];
+  const Instruction& instruction = assembly_[value.at];
   return instruction.op == Op::constant && instruction.text != "pi" &&
          parse_decimal(instruction.text) == 0.0;
 }
@@ -132,13 +126,13 @@ Bound Binder::bind_name(const Expression& expression, const Node& node) {
   const std::string& name = node.text;
   if (const auto found = environment_.find(name); found != environment_.end()) return found->second;
   if (const auto found = scope_.symbols.find(name); found != scope_.symbols.end()) {
-    int input = program_.input(name);
-    if (input < 0) {
-      program_.inputs.push_back({name, found->second.shape});
-      input = static_cast<int>(program_.inputs.size()) - 1;
-    }
-    return {emit(expression, node, Op::input, {}, found->second.shape, {input})};
+    Instruction like;
+    like.origin = expression.text;
+    like.offset = node.begin;
+    return {assembly_.add_input(name, found->second.shape, like)};
   }
+  if (scope_.functions.contains(name))
+    fail(expression, node, "'" + name + "' takes 1 arguments, not 0");
   if (scope_.definitions.contains(name)) return bind_definition(expression, node, name, {});
   if (const auto found = scope_.dimensions.find(name); found != scope_.dimensions.end())
     return {number(expression, node, std::to_string(found->second))};
@@ -283,30 +277,6 @@ Bound Binder::power(const Expression& expression, const Node& node) {
   return {emit(expression, node, Op::scalar_power,
                {base.at, sized(expression, exponent_node, exponent)}, {}),
           base.identity};
-}
-
-Program Binder::extract(int at) const {
-  std::vector<bool> needed(program_.code.size(), false);
-  needed[static_cast<std::size_t>(at)] = true;
-  for (std::size_t i = program_.code.size(); i-- > 0;)
-    if (needed[i])
-      for (const int operand : program_.code[i].operands)
-        needed[static_cast<std::size_t>(operand)] = true;
-  Program result;
-  std::vector<int> moved(program_.code.size(), -1);
-  for (std::size_t i = 0; i < program_.code.size(); ++i) {
-    if (!needed[i]) continue;
-    Instruction instruction = program_.code[i];
-    for (int& operand : instruction.operands) operand = moved[static_cast<std::size_t>(operand)];
-    if (instruction.op == Op::input) {
-      result.inputs.push_back(program_.inputs[static_cast<std::size_t>(instruction.attributes[0])]);
-      instruction.attributes[0] = static_cast<int>(result.inputs.size()) - 1;
-    }
-    result.code.push_back(std::move(instruction));
-    moved[i] = static_cast<int>(result.code.size()) - 1;
-  }
-  result.result = moved[static_cast<std::size_t>(at)];
-  return result;
 }
 
 Program compile(const Expression& expression, const Scope& scope, std::optional<Shape> expected) {

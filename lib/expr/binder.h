@@ -2,10 +2,11 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
-#include <tuple>
 #include <vector>
 
+#include "expr/assembly.h"
 #include "expr/functions.h"
 #include "expr/scope.h"
 
@@ -29,9 +30,9 @@ class Binder {
   int sized(const Expression& expression, const Node& node, Bound value);
   Bound subtract(const Expression& expression, const Node& node, Bound a, Bound b);
 
-  Shape shape(int at) const { return program_.code[static_cast<std::size_t>(at)].shape; }
+  Shape shape(int at) const { return assembly_.shape(at); }
   /// The program that computes `at`, without the instructions that it does not need.
-  Program extract(int at) const;
+  Program extract(int at) const { return assembly_.extract(at); }
 
  private:
   using Environment = std::map<std::string, Bound>;
@@ -61,6 +62,7 @@ class Binder {
 
   // bind_calls.cpp: functions.
   Bound bind_call(const Expression& expression, const Node& node);
+  Bound bind_given_function(const Expression& expression, const Node& node, Shape shape);
   Bound bind_function(const Expression& expression, const Node& node, const Function& function);
   Bound elementwise(const Expression& expression, const Node& node, Op op);
   Bound fold_minmax(const Expression& expression, const Node& node, Op op);
@@ -78,7 +80,9 @@ class Binder {
   int square_argument(const Expression& expression, const Node& node, std::string_view function);
   int square(const Expression& expression, const Node& argument, Bound value,
              std::string_view function);
-  Matrix known_value(const Expression& expression, const Node& node, int at, std::string_view why);
+  /// The program of a value, all of whose inputs are known beforehand.
+  Program known_program(const Expression& expression, const Node& node, int at,
+                        std::string_view why);
 
   int emit(const Expression& expression, const Node& node, Op op, std::vector<int> operands,
            Shape shape, std::array<int, 4> attributes = {}, std::string text = "");
@@ -87,11 +91,8 @@ class Binder {
                          const std::string& message) const;
   std::string describe(const Expression& expression, const Node& node, Bound value) const;
 
-  using Key = std::tuple<Op, std::vector<int>, int, int, std::array<int, 4>, std::string>;
-
   const Scope& scope_;
-  Program program_;
-  std::map<Key, int> known_;                   ///< equal instructions are emitted once
+  Assembly assembly_;
   std::map<std::string, Bound> defined_;       ///< definitions without parameters, once bound
   std::vector<std::string> open_definitions_;  ///< being bound now, to find cycles
   int depth_ = 0;                              ///< of calls of bind()

@@ -93,6 +93,8 @@ class Evaluator {
     varying_.clear();
     for (std::size_t at = 0; at < program_->code.size(); ++at) {
       const Instruction& instruction = program_->code[at];
+      if (instruction.op == Op::call)
+        throw std::logic_error("a call of " + instruction.text + " that was not linked");
       if (instruction.op == Op::input) {
         const auto input = static_cast<std::size_t>(instruction.attributes[0]);
         if (inputs_[input] == nullptr)

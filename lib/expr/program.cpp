@@ -12,6 +12,8 @@ std::string to_string(Op op) {
       return "number";
     case Op::input:
       return "name";
+    case Op::call:
+      return "function";
     case Op::zeros:
       return "zeros";
     case Op::fill:

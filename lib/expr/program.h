@@ -29,6 +29,7 @@ std::string to_string(Shape shape);
 enum class Op {
   constant,      ///< the decimal `text`, or "pi"
   input,         ///< inputs[attributes[0]]
+  call,          ///< functions[attributes[0]] at s; replaced by link() before anything is computed
   zeros,         ///< a matrix of zeros
   fill,          ///< every element is s
   identity,      ///< s I
@@ -74,7 +75,7 @@ struct Instruction {
   std::vector<int> operands;  ///< earlier instructions
   Shape shape;                ///< of the result
   std::array<int, 4> attributes{};
-  std::string text;  ///< constant: the decimal as written; inverse: of what, for messages
+  std::string text;  ///< constant: the decimal as written; inverse: of what; call: as written
   std::shared_ptr<const Text> origin;
   std::size_t offset = 0;  ///< where in the origin it was written
 
@@ -89,7 +90,8 @@ struct Input {
 struct Program {
   std::vector<Instruction> code;
   std::vector<Input> inputs;
-  int result = -1;  ///< the instruction whose value is the program's
+  std::vector<Input> functions;  ///< what is called, with the shape of its values
+  int result = -1;               ///< the instruction whose value is the program's
 
   Shape shape() const { return code[static_cast<std::size_t>(result)].shape; }
   /// The position of an input, or -1.

@@ -2,22 +2,21 @@
 #pragma once
 
 #include <map>
-#include <optional>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "expr/ast.h"
-#include "expr/matrix.h"
 #include "expr/parser.h"
 #include "expr/program.h"
 
 namespace gainsmith::expr {
 
-/// A named matrix that a program takes as input. A known value (plant data, parameters) lets
-/// functions whose shape depends on it (orth, null) be bound.
+/// A named matrix that a program takes as input. A known one (plant data, parameters) has a value
+/// beforehand, so that functions whose shape depends on it (orth, null) can be bound.
 struct Symbol {
   Shape shape;
-  std::optional<Matrix> value;
+  bool known = false;
 };
 
 /// "name: expression" or "name(a, b): expression" in `let`.
@@ -26,10 +25,25 @@ struct Definition {
   Expression body;
 };
 
+/// What binding asks of the values of known symbols.
+class KnownValues {
+ public:
+  virtual ~KnownValues() = default;
+  /// The value of a 1 x 1 program over known symbols.
+  virtual double number(const Program& program) const = 0;
+  /// The number of singular values above tolerance * the largest one; tolerance < 0 stands for
+  /// rounding.
+  virtual int rank(const Program& program, double tolerance) const = 0;
+};
+
 struct Scope {
   std::map<std::string, int> dimensions;  ///< n, p, ...
   std::map<std::string, Symbol> symbols;
   std::map<std::string, Definition> definitions;  ///< in any order; cycles are found when bound
+  /// Functions of a number that are given later (link() in rewrite.h), with the shape of their
+  /// values: unknown functions, gains that are functions.
+  std::map<std::string, Shape> functions;
+  std::shared_ptr<const KnownValues> known;  ///< none: nothing is known beforehand
 
   /// All names, for suggestions.
   std::vector<std::string> names() const;

@@ -66,7 +66,7 @@ const Instruction* first_not_affine(const expr::Program& program,
 
 AffineMap sample_affine(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& map,
                         Eigen::Index size) {
-  AffineMap result{expr::Matrix(size, size), map(Eigen::VectorXd::Zero(size))};
+  AffineMap result{numbers::Matrix(size, size), map(Eigen::VectorXd::Zero(size))};
   for (Eigen::Index i = 0; i < size; ++i)
     result.linear.col(i) = map(Eigen::VectorXd::Unit(size, i)) - result.constant;
   return result;

@@ -6,14 +6,14 @@
 #include <functional>
 #include <string>
 
-#include "expr/matrix.h"
+#include "numbers/matrix.h"
 #include "expr/program.h"
 
 namespace gainsmith::hybrid {
 
 /// x -> linear x + constant.
 struct AffineMap {
-  expr::Matrix linear;
+  numbers::Matrix linear;
   Eigen::VectorXd constant;
 
   Eigen::VectorXd operator()(const Eigen::VectorXd& x) const { return linear * x + constant; }

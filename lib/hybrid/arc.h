@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "expr/matrix.h"
+#include "numbers/matrix.h"
 #include "hybrid/steps.h"
 
 namespace gainsmith::hybrid {
@@ -44,7 +44,7 @@ struct Arc {
     return {stacked.data() + static_cast<Eigen::Index>(sample) * size, size};
   }
   /// All states, one a column.
-  Eigen::Map<const expr::Matrix> states() const {
+  Eigen::Map<const numbers::Matrix> states() const {
     return {stacked.data(), size, static_cast<Eigen::Index>(samples())};
   }
   void append(double time, std::int64_t jumps, double tau, const Eigen::VectorXd& x);

@@ -31,11 +31,11 @@ expr::Program compile_start(const model::Value& value, std::size_t slot, const S
 }
 
 /// A box may be given by scalars for all elements.
-expr::Matrix read_bound(const model::Value& value, expr::Shape shape, const System& system) {
+numbers::Matrix read_bound(const model::Value& value, expr::Shape shape, const System& system) {
   const expr::Program program = expr::compile(value.value, system.scope);
   if (program.shape().is_scalar()) {
     const double bound = model::scalar_value(value.value, system.scope, system.constants);
-    return expr::Matrix::Constant(shape.rows, shape.cols, bound);
+    return numbers::Matrix::Constant(shape.rows, shape.cols, bound);
   }
   return model::matrix_value(value, system.scope, system.constants, shape);
 }
@@ -89,7 +89,7 @@ std::vector<StartRule> make_start_rules(const model::Campaign& campaign, const S
       continue;
     }
     const expr::Shape shape = system.layout.slots[slot].shape;
-    const expr::Matrix ones = expr::Matrix::Ones(shape.rows, shape.cols);
+    const numbers::Matrix ones = numbers::Matrix::Ones(shape.rows, shape.cols);
     rules.push_back({Kind::box, {-ones, ones}, {}, {}});
   }
   return rules;

@@ -14,7 +14,7 @@ namespace gainsmith::hybrid {
 /// How one state starts, with its numbers.
 struct StartRule {
   model::InitialValue::Kind kind = model::InitialValue::Kind::box;
-  std::vector<expr::Matrix> values;  ///< box: low, high; list: the elements
+  std::vector<numbers::Matrix> values;  ///< box: low, high; list: the elements
   expr::Program program;             ///< expression
   Place place;
 };

@@ -21,7 +21,7 @@ Layout make_layout(const std::vector<std::pair<std::string, expr::Shape>>& state
 }
 
 std::vector<std::string> missing_values(const expr::Program& program, const Layout& layout,
-                                        const expr::Values& constants) {
+                                        const numbers::Values& constants) {
   std::vector<std::string> missing;
   for (const expr::Input& input : program.inputs)
     if (!layout.moves(input.name) && !constants.contains(input.name)) missing.push_back(input.name);
@@ -29,11 +29,11 @@ std::vector<std::string> missing_values(const expr::Program& program, const Layo
 }
 
 PointFunction::PointFunction(const expr::Program& program, const Layout& layout,
-                             const expr::Values& constants)
+                             const numbers::Values& constants)
     : slots_(layout.slots), evaluator_(program) {
   for (const Slot& slot : slots_)
-    moving_.push_back(expr::Matrix::Zero(slot.shape.rows, slot.shape.cols));
-  moving_.push_back(expr::Matrix::Zero(1, 1));
+    moving_.push_back(numbers::Matrix::Zero(slot.shape.rows, slot.shape.cols));
+  moving_.push_back(numbers::Matrix::Zero(1, 1));
   for (const expr::Input& input : program.inputs)
     if (const auto known = constants.find(input.name); known != constants.end())
       evaluator_.fix(input.name, known->second);
@@ -41,7 +41,7 @@ PointFunction::PointFunction(const expr::Program& program, const Layout& layout,
   evaluator_.set(layout.timer, moving_.back());
 }
 
-const expr::Matrix& PointFunction::operator()(const Eigen::VectorXd& x, double tau) {
+const numbers::Matrix& PointFunction::operator()(const Eigen::VectorXd& x, double tau) {
   for (std::size_t i = 0; i < slots_.size(); ++i)
     moving_[i].reshaped() = x.segment(slots_[i].offset, slots_[i].shape.size());
   moving_.back()(0, 0) = tau;

@@ -7,7 +7,7 @@
 
 #include "expr/evaluate.h"
 #include "expr/program.h"
-#include "expr/real.h"
+#include "numbers/real.h"
 
 namespace gainsmith::hybrid {
 
@@ -34,23 +34,23 @@ Layout make_layout(const std::vector<std::pair<std::string, expr::Shape>>& state
 
 /// The inputs of a program that neither move nor have a value, in the program's order.
 std::vector<std::string> missing_values(const expr::Program& program, const Layout& layout,
-                                        const expr::Values& constants);
+                                        const numbers::Values& constants);
 
 /// A program as a function of (x, tau), one point at a time. The program and the constants must
 /// outlive it; every input must be a state, the timer or a constant.
 class PointFunction {
  public:
-  PointFunction(const expr::Program& program, const Layout& layout, const expr::Values& constants);
+  PointFunction(const expr::Program& program, const Layout& layout, const numbers::Values& constants);
   PointFunction(PointFunction&&) = default;  // a copy's evaluator would point into the original
   PointFunction& operator=(PointFunction&&) = default;
 
   /// The value; it stands until the next call. InputError when an operation has no result.
-  const expr::Matrix& operator()(const Eigen::VectorXd& x, double tau);
+  const numbers::Matrix& operator()(const Eigen::VectorXd& x, double tau);
 
  private:
   std::vector<Slot> slots_;
-  std::vector<expr::Matrix> moving_;  ///< the states, then the timer
-  expr::Evaluator<expr::RealAlgebra> evaluator_;
+  std::vector<numbers::Matrix> moving_;  ///< the states, then the timer
+  expr::Evaluator<numbers::RealAlgebra> evaluator_;
 };
 
 }  // namespace gainsmith::hybrid

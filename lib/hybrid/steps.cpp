@@ -42,15 +42,15 @@ Wide short_exponential(const Wide& generator, long double length) {
 }
 
 /// How fast the flow may swing or grow, per unit of time.
-double fastest_rate(const expr::Matrix& matrix) {
+double fastest_rate(const numbers::Matrix& matrix) {
   double rate = 0;
-  const Eigen::EigenSolver<expr::Matrix> solver(matrix, false);
+  const Eigen::EigenSolver<numbers::Matrix> solver(matrix, false);
   for (const auto& lambda : solver.eigenvalues())
     rate = std::max({rate, std::abs(lambda.imag()), lambda.real()});
   return rate;
 }
 
-double one_norm(const expr::Matrix& matrix) { return matrix.cwiseAbs().colwise().sum().maxCoeff(); }
+double one_norm(const numbers::Matrix& matrix) { return matrix.cwiseAbs().colwise().sum().maxCoeff(); }
 
 }  // namespace
 
@@ -90,9 +90,9 @@ Steps::Steps(const AffineMap& flow, double longest, const Place& place) : flow_(
     maps[i] =
         short_exponential(generator, shortest_ * static_cast<long double>(node_positions()[i]));
   for (int level = 0; level <= last; ++level) {
-    const auto rounded = [&](std::size_t i) -> expr::Matrix { return maps[i].cast<double>(); };
+    const auto rounded = [&](std::size_t i) -> numbers::Matrix { return maps[i].cast<double>(); };
     maps_.push_back({rounded(kNodes).topLeftCorner(n, n), rounded(kNodes).topRightCorner(n, 1)});
-    AffineMap nodes{expr::Matrix(kNodes * n, n), Eigen::VectorXd(kNodes * n)};
+    AffineMap nodes{numbers::Matrix(kNodes * n, n), Eigen::VectorXd(kNodes * n)};
     for (std::size_t i = 0; i < kNodes; ++i) {
       const Eigen::Index row = static_cast<Eigen::Index>(i) * n;
       nodes.linear.middleRows(row, n) = rounded(i).topLeftCorner(n, n);
@@ -123,8 +123,8 @@ void Steps::cut(double interval, std::vector<Step>& steps) const {
   if (rest > 0) steps.push_back({Step::kRest, rest});
 }
 
-expr::Matrix Steps::taylor_terms(double length, const Eigen::Ref<const Eigen::VectorXd>& x) const {
-  expr::Matrix terms(x.size(), kDegree + 1);
+numbers::Matrix Steps::taylor_terms(double length, const Eigen::Ref<const Eigen::VectorXd>& x) const {
+  numbers::Matrix terms(x.size(), kDegree + 1);
   terms.col(0) = x;
   for (int k = 1; k <= kDegree; ++k) {
     terms.col(k).noalias() = flow_.linear.lazyProduct(terms.col(k - 1));
@@ -146,10 +146,10 @@ void Steps::advance(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x
 }
 
 void Steps::nodes(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x,
-                  Eigen::Ref<expr::Matrix> out) const {
+                  Eigen::Ref<numbers::Matrix> out) const {
   if (step.level == Step::kRest) {
-    static const expr::Matrix kPowers = [] {
-      expr::Matrix powers = expr::Matrix::Ones(kDegree + 1, kNodes);
+    static const numbers::Matrix kPowers = [] {
+      numbers::Matrix powers = numbers::Matrix::Ones(kDegree + 1, kNodes);
       for (int k = 1; k <= kDegree; ++k)
         for (int i = 0; i < kNodes; ++i)
           powers(k, i) = powers(k - 1, i) * node_positions()[static_cast<std::size_t>(i)];

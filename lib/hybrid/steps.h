@@ -18,7 +18,7 @@
 #include <array>
 #include <vector>
 
-#include "expr/matrix.h"
+#include "numbers/matrix.h"
 #include "hybrid/affine.h"
 
 namespace gainsmith::hybrid {
@@ -49,7 +49,7 @@ class Steps {
 
   /// The states at the Gauss nodes of a step from x, one a column (size x kNodes).
   void nodes(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x,
-             Eigen::Ref<expr::Matrix> out) const;
+             Eigen::Ref<numbers::Matrix> out) const;
 
   /// Nodes and weights on [0, 1]; the weights add up to 1.
   static const std::array<double, kNodes>& node_positions();
@@ -59,7 +59,7 @@ class Steps {
   int levels() const { return static_cast<int>(maps_.size()); }
 
  private:
-  expr::Matrix taylor_terms(double length, const Eigen::Ref<const Eigen::VectorXd>& x) const;
+  numbers::Matrix taylor_terms(double length, const Eigen::Ref<const Eigen::VectorXd>& x) const;
 
   AffineMap flow_;
   double shortest_ = 0;              ///< s_0

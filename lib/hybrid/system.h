@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "expr/real.h"
+#include "numbers/real.h"
 #include "expr/scope.h"
 #include "hybrid/affine.h"
 #include "hybrid/layout.h"
@@ -31,7 +31,7 @@ struct System {
   Layout layout;
   /// Where a state starts when the campaign does not say; one a slot.
   std::vector<std::optional<expr::Expression>> starts;
-  expr::Values constants;  ///< data, parameters, gains and unknowns that have a value
+  numbers::Values constants;  ///< data, parameters, gains and unknowns that have a value
   expr::Scope scope;       ///< of flow and jump maps, claims and signals
   AffineMap flow;
   Place flow_place;                      ///< where the fastest part of the flow stands

@@ -4,7 +4,7 @@
 
 namespace gainsmith::io {
 
-std::string to_csv(std::span<const std::string> columns, const expr::Matrix& table) {
+std::string to_csv(std::span<const std::string> columns, const numbers::Matrix& table) {
   std::string text;
   for (std::size_t i = 0; i < columns.size(); ++i) {
     if (i > 0) text += ',';

@@ -4,12 +4,12 @@
 #include <span>
 #include <string>
 
-#include "expr/matrix.h"
+#include "numbers/matrix.h"
 
 namespace gainsmith::io {
 
 /// A line of column names, then a line for each row of the table; numbers by decimal17, so that
 /// reading them gives the same doubles. One name for each column.
-std::string to_csv(std::span<const std::string> columns, const expr::Matrix& table);
+std::string to_csv(std::span<const std::string> columns, const numbers::Matrix& table);
 
 }  // namespace gainsmith::io

@@ -185,7 +185,7 @@ model::Statement statement_of(const JsonReader& reader) {
 
 }  // namespace
 
-Json matrix_json(const expr::Matrix& matrix) {
+Json matrix_json(const numbers::Matrix& matrix) {
   Json rows = Json::array();
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     Json row = Json::array();

@@ -26,6 +26,6 @@ model::Gains parse_gains(const std::string& text, const std::string& file);
 model::Problem stated_problem(const model::Gains& gains, const std::string& file);
 
 /// A matrix as a list of rows.
-Json matrix_json(const expr::Matrix& matrix);
+Json matrix_json(const numbers::Matrix& matrix);
 
 }  // namespace gainsmith::io

@@ -79,10 +79,10 @@ std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
   return result;
 }
 
-expr::Matrix JsonReader::matrix() const {
-  if (value_.is_number()) return expr::Matrix::Constant(1, 1, number());
+numbers::Matrix JsonReader::matrix() const {
+  if (value_.is_number()) return numbers::Matrix::Constant(1, 1, number());
   const auto rows = items();
-  expr::Matrix result(rows.size(), rows.empty() ? 0 : rows.front().items().size());
+  numbers::Matrix result(rows.size(), rows.empty() ? 0 : rows.front().items().size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const auto row = rows[i].items();
     if (row.size() != static_cast<std::size_t>(result.cols()))

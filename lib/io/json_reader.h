@@ -36,7 +36,7 @@ class JsonReader {
   /// All keys, whatever they are, with their values.
   std::vector<std::pair<std::string, JsonReader>> members() const;
   /// A list of rows, or a number.
-  expr::Matrix matrix() const;
+  numbers::Matrix matrix() const;
   model::NamedMatrices matrices() const;
 
   /// InputError for the first key below here that nothing asked for, with the nearest known one.

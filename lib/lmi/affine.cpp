@@ -5,7 +5,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
-#include "expr/real.h"
+#include "numbers/real.h"
 #include "lmi/residues.h"
 
 namespace gainsmith::lmi {
@@ -16,7 +16,7 @@ using Key = std::pair<int, int>;
 
 expr::Shape transposed(expr::Shape shape) { return {shape.cols, shape.rows}; }
 
-Sparse sparse(const expr::Matrix& matrix) { return matrix.sparseView(0.0, 0.0); }
+Sparse sparse(const numbers::Matrix& matrix) { return matrix.sparseView(0.0, 0.0); }
 
 void accumulate(AffineForm& form, Key key, const Sparse& matrix, double factor = 1) {
   if (matrix.nonZeros() == 0 || factor == 0) return;
@@ -41,10 +41,10 @@ AffineForm sum(const AffineForm& a, const AffineForm& b, double factor) {
   return result;
 }
 
-expr::Matrix dense_constant(const AffineForm& form) {
+numbers::Matrix dense_constant(const AffineForm& form) {
   const auto found = form.terms.find({0, 0});
-  if (found == form.terms.end()) return expr::Matrix::Zero(form.shape.rows, form.shape.cols);
-  return expr::Matrix(found->second);
+  if (found == form.terms.end()) return numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
+  return numbers::Matrix(found->second);
 }
 
 /// A matrix from the elements of `matrix` moved to other places.
@@ -101,7 +101,7 @@ AffineForm identity(const AffineForm& form, expr::Shape shape) {
 
 AffineForm trace(const AffineForm& form) {
   return map_terms(form, {}, [](const Sparse& matrix) {
-    return sparse(expr::Matrix::Constant(1, 1, matrix.diagonal().sum()));
+    return sparse(numbers::Matrix::Constant(1, 1, matrix.diagonal().sum()));
   });
 }
 
@@ -154,7 +154,7 @@ bool AffineForm::has_unknown(int* which) const {
   return false;
 }
 
-AffineForm constant_form(const expr::Matrix& matrix) {
+AffineForm constant_form(const numbers::Matrix& matrix) {
   AffineForm result{{static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols())}, {}};
   accumulate(result, {0, 0}, sparse(matrix));
   return result;
@@ -176,7 +176,7 @@ AffineForm variable_form(MonomialTable& monomials, int variable) {
   AffineForm result{v.shape, {}};
   if (v.is_interval()) {
     const int tau = monomials.index(variable, Atom{1, 0, 0, false});
-    accumulate(result, {tau, 0}, sparse(expr::Matrix::Ones(1, 1)));
+    accumulate(result, {tau, 0}, sparse(numbers::Matrix::Ones(1, 1)));
     return result;
   }
   accumulate(result, {0, 0}, sparse(v.elements[0]));
@@ -209,7 +209,7 @@ class Rules {
   }
 
   AffineForm power(const AffineForm& form, int exponent) const {
-    AffineForm result = constant_form(expr::Matrix::Identity(form.shape.rows, form.shape.rows));
+    AffineForm result = constant_form(numbers::Matrix::Identity(form.shape.rows, form.shape.rows));
     for (int i = 0; i < exponent; ++i) result = product(result, form, form.shape, false);
     return result;
   }
@@ -230,7 +230,7 @@ class Rules {
     AffineForm result;
     const auto add = [&](double factor, const Atom& atom) {
       accumulate(result, {monomials_.index(argument.variable, atom), 0},
-                 sparse(expr::Matrix::Constant(1, 1, factor)));
+                 sparse(numbers::Matrix::Constant(1, 1, factor)));
     };
     if (op == expr::Op::exp) {
       add(std::exp(offset), {0, slope, 0, false});
@@ -248,16 +248,16 @@ class Rules {
   AffineForm matrix_exponential(const AffineForm& form) const {
     constexpr double kCommutes = 1e-13;
     const Linear argument = linear(expr::Op::matrix_exponential, form);
-    const expr::Matrix& M = argument.constant;
-    const expr::Matrix& F = argument.slope;
+    const numbers::Matrix& M = argument.constant;
+    const numbers::Matrix& F = argument.slope;
     if ((M * F - F * M).norm() > kCommutes * M.norm() * F.norm())
       refuse(expr::Op::matrix_exponential, form);
     const Variable& tau = monomials_.variables()[static_cast<std::size_t>(argument.variable)];
-    const expr::Matrix before = M.exp();
+    const numbers::Matrix before = M.exp();
     AffineForm result{form.shape, {}};
     for (const auto& [atom, matrix] : residue_expansion(F, tau.low, tau.high))
       accumulate(result, {monomials_.index(argument.variable, atom), 0},
-                 sparse(M.isZero(0) ? matrix : expr::Matrix(before * matrix)));
+                 sparse(M.isZero(0) ? matrix : numbers::Matrix(before * matrix)));
     return result;
   }
 
@@ -276,26 +276,26 @@ class Rules {
  private:
   /// constant + slope * (one interval variable).
   struct Linear {
-    expr::Matrix constant;
-    expr::Matrix slope;
+    numbers::Matrix constant;
+    numbers::Matrix slope;
     int variable = -1;
   };
 
   Linear linear(expr::Op op, const AffineForm& form) const {
-    const expr::Matrix zero = expr::Matrix::Zero(form.shape.rows, form.shape.cols);
+    const numbers::Matrix zero = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
     Linear result{zero, zero};
     for (const auto& [key, matrix] : form.terms) {
       const Monomial& monomial = monomials_[key.first];
       if (key.second != 0) refuse(op, form);
       if (monomial.empty()) {
-        result.constant = expr::Matrix(matrix);
+        result.constant = numbers::Matrix(matrix);
         continue;
       }
       const Factor& factor = monomial.front();
       if (result.variable >= 0 || monomial.size() > 1 || factor.weight > 0 ||
           !(factor.atom == Atom{1, 0, 0, false}))
         refuse(op, form);
-      result.slope = expr::Matrix(matrix);
+      result.slope = numbers::Matrix(matrix);
       result.variable = factor.variable;
     }
     return result;
@@ -323,14 +323,14 @@ void AffineAlgebra::apply(const expr::Instruction& instruction,
   const auto a = [&]() -> const AffineForm& { return *operands[0]; };
   const auto b = [&]() -> const AffineForm& { return *operands[1]; };
   if (all_constant(operands)) {
-    std::vector<expr::Matrix> dense;
-    std::vector<const expr::Matrix*> pointers;
+    std::vector<numbers::Matrix> dense;
+    std::vector<const numbers::Matrix*> pointers;
     dense.reserve(operands.size());
     pointers.reserve(operands.size());
     for (const AffineForm* operand : operands) dense.push_back(dense_constant(*operand));
-    for (const expr::Matrix& matrix : dense) pointers.push_back(&matrix);
-    expr::Matrix result;
-    expr::RealAlgebra().apply(instruction, pointers, result);
+    for (const numbers::Matrix& matrix : dense) pointers.push_back(&matrix);
+    numbers::Matrix result;
+    numbers::RealAlgebra().apply(instruction, pointers, result);
     out = constant_form(result);
     return;
   }
@@ -371,7 +371,7 @@ void AffineAlgebra::apply(const expr::Instruction& instruction,
       break;
     case Op::fill:
       out = rules.product(
-          a(), constant_form(expr::Matrix::Ones(instruction.shape.rows, instruction.shape.cols)),
+          a(), constant_form(numbers::Matrix::Ones(instruction.shape.rows, instruction.shape.cols)),
           instruction.shape, true);
       break;
     case Op::trace:

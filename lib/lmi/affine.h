@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "expr/evaluate.h"
-#include "expr/matrix.h"
+#include "numbers/matrix.h"
 #include "lmi/monomials.h"
 #include "lmi/unknowns.h"
 
@@ -33,7 +33,7 @@ struct AffineForm {
 bool is_same(const AffineForm& a, const AffineForm& b);
 
 /// A constant matrix.
-AffineForm constant_form(const expr::Matrix& matrix);
+AffineForm constant_form(const numbers::Matrix& matrix);
 /// The unknown matrix itself.
 AffineForm unknown_form(const Unknown& unknown);
 /// A variable of the table: the function tau itself, or the convex combination of the vertices.

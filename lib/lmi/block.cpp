@@ -9,17 +9,17 @@
 
 namespace gainsmith::lmi {
 
-double smallest_eigenvalue(const expr::Matrix& matrix) {
-  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(0.5 * (matrix + matrix.transpose()),
+double smallest_eigenvalue(const numbers::Matrix& matrix) {
+  return Eigen::SelfAdjointEigenSolver<numbers::Matrix>(0.5 * (matrix + matrix.transpose()),
                                                      Eigen::EigenvaluesOnly)
       .eigenvalues()
       .minCoeff();
 }
 
-expr::Matrix Block::value(const std::vector<double>& x) const {
-  expr::Matrix result = expr::Matrix::Zero(size, size);
+numbers::Matrix Block::value(const std::vector<double>& x) const {
+  numbers::Matrix result = numbers::Matrix::Zero(size, size);
   for (const auto& [i, matrix] : terms)
-    result += (i == 0 ? 1.0 : x[static_cast<std::size_t>(i) - 1]) * expr::Matrix(matrix);
+    result += (i == 0 ? 1.0 : x[static_cast<std::size_t>(i) - 1]) * numbers::Matrix(matrix);
   return result;
 }
 
@@ -29,7 +29,7 @@ bool is_homogeneous(const std::vector<Block>& blocks) {
 }
 
 AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
-                           MonomialTable& monomials, const expr::Values& values) {
+                           MonomialTable& monomials, const numbers::Values& values) {
   expr::Evaluator<AffineAlgebra> evaluator(program, {&monomials, &unknowns});
   std::deque<AffineForm> inputs;
   for (const expr::Input& input : program.inputs) {

@@ -23,18 +23,18 @@ struct Block {
   double coefficient_size = 0;
 
   /// B(x), for m scalars x.
-  expr::Matrix value(const std::vector<double>& x) const;
+  numbers::Matrix value(const std::vector<double>& x) const;
 };
 
 /// The smallest eigenvalue of the symmetric part.
-double smallest_eigenvalue(const expr::Matrix& matrix);
+double smallest_eigenvalue(const numbers::Matrix& matrix);
 
 /// Whether no block has a constant term: then x = 0 satisfies every inequality but for strictness.
 bool is_homogeneous(const std::vector<Block>& blocks);
 
 /// The affine form of a program, with the unknowns and the variables of the table.
 AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
-                           MonomialTable& monomials, const expr::Values& values);
+                           MonomialTable& monomials, const numbers::Values& values);
 
 /// The block of a symmetric affine form without monomials. InputError, at `place`, when it is not
 /// symmetric, has no rows, or has a coefficient that is not finite.

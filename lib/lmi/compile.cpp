@@ -67,7 +67,7 @@ class Compiler {
       for (std::size_t at = 0; at < points.size(); ++at) {
         const Point& point = points[at];
         MonomialTable monomials(variables);
-        expr::Values values = known_;
+        numbers::Values values = known_;
         for (const auto& [name, value] : point.values) values.insert_or_assign(name, value);
         AffineForm form = evaluate_affine(relations_[k].difference, unknowns_, monomials, values);
         remove_noise(form, monomials);
@@ -84,7 +84,7 @@ class Compiler {
     return result;
   }
 
-  expr::Values known_;
+  numbers::Values known_;
   Domain domain_;
   std::vector<expr::CompiledRelation> relations_;
   Place place_;

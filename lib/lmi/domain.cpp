@@ -16,7 +16,7 @@ Variable variable_of(const model::Instance& instance, const model::Forall& foral
   result.name = forall.variable;
   result.over = forall.over;
   result.place = forall.place;
-  const expr::Values values = instance.known_values();
+  const numbers::Values values = instance.known_values();
   if (forall.over == Over::interval) {
     result.low = model::scalar_value(forall.points[0], instance.scope, values);
     result.high = model::scalar_value(forall.points[1], instance.scope, values);
@@ -32,8 +32,8 @@ Variable variable_of(const model::Instance& instance, const model::Forall& foral
       throw InputError(element.place(*element.root),
                        "the elements of " + forall.variable + " must have one shape; found " +
                            to_string(result.shape) + " and " + to_string(program.shape()));
-    result.elements.push_back(expr::evaluate(program, values));
-    const expr::Matrix& value = result.elements.back();
+    result.elements.push_back(numbers::evaluate(program, values));
+    const numbers::Matrix& value = result.elements.back();
     result.labels.push_back(
         forall.variable + " = " +
         (value.size() == 1 ? brief(value(0, 0)) : element.quote(*element.root)));
@@ -64,7 +64,7 @@ expr::Scope scope_with(const model::Instance& instance, const Domain& domain) {
   return scope;
 }
 
-Point extended(const Point& point, const std::string& name, const expr::Matrix& value,
+Point extended(const Point& point, const std::string& name, const numbers::Matrix& value,
                const std::string& label) {
   Point result = point;
   result.values.insert_or_assign(name, value);
@@ -73,7 +73,7 @@ Point extended(const Point& point, const std::string& name, const expr::Matrix& 
 }
 
 Point extended(const Point& point, const std::string& name, double value) {
-  return extended(point, name, expr::Matrix::Constant(1, 1, value), name + " = " + brief(value));
+  return extended(point, name, numbers::Matrix::Constant(1, 1, value), name + " = " + brief(value));
 }
 
 std::vector<Point> combinations(const Domain& domain, Over over) {

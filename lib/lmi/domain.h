@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "expr/real.h"
+#include "numbers/real.h"
 #include "model/instance.h"
 
 namespace gainsmith::lmi {
@@ -15,7 +15,7 @@ struct Variable {
   model::Forall::Over over = model::Forall::Over::interval;
   double low = 0;
   double high = 0;
-  std::vector<expr::Matrix> elements;
+  std::vector<numbers::Matrix> elements;
   std::vector<std::string> labels;  ///< "k = 2", "A = A2": one an element
   expr::Shape shape;
   Place place;
@@ -37,12 +37,12 @@ expr::Scope scope_with(const model::Instance& instance, const Domain& domain);
 
 /// Values for some of the variables, and how a message names them.
 struct Point {
-  expr::Values values;
+  numbers::Values values;
   std::string label;  ///< "k = 2, tau = 0.7"; empty without variables
 };
 
 /// The point with one more variable.
-Point extended(const Point& point, const std::string& name, const expr::Matrix& value,
+Point extended(const Point& point, const std::string& name, const numbers::Matrix& value,
                const std::string& label);
 Point extended(const Point& point, const std::string& name, double value);
 

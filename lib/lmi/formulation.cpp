@@ -223,9 +223,9 @@ model::NamedMatrices multipliers(const Lmi& lmi, const GainBounds& bounds,
   const auto add = [&](const Block& block, const std::vector<int>& kept, std::size_t at) {
     const std::string name = block.name + (block.point.empty() ? "" : " at " + block.point);
     const auto n = static_cast<Eigen::Index>(kept.size());
-    const Eigen::Map<const expr::Matrix> y(solution.Y.values[at].data(), n, n);
+    const Eigen::Map<const numbers::Matrix> y(solution.Y.values[at].data(), n, n);
     // The multiplier of a row that was left out is zero.
-    expr::Matrix whole = expr::Matrix::Zero(block.size, block.size);
+    numbers::Matrix whole = numbers::Matrix::Zero(block.size, block.size);
     for (Eigen::Index i = 0; i < n; ++i)
       for (Eigen::Index j = 0; j < n; ++j)
         whole(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]) = y(i, j);

@@ -222,7 +222,7 @@ class Collector {
       if (!part.form.has_unknown()) continue;
       const int rows = part.form.shape.rows;
       add({text_of(gain.value, {gain.value.root}) + part.factor,
-           constant_form(expr::Matrix::Identity(rows, rows)), part.form, 0});
+           constant_form(numbers::Matrix::Identity(rows, rows)), part.form, 0});
     }
   }
 
@@ -278,16 +278,16 @@ class Collector {
 };
 
 /// The matrix of a form at x.
-expr::Matrix value_of(const AffineForm& form, const std::vector<double>& x) {
-  expr::Matrix result = expr::Matrix::Zero(form.shape.rows, form.shape.cols);
+numbers::Matrix value_of(const AffineForm& form, const std::vector<double>& x) {
+  numbers::Matrix result = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
   for (const auto& [key, matrix] : form.terms)
     result += (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) *
-              expr::Matrix(matrix);
+              numbers::Matrix(matrix);
   return result;
 }
 
-Eigen::VectorXd eigenvalues(const expr::Matrix& matrix) {
-  return Eigen::SelfAdjointEigenSolver<expr::Matrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
+Eigen::VectorXd eigenvalues(const numbers::Matrix& matrix) {
+  return Eigen::SelfAdjointEigenSolver<numbers::Matrix>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
 }  // namespace
@@ -303,8 +303,8 @@ std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
   constexpr double kActive = 0.99;
   std::vector<model::GainBound> result;
   for (const GainBound& bound : bounds.list) {
-    const expr::Matrix s = value_of(bound.s, x);
-    const expr::Matrix e = value_of(bound.e, x);
+    const numbers::Matrix s = value_of(bound.s, x);
+    const numbers::Matrix e = value_of(bound.e, x);
     const double largest = eigenvalues(e.transpose() * s.llt().solve(e)).maxCoeff();
     model::GainBound record{bound.what, bounds.beta, 0, false};
     record.reached = std::sqrt(std::max(0.0, largest) / eigenvalues(s).minCoeff());

@@ -141,7 +141,7 @@ class Checker {
   const Plan& plan_;
   const std::vector<double>& scales_;
   const std::vector<double>& x_;
-  expr::Values values_;
+  numbers::Values values_;
   std::size_t at_ = 0;
   Check check_;
 };

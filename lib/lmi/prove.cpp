@@ -38,7 +38,7 @@ class Function {
   Function(const AffineForm& form, const MonomialTable& monomials, double slack)
       : size_(form.shape.rows), slack_(slack) {
     for (const auto& [key, matrix] : form.terms) {
-      Term term{expr::Matrix(matrix), {}};
+      Term term{numbers::Matrix(matrix), {}};
       term.matrix = (0.5 * (term.matrix + term.matrix.transpose())).eval();
       for (const Factor& factor : monomials[key.first])
         term.factors.push_back({factor.variable, factor.atom, second_derivative(factor.atom)});
@@ -46,8 +46,8 @@ class Function {
     }
   }
 
-  expr::Matrix at(const std::vector<double>& t) const {
-    expr::Matrix sum = slack_ * expr::Matrix::Identity(size_, size_);
+  numbers::Matrix at(const std::vector<double>& t) const {
+    numbers::Matrix sum = slack_ * numbers::Matrix::Identity(size_, size_);
     for (const Term& term : terms_) {
       double value = 1;
       for (const auto& factor : term.factors) value *= evaluate(factor.atom, t[index(factor)]);
@@ -60,7 +60,7 @@ class Function {
 
   /// For each variable a bound on the second derivative over a piece, as a multiple of L L'.
   std::vector<double> bends(const std::vector<double>& low, const std::vector<double>& high,
-                            const Eigen::LLT<expr::Matrix>& scale) const {
+                            const Eigen::LLT<numbers::Matrix>& scale) const {
     std::vector<double> sums(low.size(), 0.0);
     for (const Term& term : terms_) {
       if (term.factors.empty()) continue;
@@ -77,8 +77,8 @@ class Function {
   }
 
   /// L^-1 M L^-T.
-  static expr::Matrix scaled(const expr::Matrix& matrix, const Eigen::LLT<expr::Matrix>& scale) {
-    const expr::Matrix half = scale.matrixL().solve(matrix);
+  static numbers::Matrix scaled(const numbers::Matrix& matrix, const Eigen::LLT<numbers::Matrix>& scale) {
+    const numbers::Matrix half = scale.matrixL().solve(matrix);
     return scale.matrixL().solve(half.transpose());
   }
 
@@ -89,7 +89,7 @@ class Function {
     Combined second;
   };
   struct Term {
-    expr::Matrix matrix;
+    numbers::Matrix matrix;
     std::vector<BentFactor> factors;
   };
 
@@ -146,7 +146,7 @@ class Search {
  private:
   /// False when the piece cannot be halved any more.
   bool visit(const Piece& piece) {
-    std::vector<expr::Matrix> values;
+    std::vector<numbers::Matrix> values;
     for (std::size_t c = 0; c < piece.corners(); ++c) {
       values.push_back(function_.at(piece.corner(c)));
       const double smallest = smallest_eigenvalue(values.back());
@@ -158,12 +158,12 @@ class Search {
         violations.emplace_back(at, smallest - function_.slack());
       return true;
     }
-    expr::Matrix mean = values.front();
+    numbers::Matrix mean = values.front();
     for (std::size_t c = 1; c < values.size(); ++c) mean += values[c];
-    const Eigen::LLT<expr::Matrix> scale(mean / static_cast<double>(values.size()));
+    const Eigen::LLT<numbers::Matrix> scale(mean / static_cast<double>(values.size()));
     if (scale.info() != Eigen::Success) return false;
     double least = 1;
-    for (const expr::Matrix& value : values)
+    for (const numbers::Matrix& value : values)
       least = std::min(least, smallest_eigenvalue(Function::scaled(value, scale)));
     std::vector<double> errors = function_.bends(piece.low, piece.high, scale);
     double error = 0;
@@ -202,10 +202,10 @@ std::string label_of(const Point& fixed, const std::vector<const Variable*>& axe
 }
 
 /// The form with numbers for everything but the intervals; none when it is no sum of monomials.
-std::optional<AffineForm> form_of(const expr::Program& difference, const expr::Values& known,
+std::optional<AffineForm> form_of(const expr::Program& difference, const numbers::Values& known,
                                   const Point& fixed, MonomialTable& monomials) {
   const Unknowns none{model::Instance{}};
-  expr::Values values = known;
+  numbers::Values values = known;
   for (const auto& [name, value] : fixed.values) values.insert_or_assign(name, value);
   try {
     return evaluate_affine(difference, none, monomials, values);
@@ -217,7 +217,7 @@ std::optional<AffineForm> form_of(const expr::Program& difference, const expr::V
 }  // namespace
 
 DomainProof prove_on_domain(const expr::Program& difference, const Domain& domain,
-                            const expr::Values& known, double slack) {
+                            const numbers::Values& known, double slack) {
   using Status = DomainProof::Status;
   DomainProof proof;
   const auto axes = intervals(domain);

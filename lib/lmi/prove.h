@@ -35,6 +35,6 @@ struct DomainProof {
 /// Whether the matrix given as text plus `slack` I is positive definite on the whole domain; the
 /// vertices of polytopes stand for them. `known` gives data, parameters and unknowns.
 DomainProof prove_on_domain(const expr::Program& difference, const Domain& domain,
-                            const expr::Values& known, double slack);
+                            const numbers::Values& known, double slack);
 
 }  // namespace gainsmith::lmi

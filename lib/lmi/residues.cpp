@@ -62,7 +62,7 @@ std::vector<Cluster> clusters_of(const Eigen::VectorXcd& eigenvalues, double nor
 
 /// (1/2 pi i) times the integral of inv(sI - F) on a circle around the cluster, by the trapezoid
 /// rule, whose error falls like 2^-points.
-ComplexMatrix projector(const expr::Matrix& F, const Cluster& cluster, double norm) {
+ComplexMatrix projector(const numbers::Matrix& F, const Cluster& cluster, double norm) {
   constexpr int kPoints = 64;
   const double radius = cluster.distance > 0 ? 0.5 * cluster.distance : norm + 1;
   const Eigen::Index n = F.rows();
@@ -76,7 +76,7 @@ ComplexMatrix projector(const expr::Matrix& F, const Cluster& cluster, double no
   return sum / kPoints;
 }
 
-void add(std::vector<std::pair<Atom, expr::Matrix>>& terms, const Atom& atom, expr::Matrix matrix,
+void add(std::vector<std::pair<Atom, numbers::Matrix>>& terms, const Atom& atom, numbers::Matrix matrix,
          double size) {
   const double noise = kRounding * std::max(size, 1.0) * static_cast<double>(matrix.rows());
   matrix = (matrix.array().abs() <= noise).select(0, matrix);
@@ -84,7 +84,7 @@ void add(std::vector<std::pair<Atom, expr::Matrix>>& terms, const Atom& atom, ex
 }
 
 /// The terms of one eigenvalue with Im l >= 0.
-void add_terms(std::vector<std::pair<Atom, expr::Matrix>>& terms, const expr::Matrix& F,
+void add_terms(std::vector<std::pair<Atom, numbers::Matrix>>& terms, const numbers::Matrix& F,
                const Cluster& cluster, double norm, double longest) {
   const Complex l = cluster.mean;
   const double size = norm + 1;
@@ -106,14 +106,14 @@ void add_terms(std::vector<std::pair<Atom, expr::Matrix>>& terms, const expr::Ma
   }
 }
 
-void verify(const std::vector<std::pair<Atom, expr::Matrix>>& terms, const expr::Matrix& F,
+void verify(const std::vector<std::pair<Atom, numbers::Matrix>>& terms, const numbers::Matrix& F,
             double low, double high) {
   constexpr int kPieces = 6;
   constexpr double kTolerance = 1e-10;
   for (int i = 0; i <= kPieces; ++i) {
     const double t = low + (high - low) * i / kPieces;
-    const expr::Matrix exact = (F * t).exp();
-    expr::Matrix sum = expr::Matrix::Zero(F.rows(), F.cols());
+    const numbers::Matrix exact = (F * t).exp();
+    numbers::Matrix sum = numbers::Matrix::Zero(F.rows(), F.cols());
     for (const auto& [atom, matrix] : terms) sum += evaluate(atom, t) * matrix;
     if (!((sum - exact).norm() <= kTolerance * exact.norm()))
       throw expr::EvaluationError(
@@ -124,12 +124,12 @@ void verify(const std::vector<std::pair<Atom, expr::Matrix>>& terms, const expr:
 
 }  // namespace
 
-std::vector<std::pair<Atom, expr::Matrix>> residue_expansion(const expr::Matrix& F, double low,
+std::vector<std::pair<Atom, numbers::Matrix>> residue_expansion(const numbers::Matrix& F, double low,
                                                              double high) {
   const double norm = F.norm();
   const double longest = std::max(std::abs(low), std::abs(high));
-  std::vector<std::pair<Atom, expr::Matrix>> terms;
-  const Eigen::VectorXcd eigenvalues = Eigen::EigenSolver<expr::Matrix>(F, false).eigenvalues();
+  std::vector<std::pair<Atom, numbers::Matrix>> terms;
+  const Eigen::VectorXcd eigenvalues = Eigen::EigenSolver<numbers::Matrix>(F, false).eigenvalues();
   for (const Cluster& cluster : clusters_of(eigenvalues, norm))
     if (cluster.mean.imag() >= 0) add_terms(terms, F, cluster, norm, longest);
   verify(terms, F, low, high);

@@ -15,7 +15,7 @@
 #include <utility>
 #include <vector>
 
-#include "expr/matrix.h"
+#include "numbers/matrix.h"
 #include "lmi/atoms.h"
 
 namespace gainsmith::lmi {
@@ -24,7 +24,7 @@ namespace gainsmith::lmi {
 /// are rounding noise are 0. EvaluationError when the sum differs from expm(F tau) by more than
 /// 1e-10 of its size anywhere among points of [low, high]: eigenvalues that are close but not
 /// equal.
-std::vector<std::pair<Atom, expr::Matrix>> residue_expansion(const expr::Matrix& F, double low,
+std::vector<std::pair<Atom, numbers::Matrix>> residue_expansion(const numbers::Matrix& F, double low,
                                                              double high);
 
 }  // namespace gainsmith::lmi

@@ -56,10 +56,10 @@ std::string Unknowns::scalar_name(int i) const {
   return "x" + std::to_string(i);
 }
 
-expr::Values Unknowns::values(const std::vector<double>& x) const {
-  expr::Values result;
+numbers::Values Unknowns::values(const std::vector<double>& x) const {
+  numbers::Values result;
   for (const Unknown& unknown : list_) {
-    expr::Matrix matrix = expr::Matrix::Zero(unknown.shape.rows, unknown.shape.cols);
+    numbers::Matrix matrix = numbers::Matrix::Zero(unknown.shape.rows, unknown.shape.cols);
     for (int k = 0; k < unknown.count; ++k)
       for (const auto& [row, column] : unknown.places(k))
         matrix(row, column) =

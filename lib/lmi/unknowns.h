@@ -10,7 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "expr/real.h"
+#include "numbers/real.h"
 #include "model/instance.h"
 
 namespace gainsmith::lmi {
@@ -37,7 +37,7 @@ class Unknowns {
   /// "P1(2,1)" for scalar i = 1..m.
   std::string scalar_name(int i) const;
   /// The matrices of a vector x of m scalars (x[i-1] is scalar i).
-  expr::Values values(const std::vector<double>& x) const;
+  numbers::Values values(const std::vector<double>& x) const;
 
  private:
   std::vector<Unknown> list_;

@@ -46,7 +46,7 @@ struct Held {
   /// The affine form of a relation at a point of the variables that do not stay symbolic.
   AffineForm form(std::size_t relation, const Unknowns& unknowns, MonomialTable& monomials,
                   const Point& point) const {
-    expr::Values values = known;
+    numbers::Values values = known;
     for (const auto& [name, value] : point.values) values.insert_or_assign(name, value);
     AffineForm result =
         evaluate_affine(relations[relation].difference, unknowns, monomials, values);
@@ -57,7 +57,7 @@ struct Held {
   Domain domain;
   Variable interval;
   std::vector<expr::CompiledRelation> relations;
-  expr::Values known;
+  numbers::Values known;
 };
 
 /// Symbolic in intervals and polytopes.

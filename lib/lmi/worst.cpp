@@ -14,9 +14,9 @@ namespace {
 /// The matrix as a function of the interval variables, the others fixed.
 class Family {
  public:
-  Family(const expr::Program& program, const expr::Values& known, const Point& fixed,
+  Family(const expr::Program& program, const numbers::Values& known, const Point& fixed,
          const std::vector<const Variable*>& axes)
-      : evaluator_(program), moving_(axes.size(), expr::Matrix::Zero(1, 1)) {
+      : evaluator_(program), moving_(axes.size(), numbers::Matrix::Zero(1, 1)) {
     for (const expr::Input& input : program.inputs) {
       const auto chosen = fixed.values.find(input.name);
       if (chosen != fixed.values.end()) {
@@ -28,9 +28,9 @@ class Family {
     for (std::size_t i = 0; i < axes.size(); ++i) evaluator_.set(axes[i]->name, moving_[i]);
   }
 
-  expr::Matrix matrix(const std::vector<double>& at) {
+  numbers::Matrix matrix(const std::vector<double>& at) {
     for (std::size_t i = 0; i < at.size(); ++i) moving_[i](0, 0) = at[i];
-    const expr::Matrix& value = evaluator_.run();
+    const numbers::Matrix& value = evaluator_.run();
     return 0.5 * (value + value.transpose());
   }
 
@@ -55,9 +55,9 @@ class Family {
   }
 
  private:
-  expr::Evaluator<expr::RealAlgebra> evaluator_;
-  std::vector<expr::Matrix> moving_;
-  Eigen::SelfAdjointEigenSolver<expr::Matrix> solver_;
+  expr::Evaluator<numbers::RealAlgebra> evaluator_;
+  std::vector<numbers::Matrix> moving_;
+  Eigen::SelfAdjointEigenSolver<numbers::Matrix> solver_;
 };
 
 void add_minima(Family& family, const Point& fixed, const std::vector<const Variable*>& axes,
@@ -94,7 +94,7 @@ void add_minima(Family& family, const Point& fixed, const std::vector<const Vari
 }  // namespace
 
 Minima local_minima(const expr::Program& difference, const Domain& domain,
-                    const expr::Values& known) {
+                    const numbers::Values& known) {
   Minima minima;
   const auto axes = intervals(domain);
   for (const Point& fixed : finite_points(domain)) {

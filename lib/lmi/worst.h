@@ -25,6 +25,6 @@ struct Minima {
 /// taken. Over a polytope the vertices are enough: the eigenvalue is concave in its variable. Over
 /// one interval see local_minima; `known` gives data, parameters and unknowns.
 Minima local_minima(const expr::Program& difference, const Domain& domain,
-                    const expr::Values& known);
+                    const numbers::Values& known);
 
 }  // namespace gainsmith::lmi

@@ -51,11 +51,11 @@ void check_requirements(const Instance& instance) {
 /// The value of a scalar that uses data and parameters alone; none when it uses gains.
 std::optional<double> known_scalar(const Instance& instance, const expr::Expression& expression,
                                    const expr::Scope& scope) {
-  const expr::Values values = instance.known_values();
+  const numbers::Values values = instance.known_values();
   const expr::Program program = expr::compile(expression, scope, kScalar);
   for (const expr::Input& input : program.inputs)
     if (!values.contains(input.name)) return std::nullopt;
-  return expr::evaluate(program, values)(0, 0);
+  return numbers::evaluate(program, values)(0, 0);
 }
 
 /// InputError when the value is known and outside [low, high].
@@ -72,13 +72,13 @@ void check_within(const Instance& instance, const expr::Expression& expression,
 }
 
 void check_box(const Instance& instance, const InitialValue& initial, const expr::Scope& scope) {
-  const expr::Values values = instance.known_values();
-  std::vector<expr::Matrix> ends;
+  const numbers::Values values = instance.known_values();
+  std::vector<numbers::Matrix> ends;
   for (const Value& value : initial.values) {
     const expr::Program program = compile_value(value, scope, std::nullopt);
     for (const expr::Input& input : program.inputs)
       if (!values.contains(input.name)) return;
-    ends.push_back(expr::evaluate(program, values));
+    ends.push_back(numbers::evaluate(program, values));
   }
   const bool same = ends[0].rows() == ends[1].rows() && ends[0].cols() == ends[1].cols();
   if (same && (ends[0].array() > ends[1].array()).any())
@@ -136,7 +136,7 @@ void refuse_repetition(const Search& search) {
 }
 
 void check_search(const Instance& instance) {
-  const expr::Values values = instance.known_values();
+  const numbers::Values values = instance.known_values();
   const auto check = [&](const ScalarRange& range) { ends_of(range, instance.scope, values); };
   for (const ScalarRange& range : instance.problem->negotiable) check(range);
   for (const ScalarRange& range : open_parameters(*instance.problem)) check(range);

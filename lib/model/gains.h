@@ -6,13 +6,13 @@
 #include <utility>
 #include <vector>
 
-#include "expr/matrix.h"
+#include "numbers/matrix.h"
 #include "model/problem.h"
 #include "model/words.h"
 
 namespace gainsmith::model {
 
-using NamedMatrices = std::vector<std::pair<std::string, expr::Matrix>>;
+using NamedMatrices = std::vector<std::pair<std::string, numbers::Matrix>>;
 
 /// One matrix inequality, evaluated in double from the decimals as written.
 struct Margin {
@@ -113,7 +113,7 @@ struct GainFunction {
   std::string variable;
   Kind kind = Kind::formula;
   std::string formula;                     ///< in the matrix language
-  std::vector<expr::Matrix> coefficients;  ///< polynomial
+  std::vector<numbers::Matrix> coefficients;  ///< polynomial
 };
 
 std::string to_string(GainFunction::Kind kind);
@@ -141,7 +141,7 @@ struct Gains {
   std::string version;                                  ///< of gainsmith
   std::vector<std::pair<std::string, double>> timings;  ///< seconds; apart from all results
 
-  const expr::Matrix* find(const std::string& name) const;
+  const numbers::Matrix* find(const std::string& name) const;
 };
 
 }  // namespace gainsmith::model

@@ -119,10 +119,10 @@ class Builder {
   }
 
   /// The override of a scalar.
-  std::optional<expr::Matrix> overridden(const std::string& name) const {
+  std::optional<numbers::Matrix> overridden(const std::string& name) const {
     const auto found = instance_.overrides.find(name);
     if (found == instance_.overrides.end()) return std::nullopt;
-    return expr::Matrix::Constant(1, 1, found->second);
+    return numbers::Matrix::Constant(1, 1, found->second);
   }
 
   /// The range in which the problem looks for a scalar.
@@ -134,12 +134,12 @@ class Builder {
   }
 
   /// Where the search for a scalar begins.
-  expr::Matrix first_value(const ScalarRange& range) const {
+  numbers::Matrix first_value(const ScalarRange& range) const {
     const auto [low, high] = ends_of(range, scope_with_dimensions(), instance_.known_values());
     const auto& search = problem().search;
     const bool smallest =
         search && !search->largest && search->extreme && search->extreme->name == range.name;
-    return expr::Matrix::Constant(1, 1, smallest ? high : low);
+    return numbers::Matrix::Constant(1, 1, smallest ? high : low);
   }
 
   void add_datum(const Declaration& datum) {
@@ -162,7 +162,7 @@ class Builder {
       throw InputError(value.place, "the datum " + datum.name + " is declared " +
                                         declared(datum, instance_.dimensions) + "; found " +
                                         to_string(program.shape()));
-    expr::Matrix matrix = expr::evaluate(program, instance_.data);
+    numbers::Matrix matrix = numbers::evaluate(program, instance_.data);
     enforce_structure(datum, value, matrix);
     define(datum.name, matrix, instance_.data);
   }
@@ -199,7 +199,7 @@ class Builder {
                                              " has no default and is missing under 'parameters'");
     const expr::Expression& expression = given ? given->value : *parameter.fallback;
     const auto program = expr::compile(expression, scope_with_dimensions(), expr::Shape{});
-    define(parameter.name, expr::evaluate(program, instance_.known_values()), instance_.parameters);
+    define(parameter.name, numbers::evaluate(program, instance_.known_values()), instance_.parameters);
   }
 
   expr::Scope scope_with_dimensions() const {
@@ -208,7 +208,7 @@ class Builder {
     return scope;
   }
 
-  void define(const std::string& name, const expr::Matrix& matrix, expr::Values& values) {
+  void define(const std::string& name, const numbers::Matrix& matrix, numbers::Values& values) {
     const expr::Shape shape{static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols())};
     instance_.scope.symbols[name] = {shape, matrix};
     instance_.scope.dimensions = instance_.dimensions;
@@ -216,9 +216,9 @@ class Builder {
   }
 
   void check_assumption(const Named& assumption) const {
-    const expr::Values values = instance_.known_values();
+    const numbers::Values values = instance_.known_values();
     for (const auto& relation : compile_relations(assumption.value, instance_.scope)) {
-      const expr::Matrix difference = expr::evaluate(relation.difference, values);
+      const numbers::Matrix difference = numbers::evaluate(relation.difference, values);
       if (difference.size() == 1 &&
           (relation.strict ? difference(0, 0) > 0 : difference(0, 0) >= 0))
         continue;
@@ -277,7 +277,7 @@ Instance make_instance(const Problem& problem, const Overrides& overrides) {
 }
 
 std::pair<double, double> ends_of(const ScalarRange& range, const expr::Scope& scope,
-                                  const expr::Values& values) {
+                                  const numbers::Values& values) {
   const double low = scalar_value(range.low, scope, values);
   const double high = scalar_value(range.high, scope, values);
   if (!std::isfinite(low) || !std::isfinite(high) || !(low < high))
@@ -313,8 +313,8 @@ void check_scalar_name(const Method& method, const std::string& name, const Plac
                               name + "'" + suggestion(name, known));
 }
 
-expr::Values Instance::known_values() const {
-  expr::Values values = data;
+numbers::Values Instance::known_values() const {
+  numbers::Values values = data;
   values.insert(parameters.begin(), parameters.end());
   return values;
 }
@@ -354,8 +354,8 @@ std::vector<std::pair<std::string, expr::Shape>> gain_shapes(const Instance& ins
 }
 
 double scalar_value(const expr::Expression& expression, const expr::Scope& scope,
-                    const expr::Values& values) {
-  return expr::evaluate(expr::compile(expression, scope, expr::Shape{}), values)(0, 0);
+                    const numbers::Values& values) {
+  return numbers::evaluate(expr::compile(expression, scope, expr::Shape{}), values)(0, 0);
 }
 
 expr::Program compile_value(const Value& value, const expr::Scope& scope,
@@ -363,9 +363,9 @@ expr::Program compile_value(const Value& value, const expr::Scope& scope,
   return expr::compile(oriented(value, expected && is_proper_column(*expected)), scope, expected);
 }
 
-expr::Matrix matrix_value(const Value& value, const expr::Scope& scope, const expr::Values& values,
+numbers::Matrix matrix_value(const Value& value, const expr::Scope& scope, const numbers::Values& values,
                           std::optional<expr::Shape> expected) {
-  return expr::evaluate(compile_value(value, scope, expected), values);
+  return numbers::evaluate(compile_value(value, scope, expected), values);
 }
 
 }  // namespace gainsmith::model

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "expr/real.h"
+#include "numbers/real.h"
 #include "expr/scope.h"
 #include "model/problem.h"
 #include "model/unknown_function.h"
@@ -27,8 +27,8 @@ struct Instance {
   Overrides overrides;  ///< the values that replaced those of the problem
 
   Dimensions dimensions;
-  expr::Values data;        ///< the problem's or the method's default
-  expr::Values parameters;  ///< 1 x 1
+  numbers::Values data;        ///< the problem's or the method's default
+  numbers::Values parameters;  ///< 1 x 1
   /// Data and parameters as symbols with values; `let`, outputs, signals and unknown functions as
   /// definitions.
   expr::Scope scope;
@@ -42,7 +42,7 @@ struct Instance {
   /// as definitions: what flow and jump maps and claims may use.
   expr::Scope simulation_scope() const;
   /// Data and parameters together.
-  expr::Values known_values() const;
+  numbers::Values known_values() const;
 };
 
 /// Finds dimensions, data, parameters and shapes and checks the method's assumptions. An overridden
@@ -56,7 +56,7 @@ Instance make_instance(const Problem& problem, const Overrides& overrides = {});
 
 /// The ends of a range as numbers. InputError at its place unless low < high and both are finite.
 std::pair<double, double> ends_of(const ScalarRange& range, const expr::Scope& scope,
-                                  const expr::Values& values);
+                                  const numbers::Values& values);
 
 /// The parameters that the problem gives no value and the method a range: synthesis looks for them.
 std::vector<ScalarRange> open_parameters(const Problem& problem);
@@ -80,7 +80,7 @@ std::vector<std::pair<std::string, expr::Shape>> gain_shapes(const Instance& ins
 
 /// The value of an expression that must be a scalar given by `values`.
 double scalar_value(const expr::Expression& expression, const expr::Scope& scope,
-                    const expr::Values& values);
+                    const numbers::Values& values);
 
 /// The program of a problem's datum, initial value or expectation; a flat list becomes a column
 /// where a column is expected.
@@ -88,7 +88,7 @@ expr::Program compile_value(const Value& value, const expr::Scope& scope,
                             std::optional<expr::Shape> expected);
 
 /// The value of such a program.
-expr::Matrix matrix_value(const Value& value, const expr::Scope& scope, const expr::Values& values,
+numbers::Matrix matrix_value(const Value& value, const expr::Scope& scope, const numbers::Values& values,
                           std::optional<expr::Shape> expected);
 
 }  // namespace gainsmith::model

@@ -7,7 +7,7 @@
 #include "base/nearest.h"
 #include "expr/compile.h"
 #include "expr/parser.h"
-#include "expr/real.h"
+#include "numbers/real.h"
 
 namespace gainsmith::model {
 
@@ -51,7 +51,7 @@ std::optional<int> size_of(const expr::Expression& expression, const Dimensions&
   scope.dimensions = dimensions;
   for (const std::string& name : names_in(expression))
     if (!dimensions.contains(name)) return std::nullopt;
-  const double value = expr::evaluate(expr::compile(expression, scope, expr::Shape{}), {})(0, 0);
+  const double value = numbers::evaluate(expr::compile(expression, scope, expr::Shape{}), {})(0, 0);
   constexpr double kLargest = 1e6;
   if (!(value >= 0 && value <= kLargest) || std::trunc(value) != value)
     throw InputError(expression.place(*expression.root),

@@ -34,7 +34,7 @@ class Builder {
     for (const auto& [name, value] : gains_.parameters)
       if (instance_.parameters.contains(name)) take(name, {}, value);
     for (const UnknownMatrix& unknown : instance_.unknowns)
-      if (const expr::Matrix* value = gains_.find(unknown.name))
+      if (const numbers::Matrix* value = gains_.find(unknown.name))
         take(unknown.name, unknown.shape, *value);
     const auto shapes = gain_shapes(instance_);
     for (std::size_t i = 0; i < shapes.size(); ++i)
@@ -43,7 +43,7 @@ class Builder {
   }
 
  private:
-  void take(const std::string& name, expr::Shape shape, const expr::Matrix& value) {
+  void take(const std::string& name, expr::Shape shape, const numbers::Matrix& value) {
     const expr::Shape found{static_cast<int>(value.rows()), static_cast<int>(value.cols())};
     if (found != shape)
       throw InputError({gains_.file}, name + " in the gain file is " + to_string(found) +
@@ -54,7 +54,7 @@ class Builder {
   }
 
   void add_gain(const Gain& gain, expr::Shape shape) {
-    const expr::Matrix* value = gains_.find(gain.name);
+    const numbers::Matrix* value = gains_.find(gain.name);
     if (gain.variable.empty()) {
       if (value != nullptr) take(gain.name, shape, *value);
       return;
@@ -72,7 +72,7 @@ class Builder {
   }
 
   void add_polynomial(const std::string& name, const std::string& variable, expr::Shape shape,
-                      const std::vector<expr::Matrix>& coefficients) {
+                      const std::vector<numbers::Matrix>& coefficients) {
     if (coefficients.empty())
       throw InputError({gains_.file}, name + " in the gain file has no coefficients");
     define(name, variable,

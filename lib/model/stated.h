@@ -10,7 +10,7 @@
 // would generate others today.
 #pragma once
 
-#include "expr/real.h"
+#include "numbers/real.h"
 #include "expr/scope.h"
 #include "model/gains.h"
 #include "model/instance.h"
@@ -23,7 +23,7 @@ Instance with_functions(Instance instance, const Gains& gains);
 
 struct Stated {
   expr::Scope scope;    ///< Instance::simulation_scope, with what the file says of functions
-  expr::Values values;  ///< data, parameters, gains, unknowns, coefficients: all that have a value
+  numbers::Values values;  ///< data, parameters, gains, unknowns, coefficients: all that have a value
 };
 
 /// InputError for a matrix of another shape or not finite, and as with_functions().

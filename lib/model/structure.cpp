@@ -11,7 +11,7 @@ namespace {
 
 /// The place of element (i, j) when the matrix is written element by element, of the whole
 /// otherwise.
-Place element_place(const Value& value, const expr::Matrix& matrix, int i, int j) {
+Place element_place(const Value& value, const numbers::Matrix& matrix, int i, int j) {
   const expr::Node& root = *value.value.root;
   const bool by_element = root.kind == expr::NodeKind::block && root.columns == matrix.cols() &&
                           std::ssize(root.children) == matrix.size();
@@ -28,7 +28,7 @@ std::string element_text(int i, int j, double value) {
 
 }  // namespace
 
-void enforce_structure(const Declaration& datum, const Value& value, expr::Matrix& matrix) {
+void enforce_structure(const Declaration& datum, const Value& value, numbers::Matrix& matrix) {
   const Structure structure = datum.shape.structure;
   if (structure != Structure::symmetric && structure != Structure::diagonal) return;
   const double rounding = 1e-12 * matrix.lpNorm<Eigen::Infinity>();

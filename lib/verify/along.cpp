@@ -9,12 +9,12 @@ using Eigen::Index;
 namespace {
 
 /// values: elements x count; the last point fills the lanes that are left.
-void fill(Pack& pack, const Eigen::Ref<const expr::Matrix>& values) {
+void fill(numbers::Pack& pack, const Eigen::Ref<const numbers::Matrix>& values) {
   const Index count = values.cols();
   pack.lanes.topRows(count) = values.transpose().array();
-  if (count < Pack::kLanes)
-    pack.lanes.bottomRows(Pack::kLanes - count) =
-        pack.lanes.row(count - 1).replicate(Pack::kLanes - count, 1);
+  if (count < numbers::Pack::kLanes)
+    pack.lanes.bottomRows(numbers::Pack::kLanes - count) =
+        pack.lanes.row(count - 1).replicate(numbers::Pack::kLanes - count, 1);
 }
 
 }  // namespace
@@ -27,12 +27,12 @@ AlongFunction::AlongFunction(const expr::Program& program, const hybrid::System&
   for (const expr::Input& input : program.inputs) {
     const auto known = system.constants.find(input.name);
     if (known == system.constants.end()) continue;
-    constants_.push_back(constant_pack(known->second));
+    constants_.push_back(numbers::constant_pack(known->second));
     evaluator_.fix(input.name, constants_.back());
   }
   const auto moving = [](expr::Shape shape) {
-    return Pack{
-        false, shape.rows, shape.cols, {}, Eigen::ArrayXXd::Zero(Pack::kLanes, shape.size())};
+    return numbers::Pack{
+        false, shape.rows, shape.cols, {}, Eigen::ArrayXXd::Zero(numbers::Pack::kLanes, shape.size())};
   };
   for (const hybrid::Slot& slot : system.layout.slots)
     if (program.uses(slot.name)) slots_.push_back(slot);
@@ -42,15 +42,15 @@ AlongFunction::AlongFunction(const expr::Program& program, const hybrid::System&
   evaluator_.set(system.layout.timer, moving_.back());
 }
 
-expr::Matrix AlongFunction::operator()(const Eigen::Ref<const expr::Matrix>& states,
+numbers::Matrix AlongFunction::operator()(const Eigen::Ref<const numbers::Matrix>& states,
                                        const Eigen::Ref<const Eigen::VectorXd>& timers) {
-  expr::Matrix values(elements_, timers.size());
-  for (Index first = 0; first < timers.size(); first += Pack::kLanes) {
-    const Index count = std::min<Index>(Pack::kLanes, timers.size() - first);
+  numbers::Matrix values(elements_, timers.size());
+  for (Index first = 0; first < timers.size(); first += numbers::Pack::kLanes) {
+    const Index count = std::min<Index>(numbers::Pack::kLanes, timers.size() - first);
     for (std::size_t i = 0; i < slots_.size(); ++i)
       fill(moving_[i], states.block(slots_[i].offset, first, slots_[i].shape.size(), count));
     if (uses_timer_) fill(moving_.back(), timers.segment(first, count).transpose());
-    const Pack& result = evaluator_.run();
+    const numbers::Pack& result = evaluator_.run();
     if (result.same) {
       values.middleCols(first, count) = result.matrix.reshaped().replicate(1, count);
     } else {
@@ -63,18 +63,18 @@ expr::Matrix AlongFunction::operator()(const Eigen::Ref<const expr::Matrix>& sta
 Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::Steps& steps,
                                 AlongFunction& integrand) {
   constexpr Index kNodes = hybrid::Steps::kNodes;
-  constexpr Index kBatch = Pack::kLanes / kNodes;
+  constexpr Index kBatch = numbers::Pack::kLanes / kNodes;
   const auto& positions = hybrid::Steps::node_positions();
   const Eigen::Map<const Eigen::VectorXd> weights(hybrid::Steps::node_weights().data(), kNodes);
 
   Eigen::VectorXd integrals = Eigen::VectorXd::Zero(static_cast<Index>(arc.moves.size()));
-  expr::Matrix states(arc.size, Pack::kLanes);
-  Eigen::VectorXd timers(Pack::kLanes);
+  numbers::Matrix states(arc.size, numbers::Pack::kLanes);
+  Eigen::VectorXd timers(numbers::Pack::kLanes);
   std::vector<std::size_t> batch;  // the moves whose nodes wait in `states`
   const auto finish = [&] {
     const auto count = static_cast<Index>(batch.size()) * kNodes;
     if (count == 0) return;
-    const expr::Matrix values = integrand(states.leftCols(count), timers.head(count));
+    const numbers::Matrix values = integrand(states.leftCols(count), timers.head(count));
     for (std::size_t i = 0; i < batch.size(); ++i)
       integrals(static_cast<Index>(batch[i])) =
           arc.moves[batch[i]].step.length *

@@ -8,7 +8,7 @@
 #include "hybrid/arc.h"
 #include "hybrid/steps.h"
 #include "hybrid/system.h"
-#include "verify/pack.h"
+#include "numbers/pack.h"
 
 namespace gainsmith::verify {
 
@@ -22,15 +22,15 @@ class AlongFunction {
 
   /// states: size x N, timers: N. The result is elements x N, the value's elements column by
   /// column; it holds infinities or NaNs where the value is none.
-  expr::Matrix operator()(const Eigen::Ref<const expr::Matrix>& states,
+  numbers::Matrix operator()(const Eigen::Ref<const numbers::Matrix>& states,
                           const Eigen::Ref<const Eigen::VectorXd>& timers);
 
  private:
   std::vector<hybrid::Slot> slots_;  ///< the states that the program uses
   bool uses_timer_;
-  std::vector<Pack> constants_;
-  std::vector<Pack> moving_;  ///< those states, then the timer
-  expr::Evaluator<PackAlgebra> evaluator_;
+  std::vector<numbers::Pack> constants_;
+  std::vector<numbers::Pack> moving_;  ///< those states, then the timer
+  expr::Evaluator<numbers::PackAlgebra> evaluator_;
   Eigen::Index elements_;
 };
 

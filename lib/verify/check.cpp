@@ -177,7 +177,7 @@ Eigen::VectorXd Check::rounding_floors(const Arc& arc, const std::vector<std::si
                                        const Eigen::VectorXd& largest) {
   const Index points = arc.size + 1;  // the sample itself, then one element moved at a time
   const auto count = static_cast<Index>(samples.size());
-  expr::Matrix states(arc.size, count * points);
+  numbers::Matrix states(arc.size, count * points);
   Eigen::VectorXd taus(count * points);
   for (Index i = 0; i < count; ++i) {
     const std::size_t sample = samples[static_cast<std::size_t>(i)];

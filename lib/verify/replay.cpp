@@ -24,7 +24,7 @@ class Table {
   }
 
   /// One column for each element of a named matrix; values: elements x samples.
-  void add_elements(const std::string& name, expr::Shape shape, const expr::Matrix& values) {
+  void add_elements(const std::string& name, expr::Shape shape, const numbers::Matrix& values) {
     for (int e = 0; e < shape.size(); ++e) {
       std::string label = name;
       if (!shape.is_scalar()) label += std::to_string(e % shape.rows + 1);

@@ -26,7 +26,7 @@ struct ReplayedClaim {
 struct Replay {
   hybrid::Arc arc;
   std::vector<std::string> columns;
-  expr::Matrix table;
+  numbers::Matrix table;
   std::vector<ReplayedClaim> claims;  ///< exactly what the campaign found in this run
 };
 

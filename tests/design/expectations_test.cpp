@@ -19,8 +19,8 @@ model::Gains result() {
   gains.verdict = model::Verdict::yes;
   gains.solver.status = "optimal";
   gains.objective = 2.5;
-  gains.unknowns = {{"P", expr::Matrix::Identity(2, 2)}};
-  gains.gains = {{"K", (expr::Matrix(2, 2) << 1, 0, 0, 2).finished()}};
+  gains.unknowns = {{"P", numbers::Matrix::Identity(2, 2)}};
+  gains.gains = {{"K", (numbers::Matrix(2, 2) << 1, 0, 0, 2).finished()}};
   gains.bounds = {{"A*P", 10, 10, true}};
   return gains;
 }

@@ -51,19 +51,19 @@ TEST(ForallTest, ExchangeDecidesWhatAGridDoesNotSee) {
 TEST(ForallTest, TheWorstPointIsOnTheWholeInterval) {
   const model::Gains found = solve(reset_observer(3.0, "exchange"));
   ASSERT_EQ(found.verdict, model::Verdict::yes);
-  const expr::Matrix& P = *found.find("P");
-  const expr::Matrix& Z = *found.find("Z");
+  const numbers::Matrix& P = *found.find("P");
+  const numbers::Matrix& Z = *found.find("Z");
   double worst = 1e300;
   for (int i = 0; i <= 2000; ++i) {
     const double tau = 0.1 + 2.9 * i / 2000;
-    expr::Matrix E(2, 2);
+    numbers::Matrix E(2, 2);
     E << std::cos(tau), std::sin(tau), -std::sin(tau), std::cos(tau);
-    expr::Matrix C(1, 2);
+    numbers::Matrix C(1, 2);
     C << 1, 0;
-    const expr::Matrix S = (P - Z * C) * E;
-    expr::Matrix M(4, 4);
+    const numbers::Matrix S = (P - Z * C) * E;
+    numbers::Matrix M(4, 4);
     M << P, S.transpose(), S, P;
-    worst = std::min(worst, Eigen::SelfAdjointEigenSolver<expr::Matrix>(M).eigenvalues()(0));
+    worst = std::min(worst, Eigen::SelfAdjointEigenSolver<numbers::Matrix>(M).eigenvalues()(0));
   }
   for (const model::Margin& margin : found.margins) {
     if (margin.name != "step") continue;
@@ -137,19 +137,19 @@ TEST(ForallTest, GainsAtTheVerticesOfTheBox) {
   expr::Scope scope = stated.scope;
   scope.symbols["s"] = {expr::Shape{}, std::nullopt};
   const auto gain = expr::compile(expr::parse(expr::Text::generated("Ldno(s)", {})), scope);
-  const Eigen::LLT<expr::Matrix> factor(*found.find("Q"));
-  const expr::Matrix U = factor.matrixU();
+  const Eigen::LLT<numbers::Matrix> factor(*found.find("Q"));
+  const numbers::Matrix U = factor.matrixU();
   for (int i = 0; i <= 500; ++i) {
     const double tau = 0.1 + 1.3 * i / 500;
-    expr::Values values = stated.values;
-    values["s"] = expr::Matrix::Constant(1, 1, tau);
-    const expr::Matrix L = expr::evaluate(gain, values);
-    expr::Matrix E(2, 2);
+    numbers::Values values = stated.values;
+    values["s"] = numbers::Matrix::Constant(1, 1, tau);
+    const numbers::Matrix L = numbers::evaluate(gain, values);
+    numbers::Matrix E(2, 2);
     E << std::cos(2 * tau), -std::sin(2 * tau), std::sin(2 * tau), std::cos(2 * tau);
-    expr::Matrix seen(2, 2);  // Jono = [1 0; 0 0] E
+    numbers::Matrix seen(2, 2);  // Jono = [1 0; 0 0] E
     seen << 1, 0, 0, 0;
-    const expr::Matrix row = seen.topRows(1);
-    const expr::Matrix A = (expr::Matrix::Identity(2, 2) - L * row - *found.find("Kno") * seen) * E;
+    const numbers::Matrix row = seen.topRows(1);
+    const numbers::Matrix A = (numbers::Matrix::Identity(2, 2) - L * row - *found.find("Kno") * seen) * E;
     EXPECT_LT((U * A * U.inverse()).operatorNorm(), 0.8) << tau;
   }
 }

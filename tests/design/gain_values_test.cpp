@@ -13,9 +13,9 @@ namespace {
 
 using Kind = model::GainFunction::Kind;
 
-const expr::Matrix kP{{2, 0}, {0, 4}};
-const expr::Matrix kFirst{{2}, {4}};
-const expr::Matrix kSecond{{6}, {-8}};
+const numbers::Matrix kP{{2, 0}, {0, 4}};
+const numbers::Matrix kFirst{{2}, {4}};
+const numbers::Matrix kSecond{{6}, {-8}};
 
 tests::YamlProblem problem(const std::string& gain, int degree) {
   return tests::YamlProblem(
@@ -26,7 +26,7 @@ tests::YamlProblem problem(const std::string& gain, int degree) {
 }
 
 model::Gains gains_of(const tests::YamlProblem& yaml) {
-  expr::Values values = yaml.instance.known_values();
+  numbers::Values values = yaml.instance.known_values();
   values["P"] = kP;
   values["Y_0"] = kFirst;
   values["Y_1"] = kSecond;
@@ -43,11 +43,11 @@ TEST(GainValues, APolynomialIsStoredByItsCoefficients) {
   EXPECT_EQ(gain.variable, "s");
   EXPECT_EQ(gain.formula, "inv(P)*(Y(2*s)*s + C'*s^3)");
   ASSERT_EQ(gain.coefficients.size(), 4U);
-  const expr::Matrix inverse = kP.inverse();
+  const numbers::Matrix inverse = kP.inverse();
   EXPECT_TRUE(gain.coefficients[0].isZero(0));
   EXPECT_TRUE(gain.coefficients[1].isApprox(inverse * kFirst, 1e-15));
   EXPECT_TRUE(gain.coefficients[2].isApprox(2 * inverse * kSecond, 1e-15));
-  EXPECT_TRUE(gain.coefficients[3].isApprox(inverse * expr::Matrix{{1}, {2}}, 1e-15));
+  EXPECT_TRUE(gain.coefficients[3].isApprox(inverse * numbers::Matrix{{1}, {2}}, 1e-15));
 }
 
 TEST(GainValues, WhatTurnsOutConstantIsAMatrix) {
@@ -59,7 +59,7 @@ TEST(GainValues, WhatTurnsOutConstantIsAMatrix) {
   }
   const auto zero = gains_of(problem("L(s): s*C' - C'*s", 0));
   ASSERT_EQ(zero.gains.size(), 1U);
-  EXPECT_EQ(zero.gains[0].second, expr::Matrix::Zero(2, 1));
+  EXPECT_EQ(zero.gains[0].second, numbers::Matrix::Zero(2, 1));
 }
 
 TEST(GainValues, AnythingElseIsAFormula) {
@@ -102,7 +102,7 @@ TEST(Report, HoldsWhatHasAValue) {
   EXPECT_EQ(gains.report[0].first, "sizes");
   EXPECT_NEAR(gains.report[0].second(0, 0), 15, 1e-14);
   EXPECT_EQ(gains.report[1].first, "half");
-  EXPECT_EQ(gains.report[1].second, (expr::Matrix{{1.5, 2}}));
+  EXPECT_EQ(gains.report[1].second, (numbers::Matrix{{1.5, 2}}));
 }
 
 }  // namespace

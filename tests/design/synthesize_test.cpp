@@ -16,7 +16,7 @@ model::Gains solve(const std::string& text) {
   return synthesize(yaml.instance, {});
 }
 
-std::string matrix_yaml(const expr::Matrix& matrix) {
+std::string matrix_yaml(const numbers::Matrix& matrix) {
   std::string text = "[";
   for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
     text += i > 0 ? ", [" : "[";
@@ -27,7 +27,7 @@ std::string matrix_yaml(const expr::Matrix& matrix) {
   return text + "]";
 }
 
-std::string lyapunov(const expr::Matrix& A) {
+std::string lyapunov(const numbers::Matrix& A) {
   return "problem: lyapunov\nmethod:\n  method: lyapunov\n  data: {A: n x n}\n  unknowns: {P: "
          "symmetric n}\n"
          "  require: {positive: P > 0, stable: He(P*A) < 0}\ndata: {A: " +
@@ -41,10 +41,10 @@ TEST(SynthesizeTest, LyapunovDecidesStability) {
   int stable_count = 0;
   for (int trial = 0; trial < 20; ++trial) {
     const int n = 2 + trial % 3;
-    expr::Matrix A = expr::Matrix::NullaryExpr(n, n, [&] { return number(generator); });
-    const double abscissa = Eigen::EigenSolver<expr::Matrix>(A).eigenvalues().real().maxCoeff();
+    numbers::Matrix A = numbers::Matrix::NullaryExpr(n, n, [&] { return number(generator); });
+    const double abscissa = Eigen::EigenSolver<numbers::Matrix>(A).eigenvalues().real().maxCoeff();
     const double wanted = trial % 2 == 0 ? -0.2 : 0.2;
-    A += (wanted - abscissa) * expr::Matrix::Identity(n, n);
+    A += (wanted - abscissa) * numbers::Matrix::Identity(n, n);
     const model::Gains found = solve(lyapunov(A));
     EXPECT_EQ(found.verdict, wanted < 0 ? model::Verdict::yes : model::Verdict::no) << A;
     if (found.verdict != model::Verdict::yes) {
@@ -53,9 +53,9 @@ TEST(SynthesizeTest, LyapunovDecidesStability) {
       continue;
     }
     ++stable_count;
-    const expr::Matrix& P = *found.find("P");
-    EXPECT_GT(Eigen::SelfAdjointEigenSolver<expr::Matrix>(P).eigenvalues()(0), 0);
-    EXPECT_LT(Eigen::SelfAdjointEigenSolver<expr::Matrix>(P * A + A.transpose() * P)
+    const numbers::Matrix& P = *found.find("P");
+    EXPECT_GT(Eigen::SelfAdjointEigenSolver<numbers::Matrix>(P).eigenvalues()(0), 0);
+    EXPECT_LT(Eigen::SelfAdjointEigenSolver<numbers::Matrix>(P * A + A.transpose() * P)
                   .eigenvalues()
                   .maxCoeff(),
               0);
@@ -66,17 +66,17 @@ TEST(SynthesizeTest, LyapunovDecidesStability) {
 /// The certificate of an infeasible problem, recomputed here from the text: Y_1 + He(A Y_2) = 0 up
 /// to the residual, Y_1, Y_2 >= 0, not both zero.
 TEST(SynthesizeTest, TheStoredMultipliersProveInfeasibility) {
-  expr::Matrix A(2, 2);
+  numbers::Matrix A(2, 2);
   A << 0.1, 1, -1, 0.1;
   const model::Gains found = solve(lyapunov(A));
   ASSERT_EQ(found.verdict, model::Verdict::no);
   ASSERT_TRUE(found.certificate);
   const auto& multipliers = found.certificate->multipliers;
   ASSERT_EQ(multipliers.size(), 2U);
-  const expr::Matrix& Y1 = multipliers[0].second;
-  const expr::Matrix& Y2 = multipliers[1].second;
-  for (const expr::Matrix* Y : {&Y1, &Y2})
-    EXPECT_GE(Eigen::SelfAdjointEigenSolver<expr::Matrix>(*Y).eigenvalues()(0), -1e-12);
+  const numbers::Matrix& Y1 = multipliers[0].second;
+  const numbers::Matrix& Y2 = multipliers[1].second;
+  for (const numbers::Matrix* Y : {&Y1, &Y2})
+    EXPECT_GE(Eigen::SelfAdjointEigenSolver<numbers::Matrix>(*Y).eigenvalues()(0), -1e-12);
   const double size = Y1.trace() + Y2.trace();
   EXPECT_GT(size, 1e-3);
   EXPECT_LT((Y1 - A * Y2 - Y2 * A.transpose()).norm(), 1e-6 * size);
@@ -205,7 +205,7 @@ TEST(SynthesizeTest, InequalitiesWithoutInterior) {
       "P > 0, s: He(P*A) <= 0}}\n"
       "data: {A: [[0, 1], [-3, 0]]}\n");
   EXPECT_EQ(found.verdict, model::Verdict::yes) << found.solver.message;
-  const expr::Matrix& P = *found.find("P");
+  const numbers::Matrix& P = *found.find("P");
   EXPECT_NEAR(P(0, 0) / P(1, 1), 3, 1e-6);
 }
 
@@ -246,10 +246,10 @@ TEST(SynthesizeTest, GainsDoNotDependOnTheUnitsOfTheCost) {
         "data: {A: [[0.2, -1.01], [1, 0]], C: [[0.5, -1]], T1: 0.5, T2: 0.7, QF: " +
         weight + "*I, QJ: 0.01*" + weight + "*I}\nparameters: {a1: 100, a2: 1}\n");
     EXPECT_EQ(found.verdict, model::Verdict::yes) << weight;
-    const expr::Matrix* L = found.find("L");
-    return L == nullptr ? expr::Matrix(expr::Matrix::Zero(2, 1)) : *L;
+    const numbers::Matrix* L = found.find("L");
+    return L == nullptr ? numbers::Matrix(numbers::Matrix::Zero(2, 1)) : *L;
   };
-  const expr::Matrix one = gain("1");
+  const numbers::Matrix one = gain("1");
   EXPECT_NEAR(one(1, 0), -1.6787, 1e-3);
   for (const char* weight : {"1e-4", "1e4"}) EXPECT_LT((gain(weight) - one).norm(), 1e-2);
 }

@@ -9,7 +9,7 @@
 
 #include "expr/compile.h"
 #include "expr/parser.h"
-#include "expr/real.h"
+#include "numbers/real.h"
 
 namespace gainsmith::expr {
 

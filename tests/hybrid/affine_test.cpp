@@ -40,7 +40,7 @@ TEST(Affine, OtherFunctionsOfTheStateAreNot) {
 }
 
 TEST(Affine, SampledMapIsTheMap) {
-  const expr::Matrix linear{{1, 2}, {3, -4}};
+  const numbers::Matrix linear{{1, 2}, {3, -4}};
   const Eigen::Vector2d constant(0.5, -2);
   const AffineMap map = sample_affine(
       [&](const Eigen::VectorXd& x) -> Eigen::VectorXd { return linear * x + constant; }, 2);

@@ -12,7 +12,7 @@
 namespace gainsmith::hybrid {
 namespace {
 
-using expr::Matrix;
+using numbers::Matrix;
 using Law = model::SamplingLaw::Kind;
 using Start = model::InitialValue::Kind;
 using tests::column;

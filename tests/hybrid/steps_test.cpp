@@ -12,7 +12,7 @@ namespace gainsmith::hybrid {
 namespace {
 
 using Eigen::VectorXd;
-using expr::Matrix;
+using numbers::Matrix;
 
 AffineMap linear(const Matrix& matrix) { return {matrix, VectorXd::Zero(matrix.rows())}; }
 

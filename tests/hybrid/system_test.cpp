@@ -27,7 +27,7 @@ std::string error_of(TextProblem& problem) {
 TEST(System, FlowAndJumpOfPlantAndObserverAreRead) {
   TextProblem problem = sampled_data("1.1", column({2, 3}), column({0.1, -0.9}), scalar(-5));
   const System system = system_of(problem);
-  expr::Matrix flow{{0.2, -1.01, 0, 0, 0},
+  numbers::Matrix flow{{0.2, -1.01, 0, 0, 0},
                     {1, 0, 0, 0, 0},
                     {0, 0, 0.2, -1.01, 2},
                     {0, 0, 1, 0, 3},
@@ -35,7 +35,7 @@ TEST(System, FlowAndJumpOfPlantAndObserverAreRead) {
   EXPECT_EQ(system.flow.linear, flow);
   EXPECT_TRUE(system.flow.constant.isZero(0));
   const double rest = 1 - (0.5 * 0.1 + 0.9);  // I - C F
-  expr::Matrix jump{{1, 0, 0, 0, 0},
+  numbers::Matrix jump{{1, 0, 0, 0, 0},
                     {0, 1, 0, 0, 0},
                     {0.05, -0.1, 0.95, 0.1, 0},
                     {-0.45, 0.9, 0.45, 0.1, 0},
@@ -47,20 +47,20 @@ TEST(System, FlowAndJumpOfPlantAndObserverAreRead) {
 }
 
 TEST(System, ErrorFlowIsEquationEight) {
-  const expr::Matrix L = column({3.68, -24.47});
-  const expr::Matrix F = column({0.104, -0.948});
+  const numbers::Matrix L = column({3.68, -24.47});
+  const numbers::Matrix F = column({0.104, -0.948});
   const double H = -25.93;
   TextProblem problem = sampled_data("1.1", L, F, scalar(H));
   const System system = system_of(problem);
-  const expr::Matrix A{{0.2, -1.01}, {1, 0}};
-  const expr::Matrix C{{0.5, -1}};
-  expr::Matrix errors(3, 5);  // [e; q] = errors x
-  errors << expr::Matrix::Identity(2, 2), -expr::Matrix::Identity(2, 2), expr::Matrix::Zero(2, 1),
-      C, -C, -expr::Matrix::Identity(1, 1);
-  expr::Matrix flow(3, 3);
+  const numbers::Matrix A{{0.2, -1.01}, {1, 0}};
+  const numbers::Matrix C{{0.5, -1}};
+  numbers::Matrix errors(3, 5);  // [e; q] = errors x
+  errors << numbers::Matrix::Identity(2, 2), -numbers::Matrix::Identity(2, 2), numbers::Matrix::Zero(2, 1),
+      C, -C, -numbers::Matrix::Identity(1, 1);
+  numbers::Matrix flow(3, 3);
   flow << A - L * C, L, C * A - C * L * C - H * C, C * L + scalar(H);
-  expr::Matrix jump = expr::Matrix::Zero(3, 3);
-  jump.topLeftCorner(2, 2) = expr::Matrix::Identity(2, 2) - F * C;
+  numbers::Matrix jump = numbers::Matrix::Zero(3, 3);
+  jump.topLeftCorner(2, 2) = numbers::Matrix::Identity(2, 2) - F * C;
   EXPECT_LT((errors * system.flow.linear - flow * errors).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_LT((errors * system.affine_jump->linear - jump * errors).cwiseAbs().maxCoeff(), 1e-13);
 }
@@ -94,7 +94,7 @@ TEST(System, GainsMustBeThereAndFit) {
   missing.gains.gains.pop_back();
   EXPECT_NE(error_of(missing).find("no value for H"), std::string::npos) << error_of(missing);
   TextProblem wrong = sampled_data("1.1", column({2, 3}), column({0, 0}), scalar(-5));
-  wrong.gains.gains[0].second = expr::Matrix::Zero(3, 1);
+  wrong.gains.gains[0].second = numbers::Matrix::Zero(3, 1);
   EXPECT_NE(error_of(wrong).find("L in the gain file is 3 x 1, expected 2 x 1"), std::string::npos)
       << error_of(wrong);
 }

@@ -32,7 +32,7 @@ TextProblem& TextProblem::data(const std::string& name, const std::string& shape
   return *this;
 }
 
-TextProblem& TextProblem::gain(const std::string& name, const expr::Matrix& value) {
+TextProblem& TextProblem::gain(const std::string& name, const numbers::Matrix& value) {
   // Only the shape of the formula matters here: the value comes from the gain file.
   method_.gains.push_back(
       {name,
@@ -133,8 +133,8 @@ model::Instance TextProblem::instance() {
   return model::make_instance(problem_);
 }
 
-TextProblem sampled_data(const std::string& T2, const expr::Matrix& L, const expr::Matrix& F,
-                         const expr::Matrix& H) {
+TextProblem sampled_data(const std::string& T2, const numbers::Matrix& L, const numbers::Matrix& F,
+                         const numbers::Matrix& H) {
   TextProblem problem;
   problem.data("A", "n x n", "[0.2, -1.01; 1, 0]").data("C", "p x n", "[0.5, -1]");
   problem.data("T1", "scalar", "0.5").data("T2", "scalar", T2);
@@ -147,13 +147,13 @@ TextProblem sampled_data(const std::string& T2, const expr::Matrix& L, const exp
   return problem;
 }
 
-expr::Matrix column(std::initializer_list<double> elements) {
-  expr::Matrix result(static_cast<Eigen::Index>(elements.size()), 1);
+numbers::Matrix column(std::initializer_list<double> elements) {
+  numbers::Matrix result(static_cast<Eigen::Index>(elements.size()), 1);
   Eigen::Index i = 0;
   for (const double element : elements) result(i++) = element;
   return result;
 }
 
-expr::Matrix scalar(double value) { return expr::Matrix::Constant(1, 1, value); }
+numbers::Matrix scalar(double value) { return numbers::Matrix::Constant(1, 1, value); }
 
 }  // namespace gainsmith::tests

@@ -20,7 +20,7 @@ using Pairs = std::vector<std::pair<std::string, std::string>>;
 class TextProblem {
  public:
   TextProblem& data(const std::string& name, const std::string& shape, const std::string& value);
-  TextProblem& gain(const std::string& name, const expr::Matrix& value);
+  TextProblem& gain(const std::string& name, const numbers::Matrix& value);
   TextProblem& unknown(const std::string& name, const std::string& shape);
   TextProblem& state(const std::string& name, const std::string& shape);
   TextProblem& flow(const Pairs& entries);
@@ -51,10 +51,10 @@ class TextProblem {
 
 /// The plant, observer and errors of theory/sampled-data.md with the published A, C, T1 and the
 /// given T2, the given gains, signals e and q, first timer value in [0, T2].
-TextProblem sampled_data(const std::string& T2, const expr::Matrix& L, const expr::Matrix& F,
-                         const expr::Matrix& H);
+TextProblem sampled_data(const std::string& T2, const numbers::Matrix& L, const numbers::Matrix& F,
+                         const numbers::Matrix& H);
 
-expr::Matrix column(std::initializer_list<double> elements);
-expr::Matrix scalar(double value);
+numbers::Matrix column(std::initializer_list<double> elements);
+numbers::Matrix scalar(double value);
 
 }  // namespace gainsmith::tests

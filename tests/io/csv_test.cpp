@@ -13,13 +13,13 @@ namespace {
 
 TEST(Csv, HasALineOfNamesAndALineForEachRow) {
   const std::vector<std::string> names = {"t", "j", "z1"};
-  const expr::Matrix table{{0, 0, 1.5}, {0.25, 1, -2}};
+  const numbers::Matrix table{{0, 0, 1.5}, {0.25, 1, -2}};
   EXPECT_EQ(to_csv(names, table), "t,j,z1\n0,0,1.5\n0.25,1,-2\n");
 }
 
 TEST(Csv, NumbersReadBackToTheSameDoubles) {
   const std::vector<std::string> names = {"a"};
-  expr::Matrix table(4, 1);
+  numbers::Matrix table(4, 1);
   table << 0.1, std::nextafter(1, 2), std::numeric_limits<double>::denorm_min(), -1e300 / 3;
   std::istringstream lines(to_csv(names, table));
   std::string line;
@@ -32,7 +32,7 @@ TEST(Csv, NumbersReadBackToTheSameDoubles) {
 
 TEST(Csv, TableWithoutRowsIsItsNames) {
   const std::vector<std::string> names = {"t", "j"};
-  EXPECT_EQ(to_csv(names, expr::Matrix(0, 2)), "t,j\n");
+  EXPECT_EQ(to_csv(names, numbers::Matrix(0, 2)), "t,j\n");
 }
 
 }  // namespace

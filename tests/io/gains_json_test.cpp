@@ -82,8 +82,8 @@ class RandomGains {
     const auto value = std::bit_cast<double>(random_());
     return std::isfinite(value) ? value : 0.1;
   }
-  expr::Matrix matrix(int rows, int cols) {
-    expr::Matrix result(rows, cols);
+  numbers::Matrix matrix(int rows, int cols) {
+    numbers::Matrix result(rows, cols);
     for (double& x : result.reshaped()) x = number();
     return result;
   }
@@ -103,8 +103,8 @@ TEST(Gains, AreReadBackToTheSameBits) {
   ASSERT_EQ(back.unknowns.size(), gains.unknowns.size());
   for (std::size_t i = 0; i < gains.unknowns.size(); ++i) {
     EXPECT_EQ(back.unknowns[i].first, gains.unknowns[i].first);
-    const expr::Matrix& a = back.unknowns[i].second;
-    const expr::Matrix& b = gains.unknowns[i].second;
+    const numbers::Matrix& a = back.unknowns[i].second;
+    const numbers::Matrix& b = gains.unknowns[i].second;
     ASSERT_EQ(a.size(), b.size());
     for (Eigen::Index k = 0; k < a.size(); ++k)
       EXPECT_EQ(std::bit_cast<std::uint64_t>(a(k)), std::bit_cast<std::uint64_t>(b(k)));

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "expr/compile.h"
-#include "expr/real.h"
+#include "numbers/real.h"
 #include "support/input_error.h"
 
 namespace gainsmith::io {
@@ -188,19 +188,19 @@ model::Value value(const std::string& yaml) {
   return value_of(file, map.items().front());
 }
 
-expr::Matrix evaluated(const std::string& yaml) {
-  return expr::evaluate(expr::compile(value(yaml).value, {}), {});
+numbers::Matrix evaluated(const std::string& yaml) {
+  return numbers::evaluate(expr::compile(value(yaml).value, {}), {});
 }
 
 TEST(Values, AreExpressionsListsOrListsOfLists) {
-  const expr::Matrix square{{1, -2}, {0.5, 4}};
+  const numbers::Matrix square{{1, -2}, {0.5, 4}};
   EXPECT_EQ(evaluated("A: [[1, -2], [0.5, 4]]"), square);
   EXPECT_EQ(evaluated("A:\n- [1, -2]\n- [1/2, 2^2]\n"), square);
   EXPECT_EQ(evaluated("A: \"[1, -2; 0.5, 4]\""), square);
-  EXPECT_EQ(evaluated("A: [1, 2, 3]"), (expr::Matrix{{1, 2, 3}}));
-  EXPECT_EQ(evaluated("A: [[1], [2]]"), (expr::Matrix{{1}, {2}}));
+  EXPECT_EQ(evaluated("A: [1, 2, 3]"), (numbers::Matrix{{1, 2, 3}}));
+  EXPECT_EQ(evaluated("A: [[1], [2]]"), (numbers::Matrix{{1}, {2}}));
   EXPECT_EQ(evaluated("A: 7")(0, 0), 7);
-  EXPECT_EQ(evaluated("A: [1 + 1, -1]"), (expr::Matrix{{2, -1}}));
+  EXPECT_EQ(evaluated("A: [1 + 1, -1]"), (numbers::Matrix{{2, -1}}));
   EXPECT_TRUE(value("A: [1, 2]").flat);
   EXPECT_FALSE(value("A: [[1, 2]]").flat);
   EXPECT_FALSE(value("A: 1").flat);

@@ -41,12 +41,12 @@ class AffineTest : public ::testing::Test {
   }
 
   /// The form at x and tau.
-  expr::Matrix at(const AffineForm& form, const std::vector<double>& x, double tau) const {
-    expr::Matrix sum = expr::Matrix::Zero(form.shape.rows, form.shape.cols);
+  numbers::Matrix at(const AffineForm& form, const std::vector<double>& x, double tau) const {
+    numbers::Matrix sum = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
     for (const auto& [key, matrix] : form.terms)
       sum += value(monomials_[key.first], tau) *
              (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) *
-             expr::Matrix(matrix);
+             numbers::Matrix(matrix);
     return sum;
   }
 
@@ -59,10 +59,10 @@ class AffineTest : public ::testing::Test {
       std::vector<double> x;
       for (int i = 0; i < unknowns_.size(); ++i) x.push_back(number(generator_));
       const double tau = number(generator_);
-      expr::Values values = yaml_.instance.known_values();
+      numbers::Values values = yaml_.instance.known_values();
       for (const auto& [name, matrix] : unknowns_.values(x)) values[name] = matrix;
-      values["tau"] = expr::Matrix::Constant(1, 1, tau);
-      const expr::Matrix expected = expr::evaluate(direct, values);
+      values["tau"] = numbers::Matrix::Constant(1, 1, tau);
+      const numbers::Matrix expected = numbers::evaluate(direct, values);
       EXPECT_LT((at(affine, x, tau) - expected).cwiseAbs().maxCoeff(),
                 1e-11 * (1 + expected.norm()))
           << text;

@@ -25,10 +25,10 @@ TEST(CompileTest, AnIntervalBecomesTheVerticesOfItsAtoms) {
   EXPECT_EQ(lmi.blocks[1].point, "tau = 2");
   EXPECT_TRUE(lmi.blocks[0].strict);
   const std::vector<double> x = {2, 1, 3, 0, 0, 0, 0};
-  expr::Matrix P(2, 2);
+  numbers::Matrix P(2, 2);
   P << 2, 1, 1, 3;
-  const expr::Matrix& A = yaml.instance.data.at("A");
-  const expr::Matrix expected = -(P * A + (P * A).transpose() + std::exp(1.0) * P);
+  const numbers::Matrix& A = yaml.instance.data.at("A");
+  const numbers::Matrix expected = -(P * A + (P * A).transpose() + std::exp(1.0) * P);
   EXPECT_LT((lmi.blocks[1].value(x) - expected).norm(), 1e-14);
 }
 

@@ -99,7 +99,7 @@ TEST(DomainTest, IntervalsKeepTheirOrder) {
 TEST(DomainTest, APointWithOneMoreVariable) {
   const Point first = extended({}, "tau", 0.7);
   EXPECT_EQ(first.label, "tau = 0.7");
-  const Point second = extended(first, "B", expr::Matrix::Identity(2, 2), "B = I");
+  const Point second = extended(first, "B", numbers::Matrix::Identity(2, 2), "B = I");
   EXPECT_EQ(second.label, "tau = 0.7, B = I");
   EXPECT_EQ(first.values.size(), 1U);
   EXPECT_EQ(extended(second, "tau", 0.9).values.at("tau")(0, 0), 0.9);

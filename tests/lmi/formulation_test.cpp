@@ -18,9 +18,9 @@ std::string problem_with(const std::string& require) {
 constexpr const char* kData = "data: {A: [[0, 1], [-2, -3]], s: 5}\n";
 
 /// X = sum x_i F_i - F_0 of one block of the SDP, from its entries.
-expr::Matrix slack(const sdp::Problem& problem, int block, const std::vector<double>& x) {
+numbers::Matrix slack(const sdp::Problem& problem, int block, const std::vector<double>& x) {
   const int size = problem.blocks[static_cast<std::size_t>(block)].size;
-  expr::Matrix result = expr::Matrix::Zero(size, size);
+  numbers::Matrix result = numbers::Matrix::Zero(size, size);
   for (std::size_t i = 0; i < problem.f.size(); ++i) {
     for (const sdp::Entry& entry : problem.f[i]) {
       if (entry.block != block) continue;
@@ -56,7 +56,7 @@ TEST(FormulationTest, StrictBlocksKeepTheirMarginAndOthersDoNot) {
     const Block& block = lmi.blocks[static_cast<std::size_t>(k)];
     const double margin =
         block.strict ? formulation.margin * formulation.scales[static_cast<std::size_t>(k)] : 0;
-    const expr::Matrix expected = block.value(x) - margin * expr::Matrix::Identity(2, 2);
+    const numbers::Matrix expected = block.value(x) - margin * numbers::Matrix::Identity(2, 2);
     std::vector<double> scaled = x;
     for (double& value : scaled) value /= formulation.unit;
     EXPECT_LT((formulation.unit * slack(formulation.problem, k, scaled) - expected).norm(), 1e-13);
@@ -83,9 +83,9 @@ TEST(FormulationTest, HomogeneousFeasibilityAddsTheSizeOfX) {
   ASSERT_EQ(formulation.problem.m(), 4);
   EXPECT_EQ(formulation.problem.c, (std::vector<double>{0, 0, 0, 1}));
   const std::vector<double> x = {1, -3, 2, 5};
-  const expr::Matrix limits = slack(formulation.problem, 2, x);
+  const numbers::Matrix limits = slack(formulation.problem, 2, x);
   ASSERT_EQ(limits.rows(), 6);
-  const expr::Matrix expected = (Eigen::VectorXd(6) << 6, 4, 2, 8, 7, 3).finished().asDiagonal();
+  const numbers::Matrix expected = (Eigen::VectorXd(6) << 6, 4, 2, 8, 7, 3).finished().asDiagonal();
   EXPECT_EQ(limits, expected);
 }
 

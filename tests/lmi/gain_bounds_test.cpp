@@ -102,23 +102,23 @@ TEST(GainBoundsTest, BlocksSayTheSameAsTheMeasure) {
   for (int trial = 0; trial < 200; ++trial) {
     std::vector<double> x(static_cast<std::size_t>(unknowns.size()) + 1);
     for (double& value : x) value = number(generator);
-    const expr::Matrix root = expr::Matrix::NullaryExpr(3, 3, [&] { return number(generator); });
-    const expr::Matrix P = root * root.transpose() + 0.1 * expr::Matrix::Identity(3, 3);
+    const numbers::Matrix root = numbers::Matrix::NullaryExpr(3, 3, [&] { return number(generator); });
+    const numbers::Matrix P = root * root.transpose() + 0.1 * numbers::Matrix::Identity(3, 3);
     for (int k = 0; k < 6; ++k) {
       const auto [row, column] = unknowns.list()[0].places(k).front();
       x[static_cast<std::size_t>(k)] = P(row, column);
     }
-    const double floor = Eigen::SelfAdjointEigenSolver<expr::Matrix>(P).eigenvalues()(0);
+    const double floor = Eigen::SelfAdjointEigenSolver<numbers::Matrix>(P).eigenvalues()(0);
     x.back() = floor * (1 - 1e-12);
     bool positive = true;
     for (const Block& block : bounds.blocks)
-      positive &= Eigen::SelfAdjointEigenSolver<expr::Matrix>(block.value(x)).eigenvalues()(0) > 0;
+      positive &= Eigen::SelfAdjointEigenSolver<numbers::Matrix>(block.value(x)).eigenvalues()(0) > 0;
     const model::GainBound reached = reached_bounds(bounds, x).front();
     EXPECT_EQ(positive, reached.reached < beta) << reached.reached;
-    const expr::Values values = unknowns.values(x);
-    const expr::Matrix gain = P.inverse() * values.at("Y");
+    const numbers::Values values = unknowns.values(x);
+    const numbers::Matrix gain = P.inverse() * values.at("Y");
     EXPECT_GE(reached.reached * (1 + 1e-9),
-              Eigen::JacobiSVD<expr::Matrix>(gain).singularValues()(0));
+              Eigen::JacobiSVD<numbers::Matrix>(gain).singularValues()(0));
     inside += positive ? 1 : 0;
   }
   EXPECT_GT(inside, 5);

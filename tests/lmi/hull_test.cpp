@@ -22,11 +22,11 @@ using testing::polytope;
 /// A form in the variables, the unknowns being given matrices of the test.
 struct Family {
   MonomialTable monomials;
-  expr::Values known;
+  numbers::Values known;
   expr::Program program;
   AffineForm form;
 
-  Family(const std::string& text, Domain domain, expr::Values values = {})
+  Family(const std::string& text, Domain domain, numbers::Values values = {})
       : monomials(std::move(domain)),
         known(std::move(values)),
         program(testing::program(text, monomials.variables(), known)),
@@ -40,35 +40,35 @@ struct Family {
     return evaluate_affine(program, Unknowns(yaml.instance), monomials, known);
   }
 
-  std::vector<expr::Matrix> vertices(int slices = 1) const {
-    std::vector<expr::Matrix> result;
+  std::vector<numbers::Matrix> vertices(int slices = 1) const {
+    std::vector<numbers::Matrix> result;
     for (const Vertex& vertex : hull_of(form, monomials, slices, {"test"}).vertices) {
       const AffineForm there = at_vertex(form, vertex.values);
-      expr::Matrix sum = expr::Matrix::Zero(form.shape.rows, form.shape.cols);
-      for (const auto& [key, matrix] : there.terms) sum += expr::Matrix(matrix);
+      numbers::Matrix sum = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
+      for (const auto& [key, matrix] : there.terms) sum += numbers::Matrix(matrix);
       result.push_back(std::move(sum));
     }
     return result;
   }
 
   /// The text itself, evaluated over double.
-  expr::Matrix at(expr::Values point) const {
+  numbers::Matrix at(numbers::Values point) const {
     point.insert(known.begin(), known.end());
-    return expr::evaluate(program, point);
+    return numbers::evaluate(program, point);
   }
 };
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-expr::Matrix random_matrix(int rows, int cols, std::mt19937& generator) {
+numbers::Matrix random_matrix(int rows, int cols, std::mt19937& generator) {
   std::uniform_real_distribution<double> number(-1, 1);
-  return expr::Matrix::NullaryExpr(rows, cols, [&] { return number(generator); });
+  return numbers::Matrix::NullaryExpr(rows, cols, [&] { return number(generator); });
 }
 
 /// The range of the functional M -> sum W_ij M_ij over matrices.
-Range range_of(const expr::Matrix& functional, const std::vector<expr::Matrix>& matrices) {
+Range range_of(const numbers::Matrix& functional, const std::vector<numbers::Matrix>& matrices) {
   Range range{kInfinity, -kInfinity};
-  for (const expr::Matrix& matrix : matrices) {
+  for (const numbers::Matrix& matrix : matrices) {
     const double value = functional.cwiseProduct(matrix).sum();
     range.low = std::min(range.low, value);
     range.high = std::max(range.high, value);
@@ -78,10 +78,10 @@ Range range_of(const expr::Matrix& functional, const std::vector<expr::Matrix>& 
 
 /// A point is in the convex hull of the vertices exactly when no linear functional separates it
 /// from them.
-void expect_inside(const expr::Matrix& matrix, const std::vector<expr::Matrix>& vertices,
+void expect_inside(const numbers::Matrix& matrix, const std::vector<numbers::Matrix>& vertices,
                    std::mt19937& generator) {
   for (int k = 0; k < 4; ++k) {
-    const expr::Matrix functional =
+    const numbers::Matrix functional =
         random_matrix(static_cast<int>(matrix.rows()), static_cast<int>(matrix.cols()), generator);
     const Range range = range_of(functional, vertices);
     const double value = functional.cwiseProduct(matrix).sum();
@@ -95,7 +95,7 @@ TEST(HullTest, TheBoxHoldsTheMatrixExponential) {
   std::mt19937 generator(11);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int trial = 0; trial < 40; ++trial) {
-    const expr::Matrix F = 2 * random_matrix(3, 3, generator);
+    const numbers::Matrix F = 2 * random_matrix(3, 3, generator);
     const double low = unit(generator);
     const double high = low + 2 * unit(generator);
     const Family family("[expm(F*tau), M; M', expm(F*tau)']", {interval("tau", low, high)},
@@ -112,7 +112,7 @@ TEST(HullTest, TheBoxHoldsTheMatrixExponential) {
 /// Repeated eigenvalues give powers of tau, complex ones products with sin and cos.
 TEST(HullTest, TheBoxHoldsAJordanBlock) {
   std::mt19937 generator(12);
-  expr::Matrix F(4, 4);
+  numbers::Matrix F(4, 4);
   F << -0.3, 2, 1, 0, -2, -0.3, 0, 1, 0, 0, -0.3, 2, 0, 0, -2, -0.3;
   const Family family("expm(F*tau)", {interval("tau", 0.1, 4)}, {{"F", F}});
   const auto vertices = family.vertices();
@@ -125,7 +125,7 @@ TEST(HullTest, TheBoxHoldsProductsOverSeveralVariablesAndAPolytope) {
   std::mt19937 generator(13);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int trial = 0; trial < 20; ++trial) {
-    const std::vector<expr::Matrix> corners = {random_matrix(2, 2, generator),
+    const std::vector<numbers::Matrix> corners = {random_matrix(2, 2, generator),
                                                random_matrix(2, 2, generator),
                                                random_matrix(2, 2, generator)};
     const Family family("s*expm(F*tau)*B + cos(3*s)*B' + s^2*exp(-tau)*F",
@@ -135,7 +135,7 @@ TEST(HullTest, TheBoxHoldsProductsOverSeveralVariablesAndAPolytope) {
     for (int k = 0; k < 20; ++k) {
       const double a = unit(generator);
       const double b = (1 - a) * unit(generator);
-      const expr::Matrix B = a * corners[0] + b * corners[1] + (1 - a - b) * corners[2];
+      const numbers::Matrix B = a * corners[0] + b * corners[1] + (1 - a - b) * corners[2];
       expect_inside(family.at({{"tau", number(1.5 * unit(generator))},
                                {"s", number(2 * unit(generator) - 1)},
                                {"B", B}}),
@@ -149,8 +149,8 @@ TEST(HullTest, ExtremaInsideTheIntervalMakeTheBox) {
   const Family family("[cos(2*tau), sin(2*tau)]", {interval("tau", 0.1, 1.4)});
   const auto vertices = family.vertices();
   ASSERT_EQ(vertices.size(), 4U);
-  const Range cosine = range_of((expr::Matrix(1, 2) << 1, 0).finished(), vertices);
-  const Range sine = range_of((expr::Matrix(1, 2) << 0, 1).finished(), vertices);
+  const Range cosine = range_of((numbers::Matrix(1, 2) << 1, 0).finished(), vertices);
+  const Range sine = range_of((numbers::Matrix(1, 2) << 0, 1).finished(), vertices);
   EXPECT_DOUBLE_EQ(cosine.low, std::cos(2.8));
   EXPECT_DOUBLE_EQ(cosine.high, std::cos(0.2));
   EXPECT_DOUBLE_EQ(sine.low, std::sin(0.2));
@@ -162,7 +162,7 @@ TEST(HullTest, MoreSlicesNeverWidenTheHull) {
   for (int trial = 0; trial < 20; ++trial) {
     const Family family("expm(F*tau)", {interval("tau", 0.2, 2)},
                         {{"F", 2 * random_matrix(2, 2, generator)}});
-    const expr::Matrix functional = random_matrix(2, 2, generator);
+    const numbers::Matrix functional = random_matrix(2, 2, generator);
     double width = kInfinity;
     for (const int slices : {1, 2, 4, 8}) {
       const Range range = range_of(functional, family.vertices(slices));
@@ -170,7 +170,7 @@ TEST(HullTest, MoreSlicesNeverWidenTheHull) {
       width = range.high - range.low;
     }
     // Eight boxes are not yet the curve, but close to it.
-    std::vector<expr::Matrix> curve;
+    std::vector<numbers::Matrix> curve;
     for (int k = 0; k <= 400; ++k)
       curve.push_back(family.at({{"tau", number(0.2 + 1.8 * k / 400)}}));
     const Range exact = range_of(functional, curve);

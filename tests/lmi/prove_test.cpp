@@ -15,14 +15,14 @@ using Status = DomainProof::Status;
 using testing::interval;
 using testing::number;
 
-DomainProof prove(const std::string& text, const Domain& domain, const expr::Values& known = {},
+DomainProof prove(const std::string& text, const Domain& domain, const numbers::Values& known = {},
                   double slack = 0) {
   return prove_on_domain(testing::program(text, domain, known), domain, known, slack);
 }
 
 TEST(ProveTest, WhatHoldsIsProvedAndWhatFailsIsFound) {
   for (const double k : {1.0, 24.0, 48.0, 96.0, 144.0}) {
-    const expr::Values w = {{"w", number(2 * std::numbers::pi * k)}};
+    const numbers::Values w = {{"w", number(2 * std::numbers::pi * k)}};
     // The smallest value of 1.01 + cos is 0.01, at every half period.
     EXPECT_EQ(prove("1.01 + cos(w*tau)", {interval("tau", 0, 1)}, w).status, Status::proved) << k;
     const DomainProof failed = prove("0.99 + cos(w*tau)", {interval("tau", 0, 1)}, w);
@@ -41,10 +41,10 @@ TEST(ProveTest, RandomGramians) {
   std::normal_distribution<double> normal;
   for (int trial = 0; trial < 20; ++trial) {
     const int n = 2 + trial % 3;
-    const expr::Matrix A = expr::Matrix::NullaryExpr(n, n, [&] { return normal(generator); });
-    expr::Matrix S = expr::Matrix::Zero(n, n);
+    const numbers::Matrix A = numbers::Matrix::NullaryExpr(n, n, [&] { return normal(generator); });
+    numbers::Matrix S = numbers::Matrix::Zero(n, n);
     for (int i = 0; i < n; ++i) S(i, i) = std::pow(10.0, 3 * normal(generator));
-    const expr::Values known = {{"A", A}, {"S", S}};
+    const numbers::Values known = {{"A", A}, {"S", S}};
     const Domain domain = {interval("tau", -0.3, 0.8)};
     EXPECT_EQ(prove("S*(expm(A*tau) + expm(A*tau)' - 2*eye(" + std::to_string(n) + "))*S + 100*S*S",
                     domain, known)

@@ -57,7 +57,7 @@ TEST(ReleaseTest, RestoredScalarsSatisfyTheWholeBlocks) {
   EXPECT_GT(x[3], 0);
   EXPECT_LT(x[4], 0);
   for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_GE(Eigen::SelfAdjointEigenSolver<expr::Matrix>(lmi.blocks[k].value(x)).eigenvalues()(0),
+    EXPECT_GE(Eigen::SelfAdjointEigenSolver<numbers::Matrix>(lmi.blocks[k].value(x)).eigenvalues()(0),
               0.995 * required[k]);
 }
 

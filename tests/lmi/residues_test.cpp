@@ -11,18 +11,18 @@
 namespace gainsmith::lmi {
 namespace {
 
-expr::Matrix sum(const std::vector<std::pair<Atom, expr::Matrix>>& terms, Eigen::Index n,
+numbers::Matrix sum(const std::vector<std::pair<Atom, numbers::Matrix>>& terms, Eigen::Index n,
                  double t) {
-  expr::Matrix result = expr::Matrix::Zero(n, n);
+  numbers::Matrix result = numbers::Matrix::Zero(n, n);
   for (const auto& [atom, matrix] : terms) result += evaluate(atom, t) * matrix;
   return result;
 }
 
-void expect_exponential(const expr::Matrix& F, double low, double high) {
+void expect_exponential(const numbers::Matrix& F, double low, double high) {
   const auto terms = residue_expansion(F, low, high);
   for (int i = 0; i <= 10; ++i) {
     const double t = low + (high - low) * i / 10;
-    const expr::Matrix exact = (F * t).exp();
+    const numbers::Matrix exact = (F * t).exp();
     EXPECT_LT((sum(terms, F.rows(), t) - exact).norm(), 1e-10 * exact.norm()) << F << "\n" << t;
   }
 }
@@ -32,7 +32,7 @@ TEST(ResiduesTest, RandomMatrices) {
   std::normal_distribution<double> number;
   for (int trial = 0; trial < 60; ++trial) {
     const int n = 1 + trial % 6;
-    expect_exponential(expr::Matrix::NullaryExpr(n, n, [&] { return number(generator); }), -0.5, 2);
+    expect_exponential(numbers::Matrix::NullaryExpr(n, n, [&] { return number(generator); }), -0.5, 2);
   }
 }
 
@@ -40,22 +40,22 @@ TEST(ResiduesTest, RandomMatrices) {
 TEST(ResiduesTest, RepeatedEigenvalues) {
   std::mt19937 generator(4);
   std::normal_distribution<double> number;
-  expr::Matrix real(4, 4);
+  numbers::Matrix real(4, 4);
   real << -0.5, 1, 0, 0, 0, -0.5, 1, 0, 0, 0, -0.5, 0, 0, 0, 0, -0.5;
-  expr::Matrix complex(4, 4);
+  numbers::Matrix complex(4, 4);
   complex << -0.2, 2, 1, 0, -2, -0.2, 0, 1, 0, 0, -0.2, 2, 0, 0, -2, -0.2;
-  for (const expr::Matrix& form : {real, complex}) {
+  for (const numbers::Matrix& form : {real, complex}) {
     expect_exponential(form, 0, 3);
     for (int trial = 0; trial < 10; ++trial) {
-      expr::Matrix T = expr::Matrix::NullaryExpr(4, 4, [&] { return number(generator); });
-      T += 3 * expr::Matrix::Identity(4, 4);
+      numbers::Matrix T = numbers::Matrix::NullaryExpr(4, 4, [&] { return number(generator); });
+      T += 3 * numbers::Matrix::Identity(4, 4);
       expect_exponential(T * form * T.inverse(), 0, 2);
     }
   }
 }
 
 TEST(ResiduesTest, AnIntegratorChainIsAPolynomial) {
-  expr::Matrix F = expr::Matrix::Zero(3, 3);
+  numbers::Matrix F = numbers::Matrix::Zero(3, 3);
   F(0, 1) = 1;
   F(1, 2) = 1;
   const auto terms = residue_expansion(F, 0, 5);
@@ -68,7 +68,7 @@ TEST(ResiduesTest, AnIntegratorChainIsAPolynomial) {
 
 /// Only the functions that enter, and nothing that rounding made.
 TEST(ResiduesTest, ARotationHasItsCosineAndSineOnly) {
-  expr::Matrix F(4, 4);
+  numbers::Matrix F(4, 4);
   F << 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 0, -2, 0, 0, 2, 0;
   const auto terms = residue_expansion(F, 0.1, 1.4);
   ASSERT_EQ(terms.size(), 4U);
@@ -79,7 +79,7 @@ TEST(ResiduesTest, ARotationHasItsCosineAndSineOnly) {
 }
 
 TEST(ResiduesTest, CloseEigenvaluesThatDifferAreRefused) {
-  expr::Matrix F(2, 2);
+  numbers::Matrix F(2, 2);
   F << 1, 1, 0, 1.00003;
   EXPECT_THROW(residue_expansion(F, 0, 10), expr::EvaluationError);
 }

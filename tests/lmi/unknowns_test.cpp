@@ -23,14 +23,14 @@ TEST(UnknownsTest, PackingIsTheDocumentedOne) {
   ASSERT_EQ(unknowns.size(), 6 + 6 + 3 + 1);
   std::vector<double> x;
   for (int i = 1; i <= unknowns.size(); ++i) x.push_back(i);
-  const expr::Values values = unknowns.values(x);
-  expr::Matrix P(3, 3);
+  const numbers::Values values = unknowns.values(x);
+  numbers::Matrix P(3, 3);
   P << 1, 2, 3, 2, 4, 5, 3, 5, 6;
   EXPECT_EQ(values.at("P"), P);
-  expr::Matrix Y(3, 2);
+  numbers::Matrix Y(3, 2);
   Y << 7, 10, 8, 11, 9, 12;
   EXPECT_EQ(values.at("Y"), Y);
-  EXPECT_EQ(values.at("D"), expr::Matrix(Eigen::Vector3d(13, 14, 15).asDiagonal()));
+  EXPECT_EQ(values.at("D"), numbers::Matrix(Eigen::Vector3d(13, 14, 15).asDiagonal()));
   EXPECT_EQ(values.at("g")(0, 0), 16);
 }
 

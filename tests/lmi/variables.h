@@ -21,7 +21,7 @@ inline Variable interval(std::string name, double low, double high) {
 
 /// A set or a polytope with the labels "A = 1", "A = 2", ...
 inline Variable elements(std::string name, model::Forall::Over over,
-                         std::vector<expr::Matrix> matrices) {
+                         std::vector<numbers::Matrix> matrices) {
   Variable variable;
   variable.name = std::move(name);
   variable.over = over;
@@ -33,19 +33,19 @@ inline Variable elements(std::string name, model::Forall::Over over,
   return variable;
 }
 
-inline Variable set(std::string name, std::vector<expr::Matrix> matrices) {
+inline Variable set(std::string name, std::vector<numbers::Matrix> matrices) {
   return elements(std::move(name), model::Forall::Over::set, std::move(matrices));
 }
 
-inline Variable polytope(std::string name, std::vector<expr::Matrix> matrices) {
+inline Variable polytope(std::string name, std::vector<numbers::Matrix> matrices) {
   return elements(std::move(name), model::Forall::Over::polytope, std::move(matrices));
 }
 
-inline expr::Matrix number(double value) { return expr::Matrix::Constant(1, 1, value); }
+inline numbers::Matrix number(double value) { return numbers::Matrix::Constant(1, 1, value); }
 
 /// A text in the variables and in matrices that are known.
 inline expr::Program program(const std::string& text, const Domain& domain,
-                             const expr::Values& known = {}) {
+                             const numbers::Values& known = {}) {
   expr::Scope scope;
   for (const Variable& variable : domain)
     scope.symbols[variable.name] = {variable.shape, std::nullopt};

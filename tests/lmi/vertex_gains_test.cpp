@@ -7,7 +7,7 @@
 
 #include "expr/compile.h"
 #include "expr/evaluate.h"
-#include "expr/real.h"
+#include "numbers/real.h"
 #include "lmi/compile.h"
 #include "support/input_error.h"
 #include "support/yaml_problem.h"
@@ -58,16 +58,16 @@ TEST(VertexGainsTest, TheBlocksSumUpToTheInequality) {
       }
       alpha.push_back(weight);
     }
-    expr::Matrix sum = expr::Matrix::Zero(4, 4);
+    numbers::Matrix sum = numbers::Matrix::Zero(4, 4);
     std::size_t at = 2;
     for (std::size_t i = 0; i < 4; ++i)
       for (std::size_t j = i; j < 4; ++j)
         sum += (i == j ? 1 : 2) * alpha[i] * alpha[j] * lmi.blocks[at++].value(x);
 
-    expr::Values values = instance.known_values();
+    numbers::Values values = instance.known_values();
     for (auto& [name, matrix] : lmi.unknowns.values(x)) values[name] = matrix;
-    values["tau"] = expr::Matrix::Constant(1, 1, tau);
-    const expr::Matrix direct = expr::evaluate(relation.difference, values);
+    values["tau"] = numbers::Matrix::Constant(1, 1, tau);
+    const numbers::Matrix direct = numbers::evaluate(relation.difference, values);
     EXPECT_LT((sum - direct).norm(), 1e-13 * (1 + direct.norm())) << tau;
   }
 }
@@ -80,12 +80,12 @@ TEST(VertexGainsTest, WeightsSumToOne) {
   expr::Scope scope = instance.design_scope();
   scope.symbols["t"] = {expr::Shape{}, std::nullopt};
   const auto program = expr::compile(gain, scope);
-  expr::Values values;
+  numbers::Values values;
   for (const std::string& name : instance.functions.at(0).coefficients)
-    values[name] = expr::Matrix::Constant(2, 1, 3);
+    values[name] = numbers::Matrix::Constant(2, 1, 3);
   for (const double t : {0.1, 0.4, 0.77, 1.2}) {
-    values["t"] = expr::Matrix::Constant(1, 1, t);
-    EXPECT_LT((expr::evaluate(program, values) - expr::Matrix::Constant(2, 1, 3)).norm(), 1e-14);
+    values["t"] = numbers::Matrix::Constant(1, 1, t);
+    EXPECT_LT((numbers::evaluate(program, values) - numbers::Matrix::Constant(2, 1, 3)).norm(), 1e-14);
   }
 }
 

@@ -18,14 +18,14 @@ using testing::interval;
 using testing::number;
 
 std::vector<Minimum> minima_of(const std::string& text, const Domain& domain,
-                               const expr::Values& known = {}) {
+                               const numbers::Values& known = {}) {
   return local_minima(testing::program(text, domain, known), domain, known).list;
 }
 
-expr::Matrix random_rotation(int n, std::mt19937& generator) {
+numbers::Matrix random_rotation(int n, std::mt19937& generator) {
   std::normal_distribution<double> normal;
-  const expr::Matrix random = expr::Matrix::NullaryExpr(n, n, [&] { return normal(generator); });
-  return Eigen::HouseholderQR<expr::Matrix>(random).householderQ();
+  const numbers::Matrix random = numbers::Matrix::NullaryExpr(n, n, [&] { return normal(generator); });
+  return Eigen::HouseholderQR<numbers::Matrix>(random).householderQ();
 }
 
 TEST(WorstTest, WithoutVariablesTheMatrixItself) {
@@ -42,9 +42,9 @@ TEST(WorstTest, TheSmallestOfCrossingEigenvaluesIsFound) {
   std::uniform_real_distribution<double> unit(0, 1);
   for (int trial = 0; trial < 60; ++trial) {
     constexpr int n = 4;
-    expr::Matrix a(n, 1);
-    expr::Matrix c(n, 1);
-    expr::Matrix m(n, 1);
+    numbers::Matrix a(n, 1);
+    numbers::Matrix c(n, 1);
+    numbers::Matrix m(n, 1);
     for (int i = 0; i < n; ++i) {
       a(i) = 2 * unit(generator) - 1;
       c(i) = std::exp(6 * unit(generator));
@@ -90,12 +90,12 @@ TEST(WorstTest, EveryTouchingPointIsFound) {
 TEST(WorstTest, TheRotationFailsAtPi) {
   std::mt19937 generator(22);
   std::uniform_real_distribution<double> unit(-1, 1);
-  expr::Matrix A(2, 2);
+  numbers::Matrix A(2, 2);
   A << 0, 1, -1, 0;
   for (int trial = 0; trial < 20; ++trial) {
-    expr::Matrix F(2, 1);
+    numbers::Matrix F(2, 1);
     F << 1 + 0.1 * unit(generator), 0.1 * unit(generator);
-    expr::Matrix P = expr::Matrix::Identity(2, 2);
+    numbers::Matrix P = numbers::Matrix::Identity(2, 2);
     P(0, 1) = P(1, 0) = 0.3 * unit(generator);
     const auto found = minima_of("[P, (P*(eye(2) - F*[1, 0])*expm(A*tau))'; *, P]",
                                  {interval("tau", 3, 3.3)}, {{"A", A}, {"F", F}, {"P", P}});
@@ -124,9 +124,9 @@ TEST(WorstTest, OfAPolytopeTheWorstVertex) {
   std::mt19937 generator(23);
   std::uniform_real_distribution<double> unit(-1, 1);
   for (int trial = 0; trial < 20; ++trial) {
-    std::vector<expr::Matrix> corners(4);
-    for (expr::Matrix& corner : corners)
-      corner = expr::Matrix::NullaryExpr(3, 3, [&] { return unit(generator); });
+    std::vector<numbers::Matrix> corners(4);
+    for (numbers::Matrix& corner : corners)
+      corner = numbers::Matrix::NullaryExpr(3, 3, [&] { return unit(generator); });
     const Domain domain = {testing::polytope("B", corners)};
     const auto found = minima_of("He(B)", domain);
     ASSERT_EQ(found.size(), corners.size());
@@ -152,7 +152,7 @@ TEST(WorstTest, ABoxOfTwoIntervals) {
   std::mt19937 generator(24);
   std::uniform_real_distribution<double> unit(0, 1);
   for (int trial = 0; trial < 10; ++trial) {
-    expr::Matrix m(2, 1);
+    numbers::Matrix m(2, 1);
     m << 2 * unit(generator), 1 + unit(generator);
     const auto found =
         minima_of("[1 + (s - m(1))^2 + 3*(t - m(2))^2 + (s - m(1))*(t - m(2)), 0; 0, 100]",

@@ -19,10 +19,10 @@ TEST(Instance, FindsDimensionsDataAndParameters) {
   const Small small;
   const Instance& instance = small.instance;
   EXPECT_EQ(instance.dimensions, (Dimensions{{"n", 2}, {"m", 1}}));
-  EXPECT_EQ(instance.data.at("A"), (expr::Matrix{{1, 2}, {3, 4}}));
+  EXPECT_EQ(instance.data.at("A"), (numbers::Matrix{{1, 2}, {3, 4}}));
   EXPECT_EQ(instance.data.at("T1")(0, 0), 0.5);
   EXPECT_EQ(instance.data.at("T2")(0, 0), 1.0) << "a default may use the data before it";
-  EXPECT_EQ(instance.data.at("Q"), (expr::Matrix{{2, 0}, {0, 2}}));
+  EXPECT_EQ(instance.data.at("Q"), (numbers::Matrix{{2, 0}, {0, 2}}));
   EXPECT_EQ(instance.parameters.at("delta")(0, 0), 0.5 / 10);
   EXPECT_EQ(instance.parameters.at("rate")(0, 0), 1);
   EXPECT_EQ(instance.known_values().size(), instance.data.size() + 2);
@@ -48,9 +48,9 @@ TEST(Instance, AnOverrideMayGiveADatumThatTheProblemLeavesOut) {
 }
 
 TEST(Instance, AFlatListIsAColumnWhereAColumnIsDeclared) {
-  EXPECT_EQ(Small().instance.data.at("b"), (expr::Matrix{{5}, {6}}));
+  EXPECT_EQ(Small().instance.data.at("b"), (numbers::Matrix{{5}, {6}}));
   const Small upright(changed(kSmallProblem, "b: [5, 6]", "b: [[5], [6]]"));
-  EXPECT_EQ(upright.instance.data.at("b"), (expr::Matrix{{5}, {6}}));
+  EXPECT_EQ(upright.instance.data.at("b"), (numbers::Matrix{{5}, {6}}));
 }
 
 TEST(Instance, KnowsTheShapesOfUnknownsStatesAndGains) {
@@ -66,15 +66,15 @@ TEST(Instance, KnowsTheShapesOfUnknownsStatesAndGains) {
 TEST(Instance, AMatrixSymmetricToRoundingIsMadeExactlySo) {
   const Small small(
       changed(kSmallProblem, "  T1:", "  Q: [[1, 0.30000000000000004], [0.3, 1]]\n  T1:"));
-  const expr::Matrix& Q = small.instance.data.at("Q");
+  const numbers::Matrix& Q = small.instance.data.at("Q");
   EXPECT_EQ(Q(0, 1), Q(1, 0));
   EXPECT_NEAR(Q(0, 1), 0.3, 1e-15);
 }
 
 TEST(Instance, IdentityAndZeroTakeTheDeclaredSize) {
   const Small small(changed(kSmallProblem, "  T1:", "  Q: 0\n  D: -3*I\n  T1:"));
-  EXPECT_EQ(small.instance.data.at("Q"), expr::Matrix::Zero(2, 2));
-  EXPECT_EQ(small.instance.data.at("D"), -3 * expr::Matrix::Identity(2, 2));
+  EXPECT_EQ(small.instance.data.at("Q"), numbers::Matrix::Zero(2, 2));
+  EXPECT_EQ(small.instance.data.at("D"), -3 * numbers::Matrix::Identity(2, 2));
 }
 
 TEST(Instance, ItsScopesHoldWhatEachPartMayUse) {
@@ -92,9 +92,9 @@ TEST(Instance, ItsScopesHoldWhatEachPartMayUse) {
 
 TEST(Instance, DefinitionsOutputsAndSignalsEvaluate) {
   const Small small;
-  expr::Values values = small.instance.known_values();
-  values["z"] = expr::Matrix{{1}, {2}};
-  values["zh"] = expr::Matrix{{3}, {5}};
+  numbers::Values values = small.instance.known_values();
+  values["z"] = numbers::Matrix{{1}, {2}};
+  values["zh"] = numbers::Matrix{{3}, {5}};
   const auto scope = small.instance.simulation_scope();
   const auto value = [&](const std::string& text) {
     return scalar_value(expr::parse({text, "t"}), scope, values);

@@ -22,22 +22,22 @@ const std::string kMethod =
     changed(changed(kSmallMethod, "X: n x m", "X: {shape: n x m, of: tau, degree: 1}"),
             "gains: {K: b'*P, A: A}", "gains: {K: b'*P, A: A, G(t): inv(P)*X(t)}");
 
-const expr::Matrix kFirst{{1}, {2}};
-const expr::Matrix kSecond{{5}, {-7}};
+const numbers::Matrix kFirst{{1}, {2}};
+const numbers::Matrix kSecond{{5}, {-7}};
 
 Gains file() {
   Gains gains;
   gains.file = "g.json";
-  gains.gains = {{"K", expr::Matrix{{9, 8}}}};
-  gains.unknowns = {{"P", 2 * expr::Matrix::Identity(2, 2)}, {"X_0", kFirst}, {"X_1", kSecond}};
+  gains.gains = {{"K", numbers::Matrix{{9, 8}}}};
+  gains.unknowns = {{"P", 2 * numbers::Matrix::Identity(2, 2)}, {"X_0", kFirst}, {"X_1", kSecond}};
   gains.functions = {{"X(tau)", "X_0 + X_1*tau"}};
   return gains;
 }
 
-expr::Matrix value(const Gains& gains, const std::string& text) {
+numbers::Matrix value(const Gains& gains, const std::string& text) {
   const Small small(kSmallProblem, kMethod);
   const Stated stated = state(small.instance, gains);
-  return expr::evaluate(expr::compile(expr::parse({text, "test"}), stated.scope), stated.values);
+  return numbers::evaluate(expr::compile(expr::parse({text, "test"}), stated.scope), stated.values);
 }
 
 std::string refusal(const Gains& gains) {
@@ -46,7 +46,7 @@ std::string refusal(const Gains& gains) {
   return error.message();
 }
 
-TEST(Stated, AGainIsTheMatrixOfTheFile) { EXPECT_EQ(value(file(), "K"), (expr::Matrix{{9, 8}})); }
+TEST(Stated, AGainIsTheMatrixOfTheFile) { EXPECT_EQ(value(file(), "K"), (numbers::Matrix{{9, 8}})); }
 
 TEST(Stated, AFormulaIsEvaluatedOverTheFilesTexts) {
   Gains gains = file();
@@ -92,11 +92,11 @@ TEST(Stated, WhatDoesNotFitIsRefused) {
   gains.unknowns.erase(gains.unknowns.begin() + 1);
   EXPECT_NE(refusal(gains).find("lacks the coefficients X_0"), std::string::npos);
   gains = file();
-  gains.unknowns[1].second = expr::Matrix::Zero(3, 1);
+  gains.unknowns[1].second = numbers::Matrix::Zero(3, 1);
   EXPECT_NE(refusal(gains).find("X_0 in the gain file is 3 x 1, expected 2 x 1"),
             std::string::npos);
   gains = file();
-  gains.gain_functions = {{"G", "t", Kind::polynomial, "", {expr::Matrix::Zero(1, 2)}}};
+  gains.gain_functions = {{"G", "t", Kind::polynomial, "", {numbers::Matrix::Zero(1, 2)}}};
   EXPECT_NE(refusal(gains).find("G_0 in the gain file is 1 x 2"), std::string::npos);
   gains.gain_functions = {{"G", "t", Kind::polynomial, "", {}}};
   EXPECT_NE(refusal(gains).find("no coefficients"), std::string::npos);

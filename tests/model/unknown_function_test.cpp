@@ -9,7 +9,7 @@
 
 #include "expr/compile.h"
 #include "expr/parser.h"
-#include "expr/real.h"
+#include "numbers/real.h"
 #include "model/small_problem.h"
 #include "support/input_error.h"
 
@@ -23,15 +23,15 @@ std::string with_function(const std::string& declaration) {
 }
 
 /// "X(t)" of the instance at t, the coefficients given.
-expr::Matrix value_at(const Instance& instance, const std::vector<expr::Matrix>& coefficients,
+numbers::Matrix value_at(const Instance& instance, const std::vector<numbers::Matrix>& coefficients,
                       double t) {
   expr::Scope scope = instance.design_scope();
   scope.symbols["t"] = {expr::Shape{}, std::nullopt};
-  expr::Values values = instance.known_values();
-  values["t"] = expr::Matrix::Constant(1, 1, t);
+  numbers::Values values = instance.known_values();
+  values["t"] = numbers::Matrix::Constant(1, 1, t);
   for (std::size_t k = 0; k < coefficients.size(); ++k)
     values[coefficient_name("X", k)] = coefficients[k];
-  return expr::evaluate(expr::compile(expr::parse({"X(t)", "test"}), scope), values);
+  return numbers::evaluate(expr::compile(expr::parse({"X(t)", "test"}), scope), values);
 }
 
 TEST(UnknownFunction, IsThePolynomialOfItsCoefficients) {
@@ -41,11 +41,11 @@ TEST(UnknownFunction, IsThePolynomialOfItsCoefficients) {
     const Small small(
         kSmallProblem,
         with_function("{shape: n x m, of: tau, degree: " + std::to_string(degree) + "}"));
-    std::vector<expr::Matrix> coefficients;
+    std::vector<numbers::Matrix> coefficients;
     for (int k = 0; k <= degree; ++k)
-      coefficients.push_back(expr::Matrix::NullaryExpr(2, 1, [&] { return draw(random); }));
+      coefficients.push_back(numbers::Matrix::NullaryExpr(2, 1, [&] { return draw(random); }));
     for (const double t : {-1.5, 0.0, 0.3, 2.0}) {
-      expr::Matrix expected = expr::Matrix::Zero(2, 1);
+      numbers::Matrix expected = numbers::Matrix::Zero(2, 1);
       for (std::size_t k = coefficients.size(); k-- > 0;) expected = expected * t + coefficients[k];
       EXPECT_TRUE(value_at(small.instance, coefficients, t).isApprox(expected, 1e-14)) << degree;
     }
@@ -82,8 +82,8 @@ TEST(UnknownFunction, CanBeDefinedAnew) {
                                         {"X_0", {2, 1}},
                                         {"X_1", {2, 1}},
                                         {"g", {1, 1}, Structure::scalar}}));
-  const expr::Matrix a{{1}, {2}};
-  const expr::Matrix b{{5}, {7}};
+  const numbers::Matrix a{{1}, {2}};
+  const numbers::Matrix b{{5}, {7}};
   EXPECT_TRUE(value_at(small.instance, {a, b}, 0.25).isApprox(0.75 * a + 0.25 * b, 1e-15));
   EXPECT_THROW(redefine(small.instance, "P", 1, "P_0", {}), std::logic_error);
 }

@@ -12,7 +12,7 @@
 namespace gainsmith::verify {
 namespace {
 
-using expr::Matrix;
+using numbers::Matrix;
 using Law = model::SamplingLaw::Kind;
 using Start = model::InitialValue::Kind;
 using tests::TextProblem;

@@ -1,4 +1,4 @@
-#include "verify/pack.h"
+#include "numbers/pack.h"
 
 #include <gtest/gtest.h>
 
@@ -7,13 +7,13 @@
 
 #include "base/random.h"
 #include "expr/compile.h"
-#include "expr/real.h"
+#include "numbers/real.h"
 #include "hybrid/text_problem.h"
 
 namespace gainsmith::verify {
 namespace {
 
-using expr::Matrix;
+using numbers::Matrix;
 
 /// Inputs x (3 x 1), X (2 x 2) and s (1 x 1) that move, and M (3 x 3) that does not.
 class PackTest : public testing::Test {
@@ -44,7 +44,7 @@ class PackTest : public testing::Test {
     const Pack constant = constant_pack(M);
     packs.fix("M", constant);
     std::map<std::string, Pack> inputs;
-    std::vector<expr::Values> points(Pack::kLanes);
+    std::vector<numbers::Values> points(Pack::kLanes);
     for (const char* name : {"x", "X", "s"}) {
       const expr::Shape shape = scope_.symbols[name].shape;
       Pack& pack = inputs[name];
@@ -59,9 +59,9 @@ class PackTest : public testing::Test {
     const Pack& found = packs.run();
     double worst = 0;
     for (Eigen::Index lane = 0; lane < Pack::kLanes; ++lane) {
-      expr::Values& values = points[static_cast<std::size_t>(lane)];
+      numbers::Values& values = points[static_cast<std::size_t>(lane)];
       values["M"] = M;
-      const Matrix expected = expr::evaluate(program, values);
+      const Matrix expected = numbers::evaluate(program, values);
       const Eigen::VectorXd row = found.same ? Eigen::VectorXd(found.matrix.reshaped())
                                              : Eigen::VectorXd(found.lanes.row(lane).transpose());
       worst = std::max(worst, (row - expected.reshaped()).norm() / (1e-300 + expected.norm()));

@@ -1,18 +1,17 @@
-#include "verify/pack.h"
+#include "numbers/pack.h"
 
 #include <algorithm>
 #include <limits>
 #include <vector>
 
-#include "expr/real.h"
+#include "numbers/real.h"
 
-namespace gainsmith::verify {
+namespace gainsmith::numbers {
 
 namespace {
 
 using Eigen::Index;
 using expr::Instruction;
-using expr::Matrix;
 using expr::Op;
 using Operands = std::span<const Pack* const>;
 
@@ -70,7 +69,7 @@ void point_by_point(const Instruction& instruction, Operands operands, Pack& out
     for (std::size_t i = 0; i < values.size(); ++i)
       if (!operands[i]->same) values[i].reshaped() = operands[i]->lanes.row(lane).transpose();
     try {
-      expr::RealAlgebra{}.apply(instruction, pointers, result);
+      RealAlgebra{}.apply(instruction, pointers, result);
       out.lanes.row(lane) = result.reshaped().transpose();
     } catch (const expr::EvaluationError&) {
       out.lanes.row(lane).setConstant(std::numeric_limits<double>::quiet_NaN());
@@ -82,7 +81,7 @@ void compute_once(const Instruction& instruction, Operands operands, Pack& out) 
   std::vector<const Matrix*> pointers;
   for (const Pack* operand : operands) pointers.push_back(&operand->matrix);
   out.same = true;
-  expr::RealAlgebra{}.apply(instruction, pointers, out.matrix);
+  RealAlgebra{}.apply(instruction, pointers, out.matrix);
 }
 
 }  // namespace
@@ -136,4 +135,4 @@ void PackAlgebra::apply(const Instruction& instruction, Operands operands, Pack&
   }
 }
 
-}  // namespace gainsmith::verify
+}  // namespace gainsmith::numbers

@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "expr/matrix.h"
 #include "expr/program.h"
+#include "numbers/matrix.h"
 
-namespace gainsmith::verify {
+namespace gainsmith::numbers {
 
 /// A matrix at kLanes points. Each lane is computed alone and all lanes the same way, so a value
 /// does not depend on the points beside it.
@@ -18,12 +18,12 @@ struct Pack {
   bool same = true;  ///< equal at all points: `matrix` holds it, else `lanes`
   Eigen::Index rows = 0;
   Eigen::Index cols = 0;
-  expr::Matrix matrix;
+  Matrix matrix;
   Eigen::ArrayXXd lanes;  ///< kLanes x elements; the matrix's elements column by column
 };
 
 /// The value that is `matrix` at all points.
-Pack constant_pack(const expr::Matrix& matrix);
+Pack constant_pack(const Matrix& matrix);
 
 /// Pack arithmetic. Values that do not move are computed by RealAlgebra, errors included; a lane
 /// in which an operation has no result, or overflows, holds a NaN or an infinity and goes on.
@@ -33,4 +33,4 @@ struct PackAlgebra {
              Pack& out) const;
 };
 
-}  // namespace gainsmith::verify
+}  // namespace gainsmith::numbers

@@ -1,4 +1,4 @@
-#include "expr/real.h"
+#include "numbers/real.h"
 
 #include <Eigen/LU>
 #include <Eigen/SVD>
@@ -10,7 +10,12 @@
 
 #include "base/number.h"
 
-namespace gainsmith::expr {
+namespace gainsmith::numbers {
+
+using expr::EvaluationError;
+using expr::Instruction;
+using expr::Op;
+using expr::Shape;
 
 namespace {
 
@@ -138,6 +143,7 @@ void RealAlgebra::apply(const Instruction& instruction, std::span<const Matrix* 
       out = Matrix::Constant(1, 1, round_constant(instruction));
       break;
     case Op::input:
+    case Op::call:
       throw std::logic_error("an input is not computed");
     case Op::zeros:
       out.setZero(shape.rows, shape.cols);
@@ -252,13 +258,21 @@ void RealAlgebra::apply(const Instruction& instruction, std::span<const Matrix* 
     throw EvaluationError("the " + to_string(instruction.op) + " is not a finite number");
 }
 
-Matrix evaluate(const Program& program, const Values& values) {
-  Evaluator<RealAlgebra> evaluator(program);
-  for (const Input& input : program.inputs) {
+Matrix evaluate(const expr::Program& program, const Values& values) {
+  expr::Evaluator<RealAlgebra> evaluator(program);
+  for (const expr::Input& input : program.inputs) {
     const auto found = values.find(input.name);
     if (found != values.end()) evaluator.set(input.name, found->second);
   }
   return evaluator.run();
+}
+
+double KnownDoubles::number(const expr::Program& program) const {
+  return evaluate(program, values_)(0, 0);
+}
+
+int KnownDoubles::rank(const expr::Program& program, double tolerance) const {
+  return numerical_rank(evaluate(program, values_), tolerance);
 }
 
 int numerical_rank(const Matrix& matrix, double tolerance) {
@@ -271,4 +285,4 @@ int numerical_rank(const Matrix& matrix, double tolerance) {
   return static_cast<int>((values.array() > threshold).count());
 }
 
-}  // namespace gainsmith::expr
+}  // namespace gainsmith::numbers

@@ -3,8 +3,8 @@
 
 #include <Eigen/Core>
 
-namespace gainsmith::expr {
+namespace gainsmith::numbers {
 
 using Matrix = Eigen::MatrixXd;
 
-}  // namespace gainsmith::expr
+}  // namespace gainsmith::numbers

@@ -1,0 +1,39 @@
+// A program under construction.
+#pragma once
+
+#include <array>
+#include <map>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "expr/program.h"
+
+namespace gainsmith::expr {
+
+/// Collects instructions, equal ones once, and takes programs out of them.
+class Assembly {
+ public:
+  /// Adds an instruction whose operands are here already, unless there is one like it; its index.
+  int add(Instruction instruction);
+  /// The instruction that reads an input. `like` gives its place.
+  int add_input(const std::string& name, Shape shape, const Instruction& like);
+  /// The instruction that calls a function of the given shape; `like` gives its place and text.
+  int add_call(const std::string& name, Shape shape, int argument, const Instruction& like);
+
+  const Instruction& operator[](int at) const {
+    return program_.code[static_cast<std::size_t>(at)];
+  }
+  Shape shape(int at) const { return (*this)[at].shape; }
+
+  /// The program that computes `at`, without the instructions that it does not need.
+  Program extract(int at) const;
+
+ private:
+  using Key = std::tuple<Op, std::vector<int>, int, int, std::array<int, 4>, std::string>;
+
+  Program program_;
+  std::map<Key, int> known_;
+};
+
+}  // namespace gainsmith::expr

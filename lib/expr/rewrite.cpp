@@ -1,0 +1,136 @@
+#include "expr/rewrite.h"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <utility>
+
+#include "expr/assembly.h"
+
+namespace gainsmith::expr {
+
+namespace {
+
+using BodyOf = std::function<const Body&(const Instruction&)>;
+
+/// An instruction that only carries the place of what was made, not read.
+Instruction mark(const Place& place) {
+  Instruction result;
+  result.origin = std::make_shared<const Text>(Text::generated("", place));
+  return result;
+}
+
+Instruction operation(Op op, std::vector<int> operands, Shape shape, const Instruction& like) {
+  return {op, std::move(operands), shape, {}, {}, like.origin, like.offset};
+}
+
+/// Adds the instructions of a program, calls replaced; its inputs stay inputs, but for `variable`,
+/// which is the instruction `argument`. The index of its result.
+int add_program(Assembly& assembly, const Program& program, const BodyOf* body,
+                const std::string& variable = "", int argument = -1) {
+  std::vector<int> moved;
+  moved.reserve(program.code.size());
+  for (const Instruction& instruction : program.code) {
+    if (instruction.op == Op::input) {
+      const Input& input = program.inputs[static_cast<std::size_t>(instruction.attributes[0])];
+      const bool replaced = argument >= 0 && input.name == variable;
+      moved.push_back(replaced ? argument
+                               : assembly.add_input(input.name, input.shape, instruction));
+      continue;
+    }
+    if (instruction.op == Op::call) {
+      const int at = moved[static_cast<std::size_t>(instruction.operands[0])];
+      if (body == nullptr) {
+        moved.push_back(
+            assembly.add_call(called_by(program, instruction), instruction.shape, at, instruction));
+        continue;
+      }
+      // The text of a call names it; inside of another body it is that body's own.
+      const Body& found = (*body)(instruction);
+      moved.push_back(add_program(assembly, found.program, body, found.variable, at));
+      continue;
+    }
+    Instruction copy = instruction;
+    for (int& operand : copy.operands) operand = moved[static_cast<std::size_t>(operand)];
+    moved.push_back(assembly.add(std::move(copy)));
+  }
+  return moved[static_cast<std::size_t>(program.result)];
+}
+
+}  // namespace
+
+Program link(const Program& program, const BodyOf& body) {
+  if (program.functions.empty()) return program;
+  Assembly assembly;
+  return assembly.extract(add_program(assembly, program, &body));
+}
+
+const std::string& called_by(const Program& program, const Instruction& call) {
+  return program.functions[static_cast<std::size_t>(call.attributes[0])].name;
+}
+
+std::vector<const Instruction*> calls_in(const Program& program) {
+  std::vector<const Instruction*> calls;
+  for (const Instruction& instruction : program.code)
+    if (instruction.op == Op::call) calls.push_back(&instruction);
+  return calls;
+}
+
+Program argument_of(const Program& program, const Instruction& call) {
+  Program whole = program;
+  whole.result = call.operands[0];
+  Assembly assembly;
+  return assembly.extract(add_program(assembly, whole, nullptr));
+}
+
+Program combination(const std::vector<Program>& factors, const std::vector<std::string>& terms,
+                    Shape shape, const Place& place) {
+  const Instruction like = mark(place);
+  Assembly assembly;
+  int sum = -1;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    int term = -1;
+    if (factors[k].code.empty()) {
+      term = assembly.add_input(terms[k], shape, like);
+    } else {
+      const int matrix = assembly.add_input(terms[k], shape, like);
+      const int factor = add_program(assembly, factors[k], nullptr);
+      const Op op = shape.is_scalar() ? Op::multiply : Op::scale;
+      term = assembly.add(operation(op, {factor, matrix}, shape, like));
+    }
+    sum = sum < 0 ? term : assembly.add(operation(Op::add, {sum, term}, shape, like));
+  }
+  if (sum < 0) throw std::logic_error("a combination without terms");
+  return assembly.extract(sum);
+}
+
+Program with_slack(const Program& program, const std::string& name, const std::string& scale) {
+  Assembly assembly;
+  const int difference = add_program(assembly, program, nullptr);
+  const Instruction like = assembly[difference];
+  const Shape shape = like.shape;
+  Instruction number = operation(Op::constant, {}, {}, like);
+  number.text = scale;
+  const int factor = assembly.add(std::move(number));
+  const int slack = assembly.add_input(name, {}, like);
+  const int product = assembly.add(operation(Op::multiply, {factor, slack}, {}, like));
+  const int room = assembly.add(operation(Op::identity, {product}, shape, like));
+  return assembly.extract(assembly.add(operation(Op::add, {difference, room}, shape, like)));
+}
+
+Program sum_of(const std::vector<std::string>& names, const Place& place) {
+  return combination(std::vector<Program>(names.size()), names, {}, place);
+}
+
+Program input_program(const std::string& name, Shape shape, const Place& place) {
+  return combination({Program{}}, {name}, shape, place);
+}
+
+Program constant_program(const std::string& decimal, const Place& place) {
+  Assembly assembly;
+  Instruction number = mark(place);
+  number.text = decimal;
+  return assembly.extract(assembly.add(std::move(number)));
+}
+
+}  // namespace gainsmith::expr
