@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace gainsmith {
@@ -16,6 +17,8 @@ class DoubleDouble {
   constexpr DoubleDouble() = default;
   constexpr DoubleDouble(double value) : hi_(value) {}
   constexpr DoubleDouble(int value) : hi_(value) {}
+  /// Of a size or an index, below 2^53: Eigen counts by them.
+  constexpr DoubleDouble(std::ptrdiff_t value) : hi_(static_cast<double>(value)) {}
   constexpr DoubleDouble(double hi, double lo) : hi_(hi), lo_(lo) {}
 
   constexpr double hi() const { return hi_; }

@@ -58,7 +58,8 @@ std::string operators_page() {
   std::string page = "| operator | | | example |\n|---|---|---|---|\n";
   for (const Operator& row : kOperators)
     page += "| " + std::string(row.usage) + " | " + std::string(row.name) + " | " +
-            std::string(row.remark) + " | " + example_cell(row.example, row.value) + " |\n";
+            std::string(row.remark) + (row.remark.empty() ? "| " : " | ") +
+            example_cell(row.example, row.value) + " |\n";
   return page;
 }
 

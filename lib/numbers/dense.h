@@ -72,8 +72,8 @@ struct Svd {
 };
 Svd full_svd(const Matrix& M);
 
-/// The inverse by LU with pivots, and an estimate of the reciprocal condition in the 1-norm. M must
-/// not be empty.
+/// The inverse by LU with pivots, and an estimate of the reciprocal condition in the 1-norm: not
+/// above rounding, or NaN, when M is singular. M must not be empty.
 struct Inverse {
   Matrix matrix;
   double condition = 0;

@@ -1,4 +1,4 @@
-"""The pages show what is there: links, functions, examples, inequalities, options.
+"""The pages show what is there: links, examples, inequalities, options.
 
     pages_test.py TREE GAINSMITH
 """
@@ -84,16 +84,6 @@ class Pages(unittest.TestCase):
         for name in os.listdir(os.path.join(TREE, "docs/decisions")):
             title = read("docs/decisions/" + name).splitlines()[0]
             self.assertEqual(title.split(".")[0], f"# {int(name[:4])}", name)
-
-    def test_functions_of_the_language(self):
-        source = read("lib/expr/functions.cpp")
-        table = re.findall(r'\{\w+, "\w+", -?\d+, -?\d+,\s*"([^"]+)",\s*"([^"]+)"\}', source)
-        self.assertGreater(len(table), 20)
-        page = read("docs/language.md")
-        for usage, meaning in table:
-            row = re.search(r"^\| `" + re.escape(usage) + r"` \| (.*) \|$", page, re.M)
-            self.assertIsNotNone(row, usage)
-            self.assertEqual(row.group(1).strip("`"), meaning)
 
     def test_readme_shows_the_problem_file(self):
         shown = yaml_blocks("README.md", "problem")

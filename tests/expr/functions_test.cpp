@@ -192,7 +192,7 @@ TEST(EmptyMatrices, AreHandledByEveryFunction) {
 }
 
 TEST(Table, EveryFunctionIsFoundAndExplained) {
-  EXPECT_EQ(functions().size(), 29U);
+  EXPECT_GE(functions().size(), 29U);
   for (const Function& function : functions()) {
     EXPECT_EQ(find_function(function.name), &function);
     EXPECT_TRUE(is_reserved(function.name));

@@ -17,7 +17,7 @@ class Messages : public testing::Test {
   Messages() {
     world.set("A", Matrix::Identity(2, 2)).set("B", Matrix::Ones(2, 3)).set("delta", 0.1);
     world.set("zero", 0.0).set("singular", Matrix::Ones(2, 2)).set("big", 1e200);
-    world.scope.symbols["P"] = {{2, 2}, std::nullopt};
+    world.scope.symbols["P"] = {{2, 2}};
   }
   InputError of(const std::string& text) const {
     return input_error([&] { world(text); });

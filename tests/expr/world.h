@@ -1,6 +1,7 @@
 // Shorthand of the tests of expr: texts become values, symbols are given by name.
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <random>
 #include <string>
@@ -13,15 +14,21 @@
 
 namespace gainsmith::expr {
 
+using numbers::evaluate;
+using numbers::Matrix;
+using numbers::RealAlgebra;
+using numbers::Values;
+
 /// A scope whose symbols have known values, and the values.
 struct World {
   Scope scope;
   Values values;
 
+  World() { scope.known = std::make_shared<numbers::KnownDoubles>(values); }
   World& set(const std::string& name, const Matrix& value) {
-    const Shape shape{static_cast<int>(value.rows()), static_cast<int>(value.cols())};
-    scope.symbols[name] = {shape, value};
+    scope.symbols[name] = {numbers::shape_of(value), true};
     values[name] = value;
+    scope.known = std::make_shared<numbers::KnownDoubles>(values);
     return *this;
   }
   World& set(const std::string& name, double value) {

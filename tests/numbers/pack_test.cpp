@@ -7,22 +7,22 @@
 
 #include "base/random.h"
 #include "expr/compile.h"
+#include "expr/parser.h"
 #include "numbers/real.h"
-#include "hybrid/text_problem.h"
 
-namespace gainsmith::verify {
+namespace gainsmith::numbers {
 namespace {
 
-using numbers::Matrix;
+expr::Expression parse(const std::string& text) { return expr::parse({text, "test"}); }
 
 /// Inputs x (3 x 1), X (2 x 2) and s (1 x 1) that move, and M (3 x 3) that does not.
 class PackTest : public testing::Test {
  protected:
   PackTest() {
-    scope_.symbols["x"] = {{3, 1}, std::nullopt};
-    scope_.symbols["X"] = {{2, 2}, std::nullopt};
-    scope_.symbols["s"] = {{1, 1}, std::nullopt};
-    scope_.symbols["M"] = {{3, 3}, std::nullopt};
+    scope_.symbols["x"] = {{3, 1}};
+    scope_.symbols["X"] = {{2, 2}};
+    scope_.symbols["s"] = {{1, 1}};
+    scope_.symbols["M"] = {{3, 3}};
   }
 
   Matrix random(Eigen::Index rows, Eigen::Index cols) {
@@ -38,13 +38,13 @@ class PackTest : public testing::Test {
   /// Evaluates at kLanes random points by packs and point by point; the largest relative
   /// difference.
   double difference(const std::string& text) {
-    const expr::Program program = expr::compile(tests::parse(text), scope_);
+    const expr::Program program = expr::compile(parse(text), scope_);
     expr::Evaluator<PackAlgebra> packs(program);
     const Matrix M = random(3, 3);
     const Pack constant = constant_pack(M);
     packs.fix("M", constant);
     std::map<std::string, Pack> inputs;
-    std::vector<numbers::Values> points(Pack::kLanes);
+    std::vector<Values> points(Pack::kLanes);
     for (const char* name : {"x", "X", "s"}) {
       const expr::Shape shape = scope_.symbols[name].shape;
       Pack& pack = inputs[name];
@@ -59,9 +59,9 @@ class PackTest : public testing::Test {
     const Pack& found = packs.run();
     double worst = 0;
     for (Eigen::Index lane = 0; lane < Pack::kLanes; ++lane) {
-      numbers::Values& values = points[static_cast<std::size_t>(lane)];
+      Values& values = points[static_cast<std::size_t>(lane)];
       values["M"] = M;
-      const Matrix expected = numbers::evaluate(program, values);
+      const Matrix expected = evaluate(program, values);
       const Eigen::VectorXd row = found.same ? Eigen::VectorXd(found.matrix.reshaped())
                                              : Eigen::VectorXd(found.lanes.row(lane).transpose());
       worst = std::max(worst, (row - expected.reshaped()).norm() / (1e-300 + expected.norm()));
@@ -119,8 +119,8 @@ TEST_F(PackTest, EveryOperationIsThatOfDoubles) {
 
 TEST(Pack, LaneWithoutAResultIsNoNumberAndTheOthersGoOn) {
   expr::Scope scope;
-  scope.symbols["s"] = {{1, 1}, std::nullopt};
-  const expr::Program program = expr::compile(tests::parse("log(s) + 1/s"), scope);
+  scope.symbols["s"] = {{1, 1}};
+  const expr::Program program = expr::compile(parse("log(s) + 1/s"), scope);
   expr::Evaluator<PackAlgebra> evaluator(program);
   Pack s{false, 1, 1, {}, Eigen::ArrayXXd::Constant(Pack::kLanes, 1, 1.0)};
   s.lanes(3) = -1;
@@ -135,9 +135,9 @@ TEST(Pack, LaneWithoutAResultIsNoNumberAndTheOthersGoOn) {
 
 TEST(Pack, ConstantPartThatFailsIsAnErrorWithItsPlace) {
   expr::Scope scope;
-  scope.symbols["s"] = {{1, 1}, std::nullopt};
-  scope.symbols["Z"] = {{2, 2}, std::nullopt};
-  const expr::Program program = expr::compile(tests::parse("s*trace(inv(Z))"), scope);
+  scope.symbols["s"] = {{1, 1}};
+  scope.symbols["Z"] = {{2, 2}};
+  const expr::Program program = expr::compile(parse("s*trace(inv(Z))"), scope);
   expr::Evaluator<PackAlgebra> evaluator(program);
   const Pack zero = constant_pack(Matrix::Zero(2, 2));
   const Pack s{false, 1, 1, {}, Eigen::ArrayXXd::Zero(Pack::kLanes, 1)};
@@ -146,10 +146,10 @@ TEST(Pack, ConstantPartThatFailsIsAnErrorWithItsPlace) {
   try {
     evaluator.run();
     FAIL() << "expected an error";
-  } catch (const InputError& error) {
+  } catch (const expr::EvaluationError& error) {
     EXPECT_EQ(error.place().column, 9) << error.what();
   }
 }
 
 }  // namespace
-}  // namespace gainsmith::verify
+}  // namespace gainsmith::numbers

@@ -1,0 +1,12 @@
+#include "numbers/real_wide.h"
+
+namespace gainsmith::numbers {
+
+template <>
+struct Foundation<DoubleDouble> : WideFoundation<DoubleDouble> {};
+
+template struct Real<DoubleDouble>;
+template MatrixOf<DoubleDouble> evaluate<DoubleDouble>(const expr::Program&,
+                                                       const ValuesOf<DoubleDouble>&);
+
+}  // namespace gainsmith::numbers

@@ -1,0 +1,83 @@
+// Internal to numbers: what Real needs of a scalar beyond double.
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/LU>
+#include <Eigen/SVD>
+#include <limits>
+#include <optional>
+#include <string>
+
+#include "base/eigen_scalars.h"
+#include "base/scalars.h"
+#include "numbers/real_rules.h"
+
+namespace gainsmith::numbers {
+
+template <class Scalar>
+struct WideInverse {
+  MatrixOf<Scalar> matrix;
+  Scalar condition;
+};
+
+template <class Scalar>
+struct WideSvd {
+  MatrixOf<Scalar> U;
+  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> s;
+  MatrixOf<Scalar> V;
+};
+
+/// e^M = (e^X)^(2^k) with X = M / 2^k, |X| <= 1/2 in the 1-norm, and e^X by its series, of which
+/// the first term left out is below epsilon / 8.
+template <class Scalar>
+MatrixOf<Scalar> wide_exponential(const MatrixOf<Scalar>& M) {
+  constexpr int kMostSquarings = 5000;
+  if (M.size() == 0) return M;
+  Scalar norm = M.cwiseAbs().colwise().sum().maxCoeff();
+  Scalar scale(1);
+  int squarings = 0;
+  for (; norm > Scalar(0.5) && squarings < kMostSquarings; ++squarings) {
+    norm = norm / Scalar(2);
+    scale = scale / Scalar(2);
+  }
+  int terms = 1;
+  for (Scalar term = norm; term > std::numeric_limits<Scalar>::epsilon() / Scalar(8); ++terms)
+    term = term * norm / Scalar(terms + 1);
+  const MatrixOf<Scalar> X = M * scale;
+  const MatrixOf<Scalar> I = MatrixOf<Scalar>::Identity(M.rows(), M.cols());
+  MatrixOf<Scalar> result = I;
+  for (int k = terms; k >= 1; --k) result = (I + X * result / Scalar(k)).eval();
+  for (int k = 0; k < squarings; ++k) result = (result * result).eval();
+  return result;
+}
+
+template <class Scalar>
+struct WideFoundation {
+  using Wide = MatrixOf<Scalar>;
+  using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+
+  static std::optional<Scalar> parse(const std::string& decimal) {
+    return parse_as<Scalar>(decimal);
+  }
+  static std::optional<Scalar> pi() { return gainsmith::pi<Scalar>(); }
+  /// As many epsilons as 1e-15 is for double.
+  static Scalar least_condition() {
+    return std::numeric_limits<Scalar>::epsilon() * Scalar(1e-15) /
+           Scalar(std::numeric_limits<double>::epsilon());
+  }
+  static WideInverse<Scalar> inverse(const Wide& M) {
+    const Eigen::PartialPivLU<Wide> lu(M);
+    return {lu.inverse(), lu.rcond()};
+  }
+  static Column singular_values(const Wide& M) {
+    if (M.size() == 0) return Column::Zero(0);
+    return Eigen::JacobiSVD<Wide>(M).singularValues();
+  }
+  static WideSvd<Scalar> full_svd(const Wide& M) {
+    const Eigen::JacobiSVD<Wide> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
+    return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
+  }
+  static Wide exponential(const Wide& M) { return wide_exponential<Scalar>(M); }
+};
+
+}  // namespace gainsmith::numbers

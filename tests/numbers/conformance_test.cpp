@@ -1,0 +1,47 @@
+#include "numbers/conformance.h"
+
+#include "base/eigen_scalars.h"
+#include "numbers/pack.h"
+
+namespace gainsmith::numbers {
+namespace {
+
+template <class Scalar>
+Subject real(const std::string& name, double tolerance) {
+  using Value = MatrixOf<Scalar>;
+  const auto to = [](const Matrix& matrix) -> Value { return matrix.cast<Scalar>(); };
+  const auto from = [](const Value& value) -> Matrix {
+    return value.unaryExpr([](const Scalar& x) { return static_cast<double>(x); });
+  };
+  return subject<Real<Scalar>>(name, tolerance, to, to, from);
+}
+
+Subject pack() {
+  const auto moving = [](const Matrix& matrix) {
+    Pack result{false, matrix.rows(), matrix.cols(), {}, {}};
+    result.lanes = matrix.reshaped().transpose().replicate(Pack::kLanes, 1).array();
+    return result;
+  };
+  const auto value = [](const Pack& pack) -> Matrix {
+    if (pack.same) return pack.matrix;
+    Matrix result(pack.rows, pack.cols);
+    result.reshaped() = pack.lanes.row(0).transpose();
+    for (Eigen::Index lane = 1; lane < Pack::kLanes; ++lane)
+      EXPECT_TRUE((pack.lanes.row(lane) == pack.lanes.row(0)).all()) << "lane " << lane;
+    return result;
+  };
+  return subject<PackAlgebra>("pack", 1e-14, constant_pack, moving, value);
+}
+
+INSTANTIATE_TEST_SUITE_P(NumberTypes, Conformance,
+                         testing::Values(real<double>("double", 1e-14),
+                                         real<DoubleDouble>("31 digits", 1e-29),
+                                         real<Decimal100>("100 digits", 1e-97), pack()),
+                         [](const auto& tested) {
+                           std::string name = tested.param.name;
+                           std::ranges::replace(name, ' ', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace gainsmith::numbers

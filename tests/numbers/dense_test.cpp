@@ -1,0 +1,84 @@
+#include "numbers/dense.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <complex>
+#include <random>
+
+namespace gainsmith::numbers {
+namespace {
+
+class Dense : public testing::TestWithParam<int> {
+ protected:
+  Dense() {
+    std::uniform_real_distribution<double> element(-1, 1);
+    M = Matrix(n, n);
+    B = Matrix(n, 2);
+    for (double& x : M.reshaped()) x = element(generator_);
+    for (double& x : B.reshaped()) x = element(generator_);
+    S = M + M.transpose();
+    P = M * M.transpose() + Matrix::Identity(n, n);
+  }
+
+  const int n = GetParam();
+  Matrix M, B, S, P;
+
+ private:
+  std::mt19937 generator_{static_cast<unsigned>(GetParam())};
+};
+
+TEST_P(Dense, SymmetricMatricesAreTheirEigenvectorsAndEigenvalues) {
+  SymmetricEigen eigen(S);
+  const Matrix V = eigen.vectors();
+  EXPECT_LT((V * eigen.values().asDiagonal() * V.transpose() - S).norm(), 1e-12);
+  EXPECT_LT((V.transpose() * V - Matrix::Identity(n, n)).norm(), 1e-12);
+  EXPECT_TRUE(std::is_sorted(eigen.values().begin(), eigen.values().end()));
+  EXPECT_LT((symmetric_eigenvalues(S) - eigen.values()).norm(), 1e-12);
+  eigen.compute_values(P);
+  EXPECT_NEAR(eigen.values().sum(), P.trace(), 1e-12 * P.trace());
+  // Of (M + M')/2.
+  EXPECT_NEAR(smallest_eigenvalue(M), 0.5 * symmetric_eigenvalues(S)(0), 1e-13);
+}
+
+TEST_P(Dense, CholeskyFactorsDefiniteMatricesOnly) {
+  const Cholesky factor(P);
+  ASSERT_TRUE(factor);
+  const Matrix L = factor.lower();
+  EXPECT_EQ(Matrix(L.triangularView<Eigen::Lower>()), L);
+  EXPECT_LT((L * L.transpose() - P).norm(), 1e-12);
+  EXPECT_LT((L * factor.lower_solve(B) - B).norm(), 1e-12);
+  EXPECT_LT((P * factor.solve(B) - B).norm(), 1e-12);
+  EXPECT_FALSE(Cholesky(P - 2 * P.trace() * Matrix::Identity(n, n)));
+}
+
+TEST_P(Dense, SingularValues) {
+  const Svd svd = full_svd(B);
+  Matrix diagonal = Matrix::Zero(n, 2);
+  diagonal.diagonal() = svd.s;
+  EXPECT_LT((svd.U * diagonal * svd.V.transpose() - B).norm(), 1e-12);
+  EXPECT_LT((singular_values(B) - svd.s).norm(), 1e-12);
+  EXPECT_LT(
+      (svd.s.array().square().matrix().reverse() - symmetric_eigenvalues(B.transpose() * B)).norm(),
+      1e-12);
+}
+
+TEST_P(Dense, InverseExponentialAndEigenvalues) {
+  const Inverse inverted = inverse(P);
+  EXPECT_LT((inverted.matrix * P - Matrix::Identity(n, n)).norm(), 1e-11);
+  EXPECT_GT(inverted.condition, 0);
+  EXPECT_LE(inverted.condition, 1);
+  EXPECT_FALSE(inverse(Matrix::Ones(n, n)).condition > 1e-15);
+  EXPECT_LT((exponential(M) * exponential(-M) - Matrix::Identity(n, n)).norm(), 1e-11);
+  const ComplexVector lambda = eigenvalues(M);
+  EXPECT_LT(std::abs(lambda.sum() - M.trace()), 1e-12);
+  EXPECT_LT(std::abs(lambda.prod() - M.determinant()), 1e-12);
+  const ComplexMatrix Z = M + std::complex<double>(0, 3) * ComplexMatrix::Identity(n, n);
+  EXPECT_LT((complex_inverse(Z) * Z - ComplexMatrix::Identity(n, n)).norm(), 1e-12);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Dense, testing::Values(2, 3, 7));
+
+}  // namespace
+}  // namespace gainsmith::numbers
