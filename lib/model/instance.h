@@ -1,6 +1,7 @@
 // A design with values for its data and parameters.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -33,6 +34,10 @@ struct Instance {
 /// for an assumption that fails (at the place of the datum), and for an override that names no
 /// scalar datum or parameter or is not finite.
 Instance evaluate(const DesignPtr& design, const Overrides& overrides = {});
+
+/// InputError when the assumption fails.
+void check_assumption(const Design& design, const Design::Assumption& assumption,
+                      const numbers::Values& values);
 
 /// The same instance with a changed design: an inequality left out, an objective replaced.
 template <class Change>
