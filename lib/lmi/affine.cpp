@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
+#include <deque>
 #include <vector>
 
+#include "forall/hull.h"
+#include "forall/residues.h"
+#include "numbers/dense.h"
 #include "numbers/real.h"
-#include "lmi/residues.h"
 
 namespace gainsmith::lmi {
 
@@ -171,11 +173,11 @@ AffineForm unknown_form(const Unknown& unknown) {
   return result;
 }
 
-AffineForm variable_form(MonomialTable& monomials, int variable) {
-  const Variable& v = monomials.variables()[static_cast<std::size_t>(variable)];
+AffineForm variable_form(forall::MonomialTable& monomials, int variable) {
+  const forall::Variable& v = monomials.variables()[static_cast<std::size_t>(variable)];
   AffineForm result{v.shape, {}};
   if (v.is_interval()) {
-    const int tau = monomials.index(variable, Atom{1, 0, 0, false});
+    const int tau = monomials.index(variable, forall::Atom{1, 0, 0, false});
     accumulate(result, {tau, 0}, sparse(numbers::Matrix::Ones(1, 1)));
     return result;
   }
@@ -191,7 +193,7 @@ namespace {
 /// The rules of one evaluation, with the tables for messages.
 class Rules {
  public:
-  Rules(MonomialTable& monomials, const Unknowns& unknowns)
+  Rules(forall::MonomialTable& monomials, const Unknowns& unknowns)
       : monomials_(monomials), unknowns_(unknowns) {}
 
   AffineForm product(const AffineForm& a, const AffineForm& b, expr::Shape shape,
@@ -228,7 +230,7 @@ class Rules {
     const double offset = argument.constant(0, 0);
     const double slope = argument.slope(0, 0);
     AffineForm result;
-    const auto add = [&](double factor, const Atom& atom) {
+    const auto add = [&](double factor, const forall::Atom& atom) {
       accumulate(result, {monomials_.index(argument.variable, atom), 0},
                  sparse(numbers::Matrix::Constant(1, 1, factor)));
     };
@@ -252,10 +254,11 @@ class Rules {
     const numbers::Matrix& F = argument.slope;
     if ((M * F - F * M).norm() > kCommutes * M.norm() * F.norm())
       refuse(expr::Op::matrix_exponential, form);
-    const Variable& tau = monomials_.variables()[static_cast<std::size_t>(argument.variable)];
-    const numbers::Matrix before = M.exp();
+    const forall::Variable& tau =
+        monomials_.variables()[static_cast<std::size_t>(argument.variable)];
+    const numbers::Matrix before = numbers::exponential(M);
     AffineForm result{form.shape, {}};
-    for (const auto& [atom, matrix] : residue_expansion(F, tau.low, tau.high))
+    for (const auto& [atom, matrix] : forall::residue_expansion(F, tau.low, tau.high))
       accumulate(result, {monomials_.index(argument.variable, atom), 0},
                  sparse(M.isZero(0) ? matrix : numbers::Matrix(before * matrix)));
     return result;
@@ -285,15 +288,15 @@ class Rules {
     const numbers::Matrix zero = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
     Linear result{zero, zero};
     for (const auto& [key, matrix] : form.terms) {
-      const Monomial& monomial = monomials_[key.first];
+      const forall::Monomial& monomial = monomials_[key.first];
       if (key.second != 0) refuse(op, form);
       if (monomial.empty()) {
         result.constant = numbers::Matrix(matrix);
         continue;
       }
-      const Factor& factor = monomial.front();
+      const forall::Factor& factor = monomial.front();
       if (result.variable >= 0 || monomial.size() > 1 || factor.weight > 0 ||
-          !(factor.atom == Atom{1, 0, 0, false}))
+          !(factor.atom == forall::Atom{1, 0, 0, false}))
         refuse(op, form);
       result.slope = numbers::Matrix(matrix);
       result.variable = factor.variable;
@@ -310,7 +313,7 @@ class Rules {
                                 unknowns_.scalar_name(second));
   }
 
-  MonomialTable& monomials_;
+  forall::MonomialTable& monomials_;
   const Unknowns& unknowns_;
 };
 
@@ -393,6 +396,75 @@ void AffineAlgebra::apply(const expr::Instruction& instruction,
       for (const AffineForm* operand : operands)
         if (!operand->is_constant()) rules.refuse(instruction.op, *operand);
   }
+}
+
+AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
+                           forall::MonomialTable& monomials, const numbers::Values& values) {
+  expr::Evaluator<AffineAlgebra> evaluator(program, {&monomials, &unknowns});
+  std::deque<AffineForm> inputs;
+  for (const expr::Input& input : program.inputs) {
+    if (const int variable = monomials.find_variable(input.name); variable >= 0) {
+      inputs.push_back(variable_form(monomials, variable));
+    } else if (const Unknown* unknown = unknowns.find(input.name)) {
+      inputs.push_back(unknown_form(*unknown));
+    } else {
+      inputs.push_back(constant_form(values.at(input.name)));
+    }
+    evaluator.set(input.name, inputs.back());
+  }
+  // An input alone is its own result.
+  return evaluator.run();
+}
+
+AffineForm evaluate_at(const expr::Program& program, const Unknowns& unknowns,
+                       forall::MonomialTable& monomials, const numbers::Values& values,
+                       const forall::Point& point) {
+  if (point.values.empty()) return evaluate_affine(program, unknowns, monomials, values);
+  numbers::Values all = values;
+  for (const auto& [name, value] : point.values) all.insert_or_assign(name, value);
+  return evaluate_affine(program, unknowns, monomials, all);
+}
+
+std::set<int> monomials_in(const AffineForm& form) {
+  std::set<int> found;
+  for (const auto& [key, matrix] : form.terms)
+    if (key.first != 0) found.insert(key.first);
+  return found;
+}
+
+void remove_noise(AffineForm& form, const forall::MonomialTable& monomials) {
+  forall::Sizes sizes;
+  for (const auto& [key, matrix] : form.terms)
+    sizes[key.first] = std::max(sizes[key.first], largest_element(matrix));
+  const std::set<int> noise = forall::noise(sizes, monomials);
+  std::erase_if(form.terms, [&](const auto& term) { return noise.contains(term.first.first); });
+}
+
+AffineForm at_vertex(const AffineForm& form, const std::vector<double>& values) {
+  AffineForm result{form.shape, {}};
+  for (const auto& [key, matrix] : form.terms) {
+    const double factor = values[static_cast<std::size_t>(key.first)];
+    const auto [found, fresh] = result.terms.try_emplace({0, key.second}, factor * matrix);
+    if (!fresh) found->second = found->second + factor * matrix;
+  }
+  return result;
+}
+
+forall::Expansion expansion_of(const AffineForm& form) {
+  forall::Expansion expansion;
+  for (const auto& [key, matrix] : form.terms)
+    expansion.emplace_back(key.first, numbers::Matrix(matrix));
+  if (expansion.empty())
+    expansion.emplace_back(0, numbers::Matrix::Zero(form.shape.rows, form.shape.cols));
+  return expansion;
+}
+
+numbers::Matrix value_of(const AffineForm& form, const std::vector<double>& x) {
+  numbers::Matrix result = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
+  for (const auto& [key, matrix] : form.terms)
+    result += (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) *
+              numbers::Matrix(matrix);
+  return result;
 }
 
 }  // namespace gainsmith::lmi

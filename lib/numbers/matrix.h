@@ -1,10 +1,14 @@
-// The dense matrix of the double world.
+// Dense matrices of a scalar type.
 #pragma once
 
 #include <Eigen/Core>
 
 namespace gainsmith::numbers {
 
-using Matrix = Eigen::MatrixXd;
+template <class Scalar>
+using MatrixOf = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
+
+using Matrix = MatrixOf<double>;
+using Vector = Eigen::VectorXd;
 
 }  // namespace gainsmith::numbers

@@ -1,0 +1,88 @@
+// Decompositions of matrices of doubles, compiled once: Eigen's headers for them stay out of the
+// rooms that use them. Symmetric matrices are read in their lower triangle.
+#pragma once
+
+#include <complex>
+#include <memory>
+
+#include "numbers/matrix.h"
+
+namespace gainsmith::numbers {
+
+using ComplexMatrix = MatrixOf<std::complex<double>>;
+using ComplexVector = Eigen::VectorXcd;
+
+/// lambda_min((M + M') / 2).
+double smallest_eigenvalue(const Matrix& M);
+
+/// In rising order.
+Vector symmetric_eigenvalues(const Matrix& M);
+
+/// M = V diag(lambda) V' with orthonormal V, eigenvalues in rising order. The memory is kept, for
+/// families of matrices of one size.
+class SymmetricEigen {
+ public:
+  SymmetricEigen();
+  explicit SymmetricEigen(const Matrix& M);
+  SymmetricEigen(SymmetricEigen&&) noexcept;
+  SymmetricEigen& operator=(SymmetricEigen&&) noexcept;
+  ~SymmetricEigen();
+
+  void compute(const Matrix& M);
+  void compute_values(const Matrix& M);
+
+  const Vector& values() const;
+  /// The columns of V; after compute() only.
+  const Matrix& vectors() const;
+
+ private:
+  struct Solver;
+  std::unique_ptr<Solver> solver_;
+};
+
+/// M = L L' with L lower triangular.
+class Cholesky {
+ public:
+  explicit Cholesky(const Matrix& M);
+
+  /// Whether M is positive definite; otherwise nothing else may be asked.
+  explicit operator bool() const { return definite_; }
+  Matrix lower() const;
+  /// L^-1 B.
+  Matrix lower_solve(const Matrix& B) const;
+  /// M^-1 B.
+  Matrix solve(const Matrix& B) const;
+
+ private:
+  Matrix packed_;  ///< L, and above the diagonal what M had there
+  bool definite_ = false;
+};
+
+/// e^M.
+Matrix exponential(const Matrix& M);
+
+/// Of any matrix, largest first.
+Vector singular_values(const Matrix& M);
+
+/// M = U diag(s) V' with square orthogonal U, V and s largest first. M must not be empty.
+struct Svd {
+  Matrix U;
+  Vector s;
+  Matrix V;
+};
+Svd full_svd(const Matrix& M);
+
+/// The inverse by LU with pivots, and an estimate of the reciprocal condition in the 1-norm. M must
+/// not be empty.
+struct Inverse {
+  Matrix matrix;
+  double condition = 0;
+};
+Inverse inverse(const Matrix& M);
+
+/// Of a square matrix, in no order.
+ComplexVector eigenvalues(const Matrix& M);
+
+ComplexMatrix complex_inverse(const ComplexMatrix& M);
+
+}  // namespace gainsmith::numbers
