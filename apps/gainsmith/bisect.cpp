@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -118,25 +117,22 @@ ExitCode bisect(const BisectOptions& options) {
 
 }  // namespace
 
-void add_bisect(CLI::App& program, ExitCode& exit) {
+Command bisect_command() {
   auto options = std::make_shared<BisectOptions>();
-  CLI::App* command = program.add_subcommand(
-      "bisect", "Find the largest or smallest value of a scalar for which there are gains");
-  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
-      ->required();
-  auto* largest = command->add_option("--largest", options->largest,
-                                      "this scalar (default: what the problem's search says)");
-  command->add_option("--smallest", options->smallest, "this scalar")->excludes(largest);
-  command->add_option("--in", options->range, "LOW HIGH: the range (default: the problem's)")
-      ->expected(2);
-  command->add_option(
-      "--tolerance", options->tolerance,
-      "width of the final bracket (default: the problem's, or 1e-4 of the range; of the "
-      "value on a logarithmic scale)");
-  command->add_option("-o,--output", options->output,
-                      "write the gains of the feasible end here; - for standard output");
-  command->add_flag("--json", options->json, "print the result as JSON");
-  command->footer(
+  return {
+      "bisect",
+      "Find the largest or smallest value of a scalar for which there are gains",
+      {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       Option("--largest", options->largest,
+              "this scalar (default: what the problem's search says)"),
+       Option("--smallest", options->smallest, "this scalar").excludes({"--largest"}),
+       Option("--in", options->range, "LOW HIGH: the range (default: the problem's)").values(2),
+       Option("--tolerance", options->tolerance,
+              "width of the final bracket (default: the problem's, or 1e-4 of the range; of the "
+              "value on a logarithmic scale)"),
+       Option("-o,--output", options->output,
+              "write the gains of the feasible end here; - for standard output"),
+       Option("--json", options->json, "print the result as JSON")},
       "Both ends of the bracket are proved: gains with recomputed margins, and a checked\n"
       "certificate. The other scalars keep the problem's values.\n"
       "Values that the assumptions exclude are 'refused'.\n"
@@ -144,8 +140,8 @@ void add_bisect(CLI::App& program, ExitCode& exit) {
       "nothing of the values between those tried).\n"
       "Examples:\n"
       "  gainsmith bisect problem.yaml --largest T2 --in 0.5 1.1 --tolerance 1e-5 -o gains.json\n"
-      "  gainsmith bisect problem.yaml --smallest rho --in 0.05 1 --json | jq .samples");
-  command->callback([options, &exit] { exit = bisect(*options); });
+      "  gainsmith bisect problem.yaml --smallest rho --in 0.05 1 --json | jq .samples",
+      [options] { return bisect(*options); }};
 }
 
 }  // namespace gainsmith::app

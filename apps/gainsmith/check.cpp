@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -61,16 +60,16 @@ ExitCode check(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check(CLI::App& program, ExitCode& exit) {
+Command check_command() {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = program.add_subcommand("check", "Validate problem files without solving");
-  command->add_option("problems", options->problems, "problem files (YAML)")->required();
-  command->add_flag("--json", options->json, "print the result as JSON");
-  command->footer(
-      "Exit code: 0 all valid, 2 otherwise.\n"
-      "Example:\n"
-      "  gainsmith check problems/ferrante-seuret-2021/*.yaml");
-  command->callback([options, &exit] { exit = check(*options); });
+  return {"check",
+          "Validate problem files without solving",
+          {Option("problems", options->problems, "problem files (YAML)").required(),
+           Option("--json", options->json, "print the result as JSON")},
+          "Exit code: 0 all valid, 2 otherwise.\n"
+          "Example:\n"
+          "  gainsmith check problems/ferrante-seuret-2021/*.yaml",
+          [options] { return check(*options); }};
 }
 
 }  // namespace gainsmith::app

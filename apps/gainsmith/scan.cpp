@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -187,39 +186,31 @@ ExitCode scan(const ScanOptions& options) {
 
 }  // namespace
 
-void add_scan(CLI::App& program, ExitCode& exit) {
+Command scan_command() {
   auto options = std::make_shared<ScanOptions>();
-  CLI::App* command =
-      program.add_subcommand("scan", "Solve a problem at every point of a grid of scalars");
-  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
-      ->required();
-  command
-      ->add_option("--over", options->over,
-                   "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT; may be repeated for "
-                   "a grid")
-      ->required()
-      ->allow_extra_args(false);
-  command
-      ->add_option("--show", options->show,
-                   "a column more: an expression such as trace(P1) or norm(L); may be repeated")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--threads", options->threads,
-                   "threads, 0: one a core; the table does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "write the table as CSV here; - for standard output");
-  command->add_flag("--json", options->json, "print the table as JSON");
-  command->footer(
+  return {
+      "scan",
+      "Solve a problem at every point of a grid of scalars",
+      {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       Option("--over", options->over,
+              "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT; may be repeated for "
+              "a grid")
+           .required(),
+       Option("--show", options->show,
+              "a column more: an expression such as trace(P1) or norm(L); may be repeated"),
+       Option("--threads", options->threads,
+              "threads, 0: one a core; the table does not depend on it")
+           .within(0, 1024),
+       Option("-o,--output", options->output, "write the table as CSV here; - for standard output"),
+       Option("--json", options->json, "print the table as JSON")},
       "A point that the method's assumptions exclude is 'refused'.\n"
       "Exit code: 0 some point is feasible, 1 all are proved infeasible, 2 wrong input, 3 "
       "otherwise\n"
       "and when interrupted.\n"
       "Examples:\n"
       "  gainsmith scan problem.yaml --over T2=0.5:0.8:13\n"
-      "  gainsmith scan problem.yaml --over delta=1e-3:10:20:log --over eta=1e-6:1:7 -o table.csv");
-  command->callback([options, &exit] { exit = scan(*options); });
+      "  gainsmith scan problem.yaml --over delta=1e-3:10:20:log --over eta=1e-6:1:7 -o table.csv",
+      [options] { return scan(*options); }};
 }
 
 }  // namespace gainsmith::app

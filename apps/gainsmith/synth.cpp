@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -61,27 +60,23 @@ ExitCode synth(const SynthOptions& options) {
 
 }  // namespace
 
-void add_synth(CLI::App& program, ExitCode& exit) {
+Command synth_command() {
   auto options = std::make_shared<SynthOptions>();
-  CLI::App* command = program.add_subcommand("synth", "Synthesize gains from a problem file");
-  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
-      ->required();
-  command->add_option("-o,--output", options->output,
-                      "write the gain file here; - for standard output");
-  command->add_option("--sdpa", options->sdpa,
-                      "write the semidefinite program here, for other solvers");
-  command
-      ->add_option("--threads", options->threads,
-                   "threads of a search, 0: one a core; the result does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "print the result as JSON");
-  command->footer(
+  return {
+      "synth",
+      "Synthesize gains from a problem file",
+      {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       Option("-o,--output", options->output, "write the gain file here; - for standard output"),
+       Option("--sdpa", options->sdpa, "write the semidefinite program here, for other solvers"),
+       Option("--threads", options->threads,
+              "threads of a search, 0: one a core; the result does not depend on it")
+           .within(0, 1024),
+       Option("--json", options->json, "print the result as JSON")},
       "Exit code: 0 gains found, 1 proved infeasible, 2 wrong input, 3 undecided.\n"
       "Examples:\n"
       "  gainsmith synth problems/ferrante-seuret-2021/t2-0.70.yaml -o gains.json\n"
-      "  gainsmith synth problem.yaml --json | jq .gains");
-  command->callback([options, &exit] { exit = synth(*options); });
+      "  gainsmith synth problem.yaml --json | jq .gains",
+      [options] { return synth(*options); }};
 }
 
 }  // namespace gainsmith::app
