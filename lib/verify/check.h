@@ -14,8 +14,8 @@
 //
 // taken at that sample or, for a cost, whose bound is v(0), at the start. That is how far the value
 // moves when every element of the state is wrong in its twelfth digit: an error z - zh of two large
-// numbers cannot be known better. It is never more than |v(0)| (unless that is 0): a horizon so long
-// that rounding outgrows the start counts as violated, not as held.
+// numbers cannot be known better. It is never more than |v(0)| (unless that is 0): a horizon so
+// long that rounding outgrows the start counts as violated, not as held.
 #pragma once
 
 #include <cstdint>
