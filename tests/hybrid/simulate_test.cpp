@@ -122,7 +122,8 @@ TEST(Simulate, StartsFromExpressionsAndLists) {
   EXPECT_EQ(Eigen::VectorXd(second.state(0)), column({1, 2, 0, 0, -1.5}));
 }
 
-/// The flow matrix of Ferrante and Seuret 2021, (8), built from the paper's formula and not from the simulated text.
+/// The flow matrix of Ferrante and Seuret 2021, (8), built from the paper's formula and not from
+/// the simulated text.
 Matrix error_flow(const Matrix& L, double H) {
   const Matrix A{{0.2, -1.01}, {1, 0}};
   const Matrix C{{0.5, -1}};
