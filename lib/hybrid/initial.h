@@ -21,8 +21,8 @@ struct StartRule {
 
 /// One rule a state, in the order of the layout; a state that the campaign does not name starts
 /// where the method says, otherwise in the box [-1, 1]. InputError for an unknown state, a value of
-/// the wrong shape, an empty box (low > high), and an expression that uses the timer or a state
-/// that is not declared before its own.
+/// the wrong shape, a missing value, an empty box (low > high), and an expression that uses the
+/// timer, a state that is not declared before its own, or a symbol without a value.
 std::vector<StartRule> make_start_rules(const model::Campaign& campaign, const System& system);
 
 /// Draws initial states; one for each thread. The rules and the system must outlive it.

@@ -22,7 +22,8 @@ struct Law {
 };
 
 /// The laws of a campaign, in order; without any: uniform, extremes, sinusoid, constant low,
-/// constant high. InputError for a value outside [low, high] (a rounding of 1e-12 is forgiven).
+/// constant high. InputError for a value outside [low, high] (1e-12 high is forgiven as rounding)
+/// and for a constant or list without a value.
 std::vector<Law> make_laws(const model::Campaign& campaign, const System& system);
 
 }  // namespace gainsmith::hybrid

@@ -36,8 +36,8 @@ class Steps {
   static constexpr int kNodes = 8;
   static constexpr int kDegree = 12;
 
-  /// `longest`: the longest interval to be cut, > 0. InputError, at `place`, when the flow matrix
-  /// is not finite or ||M||_1 longest exceeds 2^40.
+  /// `longest`: the longest interval to be cut, > 0. InputError, at `place`, when M or b is not
+  /// finite or ||M||_1 longest exceeds 2^40.
   Steps(const AffineMap& flow, double longest, const Place& place = {});
 
   /// Appends the steps of an interval >= 0; their lengths add up to it. An interval of 0 has none.

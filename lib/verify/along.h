@@ -21,7 +21,8 @@ class AlongFunction {
   AlongFunction& operator=(AlongFunction&&) = default;
 
   /// states: size x N, timers: N. The result is elements x N, the value's elements column by
-  /// column; it holds infinities or NaNs where the value is none.
+  /// column; it holds infinities or NaNs where the value is none. InputError when a part that does
+  /// not move along the arc has no value.
   numbers::Matrix operator()(const Eigen::Ref<const numbers::Matrix>& states,
                           const Eigen::Ref<const Eigen::VectorXd>& timers);
 

@@ -43,8 +43,8 @@ struct Report {
   std::uint64_t violations = 0;  ///< runs that violate a claim or do not reach the horizon
   std::uint64_t unfinished = 0;  ///< runs that do not reach the horizon
   /// The run that violates worst; of a campaign that held, the run nearest to it. Runs that do not
-  /// reach the horizon come first, then violating runs, then by the largest score of a claim; ties
-  /// to the lowest.
+  /// reach the horizon come first, then violating runs, then by the largest score of a claim, among
+  /// those that it violates if any; ties to the lowest.
   std::uint64_t worst_run = 0;
   hybrid::Termination worst_termination = hybrid::Termination::horizon;
   std::string worst_message;  ///< why it ended, when a jump map had no value

@@ -12,9 +12,10 @@
 //
 //   sum over the elements i of x of  |v(x + d e_i) - v(x)|,  d = 1e-12 max |x| up to that sample,
 //
-// which is how far the value moves when every element of the state is wrong in its twelfth digit:
-// an error z - zh of two large numbers cannot be known better. It is never more than |v(0)| (unless
-// that is 0): a horizon so long that rounding outgrows the start counts as violated, not as held.
+// taken at that sample or, for a cost, whose bound is v(0), at the start. That is how far the value
+// moves when every element of the state is wrong in its twelfth digit: an error z - zh of two large
+// numbers cannot be known better. It is never more than |v(0)| (unless that is 0): a horizon so
+// long that rounding outgrows the start counts as violated, not as held.
 #pragma once
 
 #include <cstdint>

@@ -10,8 +10,10 @@
 
 namespace gainsmith::verify {
 
-/// A claim is stated when every symbol that its expressions use has a value; otherwise `missing`
-/// names those that have none (P1 when the analysis was infeasible) and it cannot be checked.
+/// A claim is stated when every symbol that its expressions use has a value and, of `shrinks`, the
+/// problem gives the time in which it must: how far an error shrinks says something only about a
+/// time that somebody chose. Otherwise `missing` names what has no value (P1 when the analysis was
+/// infeasible, campaign.horizon) and the claim cannot be checked.
 struct CompiledClaim {
   std::string name;
   model::Claim::Kind kind = model::Claim::Kind::nonincreasing;
@@ -25,7 +27,7 @@ struct CompiledClaim {
 };
 
 /// All claims, in the method's order. InputError for an expression that does not compile or is no
-/// scalar.
+/// scalar, and for `shrinks` without a factor.
 std::vector<CompiledClaim> compile_claims(const model::Instance& instance,
                                           const hybrid::System& system);
 

@@ -122,7 +122,7 @@ TEST(Simulate, StartsFromExpressionsAndLists) {
   EXPECT_EQ(Eigen::VectorXd(second.state(0)), column({1, 2, 0, 0, -1.5}));
 }
 
-/// The flow matrix of (8), built from the paper's formula and not from the simulated text.
+/// The flow matrix of Ferrante and Seuret 2021, (8), built from the paper's formula and not from the simulated text.
 Matrix error_flow(const Matrix& L, double H) {
   const Matrix A{{0.2, -1.01}, {1, 0}};
   const Matrix C{{0.5, -1}};
@@ -131,7 +131,7 @@ Matrix error_flow(const Matrix& L, double H) {
   return phi;
 }
 
-/// S(tau) of sampled-data.md.
+/// S(tau), from sample to sample (docs/theory/sampled-data.md).
 Matrix sample_map(const Matrix& L, const Matrix& F, double H, double tau) {
   Matrix start = Matrix::Zero(3, 2);
   start.topRows(2) = Matrix::Identity(2, 2) - F * Matrix{{0.5, -1}};

@@ -49,8 +49,8 @@ class TextProblem {
   model::Problem problem_;
 };
 
-/// The plant, observer and errors of theory/sampled-data.md with the published A, C, T1 and the
-/// given T2, the given gains, signals e and q, first timer value in [0, T2].
+/// The plant (1), observer (4) and errors of Ferrante and Seuret 2021 with the published A, C, T1 and
+/// the given T2, the given gains, signals e and q, first timer value in [0, T2].
 TextProblem sampled_data(const std::string& T2, const numbers::Matrix& L, const numbers::Matrix& F,
                          const numbers::Matrix& H);
 

@@ -19,7 +19,7 @@ using tests::sampled_data;
 using tests::scalar;
 using tests::TextProblem;
 
-// The shape in which row II contracts by 0.7789 per sample (theory/sampled-data.md, item 3).
+// The shape in which row II contracts by 0.7789 per sample (docs/theory/sampled-data.md).
 constexpr const char* kShape = "[5.697, -1.308; -1.308, 1.364]";
 
 TextProblem row_two() {
