@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "numbers/matrix.h"
 #include "hybrid/steps.h"
+#include "numbers/matrix.h"
 
 namespace gainsmith::hybrid {
 

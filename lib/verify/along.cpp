@@ -31,8 +31,11 @@ AlongFunction::AlongFunction(const expr::Program& program, const hybrid::System&
     evaluator_.fix(input.name, constants_.back());
   }
   const auto moving = [](expr::Shape shape) {
-    return numbers::Pack{
-        false, shape.rows, shape.cols, {}, Eigen::ArrayXXd::Zero(numbers::Pack::kLanes, shape.size())};
+    return numbers::Pack{false,
+                         shape.rows,
+                         shape.cols,
+                         {},
+                         Eigen::ArrayXXd::Zero(numbers::Pack::kLanes, shape.size())};
   };
   for (const hybrid::Slot& slot : system.layout.slots)
     if (program.uses(slot.name)) slots_.push_back(slot);
@@ -43,7 +46,7 @@ AlongFunction::AlongFunction(const expr::Program& program, const hybrid::System&
 }
 
 numbers::Matrix AlongFunction::operator()(const Eigen::Ref<const numbers::Matrix>& states,
-                                       const Eigen::Ref<const Eigen::VectorXd>& timers) {
+                                          const Eigen::Ref<const Eigen::VectorXd>& timers) {
   numbers::Matrix values(elements_, timers.size());
   for (Index first = 0; first < timers.size(); first += numbers::Pack::kLanes) {
     const Index count = std::min<Index>(numbers::Pack::kLanes, timers.size() - first);

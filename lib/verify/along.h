@@ -24,7 +24,7 @@ class AlongFunction {
   /// column; it holds infinities or NaNs where the value is none. InputError when a part that does
   /// not move along the arc has no value.
   numbers::Matrix operator()(const Eigen::Ref<const numbers::Matrix>& states,
-                          const Eigen::Ref<const Eigen::VectorXd>& timers);
+                             const Eigen::Ref<const Eigen::VectorXd>& timers);
 
  private:
   std::vector<hybrid::Slot> slots_;  ///< the states that the program uses

@@ -13,7 +13,7 @@
 #include "model/gains.h"
 #include "model/instance.h"
 #include "model/words.h"
-#include "verify/check.h"
+#include "verify/claim_check.h"
 
 namespace gainsmith::verify {
 
@@ -28,7 +28,7 @@ struct CampaignOptions {
 /// One claim over all runs.
 struct CheckReport {
   std::string name;
-  model::Claim::Kind kind = model::Claim::Kind::nonincreasing;
+  model::ClaimKind kind = model::ClaimKind::nonincreasing;
   bool stated = true;  ///< false: not checked, because `missing` have no value
   std::vector<std::string> missing;
   std::uint64_t violations = 0;

@@ -8,7 +8,7 @@
 #include "hybrid/arc.h"
 #include "model/gains.h"
 #include "model/instance.h"
-#include "verify/check.h"
+#include "verify/claim_check.h"
 
 namespace gainsmith::verify {
 

@@ -13,8 +13,8 @@ namespace gainsmith::hybrid {
 namespace {
 
 using numbers::Matrix;
-using Law = model::SamplingLaw::Kind;
-using Start = model::InitialValue::Kind;
+using Law = model::LawKind;
+using Start = model::StartKind;
 using tests::column;
 using tests::sampled_data;
 using tests::scalar;
@@ -23,7 +23,7 @@ using tests::TextProblem;
 Arc simulate(TextProblem& problem, std::uint64_t seed = 1, std::uint64_t run = 0) {
   const model::Instance instance = problem.instance();
   const System system = make_system(instance, problem.gains);
-  const Scenario scenario = make_scenario(instance.problem->campaign, system);
+  const Scenario scenario = make_scenario(*instance.design, system);
   const Steps steps = make_steps(system);
   return Simulator(system, scenario, steps).run(seed, run);
 }
@@ -254,7 +254,7 @@ TEST(Simulate, IntervalsThatShrinkToNothingHitTheJumpLimit) {
   problem.state("x", "scalar").timer("0", "1", "0", "0").law(Law::constant, {"0"});
   const model::Instance instance = problem.instance();
   const System system = make_system(instance, problem.gains);
-  Scenario scenario = make_scenario(instance.problem->campaign, system);
+  Scenario scenario = make_scenario(*instance.design, system);
   scenario.jump_limit = 100;
   const Steps steps = make_steps(system);
   const Arc arc = Simulator(system, scenario, steps).run(1, 0);

@@ -1,17 +1,14 @@
 // Problems for the tests of hybrid and verify, written as text without a YAML file.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "model/bind.h"
 #include "model/gains.h"
-#include "model/instance.h"
 
 namespace gainsmith::tests {
-
-expr::Expression parse(const std::string& text);
 
 /// {"A", "[0, 1; 2, 3]"}.
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -33,15 +30,17 @@ class TextProblem {
                     const std::string& jump_cost);
   TextProblem& shrinks(const std::string& name, const std::string& value,
                        const std::string& factor);
-  TextProblem& law(model::SamplingLaw::Kind kind, const std::vector<std::string>& values = {});
+  TextProblem& law(model::LawKind kind, const std::vector<std::string>& values = {});
   TextProblem& first(const std::string& value);
   TextProblem& horizon(const std::string& value);
-  TextProblem& start(const std::string& state, model::InitialValue::Kind kind,
+  TextProblem& start(const std::string& state, model::StartKind kind,
                      const std::vector<std::string>& values);
   TextProblem& runs(std::uint64_t count);
 
-  /// Stands as long as this object.
-  model::Instance instance();
+  model::Instance instance() const;
+  /// An expression over data, gains, unknowns, states and the timer.
+  expr::Program program(const std::string& text) const;
+
   model::Gains gains;
 
  private:

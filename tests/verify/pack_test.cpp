@@ -6,23 +6,23 @@
 #include <limits>
 
 #include "base/random.h"
-#include "expr/compile.h"
-#include "numbers/real.h"
 #include "hybrid/text_problem.h"
+#include "numbers/real.h"
 
 namespace gainsmith::verify {
 namespace {
 
+using numbers::constant_pack;
 using numbers::Matrix;
+using numbers::Pack;
+using numbers::PackAlgebra;
 
 /// Inputs x (3 x 1), X (2 x 2) and s (1 x 1) that move, and M (3 x 3) that does not.
 class PackTest : public testing::Test {
  protected:
   PackTest() {
-    scope_.symbols["x"] = {{3, 1}, std::nullopt};
-    scope_.symbols["X"] = {{2, 2}, std::nullopt};
-    scope_.symbols["s"] = {{1, 1}, std::nullopt};
-    scope_.symbols["M"] = {{3, 3}, std::nullopt};
+    problem_.data("M", "3 x 3", "zeros(3, 3)");
+    problem_.state("x", "3").state("X", "2 x 2").state("s", "scalar");
   }
 
   Matrix random(Eigen::Index rows, Eigen::Index cols) {
@@ -38,15 +38,16 @@ class PackTest : public testing::Test {
   /// Evaluates at kLanes random points by packs and point by point; the largest relative
   /// difference.
   double difference(const std::string& text) {
-    const expr::Program program = expr::compile(tests::parse(text), scope_);
+    const expr::Program program = problem_.program(text);
     expr::Evaluator<PackAlgebra> packs(program);
     const Matrix M = random(3, 3);
     const Pack constant = constant_pack(M);
     packs.fix("M", constant);
     std::map<std::string, Pack> inputs;
     std::vector<numbers::Values> points(Pack::kLanes);
-    for (const char* name : {"x", "X", "s"}) {
-      const expr::Shape shape = scope_.symbols[name].shape;
+    const std::vector<std::pair<std::string, expr::Shape>> moving = {
+        {"x", {3, 1}}, {"X", {2, 2}}, {"s", {1, 1}}};
+    for (const auto& [name, shape] : moving) {
       Pack& pack = inputs[name];
       pack = {false, shape.rows, shape.cols, {}, Eigen::ArrayXXd(Pack::kLanes, shape.size())};
       for (Eigen::Index lane = 0; lane < Pack::kLanes; ++lane) {
@@ -70,7 +71,7 @@ class PackTest : public testing::Test {
   }
 
  private:
-  expr::Scope scope_;
+  tests::TextProblem problem_;
   RandomStream draws_{1, 2};
 };
 
@@ -118,9 +119,8 @@ TEST_F(PackTest, EveryOperationIsThatOfDoubles) {
 }
 
 TEST(Pack, LaneWithoutAResultIsNoNumberAndTheOthersGoOn) {
-  expr::Scope scope;
-  scope.symbols["s"] = {{1, 1}, std::nullopt};
-  const expr::Program program = expr::compile(tests::parse("log(s) + 1/s"), scope);
+  tests::TextProblem problem;
+  const expr::Program program = problem.state("s", "scalar").program("log(s) + 1/s");
   expr::Evaluator<PackAlgebra> evaluator(program);
   Pack s{false, 1, 1, {}, Eigen::ArrayXXd::Constant(Pack::kLanes, 1, 1.0)};
   s.lanes(3) = -1;
@@ -134,10 +134,9 @@ TEST(Pack, LaneWithoutAResultIsNoNumberAndTheOthersGoOn) {
 }
 
 TEST(Pack, ConstantPartThatFailsIsAnErrorWithItsPlace) {
-  expr::Scope scope;
-  scope.symbols["s"] = {{1, 1}, std::nullopt};
-  scope.symbols["Z"] = {{2, 2}, std::nullopt};
-  const expr::Program program = expr::compile(tests::parse("s*trace(inv(Z))"), scope);
+  tests::TextProblem problem;
+  problem.data("Z", "2 x 2", "zeros(2, 2)").state("s", "scalar");
+  const expr::Program program = problem.program("s*trace(inv(Z))");
   expr::Evaluator<PackAlgebra> evaluator(program);
   const Pack zero = constant_pack(Matrix::Zero(2, 2));
   const Pack s{false, 1, 1, {}, Eigen::ArrayXXd::Zero(Pack::kLanes, 1)};

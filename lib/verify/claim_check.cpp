@@ -1,4 +1,4 @@
-#include "verify/check.h"
+#include "verify/claim_check.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,31 +58,32 @@ double forgiven(double floor, double start) {
 
 }  // namespace
 
-Check::Check(const CompiledClaim& claim, const hybrid::System& system, const hybrid::Steps& steps)
-    : kind_(claim.kind),
+ClaimCheck::ClaimCheck(const LinkedClaim& claim, const hybrid::System& system,
+                       const hybrid::Steps& steps)
+    : claim_(&claim),
       steps_(&steps),
       value_(claim.value, system),
       flow_cost_(make_function(claim.flow_cost, system)),
       jump_cost_(make_function(claim.jump_cost, system)),
       factor_(make_function(claim.factor, system)) {}
 
-Finding Check::operator()(const Arc& arc) {
-  switch (kind_) {
-    case model::Claim::Kind::nonincreasing:
+Finding ClaimCheck::operator()(const Arc& arc) {
+  switch (claim_->kind) {
+    case model::ClaimKind::nonincreasing:
       return nonincreasing(arc);
-    case model::Claim::Kind::cost:
+    case model::ClaimKind::cost:
       return cost(arc);
-    case model::Claim::Kind::shrinks:
+    case model::ClaimKind::shrinks:
       return shrinks(arc);
   }
   return {};
 }
 
-Eigen::VectorXd Check::values(const Arc& arc) {
+Eigen::VectorXd ClaimCheck::values(const Arc& arc) {
   return value_(arc.states(), timers(arc)).row(0).transpose();
 }
 
-Eigen::VectorXd Check::running_cost(const Arc& arc) {
+Eigen::VectorXd ClaimCheck::running_cost(const Arc& arc) {
   const auto moves = static_cast<Index>(arc.moves.size());
   Eigen::VectorXd flows = Eigen::VectorXd::Zero(moves);
   if (flow_cost_) flows = integrate_steps(arc, *steps_, *flow_cost_);
@@ -99,7 +100,7 @@ Eigen::VectorXd Check::running_cost(const Arc& arc) {
   return cost;
 }
 
-Finding Check::nonincreasing(const Arc& arc) {
+Finding ClaimCheck::nonincreasing(const Arc& arc) {
   const Eigen::VectorXd v = values(arc);
   const std::size_t last = arc.samples() - 1;
   std::vector<std::size_t> rising;  // by more than the relative tolerance
@@ -135,7 +136,7 @@ Finding Check::nonincreasing(const Arc& arc) {
   return worst;
 }
 
-Finding Check::cost(const Arc& arc) {
+Finding ClaimCheck::cost(const Arc& arc) {
   const Eigen::VectorXd c = running_cost(arc);
   const double bound = value_at(arc, 0);
   Index worst = 0;  // the largest cost; a NaN counts as the largest
@@ -150,7 +151,7 @@ Finding Check::cost(const Arc& arc) {
   return finding;
 }
 
-Finding Check::shrinks(const Arc& arc) {
+Finding ClaimCheck::shrinks(const Arc& arc) {
   const std::size_t last = arc.samples() - 1;
   const double start = value_at(arc, 0);
   const double factor = (*factor_)(arc.states().leftCols(1), timers(arc).head(1))(0, 0);
@@ -164,17 +165,17 @@ Finding Check::shrinks(const Arc& arc) {
   return finding;
 }
 
-double Check::value_at(const Arc& arc, std::size_t sample) {
+double ClaimCheck::value_at(const Arc& arc, std::size_t sample) {
   const auto at = static_cast<Index>(sample);
   return value_(arc.states().col(at), timers(arc).segment(at, 1))(0, 0);
 }
 
-double Check::rounding_floor(const Arc& arc, std::size_t sample, std::size_t last) {
+double ClaimCheck::rounding_floor(const Arc& arc, std::size_t sample, std::size_t last) {
   return rounding_floors(arc, {sample}, Eigen::VectorXd::Constant(1, largest_state(arc, last)))(0);
 }
 
-Eigen::VectorXd Check::rounding_floors(const Arc& arc, const std::vector<std::size_t>& samples,
-                                       const Eigen::VectorXd& largest) {
+Eigen::VectorXd ClaimCheck::rounding_floors(const Arc& arc, const std::vector<std::size_t>& samples,
+                                            const Eigen::VectorXd& largest) {
   const Index points = arc.size + 1;  // the sample itself, then one element moved at a time
   const auto count = static_cast<Index>(samples.size());
   numbers::Matrix states(arc.size, count * points);

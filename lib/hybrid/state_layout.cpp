@@ -1,34 +1,25 @@
-#include "hybrid/layout.h"
+#include "hybrid/state_layout.h"
 
 #include <algorithm>
 
 namespace gainsmith::hybrid {
 
-bool Layout::moves(const std::string& name) const {
+bool StateLayout::moves(const std::string& name) const {
   return name == timer || std::any_of(slots.begin(), slots.end(),
                                       [&](const Slot& slot) { return slot.name == name; });
 }
 
-Layout make_layout(const std::vector<std::pair<std::string, expr::Shape>>& states,
-                   const std::string& timer) {
-  Layout layout;
+StateLayout make_layout(const std::vector<model::Design::State>& states, const std::string& timer) {
+  StateLayout layout;
   layout.timer = timer;
-  for (const auto& [name, shape] : states) {
-    layout.slots.push_back({name, shape, layout.size});
-    layout.size += shape.size();
+  for (const model::Design::State& state : states) {
+    layout.slots.push_back({state.name, state.shape, layout.size});
+    layout.size += state.shape.size();
   }
   return layout;
 }
 
-std::vector<std::string> missing_values(const expr::Program& program, const Layout& layout,
-                                        const numbers::Values& constants) {
-  std::vector<std::string> missing;
-  for (const expr::Input& input : program.inputs)
-    if (!layout.moves(input.name) && !constants.contains(input.name)) missing.push_back(input.name);
-  return missing;
-}
-
-PointFunction::PointFunction(const expr::Program& program, const Layout& layout,
+PointFunction::PointFunction(const expr::Program& program, const StateLayout& layout,
                              const numbers::Values& constants)
     : slots_(layout.slots), evaluator_(program) {
   for (const Slot& slot : slots_)

@@ -1,4 +1,4 @@
-#include "verify/check.h"
+#include "verify/claim_check.h"
 
 #include <gtest/gtest.h>
 
@@ -13,8 +13,8 @@ namespace gainsmith::verify {
 namespace {
 
 using numbers::Matrix;
-using Law = model::SamplingLaw::Kind;
-using Start = model::InitialValue::Kind;
+using Law = model::LawKind;
+using Start = model::StartKind;
 using tests::TextProblem;
 
 /// A run of a problem, and its claims checked one by one.
@@ -28,7 +28,7 @@ Checked check(TextProblem& problem, std::uint64_t run = 0) {
   const Setup setup = make_setup(problem.instance(), problem.gains);
   Checked result;
   result.arc = hybrid::Simulator(setup.system, setup.scenario, setup.steps).run(1, run);
-  for (Check& one : make_checks(setup)) {
+  for (ClaimCheck& one : make_checks(setup)) {
     result.findings.push_back(one(result.arc));
     result.costs.push_back(one.running_cost(result.arc));
   }

@@ -45,10 +45,12 @@ struct Finding {
 };
 
 /// Checks one claim, run after run; one for each thread. All arguments must outlive it.
-class Check {
+class ClaimCheck {
  public:
   /// The claim must be stated.
-  Check(const CompiledClaim& claim, const hybrid::System& system, const hybrid::Steps& steps);
+  ClaimCheck(const LinkedClaim& claim, const hybrid::System& system, const hybrid::Steps& steps);
+
+  const LinkedClaim& claim() const { return *claim_; }
 
   Finding operator()(const hybrid::Arc& arc);
 
@@ -69,7 +71,7 @@ class Check {
   Eigen::VectorXd rounding_floors(const hybrid::Arc& arc, const std::vector<std::size_t>& samples,
                                   const Eigen::VectorXd& largest);
 
-  model::Claim::Kind kind_;
+  const LinkedClaim* claim_;
   const hybrid::Steps* steps_;
   AlongFunction value_;
   std::optional<AlongFunction> flow_cost_;

@@ -7,6 +7,7 @@
 
 #include "expr/evaluate.h"
 #include "expr/program.h"
+#include "model/design.h"
 #include "numbers/real.h"
 
 namespace gainsmith::hybrid {
@@ -20,7 +21,7 @@ struct Slot {
 
 /// How the named states are stacked to x in R^size: plant first, then observer, in the method's
 /// order.
-struct Layout {
+struct StateLayout {
   std::vector<Slot> slots;
   Eigen::Index size = 0;
   std::string timer;
@@ -29,18 +30,14 @@ struct Layout {
   bool moves(const std::string& name) const;
 };
 
-Layout make_layout(const std::vector<std::pair<std::string, expr::Shape>>& states,
-                   const std::string& timer);
-
-/// The inputs of a program that neither move nor have a value, in the program's order.
-std::vector<std::string> missing_values(const expr::Program& program, const Layout& layout,
-                                        const numbers::Values& constants);
+StateLayout make_layout(const std::vector<model::Design::State>& states, const std::string& timer);
 
 /// A program as a function of (x, tau), one point at a time. The program and the constants must
 /// outlive it; every input must be a state, the timer or a constant.
 class PointFunction {
  public:
-  PointFunction(const expr::Program& program, const Layout& layout, const numbers::Values& constants);
+  PointFunction(const expr::Program& program, const StateLayout& layout,
+                const numbers::Values& constants);
   PointFunction(PointFunction&&) = default;  // a copy's evaluator would point into the original
   PointFunction& operator=(PointFunction&&) = default;
 
