@@ -1,5 +1,6 @@
 #include "expr/assembly.h"
 
+#include <stdexcept>
 #include <utility>
 
 namespace gainsmith::expr {
@@ -22,6 +23,13 @@ Instruction made(Op op, std::vector<int> operands, Shape shape, int attribute,
 }  // namespace
 
 int Assembly::add(Instruction instruction) {
+  std::vector<Shape> operands;
+  operands.reserve(instruction.operands.size());
+  for (const int operand : instruction.operands) operands.push_back(shape(operand));
+  if (result_shape(instruction.op, operands, instruction.attributes, instruction.shape) !=
+      instruction.shape)
+    throw std::logic_error("a " + to_string(instruction.op) + " of a wrong shape, " +
+                           to_string(instruction.shape));
   const Key key{instruction.op,         instruction.operands,   instruction.shape.rows,
                 instruction.shape.cols, instruction.attributes, instruction.text};
   const auto [found, fresh] = known_.emplace(key, static_cast<int>(program_.code.size()));

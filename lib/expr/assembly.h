@@ -1,7 +1,6 @@
 // A program under construction.
 #pragma once
 
-#include <array>
 #include <map>
 #include <string>
 #include <tuple>
@@ -15,6 +14,7 @@ namespace gainsmith::expr {
 class Assembly {
  public:
   /// Adds an instruction whose operands are here already, unless there is one like it; its index.
+  /// std::logic_error when its shapes are not as the operation's rule says.
   int add(Instruction instruction);
   /// The instruction that reads an input. `like` gives its place.
   int add_input(const std::string& name, Shape shape, const Instruction& like);
@@ -30,7 +30,7 @@ class Assembly {
   Program extract(int at) const;
 
  private:
-  using Key = std::tuple<Op, std::vector<int>, int, int, std::array<int, 4>, std::string>;
+  using Key = std::tuple<Op, std::vector<int>, int, int, Attributes, std::string>;
 
   Program program_;
   std::map<Key, int> known_;

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <optional>
 #include <utility>
+#include <variant>
 
 #include "expr/binder.h"
 
@@ -37,7 +38,9 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
     fail(expression, node,
          "'" + name + "' is written " + std::string(function->usage) + "; found " +
              std::to_string(count) + " arguments");
-  return bind_function(expression, node, *function);
+  if (const Op* op = std::get_if<Op>(&function->what))
+    return bind_operation(expression, node, *function, *op);
+  return bind_composed(expression, node, std::get<Composed>(function->what));
 }
 
 Bound Binder::bind_given_function(const Expression& expression, const Node& node, Shape of) {
@@ -53,109 +56,86 @@ Bound Binder::bind_given_function(const Expression& expression, const Node& node
   return {assembly_.add_call(node.text, of, at, like)};
 }
 
-Bound Binder::bind_function(const Expression& expression, const Node& node,
-                            const Function& function) {
-  const auto argument = [&](std::size_t i) { return bind(expression, *node.children[i]); };
-  switch (function.id) {
-    case FunctionId::He: {
-      const Bound a = argument(0);
-      if (a.identity || shape(a.at).is_scalar())
-        return {emit(expression, node, Op::add, {a.at, a.at}, {}), a.identity};
-      const int at = square(expression, *node.children[0], a, function.name);
-      const Bound mirrored = transpose(expression, node, {at});
-      return {emit(expression, node, Op::add, {at, mirrored.at}, shape(at))};
-    }
-    case FunctionId::inv: {
-      const Bound a = argument(0);
-      if (a.identity) return {emit(expression, node, Op::inverse, {a.at}, {}), true};
-      const int at = square(expression, *node.children[0], a, function.name);
-      return {emit(expression, node, Op::inverse, {at}, shape(at))};
-    }
-    case FunctionId::pinv: {
-      const int at = sized(expression, *node.children[0], argument(0));
-      return {emit(expression, node, Op::pseudo_inverse, {at}, {shape(at).cols, shape(at).rows})};
-    }
-    case FunctionId::expm: {
-      const int at = square_argument(expression, node, function.name);
-      return {emit(expression, node, Op::matrix_exponential, {at}, shape(at))};
-    }
-    case FunctionId::trace: {
-      const int at = square_argument(expression, node, function.name);
-      return {emit(expression, node, Op::trace, {at}, {})};
-    }
-    case FunctionId::norm: {
-      const int at = sized(expression, *node.children[0], argument(0));
-      return {emit(expression, node, Op::norm, {at}, {})};
-    }
-    case FunctionId::exp:
-      return elementwise(expression, node, Op::exp);
-    case FunctionId::log:
-      return elementwise(expression, node, Op::log);
-    case FunctionId::sqrt:
-      return elementwise(expression, node, Op::sqrt);
-    case FunctionId::sin:
-      return elementwise(expression, node, Op::sin);
-    case FunctionId::cos:
-      return elementwise(expression, node, Op::cos);
-    case FunctionId::tanh:
-      return elementwise(expression, node, Op::tanh);
-    case FunctionId::abs:
-      return elementwise(expression, node, Op::abs);
-    case FunctionId::sign:
-      return elementwise(expression, node, Op::sign);
-    case FunctionId::min:
-      return fold_minmax(expression, node, Op::minimum);
-    case FunctionId::max:
-      return fold_minmax(expression, node, Op::maximum);
-    case FunctionId::clip:
-      return clip(expression, node);
-    case FunctionId::where:
-      return where(expression, node);
-    case FunctionId::eye:
-    case FunctionId::zeros:
-    case FunctionId::ones:
-      return constant_matrix(expression, node, function.id);
-    case FunctionId::diag:
-      return diagonal(expression, node);
-    case FunctionId::blkdiag:
-      return block_diagonal(expression, node);
-    case FunctionId::orth:
-      return basis(expression, node, Op::range_basis);
-    case FunctionId::null:
-      return basis(expression, node, Op::kernel_basis);
-    case FunctionId::svd: {
-      const int at = sized(expression, *node.children[0], argument(0));
-      return {emit(expression, node, Op::singular_values, {at},
-                   {std::min(shape(at).rows, shape(at).cols), 1})};
-    }
-    case FunctionId::obsv:
-      return observability(expression, node);
-    case FunctionId::gramian:
-    case FunctionId::backward_gramian:
-      return gramian(expression, node, function.id == FunctionId::backward_gramian);
-  }
-  fail(expression, node, "unknown function");
+std::optional<Shape> Binder::shape_of(Op op, const std::vector<int>& operands,
+                                      const Attributes& attributes) const {
+  std::vector<Shape> shapes;
+  shapes.reserve(operands.size());
+  for (const int operand : operands) shapes.push_back(shape(operand));
+  return result_shape(op, shapes, attributes);
+}
+
+void Binder::not_square(const Expression& expression, const Node& argument, Bound value,
+                        std::string_view function) const {
+  fail(expression, argument,
+       std::string(function) + " needs a square matrix, not " +
+           describe(expression, argument, value));
 }
 
 int Binder::square_argument(const Expression& expression, const Node& node,
                             std::string_view function) {
   const Node& argument = *node.children[0];
-  return square(expression, argument, bind(expression, argument), function);
-}
-
-int Binder::square(const Expression& expression, const Node& argument, Bound value,
-                   std::string_view function) {
-  const int at = sized(expression, argument, value);
-  if (!shape(at).is_square())
-    fail(expression, argument,
-         std::string(function) + " needs a square matrix, not " +
-             describe(expression, argument, value));
+  const int at = sized(expression, argument, bind(expression, argument));
+  if (!shape(at).is_square()) not_square(expression, argument, {at}, function);
   return at;
 }
 
-Bound Binder::elementwise(const Expression& expression, const Node& node, Op op) {
-  const int at = sized(expression, *node.children[0], bind(expression, *node.children[0]));
-  return {emit(expression, node, op, {at}, shape(at))};
+Bound Binder::bind_operation(const Expression& expression, const Node& node,
+                             const Function& function, Op op) {
+  std::vector<int> operands;
+  for (const NodePtr& child : node.children) {
+    const Bound value = bind(expression, *child);
+    if (value.identity && op == Op::inverse)
+      return {emit(expression, node, op, {value.at}, {}), true};
+    operands.push_back(sized(expression, *child, value));
+  }
+  const auto result = shape_of(op, operands);
+  if (result) return {emit(expression, node, op, operands, *result)};
+  const Node& first = *node.children[0];
+  if (operands.size() == 1) not_square(expression, first, {operands[0]}, function.name);
+  for (std::size_t i = 1; i < operands.size(); ++i)
+    materialise(expression, *node.children[i], {operands[i]}, shape(operands[0]));
+  fail(expression, node, std::string(function.usage) + ": the shapes do not fit");
+}
+
+Bound Binder::bind_composed(const Expression& expression, const Node& node, Composed function) {
+  switch (function) {
+    case Composed::He:
+      return symmetric(expression, node);
+    case Composed::min:
+      return fold_minmax(expression, node, Op::minimum);
+    case Composed::max:
+      return fold_minmax(expression, node, Op::maximum);
+    case Composed::clip:
+      return clip(expression, node);
+    case Composed::where:
+      return where(expression, node);
+    case Composed::eye:
+    case Composed::zeros:
+    case Composed::ones:
+      return constant_matrix(expression, node, function);
+    case Composed::diag:
+      return diagonal(expression, node);
+    case Composed::blkdiag:
+      return block_diagonal(expression, node);
+    case Composed::orth:
+      return basis(expression, node, Op::range_basis);
+    case Composed::null:
+      return basis(expression, node, Op::kernel_basis);
+    case Composed::obsv:
+      return observability(expression, node);
+    case Composed::gramian:
+    case Composed::backward_gramian:
+      return gramian(expression, node, function == Composed::backward_gramian);
+  }
+  fail(expression, node, "unknown function");
+}
+
+Bound Binder::symmetric(const Expression& expression, const Node& node) {
+  const Node& argument = *node.children[0];
+  const Bound a = bind(expression, argument);
+  if (!a.identity && !shape(a.at).is_square()) not_square(expression, argument, a, node.text);
+  const Bound mirrored = transpose(expression, node, a);
+  return {emit(expression, node, Op::add, {a.at, mirrored.at}, shape(a.at)), a.identity};
 }
 
 int Binder::same_shape(const Expression& expression, const Node& node, Bound value, Shape wanted) {
@@ -217,7 +197,7 @@ Bound Binder::where(const Expression& expression, const Node& node) {
                common, {strict ? 1 : 0})};
 }
 
-Bound Binder::constant_matrix(const Expression& expression, const Node& node, FunctionId id) {
+Bound Binder::constant_matrix(const Expression& expression, const Node& node, Composed function) {
   constexpr int kLargest = 100000;
   std::vector<int> sizes;
   for (const NodePtr& child : node.children) {
@@ -228,9 +208,9 @@ Bound Binder::constant_matrix(const Expression& expression, const Node& node, Fu
     sizes.push_back(*size);
   }
   const Shape wanted{value_of(sizes, 0), sizes.back()};
-  if (id == FunctionId::zeros) return {emit(expression, node, Op::zeros, {}, wanted)};
+  if (function == Composed::zeros) return {emit(expression, node, Op::zeros, {}, wanted)};
   const int one = number(expression, node, "1");
-  const Op op = id == FunctionId::eye ? Op::identity : Op::fill;
+  const Op op = function == Composed::eye ? Op::identity : Op::fill;
   return {emit(expression, node, op, {one}, wanted)};
 }
 

@@ -11,7 +11,6 @@
 // With M = E_N J ... J E_1:  backward = M^-T forward M^-1.
 //
 // They are bound to sums, products and exponentials, so that they may be used wherever these may.
-#include <array>
 #include <functional>
 #include <utility>
 
@@ -21,52 +20,45 @@ namespace gainsmith::expr {
 
 namespace {
 
-/// Emits operations with shapes worked out, all at the place of one call.
+/// Emits operations whose shapes follow from their operands, all at the place of one call.
 class Emitter {
  public:
-  using Emit = std::function<int(Op, std::vector<int>, Shape, std::array<int, 4>, std::string)>;
+  using Emit = std::function<int(Op, std::vector<int>, Attributes, std::string)>;
 
-  Emitter(Emit emit, std::function<Shape(int)> shape)
-      : emit_(std::move(emit)), shape_(std::move(shape)) {}
+  Emitter(Emit emit, std::function<int(Shape)> zeros, std::function<Shape(int)> shape)
+      : emit_(std::move(emit)), zeros_(std::move(zeros)), shape_(std::move(shape)) {}
 
-  int add(int a, int b) const { return emit_(Op::add, {a, b}, shape_(a), {}, ""); }
-  int negate(int a) const { return emit_(Op::negate, {a}, shape_(a), {}, ""); }
-  int multiply(int a, int b) const {
-    return emit_(Op::multiply, {a, b}, {shape_(a).rows, shape_(b).cols}, {}, "");
-  }
-  int transpose(int a) const {
-    return emit_(Op::transpose, {a}, {shape_(a).cols, shape_(a).rows}, {}, "");
-  }
+  int add(int a, int b) const { return emit_(Op::add, {a, b}, {}, ""); }
+  int negate(int a) const { return emit_(Op::negate, {a}, {}, ""); }
+  int multiply(int a, int b) const { return emit_(Op::multiply, {a, b}, {}, ""); }
+  int transpose(int a) const { return emit_(Op::transpose, {a}, {}, ""); }
   /// A' B A.
   int congruence(int a, int b) const { return multiply(multiply(transpose(a), b), a); }
   int exponential(int a, int t) const {
-    const int scaled = emit_(Op::scale, {t, a}, shape_(a), {}, "");
-    return emit_(Op::matrix_exponential, {scaled}, shape_(a), {}, "");
+    return emit_(Op::matrix_exponential, {emit_(Op::scale, {t, a}, {}, "")}, {}, "");
   }
-  int inverse(int a, const std::string& what) const {
-    return emit_(Op::inverse, {a}, shape_(a), {}, what);
-  }
+  int inverse(int a, const std::string& what) const { return emit_(Op::inverse, {a}, {}, what); }
   /// The k-th element of a row or column.
   int element(int vector, int k) const {
     const bool row = shape_(vector).rows == 1;
-    return emit_(Op::index, {vector}, {},
-                 row ? std::array{0, 1, k, k + 1} : std::array{k, k + 1, 0, 1}, "");
+    return emit_(Op::index, {vector}, row ? Attributes{0, 1, k, k + 1} : Attributes{k, k + 1, 0, 1},
+                 "");
   }
   /// int_0^t expm(f s)' q expm(f s) ds, from expm([-f', q; 0, f] t) = [expm(-f' t), X; 0, expm(f
   /// t)]: it is expm(f t)' X.
   int integral(int f, int q, int t) const {
     const int n = shape_(f).rows;
-    const Shape twice{2 * n, 2 * n};
-    const int zero = emit_(Op::zeros, {}, {n, n}, {}, "");
-    const int block = emit_(Op::blocks, {negate(transpose(f)), q, zero, f}, twice, {2}, "");
+    const int zero = zeros_({n, n});
+    const int block = emit_(Op::blocks, {negate(transpose(f)), q, zero, f}, {2}, "");
     const int both = exponential(block, t);
-    const int x = emit_(Op::index, {both}, {n, n}, {0, n, n, 2 * n}, "");
-    const int e = emit_(Op::index, {both}, {n, n}, {n, 2 * n, n, 2 * n}, "");
+    const int x = emit_(Op::index, {both}, {0, n, n, 2 * n}, "");
+    const int e = emit_(Op::index, {both}, {n, 2 * n, n, 2 * n}, "");
     return multiply(transpose(e), x);
   }
 
  private:
   Emit emit_;
+  std::function<int(Shape)> zeros_;
   std::function<Shape(int)> shape_;
 };
 
@@ -94,10 +86,11 @@ Bound Binder::gramian(const Expression& expression, const Node& node, bool backw
              describe(expression, *node.children[4], {lengths}));
 
   const Emitter make(
-      [&](Op op, std::vector<int> operands, Shape of, std::array<int, 4> attributes,
-          std::string text) {
+      [&](Op op, std::vector<int> operands, Attributes attributes, std::string text) {
+        const Shape of = shape_of(op, operands, attributes).value();
         return emit(expression, node, op, std::move(operands), of, attributes, std::move(text));
       },
+      [&](Shape of) { return emit(expression, node, Op::zeros, {}, of); },
       [&](int at) { return shape(at); });
   const int qc = make.multiply(make.transpose(hc), hc);
   const int qd = make.multiply(make.transpose(hd), hd);

@@ -32,7 +32,7 @@ std::string Binder::describe(const Expression& expression, const Node& node, Bou
 }
 
 int Binder::emit(const Expression& expression, const Node& node, Op op, std::vector<int> operands,
-                 Shape shape, std::array<int, 4> attributes, std::string text) {
+                 Shape shape, Attributes attributes, std::string text) {
   constexpr std::int64_t kMostElements = 10'000'000;
   if (std::int64_t{shape.rows} * shape.cols > kMostElements)
     fail(expression, node, "the " + to_string(op) + " is too large: " + to_string(shape));

@@ -63,12 +63,14 @@ class Binder {
   // bind_calls.cpp: functions.
   Bound bind_call(const Expression& expression, const Node& node);
   Bound bind_given_function(const Expression& expression, const Node& node, Shape shape);
-  Bound bind_function(const Expression& expression, const Node& node, const Function& function);
-  Bound elementwise(const Expression& expression, const Node& node, Op op);
+  Bound bind_composed(const Expression& expression, const Node& node, Composed function);
+  Bound bind_operation(const Expression& expression, const Node& node, const Function& function,
+                       Op op);
+  Bound symmetric(const Expression& expression, const Node& node);
   Bound fold_minmax(const Expression& expression, const Node& node, Op op);
   Bound clip(const Expression& expression, const Node& node);
   Bound where(const Expression& expression, const Node& node);
-  Bound constant_matrix(const Expression& expression, const Node& node, FunctionId id);
+  Bound constant_matrix(const Expression& expression, const Node& node, Composed function);
   Bound diagonal(const Expression& expression, const Node& node);
   Bound block_diagonal(const Expression& expression, const Node& node);
   Bound basis(const Expression& expression, const Node& node, Op op);
@@ -78,14 +80,17 @@ class Binder {
 
   int same_shape(const Expression& expression, const Node& node, Bound value, Shape shape);
   int square_argument(const Expression& expression, const Node& node, std::string_view function);
-  int square(const Expression& expression, const Node& argument, Bound value,
-             std::string_view function);
+  [[noreturn]] void not_square(const Expression& expression, const Node& argument, Bound value,
+                               std::string_view function) const;
   /// The program of a value, all of whose inputs are known beforehand.
   Program known_program(const Expression& expression, const Node& node, int at,
                         std::string_view why);
 
   int emit(const Expression& expression, const Node& node, Op op, std::vector<int> operands,
-           Shape shape, std::array<int, 4> attributes = {}, std::string text = "");
+           Shape shape, Attributes attributes = {}, std::string text = "");
+  /// The shape that the operation's rule gives, none when the operands do not fit.
+  std::optional<Shape> shape_of(Op op, const std::vector<int>& operands,
+                                const Attributes& attributes = {}) const;
   int number(const Expression& expression, const Node& node, const std::string& text);
   [[noreturn]] void fail(const Expression& expression, const Node& node,
                          const std::string& message) const;

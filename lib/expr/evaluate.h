@@ -1,46 +1,31 @@
-// Evaluation of a program over a number type.
-//
-// A number type is given by an algebra:
-//   struct Algebra {
-//     using Value = ...;      // a matrix over the number type
-//     // Computes one instruction (never Op::input) from the values of its operands into `out`,
-//     // which may hold an old value of the same shape. Throws EvaluationError when that is
-//     // impossible.
-//     void apply(const Instruction&, std::span<const Value* const> operands, Value& out) const;
-//   };
+// Evaluation of a program over a number type (number_type.h).
 #pragma once
 
 #include <cstddef>
-#include <span>
 #include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "base/error.h"
+#include "expr/number_type.h"
 #include "expr/program.h"
 
 namespace gainsmith::expr {
 
-/// An operation has no result: a singular inverse, the logarithm of a negative number, a product of
-/// two unknowns. The evaluator adds the place.
-class EvaluationError : public std::runtime_error {
- public:
-  using std::runtime_error::runtime_error;
-};
-
 /// Runs one program again and again. Inputs given by fix() keep their value, and what depends on
 /// them alone is computed once; the others are given by set() before each run(). Values of inputs
 /// are held by pointer and must outlive the run. The registers are kept, so that a run over a value
-/// type that reuses its memory allocates nothing.
-template <class Algebra>
+/// type that reuses its memory allocates nothing. An operation without a result is an
+/// EvaluationError with its place; the evaluator can be used after it.
+template <NumberType Type>
 class Evaluator {
  public:
-  using Value = typename Algebra::Value;
+  using Value = typename Type::Value;
 
   /// `program` must outlive the evaluator.
-  explicit Evaluator(const Program& program, Algebra algebra = {})
+  explicit Evaluator(const Program& program, Type type = {})
       : program_(&program),
-        algebra_(std::move(algebra)),
+        type_(std::move(type)),
         inputs_(program.inputs.size()),
         fixed_(program.inputs.size(), false),
         registers_(program.code.size()) {}
@@ -81,9 +66,9 @@ class Evaluator {
     for (const int operand : instruction.operands)
       operands_.push_back(&value(static_cast<std::size_t>(operand)));
     try {
-      algebra_.apply(instruction, operands_, registers_[at]);
+      type_.apply(instruction, operands_, registers_[at]);
     } catch (const EvaluationError& error) {
-      throw InputError(instruction.place(), error.what());
+      throw EvaluationError(instruction.place(), error.message());
     }
   }
 
@@ -114,7 +99,7 @@ class Evaluator {
   }
 
   const Program* program_;
-  Algebra algebra_;
+  Type type_;
   std::vector<const Value*> inputs_;
   std::vector<bool> fixed_;
   std::vector<Value> registers_;

@@ -1,55 +1,47 @@
-// The functions of the language: one table, from which binding, messages and help are made.
+// The functions and operators of the language, as rows of operations.def: binding, messages, help
+// and the tables of docs/language.md are made from them.
 #pragma once
 
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
+
+#include "expr/operations.h"
 
 namespace gainsmith::expr {
 
-enum class FunctionId {
-  He,
-  inv,
-  pinv,
-  expm,
-  exp,
-  log,
-  sqrt,
-  sin,
-  cos,
-  tanh,
-  abs,
-  sign,
-  min,
-  max,
-  clip,
-  where,
-  trace,
-  norm,
-  eye,
-  zeros,
-  ones,
-  diag,
-  blkdiag,
-  orth,
-  null,
-  svd,
-  obsv,
-  gramian,
-  backward_gramian
+/// The functions that the binder makes of operations.
+enum class Composed {
+#define COMPOSED(name, ...) name,
+#include "expr/operations.def"
 };
 
 struct Function {
-  FunctionId id;
+  std::variant<Op, Composed> what;
   std::string_view name;
   int fewest;                ///< arguments
   int most;                  ///< -1: any number
   std::string_view usage;    ///< "clip(x, lo, hi)"
-  std::string_view meaning;  ///< one line
+  std::string_view meaning;  ///< one line, Markdown
+  std::string_view example;
+  std::string_view value;  ///< of the example, as an expression
 };
 
+/// A line of the page on operators.
+struct Operator {
+  std::string_view usage;  ///< Markdown
+  std::string_view name;
+  std::string_view remark;  ///< Markdown; may be empty
+  std::string_view example;
+  std::string_view value;
+};
+
+/// In the order of the page.
 std::span<const Function> functions();
+/// From the tightest to the loosest.
+std::span<const Operator> operators();
 
 /// nullptr when there is no function of that name.
 const Function* find_function(std::string_view name);
@@ -58,5 +50,9 @@ const Function* find_function(std::string_view name);
 bool is_reserved(std::string_view name);
 
 std::vector<std::string> function_names();
+
+/// The tables of docs/language.md, in Markdown.
+std::string functions_page();
+std::string operators_page();
 
 }  // namespace gainsmith::expr

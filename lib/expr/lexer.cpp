@@ -34,25 +34,11 @@ std::size_t number_end(std::string_view text, std::size_t at) {
   return at;
 }
 
-constexpr std::array<std::pair<std::string_view, TokenKind>, 17> kSymbols = {{
-    {"<=", TokenKind::less_equal},
-    {">=", TokenKind::greater_equal},
-    {"<", TokenKind::less},
-    {">", TokenKind::greater},
-    {"+", TokenKind::plus},
-    {"-", TokenKind::minus},
-    {"*", TokenKind::star},
-    {"/", TokenKind::slash},
-    {"^", TokenKind::caret},
-    {"'", TokenKind::quote},
-    {",", TokenKind::comma},
-    {";", TokenKind::semicolon},
-    {":", TokenKind::colon},
-    {"(", TokenKind::open},
-    {")", TokenKind::close},
-    {"[", TokenKind::open_bracket},
-    {"]", TokenKind::close_bracket},
-}};
+#define SYMBOL(token, spelling) Symbol{spelling, TokenKind::token},
+using Symbol = std::pair<std::string_view, TokenKind>;
+constexpr std::array kSymbols = {
+#include "expr/operations.def"
+};
 
 /// Spellings of other languages, with what to write here.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kForeign = {{

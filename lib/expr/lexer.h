@@ -12,23 +12,8 @@ namespace gainsmith::expr {
 enum class TokenKind {
   number,
   name,
-  plus,
-  minus,
-  star,
-  slash,
-  caret,
-  quote,
-  comma,
-  semicolon,
-  colon,
-  open,
-  close,
-  open_bracket,
-  close_bracket,
-  less,
-  less_equal,
-  greater,
-  greater_equal,
+#define SYMBOL(token, spelling) token,
+#include "expr/operations.def"
   end
 };
 

@@ -20,10 +20,7 @@ struct AffineMap {
 };
 
 /// The first instruction whose value is not known to be affine in the inputs that move; nullptr
-/// when the whole program is affine. Each value has degree 0 (constant), 1 (affine) or more. Sums,
-/// rearrangements (transpose, blocks, part, trace, diagonal), a division by a constant and a choice
-/// by a constant comparison keep the largest degree, products add degrees, every other function of
-/// a moving value is not affine.
+/// when the whole program is affine. The rules are in numbers/degree.h.
 const expr::Instruction* first_not_affine(const expr::Program& program,
                                           const std::function<bool(const std::string&)>& moves);
 

@@ -12,8 +12,10 @@ namespace {
 
 using Eigen::Index;
 using expr::Instruction;
+using expr::Is;
 using expr::Op;
-using Operands = std::span<const Pack* const>;
+using Operands = expr::Operands<Pack>;
+using At = expr::Step<Pack>;
 
 /// out = f(a, b) for element `ea` of a and `eb` of b, of which at least one moves.
 template <class F>
@@ -84,6 +86,41 @@ void compute_once(const Instruction& instruction, Operands operands, Pack& out) 
   RealAlgebra{}.apply(instruction, pointers, out.matrix);
 }
 
+/// At least one operand moves; `out` has its shape.
+struct PackRules {
+  void operator()(Is<Op::add>, const At& at, Pack& out) const {
+    element_by_element(at[0], at[1], out, [](const auto& x, const auto& y) { return x + y; });
+  }
+  void operator()(Is<Op::subtract>, const At& at, Pack& out) const {
+    element_by_element(at[0], at[1], out, [](const auto& x, const auto& y) { return x - y; });
+  }
+  void operator()(Is<Op::scale>, const At& at, Pack& out) const {
+    for (Index e = 0; e < out.lanes.cols(); ++e)
+      combine(at[0], 0, at[1], e, out.lanes.col(e),
+              [](const auto& x, const auto& y) { return x * y; });
+  }
+  void operator()(Is<Op::divide>, const At& at, Pack& out) const {
+    for (Index e = 0; e < out.lanes.cols(); ++e)
+      combine(at[0], e, at[1], 0, out.lanes.col(e),
+              [](const auto& x, const auto& y) { return x / y; });
+  }
+  void operator()(Is<Op::multiply>, const At& at, Pack& out) const { multiply(at[0], at[1], out); }
+  void operator()(Is<Op::negate>, const At& at, Pack& out) const { out.lanes = -at[0].lanes; }
+  void operator()(Is<Op::exp>, const At& at, Pack& out) const { out.lanes = at[0].lanes.exp(); }
+  void operator()(Is<Op::transpose>, const At& at, Pack& out) const { transpose(at[0], out); }
+
+  template <Op op>
+  requires expr::OneOf<op, Op::constant, Op::zeros, Op::fill, Op::identity, Op::power,
+                       Op::scalar_power, Op::blocks, Op::index, Op::inverse, Op::pseudo_inverse,
+                       Op::matrix_exponential, Op::log, Op::sqrt, Op::sin, Op::cos, Op::tanh,
+                       Op::abs, Op::sign, Op::minimum, Op::maximum, Op::where, Op::trace, Op::norm,
+                       Op::diagonal_matrix, Op::diagonal_of, Op::range_basis, Op::kernel_basis,
+                       Op::singular_values>
+  void operator()(Is<op>, const At& at, Pack& out) const {
+    point_by_point(at.instruction, at.operands, out);
+  }
+};
+
 }  // namespace
 
 Pack constant_pack(const Matrix& matrix) {
@@ -99,40 +136,7 @@ void PackAlgebra::apply(const Instruction& instruction, Operands operands, Pack&
   }
   out.same = false;
   out.lanes.resize(Pack::kLanes, instruction.shape.size());
-  const auto a = [&]() -> const Pack& { return *operands[0]; };
-  const auto b = [&]() -> const Pack& { return *operands[1]; };
-  switch (instruction.op) {
-    case Op::add:
-      element_by_element(a(), b(), out, [](const auto& x, const auto& y) { return x + y; });
-      break;
-    case Op::subtract:
-      element_by_element(a(), b(), out, [](const auto& x, const auto& y) { return x - y; });
-      break;
-    case Op::scale:
-      for (Index e = 0; e < out.lanes.cols(); ++e)
-        combine(a(), 0, b(), e, out.lanes.col(e),
-                [](const auto& x, const auto& y) { return x * y; });
-      break;
-    case Op::divide:
-      for (Index e = 0; e < out.lanes.cols(); ++e)
-        combine(a(), e, b(), 0, out.lanes.col(e),
-                [](const auto& x, const auto& y) { return x / y; });
-      break;
-    case Op::multiply:
-      multiply(a(), b(), out);
-      break;
-    case Op::negate:
-      out.lanes = -a().lanes;
-      break;
-    case Op::exp:
-      out.lanes = a().lanes.exp();
-      break;
-    case Op::transpose:
-      transpose(a(), out);
-      break;
-    default:
-      point_by_point(instruction, operands, out);
-  }
+  expr::dispatch(PackRules{}, instruction, operands, out);
 }
 
 }  // namespace gainsmith::numbers

@@ -3,9 +3,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <span>
 
-#include "expr/program.h"
+#include "expr/number_type.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::numbers {
@@ -25,12 +24,12 @@ struct Pack {
 /// The value that is `matrix` at all points.
 Pack constant_pack(const Matrix& matrix);
 
-/// Pack arithmetic. Values that do not move are computed by RealAlgebra, errors included; a lane
-/// in which an operation has no result, or overflows, holds a NaN or an infinity and goes on.
+/// Pack arithmetic (expr/number_type.h). Values that do not move are computed by RealAlgebra,
+/// errors included; a lane in which an operation has no result, or overflows, holds a NaN or an
+/// infinity and goes on.
 struct PackAlgebra {
   using Value = Pack;
-  void apply(const expr::Instruction& instruction, std::span<const Pack* const> operands,
-             Pack& out) const;
+  void apply(const expr::Instruction& instruction, expr::Operands<Pack> operands, Pack& out) const;
 };
 
 }  // namespace gainsmith::numbers

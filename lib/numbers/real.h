@@ -1,9 +1,9 @@
-// The number type double: one matrix of doubles a value.
+// The number type "real": one matrix of real scalars a value. For double, and for the scalars of
+// base/scalars.h (31 and 100 decimal digits).
 #pragma once
 
 #include <functional>
 #include <map>
-#include <span>
 #include <string>
 #include <utility>
 
@@ -14,19 +14,28 @@
 
 namespace gainsmith::numbers {
 
-struct RealAlgebra {
-  using Value = Matrix;
+/// EvaluationError for a singular inverse (its reciprocal condition in the 1-norm is about epsilon;
+/// for double 1e-15), a division by zero, the logarithm or root of a negative number, and any
+/// result that is not finite. Decimals are rounded to the scalar from their text.
+template <class Scalar>
+struct Real {
+  using Value = MatrixOf<Scalar>;
 
-  /// EvaluationError for a singular inverse (reciprocal condition below 1e-15), a division by zero,
-  /// the logarithm or root of a negative number, and any result that is not finite.
-  void apply(const expr::Instruction& instruction, std::span<const Matrix* const> operands,
-             Matrix& out) const;
+  void apply(const expr::Instruction& instruction, expr::Operands<Value> operands,
+             Value& out) const;
 };
 
-/// Named matrices: data, parameters, gains, values of unknowns.
-using Values = std::map<std::string, Matrix, std::less<>>;
+using RealAlgebra = Real<double>;
 
-/// Evaluates once. InputError when an operation fails; std::logic_error when an input has no value.
+/// Named matrices: data, parameters, gains, values of unknowns.
+template <class Scalar>
+using ValuesOf = std::map<std::string, MatrixOf<Scalar>, std::less<>>;
+using Values = ValuesOf<double>;
+
+/// Evaluates once. EvaluationError when an operation fails; std::logic_error when an input has no
+/// value.
+template <class Scalar>
+MatrixOf<Scalar> evaluate(const expr::Program& program, const ValuesOf<Scalar>& values);
 Matrix evaluate(const expr::Program& program, const Values& values);
 
 /// rows x columns.
@@ -49,5 +58,8 @@ class KnownDoubles : public expr::KnownValues {
 /// The number of singular values above tolerance * the largest one; tolerance < 0 stands for
 /// max(rows, cols) * 2^-52.
 int numerical_rank(const Matrix& matrix, double tolerance = -1);
+
+extern template struct Real<double>;
+extern template Matrix evaluate<double>(const expr::Program&, const Values&);
 
 }  // namespace gainsmith::numbers

@@ -1,7 +1,7 @@
 #include "sdp/data.h"
 
+#include "base/scalars.h"
 #include "sdp/pairs.h"
-#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {

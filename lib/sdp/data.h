@@ -4,9 +4,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/scalars.h"
 #include "sdp/layout.h"
 #include "sdp/linalg.h"
-#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/scalars.h"
 #include "sdp/kernels.h"
-#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {

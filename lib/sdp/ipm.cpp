@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "sdp/scalars.h"
+#include "base/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {

@@ -7,9 +7,9 @@
 #include <type_traits>
 #include <vector>
 
+#include "base/scalars.h"
 #include "sdp/pairs.h"
 #include "sdp/product.h"
-#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {

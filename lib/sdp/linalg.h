@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/eigen_scalars.h"
+#include "base/scalars.h"
 #include "sdp/layout.h"
 
 namespace gainsmith::sdp {
@@ -60,12 +62,6 @@ class Blocks {
   const Layout* layout_;
   Vector<T> values_;
 };
-
-/// The number in another type: rounded where that is narrower, exact where it is wider.
-template <typename To, typename From>
-To as(const From& value) {
-  return static_cast<To>(value);
-}
 
 /// Rounds (or widens) every number of `from`; nothing to do but copy when the types are the same.
 template <typename To, typename From>

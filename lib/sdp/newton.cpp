@@ -4,8 +4,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "base/scalars.h"
 #include "sdp/kernels.h"
-#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {

@@ -8,7 +8,7 @@
 #include <cstdint>
 #include <cstring>
 
-#include "sdp/double_double.h"
+#include "base/double_double.h"
 
 namespace gainsmith::sdp {
 

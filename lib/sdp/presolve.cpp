@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "sdp/scalars.h"
+#include "base/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {

@@ -6,9 +6,9 @@
 #include <limits>
 #include <type_traits>
 
+#include "base/scalars.h"
 #include "sdp/data.h"
 #include "sdp/kernels.h"
-#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {

@@ -8,9 +8,9 @@
 #include <type_traits>
 
 #include "base/parallel.h"
+#include "base/scalars.h"
 #include "sdp/cover.h"
 #include "sdp/kernels.h"
-#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {

@@ -8,9 +8,9 @@
 #include <tuple>
 #include <vector>
 
+#include "base/double_double.h"
 #include "base/error.h"
 #include "base/number.h"
-#include "sdp/double_double.h"
 
 namespace gainsmith::sdp {
 namespace {

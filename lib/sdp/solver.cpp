@@ -9,10 +9,10 @@
 #include <type_traits>
 
 #include "base/number.h"
+#include "base/scalars.h"
 #include "sdp/ipm.h"
 #include "sdp/presolve.h"
 #include "sdp/report.h"
-#include "sdp/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sdp/scalars.h"
+#include "base/scalars.h"
 
 namespace gainsmith::sdp {
 namespace {

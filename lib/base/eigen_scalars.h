@@ -1,0 +1,38 @@
+// What Eigen has to know of the scalars beyond double. In base, because two rooms' answers that
+// differ would break what both instantiate; without a look at Eigen, which the room that includes
+// this brings along: <Eigen/Core> comes first.
+#pragma once
+
+#include "base/scalars.h"
+
+#ifndef EIGEN_CORE_H
+#error "include <Eigen/Core> before base/eigen_scalars.h"
+#endif
+
+template <>
+struct Eigen::NumTraits<gainsmith::DoubleDouble>
+    : Eigen::GenericNumTraits<gainsmith::DoubleDouble> {
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 0,
+    ReadCost = 2,
+    AddCost = 20,
+    MulCost = 10
+  };
+  static gainsmith::DoubleDouble dummy_precision() { return {1e-28}; }
+};
+
+template <>
+struct Eigen::NumTraits<gainsmith::Decimal100> : Eigen::GenericNumTraits<gainsmith::Decimal100> {
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 10,
+    AddCost = 100,
+    MulCost = 200
+  };
+};

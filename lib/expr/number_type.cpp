@@ -1,0 +1,26 @@
+#include "expr/number_type.h"
+
+#include "base/number.h"
+
+namespace gainsmith::expr::fault {
+
+void singular(const Instruction& inverse) {
+  throw EvaluationError((inverse.text.empty() ? "inv: the matrix" : inverse.text) +
+                        " is singular to working precision");
+}
+
+void division_by_zero() { throw EvaluationError("division by zero"); }
+
+void outside_domain(Op op, double value) {
+  throw EvaluationError(to_string(op) + " of " + brief(value));
+}
+
+void not_finite(Op op) {
+  throw EvaluationError("the " + to_string(op) + " is not a finite number");
+}
+
+void beyond_range(const Instruction& constant) {
+  throw EvaluationError("the number " + constant.text + " is beyond the range of double");
+}
+
+}  // namespace gainsmith::expr::fault

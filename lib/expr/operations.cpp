@@ -1,0 +1,108 @@
+#include "expr/operations.h"
+
+#include <algorithm>
+#include <vector>
+
+namespace gainsmith::expr {
+
+namespace {
+
+#define RESOLVED(op, operands, rule, name) \
+  Operation{Op::op, #op, operands, ShapeRule::rule, name, "", ""},
+#define OPERATION(op, operands, rule, name, example, value) \
+  Operation{Op::op, #op, operands, ShapeRule::rule, name, example, value},
+#define FUNCTION(op, operands, rule, name, usage, meaning, example, value) \
+  Operation{Op::op, #op, operands, ShapeRule::rule, name, example, value},
+constexpr std::array kOperations = {
+#include "expr/operations.def"
+};
+
+std::optional<Shape> when(bool holds, Shape shape) {
+  return holds ? std::optional(shape) : std::nullopt;
+}
+
+/// Blocks in rows of `columns`: those of a row are equally high, those of a column equally wide.
+std::optional<Shape> layout_shape(std::span<const Shape> blocks, int columns) {
+  const auto count = static_cast<std::size_t>(std::max(columns, 0));
+  if (count == 0 || blocks.empty() || blocks.size() % count != 0) return std::nullopt;
+  Shape total{0, 0};
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const Shape first_of_row = blocks[k - k % count];
+    const Shape first_of_column = blocks[k % count];
+    if (blocks[k].rows != first_of_row.rows || blocks[k].cols != first_of_column.cols)
+      return std::nullopt;
+    if (k % count == 0) total.rows += blocks[k].rows;
+    if (k < count) total.cols += blocks[k].cols;
+  }
+  return total;
+}
+
+std::optional<Shape> part_shape(Shape from, const Attributes& at) {
+  const bool inside = 0 <= at[0] && at[0] <= at[1] && at[1] <= from.rows && 0 <= at[2] &&
+                      at[2] <= at[3] && at[3] <= from.cols;
+  return when(inside, {at[1] - at[0], at[3] - at[2]});
+}
+
+}  // namespace
+
+std::span<const Operation> operations() { return kOperations; }
+
+const Operation& operation(Op op) { return kOperations[static_cast<std::size_t>(op)]; }
+
+std::string to_string(Op op) { return std::string(operation(op).name); }
+
+std::string to_string(Shape shape) {
+  return std::to_string(shape.rows) + " x " + std::to_string(shape.cols);
+}
+
+std::optional<Shape> result_shape(Op op, std::span<const Shape> operands,
+                                  const Attributes& attributes, Shape wanted) {
+  const int count = operation(op).operands;
+  if (count >= 0 && static_cast<std::size_t>(count) != operands.size()) return std::nullopt;
+  const Shape a = operands.empty() ? Shape{} : operands[0];
+  const Shape b = operands.size() < 2 ? Shape{} : operands[1];
+  const int least = std::min(a.rows, a.cols);
+  switch (operation(op).rule) {
+    case ShapeRule::given:
+      return wanted;
+    case ShapeRule::given_of_number:
+      return when(a.is_scalar(), wanted);
+    case ShapeRule::square_of_number:
+      return when(a.is_scalar() && wanted.is_square(), wanted);
+    case ShapeRule::number:
+      return Shape{};
+    case ShapeRule::number_of_square:
+      return when(a.is_square(), {});
+    case ShapeRule::numbers:
+      return when(std::ranges::all_of(operands, &Shape::is_scalar), {});
+    case ShapeRule::elementwise:
+      return when(std::ranges::all_of(operands, [&](Shape other) { return other == a; }), a);
+    case ShapeRule::scaled:
+      return when(a.is_scalar(), b);
+    case ShapeRule::quotient:
+      return when(b.is_scalar(), a);
+    case ShapeRule::product:
+      return when(a.cols == b.rows, {a.rows, b.cols});
+    case ShapeRule::square:
+      return when(a.is_square(), a);
+    case ShapeRule::transposed:
+      return Shape{a.cols, a.rows};
+    case ShapeRule::layout:
+      return layout_shape(operands, attributes[0]);
+    case ShapeRule::part:
+      return part_shape(a, attributes);
+    case ShapeRule::diagonal_matrix:
+      return when(a.rows == 1 || a.cols == 1, {a.size(), a.size()});
+    case ShapeRule::diagonal_of:
+      return when(a.is_square(), {a.rows, 1});
+    case ShapeRule::singular_values:
+      return Shape{least, 1};
+    case ShapeRule::range_basis:
+      return when(wanted.cols <= least, {a.rows, wanted.cols});
+    case ShapeRule::kernel_basis:
+      return when(a.cols - least <= wanted.cols && wanted.cols <= a.cols, {a.cols, wanted.cols});
+  }
+  return std::nullopt;
+}
+
+}  // namespace gainsmith::expr

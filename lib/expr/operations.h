@@ -1,0 +1,73 @@
+// The operations of the machine. operations.def is their table, with the functions and operators of
+// the language.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "expr/shape.h"
+
+namespace gainsmith::expr {
+
+/// Every operation of the machine.
+enum class Op {
+#define RESOLVED(op, ...) op,
+#define OPERATION(op, ...) op,
+#define FUNCTION(op, ...) op,
+#include "expr/operations.def"
+};
+
+/// What the operands must be, and the shape of the result. A, B stand for operands of any shape, s
+/// for 1 x 1, M for square ones; r x c is the shape of A.
+enum class ShapeRule {
+  given,             ///< no operand -> any shape
+  given_of_number,   ///< s -> any shape
+  square_of_number,  ///< s -> any square shape
+  number,            ///< none or A -> 1 x 1
+  number_of_square,  ///< M -> 1 x 1
+  numbers,           ///< s, t -> 1 x 1
+  elementwise,       ///< A, B, ... of one shape -> that shape
+  scaled,            ///< s, A -> r x c
+  quotient,          ///< A, s -> r x c
+  product,           ///< r x k, k x c -> r x c
+  square,            ///< M -> its shape
+  transposed,        ///< A -> c x r
+  layout,            ///< blocks, attributes[0] in a row -> the sums of their heights and widths
+  part,              ///< A -> (attributes[1] - attributes[0]) x (attributes[3] - attributes[2])
+  diagonal_matrix,   ///< A with r = 1 or c = 1 -> rc x rc
+  diagonal_of,       ///< M -> r x 1
+  singular_values,   ///< A -> min(r, c) x 1
+  range_basis,       ///< A -> r x k, k <= min(r, c) given
+  kernel_basis       ///< A -> c x k, c - min(r, c) <= k <= c given
+};
+
+using Attributes = std::array<int, 4>;
+
+/// One row of the table.
+struct Operation {
+  Op op;
+  std::string_view identifier;  ///< as in Op
+  int operands;                 ///< -1: any number
+  ShapeRule rule;
+  std::string_view name;     ///< in messages: "inv", "product", ...
+  std::string_view example;  ///< empty when the operation is resolved before evaluation
+  std::string_view value;    ///< of the example, as an expression
+};
+
+/// The table, in the order of Op.
+std::span<const Operation> operations();
+const Operation& operation(Op op);
+
+/// The name used in messages.
+std::string to_string(Op op);
+
+/// The shape of the result; none when the number of the operands or their shapes are not as the
+/// rule says. `wanted` is the result's shape where the operands leave it open.
+std::optional<Shape> result_shape(Op op, std::span<const Shape> operands,
+                                  const Attributes& attributes = {}, Shape wanted = {});
+
+}  // namespace gainsmith::expr

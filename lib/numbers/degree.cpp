@@ -1,0 +1,77 @@
+#include "numbers/degree.h"
+
+#include <algorithm>
+
+namespace gainsmith::numbers {
+
+namespace {
+
+using expr::Instruction;
+using expr::Is;
+using expr::Op;
+using At = expr::Step<Degree>;
+
+Degree largest(expr::Operands<Degree> operands) {
+  Degree result = 0;
+  for (const Degree* operand : operands) result = std::max(result, *operand);
+  return result;
+}
+
+/// At least one operand moves.
+struct DegreeRules {
+  template <Op op>
+  requires expr::OneOf<op, Op::fill, Op::identity, Op::add, Op::subtract, Op::negate, Op::transpose,
+                       Op::blocks, Op::index, Op::trace, Op::diagonal_matrix, Op::diagonal_of>
+  void operator()(Is<op>, const At& at, Degree& out) const { out = largest(at.operands); }
+  template <Op op>
+  requires expr::OneOf<op, Op::multiply, Op::scale>
+  void operator()(Is<op>, const At& at, Degree& out) const {
+    out = std::min(kNotAffine, at[0] + at[1]);
+  }
+  void operator()(Is<Op::divide>, const At& at, Degree& out) const {
+    out = at[1] == 0 ? at[0] : kNotAffine;
+  }
+  void operator()(Is<Op::power>, const At& at, Degree& out) const {
+    out = at.attribute(0) == 1 ? at[0] : kNotAffine;
+  }
+  void operator()(Is<Op::where>, const At& at, Degree& out) const {
+    out = at[0] == 0 ? largest(at.operands) : kNotAffine;
+  }
+  template <Op op>
+  requires expr::OneOf<op, Op::constant, Op::zeros, Op::scalar_power, Op::inverse,
+                       Op::pseudo_inverse, Op::matrix_exponential, Op::exp, Op::log, Op::sqrt,
+                       Op::sin, Op::cos, Op::tanh, Op::abs, Op::sign, Op::minimum, Op::maximum,
+                       Op::norm, Op::range_basis, Op::kernel_basis, Op::singular_values>
+  void operator()(Is<op>, const At&, Degree& out) const { out = kNotAffine; }
+};
+
+}  // namespace
+
+void DegreeAlgebra::apply(const Instruction& instruction, expr::Operands<Degree> operands,
+                          Degree& out) const {
+  out = 0;
+  if (largest(operands) > 0) expr::dispatch(DegreeRules{}, instruction, operands, out);
+}
+
+std::vector<Degree> degrees(const expr::Program& program,
+                            const std::function<bool(const std::string&)>& moves) {
+  std::vector<Degree> result(program.code.size());
+  std::vector<const Degree*> operands;
+  for (std::size_t at = 0; at < program.code.size(); ++at) {
+    const Instruction& instruction = program.code[at];
+    operands.clear();
+    for (const int operand : instruction.operands)
+      operands.push_back(&result[static_cast<std::size_t>(operand)]);
+    if (instruction.op == Op::input) {
+      const auto input = static_cast<std::size_t>(instruction.attributes[0]);
+      result[at] = moves(program.inputs[input].name) ? 1 : 0;
+    } else if (instruction.op == Op::call) {
+      result[at] = *operands[0] == 0 ? 0 : kNotAffine;
+    } else {
+      DegreeAlgebra{}.apply(instruction, operands, result[at]);
+    }
+  }
+  return result;
+}
+
+}  // namespace gainsmith::numbers

@@ -1,0 +1,214 @@
+// Internal to numbers: the rules of Real, instantiated by one source a scalar.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "expr/number_type.h"
+#include "numbers/real.h"
+
+namespace gainsmith::numbers {
+
+/// What a scalar type needs beyond its arithmetic; specialised beside its instantiation.
+///   struct Foundation<Scalar> {
+///     static std::optional<Scalar> parse(const std::string& decimal);
+///     static std::optional<Scalar> pi();
+///     static Scalar least_condition();  // of a matrix that is inverted
+///     static auto inverse(const MatrixOf<Scalar>&);  // and what follows as in dense.h
+///     static auto singular_values(const MatrixOf<Scalar>&);
+///     static auto full_svd(const MatrixOf<Scalar>&);
+///     static MatrixOf<Scalar> exponential(const MatrixOf<Scalar>&);
+///   };
+template <class Scalar>
+struct Foundation;
+
+/// Singular values above `tolerance` times the largest one.
+template <class Scalar>
+int count_above(const Eigen::Matrix<Scalar, Eigen::Dynamic, 1>& values, const Scalar& tolerance) {
+  if (values.size() == 0) return 0;
+  const Scalar threshold = tolerance * values.maxCoeff();
+  return static_cast<int>((values.array() > threshold).count());
+}
+
+/// max(rows, cols) * epsilon.
+template <class Scalar>
+Scalar rounding_of(const MatrixOf<Scalar>& matrix) {
+  return Scalar(static_cast<double>(std::max(matrix.rows(), matrix.cols()))) *
+         std::numeric_limits<Scalar>::epsilon();
+}
+
+template <class Scalar>
+struct RealRules {
+  using Value = MatrixOf<Scalar>;
+  using At = expr::Step<Value>;
+  using Base = Foundation<Scalar>;
+  using Op = expr::Op;
+  template <Op op>
+  using Is = expr::Is<op>;
+
+  void operator()(Is<Op::constant>, const At& at, Value& out) const {
+    const std::string& text = at.instruction.text;
+    const auto value = text == "pi" ? Base::pi() : Base::parse(text);
+    if (!value) expr::fault::beyond_range(at.instruction);
+    out = Value::Constant(1, 1, *value);
+  }
+  void operator()(Is<Op::zeros>, const At& at, Value& out) const {
+    out.setZero(at.shape().rows, at.shape().cols);
+  }
+  void operator()(Is<Op::fill>, const At& at, Value& out) const {
+    out.setConstant(at.shape().rows, at.shape().cols, at[0](0, 0));
+  }
+  void operator()(Is<Op::identity>, const At& at, Value& out) const {
+    out = at[0](0, 0) * Value::Identity(at.shape().rows, at.shape().cols);
+  }
+  void operator()(Is<Op::add>, const At& at, Value& out) const { out = at[0] + at[1]; }
+  void operator()(Is<Op::subtract>, const At& at, Value& out) const { out = at[0] - at[1]; }
+  void operator()(Is<Op::negate>, const At& at, Value& out) const { out = -at[0]; }
+  void operator()(Is<Op::multiply>, const At& at, Value& out) const {
+    // Small products, by far the most frequent here, are faster without the blocking of large ones.
+    constexpr Eigen::Index kSmall = 16;
+    if (std::max({at[0].rows(), at[0].cols(), at[1].cols()}) <= kSmall) {
+      out.noalias() = at[0].lazyProduct(at[1]);
+    } else {
+      out.noalias() = at[0] * at[1];
+    }
+  }
+  void operator()(Is<Op::scale>, const At& at, Value& out) const { out = at[0](0, 0) * at[1]; }
+  void operator()(Is<Op::divide>, const At& at, Value& out) const {
+    const Scalar& by = at[1](0, 0);
+    if (by == Scalar(0)) expr::fault::division_by_zero();
+    out = at[0] / by;
+  }
+  void operator()(Is<Op::power>, const At& at, Value& out) const {
+    Value square = at[0];
+    out = Value::Identity(square.rows(), square.cols());
+    for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
+      if (exponent % 2 == 1) out = out * square;
+      if (exponent > 1) square = square * square;
+    }
+  }
+  void operator()(Is<Op::scalar_power>, const At& at, Value& out) const {
+    using std::pow;
+    out = Value::Constant(1, 1, pow(at[0](0, 0), at[1](0, 0)));
+  }
+  void operator()(Is<Op::transpose>, const At& at, Value& out) const { out = at[0].transpose(); }
+  void operator()(Is<Op::blocks>, const At& at, Value& out) const {
+    out.resize(at.shape().rows, at.shape().cols);
+    const auto columns = static_cast<std::size_t>(at.attribute(0));
+    Eigen::Index row = 0;
+    for (std::size_t first = 0; first < at.operands.size(); first += columns) {
+      Eigen::Index column = 0;
+      for (std::size_t j = first; j < first + columns; ++j) {
+        out.block(row, column, at[j].rows(), at[j].cols()) = at[j];
+        column += at[j].cols();
+      }
+      row += at[first].rows();
+    }
+  }
+  void operator()(Is<Op::index>, const At& at, Value& out) const {
+    out = at[0].block(at.attribute(0), at.attribute(2), at.attribute(1) - at.attribute(0),
+                      at.attribute(3) - at.attribute(2));
+  }
+  void operator()(Is<Op::exp>, const At& at, Value& out) const { out = at[0].array().exp(); }
+  void operator()(Is<Op::log>, const At& at, Value& out) const {
+    if (!(at[0].array() > Scalar(0)).all()) outside(Op::log, at[0]);
+    out = at[0].array().log();
+  }
+  void operator()(Is<Op::sqrt>, const At& at, Value& out) const {
+    if (!(at[0].array() >= Scalar(0)).all()) outside(Op::sqrt, at[0]);
+    out = at[0].array().sqrt();
+  }
+  void operator()(Is<Op::sin>, const At& at, Value& out) const { out = at[0].array().sin(); }
+  void operator()(Is<Op::cos>, const At& at, Value& out) const { out = at[0].array().cos(); }
+  void operator()(Is<Op::tanh>, const At& at, Value& out) const { out = at[0].array().tanh(); }
+  void operator()(Is<Op::abs>, const At& at, Value& out) const { out = at[0].cwiseAbs(); }
+  void operator()(Is<Op::sign>, const At& at, Value& out) const { out = at[0].array().sign(); }
+  void operator()(Is<Op::minimum>, const At& at, Value& out) const { out = at[0].cwiseMin(at[1]); }
+  void operator()(Is<Op::maximum>, const At& at, Value& out) const { out = at[0].cwiseMax(at[1]); }
+  void operator()(Is<Op::where>, const At& at, Value& out) const {
+    out.resize(at.shape().rows, at.shape().cols);
+    const bool strict = at.attribute(0) != 0;
+    for (Eigen::Index i = 0; i < out.size(); ++i) {
+      const Scalar& difference = at[0](i);
+      const bool holds = strict ? difference > Scalar(0) : difference >= Scalar(0);
+      out(i) = at[holds ? 1 : 2](i);
+    }
+  }
+  void operator()(Is<Op::trace>, const At& at, Value& out) const {
+    out = Value::Constant(1, 1, at[0].trace());
+  }
+  void operator()(Is<Op::norm>, const At& at, Value& out) const {
+    const Value& a = at[0];
+    Scalar norm(0);
+    if (a.size() > 0)
+      norm = a.rows() == 1 || a.cols() == 1 ? a.norm() : Base::singular_values(a).maxCoeff();
+    out = Value::Constant(1, 1, norm);
+  }
+  void operator()(Is<Op::inverse>, const At& at, Value& out) const {
+    out = at[0];
+    if (out.size() == 0) return;
+    auto found = Base::inverse(at[0]);
+    if (!(found.condition > Base::least_condition())) expr::fault::singular(at.instruction);
+    out = std::move(found.matrix);
+  }
+  void operator()(Is<Op::pseudo_inverse>, const At& at, Value& out) const {
+    const Value& a = at[0];
+    out = Value::Zero(a.cols(), a.rows());
+    if (a.size() == 0) return;
+    const int rank = count_above<Scalar>(Base::singular_values(a), rounding_of<Scalar>(a));
+    if (rank == 0) return;
+    const auto svd = Base::full_svd(a);
+    for (int i = 0; i < rank; ++i) out += svd.V.col(i) / svd.s(i) * svd.U.col(i).transpose();
+  }
+  void operator()(Is<Op::matrix_exponential>, const At& at, Value& out) const {
+    out = Base::exponential(at[0]);
+  }
+  void operator()(Is<Op::diagonal_matrix>, const At& at, Value& out) const {
+    out = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>(at[0].reshaped()).asDiagonal();
+  }
+  void operator()(Is<Op::diagonal_of>, const At& at, Value& out) const { out = at[0].diagonal(); }
+  void operator()(Is<Op::singular_values>, const At& at, Value& out) const {
+    out = Base::singular_values(at[0]);
+  }
+  /// The first left singular vectors. An empty matrix has no decomposition.
+  void operator()(Is<Op::range_basis>, const At& at, Value& out) const {
+    const int count = at.shape().cols;
+    out = Value::Zero(at[0].rows(), count);
+    if (count > 0) out = Base::full_svd(at[0]).U.leftCols(count);
+  }
+  /// The last right singular vectors.
+  void operator()(Is<Op::kernel_basis>, const At& at, Value& out) const {
+    const int count = at.shape().cols;
+    out = Value::Identity(at[0].cols(), count);
+    if (at[0].size() > 0) out = Base::full_svd(at[0]).V.rightCols(count);
+  }
+
+ private:
+  [[noreturn]] static void outside(Op op, const Value& value) {
+    expr::fault::outside_domain(op, static_cast<double>(value.minCoeff()));
+  }
+};
+
+template <class Scalar>
+void Real<Scalar>::apply(const expr::Instruction& instruction, expr::Operands<Value> operands,
+                         Value& out) const {
+  expr::dispatch(RealRules<Scalar>{}, instruction, operands, out);
+  if (!out.allFinite()) expr::fault::not_finite(instruction.op);
+}
+
+template <class Scalar>
+MatrixOf<Scalar> evaluate(const expr::Program& program, const ValuesOf<Scalar>& values) {
+  expr::Evaluator<Real<Scalar>> evaluator(program);
+  for (const expr::Input& input : program.inputs) {
+    const auto found = values.find(input.name);
+    if (found != values.end()) evaluator.set(input.name, found->second);
+  }
+  return evaluator.run();
+}
+
+}  // namespace gainsmith::numbers
