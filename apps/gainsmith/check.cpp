@@ -8,7 +8,6 @@
 #include "gainsmith/load.h"
 #include "io/json_text.h"
 #include "lmi/compile.h"
-#include "lmi/vertex_gains.h"
 
 namespace gainsmith::app {
 
@@ -20,15 +19,15 @@ struct CheckOptions {
 };
 
 /// What a valid problem asks for.
-io::Json description(const Loaded& loaded) {
-  const lmi::Lmi lmi = lmi::compile(lmi::with_vertex_gains(loaded.instance));
+io::Json description(const model::Instance& instance) {
+  const lmi::Lmi lmi = lmi::compile(lmi::Inequalities(instance));
   io::Json sizes = io::Json::object();
-  for (const auto& [name, size] : loaded.instance.dimensions) sizes[name] = size;
+  for (const auto& [name, size] : instance.design->dimensions) sizes[name] = size;
   return {{"valid", true},
-          {"problem", loaded.problem->name},
-          {"method", loaded.problem->method_name},
+          {"problem", instance.design->name},
+          {"method", instance.design->method},
           {"dimensions", sizes},
-          {"unknown_scalars", lmi.unknowns.size()},
+          {"unknown_scalars", lmi.unknowns},
           {"blocks", lmi.blocks.size()}};
 }
 

@@ -21,11 +21,11 @@ struct ExplainOptions {
 };
 
 ExitCode explain(const ExplainOptions& options) {
-  const Loaded loaded = load_problem(options.problem);
+  const model::Instance instance = load_problem(options.problem);
   catch_interrupts();
   sdp::Options solver;
   solver.interrupted = interrupted;
-  const design::Explanation explanation = design::explain(*loaded.problem, solver);
+  const design::Explanation explanation = design::explain(instance, solver);
   fmt::print("{}", options.json ? io::to_text(explanation_json(explanation))
                                 : explanation_text(explanation));
   if (interrupted()) {

@@ -40,8 +40,8 @@ model::ScalarRange range_of(const std::string& text, const char* option,
   return parsed.range;
 }
 
-/// The problem with what the command line says in its search.
-model::Problem asked(const OptimizeOptions& options, model::Problem problem) {
+/// Adds what the command line says to the problem's search.
+void add_search(const OptimizeOptions& options, model::Problem& problem) {
   model::Search search = problem.search.value_or(model::Search{});
   if (!options.over.empty()) search.over.clear();
   for (const std::string& text : options.over)
@@ -62,27 +62,25 @@ model::Problem asked(const OptimizeOptions& options, model::Problem problem) {
   if (options.tolerance) search.tolerance = options.tolerance;
   if (options.evaluations) search.evaluations = *options.evaluations;
   problem.search = search;
-  return problem;
 }
 
 ExitCode optimize(const OptimizeOptions& options) {
   refuse_overwriting(options.problem, {options.output});
   check_positive(options.tolerance, "--tolerance");
-  const Loaded loaded = load_problem(options.problem);
-  const model::Problem problem = asked(options, *loaded.problem);
-  model::check_everything(model::make_instance(problem));
-  design::SearchRequest request = design::request_of(problem);
+  const model::Instance instance =
+      load_problem(options.problem, [&](model::Problem& problem) { add_search(options, problem); });
+  design::SearchRequest request = design::request_of(instance);
   request.polish = options.polish;
   if (request.over.empty())
     throw InputError({options.problem},
                      "nothing to optimise over: give --over NAME=LOW:HIGH, or write search: {over: "
                      "{NAME: [low, high]}} into the problem");
-  const search::Optimizers* optimizers = optimizers_for(request, problem);
+  const search::Optimizers* optimizers = optimizers_for(request, *instance.design);
   catch_interrupts();
   sdp::Options solver;
   solver.interrupted = interrupted;
   const model::Gains gains =
-      design::optimize(problem, request, *optimizers, options.threads, solver);
+      design::optimize(instance, request, *optimizers, options.threads, solver);
   write_result(gains, options.output,
                options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),
                options.json);

@@ -42,9 +42,8 @@ io::Json replay_json(const verify::Replay& replay) {
 ExitCode simulate(const SimulateOptions& options) {
   refuse_overwriting(options.gains, {options.output});
   const LoadedGains loaded = load_gains(options.gains);
-  const std::uint64_t seed = options.seed.value_or(loaded.stated.problem->campaign.seed);
-  const verify::Replay replay =
-      verify::replay(loaded.stated.instance, loaded.gains, seed, options.run);
+  const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
+  const verify::Replay replay = verify::replay(loaded.stated, loaded.gains, seed, options.run);
   const std::string text =
       options.json ? io::to_text(replay_json(replay)) : io::to_csv(replay.columns, replay.table);
   if (options.output.empty() || options.output == "-") {

@@ -193,7 +193,7 @@ Command solve_command() {
        Option("--iterations", solver.iteration_limit, "most iterations").within(1, 100000),
        Option("--time", solver.time_limit, "most seconds; 0: no limit").not_negative(),
        Option("--threads", solver.threads, "threads; results do not depend on it").within(1, 1024)},
-      "Exit code: 0 optimal, 1 proved infeasible, 2 wrong input, 3 undecided.\n"
+      "Exit code: 0 optimal, 1 infeasible by a checked certificate, 2 wrong input, 3 undecided.\n"
       "Examples:\n"
       "  gainsmith solve control1.dat-s --json\n"
       "  gainsmith solve hinf2.dat-s --precision quad -o hinf2.sol --format csdp\n"

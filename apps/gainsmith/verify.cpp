@@ -30,8 +30,7 @@ ExitCode verify_gains(const VerifyOptions& options) {
   const LoadedGains loaded = load_gains(options.gains);
   verify::CampaignOptions campaign{options.runs, options.seed, options.threads, {}};
   if (!options.json && progress_wanted()) campaign.progress = print_progress;
-  const verify::Report report =
-      verify::run_campaign(loaded.stated.instance, loaded.gains, campaign);
+  const verify::Report report = verify::run_campaign(loaded.stated, loaded.gains, campaign);
   fmt::print("{}", options.json ? io::to_text(campaign_json(report))
                                 : campaign_summary(report, options.gains));
   return report.verdict == model::CampaignVerdict::held ? ExitCode::yes : ExitCode::no;

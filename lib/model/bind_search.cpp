@@ -24,6 +24,13 @@ Range Binding::range(const ScalarRange& range) const {
           range.place};
 }
 
+Formula Binding::figure(const expr::Expression& text) const {
+  Formula bound = formula(text, names_->results);
+  if (!bound.program.shape().is_scalar())
+    throw InputError(bound.place, "expected a number, found a matrix: " + bound.text);
+  return bound;
+}
+
 void Binding::bind_search() {
   const auto checked = [&](const ScalarRange& text) {
     Range bound = range(text);
@@ -41,7 +48,7 @@ void Binding::bind_search() {
   for (const ScalarRange& text : problem().questions.ranges)
     design_->asked.push_back(checked(text));
   for (const expr::Expression& figure : problem().questions.figures)
-    design_->figures.push_back({figure.text->str(), scalar(figure, names_->results), {}});
+    design_->figures.push_back({figure.text->str(), this->figure(figure), {}});
   if (!problem().search) return;
   const Search& search = *problem().search;
   refuse_repetition(search);

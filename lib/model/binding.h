@@ -86,6 +86,7 @@ class Binding {
   // bind_search.cpp
   void bind_search();
   Range range(const ScalarRange& range) const;
+  Formula figure(const expr::Expression& text) const;
   void bind_expectation();
 
   Formula scalar(const expr::Expression& expression, const expr::Scope& scope) const;
