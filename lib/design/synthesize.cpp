@@ -107,6 +107,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
     climb.to_answer();
     if (climb.own().point && round < kMostRounds && grow(plan, inequalities, lmi, climb.own())) {
       solve_seconds += climb.seconds();
+      gains.margins = climb.own().margins.margins;
       const auto again = Clock::now();
       lmi = lmi::compile(inequalities, plan);
       compile_seconds += seconds_since(again);
