@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <vector>
 
 #include "forall/hull.h"
@@ -396,33 +395,6 @@ void AffineAlgebra::apply(const expr::Instruction& instruction,
       for (const AffineForm* operand : operands)
         if (!operand->is_constant()) rules.refuse(instruction.op, *operand);
   }
-}
-
-AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
-                           forall::MonomialTable& monomials, const numbers::Values& values) {
-  expr::Evaluator<AffineAlgebra> evaluator(program, {&monomials, &unknowns});
-  std::deque<AffineForm> inputs;
-  for (const expr::Input& input : program.inputs) {
-    if (const int variable = monomials.find_variable(input.name); variable >= 0) {
-      inputs.push_back(variable_form(monomials, variable));
-    } else if (const Unknown* unknown = unknowns.find(input.name)) {
-      inputs.push_back(unknown_form(*unknown));
-    } else {
-      inputs.push_back(constant_form(values.at(input.name)));
-    }
-    evaluator.set(input.name, inputs.back());
-  }
-  // An input alone is its own result.
-  return evaluator.run();
-}
-
-AffineForm evaluate_at(const expr::Program& program, const Unknowns& unknowns,
-                       forall::MonomialTable& monomials, const numbers::Values& values,
-                       const forall::Point& point) {
-  if (point.values.empty()) return evaluate_affine(program, unknowns, monomials, values);
-  numbers::Values all = values;
-  for (const auto& [name, value] : point.values) all.insert_or_assign(name, value);
-  return evaluate_affine(program, unknowns, monomials, all);
 }
 
 std::set<int> monomials_in(const AffineForm& form) {
