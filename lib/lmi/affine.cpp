@@ -19,12 +19,25 @@ expr::Shape transposed(expr::Shape shape) { return {shape.cols, shape.rows}; }
 
 Sparse sparse(const numbers::Matrix& matrix) { return matrix.sparseView(0.0, 0.0); }
 
-void accumulate(AffineForm& form, Key key, const Sparse& matrix, double factor = 1) {
+void accumulate(AffineForm& form, Key key, Sparse matrix) {
+  if (matrix.nonZeros() == 0) return;
+  const auto found = form.terms.lower_bound(key);
+  if (found == form.terms.end() || found->first != key) {
+    form.terms.emplace_hint(found, key, std::move(matrix));
+    return;
+  }
+  found->second = sum_of(found->second, matrix, 1);
+  if (found->second.nonZeros() == 0) form.terms.erase(found);
+}
+
+void accumulate(AffineForm& form, Key key, const Sparse& matrix, double factor) {
   if (matrix.nonZeros() == 0 || factor == 0) return;
-  const auto [found, fresh] = form.terms.try_emplace(key, factor * matrix);
-  if (fresh) return;
-  found->second = found->second + factor * matrix;
-  found->second.prune(0.0, 0.0);
+  const auto found = form.terms.lower_bound(key);
+  if (found == form.terms.end() || found->first != key) {
+    form.terms.emplace_hint(found, key, factor == 1 ? matrix : Sparse(factor * matrix));
+    return;
+  }
+  found->second = sum_of(found->second, matrix, factor);
   if (found->second.nonZeros() == 0) form.terms.erase(found);
 }
 
@@ -59,15 +72,6 @@ Sparse moved(const Sparse& matrix, int rows, int cols, Move move) {
   return result;
 }
 
-AffineForm shifted(const AffineForm& form, expr::Shape shape, int row, int column) {
-  return map_terms(form, shape, [&](const Sparse& matrix) {
-    return moved(matrix, shape.rows, shape.cols, [&](const auto& it, auto& elements) {
-      elements.emplace_back(static_cast<int>(it.row()) + row, static_cast<int>(it.col()) + column,
-                            it.value());
-    });
-  });
-}
-
 AffineForm blocks(const expr::Instruction& instruction,
                   std::span<const AffineForm* const> operands) {
   AffineForm result{instruction.shape, {}};
@@ -76,8 +80,9 @@ AffineForm blocks(const expr::Instruction& instruction,
   for (std::size_t first = 0; first < operands.size(); first += columns) {
     int column = 0;
     for (std::size_t j = first; j < first + columns; ++j) {
-      const AffineForm placed = shifted(*operands[j], instruction.shape, row, column);
-      for (const auto& [key, matrix] : placed.terms) accumulate(result, key, matrix);
+      for (const auto& [key, matrix] : operands[j]->terms)
+        accumulate(result, key,
+                   placed(matrix, instruction.shape.rows, instruction.shape.cols, row, column));
       column += operands[j]->shape.cols;
     }
     row += operands[first]->shape.rows;
@@ -124,14 +129,6 @@ bool all_constant(std::span<const AffineForm* const> operands) {
 }
 
 }  // namespace
-
-double largest_element(const Sparse& matrix) {
-  double result = 0;
-  for (int k = 0; k < matrix.outerSize(); ++k)
-    for (Sparse::InnerIterator it(matrix, k); it; ++it)
-      result = std::max(result, std::abs(it.value()));
-  return result;
-}
 
 bool is_same(const AffineForm& a, const AffineForm& b) {
   return a.shape == b.shape && a.terms.size() == b.terms.size() &&
@@ -201,7 +198,7 @@ class Rules {
     AffineForm result{shape, {}};
     for (const auto& [left_key, left] : a.terms) {
       for (const auto& [right_key, right] : b.terms) {
-        const Sparse matrix = scaling ? Sparse(left.coeff(0, 0) * right) : Sparse(left * right);
+        const Sparse matrix = scaling ? Sparse(left.coeff(0, 0) * right) : multiplied(left, right);
         for (const auto& [factor, monomial] : monomials_.product(left_key.first, right_key.first))
           accumulate(result, {monomial, left_key.second + right_key.second}, matrix, factor);
       }

@@ -3,7 +3,6 @@
 //   M(x, tau) = sum over (a, i) of phi_a(tau) x_i M_ai,    phi_0 = 1, x_0 = 1.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <map>
 #include <set>
 #include <span>
@@ -12,15 +11,11 @@
 #include "expr/evaluate.h"
 #include "forall/between.h"
 #include "forall/monomials.h"
+#include "lmi/sparse.h"
 #include "lmi/unknowns.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::lmi {
-
-using Sparse = Eigen::SparseMatrix<double>;
-
-/// The largest |element|.
-double largest_element(const Sparse& matrix);
 
 struct AffineForm {
   expr::Shape shape;
