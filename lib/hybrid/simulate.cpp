@@ -45,11 +45,11 @@ Scenario make_scenario(const model::Design& design, const System& system) {
   return scenario;
 }
 
-Steps make_steps(const System& system) {
+FlowSteps make_steps(const System& system) {
   return {system.flow, std::max(system.high, system.first_high), system.flow_place};
 }
 
-Simulator::Simulator(const System& system, const Scenario& scenario, const Steps& steps)
+Simulator::Simulator(const System& system, const Scenario& scenario, const FlowSteps& steps)
     : system_(&system), scenario_(&scenario), steps_(&steps), starts_(scenario.starts, system) {
   if (system.affine_jump) return;
   for (const MapEntry& entry : system.jump)

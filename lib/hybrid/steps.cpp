@@ -50,11 +50,13 @@ double fastest_rate(const numbers::Matrix& matrix) {
   return rate;
 }
 
-double one_norm(const numbers::Matrix& matrix) { return matrix.cwiseAbs().colwise().sum().maxCoeff(); }
+double one_norm(const numbers::Matrix& matrix) {
+  return matrix.cwiseAbs().colwise().sum().maxCoeff();
+}
 
 }  // namespace
 
-const std::array<double, Steps::kNodes>& Steps::node_positions() {
+const std::array<double, FlowSteps::kNodes>& FlowSteps::node_positions() {
   static const std::array<double, kNodes> positions = {
       0.01985507175123188415821957, 0.10166676129318663020422303, 0.23723379504183550709113048,
       0.40828267875217509753026193, 0.59171732124782490246973807, 0.76276620495816449290886952,
@@ -62,7 +64,7 @@ const std::array<double, Steps::kNodes>& Steps::node_positions() {
   return positions;
 }
 
-const std::array<double, Steps::kNodes>& Steps::node_weights() {
+const std::array<double, FlowSteps::kNodes>& FlowSteps::node_weights() {
   static const std::array<double, kNodes> weights = {
       0.05061426814518812957626567, 0.11119051722668723527217800, 0.15685332293894364366898110,
       0.18134189168918099148257522, 0.18134189168918099148257522, 0.15685332293894364366898110,
@@ -70,7 +72,7 @@ const std::array<double, Steps::kNodes>& Steps::node_weights() {
   return weights;
 }
 
-Steps::Steps(const AffineMap& flow, double longest, const Place& place) : flow_(flow) {
+FlowSteps::FlowSteps(const AffineMap& flow, double longest, const Place& place) : flow_(flow) {
   const Eigen::Index n = flow.linear.rows();
   const double norm = n > 0 ? one_norm(flow.linear) : 0;
   if (!std::isfinite(norm) || !flow.constant.allFinite() ||
@@ -103,7 +105,7 @@ Steps::Steps(const AffineMap& flow, double longest, const Place& place) : flow_(
   }
 }
 
-void Steps::cut(double interval, std::vector<Step>& steps) const {
+void FlowSteps::cut(double interval, std::vector<FlowStep>& steps) const {
   double units = std::floor(interval / shortest_);  // of s_0; whole numbers below 2^53
   double rest = std::fma(-units, shortest_, interval);
   if (rest < 0) {
@@ -120,10 +122,11 @@ void Steps::cut(double interval, std::vector<Step>& steps) const {
   while (fits(top)) take(top);
   for (int level = top - 1; level >= 0; --level)
     while (fits(level)) take(level);
-  if (rest > 0) steps.push_back({Step::kRest, rest});
+  if (rest > 0) steps.push_back({FlowStep::kRest, rest});
 }
 
-numbers::Matrix Steps::taylor_terms(double length, const Eigen::Ref<const Eigen::VectorXd>& x) const {
+numbers::Matrix FlowSteps::taylor_terms(double length,
+                                        const Eigen::Ref<const Eigen::VectorXd>& x) const {
   numbers::Matrix terms(x.size(), kDegree + 1);
   terms.col(0) = x;
   for (int k = 1; k <= kDegree; ++k) {
@@ -134,9 +137,9 @@ numbers::Matrix Steps::taylor_terms(double length, const Eigen::Ref<const Eigen:
   return terms;
 }
 
-void Steps::advance(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x,
-                    Eigen::Ref<Eigen::VectorXd> out) const {
-  if (step.level == Step::kRest) {
+void FlowSteps::advance(const FlowStep& step, const Eigen::Ref<const Eigen::VectorXd>& x,
+                        Eigen::Ref<Eigen::VectorXd> out) const {
+  if (step.level == FlowStep::kRest) {
     out = taylor_terms(step.length, x).rowwise().sum();
     return;
   }
@@ -145,9 +148,9 @@ void Steps::advance(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x
   out.noalias() += map.linear.lazyProduct(x);
 }
 
-void Steps::nodes(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x,
-                  Eigen::Ref<numbers::Matrix> out) const {
-  if (step.level == Step::kRest) {
+void FlowSteps::nodes(const FlowStep& step, const Eigen::Ref<const Eigen::VectorXd>& x,
+                      Eigen::Ref<numbers::Matrix> out) const {
+  if (step.level == FlowStep::kRest) {
     static const numbers::Matrix kPowers = [] {
       numbers::Matrix powers = numbers::Matrix::Ones(kDegree + 1, kNodes);
       for (int k = 1; k <= kDegree; ++k)

@@ -36,8 +36,8 @@ class AlongFunction {
 };
 
 /// For each flow step of an arc, in order, the integral of a scalar over it, by Gauss-Legendre
-/// quadrature with Steps::kNodes nodes on the exact flow; one element a move, 0 for jumps.
-Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::Steps& steps,
+/// quadrature with FlowSteps::kNodes nodes on the exact flow; one element a move, 0 for jumps.
+Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::FlowSteps& steps,
                                 AlongFunction& integrand);
 
 }  // namespace gainsmith::verify

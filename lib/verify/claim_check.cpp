@@ -59,7 +59,7 @@ double forgiven(double floor, double start) {
 }  // namespace
 
 ClaimCheck::ClaimCheck(const LinkedClaim& claim, const hybrid::System& system,
-                       const hybrid::Steps& steps)
+                       const hybrid::FlowSteps& steps)
     : claim_(&claim),
       steps_(&steps),
       value_(claim.value, system),

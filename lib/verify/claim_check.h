@@ -48,7 +48,8 @@ struct Finding {
 class ClaimCheck {
  public:
   /// The claim must be stated.
-  ClaimCheck(const LinkedClaim& claim, const hybrid::System& system, const hybrid::Steps& steps);
+  ClaimCheck(const LinkedClaim& claim, const hybrid::System& system,
+             const hybrid::FlowSteps& steps);
 
   const LinkedClaim& claim() const { return *claim_; }
 
@@ -72,7 +73,7 @@ class ClaimCheck {
                                   const Eigen::VectorXd& largest);
 
   const LinkedClaim* claim_;
-  const hybrid::Steps* steps_;
+  const hybrid::FlowSteps* steps_;
   AlongFunction value_;
   std::optional<AlongFunction> flow_cost_;
   std::optional<AlongFunction> jump_cost_;

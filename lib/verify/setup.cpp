@@ -8,7 +8,7 @@ Setup make_setup(const model::Instance& instance, const model::Gains& gains) {
   const model::Design& design = *instance.design;
   hybrid::System system = hybrid::make_system(instance, gains);
   hybrid::Scenario scenario = hybrid::make_scenario(design, system);
-  hybrid::Steps steps = hybrid::make_steps(system);
+  hybrid::FlowSteps steps = hybrid::make_steps(system);
   std::vector<LinkedClaim> claims = link_claims(design, system);
   return {std::move(system), std::move(scenario), std::move(steps), std::move(claims)};
 }

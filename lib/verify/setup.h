@@ -13,7 +13,7 @@ namespace gainsmith::verify {
 struct Setup {
   hybrid::System system;
   hybrid::Scenario scenario;
-  hybrid::Steps steps;
+  hybrid::FlowSteps steps;
   std::vector<LinkedClaim> claims;
 };
 

@@ -24,7 +24,7 @@ Arc simulate(TextProblem& problem, std::uint64_t seed = 1, std::uint64_t run = 0
   const model::Instance instance = problem.instance();
   const System system = make_system(instance, problem.gains);
   const Scenario scenario = make_scenario(*instance.design, system);
-  const Steps steps = make_steps(system);
+  const FlowSteps steps = make_steps(system);
   return Simulator(system, scenario, steps).run(seed, run);
 }
 
@@ -256,7 +256,7 @@ TEST(Simulate, IntervalsThatShrinkToNothingHitTheJumpLimit) {
   const System system = make_system(instance, problem.gains);
   Scenario scenario = make_scenario(*instance.design, system);
   scenario.jump_limit = 100;
-  const Steps steps = make_steps(system);
+  const FlowSteps steps = make_steps(system);
   const Arc arc = Simulator(system, scenario, steps).run(1, 0);
   EXPECT_EQ(arc.termination, Termination::jump_limit);
   EXPECT_EQ(arc.j.back(), 100);

@@ -45,8 +45,28 @@ TextProblem& TextProblem::gain(const std::string& name, const numbers::Matrix& v
   return *this;
 }
 
+TextProblem& TextProblem::gain_function(const std::string& name,
+                                        const std::vector<double>& coefficients) {
+  method_.gains.push_back({name, parse("zeros(1, 1)"), {}, "s"});
+  model::GainFunction function{name, "s", model::GainFunction::Kind::polynomial, "", {}};
+  for (const double coefficient : coefficients)
+    function.coefficients.push_back(scalar(coefficient));
+  gains.gain_functions.push_back(std::move(function));
+  return *this;
+}
+
 TextProblem& TextProblem::unknown(const std::string& name, const std::string& shape) {
   method_.unknowns.push_back({declare(name, shape), "", std::nullopt});
+  return *this;
+}
+
+TextProblem& TextProblem::unknown_function(const std::string& name,
+                                           const std::vector<double>& coefficients) {
+  const std::string degree = std::to_string(coefficients.size() - 1);
+  method_.unknowns.push_back({declare(name, "scalar"), "s", parse(degree)});
+  for (const double coefficient : coefficients)
+    gains.unknowns.emplace_back(name + "_" + std::to_string(gains.unknowns.size()),
+                                scalar(coefficient));
   return *this;
 }
 

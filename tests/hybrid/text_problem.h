@@ -18,7 +18,11 @@ class TextProblem {
  public:
   TextProblem& data(const std::string& name, const std::string& shape, const std::string& value);
   TextProblem& gain(const std::string& name, const numbers::Matrix& value);
+  /// A gain that is the polynomial with these coefficients in s.
+  TextProblem& gain_function(const std::string& name, const std::vector<double>& coefficients);
   TextProblem& unknown(const std::string& name, const std::string& shape);
+  /// A scalar unknown that is the polynomial with these coefficients in s.
+  TextProblem& unknown_function(const std::string& name, const std::vector<double>& coefficients);
   TextProblem& state(const std::string& name, const std::string& shape);
   TextProblem& flow(const Pairs& entries);
   TextProblem& jump(const Pairs& entries);
