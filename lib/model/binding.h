@@ -102,8 +102,10 @@ class Binding {
   std::shared_ptr<Recorder> recorder_;
 };
 
-/// The formula of a gain that a gain file brings, over the names of its design.
-expr::Program bind_gain_formula(const Design& design, const std::string& text,
+/// The formula of a gain that a gain file brings, over the names of its design and the file's
+/// coefficients.
+expr::Program bind_gain_formula(const Instance& instance,
+                                const std::vector<UnknownMatrix>& unknowns, const std::string& text,
                                 const std::string& variable, const Place& place);
 
 }  // namespace gainsmith::model

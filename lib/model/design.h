@@ -126,7 +126,7 @@ struct Design {
   /// A part of a gain formula next to an inverse, for the bound on the gain (lmi/gain_bounds.h):
   /// inv(S)*E, or E*inv(S).
   struct Product {
-    std::string inverse;  ///< S, a symmetric unknown
+    std::string inverse;  ///< S as written: a symmetric unknown or a call of one, "P", "P(t)"
     bool left = true;     ///< inv(S) stands left of E
     struct Factor {
       std::optional<expr::Program> program;  ///< none: it has no value of its own
