@@ -69,6 +69,7 @@ struct Design {
     /// The problem's, the method's default, or the end of the range from which it is searched; none
     /// when only an override gives it.
     std::optional<Formula> value;
+    std::optional<Range> range;   ///< from whose end the value is
     Place place;                  ///< of the value
     std::vector<Place> elements;  ///< row by row, when it is written element by element
     std::string declared;         ///< its shape, as written
