@@ -36,9 +36,10 @@ expr::Expression oriented(const Value& value, bool column) {
   return {value.value.text, turned};
 }
 
-Binding::Binding(std::shared_ptr<const Problem> problem, const Overrides& overrides)
+Binding::Binding(std::shared_ptr<const Problem> problem, const Overrides& overrides, Checks checks)
     : source_(std::move(problem)),
       overrides_(overrides),
+      checks_(checks),
       design_(std::make_shared<Design>()),
       names_(std::make_shared<Names>()),
       recorder_(std::make_shared<Recorder>()) {
@@ -89,11 +90,15 @@ Formula Binding::value(const Value& value, const expr::Scope& scope,
 }
 
 Instance bind(std::shared_ptr<const Problem> problem, const Overrides& overrides) {
-  return Binding(std::move(problem), overrides).run();
+  return Binding(std::move(problem), overrides, Checks::all).run();
 }
 
 Instance bind(const Problem& problem, const Overrides& overrides) {
   return bind(std::make_shared<const Problem>(problem), overrides);
+}
+
+Instance bind_again(const Design& design, const Overrides& overrides) {
+  return Binding(design.source, overrides, Checks::none).run();
 }
 
 std::vector<std::string> scalar_names(const Method& method) {

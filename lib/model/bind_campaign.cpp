@@ -7,11 +7,18 @@
 
 namespace gainsmith::model {
 
-/// The value of a scalar that uses data and parameters alone; none when it uses gains.
-std::optional<double> Binding::known_scalar(const Formula& formula) const {
+/// The value of a formula that is to be checked and uses data and parameters alone; none when it
+/// uses gains.
+std::optional<numbers::Matrix> Binding::known_value(const Formula& formula) const {
   const bool known =
       formula.program.functions.empty() && has_values(formula.program, recorder_->values);
-  return known ? std::optional(scalar_value(formula, recorder_->values)) : std::nullopt;
+  if (!known || checks_ == Checks::none) return std::nullopt;
+  return numbers::evaluate(formula.program, recorder_->values);
+}
+
+std::optional<double> Binding::known_scalar(const Formula& formula) const {
+  const auto value = known_value(formula);
+  return value ? std::optional((*value)(0, 0)) : std::nullopt;
 }
 
 /// InputError when the value is known and outside [low, high].
@@ -26,13 +33,10 @@ void Binding::check_within(const Formula& formula, const Formula& low, const For
 }
 
 void Binding::check_box(const Design::Start& start, const InitialValue& initial) const {
-  std::vector<numbers::Matrix> ends;
-  for (const Formula& formula : start.values) {
-    if (!has_values(formula.program, recorder_->values)) return;
-    ends.push_back(numbers::evaluate(formula.program, recorder_->values));
-  }
-  const bool same = ends[0].rows() == ends[1].rows() && ends[0].cols() == ends[1].cols();
-  if (same && (ends[0].array() > ends[1].array()).any())
+  const auto low = known_value(start.values[0]);
+  const auto high = known_value(start.values[1]);
+  if (!low || !high || numbers::shape_of(*low) != numbers::shape_of(*high)) return;
+  if ((low->array() > high->array()).any())
     throw InputError(initial.values[1].place,
                      "the box of " + initial.state + " has its low end above its high end");
 }

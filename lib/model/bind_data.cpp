@@ -5,7 +5,6 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "model/binding.h"
-#include "model/structure.h"
 
 namespace gainsmith::model {
 
@@ -105,26 +104,18 @@ const ScalarRange* Binding::find_searched(const std::string& name) const {
   return find_named(search.over, name);
 }
 
-/// Where the search for a scalar begins.
-const expr::Expression& Binding::first_end(const ScalarRange& range) const {
-  ends_of(this->range(range), recorder_->values);
+/// A scalar without a value stands where the search for it begins.
+void Binding::start_at_end(const ScalarRange& searched, Design::Datum& datum) const {
+  datum.range = range(searched);
   const auto& search = problem().search;
   const bool smallest =
-      search && !search->largest && search->extreme && search->extreme->name == range.name;
-  return smallest ? range.high : range.low;
+      search && !search->largest && search->extreme && search->extreme->name == searched.name;
+  datum.value = smallest ? datum.range->high : datum.range->low;
+  datum.place = searched.place;
 }
 
 void Binding::define(Design::Datum datum, std::vector<Design::Datum>& list) {
-  const auto overridden = overrides_.find(datum.name);
-  numbers::Matrix matrix;
-  if (overridden != overrides_.end()) {
-    matrix = numbers::Matrix::Constant(1, 1, overridden->second);
-  } else if (datum.value) {
-    matrix = numbers::evaluate(datum.value->program, recorder_->values);
-    enforce_structure(datum, matrix);
-  } else {
-    throw InputError({problem().file}, datum.missing);
-  }
+  numbers::Matrix matrix = value_of(*design_, datum, overrides_, recorder_->values);
   names_->known.symbols[datum.name] = {datum.shape, true};
   names_->known.dimensions = design_->dimensions;
   recorder_->values[datum.name] = std::move(matrix);
@@ -142,8 +133,7 @@ void Binding::add_datum(const Declaration& datum) {
   const Value* given = find_named(problem().data, datum.name);
   const ScalarRange* searched = find_searched(datum.name);
   if (given == nullptr && !datum.fallback && searched != nullptr) {
-    bound.value = scalar(first_end(*searched), names_->known);
-    bound.place = searched->place;
+    start_at_end(*searched, bound);
     return define(std::move(bound), design_->data);
   }
   if (given == nullptr && !datum.fallback) return define(std::move(bound), design_->data);
@@ -189,8 +179,7 @@ void Binding::add_parameter(const Parameter& parameter) {
     bound.value = scalar(given ? given->value : *parameter.fallback, names_->known);
     bound.place = given ? given->place : parameter.place;
   } else if (searched != nullptr) {
-    bound.value = scalar(first_end(*searched), names_->known);
-    bound.place = searched->place;
+    start_at_end(*searched, bound);
   }
   define(std::move(bound), design_->parameters);
 }
@@ -248,8 +237,7 @@ void Binding::add_unknowns() {
     } else {
       for (int k = 0; k <= bound.degree; ++k)
         scope.symbols[coefficient_name(unknown.name, static_cast<std::size_t>(k))] = {bound.shape};
-      for (expr::Scope* each : {&names_->known, &scope})
-        each->functions[unknown.name] = bound.shape;
+      scope.functions[unknown.name] = bound.shape;
     }
     design_->unknowns.push_back(std::move(bound));
   }

@@ -66,7 +66,7 @@ class Products {
       result.text += result.text.empty() ? "" : "*";
       result.text += sum ? "(" : "";
       add_calls(*part, result.text.size() - part->begin, result.calls);
-      result.text += gain_.value.text->str().substr(part->begin, part->end - part->begin);
+      result.text += written(*part);
       result.text += sum ? ")" : "";
     }
     std::sort(result.calls.begin(), result.calls.end());
@@ -79,16 +79,16 @@ class Products {
   }
 
  private:
-  /// "inv(S)" of a symmetric unknown, such as every 1 x 1 one: its name.
+  /// "inv(S)" of a symmetric unknown, such as every 1 x 1 one: "S", or "S(t)" of a function.
   std::string inverse_of(const Node& node) const {
     if (node.kind != NodeKind::call || node.text != "inv" || node.children.size() != 1) return "";
     const Node& argument = *node.children.front();
-    if (argument.kind != NodeKind::name) return "";
     for (const Design::Unknown& unknown : design_.unknowns) {
       const bool symmetric = unknown.structure == Structure::symmetric ||
                              unknown.structure == Structure::diagonal || unknown.shape.is_scalar();
-      if (unknown.name == argument.text && unknown.variable.empty() && symmetric)
-        return unknown.name;
+      const NodeKind kind = unknown.variable.empty() ? NodeKind::name : NodeKind::call;
+      if (unknown.name == argument.text && argument.kind == kind && symmetric)
+        return written(argument);
     }
     return "";
   }
@@ -96,6 +96,10 @@ class Products {
   Design::Product product(const std::string& inverse, const std::vector<NodePtr>& factors,
                           bool left) const {
     return {inverse, left, factor(factors), factor({left ? factors.front() : factors.back()})};
+  }
+
+  std::string written(const Node& node) const {
+    return gain_.value.text->str().substr(node.begin, node.end - node.begin);
   }
 
   void add_calls(const Node& node, std::size_t shift,
@@ -147,10 +151,13 @@ void Binding::bind_gains() {
   names_->results.symbols["objective"] = {};
 }
 
-expr::Program bind_gain_formula(const Design& design, const std::string& text,
+expr::Program bind_gain_formula(const Instance& instance,
+                                const std::vector<UnknownMatrix>& unknowns, const std::string& text,
                                 const std::string& variable, const Place& place) {
-  return expr::compile(expr::parse(expr::Text::generated(text, place)),
-                       gain_scope(design.names->running, variable));
+  expr::Scope scope = gain_scope(instance.design->names->running, variable);
+  for (const UnknownMatrix& unknown : unknowns) scope.symbols[unknown.name] = {unknown.shape};
+  scope.known = std::make_shared<numbers::KnownDoubles>(instance.values);
+  return expr::compile(expr::parse(expr::Text::generated(text, place)), scope);
 }
 
 }  // namespace gainsmith::model

@@ -34,7 +34,7 @@ Formula Binding::figure(const expr::Expression& text) const {
 void Binding::bind_search() {
   const auto checked = [&](const ScalarRange& text) {
     Range bound = range(text);
-    ends_of(bound, recorder_->values);
+    if (checks_ == Checks::all) ends_of(bound, recorder_->values);
     return bound;
   };
   for (const ScalarRange& text : problem().negotiable) design_->negotiable.push_back(checked(text));

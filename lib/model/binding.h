@@ -34,9 +34,13 @@ bool is_proper_column(expr::Shape shape);
 /// A flat list is a row; where a column is declared it is turned.
 expr::Expression oriented(const Value& value, bool column);
 
+/// What is asked of values besides data and assumptions: that ranges have ends in order, and that
+/// the campaign lies within its ranges.
+enum class Checks { all, none };
+
 class Binding {
  public:
-  Binding(std::shared_ptr<const Problem> problem, const Overrides& overrides);
+  Binding(std::shared_ptr<const Problem> problem, const Overrides& overrides, Checks checks);
   Instance run();
 
  private:
@@ -47,7 +51,7 @@ class Binding {
   void bind_data();
   void refuse_unknown_names() const;
   const ScalarRange* find_searched(const std::string& name) const;
-  const expr::Expression& first_end(const ScalarRange& range) const;
+  void start_at_end(const ScalarRange& searched, Design::Datum& datum) const;
   void add_datum(const Declaration& datum);
   void check_shape(const Declaration& datum) const;
   void add_parameter(const Parameter& parameter);
@@ -80,6 +84,7 @@ class Binding {
   void check_box(const Design::Start& start, const InitialValue& initial) const;
   void check_within(const Formula& formula, const Formula& low, const Formula& high,
                     const std::string& what) const;
+  std::optional<numbers::Matrix> known_value(const Formula& formula) const;
   std::optional<double> known_scalar(const Formula& formula) const;
   std::size_t state_of(const std::string& name) const;
 
@@ -98,13 +103,24 @@ class Binding {
 
   std::shared_ptr<const Problem> source_;
   Overrides overrides_;
+  Checks checks_;
   std::shared_ptr<Design> design_;
   std::shared_ptr<Names> names_;
   std::shared_ptr<Recorder> recorder_;
 };
 
-/// The formula of a gain that a gain file brings, over the names of its design.
-expr::Program bind_gain_formula(const Design& design, const std::string& text,
+/// The value of a datum or parameter from those declared before it.
+numbers::Matrix value_of(const Design& design, const Design::Datum& datum,
+                         const Overrides& overrides, const numbers::Values& values);
+
+/// Binds the texts of a design anew for values that change its shapes. Ranges and the campaign were
+/// checked with the values of the problem; a scan goes beyond them.
+Instance bind_again(const Design& design, const Overrides& overrides);
+
+/// The formula of a gain that a gain file brings, over the names of its design and the file's
+/// coefficients.
+expr::Program bind_gain_formula(const Instance& instance,
+                                const std::vector<UnknownMatrix>& unknowns, const std::string& text,
                                 const std::string& variable, const Place& place);
 
 }  // namespace gainsmith::model

@@ -69,6 +69,7 @@ struct Design {
     /// The problem's, the method's default, or the end of the range from which it is searched; none
     /// when only an override gives it.
     std::optional<Formula> value;
+    std::optional<Range> range;   ///< from whose end the value is
     Place place;                  ///< of the value
     std::vector<Place> elements;  ///< row by row, when it is written element by element
     std::string declared;         ///< its shape, as written
@@ -126,7 +127,7 @@ struct Design {
   /// A part of a gain formula next to an inverse, for the bound on the gain (lmi/gain_bounds.h):
   /// inv(S)*E, or E*inv(S).
   struct Product {
-    std::string inverse;  ///< S, a symmetric unknown
+    std::string inverse;  ///< S as written: a symmetric unknown or a call of one, "P", "P(t)"
     bool left = true;     ///< inv(S) stands left of E
     struct Factor {
       std::optional<expr::Program> program;  ///< none: it has no value of its own

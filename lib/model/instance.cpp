@@ -4,14 +4,12 @@
 #include <cmath>
 
 #include "base/number.h"
-#include "model/bind.h"
+#include "model/binding.h"
 #include "model/structure.h"
 
 namespace gainsmith::model {
 
 namespace {
-
-numbers::Matrix number(double value) { return numbers::Matrix::Constant(1, 1, value); }
 
 /// The values of an instance, in the order of the declarations.
 class Evaluation {
@@ -22,7 +20,8 @@ class Evaluation {
   numbers::Values run() {
     check_overrides();
     for (const auto* list : {&design_.data, &design_.parameters})
-      for (const Design::Datum& datum : *list) values_[datum.name] = value_of(datum);
+      for (const Design::Datum& datum : *list)
+        values_[datum.name] = value_of(design_, datum, overrides_, values_);
     for (const Design::Assumption& assumption : design_.assumptions)
       check_assumption(design_, assumption, values_);
     return std::move(values_);
@@ -37,15 +36,6 @@ class Evaluation {
     }
   }
 
-  numbers::Matrix value_of(const Design::Datum& datum) const {
-    const auto overridden = overrides_.find(datum.name);
-    if (overridden != overrides_.end()) return number(overridden->second);
-    if (!datum.value) throw InputError({design_.file}, datum.missing);
-    numbers::Matrix matrix = numbers::evaluate(datum.value->program, values_);
-    enforce_structure(datum, matrix);
-    return matrix;
-  }
-
   const Design& design_;
   const Overrides& overrides_;
   numbers::Values values_;
@@ -57,15 +47,28 @@ bool has_same_shapes(const Design& design, const numbers::Values& values) {
     return !unknown.degree_formula ||
            scalar_value(*unknown.degree_formula, values) == unknown.degree;
   };
+  const numbers::KnownDoubles doubles(values);
   const auto is_same_rank = [&](const Design::Rank& known) {
-    return numbers::KnownDoubles(values).rank(
-               known.matrix, known.tolerance ? &*known.tolerance : nullptr) == known.rank;
+    if (!known.tolerance) return doubles.rank(known.matrix, nullptr) == known.rank;
+    return doubles.number(*known.tolerance) >= 0 &&
+           doubles.rank(known.matrix, &*known.tolerance) == known.rank;
   };
   return std::all_of(design.unknowns.begin(), design.unknowns.end(), is_same_degree) &&
          std::all_of(design.ranks.begin(), design.ranks.end(), is_same_rank);
 }
 
 }  // namespace
+
+numbers::Matrix value_of(const Design& design, const Design::Datum& datum,
+                         const Overrides& overrides, const numbers::Values& values) {
+  const auto overridden = overrides.find(datum.name);
+  if (overridden != overrides.end()) return numbers::Matrix::Constant(1, 1, overridden->second);
+  if (!datum.value) throw InputError({design.file}, datum.missing);
+  if (datum.range) ends_of(*datum.range, values);
+  numbers::Matrix matrix = numbers::evaluate(datum.value->program, values);
+  enforce_structure(datum, matrix);
+  return matrix;
+}
 
 void check_assumption(const Design& design, const Design::Assumption& assumption,
                       const numbers::Values& values) {
@@ -81,11 +84,14 @@ void check_assumption(const Design& design, const Design::Assumption& assumption
 }
 
 Instance evaluate(const DesignPtr& design, const Overrides& overrides) {
-  if (overrides.empty() || (design->ranks.empty() && design->unknowns.empty()))
-    return {design, overrides, Evaluation(*design, overrides).run()};
-  numbers::Values values = Evaluation(*design, overrides).run();
-  if (!has_same_shapes(*design, values)) return bind(design->source, overrides);
-  return {design, overrides, std::move(values)};
+  try {
+    numbers::Values values = Evaluation(*design, overrides).run();
+    if (has_same_shapes(*design, values)) return {design, overrides, std::move(values)};
+  } catch (const InputError&) {
+    // The programs may be those of another rank.
+    if (design->ranks.empty()) throw;
+  }
+  return bind_again(*design, overrides);
 }
 
 std::vector<Function> polynomials(const Design& design) {

@@ -31,7 +31,8 @@ Function polynomial(const std::string& name, const std::string& variable, expr::
 
 class Builder {
  public:
-  Builder(const Instance& instance, const Gains& gains) : design_(*instance.design), gains_(gains) {
+  Builder(const Instance& instance, const Gains& gains)
+      : instance_(instance), design_(*instance.design), gains_(gains) {
     stated_.values = instance.values;
   }
 
@@ -114,14 +115,16 @@ class Builder {
       if (function.name != gain.name) continue;
       if (function.kind == GainFunction::Kind::polynomial)
         return add_polynomial(gain, function.variable, function.coefficients);
-      if (function.formula != gain.formula.text) add_formula(gain, function);
+      if (function.formula != gain.formula.text || function.variable != gain.variable)
+        add_formula(gain, function);
     }
   }
 
   /// A formula that is not the method's own.
   void add_formula(const Design::Gain& gain, const GainFunction& function) {
     const Place place{gains_.file};
-    expr::Program body = bind_gain_formula(design_, function.formula, function.variable, place);
+    expr::Program body =
+        bind_gain_formula(instance_, stated_.unknowns, function.formula, function.variable, place);
     if (body.shape() != gain.shape)
       throw InputError(place, gain.name + " in the gain file is " + to_string(body.shape()) +
                                   ", expected " + to_string(gain.shape));
@@ -139,6 +142,7 @@ class Builder {
       take(coefficient_name(gain.name, k), gain.shape, coefficients[k]);
   }
 
+  const Instance& instance_;
   const Design& design_;
   const Gains& gains_;
   Stated stated_;
