@@ -116,7 +116,7 @@ ExitCode run(const RunOptions& options) {
   const std::vector<Item> items = items_of(options.problems);
   for (const Item& item : items) refuse_overwriting(item.file.string(), {options.junit});
   JobOptions job = options.job;
-  job.threads = items.size() == 1 ? options.threads : 1;
+  job.threads = options.threads;
   std::vector<JobResult> results(items.size());
   Lines lines(items);
   parallel_for(items.size(), options.threads, [&](std::size_t i) {

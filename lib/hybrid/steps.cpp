@@ -3,7 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <cstddef>
 
 #include "base/error.h"
 #include "base/number.h"
@@ -54,23 +56,38 @@ double one_norm(const numbers::Matrix& matrix) {
   return matrix.cwiseAbs().colwise().sum().maxCoeff();
 }
 
+struct Nodes {
+  std::array<double, FlowSteps::kNodes> positions;
+  std::array<double, FlowSteps::kNodes> weights;
+};
+
+/// The Gauss-Legendre rule on [0, 1].
+const Nodes& rule() {
+  static const Nodes kRule = [] {
+    // The right half of the rule on [-1, 1], from the middle. The wider type keeps the last digits
+    // of the nodes near 0.
+    using Half = boost::math::quadrature::gauss<long double, FlowSteps::kNodes>;
+    constexpr std::size_t kHalf = FlowSteps::kNodes / 2;
+    Nodes found{};
+    for (std::size_t i = 0; i < kHalf; ++i) {
+      const long double x = Half::abscissa()[i];
+      found.positions[kHalf + i] = static_cast<double>((1 + x) / 2);
+      found.positions[kHalf - 1 - i] = static_cast<double>((1 - x) / 2);
+      found.weights[kHalf + i] = static_cast<double>(Half::weights()[i] / 2);
+      found.weights[kHalf - 1 - i] = found.weights[kHalf + i];
+    }
+    return found;
+  }();
+  return kRule;
+}
+
 }  // namespace
 
 const std::array<double, FlowSteps::kNodes>& FlowSteps::node_positions() {
-  static const std::array<double, kNodes> positions = {
-      0.01985507175123188415821957, 0.10166676129318663020422303, 0.23723379504183550709113048,
-      0.40828267875217509753026193, 0.59171732124782490246973807, 0.76276620495816449290886952,
-      0.89833323870681336979577697, 0.98014492824876811584178043};
-  return positions;
+  return rule().positions;
 }
 
-const std::array<double, FlowSteps::kNodes>& FlowSteps::node_weights() {
-  static const std::array<double, kNodes> weights = {
-      0.05061426814518812957626567, 0.11119051722668723527217800, 0.15685332293894364366898110,
-      0.18134189168918099148257522, 0.18134189168918099148257522, 0.15685332293894364366898110,
-      0.11119051722668723527217800, 0.05061426814518812957626567};
-  return weights;
-}
+const std::array<double, FlowSteps::kNodes>& FlowSteps::node_weights() { return rule().weights; }
 
 FlowSteps::FlowSteps(const AffineMap& flow, double longest, const Place& place) : flow_(flow) {
   const Eigen::Index n = flow.linear.rows();
