@@ -2,7 +2,7 @@
 
 # gainsmith_room(NAME SOURCES a.cpp ... ROOMS base expr PUBLIC lib ... PRIVATE lib ...)
 #   The library gainsmith_NAME from lib/NAME. ROOMS are the rooms it may include (scripts/check_layers
-#   holds the includes to the architecture's table); PUBLIC and PRIVATE are third-party targets.
+#   holds the includes to its table); PUBLIC and PRIVATE are third-party targets.
 function(gainsmith_room name)
   cmake_parse_arguments(ROOM "" "" "SOURCES;ROOMS;PUBLIC;PRIVATE" ${ARGN})
   add_library(gainsmith_${name} STATIC ${ROOM_SOURCES})

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -61,20 +60,30 @@ model::ScalarRange range_of(const BisectOptions& options, const model::Problem& 
   throw InputError({options.problem}, "no range for " + name + "; give --in LOW HIGH");
 }
 
-/// What the command line asks for, or else the problem.
-design::BisectChoices choices_of(const BisectOptions& options, const model::Problem& problem) {
-  const bool named = !options.largest.empty() || !options.smallest.empty();
+bool is_named(const BisectOptions& options) {
+  return !options.largest.empty() || !options.smallest.empty();
+}
+
+/// Adds the range that is bisected to what the problem is asked.
+void add_range(const BisectOptions& options, model::Problem& problem) {
+  const bool named = is_named(options);
   const auto& search = problem.search;
   if (!named && !(search && search->extreme))
     throw InputError({options.problem},
                      "nothing to bisect: give --largest NAME or --smallest NAME, or write "
                      "search: {largest: {NAME: [low, high]}} into the problem");
-  design::BisectChoices choices;
-  choices.largest = named ? options.smallest.empty() : search->largest;
   const std::string name = !named                     ? search->extreme->name
                            : options.smallest.empty() ? options.largest
                                                       : options.smallest;
-  choices.scalar = design::searched_scalar(problem, range_of(options, problem, name));
+  problem.questions.ranges = {range_of(options, problem, name)};
+}
+
+/// What the command line asks for, or else the problem.
+design::BisectChoices choices_of(const BisectOptions& options, const model::Instance& instance) {
+  const auto& search = instance.design->search;
+  design::BisectChoices choices;
+  choices.largest = is_named(options) ? options.smallest.empty() : search->largest;
+  choices.scalar = design::searched_scalar(instance, instance.design->asked.front());
   std::optional<double> width = options.tolerance;
   if (!width && search) width = search->tolerance;
   choices.tolerance = design::tolerance_of(width, choices.scalar.axis);
@@ -103,12 +112,13 @@ std::string table(const design::BisectResult& result, const std::string& name) {
 ExitCode bisect(const BisectOptions& options) {
   refuse_overwriting(options.problem, {options.output});
   check_positive(options.tolerance, "--tolerance");
-  const Loaded loaded = load_problem(options.problem);
-  const design::BisectChoices choices = choices_of(options, *loaded.problem);
+  const model::Instance instance =
+      load_problem(options.problem, [&](model::Problem& problem) { add_range(options, problem); });
+  const design::BisectChoices choices = choices_of(options, instance);
   catch_interrupts();
   sdp::Options solver;
   solver.interrupted = interrupted;
-  const design::BisectResult result = design::bisect(*loaded.problem, {}, choices, solver);
+  const design::BisectResult result = design::bisect(instance, {}, choices, solver);
   const std::string report =
       options.json ? io::to_text(json_of(result, choices))
                    : table(result, choices.scalar.name) + "\n" + synthesis_summary(result.gains);
@@ -118,34 +128,31 @@ ExitCode bisect(const BisectOptions& options) {
 
 }  // namespace
 
-void add_bisect(CLI::App& program, ExitCode& exit) {
+Command bisect_command() {
   auto options = std::make_shared<BisectOptions>();
-  CLI::App* command = program.add_subcommand(
-      "bisect", "Find the largest or smallest value of a scalar for which there are gains");
-  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
-      ->required();
-  auto* largest = command->add_option("--largest", options->largest,
-                                      "this scalar (default: what the problem's search says)");
-  command->add_option("--smallest", options->smallest, "this scalar")->excludes(largest);
-  command->add_option("--in", options->range, "LOW HIGH: the range (default: the problem's)")
-      ->expected(2);
-  command->add_option(
-      "--tolerance", options->tolerance,
-      "width of the final bracket (default: the problem's, or 1e-4 of the range; of the "
-      "value on a logarithmic scale)");
-  command->add_option("-o,--output", options->output,
-                      "write the gains of the feasible end here; - for standard output");
-  command->add_flag("--json", options->json, "print the result as JSON");
-  command->footer(
-      "Both ends of the bracket are proved: gains with recomputed margins, and a checked\n"
-      "certificate. The other scalars keep the problem's values.\n"
+  return {
+      "bisect",
+      "Find the largest or smallest value of a scalar for which there are gains",
+      {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       Option("--largest", options->largest,
+              "this scalar (default: what the problem's search says)"),
+       Option("--smallest", options->smallest, "this scalar").excludes({"--largest"}),
+       Option("--in", options->range, "LOW HIGH: the range (default: the problem's)").values(2),
+       Option("--tolerance", options->tolerance,
+              "width of the final bracket (default: the problem's, or 1e-4 of the range; of the "
+              "value on a logarithmic scale)"),
+       Option("-o,--output", options->output,
+              "write the gains of the feasible end here; - for standard output"),
+       Option("--json", options->json, "print the result as JSON")},
+      "Both ends of the bracket are checked: gains whose recomputed margins hold, and a\n"
+      "certificate that excludes others. The other scalars keep the problem's values.\n"
       "Values that the assumptions exclude are 'refused'.\n"
-      "Exit code: 0 a feasible value was found, 2 wrong input, 3 none was found (which proves\n"
+      "Exit code: 0 a feasible value was found, 2 wrong input, 3 none was found (which says\n"
       "nothing of the values between those tried).\n"
       "Examples:\n"
       "  gainsmith bisect problem.yaml --largest T2 --in 0.5 1.1 --tolerance 1e-5 -o gains.json\n"
-      "  gainsmith bisect problem.yaml --smallest rho --in 0.05 1 --json | jq .samples");
-  command->callback([options, &exit] { exit = bisect(*options); });
+      "  gainsmith bisect problem.yaml --smallest rho --in 0.05 1 --json | jq .samples",
+      [options] { return bisect(*options); }};
 }
 
 }  // namespace gainsmith::app

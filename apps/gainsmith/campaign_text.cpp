@@ -8,13 +8,13 @@ namespace gainsmith::app {
 
 namespace {
 
-std::string kind_text(model::Claim::Kind kind) {
+std::string kind_text(model::ClaimKind kind) {
   switch (kind) {
-    case model::Claim::Kind::nonincreasing:
+    case model::ClaimKind::nonincreasing:
       return "never increases";
-    case model::Claim::Kind::cost:
+    case model::ClaimKind::cost:
       return "cost stays below";
-    case model::Claim::Kind::shrinks:
+    case model::ClaimKind::shrinks:
       return "shrinks";
   }
   return "?";

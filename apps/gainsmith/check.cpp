@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -9,7 +8,6 @@
 #include "gainsmith/load.h"
 #include "io/json_text.h"
 #include "lmi/compile.h"
-#include "lmi/vertex_gains.h"
 
 namespace gainsmith::app {
 
@@ -21,15 +19,15 @@ struct CheckOptions {
 };
 
 /// What a valid problem asks for.
-io::Json description(const Loaded& loaded) {
-  const lmi::Lmi lmi = lmi::compile(lmi::with_vertex_gains(loaded.instance));
+io::Json description(const model::Instance& instance) {
+  const lmi::Lmi lmi = lmi::compile(lmi::Inequalities(instance));
   io::Json sizes = io::Json::object();
-  for (const auto& [name, size] : loaded.instance.dimensions) sizes[name] = size;
+  for (const auto& [name, size] : instance.design->dimensions) sizes[name] = size;
   return {{"valid", true},
-          {"problem", loaded.problem->name},
-          {"method", loaded.problem->method_name},
+          {"problem", instance.design->name},
+          {"method", instance.design->method},
           {"dimensions", sizes},
-          {"unknown_scalars", lmi.unknowns.size()},
+          {"unknown_scalars", lmi.unknowns},
           {"blocks", lmi.blocks.size()}};
 }
 
@@ -61,16 +59,16 @@ ExitCode check(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check(CLI::App& program, ExitCode& exit) {
+Command check_command() {
   auto options = std::make_shared<CheckOptions>();
-  CLI::App* command = program.add_subcommand("check", "Validate problem files without solving");
-  command->add_option("problems", options->problems, "problem files (YAML)")->required();
-  command->add_flag("--json", options->json, "print the result as JSON");
-  command->footer(
-      "Exit code: 0 all valid, 2 otherwise.\n"
-      "Example:\n"
-      "  gainsmith check problems/ferrante-seuret-2021/*.yaml");
-  command->callback([options, &exit] { exit = check(*options); });
+  return {"check",
+          "Validate problem files without solving",
+          {Option("problems", options->problems, "problem files (YAML)").required(),
+           Option("--json", options->json, "print the result as JSON")},
+          "Exit code: 0 all valid, 2 otherwise.\n"
+          "Example:\n"
+          "  gainsmith check problems/ferrante-seuret-2021/*.yaml",
+          [options] { return check(*options); }};
 }
 
 }  // namespace gainsmith::app

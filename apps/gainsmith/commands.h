@@ -1,25 +1,20 @@
-// The subcommands. Each add_* declares its options and sets a callback that does the work and
-// stores the exit code.
+// The subcommands: the options of each, and the work that they are for.
 #pragma once
 
-#include "base/error.h"
-
-namespace CLI {
-class App;
-}
+#include "gainsmith/command_line.h"
 
 namespace gainsmith::app {
 
-void add_synth(CLI::App& program, ExitCode& exit);
-void add_bisect(CLI::App& program, ExitCode& exit);
-void add_scan(CLI::App& program, ExitCode& exit);
-void add_optimize(CLI::App& program, ExitCode& exit);
-void add_explain(CLI::App& program, ExitCode& exit);
-void add_verify(CLI::App& program, ExitCode& exit);
-void add_simulate(CLI::App& program, ExitCode& exit);
-void add_run(CLI::App& program, ExitCode& exit);
-void add_check(CLI::App& program, ExitCode& exit);
-void add_solve(CLI::App& program, ExitCode& exit);
-void add_methods(CLI::App& program, ExitCode& exit);
+Command synth_command();
+Command bisect_command();
+Command scan_command();
+Command optimize_command();
+Command explain_command();
+Command verify_command();
+Command simulate_command();
+Command run_command();
+Command check_command();
+Command solve_command();
+Command methods_command();
 
 }  // namespace gainsmith::app

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
@@ -22,11 +21,11 @@ struct ExplainOptions {
 };
 
 ExitCode explain(const ExplainOptions& options) {
-  const Loaded loaded = load_problem(options.problem);
+  const model::Instance instance = load_problem(options.problem);
   catch_interrupts();
   sdp::Options solver;
   solver.interrupted = interrupted;
-  const design::Explanation explanation = design::explain(*loaded.problem, solver);
+  const design::Explanation explanation = design::explain(instance, solver);
   fmt::print("{}", options.json ? io::to_text(explanation_json(explanation))
                                 : explanation_text(explanation));
   if (interrupted()) {
@@ -38,21 +37,20 @@ ExitCode explain(const ExplainOptions& options) {
 
 }  // namespace
 
-void add_explain(CLI::App& program, ExitCode& exit) {
+Command explain_command() {
   auto options = std::make_shared<ExplainOptions>();
-  CLI::App* command = program.add_subcommand(
-      "explain", "Say why a problem has no solution and what would have to give");
-  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
-      ->required();
-  command->add_flag("--json", options->json, "print as JSON");
-  command->footer(
+  return {
+      "explain",
+      "Say why a problem has no solution and what would have to give",
+      {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       Option("--json", options->json, "print as JSON")},
       "The problem is taken at its own values: what it wants searched is not searched.\n"
       "Exit code: 0 there is nothing to explain: it is feasible, 1 infeasible, 2 wrong input,\n"
       "3 undecided.\n"
       "Examples:\n"
       "  gainsmith explain problems/ferrante-seuret-2021/published-theorem.yaml\n"
-      "  gainsmith explain problem.yaml --json | jq .conflict.requirements");
-  command->callback([options, &exit] { exit = explain(*options); });
+      "  gainsmith explain problem.yaml --json | jq .conflict.requirements",
+      [options] { return explain(*options); }};
 }
 
 }  // namespace gainsmith::app

@@ -43,10 +43,9 @@ std::string negotiable_text(const design::Reach& reach) {
   if (!reach.feasible)
     return fmt::format("negotiable  {} does not help: nothing feasible was found in its range\n",
                        reach.name);
-  const std::string beyond = reach.beyond
-                                 ? "; " + brief(*reach.beyond, 10) + " is proved infeasible" +
-                                       model::limits_of(*reach.certificate)
-                                 : "";
+  const std::string beyond = reach.beyond ? "; " + brief(*reach.beyond, 10) + " is excluded" +
+                                                model::limits_of(*reach.certificate)
+                                          : "";
   return fmt::format("negotiable  {} (it is {}{})\n", reach_text(reach), brief(reach.value),
                      beyond);
 }

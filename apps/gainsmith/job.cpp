@@ -21,10 +21,10 @@ namespace gainsmith::app {
 namespace {
 
 /// The exit code of a result: what `expect:` names is compared, the rest must be as usual.
-ExitCode judge(const model::Problem& problem, const model::Gains& gains,
+ExitCode judge(const model::Design& design, const model::Gains& gains,
                const std::optional<verify::Report>& campaign,
                const std::vector<std::string>& differences) {
-  const auto& expect = problem.expect;
+  const auto& expect = design.expect;
   if (!differences.empty()) return ExitCode::no;
   if (!(expect && expect->verdict)) {
     if (gains.verdict == model::Verdict::undecided) return ExitCode::undecided;
@@ -37,21 +37,20 @@ ExitCode judge(const model::Problem& problem, const model::Gains& gains,
 class Job {
  public:
   Job(const std::filesystem::path& file, std::filesystem::path folder, const JobOptions& options)
-      : loaded_(load_problem(file)), folder_(std::move(folder)), options_(options) {}
+      : instance_(load_problem(file)), folder_(std::move(folder)), options_(options) {}
 
   void run(JobResult& result) {
-    const design::SearchRequest request = design::request_of(*loaded_.problem);
-    const search::Optimizers* optimizers = optimizers_for(request, *loaded_.problem);
+    const design::SearchRequest request = design::request_of(instance_);
+    const search::Optimizers* optimizers = optimizers_for(request, *instance_.design);
     const model::Gains gains =
-        design::synthesize_searched(*loaded_.problem, request, optimizers, options_.threads, {});
-    loaded_.instance = model::make_instance(*loaded_.problem, gains.searched);
-    model::check_everything(loaded_.instance);
+        design::synthesize_searched(instance_, request, optimizers, options_.threads, {});
+    instance_ = model::evaluate(instance_.design, gains.searched);
     prepare_folder();
     write_atomically(folder_ / "gains.json", io::gains_text(gains));
     const auto campaign = verify_gains(gains);
     result.differences = design::differences(
-        loaded_.instance, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
-    result.exit = judge(*loaded_.problem, gains, campaign, result.differences);
+        instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
+    result.exit = judge(*instance_.design, gains, campaign, result.differences);
     result.line =
         verdict_line(gains) + "; " + (campaign ? campaign_line(*campaign) : "no campaign");
     result.report = report(gains, campaign, result);
@@ -70,16 +69,15 @@ class Job {
 
   /// A campaign when the method can be simulated and every gain has a value.
   std::optional<verify::Report> verify_gains(const model::Gains& gains) {
-    const model::Method& method = *loaded_.problem->method;
-    const bool simulated = method.timer && !method.claims.empty() && !method.gains.empty();
-    if (!simulated || gains.gains.size() + gains.gain_functions.size() < method.gains.size())
+    const model::Design& design = *instance_.design;
+    const bool simulated = design.timer && !design.claims.empty() && !design.gains.empty();
+    if (!simulated || gains.gains.size() + gains.gain_functions.size() < design.gains.size())
       return std::nullopt;
     const verify::Report report = verify::run_campaign(
-        loaded_.instance, gains, {options_.runs, options_.seed, options_.threads, {}});
+        instance_, gains, {options_.runs, options_.seed, options_.threads, {}});
     write_atomically(folder_ / "campaign.json", io::to_text(campaign_json(report)));
     if (report.verdict == model::CampaignVerdict::violated) {
-      const verify::Replay replay =
-          verify::replay(loaded_.instance, gains, report.seed, report.worst_run);
+      const verify::Replay replay = verify::replay(instance_, gains, report.seed, report.worst_run);
       write_atomically(folder_ / "worst-run.csv", io::to_csv(replay.columns, replay.table));
     }
     return report;
@@ -102,14 +100,14 @@ class Job {
                       const JobResult& result) const {
     std::string text = synthesis_summary(gains);
     if (campaign) text += campaign_summary(*campaign, (folder_ / "gains.json").string());
-    if (loaded_.problem->expect)
+    if (instance_.design->expect)
       text +=
           result.differences.empty() ? "expected    all as expected\n" : "expected    DIFFERENT:\n";
     for (const std::string& difference : result.differences) text += "  " + difference + "\n";
     return text;
   }
 
-  Loaded loaded_;
+  model::Instance instance_;
   std::filesystem::path folder_;
   const JobOptions& options_;
 };

@@ -2,7 +2,7 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
+#include <functional>
 
 #include "io/problem_yaml.h"
 #include "model/gains.h"
@@ -10,22 +10,18 @@
 
 namespace gainsmith::app {
 
-/// A problem and its instance; the instance points into the problem.
-struct Loaded {
-  std::unique_ptr<model::Problem> problem;
-  model::Instance instance;
-};
-
 /// The methods that are built into the program.
 io::MethodLibrary built_in_methods();
 
-/// Reads a problem file and checks all that can be checked without solving.
-Loaded load_problem(const std::filesystem::path& path);
+/// Reads a problem file, adds what the command line says of it, and binds it: all that can be
+/// checked without solving is checked.
+model::Instance load_problem(const std::filesystem::path& path,
+                             const std::function<void(model::Problem&)>& add = {});
 
 /// A gain file with the problem that it states.
 struct LoadedGains {
   model::Gains gains;
-  Loaded stated;
+  model::Instance stated;
 };
 
 LoadedGains load_gains(const std::filesystem::path& path);

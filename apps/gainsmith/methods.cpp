@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 
@@ -67,17 +66,16 @@ ExitCode show_one(const MethodsOptions& options) {
 
 }  // namespace
 
-void add_methods(CLI::App& program, ExitCode& exit) {
+Command methods_command() {
   auto options = std::make_shared<MethodsOptions>();
-  CLI::App* command = program.add_subcommand("methods", "List the methods, or print one as text");
-  command->add_option("name", options->name, "print this method");
-  command->add_flag("--json", options->json, "print as JSON");
-  command->footer(
-      "Examples:\n"
-      "  gainsmith methods\n"
-      "  gainsmith methods sampled-data-hybrid");
-  command->callback(
-      [options, &exit] { exit = options->name.empty() ? show(*options) : show_one(*options); });
+  return {"methods",
+          "List the methods, or print one as text",
+          {Option("name", options->name, "print this method"),
+           Option("--json", options->json, "print as JSON")},
+          "Examples:\n"
+          "  gainsmith methods\n"
+          "  gainsmith methods sampled-data-hybrid",
+          [options] { return options->name.empty() ? show(*options) : show_one(*options); }};
 }
 
 }  // namespace gainsmith::app

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
@@ -41,8 +40,8 @@ model::ScalarRange range_of(const std::string& text, const char* option,
   return parsed.range;
 }
 
-/// The problem with what the command line says in its search.
-model::Problem asked(const OptimizeOptions& options, model::Problem problem) {
+/// Adds what the command line says to the problem's search.
+void add_search(const OptimizeOptions& options, model::Problem& problem) {
   model::Search search = problem.search.value_or(model::Search{});
   if (!options.over.empty()) search.over.clear();
   for (const std::string& text : options.over)
@@ -63,27 +62,25 @@ model::Problem asked(const OptimizeOptions& options, model::Problem problem) {
   if (options.tolerance) search.tolerance = options.tolerance;
   if (options.evaluations) search.evaluations = *options.evaluations;
   problem.search = search;
-  return problem;
 }
 
 ExitCode optimize(const OptimizeOptions& options) {
   refuse_overwriting(options.problem, {options.output});
   check_positive(options.tolerance, "--tolerance");
-  const Loaded loaded = load_problem(options.problem);
-  const model::Problem problem = asked(options, *loaded.problem);
-  model::check_everything(model::make_instance(problem));
-  design::SearchRequest request = design::request_of(problem);
+  const model::Instance instance =
+      load_problem(options.problem, [&](model::Problem& problem) { add_search(options, problem); });
+  design::SearchRequest request = design::request_of(instance);
   request.polish = options.polish;
   if (request.over.empty())
     throw InputError({options.problem},
                      "nothing to optimise over: give --over NAME=LOW:HIGH, or write search: {over: "
                      "{NAME: [low, high]}} into the problem");
-  const search::Optimizers* optimizers = optimizers_for(request, problem);
+  const search::Optimizers* optimizers = optimizers_for(request, *instance.design);
   catch_interrupts();
   sdp::Options solver;
   solver.interrupted = interrupted;
   const model::Gains gains =
-      design::optimize(problem, request, *optimizers, options.threads, solver);
+      design::optimize(instance, request, *optimizers, options.threads, solver);
   write_result(gains, options.output,
                options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),
                options.json);
@@ -92,46 +89,35 @@ ExitCode optimize(const OptimizeOptions& options) {
 
 }  // namespace
 
-void add_optimize(CLI::App& program, ExitCode& exit) {
+Command optimize_command() {
   auto options = std::make_shared<OptimizeOptions>();
-  CLI::App* command = program.add_subcommand(
-      "optimize", "Find the best values of a few scalars outside the inequalities");
-  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
-      ->required();
-  command
-      ->add_option("--over", options->over,
-                   "NAME=LOW:HIGH, once for each scalar (default: the problem's search)")
-      ->allow_extra_args(false);
-  auto* largest = command->add_option("--largest", options->largest,
-                                      "NAME=LOW:HIGH: make this scalar as large as it can be");
-  auto* smallest =
-      command->add_option("--smallest", options->smallest, "NAME=LOW:HIGH: as small as it can be");
-  auto* minimize = command->add_option("--minimize", options->minimize,
-                                       "an expression (default: the method's objective)");
-  largest->excludes(smallest)->excludes(minimize);
-  smallest->excludes(minimize);
-  command->add_option("--tolerance", options->tolerance,
-                      "width of the bracket of --largest or --smallest");
-  command->add_flag(
-      "--polish", options->polish,
-      "at the end move scalars and unknowns together (Ipopt); kept when it is better");
-  command->add_option("--evaluations", options->evaluations, "of the figure, at most")
-      ->check(CLI::Range(1, 1000000));
-  command
-      ->add_option("--threads", options->threads,
-                   "threads, 0: one a core; the result does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "write the gain file here; - for standard output");
-  command->add_flag("--json", options->json, "print the result as JSON");
-  command->footer(
+  return {
+      "optimize",
+      "Find the best values of a few scalars outside the inequalities",
+      {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       Option("--over", options->over,
+              "NAME=LOW:HIGH, once for each scalar (default: the problem's search)"),
+       Option("--largest", options->largest,
+              "NAME=LOW:HIGH: make this scalar as large as it can be"),
+       Option("--smallest", options->smallest, "NAME=LOW:HIGH: as small as it can be")
+           .excludes({"--largest"}),
+       Option("--minimize", options->minimize, "an expression (default: the method's objective)")
+           .excludes({"--largest", "--smallest"}),
+       Option("--tolerance", options->tolerance, "width of the bracket of --largest or --smallest"),
+       Option("--polish", options->polish,
+              "at the end move scalars and unknowns together (Ipopt); kept when it is better"),
+       Option("--evaluations", options->evaluations, "of the figure, at most").within(1, 1000000),
+       Option("--threads", options->threads,
+              "threads, 0: one a core; the result does not depend on it")
+           .within(0, 1024),
+       Option("-o,--output", options->output, "write the gain file here; - for standard output"),
+       Option("--json", options->json, "print the result as JSON")},
       "Exit code: 0 gains found, 2 wrong input, 3 nothing feasible was found.\n"
       "Examples:\n"
       "  gainsmith optimize problem.yaml --over delta=1e-3:10 --over eta=1e-6:1 -o gains.json\n"
       "  gainsmith optimize problem.yaml --over delta=1e-3:10 --largest T2=0.5:1.1\n"
-      "  gainsmith optimize problem.yaml --over delta=1e-3:10 --minimize 'trace(P1)' --polish");
-  command->callback([options, &exit] { exit = optimize(*options); });
+      "  gainsmith optimize problem.yaml --over delta=1e-3:10 --minimize 'trace(P1)' --polish",
+      [options] { return optimize(*options); }};
 }
 
 }  // namespace gainsmith::app

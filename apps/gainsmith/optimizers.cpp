@@ -27,9 +27,10 @@ void restore_standard_input(const std::string& text) {
 }  // namespace
 
 const search::Optimizers* optimizers_for(const design::SearchRequest& request,
-                                         const model::Problem& problem) {
+                                         const model::Design& design) {
   if (request.over.empty() || linked_optimizers() != nullptr) return linked_optimizers();
-  throw OptimizersNeeded{problem.file == "-" ? std::optional(problem.text) : std::nullopt};
+  throw OptimizersNeeded{design.file == "-" ? std::optional(design.statement.problem_text)
+                                            : std::nullopt};
 }
 
 void continue_with_optimizers(char** arguments, const OptimizersNeeded& need) {

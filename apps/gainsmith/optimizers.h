@@ -22,7 +22,7 @@ struct OptimizersNeeded {
 /// linked_optimizers() for a request; null when the request needs none. OptimizersNeeded when it
 /// needs them and they are not there.
 const search::Optimizers* optimizers_for(const design::SearchRequest& request,
-                                         const model::Problem& problem);
+                                         const model::Design& design);
 
 /// Replaces this program by gainsmith-full, which stands beside it, with the same arguments.
 /// InputError when that program cannot be started.

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -14,7 +13,6 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/job.h"
 #include "gainsmith/junit.h"
-#include "gainsmith/option_checks.h"
 #include "gainsmith/output.h"
 
 namespace gainsmith::app {
@@ -118,7 +116,7 @@ ExitCode run(const RunOptions& options) {
   const std::vector<Item> items = items_of(options.problems);
   for (const Item& item : items) refuse_overwriting(item.file.string(), {options.junit});
   JobOptions job = options.job;
-  job.threads = items.size() == 1 ? options.threads : 1;
+  job.threads = options.threads;
   std::vector<JobResult> results(items.size());
   Lines lines(items);
   parallel_for(items.size(), options.threads, [&](std::size_t i) {
@@ -135,33 +133,25 @@ ExitCode run(const RunOptions& options) {
 
 }  // namespace
 
-void add_run(CLI::App& program, ExitCode& exit) {
+Command run_command() {
   auto options = std::make_shared<RunOptions>();
-  CLI::App* command = program.add_subcommand(
-      "run", "Synthesize, verify and compare with what is expected: for batch scripts and CI");
-  command->add_option("problems", options->problems, "problem files, or folders of them")
-      ->required();
-  command
-      ->add_option("-o,--output", options->output,
-                   "folder for the results, one folder a problem in it")
-      ->capture_default_str();
-  command->add_option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}));
-  command->add_option("--seed", options->job.seed, "seed (default: the problem's)")
-      ->check(whole_number());
-  command
-      ->add_option("--threads", options->threads,
-                   "threads, 0: one a core; results do not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("--junit", options->junit, "write JUnit XML here");
-  command->add_flag("--json", options->json, "print the results as JSON");
-  command->footer(
+  return {
+      "run",
+      "Synthesize, verify and compare with what is expected: for batch scripts and CI",
+      {Option("problems", options->problems, "problem files, or folders of them").required(),
+       Option("-o,--output", options->output, "folder for the results, one folder a problem in it"),
+       Option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
+           .within<std::uint64_t>(1, 1000000000),
+       Option("--seed", options->job.seed, "seed (default: the problem's)"),
+       Option("--threads", options->threads, "threads, 0: one a core; results do not depend on it")
+           .within(0, 1024),
+       Option("--junit", options->junit, "write JUnit XML here"),
+       Option("--json", options->json, "print the results as JSON")},
       "Prints one line a problem; the exit code is the worst of all.\n"
       "Examples:\n"
       "  gainsmith run problem.yaml -o out\n"
-      "  gainsmith run problems/ -o out --junit out/junit.xml");
-  command->callback([options, &exit] { exit = run(*options); });
+      "  gainsmith run problems/ -o out --junit out/junit.xml",
+      [options] { return run(*options); }};
 }
 
 }  // namespace gainsmith::app

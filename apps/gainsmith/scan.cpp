@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <memory>
 #include <string>
@@ -36,17 +35,28 @@ struct Grid {
   std::vector<std::vector<double>> values;
 };
 
-Grid grid_of(const ScanOptions& options, const model::Problem& problem) {
+/// Adds the ranges and columns of the command line to what the problem is asked.
+void add_questions(const ScanOptions& options, const std::vector<RangeOption>& ranges,
+                   model::Problem& problem) {
+  for (const RangeOption& option : ranges) {
+    model::check_scalar_name(*problem.method, option.range.name, {"--over"});
+    for (const model::ScalarRange& known : problem.questions.ranges)
+      if (known.name == option.range.name)
+        throw InputError({"--over"}, option.range.name + " stands twice");
+    problem.questions.ranges.push_back(option.range);
+  }
+  for (const std::string& text : options.show)
+    problem.questions.figures.push_back(parse_expression(text, "--show"));
+}
+
+Grid grid_of(const std::vector<RangeOption>& ranges, const model::Instance& instance) {
   constexpr int kDefault = 11;
   constexpr double kMost = 1e7;
   Grid grid;
   double count = 1;
-  for (const std::string& text : options.over) {
-    const RangeOption option = parse_range(text, "--over");
-    model::check_scalar_name(*problem.method, option.range.name, {"--over"});
-    if (std::find(grid.names.begin(), grid.names.end(), option.range.name) != grid.names.end())
-      throw InputError({"--over"}, option.range.name + " stands twice");
-    search::Axis axis = design::searched_scalar(problem, option.range).axis;
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    const RangeOption& option = ranges[k];
+    search::Axis axis = design::searched_scalar(instance, instance.design->asked[k]).axis;
     axis.logarithmic = option.logarithmic.value_or(axis.logarithmic);
     if (axis.logarithmic && !(axis.low > 0))
       throw InputError({"--over"},
@@ -144,7 +154,7 @@ std::string json(const std::vector<design::ScanRow>& rows, const Grid& grid,
 }
 
 /// Undecided when some point was not finished; yes when some point is feasible, no when every point
-/// is proved infeasible.
+/// is excluded.
 ExitCode exit_of(const std::vector<design::ScanRow>& rows) {
   const auto unfinished =
       std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.interrupted; });
@@ -163,15 +173,16 @@ ExitCode exit_of(const std::vector<design::ScanRow>& rows) {
 
 ExitCode scan(const ScanOptions& options) {
   refuse_overwriting(options.problem, {options.output});
-  const Loaded loaded = load_problem(options.problem);
-  const Grid grid = grid_of(options, *loaded.problem);
-  std::vector<expr::Expression> figures;
-  for (const std::string& text : options.show) figures.push_back(parse_expression(text, "--show"));
+  std::vector<RangeOption> ranges;
+  for (const std::string& text : options.over) ranges.push_back(parse_range(text, "--over"));
+  const model::Instance instance = load_problem(
+      options.problem, [&](model::Problem& problem) { add_questions(options, ranges, problem); });
+  const Grid grid = grid_of(ranges, instance);
   catch_interrupts();
   sdp::Options solver;
   solver.interrupted = interrupted;
-  const auto rows = design::scan(*loaded.problem, grid.names, search::grid(grid.values), figures,
-                                 options.threads, solver);
+  const auto rows =
+      design::scan(instance.design, grid.names, search::grid(grid.values), options.threads, solver);
   constexpr int kForPeople = 8;
   constexpr int kExact = 17;
   const std::string file = csv(table_of(rows, grid.names, options.show, kExact));
@@ -187,39 +198,31 @@ ExitCode scan(const ScanOptions& options) {
 
 }  // namespace
 
-void add_scan(CLI::App& program, ExitCode& exit) {
+Command scan_command() {
   auto options = std::make_shared<ScanOptions>();
-  CLI::App* command =
-      program.add_subcommand("scan", "Solve a problem at every point of a grid of scalars");
-  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
-      ->required();
-  command
-      ->add_option("--over", options->over,
-                   "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT; may be repeated for "
-                   "a grid")
-      ->required()
-      ->allow_extra_args(false);
-  command
-      ->add_option("--show", options->show,
-                   "a column more: an expression such as trace(P1) or norm(L); may be repeated")
-      ->allow_extra_args(false);
-  command
-      ->add_option("--threads", options->threads,
-                   "threads, 0: one a core; the table does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_option("-o,--output", options->output,
-                      "write the table as CSV here; - for standard output");
-  command->add_flag("--json", options->json, "print the table as JSON");
-  command->footer(
+  return {
+      "scan",
+      "Solve a problem at every point of a grid of scalars",
+      {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       Option("--over", options->over,
+              "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT; may be repeated for "
+              "a grid")
+           .required(),
+       Option("--show", options->show,
+              "a column more: an expression such as trace(P1) or norm(L); may be repeated"),
+       Option("--threads", options->threads,
+              "threads, 0: one a core; the table does not depend on it")
+           .within(0, 1024),
+       Option("-o,--output", options->output, "write the table as CSV here; - for standard output"),
+       Option("--json", options->json, "print the table as JSON")},
       "A point that the method's assumptions exclude is 'refused'.\n"
-      "Exit code: 0 some point is feasible, 1 all are proved infeasible, 2 wrong input, 3 "
+      "Exit code: 0 some point is feasible, 1 all are excluded by certificates, 2 wrong input, 3 "
       "otherwise\n"
       "and when interrupted.\n"
       "Examples:\n"
       "  gainsmith scan problem.yaml --over T2=0.5:0.8:13\n"
-      "  gainsmith scan problem.yaml --over delta=1e-3:10:20:log --over eta=1e-6:1:7 -o table.csv");
-  command->callback([options, &exit] { exit = scan(*options); });
+      "  gainsmith scan problem.yaml --over delta=1e-3:10:20:log --over eta=1e-6:1:7 -o table.csv",
+      [options] { return scan(*options); }};
 }
 
 }  // namespace gainsmith::app

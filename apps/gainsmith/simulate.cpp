@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,7 +9,6 @@
 #include "base/number.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
-#include "gainsmith/option_checks.h"
 #include "gainsmith/output.h"
 #include "io/csv.h"
 #include "io/json_text.h"
@@ -44,9 +42,8 @@ io::Json replay_json(const verify::Replay& replay) {
 ExitCode simulate(const SimulateOptions& options) {
   refuse_overwriting(options.gains, {options.output});
   const LoadedGains loaded = load_gains(options.gains);
-  const std::uint64_t seed = options.seed.value_or(loaded.stated.problem->campaign.seed);
-  const verify::Replay replay =
-      verify::replay(loaded.stated.instance, loaded.gains, seed, options.run);
+  const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
+  const verify::Replay replay = verify::replay(loaded.stated, loaded.gains, seed, options.run);
   const std::string text =
       options.json ? io::to_text(replay_json(replay)) : io::to_csv(replay.columns, replay.table);
   if (options.output.empty() || options.output == "-") {
@@ -65,23 +62,20 @@ ExitCode simulate(const SimulateOptions& options) {
 
 }  // namespace
 
-void add_simulate(CLI::App& program, ExitCode& exit) {
+Command simulate_command() {
   auto options = std::make_shared<SimulateOptions>();
-  CLI::App* command = program.add_subcommand("simulate", "Replay one run of a campaign as CSV");
-  command->add_option("gains", options->gains, "gain file (JSON)")->required();
-  command->add_option("--run", options->run, "the run's number")
-      ->check(whole_number())
-      ->capture_default_str();
-  command->add_option("--seed", options->seed, "seed of the campaign (default: the problem's)")
-      ->check(whole_number());
-  command->add_option("-o,--output", options->output,
-                      "write the table here (default: standard output)");
-  command->add_flag("--json", options->json, "write JSON instead of CSV");
-  command->footer(
+  return {
+      "simulate",
+      "Replay one run of a campaign as CSV",
+      {Option("gains", options->gains, "gain file (JSON)").required(),
+       Option("--run", options->run, "the run's number"),
+       Option("--seed", options->seed, "seed of the campaign (default: the problem's)"),
+       Option("-o,--output", options->output, "write the table here (default: standard output)"),
+       Option("--json", options->json, "write JSON instead of CSV")},
       "Columns: t, j, the timer, the states, the signals, then the value of each claim.\n"
       "Example:\n"
-      "  gainsmith simulate gains.json --run 17 -o run-17.csv");
-  command->callback([options, &exit] { exit = simulate(*options); });
+      "  gainsmith simulate gains.json --run 17 -o run-17.csv",
+      [options] { return simulate(*options); }};
 }
 
 }  // namespace gainsmith::app

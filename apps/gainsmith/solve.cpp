@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -174,45 +173,32 @@ ExitCode solve(SolveOptions options) {
 
 }  // namespace
 
-void add_solve(CLI::App& program, ExitCode& exit) {
+Command solve_command() {
   auto options = std::make_shared<SolveOptions>();
-  CLI::App* command =
-      program.add_subcommand("solve", "Solve a semidefinite program in SDPA sparse format");
-  command->add_option("file", options->file, "SDPA sparse file (.dat-s); - for standard input")
-      ->required();
-  command->add_flag("--json", options->json, "print the result as JSON");
-  command->add_flag("-q,--quiet", options->quiet, "no progress table");
-  command->add_option("-o,--output", options->output,
-                      "write x, X and Y here; - for standard output");
-  command->add_option("--format", options->format, "layout of that file: json, csdp or sdpa")
-      ->check(CLI::IsMember({"json", "csdp", "sdpa"}))
-      ->capture_default_str();
-  command
-      ->add_option("--precision", options->solver.precision,
-                   "auto (double, then more digits where double stalls), double, quad or digits")
-      ->check([](const std::string& text) { return precision_error(text); })
-      ->capture_default_str();
-  command
-      ->add_option("--tolerance", options->solver.tolerance,
-                   "relative gap and DIMACS errors for 'optimal'")
-      ->check(CLI::Range(1e-30, 1e-2))
-      ->capture_default_str();
-  command->add_option("--iterations", options->solver.iteration_limit, "most iterations")
-      ->check(CLI::Range(1, 100000))
-      ->capture_default_str();
-  command->add_option("--time", options->solver.time_limit, "most seconds; 0: no limit")
-      ->check(CLI::NonNegativeNumber)
-      ->capture_default_str();
-  command->add_option("--threads", options->solver.threads, "threads; results do not depend on it")
-      ->check(CLI::Range(1, 1024))
-      ->capture_default_str();
-  command->footer(
-      "Exit code: 0 optimal, 1 proved infeasible, 2 wrong input, 3 undecided.\n"
+  sdp::Options& solver = options->solver;
+  return {
+      "solve",
+      "Solve a semidefinite program in SDPA sparse format",
+      {Option("file", options->file, "SDPA sparse file (.dat-s); - for standard input").required(),
+       Option("--json", options->json, "print the result as JSON"),
+       Option("-q,--quiet", options->quiet, "no progress table"),
+       Option("-o,--output", options->output, "write x, X and Y here; - for standard output"),
+       Option("--format", options->format, "layout of that file: json, csdp or sdpa")
+           .one_of({"json", "csdp", "sdpa"}),
+       Option("--precision", solver.precision,
+              "auto (double, then more digits where double stalls), double, quad or digits")
+           .checked(precision_error),
+       Option("--tolerance", solver.tolerance, "relative gap and DIMACS errors for 'optimal'")
+           .within(1e-30, 1e-2),
+       Option("--iterations", solver.iteration_limit, "most iterations").within(1, 100000),
+       Option("--time", solver.time_limit, "most seconds; 0: no limit").not_negative(),
+       Option("--threads", solver.threads, "threads; results do not depend on it").within(1, 1024)},
+      "Exit code: 0 optimal, 1 infeasible by a checked certificate, 2 wrong input, 3 undecided.\n"
       "Examples:\n"
       "  gainsmith solve control1.dat-s --json\n"
       "  gainsmith solve hinf2.dat-s --precision quad -o hinf2.sol --format csdp\n"
-      "  gainsmith synth problem.yaml --sdpa problem.dat-s && gainsmith solve problem.dat-s");
-  command->callback([options, &exit] { exit = solve(*options); });
+      "  gainsmith synth problem.yaml --sdpa problem.dat-s && gainsmith solve problem.dat-s",
+      [options] { return solve(*options); }};
 }
 
 }  // namespace gainsmith::app

@@ -3,9 +3,9 @@
 
 #include <string>
 
-#include "numbers/matrix.h"
 #include "model/gains.h"
 #include "model/instance.h"
+#include "numbers/matrix.h"
 
 namespace gainsmith::app {
 

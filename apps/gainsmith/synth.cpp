@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <string>
@@ -30,58 +29,54 @@ struct SynthOptions {
 };
 
 /// Why there are no gains, in one line.
-std::string reason(const model::Problem& problem, const model::Gains& gains,
+std::string reason(const model::Instance& instance, const model::Gains& gains,
                    const sdp::Options& solver) {
-  const auto conflict = design::find_conflict(problem, gains, solver);
-  return explanation_line(conflict.value(), design::find_reaches(problem, solver));
+  const auto conflict = design::find_conflict(instance, gains, solver);
+  return explanation_line(conflict.value(), design::find_reaches(instance, solver));
 }
 
 ExitCode synth(const SynthOptions& options) {
   refuse_overwriting(options.problem, {options.output, options.sdpa});
-  const Loaded loaded = load_problem(options.problem);
-  const model::Problem& problem = *loaded.problem;
-  const design::SearchRequest request = design::request_of(problem);
-  const search::Optimizers* optimizers = optimizers_for(request, problem);
+  const model::Instance instance = load_problem(options.problem);
+  const design::SearchRequest request = design::request_of(instance);
+  const search::Optimizers* optimizers = optimizers_for(request, *instance.design);
   catch_interrupts();
   sdp::Options solver;
   solver.interrupted = interrupted;
   const model::Gains gains =
-      design::synthesize_searched(problem, request, optimizers, options.threads, solver);
+      design::synthesize_searched(instance, request, optimizers, options.threads, solver);
   if (!options.sdpa.empty())
     write_atomically(options.sdpa, sdp::write_sdpa(design::semidefinite_program(
-                                       model::make_instance(problem, gains.searched))));
+                                       model::evaluate(instance.design, gains.searched))));
   write_result(gains, options.output,
                options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),
                options.json);
   if (gains.verdict == model::Verdict::no && !options.json && !interrupted())
     fmt::print(options.output == "-" ? stderr : stdout, "why         {}\n",
-               reason(problem, gains, solver));
+               reason(instance, gains, solver));
   return exit_of(gains.verdict);
 }
 
 }  // namespace
 
-void add_synth(CLI::App& program, ExitCode& exit) {
+Command synth_command() {
   auto options = std::make_shared<SynthOptions>();
-  CLI::App* command = program.add_subcommand("synth", "Synthesize gains from a problem file");
-  command->add_option("problem", options->problem, "problem file (YAML); - for standard input")
-      ->required();
-  command->add_option("-o,--output", options->output,
-                      "write the gain file here; - for standard output");
-  command->add_option("--sdpa", options->sdpa,
-                      "write the semidefinite program here, for other solvers");
-  command
-      ->add_option("--threads", options->threads,
-                   "threads of a search, 0: one a core; the result does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "print the result as JSON");
-  command->footer(
-      "Exit code: 0 gains found, 1 proved infeasible, 2 wrong input, 3 undecided.\n"
+  return {
+      "synth",
+      "Synthesize gains from a problem file",
+      {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       Option("-o,--output", options->output, "write the gain file here; - for standard output"),
+       Option("--sdpa", options->sdpa, "write the semidefinite program here, for other solvers"),
+       Option("--threads", options->threads,
+              "threads of a search, 0: one a core; the result does not depend on it")
+           .within(0, 1024),
+       Option("--json", options->json, "print the result as JSON")},
+      "Exit code: 0 gains found, 1 infeasible by a checked certificate, 2 wrong input, 3 "
+      "undecided.\n"
       "Examples:\n"
       "  gainsmith synth problems/ferrante-seuret-2021/t2-0.70.yaml -o gains.json\n"
-      "  gainsmith synth problem.yaml --json | jq .gains");
-  command->callback([options, &exit] { exit = synth(*options); });
+      "  gainsmith synth problem.yaml --json | jq .gains",
+      [options] { return synth(*options); }};
 }
 
 }  // namespace gainsmith::app

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -9,7 +8,6 @@
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
-#include "gainsmith/option_checks.h"
 #include "gainsmith/terminal.h"
 
 namespace gainsmith::app {
@@ -32,8 +30,7 @@ ExitCode verify_gains(const VerifyOptions& options) {
   const LoadedGains loaded = load_gains(options.gains);
   verify::CampaignOptions campaign{options.runs, options.seed, options.threads, {}};
   if (!options.json && progress_wanted()) campaign.progress = print_progress;
-  const verify::Report report =
-      verify::run_campaign(loaded.stated.instance, loaded.gains, campaign);
+  const verify::Report report = verify::run_campaign(loaded.stated, loaded.gains, campaign);
   fmt::print("{}", options.json ? io::to_text(campaign_json(report))
                                 : campaign_summary(report, options.gains));
   return report.verdict == model::CampaignVerdict::held ? ExitCode::yes : ExitCode::no;
@@ -41,28 +38,23 @@ ExitCode verify_gains(const VerifyOptions& options) {
 
 }  // namespace
 
-void add_verify(CLI::App& program, ExitCode& exit) {
+Command verify_command() {
   auto options = std::make_shared<VerifyOptions>();
-  CLI::App* command =
-      program.add_subcommand("verify", "Check a gain file's claims by Monte-Carlo simulation");
-  command->add_option("gains", options->gains, "gain file (JSON)")->required();
-  command->add_option("--runs", options->runs, "number of runs (default: the problem's)")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1000000000}));
-  command
-      ->add_option("--seed", options->seed, "seed of the random streams (default: the problem's)")
-      ->check(whole_number());
-  command
-      ->add_option("--threads", options->threads,
-                   "threads, 0: one a core; the report does not depend on it")
-      ->check(CLI::Range(0, 1024))
-      ->capture_default_str();
-  command->add_flag("--json", options->json, "print the report as JSON");
-  command->footer(
-      "Exit code: 0 held, 1 violated, 2 wrong input.\n"
-      "Examples:\n"
-      "  gainsmith verify gains.json --runs 10000\n"
-      "  gainsmith verify gains.json --json | jq .worst_run");
-  command->callback([options, &exit] { exit = verify_gains(*options); });
+  return {"verify",
+          "Check a gain file's claims by Monte-Carlo simulation",
+          {Option("gains", options->gains, "gain file (JSON)").required(),
+           Option("--runs", options->runs, "number of runs (default: the problem's)")
+               .within<std::uint64_t>(1, 1000000000),
+           Option("--seed", options->seed, "seed of the random streams (default: the problem's)"),
+           Option("--threads", options->threads,
+                  "threads, 0: one a core; the report does not depend on it")
+               .within(0, 1024),
+           Option("--json", options->json, "print the report as JSON")},
+          "Exit code: 0 held, 1 violated, 2 wrong input.\n"
+          "Examples:\n"
+          "  gainsmith verify gains.json --runs 10000\n"
+          "  gainsmith verify gains.json --json | jq .worst_run",
+          [options] { return verify_gains(*options); }};
 }
 
 }  // namespace gainsmith::app

@@ -6,7 +6,7 @@
 
 namespace gainsmith {
 
-/// Exit codes of every subcommand (architecture: "Exit codes").
+/// Exit codes of every subcommand (docs/conventions.md).
 enum class ExitCode : int {
   yes = 0,        ///< done, and the answer is yes
   no = 1,         ///< done, and the answer is no

@@ -14,7 +14,7 @@ std::string read_text(const std::filesystem::path& path);
 /// Writes `text` beside `path` under a temporary name, flushes it to the disk and renames it over
 /// `path`: a reader sees the old file or the whole new one. InputError when that cannot be done;
 /// then nothing is left behind. A link stays, and the file that it leads to is replaced. A device,
-/// a pipe or an open file of this process (/dev/stdout) is written directly.
+/// a pipe, a socket or an open file of this process (/dev/stdout) is written directly.
 void write_atomically(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace gainsmith

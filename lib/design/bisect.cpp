@@ -47,7 +47,7 @@ std::string values_with(const search::Bisection& found, search::Answer answer) {
 }
 
 /// What is said when no value is feasible: nothing of those that were not tried.
-/// `limits`: what the proofs are limited to (model::limits_of).
+/// `limits`: what the certificates are limited to (model::limits_of).
 std::string nothing_found(const search::Bisection& found, const BisectChoices& choices,
                           const std::string& limits) {
   std::string text = "no feasible " + choices.scalar.name + " among the " +
@@ -57,16 +57,18 @@ std::string nothing_found(const search::Bisection& found, const BisectChoices& c
     return sample.answer == search::Answer::no;
   });
   if (all)
-    return text + "; each is proved infeasible" + limits + ", which says nothing of those between";
-  const std::string proved = values_with(found, search::Answer::no);
+    return text + "; each is excluded by a certificate" + limits +
+           ", which says nothing of those between";
+  const std::string excluded = values_with(found, search::Answer::no);
   const std::string refused = values_with(found, search::Answer::refused);
-  if (!proved.empty()) text += "; those at " + proved + " are proved infeasible" + limits;
+  if (!excluded.empty())
+    text += "; those at " + excluded + " are excluded by certificates" + limits;
   if (!refused.empty()) text += "; those at " + refused + " are refused by the assumptions";
   return text;
 }
 
 /// What the weakest of the certificates is limited to.
-std::string limits_of(const std::map<double, model::Gains>& tried) {
+std::string weakest_limits(const std::map<double, model::Gains>& tried) {
   for (const auto& [value, gains] : tried)
     if (gains.certificate && !gains.certificate->exact())
       return model::limits_of(*gains.certificate);
@@ -83,12 +85,7 @@ void set_undecided(model::Gains& gains, const std::string& message) {
 
 }  // namespace
 
-model::Gains synthesize_at(const model::Problem& problem, const model::Overrides& overrides,
-                           const sdp::Options& solver) {
-  return synthesize(model::make_instance(problem, overrides), solver);
-}
-
-BisectResult bisect(const model::Problem& problem, const model::Overrides& fixed,
+BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
                     const BisectChoices& choices, const sdp::Options& solver) {
   std::map<double, model::Gains> tried;
   std::optional<InputError> refusal;
@@ -96,7 +93,7 @@ BisectResult bisect(const model::Problem& problem, const model::Overrides& fixed
     model::Overrides overrides = fixed;
     overrides[choices.scalar.name] = value;
     try {
-      model::Gains gains = synthesize_at(problem, overrides, solver);
+      model::Gains gains = synthesize_at(own.design, overrides, solver);
       const search::Answer answer = answer_of(gains.verdict);
       tried.insert_or_assign(value, std::move(gains));
       return answer;
@@ -108,7 +105,7 @@ BisectResult bisect(const model::Problem& problem, const model::Overrides& fixed
   search::BisectOptions options;
   options.largest = choices.largest;
   options.tolerance = choices.tolerance;
-  options.known = model::make_instance(problem).known_values().at(choices.scalar.name)(0, 0);
+  options.known = own.values.at(choices.scalar.name)(0, 0);
   options.guess = choices.guess;
   options.interrupted = solver.interrupted;
   BisectResult result;
@@ -119,7 +116,7 @@ BisectResult bisect(const model::Problem& problem, const model::Overrides& fixed
   result.gains = tried.at(result.found.yes.value_or(easiest));
   result.gains.search = record_of(result.found, choices);
   if (!result.found.yes)
-    set_undecided(result.gains, nothing_found(result.found, choices, limits_of(tried)));
+    set_undecided(result.gains, nothing_found(result.found, choices, weakest_limits(tried)));
   if (result.found.no) result.gains.search->certificate = tried.at(*result.found.no).certificate;
   return result;
 }

@@ -17,7 +17,7 @@ struct BisectChoices {
   std::optional<double> guess;  ///< see search::BisectOptions
 };
 
-/// Both ends of a bracket with what proves them.
+/// Both ends of a bracket with what they rest on.
 struct BisectResult {
   search::Bisection found;
   /// The gains at the outermost yes, with every margin recomputed. When no value tried is feasible
@@ -27,15 +27,11 @@ struct BisectResult {
   model::Gains gains;
 };
 
-/// Synthesizes at the values that search::bisect asks for, the problem's own among them, the
+/// Synthesizes at the values that search::bisect asks for, the problem's `own` among them, the
 /// scalars in `fixed` held. A value is yes when synthesize() says yes, no when a certificate was
 /// checked, refused when it does not fit the problem's assumptions. `gains.search` holds the
 /// bracket. InputError when every value tried is refused.
-BisectResult bisect(const model::Problem& problem, const model::Overrides& fixed,
+BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
                     const BisectChoices& choices, const sdp::Options& solver);
-
-/// synthesize() with other values for some scalars.
-model::Gains synthesize_at(const model::Problem& problem, const model::Overrides& overrides,
-                           const sdp::Options& solver);
 
 }  // namespace gainsmith::design

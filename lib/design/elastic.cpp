@@ -1,139 +1,128 @@
 #include "design/elastic.h"
 
 #include <algorithm>
-#include <cstddef>
-#include <memory>
 #include <utility>
 #include <vector>
 
 #include "base/number.h"
-#include "design/bisect.h"
-#include "design/variants.h"
-#include "expr/parser.h"
+#include "design/synthesize.h"
 #include "lmi/formulation.h"
-#include "lmi/vertex_gains.h"
 
 namespace gainsmith::design {
 
 namespace {
 
-using expr::Node;
-using expr::NodeKind;
-using expr::NodePtr;
+using model::Design;
 
-/// A node at the place of another.
-NodePtr node(NodeKind kind, std::string text, std::vector<NodePtr> children, const Node& place) {
-  auto result = std::make_shared<Node>();
-  result->kind = kind;
-  result->text = std::move(text);
-  for (const NodePtr& child : children)
-    result->height = std::max(result->height, child->height + 1);
-  result->children = std::move(children);
-  result->begin = place.begin;
-  result->end = place.end;
-  return result;
+/// No name of a person ends in two of these, so no slack shadows one.
+std::string slack_name(const Design::Inequality& inequality) {
+  return "slack_" + inequality.name + "__";
 }
 
-/// side + scale*slack*I.
-NodePtr relaxed(const NodePtr& side, const std::string& slack, double scale) {
-  const Node& at = *side;
-  const NodePtr product = node(
-      NodeKind::multiply, "",
-      {node(NodeKind::number, decimal17(scale), {}, at), node(NodeKind::name, slack, {}, at)}, at);
-  return node(
-      NodeKind::add, "",
-      {side, node(NodeKind::multiply, "", {product, node(NodeKind::name, "I", {}, at)}, at)}, at);
-}
-
-/// One requirement for each comparison of the chain, its larger side raised by the slack.
-void add_relaxed(const model::Requirement& requirement, const std::string& slack, double scale,
-                 std::vector<model::Requirement>& out) {
-  const Node& chain = *requirement.that.root;
-  for (std::size_t k = 0; k < chain.relations.size(); ++k) {
-    NodePtr left = chain.children[k];
-    NodePtr right = chain.children[k + 1];
-    const expr::Relation relation = chain.relations[k];
-    const bool less = relation == expr::Relation::less || relation == expr::Relation::less_equal;
-    NodePtr& larger = less ? right : left;
-    larger = relaxed(larger, slack, scale);
-    auto comparison = std::make_shared<Node>(chain);
-    comparison->children = {left, right};
-    comparison->relations = {relation};
-    model::Requirement one = requirement;
-    one.that.root = comparison;
-    if (chain.relations.size() > 1) one.name += "." + std::to_string(k + 1);
+/// One inequality for each comparison of the chain, its larger side raised by the slack.
+void add_relaxed(const Design::Inequality& inequality, const std::string& slack, double scale,
+                 std::vector<Design::Inequality>& out) {
+  for (const Design::Comparison& comparison : inequality.comparisons) {
+    Design::Inequality one = inequality;
+    one.name = comparison.name;
+    one.comparisons = {{comparison.name,
+                        expr::with_slack(comparison.difference, slack, decimal17(scale)),
+                        comparison.strict}};
     out.push_back(std::move(one));
   }
 }
 
-model::UnknownDeclaration scalar_unknown(const std::string& name, const model::Requirement& of) {
-  model::UnknownDeclaration unknown;
-  unknown.name = name;
-  unknown.shape = model::parse_shape(expr::Text("scalar", of.place.file));
-  unknown.place = of.place;
-  return unknown;
+/// slack >= 0.
+Design::Inequality not_negative(const std::string& slack, const Design::Inequality& of) {
+  expr::Composer compose({of.place.file});
+  const expr::Program program = compose.take(compose.input(slack));
+  return {slack, {}, {{slack, program, false}}, of.place, of.place};
 }
 
-/// No name of a person ends in two of these, so no slack shadows one.
-std::string slack_name(const model::Requirement& requirement) {
-  return "slack_" + requirement.name + "__";
-}
-
-model::Requirement not_negative(const std::string& slack, const model::Requirement& of) {
-  return {slack, {}, expr::parse(expr::Text(slack + " >= 0", of.place.file)), of.place};
+model::Formula sum_of(const std::vector<std::string>& names, const std::string& file) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " + ") + name;
+  const Place place{file, 1, 1};
+  return {expr::combination(std::vector<expr::Program>(names.size()), names, {}, place), place,
+          text};
 }
 
 }  // namespace
 
-ByRequirement scales_of(const model::Problem& problem, const model::Overrides& overrides) {
-  const lmi::Lmi lmi =
-      lmi::compile(lmi::with_vertex_gains(model::make_instance(problem, overrides)));
+model::Instance without_gains(const model::Instance& instance) {
+  return with_design(instance, [](Design& design) {
+    design.gains.clear();
+    design.search.reset();
+    design.negotiable.clear();
+    design.expect.reset();
+  });
+}
+
+model::Instance without_objective(const model::Instance& instance) {
+  return with_design(instance, [](Design& design) { design.objective.reset(); });
+}
+
+model::Instance with_inequalities(const model::Instance& instance,
+                                  const std::set<std::string>& names) {
+  return with_design(instance, [&](Design& design) {
+    std::erase_if(design.inequalities, [&](const Design::Inequality& inequality) {
+      return !names.contains(inequality.name);
+    });
+  });
+}
+
+ByInequality scales_of(const model::Instance& instance) {
+  const lmi::Inequalities inequalities(instance);
+  const lmi::Lmi lmi = lmi::compile(inequalities);
   const lmi::Formulation formulation =
-      lmi::formulate(lmi, {}, problem.synthesis, lmi::goal_of(lmi, {}));
-  ByRequirement scales;
-  for (const model::Requirement& requirement : problem.method->require) {
-    double& scale = scales[requirement.name];
+      lmi::formulate(lmi, {}, instance.design->synthesis, lmi::goal_of(lmi, {}));
+  ByInequality scales;
+  for (const Design::Inequality& inequality : instance.design->inequalities) {
+    double& scale = scales[inequality.name];
     for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
-      if (lmi.blocks[k].name == requirement.name ||
-          lmi.blocks[k].name.starts_with(requirement.name + "."))
+      if (lmi.blocks[k].name == inequality.name ||
+          lmi.blocks[k].name.starts_with(inequality.name + "."))
         scale = std::max(scale, formulation.scales[k]);
   }
   return scales;
 }
 
-model::Problem elastic(model::Problem problem, const ByRequirement& scales,
-                       std::map<std::string, std::string>& slacks) {
-  return with_method(std::move(problem), [&](model::Method& method) {
-    std::vector<model::Requirement> require;
-    std::string sum;
-    for (const model::Requirement& requirement : method.require) {
-      const auto scale = scales.find(requirement.name);
+model::Instance elastic(const model::Instance& instance, const ByInequality& scales,
+                        std::map<std::string, std::string>& slacks) {
+  return with_design(instance, [&](Design& design) {
+    std::vector<Design::Inequality> relaxed;
+    std::vector<std::string> names;
+    for (const Design::Inequality& inequality : design.inequalities) {
+      const auto scale = scales.find(inequality.name);
       if (scale == scales.end()) {
-        require.push_back(requirement);
+        relaxed.push_back(inequality);
         continue;
       }
-      const std::string slack = slack_name(requirement);
-      slacks[requirement.name] = slack;
-      method.unknowns.push_back(scalar_unknown(slack, requirement));
-      add_relaxed(requirement, slack, scale->second, require);
-      require.push_back(not_negative(slack, requirement));
-      sum += (sum.empty() ? "" : " + ") + slack;
+      const std::string slack = slack_name(inequality);
+      slacks[inequality.name] = slack;
+      names.push_back(slack);
+      Design::Unknown unknown;
+      unknown.name = slack;
+      unknown.structure = model::Structure::scalar;
+      unknown.place = inequality.place;
+      design.unknowns.push_back(std::move(unknown));
+      add_relaxed(inequality, slack, scale->second, relaxed);
+      relaxed.push_back(not_negative(slack, inequality));
     }
-    method.require = std::move(require);
-    method.minimize = expr::parse(expr::Text(sum, method.file));
+    design.inequalities = std::move(relaxed);
+    design.objective = sum_of(names, design.method_file);
   });
 }
 
-Slacks smallest_slacks(const model::Problem& problem, const ByRequirement& scales,
-                       const model::Overrides& overrides, const sdp::Options& solver) {
+Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scales,
+                       const sdp::Options& solver) {
   std::map<std::string, std::string> names;
-  const model::Problem relaxed = elastic(problem, scales, names);
-  const model::Gains gains = synthesize_at(relaxed, overrides, solver);
+  const model::Gains gains = synthesize(elastic(instance, scales, names), solver);
   Slacks slacks{gains.verdict, {}};
   if (gains.verdict != model::Verdict::yes) return slacks;
-  for (const auto& [requirement, slack] : names) {
+  for (const auto& [inequality, slack] : names) {
     const double value = (*gains.find(slack))(0, 0);
-    slacks.by_requirement[requirement] = value > problem.synthesis.margin ? value : 0;
+    slacks.by_inequality[inequality] = value > instance.design->synthesis.margin ? value : 0;
   }
   return slacks;
 }

@@ -1,8 +1,9 @@
-// How far a problem is from having a solution: its requirements with slacks.
+// How far a problem is from having a solution: its inequalities with slacks. And the problem with
+// less in it, as a problem of its own that takes the same way to the solver.
 #pragma once
 
 #include <map>
-#include <optional>
+#include <set>
 #include <string>
 
 #include "model/instance.h"
@@ -11,27 +12,37 @@
 
 namespace gainsmith::design {
 
-/// A number for each requirement named.
-using ByRequirement = std::map<std::string, double>;
+/// Without gains (and so without bounds on them), nothing searched or expected.
+model::Instance without_gains(const model::Instance& instance);
 
-/// The scale of each requirement, as its margins are measured (docs/conventions.md).
-ByRequirement scales_of(const model::Problem& problem, const model::Overrides& overrides);
+/// Without its objective: any solution will do.
+model::Instance without_objective(const model::Instance& instance);
 
-/// The problem with every requirement k of `scales` relaxed by an unknown slack t_k >= 0,
+/// With the inequalities named, the others left out.
+model::Instance with_inequalities(const model::Instance& instance,
+                                  const std::set<std::string>& names);
+
+/// A number for each inequality named.
+using ByInequality = std::map<std::string, double>;
+
+/// The scale of each inequality, as its margins are measured (docs/conventions.md).
+ByInequality scales_of(const model::Instance& instance);
+
+/// Every inequality k of `scales` relaxed by an unknown slack t_k >= 0,
 ///   a < b   becomes   a < b + t_k s_k I
 /// (each comparison of a chain), and minimize: the sum of the slacks. `slacks` receives the names
-/// of the unknowns t_k by requirement.
-model::Problem elastic(model::Problem problem, const ByRequirement& scales,
-                       std::map<std::string, std::string>& slacks);
+/// of the unknowns t_k by inequality.
+model::Instance elastic(const model::Instance& instance, const ByInequality& scales,
+                        std::map<std::string, std::string>& slacks);
 
-/// Slacks when the verdict is yes; no when also the elastic problem is proved infeasible.
+/// Slacks when the verdict is yes; no when a certificate excludes the elastic problem too.
 struct Slacks {
   model::Verdict verdict = model::Verdict::undecided;
-  ByRequirement by_requirement;
+  ByInequality by_inequality;
 };
 
 /// The slacks of the elastic problem with the smallest sum. One below the margin counts as 0.
-Slacks smallest_slacks(const model::Problem& problem, const ByRequirement& scales,
-                       const model::Overrides& overrides, const sdp::Options& solver);
+Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scales,
+                       const sdp::Options& solver);
 
 }  // namespace gainsmith::design

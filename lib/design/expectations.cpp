@@ -30,20 +30,18 @@ std::string listed(std::vector<std::string> names) {
 class Comparison {
  public:
   Comparison(const model::Instance& instance, const model::Gains& gains)
-      : instance_(instance), gains_(gains), results_(instance, gains) {}
+      : gains_(gains), results_(instance, gains) {}
 
   void words(const std::string& what, const std::optional<std::string>& expected,
              const std::string& found, const Place& place) {
     if (expected && *expected != found) add(place, what, *expected, found);
   }
 
-  void value(const model::ExpectedValue& expected) {
+  void value(const model::Design::ExpectedValue& expected) {
     const auto value = results_.value(expected.what);
     if (!value) return add(expected.place, expected.name, "a value", "none");
     const numbers::Matrix& found = *value;
-    const expr::Shape shape{static_cast<int>(found.rows()), static_cast<int>(found.cols())};
-    const numbers::Matrix wanted =
-        model::matrix_value(expected.value, instance_.scope, results_.values(), shape);
+    const numbers::Matrix wanted = results_.value(expected.value).value();
     double allowed = expected.absolute.value_or(0);
     if (expected.relative)
       allowed = std::max(allowed, *expected.relative * wanted.cwiseAbs().maxCoeff());
@@ -70,7 +68,6 @@ class Comparison {
                            found);
   }
 
-  const model::Instance& instance_;
   const model::Gains& gains_;
   Results results_;
   std::vector<std::string> differences_;
@@ -80,7 +77,7 @@ class Comparison {
 
 std::vector<std::string> differences(const model::Instance& instance, const model::Gains& gains,
                                      std::optional<model::CampaignVerdict> campaign) {
-  const auto& expect = instance.problem->expect;
+  const auto& expect = instance.design->expect;
   if (!expect) return {};
   Comparison comparison(instance, gains);
   comparison.words("verdict", expect->verdict, to_string(gains.verdict), expect->place);
@@ -88,7 +85,7 @@ std::vector<std::string> differences(const model::Instance& instance, const mode
   comparison.words("campaign", expect->campaign, campaign ? to_string(*campaign) : "no campaign",
                    expect->place);
   if (expect->active_bounds) comparison.bounds(*expect->active_bounds, expect->place);
-  for (const model::ExpectedValue& value : expect->values) comparison.value(value);
+  for (const model::Design::ExpectedValue& value : expect->values) comparison.value(value);
   return comparison.take();
 }
 

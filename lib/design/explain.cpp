@@ -5,60 +5,59 @@
 
 #include "design/bisect.h"
 #include "design/elastic.h"
-#include "design/variants.h"
-#include "lmi/formulation.h"
-#include "lmi/vertex_gains.h"
+#include "design/synthesize.h"
+#include "lmi/compile.h"
 
 namespace gainsmith::design {
 
 namespace {
 
 /// Whether nothing keeps all unknowns from being 0.
-bool holds_at_zero(const model::Problem& problem) {
-  if (problem.method->require.empty()) return true;
-  const lmi::Lmi lmi = lmi::compile(lmi::with_vertex_gains(model::make_instance(problem)));
+bool holds_at_zero(const model::Instance& instance) {
+  if (instance.design->inequalities.empty()) return true;
+  const lmi::Lmi lmi = lmi::compile(lmi::Inequalities(instance));
   return lmi::is_homogeneous(lmi.blocks) &&
          std::none_of(lmi.blocks.begin(), lmi.blocks.end(),
                       [](const lmi::Block& block) { return block.strict; });
 }
 
-std::vector<std::string> in_reverse(const std::vector<model::Requirement>& requirements) {
+std::vector<std::string> in_reverse(const std::vector<model::Design::Inequality>& inequalities) {
   std::vector<std::string> names;
-  for (auto at = requirements.rbegin(); at != requirements.rend(); ++at) names.push_back(at->name);
+  for (auto at = inequalities.rbegin(); at != inequalities.rend(); ++at) names.push_back(at->name);
   return names;
 }
 
 /// Whether the requirements named hold together: with the objective, which leads to solutions of
 /// the problem's own size, and where that is not decided (it may be unbounded) without it.
-model::Gains subset(const model::Problem& problem, const std::set<std::string>& names,
+model::Gains subset(const model::Instance& instance, const std::set<std::string>& names,
                     const sdp::Options& solver) {
-  const model::Problem part = with_requirements(problem, names);
+  const model::Instance part = with_inequalities(instance, names);
   if (holds_at_zero(part)) {
     model::Gains trivial;
     trivial.verdict = model::Verdict::yes;
     return trivial;
   }
-  model::Gains gains = synthesize_at(part, {}, solver);
-  if (gains.verdict == model::Verdict::undecided && part.method->minimize)
-    gains = synthesize_at(without_objective(part), {}, solver);
+  model::Gains gains = synthesize(part, solver);
+  if (gains.verdict == model::Verdict::undecided && part.design->objective)
+    gains = synthesize(without_objective(part), solver);
   return gains;
 }
 
-std::vector<Relaxation> find_relaxations(const model::Problem& problem,
+std::vector<Relaxation> find_relaxations(const model::Instance& instance,
                                          const sdp::Options& solver) {
-  const model::Problem plain = without_gains(problem);
-  const auto scales = scales_of(plain, {});
-  const Slacks together = smallest_slacks(plain, scales, {}, solver);
+  const model::Instance plain = without_gains(instance);
+  const auto scales = scales_of(plain);
+  const Slacks together = smallest_slacks(plain, scales, solver);
   std::vector<Relaxation> relaxations;
-  for (const model::Requirement& requirement : problem.method->require) {
-    const std::string& name = requirement.name;
+  for (const model::Design::Inequality& inequality : instance.design->inequalities) {
+    const std::string& name = inequality.name;
     Relaxation relaxation;
     relaxation.name = name;
     relaxation.scale = scales.at(name);
     if (together.verdict == model::Verdict::yes)
-      relaxation.together = together.by_requirement.at(name);
-    const Slacks alone = smallest_slacks(plain, {{name, scales.at(name)}}, {}, solver);
-    if (alone.verdict == model::Verdict::yes) relaxation.alone = alone.by_requirement.at(name);
+      relaxation.together = together.by_inequality.at(name);
+    const Slacks alone = smallest_slacks(plain, {{name, scales.at(name)}}, solver);
+    if (alone.verdict == model::Verdict::yes) relaxation.alone = alone.by_inequality.at(name);
     relaxation.alone_undecided = alone.verdict == model::Verdict::undecided;
     relaxations.push_back(std::move(relaxation));
   }
@@ -66,14 +65,14 @@ std::vector<Relaxation> find_relaxations(const model::Problem& problem,
 }
 
 /// The reach in one direction, within the range.
-Reach reach(const model::Problem& problem, const SearchedScalar& scalar, double value, bool at_most,
-            const sdp::Options& solver) {
+Reach reach(const model::Instance& instance, const SearchedScalar& scalar, double value,
+            bool at_most, const sdp::Options& solver) {
   // A fine bracket: the number is what people remember.
   constexpr double kFine = 0.1;
   Reach found{scalar.name, value, at_most, {}, {}, {}};
   try {
     const BisectResult result =
-        bisect(problem, {}, {scalar, at_most, default_tolerance(scalar.axis) * kFine, {}}, solver);
+        bisect(instance, {}, {scalar, at_most, default_tolerance(scalar.axis) * kFine, {}}, solver);
     found.feasible = result.found.yes;
     found.beyond = result.found.no;
     if (found.beyond) found.certificate = result.gains.search->certificate;
@@ -85,55 +84,55 @@ Reach reach(const model::Problem& problem, const SearchedScalar& scalar, double 
 
 }  // namespace
 
-std::optional<Conflict> find_conflict(const model::Problem& problem, const model::Gains& gains,
+std::optional<Conflict> find_conflict(const model::Instance& instance, const model::Gains& gains,
                                       const sdp::Options& solver) {
   if (gains.verdict != model::Verdict::no) return std::nullopt;
-  const model::Problem plain = without_gains(problem);
+  const model::Design& design = *instance.design;
+  const model::Instance plain = without_gains(instance);
   std::set<std::string> names;
-  for (const model::Requirement& requirement : problem.method->require)
-    names.insert(requirement.name);
+  for (const model::Design::Inequality& inequality : design.inequalities)
+    names.insert(inequality.name);
   Conflict conflict;
-  model::Gains proof = subset(plain, names, solver);
-  if (proof.verdict != model::Verdict::no) {
-    const bool bounded = problem.synthesis.gain_bound && !problem.method->gains.empty();
-    conflict.gain_bound = bounded && proof.verdict == model::Verdict::yes;
+  model::Gains certified = subset(plain, names, solver);
+  if (certified.verdict != model::Verdict::no) {
+    const bool bounded = design.synthesis.gain_bound && !design.gains.empty();
+    conflict.gain_bound = bounded && certified.verdict == model::Verdict::yes;
     conflict.within_gain_bound = bounded && !conflict.gain_bound;
     conflict.certificate = gains.certificate.value();
-    for (const model::Requirement& requirement : problem.method->require)
-      conflict.names.push_back(requirement.name);
+    for (const model::Design::Inequality& inequality : design.inequalities)
+      conflict.names.push_back(inequality.name);
     if (!conflict.gain_bound) conflict.undecided = conflict.names;
     return conflict;
   }
-  // Later requirements often imply earlier, simpler ones; those are what is kept.
-  for (const std::string& name : in_reverse(problem.method->require)) {
+  // Later inequalities often imply earlier, simpler ones; those are what is kept.
+  for (const std::string& name : in_reverse(design.inequalities)) {
     names.erase(name);
     model::Gains rest = subset(plain, names, solver);
     if (rest.verdict == model::Verdict::no) {
-      proof = std::move(rest);
+      certified = std::move(rest);
       continue;
     }
     names.insert(name);
     if (rest.verdict == model::Verdict::undecided) conflict.undecided.push_back(name);
   }
-  for (const model::Requirement& requirement : problem.method->require)
-    if (names.contains(requirement.name)) conflict.names.push_back(requirement.name);
-  conflict.certificate = proof.certificate.value();
+  for (const model::Design::Inequality& inequality : design.inequalities)
+    if (names.contains(inequality.name)) conflict.names.push_back(inequality.name);
+  conflict.certificate = certified.certificate.value();
   return conflict;
 }
 
-std::vector<Reach> find_reaches(const model::Problem& problem, const sdp::Options& solver) {
+std::vector<Reach> find_reaches(const model::Instance& instance, const sdp::Options& solver) {
   std::vector<Reach> reaches;
-  const numbers::Values values = model::make_instance(problem).known_values();
-  for (const model::ScalarRange& range : problem.negotiable) {
-    const SearchedScalar whole = searched_scalar(problem, range);
-    const double value = values.at(range.name)(0, 0);
+  for (const model::Range& range : instance.design->negotiable) {
+    const SearchedScalar whole = searched_scalar(instance, range);
+    const double value = instance.values.at(range.name)(0, 0);
     const std::size_t count = reaches.size();
     for (const bool at_most : {true, false}) {
       SearchedScalar side = whole;
       (at_most ? side.axis.high : side.axis.low) =
           at_most ? std::min(value, whole.axis.high) : std::max(value, whole.axis.low);
       if (!(side.axis.low < side.axis.high)) continue;
-      const Reach found = reach(problem, side, value, at_most, solver);
+      const Reach found = reach(instance, side, value, at_most, solver);
       if (found.feasible) reaches.push_back(found);
     }
     if (reaches.size() == count) reaches.push_back({range.name, value, true, {}, {}, {}});
@@ -141,14 +140,14 @@ std::vector<Reach> find_reaches(const model::Problem& problem, const sdp::Option
   return reaches;
 }
 
-Explanation explain(const model::Problem& problem, const sdp::Options& solver) {
+Explanation explain(const model::Instance& instance, const sdp::Options& solver) {
   Explanation explanation;
-  explanation.gains = synthesize_at(problem, {}, solver);
+  explanation.gains = synthesize(instance, solver);
   if (explanation.gains.verdict == model::Verdict::yes) return explanation;
-  explanation.conflict = find_conflict(problem, explanation.gains, solver);
+  explanation.conflict = find_conflict(instance, explanation.gains, solver);
   if (explanation.conflict && !explanation.conflict->gain_bound)
-    explanation.relaxations = find_relaxations(problem, solver);
-  explanation.reaches = find_reaches(problem, solver);
+    explanation.relaxations = find_relaxations(instance, solver);
+  explanation.reaches = find_reaches(instance, solver);
   return explanation;
 }
 

@@ -6,14 +6,15 @@
 #include <vector>
 
 #include "model/gains.h"
+#include "model/instance.h"
 #include "sdp/solver.h"
 
 namespace gainsmith::design {
 
-/// A set of requirements that cannot hold together, found by deletion: one requirement after the
-/// other, from the last to the first, is left out, for good when the rest is still proved
-/// infeasible. So leaving out any one of `names` leaves a set that is feasible or, for those in
-/// `undecided`, not decided.
+/// A set of inequalities that cannot hold together, found by deletion: one after the other, from
+/// the last to the first, is left out, for good when a certificate still excludes the rest. So
+/// leaving out any one of `names` leaves a set that is feasible or, for those in `undecided`, not
+/// decided.
 struct Conflict {
   std::vector<std::string> names;  ///< in the order of the method
   std::vector<std::string> undecided;
@@ -41,7 +42,7 @@ struct Reach {
   bool at_most = true;  ///< go down to `feasible`; otherwise up
   /// The nearest value found, with every margin recomputed; none when nothing in the range is.
   std::optional<double> feasible;
-  std::optional<double> beyond;                         ///< next to it, proved infeasible
+  std::optional<double> beyond;                         ///< next to it, excluded
   std::optional<model::CertificateRecord> certificate;  ///< there
 };
 
@@ -52,16 +53,16 @@ struct Explanation {
   std::vector<Reach> reaches;           ///< of `negotiable`
 };
 
-/// The conflict of a problem whose result is `gains`; none unless that is a proved no.
-std::optional<Conflict> find_conflict(const model::Problem& problem, const model::Gains& gains,
+/// The conflict of a problem whose result is `gains`; none unless that is a no.
+std::optional<Conflict> find_conflict(const model::Instance& instance, const model::Gains& gains,
                                       const sdp::Options& solver);
 
 /// Along every negotiable scalar, the others held: the nearest feasible value below the problem's
 /// own, and above it, as far as the range goes: the directions that have one, or one entry for a
 /// scalar that does not help.
-std::vector<Reach> find_reaches(const model::Problem& problem, const sdp::Options& solver);
+std::vector<Reach> find_reaches(const model::Instance& instance, const sdp::Options& solver);
 
 /// All of it. With another verdict than no there is no conflict and no relaxation.
-Explanation explain(const model::Problem& problem, const sdp::Options& solver);
+Explanation explain(const model::Instance& instance, const sdp::Options& solver);
 
 }  // namespace gainsmith::design

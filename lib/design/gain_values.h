@@ -1,16 +1,15 @@
 // The gains of a point.
 #pragma once
 
-#include "numbers/real.h"
+#include "lmi/inequalities.h"
 #include "model/gains.h"
-#include "model/instance.h"
 
 namespace gainsmith::design {
 
 /// Evaluates every gain of the method whose formula needs nothing but `values` and puts it into
 /// `gains`: a matrix into `gains.gains`; a function of a scalar into `gains.gain_functions`, with
 /// its coefficients when it is a polynomial, or into `gains.gains` when it is constant.
-void add_gain_values(const model::Instance& instance, const numbers::Values& values,
+void add_gain_values(const lmi::Inequalities& inequalities, const numbers::Values& values,
                      model::Gains& gains);
 
 /// Evaluates what the method asks to be shown and what has a value, into `gains.report`.

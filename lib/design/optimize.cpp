@@ -11,7 +11,6 @@
 #include "design/polish.h"
 #include "design/results.h"
 #include "design/synthesize.h"
-#include "design/variants.h"
 #include "search/minimize.h"
 
 namespace gainsmith::design {
@@ -28,9 +27,9 @@ double smallest_margin(const model::Gains& gains) {
 
 class OuterSearch {
  public:
-  OuterSearch(const model::Problem& problem, const SearchRequest& request,
+  OuterSearch(const model::Instance& own, const SearchRequest& request,
               const search::Optimizers& optimizers, unsigned threads, const sdp::Options& solver)
-      : problem_(problem),
+      : own_(own),
         request_(request),
         optimizers_(optimizers),
         threads_(threads),
@@ -52,10 +51,9 @@ class OuterSearch {
       options.warm = [&](const search::Point& point, double best) {
         return figure(point, request_.largest ? -best : best);
       };
-    const model::Problem plain = without_gains(problem_);
-    if (const auto scales = scales_at(plain, options.starts.front()))
+    if (const auto scales = scales_at(options.starts.front()))
       options.violation = [&, scales = *scales](const search::Point& point) {
-        return violation(plain, scales, point);
+        return violation(scales, point);
       };
     const search::Minimum minimum = search::minimize(cold, axes, optimizers_.local, options);
     return result(minimum);
@@ -64,10 +62,10 @@ class OuterSearch {
  private:
   /// The values that the problem or the method gives, or the nearest in the ranges.
   search::Point own_values() const {
-    const numbers::Values values = model::make_instance(problem_).known_values();
     search::Point point;
     for (const SearchedScalar& scalar : request_.over)
-      point.push_back(std::clamp(values.at(scalar.name)(0, 0), scalar.axis.low, scalar.axis.high));
+      point.push_back(
+          std::clamp(own_.values.at(scalar.name)(0, 0), scalar.axis.low, scalar.axis.high));
     return point;
   }
 
@@ -86,7 +84,7 @@ class OuterSearch {
         if (!found) return std::nullopt;
         return request_.largest ? -*found : *found;
       }
-      const model::Instance instance = model::make_instance(problem_, values);
+      const model::Instance instance = model::evaluate(own_.design, values);
       const model::Gains gains = synthesize(instance, solver_);
       if (gains.verdict != model::Verdict::yes) return std::nullopt;
       return value(instance, gains);
@@ -104,10 +102,9 @@ class OuterSearch {
   }
 
   /// What the slacks of all points are measured in; none where the values of the point are refused.
-  std::optional<ByRequirement> scales_at(const model::Problem& plain,
-                                         const search::Point& point) const {
+  std::optional<ByInequality> scales_at(const search::Point& point) const {
     try {
-      return scales_of(plain, at_easy_end(point));
+      return scales_of(without_gains(model::evaluate(own_.design, at_easy_end(point))));
     } catch (const InputError&) {
       return std::nullopt;
     }
@@ -115,14 +112,14 @@ class OuterSearch {
 
   /// How far a point is from feasible: the smallest sum of slacks. Infinite where the values are
   /// refused or the slacks are not decided.
-  double violation(const model::Problem& plain, const ByRequirement& scales,
-                   const search::Point& point) const {
+  double violation(const ByInequality& scales, const search::Point& point) const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     try {
-      const auto slacks = smallest_slacks(plain, scales, at_easy_end(point), solver_);
+      const auto plain = without_gains(model::evaluate(own_.design, at_easy_end(point)));
+      const Slacks slacks = smallest_slacks(plain, scales, solver_);
       if (slacks.verdict != model::Verdict::yes) return kInfinity;
       double sum = 0;
-      for (const auto& [requirement, slack] : slacks.by_requirement) sum += slack;
+      for (const auto& [inequality, slack] : slacks.by_inequality) sum += slack;
       return sum;
     } catch (const InputError&) {
       return kInfinity;
@@ -140,7 +137,7 @@ class OuterSearch {
 
   BisectResult bracket(const model::Overrides& values, double sharper, std::optional<double> guess,
                        const sdp::Options& solver) const {
-    return bisect(problem_, values,
+    return bisect(own_, values,
                   {*request_.extreme, request_.largest, request_.tolerance * sharper, guess},
                   solver);
   }
@@ -152,7 +149,7 @@ class OuterSearch {
       BisectResult result = bracket(values, 1, std::nullopt, last_);
       return {std::move(result.gains), result.found.yes};
     }
-    const model::Instance instance = model::make_instance(problem_, values);
+    const model::Instance instance = model::evaluate(own_.design, values);
     model::Gains gains = synthesize(instance, last_);
     if (gains.verdict != model::Verdict::yes) return {std::move(gains), std::nullopt};
     const auto found = value(instance, gains);
@@ -166,7 +163,7 @@ class OuterSearch {
 
   /// Replaces a design by what polishing proposes, if that is better.
   model::PolishRecord polish_design(model::Gains& gains, std::optional<double>& figure) const {
-    const Proposal proposal = polish(problem_, request_, gains, optimizers_.smooth);
+    const Proposal proposal = polish(own_, request_, gains, optimizers_.smooth);
     model::PolishRecord record{*figure, std::nullopt, false, proposal.cause};
     if (!proposal.scalars) return record;
     model::Overrides values = *proposal.scalars;
@@ -200,7 +197,7 @@ class OuterSearch {
       gains = nothing_found();
     }
     model::SearchRecord record = gains.search.value_or(model::SearchRecord{});
-    record.figure = figure_name(request_, *problem_.method);
+    record.figure = figure_name(request_, *own_.design);
     record.value = record.figure == "margin" && best ? std::optional(-*best) : best;
     record.polish = std::move(polished);
     for (const SearchedScalar& scalar : request_.over) {
@@ -218,7 +215,7 @@ class OuterSearch {
   /// The result at the problem's own values, where there are no gains; it decides nothing of the
   /// ranges.
   model::Gains nothing_found() const {
-    model::Gains gains = synthesize_at(problem_, overrides(own_values()), last_);
+    model::Gains gains = synthesize_at(own_.design, overrides(own_values()), last_);
     gains.verdict = model::Verdict::undecided;
     gains.solver.status = "undecided";
     gains.certificate.reset();
@@ -234,7 +231,7 @@ class OuterSearch {
   /// like a slope.
   static constexpr double kSharper = 0.1;
 
-  const model::Problem& problem_;
+  const model::Instance& own_;
   const SearchRequest& request_;
   const search::Optimizers& optimizers_;
   unsigned threads_;
@@ -244,22 +241,22 @@ class OuterSearch {
 
 }  // namespace
 
-model::Gains optimize(const model::Problem& problem, const SearchRequest& request,
+model::Gains optimize(const model::Instance& own, const SearchRequest& request,
                       const search::Optimizers& optimizers, unsigned threads,
                       const sdp::Options& solver) {
-  return OuterSearch(problem, request, optimizers, threads, solver).run();
+  return OuterSearch(own, request, optimizers, threads, solver).run();
 }
 
-model::Gains synthesize_searched(const model::Problem& problem, const SearchRequest& request,
+model::Gains synthesize_searched(const model::Instance& own, const SearchRequest& request,
                                  const search::Optimizers* optimizers, unsigned threads,
                                  const sdp::Options& solver) {
-  if (request.empty()) return synthesize_at(problem, {}, solver);
+  if (request.empty()) return synthesize(own, solver);
   if (request.over.empty())
-    return bisect(problem, {}, {*request.extreme, request.largest, request.tolerance, std::nullopt},
+    return bisect(own, {}, {*request.extreme, request.largest, request.tolerance, std::nullopt},
                   solver)
         .gains;
   if (optimizers == nullptr) throw std::invalid_argument("a search over scalars needs optimizers");
-  return optimize(problem, request, *optimizers, threads, solver);
+  return optimize(own, request, *optimizers, threads, solver);
 }
 
 }  // namespace gainsmith::design

@@ -10,16 +10,16 @@ namespace gainsmith::design {
 /// The design with the best figure of the request: the gains at the best values of `request.over`,
 /// with the bracket of `request.extreme` when that is the figure. A value at which the problem is
 /// infeasible, undecided, or refused by the method's assumptions is worse than every other. When
-/// nothing feasible was found the verdict is undecided: that each value tried is infeasible proves
+/// nothing feasible was found the verdict is undecided: that each value tried is infeasible says
 /// nothing of those between. Deterministic for any number of threads.
-model::Gains optimize(const model::Problem& problem, const SearchRequest& request,
+model::Gains optimize(const model::Instance& own, const SearchRequest& request,
                       const search::Optimizers& optimizers, unsigned threads,
                       const sdp::Options& solver);
 
 /// The gains of a problem with everything that it wants searched: synthesize() for an empty
 /// request, bisect() for one with a scalar to bisect alone, otherwise optimize(), which alone needs
 /// `optimizers` (std::invalid_argument when they are null).
-model::Gains synthesize_searched(const model::Problem& problem, const SearchRequest& request,
+model::Gains synthesize_searched(const model::Instance& own, const SearchRequest& request,
                                  const search::Optimizers* optimizers, unsigned threads,
                                  const sdp::Options& solver);
 

@@ -1,7 +1,5 @@
 #include "design/polish.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,7 +9,7 @@
 #include <vector>
 
 #include "design/polish_blocks.h"
-#include "lmi/vertex_gains.h"
+#include "numbers/dense.h"
 
 namespace gainsmith::design {
 
@@ -22,31 +20,27 @@ using Vector = std::vector<double>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The problem with the request's own figure as its objective.
-model::Problem with_figure(const model::Problem& problem, const SearchRequest& request) {
-  model::Problem result = problem;
-  if (!request.minimize) return result;
-  auto method = std::make_shared<model::Method>(*problem.method);
-  method->minimize = request.minimize;
-  result.method = std::move(method);
-  return result;
+/// The design with the request's own figure as its objective.
+model::DesignPtr with_figure(const model::Instance& own, const SearchRequest& request) {
+  if (!request.minimize) return own.design;
+  return with_design(own, [&](model::Design& design) { design.objective = request.minimize; })
+      .design;
 }
 
 /// A lower triangular L with L L' = M, M (whose terms are of size 1) made positive definite.
 Matrix factor(const Matrix& matrix) {
   constexpr double kFloor = 1e-8;
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(matrix);
-  const Eigen::VectorXd lifted = eigen.eigenvalues().cwiseMax(kFloor);
-  const Matrix definite =
-      eigen.eigenvectors() * lifted.asDiagonal() * eigen.eigenvectors().transpose();
-  return definite.llt().matrixL();
+  const numbers::SymmetricEigen eigen(matrix);
+  const Eigen::VectorXd lifted = eigen.values().cwiseMax(kFloor);
+  return numbers::Cholesky(eigen.vectors() * lifted.asDiagonal() * eigen.vectors().transpose())
+      .lower();
 }
 
 /// The smooth program. Unknowns and rows are scaled to their sizes at the start.
-class Program {
+class SmoothDesign {
  public:
-  Program(const model::Problem& problem, const SearchRequest& request, const model::Gains& gains)
-      : problem_(with_figure(problem, request)) {
+  SmoothDesign(const model::Instance& own, const SearchRequest& request, const model::Gains& gains)
+      : design_(with_figure(own, request)) {
     scalars_ = request.over;
     if (request.extreme) {
       extreme_ = static_cast<std::ptrdiff_t>(scalars_.size());
@@ -54,14 +48,12 @@ class Program {
       scalars_.push_back(*request.extreme);
     }
     Vector start;
-    const model::Instance instance =
-        lmi::with_vertex_gains(model::make_instance(problem_, gains.searched));
-    const numbers::Values values = instance.known_values();
+    const model::Instance instance = model::evaluate(design_, gains.searched);
     for (const SearchedScalar& scalar : scalars_)
-      start.push_back(scalar.axis.fraction(values.at(scalar.name)(0, 0)));
+      start.push_back(scalar.axis.fraction(instance.values.at(scalar.name)(0, 0)));
     const SmoothBlocks& blocks = at(start);
-    if (extreme_ < 0 && blocks.cost.empty()) throw NoProgram{"the margin is no smooth figure"};
-    add_unknowns(packed(instance, blocks, gains), start);
+    if (extreme_ < 0 && blocks.cost.empty()) throw NotSmooth{"the margin is no smooth figure"};
+    add_unknowns(packed(blocks, gains), start);
     add_factors(blocks);
   }
 
@@ -104,13 +96,12 @@ class Program {
     if (const auto found = cache_.find(key); found != cache_.end()) return found->second;
     constexpr std::size_t kKept = 32;
     if (cache_.size() > kKept) cache_.clear();
-    SmoothBlocks blocks =
-        smooth_blocks(lmi::with_vertex_gains(model::make_instance(problem_, scalars(key))));
+    SmoothBlocks blocks = smooth_blocks(model::evaluate(design_, scalars(key)));
     if (!factors_.empty()) {
       bool same = blocks.list.size() == factors_.size();
       for (std::size_t k = 0; same && k < factors_.size(); ++k)
         same = blocks.list[k].size == factors_[k].size;
-      if (!same) throw NoProgram{"the inequalities change their number or sizes"};
+      if (!same) throw NotSmooth{"the inequalities change their number or sizes"};
     }
     return cache_.emplace(key, std::move(blocks)).first->second;
   }
@@ -312,7 +303,7 @@ class Program {
         }
   }
 
-  model::Problem problem_;
+  model::DesignPtr design_;
   std::vector<SearchedScalar> scalars_;
   std::ptrdiff_t extreme_ = -1;  ///< which scalar is the figure; -1: none
   double direction_ = 1;
@@ -326,15 +317,15 @@ class Program {
 
 }  // namespace
 
-Proposal polish(const model::Problem& problem, const SearchRequest& request,
-                const model::Gains& gains, const search::SmoothSolver& solver) {
+Proposal polish(const model::Instance& own, const SearchRequest& request, const model::Gains& gains,
+                const search::SmoothSolver& solver) {
   constexpr double kTolerance = 1e-9;
   constexpr int kIterations = 500;
   try {
-    Program program(problem, request, gains);
+    SmoothDesign program(own, request, gains);
     const search::SmoothSolution solution = solver(program.smooth(), kTolerance, kIterations);
     return {program.scalars(solution.v), solution.cause};
-  } catch (const NoProgram& none) {
+  } catch (const NotSmooth& none) {
     return {std::nullopt, none.cause};
   } catch (const InputError& error) {
     return {std::nullopt, error.message()};

@@ -28,7 +28,7 @@ struct Proposal {
 /// From the gains of the request's best point to a nearby point that the smooth program prefers:
 /// values of request.over and request.extreme. None when the figure is the margin, is not affine in
 /// the unknowns, or when the inequalities change their number or sizes near the point.
-Proposal polish(const model::Problem& problem, const SearchRequest& request,
-                const model::Gains& gains, const search::SmoothSolver& solver);
+Proposal polish(const model::Instance& own, const SearchRequest& request, const model::Gains& gains,
+                const search::SmoothSolver& solver);
 
 }  // namespace gainsmith::design

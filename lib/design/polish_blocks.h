@@ -12,7 +12,7 @@
 namespace gainsmith::design {
 
 /// The design changes its shape with the scalars: no smooth program.
-struct NoProgram {
+struct NotSmooth {
   std::string cause;
 };
 
@@ -25,14 +25,14 @@ struct SmoothBlocks {
   std::vector<double> cost;  ///< of the unknowns; empty when the figure is a scalar
   double constant = 0;
   lmi::GainBounds bounds;
+  lmi::Unknowns layout;  ///< where each unknown stands among them
 };
 
-/// `instance` comes from lmi::with_vertex_gains. InputError as for lmi::compile().
+/// InputError as for lmi::compile().
 SmoothBlocks smooth_blocks(const model::Instance& instance);
 
 /// The unknowns of the gains as one vector, and the scalars of the gain bounds at their largest.
-/// NoProgram when an unknown has no value.
-std::vector<double> packed(const model::Instance& instance, const SmoothBlocks& blocks,
-                           const model::Gains& gains);
+/// NotSmooth when an unknown has no value.
+std::vector<double> packed(const SmoothBlocks& blocks, const model::Gains& gains);
 
 }  // namespace gainsmith::design

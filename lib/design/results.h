@@ -14,10 +14,11 @@ class Results {
  public:
   Results(const model::Instance& instance, const model::Gains& gains);
 
-  /// The value; none when the expression uses something that has none, such as a gain of a problem
-  /// without solution. InputError when it does not compile.
-  std::optional<numbers::Matrix> value(const expr::Expression& expression) const;
-  const numbers::Values& values() const { return stated_.values; }
+  /// The value; none when the formula uses something that has none, such as a gain of a problem
+  /// without solution.
+  std::optional<numbers::Matrix> value(const model::Formula& formula) const {
+    return stated_.value(formula.program);
+  }
 
  private:
   model::Stated stated_;

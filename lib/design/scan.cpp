@@ -9,25 +9,10 @@
 
 namespace gainsmith::design {
 
-namespace {
-
-std::optional<double> scalar(const Results& results, const expr::Expression& figure) {
-  const auto value = results.value(figure);
-  if (!value) return std::nullopt;
-  if (value->size() != 1)
-    throw InputError(figure.place(*figure.root),
-                     "expected a number, found a matrix: " + figure.text->str());
-  return (*value)(0, 0);
-}
-
-}  // namespace
-
-std::vector<ScanRow> scan(const model::Problem& problem, const std::vector<std::string>& names,
-                          const std::vector<std::vector<double>>& points,
-                          const std::vector<expr::Expression>& figures, unsigned threads,
+std::vector<ScanRow> scan(const model::DesignPtr& design, const std::vector<std::string>& names,
+                          const std::vector<std::vector<double>>& points, unsigned threads,
                           const sdp::Options& solver) {
-  for (const std::string& name : names)
-    model::check_scalar_name(*problem.method, name, {problem.file});
+  for (const std::string& name : names) model::check_scalar_name(*design, name, {design->file});
   std::vector<ScanRow> rows(points.size());
   parallel_for(points.size(), threads, [&](std::size_t i) {
     ScanRow& row = rows[i];
@@ -40,7 +25,7 @@ std::vector<ScanRow> scan(const model::Problem& problem, const std::vector<std::
     std::optional<model::Instance> instance;
     model::Gains gains;
     try {
-      instance = model::make_instance(problem, overrides);
+      instance = model::evaluate(design, overrides);
       gains = synthesize(*instance, solver);
     } catch (const InputError& error) {
       row.refused = error.what();
@@ -50,7 +35,10 @@ std::vector<ScanRow> scan(const model::Problem& problem, const std::vector<std::
     row.interrupted = gains.verdict == model::Verdict::undecided && interrupted();
     if (gains.verdict == model::Verdict::yes) row.objective = gains.objective;
     const Results results(*instance, gains);
-    for (const expr::Expression& figure : figures) row.figures.push_back(scalar(results, figure));
+    for (const model::NamedFormula& figure : instance->design->figures) {
+      const auto value = results.value(figure.value);
+      row.figures.push_back(value ? std::optional((*value)(0, 0)) : std::nullopt);
+    }
   });
   const bool any =
       std::any_of(rows.begin(), rows.end(), [](const ScanRow& row) { return row.refused.empty(); });

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "model/gains.h"
+#include "model/instance.h"
 #include "sdp/solver.h"
 
 namespace gainsmith::design {
@@ -15,17 +16,14 @@ struct ScanRow {
   bool interrupted = false;  ///< before it was decided
   model::Verdict verdict = model::Verdict::undecided;
   std::optional<double> objective;             ///< of gains, where the method has one
-  std::vector<std::optional<double>> figures;  ///< one for each expression; none without a value
+  std::vector<std::optional<double>> figures;  ///< one for each of the design; none without a value
 };
 
-/// The rows in the order of the points; the same for any number of threads (0: one a core).
-/// After
-/// `solver.interrupted` the remaining points are not tried. `figures` are scalar expressions about
-/// the result. InputError when every point is refused, for unknown names, and for expressions that
-/// do not compile.
-std::vector<ScanRow> scan(const model::Problem& problem, const std::vector<std::string>& names,
-                          const std::vector<std::vector<double>>& points,
-                          const std::vector<expr::Expression>& figures, unsigned threads,
+/// The rows in the order of the points; the same for any number of threads (0: one a core). After
+/// `solver.interrupted` the remaining points are not tried. Figures are those of the design.
+/// InputError when every point is refused, and for unknown names.
+std::vector<ScanRow> scan(const model::DesignPtr& design, const std::vector<std::string>& names,
+                          const std::vector<std::vector<double>>& points, unsigned threads,
                           const sdp::Options& solver);
 
 }  // namespace gainsmith::design

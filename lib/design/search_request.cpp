@@ -6,11 +6,6 @@ namespace gainsmith::design {
 
 namespace {
 
-SearchedScalar with_numbers(const model::Instance& instance, const model::ScalarRange& range) {
-  const auto [low, high] = ends_of(range, instance.scope, instance.known_values());
-  return {range.name, search::axis(low, high)};
-}
-
 bool names(const SearchRequest& request, const std::string& name) {
   return (request.extreme && request.extreme->name == name) ||
          std::any_of(request.over.begin(), request.over.end(),
@@ -19,22 +14,26 @@ bool names(const SearchRequest& request, const std::string& name) {
 
 }  // namespace
 
-SearchRequest request_of(const model::Problem& problem) {
-  const model::Instance instance = model::make_instance(problem);
+SearchedScalar searched_scalar(const model::Instance& instance, const model::Range& range) {
+  const auto [low, high] = model::ends_of(range, instance.values);
+  return {range.name, search::axis(low, high)};
+}
+
+SearchRequest request_of(const model::Instance& instance) {
   SearchRequest request;
-  if (const auto& search = problem.search) {
+  if (const auto& search = instance.design->search) {
     if (search->extreme) {
-      request.extreme = with_numbers(instance, *search->extreme);
+      request.extreme = searched_scalar(instance, *search->extreme);
       request.tolerance = tolerance_of(search->tolerance, request.extreme->axis);
     }
     request.largest = search->largest;
-    for (const model::ScalarRange& range : search->over)
-      request.over.push_back(with_numbers(instance, range));
+    for (const model::Range& range : search->over)
+      request.over.push_back(searched_scalar(instance, range));
     request.minimize = search->minimize;
     request.evaluations = search->evaluations;
   }
-  for (const model::ScalarRange& range : open_parameters(problem))
-    if (!names(request, range.name)) request.over.push_back(with_numbers(instance, range));
+  for (const model::Range& range : instance.design->open)
+    if (!names(request, range.name)) request.over.push_back(searched_scalar(instance, range));
   return request;
 }
 
@@ -48,14 +47,10 @@ search::Tolerance tolerance_of(const std::optional<double>& width, const search:
   return width ? search::Tolerance{*width, false} : default_tolerance(axis);
 }
 
-SearchedScalar searched_scalar(const model::Problem& problem, const model::ScalarRange& range) {
-  return with_numbers(model::make_instance(problem), range);
-}
-
-std::string figure_name(const SearchRequest& request, const model::Method& method) {
+std::string figure_name(const SearchRequest& request, const model::Design& design) {
   if (request.extreme) return (request.largest ? "largest " : "smallest ") + request.extreme->name;
-  if (request.minimize) return request.minimize->text->str();
-  return method.minimize ? "objective" : "margin";
+  if (request.minimize) return request.minimize->text;
+  return design.objective ? "objective" : "margin";
 }
 
 }  // namespace gainsmith::design

@@ -24,7 +24,7 @@ struct SearchRequest {
   bool largest = true;
   search::Tolerance tolerance;  ///< of the bracket of `extreme`
   std::vector<SearchedScalar> over;
-  std::optional<expr::Expression> minimize;
+  std::optional<model::Formula> minimize;
   int evaluations = 200;
   bool polish = false;  ///< move scalars and unknowns together at the end (polish.h)
 
@@ -32,8 +32,8 @@ struct SearchRequest {
 };
 
 /// What the problem's `search:` asks for, and the parameters that it leaves open as far as
-/// `search:` does not name them.
-SearchRequest request_of(const model::Problem& problem);
+/// `search:` does not name them. The ends of ranges have the instance's values.
+SearchRequest request_of(const model::Instance& instance);
 
 /// What counts as one value unless the problem gives a tolerance: 1e-4 of the range, or of the
 /// value on a logarithmic scale.
@@ -42,10 +42,10 @@ search::Tolerance default_tolerance(const search::Axis& axis);
 /// A width that a person gives, or else the default.
 search::Tolerance tolerance_of(const std::optional<double>& width, const search::Axis& axis);
 
-/// The scalar with the range's ends as numbers, at the problem's own values.
-SearchedScalar searched_scalar(const model::Problem& problem, const model::ScalarRange& range);
+/// The scalar with the range's ends as numbers, at the instance's values.
+SearchedScalar searched_scalar(const model::Instance& instance, const model::Range& range);
 
 /// The name of the figure: "largest T2", "trace(P1)", "objective", "margin".
-std::string figure_name(const SearchRequest& request, const model::Method& method);
+std::string figure_name(const SearchRequest& request, const model::Design& design);
 
 }  // namespace gainsmith::design

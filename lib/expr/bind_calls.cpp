@@ -270,10 +270,9 @@ Bound Binder::basis(const Expression& expression, const Node& node, Op op) {
   }
   const Program matrix = known_program(expression, argument, at, "the argument of " + node.text);
   if (!scope_.known) fail(expression, node, node.text + ": no value is known beforehand");
-  const double given = tolerance ? scope_.known->number(*tolerance) : -1;
-  if (tolerance && given < 0)
+  if (tolerance && scope_.known->number(*tolerance) < 0)
     fail(expression, *node.children[1], "the tolerance must not be negative");
-  const int rank = scope_.known->rank(matrix, given);
+  const int rank = scope_.known->rank(matrix, tolerance ? &*tolerance : nullptr);
   const Shape from = shape(at);
   const Shape result =
       op == Op::range_basis ? Shape{from.rows, rank} : Shape{from.cols, from.cols - rank};

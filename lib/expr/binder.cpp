@@ -8,6 +8,7 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "expr/compile.h"
+#include "expr/work.h"
 
 namespace gainsmith::expr {
 
@@ -280,6 +281,7 @@ Bound Binder::power(const Expression& expression, const Node& node) {
 }
 
 Program compile(const Expression& expression, const Scope& scope, std::optional<Shape> expected) {
+  count_bound();
   Binder binder(scope);
   const Node& root = *expression.root;
   const Bound value = binder.bind(expression, root);
@@ -289,6 +291,7 @@ Program compile(const Expression& expression, const Scope& scope, std::optional<
 }
 
 std::vector<CompiledRelation> compile_relations(const Expression& expression, const Scope& scope) {
+  count_bound();
   const Node& root = *expression.root;
   if (root.kind != NodeKind::compare)
     throw InputError(expression.place(root),

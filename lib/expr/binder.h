@@ -35,6 +35,8 @@ class Binder {
   Program extract(int at) const { return assembly_.extract(at); }
 
  private:
+  friend class BlockBinding;
+
   using Environment = std::map<std::string, Bound>;
 
   // binder.cpp: leaves and operators.

@@ -30,25 +30,33 @@ class Evaluator {
         fixed_(program.inputs.size(), false),
         registers_(program.code.size()) {}
 
+  Evaluator(Evaluator&&) noexcept = default;  // a copy's operands would stand in the original
+  Evaluator& operator=(Evaluator&&) noexcept = default;
+
   void fix(const std::string& name, const Value& value) {
     const int at = program_->input(name);
     if (at < 0) return;
     inputs_[static_cast<std::size_t>(at)] = &value;
     fixed_[static_cast<std::size_t>(at)] = true;
     prepared_ = false;
+    linked_ = false;
   }
 
-  void set(std::size_t input, const Value& value) { inputs_[input] = &value; }
+  void set(std::size_t input, const Value& value) {
+    inputs_[input] = &value;
+    linked_ = false;
+  }
 
   /// Sets an input by name; a name that the program does not use is ignored.
   void set(const std::string& name, const Value& value) {
     const int at = program_->input(name);
-    if (at >= 0) inputs_[static_cast<std::size_t>(at)] = &value;
+    if (at >= 0) set(static_cast<std::size_t>(at), value);
   }
 
   /// The result; valid until the next run.
   const Value& run() {
     if (!prepared_) prepare();
+    if (!linked_) link();
     for (const std::size_t at : varying_) compute(at);
     return value(static_cast<std::size_t>(program_->result));
   }
@@ -62,29 +70,36 @@ class Evaluator {
 
   void compute(std::size_t at) {
     const Instruction& instruction = program_->code[at];
-    operands_.clear();
-    for (const int operand : instruction.operands)
-      operands_.push_back(&value(static_cast<std::size_t>(operand)));
     try {
-      type_.apply(instruction, operands_, registers_[at]);
+      type_.apply(instruction, {operands_.data() + first_operand_[at], instruction.operands.size()},
+                  registers_[at]);
     } catch (const EvaluationError& error) {
       throw EvaluationError(instruction.place(), error.message());
     }
   }
 
+  /// Finds where the operands of all instructions stand.
+  void link() {
+    operands_.clear();
+    first_operand_.clear();
+    for (const Instruction& instruction : program_->code) {
+      first_operand_.push_back(operands_.size());
+      for (const int operand : instruction.operands)
+        operands_.push_back(&value(static_cast<std::size_t>(operand)));
+    }
+    linked_ = true;
+  }
+
   /// Computes what depends on fixed inputs alone and lists the rest.
   void prepare() {
+    check();
+    link();
     std::vector<bool> moves(program_->code.size());
     varying_.clear();
     for (std::size_t at = 0; at < program_->code.size(); ++at) {
       const Instruction& instruction = program_->code[at];
-      if (instruction.op == Op::call)
-        throw std::logic_error("a call of " + instruction.text + " that was not linked");
       if (instruction.op == Op::input) {
-        const auto input = static_cast<std::size_t>(instruction.attributes[0]);
-        if (inputs_[input] == nullptr)
-          throw std::logic_error("no value for the input " + program_->inputs[input].name);
-        moves[at] = !fixed_[input];
+        moves[at] = !fixed_[static_cast<std::size_t>(instruction.attributes[0])];
         continue;
       }
       for (const int operand : instruction.operands)
@@ -98,14 +113,26 @@ class Evaluator {
     prepared_ = true;
   }
 
+  /// std::logic_error when something has no value that the caller must give.
+  void check() const {
+    for (const Instruction& instruction : program_->code)
+      if (instruction.op == Op::call)
+        throw std::logic_error("a call of " + instruction.text + " that was not linked");
+    for (std::size_t i = 0; i < inputs_.size(); ++i)
+      if (inputs_[i] == nullptr)
+        throw std::logic_error("no value for the input " + program_->inputs[i].name);
+  }
+
   const Program* program_;
   Type type_;
   std::vector<const Value*> inputs_;
   std::vector<bool> fixed_;
   std::vector<Value> registers_;
-  std::vector<const Value*> operands_;
+  std::vector<const Value*> operands_;  ///< of all instructions, one after the other
+  std::vector<std::size_t> first_operand_;
   std::vector<std::size_t> varying_;
   bool prepared_ = false;
+  bool linked_ = false;
 };
 
 }  // namespace gainsmith::expr

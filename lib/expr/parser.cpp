@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "expr/lexer.h"
+#include "expr/work.h"
 
 namespace gainsmith::expr {
 
@@ -292,6 +293,7 @@ class Parser {
 }  // namespace
 
 Expression parse(Text text) {
+  count_parsed();
   auto shared = std::make_shared<const Text>(std::move(text));
   NodePtr root = Parser(*shared).whole();
   return {shared, root};

@@ -1,6 +1,21 @@
 #include "expr/program.h"
 
+#include <algorithm>
+
 namespace gainsmith::expr {
+
+bool is_same(const Program& a, const Program& b) {
+  const auto same_input = [](const Input& x, const Input& y) {
+    return x.name == y.name && x.shape == y.shape;
+  };
+  const auto same_instruction = [](const Instruction& x, const Instruction& y) {
+    return x.op == y.op && x.operands == y.operands && x.shape == y.shape &&
+           x.attributes == y.attributes && x.text == y.text;
+  };
+  return a.result == b.result && std::ranges::equal(a.inputs, b.inputs, same_input) &&
+         std::ranges::equal(a.functions, b.functions, same_input) &&
+         std::ranges::equal(a.code, b.code, same_instruction);
+}
 
 int Program::input(const std::string& name) const {
   for (std::size_t i = 0; i < inputs.size(); ++i)

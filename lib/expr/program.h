@@ -41,4 +41,7 @@ struct Program {
   bool uses(const std::string& name) const { return input(name) >= 0; }
 };
 
+/// Whether two programs compute the same in the same way; places do not count.
+bool is_same(const Program& a, const Program& b);
+
 }  // namespace gainsmith::expr

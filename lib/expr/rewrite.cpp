@@ -11,15 +11,6 @@ namespace gainsmith::expr {
 
 namespace {
 
-using BodyOf = std::function<const Body&(const Instruction&)>;
-
-/// An instruction that only carries the place of what was made, not read.
-Instruction mark(const Place& place) {
-  Instruction result;
-  result.origin = std::make_shared<const Text>(Text::generated("", place));
-  return result;
-}
-
 Instruction operation(Op op, std::vector<int> operands, Shape shape, const Instruction& like) {
   return {op, std::move(operands), shape, {}, {}, like.origin, like.offset};
 }
@@ -45,8 +36,7 @@ int add_program(Assembly& assembly, const Program& program, const BodyOf* body,
             assembly.add_call(called_by(program, instruction), instruction.shape, at, instruction));
         continue;
       }
-      // The text of a call names it; inside of another body it is that body's own.
-      const Body& found = (*body)(instruction);
+      const Body& found = (*body)(called_by(program, instruction), instruction);
       moved.push_back(add_program(assembly, found.program, body, found.variable, at));
       continue;
     }
@@ -83,25 +73,41 @@ Program argument_of(const Program& program, const Instruction& call) {
   return assembly.extract(add_program(assembly, whole, nullptr));
 }
 
+Composer::Composer(const Place& place) {
+  like_.origin = std::make_shared<const Text>(Text::generated("", place));
+}
+
+int Composer::number(const std::string& decimal) {
+  Instruction constant = like_;
+  constant.text = decimal;
+  return assembly_.add(std::move(constant));
+}
+
+int Composer::input(const std::string& name, Shape shape) {
+  return assembly_.add_input(name, shape, like_);
+}
+
+int Composer::apply(Op op, std::vector<int> operands, Shape shape, std::array<int, 4> attributes) {
+  Instruction made = operation(op, std::move(operands), shape, like_);
+  made.attributes = attributes;
+  return assembly_.add(std::move(made));
+}
+
+int Composer::program(const Program& program) { return add_program(assembly_, program, nullptr); }
+
 Program combination(const std::vector<Program>& factors, const std::vector<std::string>& terms,
                     Shape shape, const Place& place) {
-  const Instruction like = mark(place);
-  Assembly assembly;
+  Composer compose(place);
+  const Op times = shape.is_scalar() ? Op::multiply : Op::scale;
   int sum = -1;
   for (std::size_t k = 0; k < terms.size(); ++k) {
-    int term = -1;
-    if (factors[k].code.empty()) {
-      term = assembly.add_input(terms[k], shape, like);
-    } else {
-      const int matrix = assembly.add_input(terms[k], shape, like);
-      const int factor = add_program(assembly, factors[k], nullptr);
-      const Op op = shape.is_scalar() ? Op::multiply : Op::scale;
-      term = assembly.add(operation(op, {factor, matrix}, shape, like));
-    }
-    sum = sum < 0 ? term : assembly.add(operation(Op::add, {sum, term}, shape, like));
+    int term = compose.input(terms[k], shape);
+    if (!factors[k].code.empty())
+      term = compose.apply(times, {compose.program(factors[k]), term}, shape);
+    sum = sum < 0 ? term : compose.apply(Op::add, {sum, term}, shape);
   }
   if (sum < 0) throw std::logic_error("a combination without terms");
-  return assembly.extract(sum);
+  return compose.take(sum);
 }
 
 Program with_slack(const Program& program, const std::string& name, const std::string& scale) {
@@ -116,21 +122,6 @@ Program with_slack(const Program& program, const std::string& name, const std::s
   const int product = assembly.add(operation(Op::multiply, {factor, slack}, {}, like));
   const int room = assembly.add(operation(Op::identity, {product}, shape, like));
   return assembly.extract(assembly.add(operation(Op::add, {difference, room}, shape, like)));
-}
-
-Program sum_of(const std::vector<std::string>& names, const Place& place) {
-  return combination(std::vector<Program>(names.size()), names, {}, place);
-}
-
-Program input_program(const std::string& name, Shape shape, const Place& place) {
-  return combination({Program{}}, {name}, shape, place);
-}
-
-Program constant_program(const std::string& decimal, const Place& place) {
-  Assembly assembly;
-  Instruction number = mark(place);
-  number.text = decimal;
-  return assembly.extract(assembly.add(std::move(number)));
 }
 
 }  // namespace gainsmith::expr

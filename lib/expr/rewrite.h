@@ -1,10 +1,12 @@
 // Programs from programs. Every instruction keeps the place that it was written at.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <string>
 #include <vector>
 
+#include "expr/assembly.h"
 #include "expr/program.h"
 
 namespace gainsmith::expr {
@@ -15,11 +17,13 @@ struct Body {
   Program program;
 };
 
+/// Gives the body of a function for one of its calls.
+using BodyOf = std::function<const Body&(const std::string& function, const Instruction& call)>;
+
 /// The program with each call replaced by what `body` gives for it, the variable being the call's
 /// argument. Bodies may hold calls; those are replaced too. Evaluation needs a program without
 /// calls.
-Program link(const Program& program,
-             const std::function<const Body&(const Instruction& call)>& body);
+Program link(const Program& program, const BodyOf& body);
 
 /// The name of the function that an instruction of the program calls.
 const std::string& called_by(const Program& program, const Instruction& call);
@@ -30,21 +34,29 @@ std::vector<const Instruction*> calls_in(const Program& program);
 /// The argument of a call, as a program.
 Program argument_of(const Program& program, const Instruction& call);
 
-/// sum_k factors[k] * terms[k]: inputs `terms` of one shape, and 1 x 1 programs; a program without
-/// instructions stands for the factor 1. `place`: of the whole.
+/// A program put together instruction by instruction, all at one place.
+class Composer {
+ public:
+  explicit Composer(const Place& place);
+
+  int number(const std::string& decimal);
+  int input(const std::string& name, Shape shape = {});
+  int apply(Op op, std::vector<int> operands, Shape shape = {}, std::array<int, 4> attributes = {});
+  /// The result of another program over the same inputs.
+  int program(const Program& program);
+  Program take(int result) const { return assembly_.extract(result); }
+
+ private:
+  Instruction like_;
+  Assembly assembly_;
+};
+
+/// sum_k factors[k] * terms[k]: inputs `terms` of one shape, and 1 x 1 programs; a factor without
+/// instructions is 1. `place`: of the whole.
 Program combination(const std::vector<Program>& factors, const std::vector<std::string>& terms,
                     Shape shape, const Place& place);
 
 /// program + scale * s * I, with s the 1 x 1 input `name` and `scale` a decimal.
 Program with_slack(const Program& program, const std::string& name, const std::string& scale);
-
-/// The sum of 1 x 1 inputs.
-Program sum_of(const std::vector<std::string>& names, const Place& place);
-
-/// The input itself.
-Program input_program(const std::string& name, Shape shape, const Place& place);
-
-/// The number itself.
-Program constant_program(const std::string& decimal, const Place& place);
 
 }  // namespace gainsmith::expr

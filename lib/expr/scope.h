@@ -31,9 +31,9 @@ class KnownValues {
   virtual ~KnownValues() = default;
   /// The value of a 1 x 1 program over known symbols.
   virtual double number(const Program& program) const = 0;
-  /// The number of singular values above tolerance * the largest one; tolerance < 0 stands for
+  /// The number of singular values above tolerance * the largest one; without a tolerance above
   /// rounding.
-  virtual int rank(const Program& program, double tolerance) const = 0;
+  virtual int rank(const Program& matrix, const Program* tolerance) const = 0;
 };
 
 struct Scope {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "numbers/matrix.h"
 #include "hybrid/steps.h"
+#include "numbers/matrix.h"
 
 namespace gainsmith::hybrid {
 
@@ -24,7 +24,7 @@ std::string to_string(Termination termination);
 /// How one sample follows from the one before it.
 struct Move {
   bool jump = false;
-  Step step;  ///< of the flow, when it is no jump
+  FlowStep step;  ///< of the flow, when it is no jump
 };
 
 /// The samples of one run, in order. At a jump the sample before (t, j) and the one after (t, j +

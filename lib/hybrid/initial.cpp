@@ -1,96 +1,75 @@
 #include "hybrid/initial.h"
 
-#include <fmt/format.h>
 #include <algorithm>
-
-#include "base/nearest.h"
-#include "expr/compile.h"
+#include <utility>
 
 namespace gainsmith::hybrid {
 
 namespace {
 
-using Kind = model::InitialValue::Kind;
+using Kind = model::StartKind;
 
-expr::Program compile_start(const model::Value& value, std::size_t slot, const System& system) {
-  expr::Program program =
-      model::compile_value(value, system.scope, system.layout.slots[slot].shape);
+expr::Program link_start(const model::Formula& formula, std::size_t state, const System& system) {
+  expr::Program program = system.link(formula);
+  const std::vector<Slot>& slots = system.layout.slots;
   for (const expr::Input& input : program.inputs) {
-    const auto later = std::find_if(system.layout.slots.begin() + static_cast<std::ptrdiff_t>(slot),
-                                    system.layout.slots.end(),
+    const auto later = std::find_if(slots.begin() + static_cast<std::ptrdiff_t>(state), slots.end(),
                                     [&](const Slot& other) { return other.name == input.name; });
-    if (later != system.layout.slots.end() || input.name == system.layout.timer)
-      throw InputError(value.place, "the initial value of " + system.layout.slots[slot].name +
-                                        " uses " + input.name +
-                                        ", which has no value yet: only states declared before may "
-                                        "be used");
+    if (later != slots.end() || input.name == system.layout.timer)
+      throw InputError(formula.place, "the initial value of " + slots[state].name + " uses " +
+                                          input.name +
+                                          ", which has no value yet: only states declared before "
+                                          "may be used");
   }
-  const auto missing = missing_values(program, system.layout, system.constants);
-  if (!missing.empty()) throw InputError(value.place, "there is no value for " + missing.front());
+  const auto missing = system.missing(program);
+  if (!missing.empty()) throw InputError(formula.place, "there is no value for " + missing.front());
   return program;
 }
 
 /// A box may be given by scalars for all elements.
-numbers::Matrix read_bound(const model::Value& value, expr::Shape shape, const System& system) {
-  const expr::Program program = expr::compile(value.value, system.scope);
-  if (program.shape().is_scalar()) {
-    const double bound = model::scalar_value(value.value, system.scope, system.constants);
-    return numbers::Matrix::Constant(shape.rows, shape.cols, bound);
-  }
-  return model::matrix_value(value, system.scope, system.constants, shape);
+numbers::Matrix bound_of(const model::Formula& formula, expr::Shape shape, const System& system) {
+  numbers::Matrix bound = system.value(formula);
+  if (bound.size() != 1) return bound;
+  return numbers::Matrix::Constant(shape.rows, shape.cols, bound(0, 0));
 }
 
-StartRule make_rule(const model::InitialValue& initial, std::size_t slot, const System& system) {
-  const Slot& state = system.layout.slots[slot];
-  StartRule rule{initial.kind, {}, {}, initial.place};
-  const bool enough = initial.kind == Kind::list  ? !initial.values.empty()
-                      : initial.kind == Kind::box ? initial.values.size() == 2
-                                                  : initial.values.size() == 1;
-  if (!enough)
-    throw InputError(initial.place, "the initial value of " + state.name + " is incomplete");
-  if (initial.kind == Kind::expression) {
-    rule.program = compile_start(initial.values.front(), slot, system);
+StartRule make_rule(const model::Design::Start& start, const System& system) {
+  const Slot& slot = system.layout.slots[start.state];
+  StartRule rule{start.kind, {}, {}, start.place};
+  if (start.kind == Kind::expression) {
+    rule.program = link_start(start.values.front(), start.state, system);
     return rule;
   }
-  for (const model::Value& value : initial.values)
-    rule.values.push_back(
-        initial.kind == Kind::box
-            ? read_bound(value, state.shape, system)
-            : model::matrix_value(value, system.scope, system.constants, state.shape));
-  if (initial.kind == Kind::box && (rule.values[0].array() > rule.values[1].array()).any())
-    throw InputError(initial.place, "the box of " + state.name + " is empty: low > high");
+  for (const model::Formula& formula : start.values)
+    rule.values.push_back(start.kind == Kind::box ? bound_of(formula, slot.shape, system)
+                                                  : system.value(formula));
+  if (start.kind == Kind::box && (rule.values[0].array() > rule.values[1].array()).any())
+    throw InputError(start.place, "the box of " + slot.name + " is empty: low > high");
   return rule;
+}
+
+/// The box [-1, 1].
+StartRule unit_box(expr::Shape shape) {
+  const numbers::Matrix ones = numbers::Matrix::Ones(shape.rows, shape.cols);
+  return {Kind::box, {-ones, ones}, {}, {}};
 }
 
 }  // namespace
 
-std::vector<StartRule> make_start_rules(const model::Campaign& campaign, const System& system) {
-  std::vector<std::string> names;
-  for (const Slot& slot : system.layout.slots) names.push_back(slot.name);
-  for (const model::InitialValue& initial : campaign.initial)
-    if (std::find(names.begin(), names.end(), initial.state) == names.end())
-      throw InputError(initial.place, "there is no state '" + initial.state + "'" +
-                                          suggestion(initial.state, names));
-
+std::vector<StartRule> make_start_rules(const model::Design& design, const System& system) {
+  const std::vector<model::Design::Start>& starts = design.campaign.starts;
   std::vector<StartRule> rules;
-  for (std::size_t slot = 0; slot < names.size(); ++slot) {
-    const auto found =
-        std::find_if(campaign.initial.begin(), campaign.initial.end(),
-                     [&](const auto& initial) { return initial.state == names[slot]; });
-    if (found != campaign.initial.end()) {
-      rules.push_back(make_rule(*found, slot, system));
-      continue;
+  for (std::size_t state = 0; state < design.states.size(); ++state) {
+    const auto found = std::find_if(starts.begin(), starts.end(),
+                                    [&](const auto& start) { return start.state == state; });
+    const std::optional<model::Formula>& usual = design.states[state].start;
+    if (found != starts.end()) {
+      rules.push_back(make_rule(*found, system));
+    } else if (usual) {
+      rules.push_back(make_rule({state, Kind::expression, {*usual}, usual->place}, system));
+    } else {
+      rules.push_back(unit_box(design.states[state].shape));
     }
-    if (const auto& start = system.starts[slot]) {
-      const Place place = start->place(*start->root);
-      rules.push_back(
-          make_rule({names[slot], Kind::expression, {{names[slot], *start, false, place}}, place},
-                    slot, system));
-      continue;
-    }
-    const expr::Shape shape = system.layout.slots[slot].shape;
-    const numbers::Matrix ones = numbers::Matrix::Ones(shape.rows, shape.cols);
-    rules.push_back({Kind::box, {-ones, ones}, {}, {}});
   }
   return rules;
 }

@@ -10,13 +10,13 @@ namespace gainsmith::hybrid {
 
 namespace {
 
-using Kind = model::SamplingLaw::Kind;
+using Kind = model::LawKind;
 
-double checked_value(const expr::Expression& expression, const System& system) {
-  const double value = model::scalar_value(expression, system.scope, system.constants);
+double checked_value(const model::Formula& formula, const System& system) {
+  const double value = system.scalar(formula);
   const double slack = 1e-12 * system.high;
   if (!(value >= system.low - slack && value <= system.high + slack))
-    throw InputError(expression.place(*expression.root),
+    throw InputError(formula.place,
                      fmt::format("the sampling interval {} is outside the timer's range [{}, {}]",
                                  brief(value), brief(system.low), brief(system.high)));
   return std::clamp(value, system.low, system.high);
@@ -40,19 +40,19 @@ double Law::reset_value(std::size_t jump, double t, RandomStream& random) const 
   return high;
 }
 
-std::vector<Law> make_laws(const model::Campaign& campaign, const System& system) {
+std::vector<Law> make_laws(const model::Design::Campaign& campaign, const System& system) {
   const double low = system.low;
   const double high = system.high;
-  if (campaign.sampling.empty())
+  if (campaign.laws.empty())
     return {{Kind::uniform, low, high, {}},
             {Kind::extremes, low, high, {}},
             {Kind::sinusoid, low, high, {}},
             {Kind::constant, low, high, {low}},
             {Kind::constant, low, high, {high}}};
   std::vector<Law> laws;
-  for (const model::SamplingLaw& law : campaign.sampling) {
+  for (const model::Design::Law& law : campaign.laws) {
     Law result{law.kind, low, high, {}};
-    for (const expr::Expression& value : law.values)
+    for (const model::Formula& value : law.values)
       result.values.push_back(checked_value(value, system));
     const bool needs_values = law.kind == Kind::constant || law.kind == Kind::list;
     if (needs_values && result.values.empty())

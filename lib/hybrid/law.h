@@ -11,7 +11,7 @@ namespace gainsmith::hybrid {
 
 /// A sampling law with its numbers, for reset values in [low, high].
 struct Law {
-  model::SamplingLaw::Kind kind = model::SamplingLaw::Kind::uniform;
+  model::LawKind kind = model::LawKind::uniform;
   double low = 0;
   double high = 0;
   std::vector<double> values;  ///< constant, list
@@ -22,7 +22,8 @@ struct Law {
 };
 
 /// The laws of a campaign, in order; without any: uniform, extremes, sinusoid, constant low,
-/// constant high. InputError for a value outside [low, high] (a rounding of 1e-12 is forgiven).
-std::vector<Law> make_laws(const model::Campaign& campaign, const System& system);
+/// constant high. InputError for a value outside [low, high] (1e-12 high is forgiven as rounding)
+/// and for a constant or list without a value.
+std::vector<Law> make_laws(const model::Design::Campaign& campaign, const System& system);
 
 }  // namespace gainsmith::hybrid

@@ -18,10 +18,10 @@ bool within_range(const Eigen::VectorXd& x) {
   return (x.array().abs() <= kLargest).all();  // false for a NaN
 }
 
-double read_first(const expr::Expression& expression, const System& system) {
-  const double first = model::scalar_value(expression, system.scope, system.constants);
+double read_first(const model::Formula& formula, const System& system) {
+  const double first = system.scalar(formula);
   if (!(first >= system.first_low && first <= system.first_high))
-    throw InputError(expression.place(*expression.root),
+    throw InputError(formula.place,
                      fmt::format("the first value {} of the timer is outside its range [{}, {}]",
                                  brief(first), brief(system.first_low), brief(system.first_high)));
   return first;
@@ -29,30 +29,30 @@ double read_first(const expr::Expression& expression, const System& system) {
 
 }  // namespace
 
-Scenario make_scenario(const model::Campaign& campaign, const System& system) {
+Scenario make_scenario(const model::Design& design, const System& system) {
+  const model::Design::Campaign& campaign = design.campaign;
   Scenario scenario;
   scenario.laws = make_laws(campaign, system);
-  scenario.starts = make_start_rules(campaign, system);
+  scenario.starts = make_start_rules(design, system);
   if (campaign.first) scenario.first = read_first(*campaign.first, system);
   scenario.horizon = kDefaultIntervals * system.high;
   if (campaign.horizon) {
-    const expr::Expression& horizon = *campaign.horizon;
-    scenario.horizon = model::scalar_value(horizon, system.scope, system.constants);
+    scenario.horizon = system.scalar(*campaign.horizon);
     if (!(scenario.horizon > 0 && std::isfinite(scenario.horizon)))
-      throw InputError(horizon.place(*horizon.root),
+      throw InputError(campaign.horizon->place,
                        "the horizon is " + brief(scenario.horizon) + ": expected a positive time");
   }
   return scenario;
 }
 
-Steps make_steps(const System& system) {
+FlowSteps make_steps(const System& system) {
   return {system.flow, std::max(system.high, system.first_high), system.flow_place};
 }
 
-Simulator::Simulator(const System& system, const Scenario& scenario, const Steps& steps)
+Simulator::Simulator(const System& system, const Scenario& scenario, const FlowSteps& steps)
     : system_(&system), scenario_(&scenario), steps_(&steps), starts_(scenario.starts, system) {
   if (system.affine_jump) return;
-  for (const JumpEntry& entry : system.jump)
+  for (const MapEntry& entry : system.jump)
     jump_entries_.emplace_back(entry.program, system.layout, system.constants);
 }
 

@@ -29,12 +29,12 @@ struct Scenario {
 
 /// InputError for laws and initial values that do not fit the system, a first timer value outside
 /// its range and a horizon that is not positive. Without a horizon: 40 of the longest intervals.
-Scenario make_scenario(const model::Campaign& campaign, const System& system);
+Scenario make_scenario(const model::Design& design, const System& system);
 
 /// Simulates run after run; one for each thread. System, scenario and steps must outlive it.
 class Simulator {
  public:
-  Simulator(const System& system, const Scenario& scenario, const Steps& steps);
+  Simulator(const System& system, const Scenario& scenario, const FlowSteps& steps);
 
   /// The solution on [0, horizon]. The timer is stepped to, not searched for: the flow before a
   /// jump has exactly the length of the timer's value, the time at the jump is the time at the last
@@ -48,13 +48,13 @@ class Simulator {
 
   const System* system_;
   const Scenario* scenario_;
-  const Steps* steps_;
+  const FlowSteps* steps_;
   Starts starts_;
   std::vector<PointFunction> jump_entries_;  ///< when the jump map is not affine
-  std::vector<Step> cuts_;
+  std::vector<FlowStep> cuts_;
 };
 
 /// The steps that every run of the scenario can be cut into.
-Steps make_steps(const System& system);
+FlowSteps make_steps(const System& system);
 
 }  // namespace gainsmith::hybrid

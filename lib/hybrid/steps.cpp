@@ -3,7 +3,9 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
+#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
+#include <cstddef>
 
 #include "base/error.h"
 #include "base/number.h"
@@ -50,27 +52,44 @@ double fastest_rate(const numbers::Matrix& matrix) {
   return rate;
 }
 
-double one_norm(const numbers::Matrix& matrix) { return matrix.cwiseAbs().colwise().sum().maxCoeff(); }
+double one_norm(const numbers::Matrix& matrix) {
+  return matrix.cwiseAbs().colwise().sum().maxCoeff();
+}
+
+struct Nodes {
+  std::array<double, FlowSteps::kNodes> positions;
+  std::array<double, FlowSteps::kNodes> weights;
+};
+
+/// The Gauss-Legendre rule on [0, 1].
+const Nodes& rule() {
+  static const Nodes kRule = [] {
+    // The right half of the rule on [-1, 1], from the middle. The wider type keeps the last digits
+    // of the nodes near 0.
+    using Half = boost::math::quadrature::gauss<long double, FlowSteps::kNodes>;
+    constexpr std::size_t kHalf = FlowSteps::kNodes / 2;
+    Nodes found{};
+    for (std::size_t i = 0; i < kHalf; ++i) {
+      const long double x = Half::abscissa()[i];
+      found.positions[kHalf + i] = static_cast<double>((1 + x) / 2);
+      found.positions[kHalf - 1 - i] = static_cast<double>((1 - x) / 2);
+      found.weights[kHalf + i] = static_cast<double>(Half::weights()[i] / 2);
+      found.weights[kHalf - 1 - i] = found.weights[kHalf + i];
+    }
+    return found;
+  }();
+  return kRule;
+}
 
 }  // namespace
 
-const std::array<double, Steps::kNodes>& Steps::node_positions() {
-  static const std::array<double, kNodes> positions = {
-      0.01985507175123188415821957, 0.10166676129318663020422303, 0.23723379504183550709113048,
-      0.40828267875217509753026193, 0.59171732124782490246973807, 0.76276620495816449290886952,
-      0.89833323870681336979577697, 0.98014492824876811584178043};
-  return positions;
+const std::array<double, FlowSteps::kNodes>& FlowSteps::node_positions() {
+  return rule().positions;
 }
 
-const std::array<double, Steps::kNodes>& Steps::node_weights() {
-  static const std::array<double, kNodes> weights = {
-      0.05061426814518812957626567, 0.11119051722668723527217800, 0.15685332293894364366898110,
-      0.18134189168918099148257522, 0.18134189168918099148257522, 0.15685332293894364366898110,
-      0.11119051722668723527217800, 0.05061426814518812957626567};
-  return weights;
-}
+const std::array<double, FlowSteps::kNodes>& FlowSteps::node_weights() { return rule().weights; }
 
-Steps::Steps(const AffineMap& flow, double longest, const Place& place) : flow_(flow) {
+FlowSteps::FlowSteps(const AffineMap& flow, double longest, const Place& place) : flow_(flow) {
   const Eigen::Index n = flow.linear.rows();
   const double norm = n > 0 ? one_norm(flow.linear) : 0;
   if (!std::isfinite(norm) || !flow.constant.allFinite() ||
@@ -103,7 +122,7 @@ Steps::Steps(const AffineMap& flow, double longest, const Place& place) : flow_(
   }
 }
 
-void Steps::cut(double interval, std::vector<Step>& steps) const {
+void FlowSteps::cut(double interval, std::vector<FlowStep>& steps) const {
   double units = std::floor(interval / shortest_);  // of s_0; whole numbers below 2^53
   double rest = std::fma(-units, shortest_, interval);
   if (rest < 0) {
@@ -120,10 +139,11 @@ void Steps::cut(double interval, std::vector<Step>& steps) const {
   while (fits(top)) take(top);
   for (int level = top - 1; level >= 0; --level)
     while (fits(level)) take(level);
-  if (rest > 0) steps.push_back({Step::kRest, rest});
+  if (rest > 0) steps.push_back({FlowStep::kRest, rest});
 }
 
-numbers::Matrix Steps::taylor_terms(double length, const Eigen::Ref<const Eigen::VectorXd>& x) const {
+numbers::Matrix FlowSteps::taylor_terms(double length,
+                                        const Eigen::Ref<const Eigen::VectorXd>& x) const {
   numbers::Matrix terms(x.size(), kDegree + 1);
   terms.col(0) = x;
   for (int k = 1; k <= kDegree; ++k) {
@@ -134,9 +154,9 @@ numbers::Matrix Steps::taylor_terms(double length, const Eigen::Ref<const Eigen:
   return terms;
 }
 
-void Steps::advance(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x,
-                    Eigen::Ref<Eigen::VectorXd> out) const {
-  if (step.level == Step::kRest) {
+void FlowSteps::advance(const FlowStep& step, const Eigen::Ref<const Eigen::VectorXd>& x,
+                        Eigen::Ref<Eigen::VectorXd> out) const {
+  if (step.level == FlowStep::kRest) {
     out = taylor_terms(step.length, x).rowwise().sum();
     return;
   }
@@ -145,9 +165,9 @@ void Steps::advance(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x
   out.noalias() += map.linear.lazyProduct(x);
 }
 
-void Steps::nodes(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x,
-                  Eigen::Ref<numbers::Matrix> out) const {
-  if (step.level == Step::kRest) {
+void FlowSteps::nodes(const FlowStep& step, const Eigen::Ref<const Eigen::VectorXd>& x,
+                      Eigen::Ref<numbers::Matrix> out) const {
+  if (step.level == FlowStep::kRest) {
     static const numbers::Matrix kPowers = [] {
       numbers::Matrix powers = numbers::Matrix::Ones(kDegree + 1, kNodes);
       for (int k = 1; k <= kDegree; ++k)

@@ -18,37 +18,37 @@
 #include <array>
 #include <vector>
 
-#include "numbers/matrix.h"
 #include "hybrid/affine.h"
+#include "numbers/matrix.h"
 
 namespace gainsmith::hybrid {
 
 /// One step of a flow. `level` is k of s_k, or kRest.
-struct Step {
+struct FlowStep {
   static constexpr int kRest = -1;
   int level = kRest;
   double length = 0;
 };
 
-class Steps {
+class FlowSteps {
  public:
   /// Gauss-Legendre nodes a step, for integrals along the flow.
   static constexpr int kNodes = 8;
   static constexpr int kDegree = 12;
 
-  /// `longest`: the longest interval to be cut, > 0. InputError, at `place`, when the flow matrix
-  /// is not finite or ||M||_1 longest exceeds 2^40.
-  Steps(const AffineMap& flow, double longest, const Place& place = {});
+  /// `longest`: the longest interval to be cut, > 0. InputError, at `place`, when M or b is not
+  /// finite or ||M||_1 longest exceeds 2^40.
+  FlowSteps(const AffineMap& flow, double longest, const Place& place = {});
 
   /// Appends the steps of an interval >= 0; their lengths add up to it. An interval of 0 has none.
-  void cut(double interval, std::vector<Step>& steps) const;
+  void cut(double interval, std::vector<FlowStep>& steps) const;
 
   /// x after a step.
-  void advance(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x,
+  void advance(const FlowStep& step, const Eigen::Ref<const Eigen::VectorXd>& x,
                Eigen::Ref<Eigen::VectorXd> out) const;
 
   /// The states at the Gauss nodes of a step from x, one a column (size x kNodes).
-  void nodes(const Step& step, const Eigen::Ref<const Eigen::VectorXd>& x,
+  void nodes(const FlowStep& step, const Eigen::Ref<const Eigen::VectorXd>& x,
              Eigen::Ref<numbers::Matrix> out) const;
 
   /// Nodes and weights on [0, 1]; the weights add up to 1.

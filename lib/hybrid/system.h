@@ -1,10 +1,10 @@
-// Plant and observer as one hybrid system with a timer, compiled from a method's text.
+// Plant and observer as one hybrid system with a timer, for the gains of one file.
 //
 //   flow, while the timer tau runs down to 0:   x' = M x + b,  tau' = -1
 //   jump, when tau = 0:                          x+ = g(x),     tau+ in [low, high]
 //
 // x stacks the states of the plant and then of the observer. Whether the flow is affine is read
-// from its text; it must be, and must not depend on the timer. Jump maps may be any expression.
+// from its program; it must be, and must not depend on the timer. Jump maps may be any expression.
 #pragma once
 
 #include <Eigen/Core>
@@ -12,35 +12,39 @@
 #include <string>
 #include <vector>
 
-#include "numbers/real.h"
-#include "expr/scope.h"
 #include "hybrid/affine.h"
-#include "hybrid/layout.h"
-#include "model/gains.h"
-#include "model/instance.h"
+#include "hybrid/state_layout.h"
+#include "model/stated.h"
 
 namespace gainsmith::hybrid {
 
-/// One state's value after a jump, as a function of the whole state before it.
-struct JumpEntry {
+/// One state's derivative, or its value after a jump, as a function of the whole state.
+struct MapEntry {
   std::size_t slot = 0;
   expr::Program program;
 };
 
 struct System {
-  Layout layout;
-  /// Where a state starts when the campaign does not say; one a slot.
-  std::vector<std::optional<expr::Expression>> starts;
+  StateLayout layout;
   numbers::Values constants;  ///< data, parameters, gains and unknowns that have a value
-  expr::Scope scope;       ///< of flow and jump maps, claims and signals
+  model::Bodies bodies;       ///< of unknown functions and of gains that are functions
   AffineMap flow;
   Place flow_place;                      ///< where the fastest part of the flow stands
-  std::vector<JumpEntry> jump;           ///< states that change; the others keep their value
+  std::vector<MapEntry> jump;            ///< states that change; the others keep their value
   std::optional<AffineMap> affine_jump;  ///< when every entry of `jump` is affine
   double low = 0;                        ///< of the timer's reset values
   double high = 0;
   double first_low = 0;  ///< of its first value
   double first_high = 0;
+
+  /// The program of a formula, without calls.
+  expr::Program link(const model::Formula& formula) const;
+  /// The inputs of a linked program that neither move nor have a value, in the program's order.
+  std::vector<std::string> missing(const expr::Program& program) const;
+  /// The value of a formula of constants. InputError, at its place, when it uses anything else.
+  numbers::Matrix value(const model::Formula& formula) const;
+  /// The same, of a 1 x 1 formula.
+  double scalar(const model::Formula& formula) const { return value(formula)(0, 0); }
 };
 
 /// InputError, at its place, for a flow that is not affine or depends on the timer, a gain without

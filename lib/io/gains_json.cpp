@@ -212,7 +212,8 @@ Json to_json(const model::Gains& gains) {
   document["unknowns"] = matrices_json(gains.unknowns);
   if (!gains.functions.empty()) {
     document["functions"] = Json::object();
-    for (const auto& [name, text] : gains.functions) document["functions"][name] = text;
+    for (const model::StatedFunction& function : gains.functions)
+      document["functions"][function.signature] = function.text;
   }
   if (!gains.report.empty()) document["report"] = matrices_json(gains.report);
   document["parameters"] = matrices_json(gains.parameters);
@@ -249,7 +250,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   gains.unknowns = reader.at("unknowns").matrices();
   if (reader.has("functions"))
     for (const auto& [name, item] : reader.at("functions").members())
-      gains.functions.emplace_back(name, item.text());
+      gains.functions.push_back({name, item.text(), std::nullopt});
   if (reader.has("report")) gains.report = reader.at("report").matrices();
   gains.parameters = reader.at("parameters").matrices();
   if (reader.has("searched"))

@@ -17,8 +17,8 @@ Json to_json(const model::Gains& gains);
 std::string gains_text(const model::Gains& gains);
 
 /// Reads a gain file. InputError with the place, or the path of the key, when it is truncated,
-/// lacks a key, holds an unknown one or a value of the wrong kind, or when its statement does not
-/// match its hash.
+/// lacks a key, holds an unknown one or a value of the wrong kind, when its status or cause differs
+/// from its solver's, or when its statement does not match its hash.
 model::Gains parse_gains(const std::string& text, const std::string& file);
 
 /// The problem that a gain file states; the method is the text in the file, whatever the program's

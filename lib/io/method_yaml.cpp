@@ -156,7 +156,7 @@ std::optional<model::Timer> timer(const YamlFile& file, const std::optional<Yaml
 }
 
 model::Claim claim(const YamlFile& file, const YamlItem& item) {
-  using Kind = model::Claim::Kind;
+  using Kind = model::ClaimKind;
   YamlMap map(file, item.value, item.key);
   const auto nonincreasing = map.find("nonincreasing");
   const auto cost = map.find("cost");
@@ -205,7 +205,7 @@ std::vector<expr::Expression> parse_list(const expr::Text& text) {
 }
 
 model::Forall parse_forall(const expr::Text& text) {
-  using Over = model::Forall::Over;
+  using model::Over;
   const std::string& source = text.str();
   const auto fail = [&](std::size_t at) {
     throw InputError(text.place(at),

@@ -102,7 +102,7 @@ model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<Yaml
 }
 
 model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
-  using Kind = model::SamplingLaw::Kind;
+  using Kind = model::LawKind;
   static const std::vector<std::string> kWords = {"uniform", "extremes", "sinusoid", "constant",
                                                   "list"};
   model::SamplingLaw result;
@@ -137,7 +137,7 @@ model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
 }
 
 model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
-  using Kind = model::InitialValue::Kind;
+  using Kind = model::StartKind;
   model::InitialValue result{item.key, Kind::expression, {}, item.place};
   if (!item.value.IsMap()) {
     result.values.push_back(value_of(file, item));

@@ -14,7 +14,8 @@
 
 namespace gainsmith::io {
 
-/// A parsed file. InputError with the place for a YAML error, an empty file or several documents.
+/// A parsed file. InputError with the place for bytes that are no text in UTF-8, a YAML error, an
+/// empty file or several documents.
 class YamlFile {
  public:
   YamlFile(std::string text, std::string file);

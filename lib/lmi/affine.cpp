@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
 #include <vector>
 
+#include "forall/hull.h"
+#include "forall/residues.h"
+#include "numbers/dense.h"
 #include "numbers/real.h"
-#include "lmi/residues.h"
 
 namespace gainsmith::lmi {
 
@@ -18,12 +19,25 @@ expr::Shape transposed(expr::Shape shape) { return {shape.cols, shape.rows}; }
 
 Sparse sparse(const numbers::Matrix& matrix) { return matrix.sparseView(0.0, 0.0); }
 
-void accumulate(AffineForm& form, Key key, const Sparse& matrix, double factor = 1) {
+void accumulate(AffineForm& form, Key key, Sparse matrix) {
+  if (matrix.nonZeros() == 0) return;
+  const auto found = form.terms.lower_bound(key);
+  if (found == form.terms.end() || found->first != key) {
+    form.terms.emplace_hint(found, key, std::move(matrix));
+    return;
+  }
+  found->second = sum_of(found->second, matrix, 1);
+  if (found->second.nonZeros() == 0) form.terms.erase(found);
+}
+
+void accumulate(AffineForm& form, Key key, const Sparse& matrix, double factor) {
   if (matrix.nonZeros() == 0 || factor == 0) return;
-  const auto [found, fresh] = form.terms.try_emplace(key, factor * matrix);
-  if (fresh) return;
-  found->second = found->second + factor * matrix;
-  found->second.prune(0.0, 0.0);
+  const auto found = form.terms.lower_bound(key);
+  if (found == form.terms.end() || found->first != key) {
+    form.terms.emplace_hint(found, key, factor == 1 ? matrix : Sparse(factor * matrix));
+    return;
+  }
+  found->second = sum_of(found->second, matrix, factor);
   if (found->second.nonZeros() == 0) form.terms.erase(found);
 }
 
@@ -58,15 +72,6 @@ Sparse moved(const Sparse& matrix, int rows, int cols, Move move) {
   return result;
 }
 
-AffineForm shifted(const AffineForm& form, expr::Shape shape, int row, int column) {
-  return map_terms(form, shape, [&](const Sparse& matrix) {
-    return moved(matrix, shape.rows, shape.cols, [&](const auto& it, auto& elements) {
-      elements.emplace_back(static_cast<int>(it.row()) + row, static_cast<int>(it.col()) + column,
-                            it.value());
-    });
-  });
-}
-
 AffineForm blocks(const expr::Instruction& instruction,
                   std::span<const AffineForm* const> operands) {
   AffineForm result{instruction.shape, {}};
@@ -75,8 +80,9 @@ AffineForm blocks(const expr::Instruction& instruction,
   for (std::size_t first = 0; first < operands.size(); first += columns) {
     int column = 0;
     for (std::size_t j = first; j < first + columns; ++j) {
-      const AffineForm placed = shifted(*operands[j], instruction.shape, row, column);
-      for (const auto& [key, matrix] : placed.terms) accumulate(result, key, matrix);
+      for (const auto& [key, matrix] : operands[j]->terms)
+        accumulate(result, key,
+                   placed(matrix, instruction.shape.rows, instruction.shape.cols, row, column));
       column += operands[j]->shape.cols;
     }
     row += operands[first]->shape.rows;
@@ -124,14 +130,6 @@ bool all_constant(std::span<const AffineForm* const> operands) {
 
 }  // namespace
 
-double largest_element(const Sparse& matrix) {
-  double result = 0;
-  for (int k = 0; k < matrix.outerSize(); ++k)
-    for (Sparse::InnerIterator it(matrix, k); it; ++it)
-      result = std::max(result, std::abs(it.value()));
-  return result;
-}
-
 bool is_same(const AffineForm& a, const AffineForm& b) {
   return a.shape == b.shape && a.terms.size() == b.terms.size() &&
          std::equal(a.terms.begin(), a.terms.end(), b.terms.begin(),
@@ -171,11 +169,11 @@ AffineForm unknown_form(const Unknown& unknown) {
   return result;
 }
 
-AffineForm variable_form(MonomialTable& monomials, int variable) {
-  const Variable& v = monomials.variables()[static_cast<std::size_t>(variable)];
+AffineForm variable_form(forall::MonomialTable& monomials, int variable) {
+  const forall::Variable& v = monomials.variables()[static_cast<std::size_t>(variable)];
   AffineForm result{v.shape, {}};
   if (v.is_interval()) {
-    const int tau = monomials.index(variable, Atom{1, 0, 0, false});
+    const int tau = monomials.index(variable, forall::Atom{1, 0, 0, false});
     accumulate(result, {tau, 0}, sparse(numbers::Matrix::Ones(1, 1)));
     return result;
   }
@@ -191,7 +189,7 @@ namespace {
 /// The rules of one evaluation, with the tables for messages.
 class Rules {
  public:
-  Rules(MonomialTable& monomials, const Unknowns& unknowns)
+  Rules(forall::MonomialTable& monomials, const Unknowns& unknowns)
       : monomials_(monomials), unknowns_(unknowns) {}
 
   AffineForm product(const AffineForm& a, const AffineForm& b, expr::Shape shape,
@@ -200,7 +198,7 @@ class Rules {
     AffineForm result{shape, {}};
     for (const auto& [left_key, left] : a.terms) {
       for (const auto& [right_key, right] : b.terms) {
-        const Sparse matrix = scaling ? Sparse(left.coeff(0, 0) * right) : Sparse(left * right);
+        const Sparse matrix = scaling ? Sparse(left.coeff(0, 0) * right) : multiplied(left, right);
         for (const auto& [factor, monomial] : monomials_.product(left_key.first, right_key.first))
           accumulate(result, {monomial, left_key.second + right_key.second}, matrix, factor);
       }
@@ -228,7 +226,7 @@ class Rules {
     const double offset = argument.constant(0, 0);
     const double slope = argument.slope(0, 0);
     AffineForm result;
-    const auto add = [&](double factor, const Atom& atom) {
+    const auto add = [&](double factor, const forall::Atom& atom) {
       accumulate(result, {monomials_.index(argument.variable, atom), 0},
                  sparse(numbers::Matrix::Constant(1, 1, factor)));
     };
@@ -252,10 +250,11 @@ class Rules {
     const numbers::Matrix& F = argument.slope;
     if ((M * F - F * M).norm() > kCommutes * M.norm() * F.norm())
       refuse(expr::Op::matrix_exponential, form);
-    const Variable& tau = monomials_.variables()[static_cast<std::size_t>(argument.variable)];
-    const numbers::Matrix before = M.exp();
+    const forall::Variable& tau =
+        monomials_.variables()[static_cast<std::size_t>(argument.variable)];
+    const numbers::Matrix before = numbers::exponential(M);
     AffineForm result{form.shape, {}};
-    for (const auto& [atom, matrix] : residue_expansion(F, tau.low, tau.high))
+    for (const auto& [atom, matrix] : forall::residue_expansion(F, tau.low, tau.high))
       accumulate(result, {monomials_.index(argument.variable, atom), 0},
                  sparse(M.isZero(0) ? matrix : numbers::Matrix(before * matrix)));
     return result;
@@ -285,15 +284,15 @@ class Rules {
     const numbers::Matrix zero = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
     Linear result{zero, zero};
     for (const auto& [key, matrix] : form.terms) {
-      const Monomial& monomial = monomials_[key.first];
+      const forall::Monomial& monomial = monomials_[key.first];
       if (key.second != 0) refuse(op, form);
       if (monomial.empty()) {
         result.constant = numbers::Matrix(matrix);
         continue;
       }
-      const Factor& factor = monomial.front();
+      const forall::Factor& factor = monomial.front();
       if (result.variable >= 0 || monomial.size() > 1 || factor.weight > 0 ||
-          !(factor.atom == Atom{1, 0, 0, false}))
+          !(factor.atom == forall::Atom{1, 0, 0, false}))
         refuse(op, form);
       result.slope = numbers::Matrix(matrix);
       result.variable = factor.variable;
@@ -310,7 +309,7 @@ class Rules {
                                 unknowns_.scalar_name(second));
   }
 
-  MonomialTable& monomials_;
+  forall::MonomialTable& monomials_;
   const Unknowns& unknowns_;
 };
 
@@ -393,6 +392,48 @@ void AffineAlgebra::apply(const expr::Instruction& instruction,
       for (const AffineForm* operand : operands)
         if (!operand->is_constant()) rules.refuse(instruction.op, *operand);
   }
+}
+
+std::set<int> monomials_in(const AffineForm& form) {
+  std::set<int> found;
+  for (const auto& [key, matrix] : form.terms)
+    if (key.first != 0) found.insert(key.first);
+  return found;
+}
+
+void remove_noise(AffineForm& form, const forall::MonomialTable& monomials) {
+  forall::Sizes sizes;
+  for (const auto& [key, matrix] : form.terms)
+    sizes[key.first] = std::max(sizes[key.first], largest_element(matrix));
+  const std::set<int> noise = forall::noise(sizes, monomials);
+  std::erase_if(form.terms, [&](const auto& term) { return noise.contains(term.first.first); });
+}
+
+AffineForm at_vertex(const AffineForm& form, const std::vector<double>& values) {
+  AffineForm result{form.shape, {}};
+  for (const auto& [key, matrix] : form.terms) {
+    const double factor = values[static_cast<std::size_t>(key.first)];
+    const auto [found, fresh] = result.terms.try_emplace({0, key.second}, factor * matrix);
+    if (!fresh) found->second = found->second + factor * matrix;
+  }
+  return result;
+}
+
+forall::Expansion expansion_of(const AffineForm& form) {
+  forall::Expansion expansion;
+  for (const auto& [key, matrix] : form.terms)
+    expansion.emplace_back(key.first, numbers::Matrix(matrix));
+  if (expansion.empty())
+    expansion.emplace_back(0, numbers::Matrix::Zero(form.shape.rows, form.shape.cols));
+  return expansion;
+}
+
+numbers::Matrix value_of(const AffineForm& form, const std::vector<double>& x) {
+  numbers::Matrix result = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
+  for (const auto& [key, matrix] : form.terms)
+    result += (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) *
+              numbers::Matrix(matrix);
+  return result;
 }
 
 }  // namespace gainsmith::lmi

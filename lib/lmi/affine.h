@@ -1,24 +1,21 @@
 // The number type "affine form": matrices that are affine in the unknown scalars x_1 ... x_m, with
-// coefficients that combine monomials phi_a in the variables of `forall` (monomials.h):
+// coefficients that combine monomials phi_a in the variables of `forall` (forall/monomials.h):
 //   M(x, tau) = sum over (a, i) of phi_a(tau) x_i M_ai,    phi_0 = 1, x_0 = 1.
 #pragma once
 
-#include <Eigen/SparseCore>
 #include <map>
+#include <set>
 #include <span>
 #include <utility>
 
 #include "expr/evaluate.h"
-#include "numbers/matrix.h"
-#include "lmi/monomials.h"
+#include "forall/between.h"
+#include "forall/monomials.h"
+#include "lmi/sparse.h"
 #include "lmi/unknowns.h"
+#include "numbers/matrix.h"
 
 namespace gainsmith::lmi {
-
-using Sparse = Eigen::SparseMatrix<double>;
-
-/// The largest |element|.
-double largest_element(const Sparse& matrix);
 
 struct AffineForm {
   expr::Shape shape;
@@ -37,20 +34,44 @@ AffineForm constant_form(const numbers::Matrix& matrix);
 /// The unknown matrix itself.
 AffineForm unknown_form(const Unknown& unknown);
 /// A variable of the table: the function tau itself, or the convex combination of the vertices.
-AffineForm variable_form(MonomialTable& monomials, int variable);
+AffineForm variable_form(forall::MonomialTable& monomials, int variable);
 
 /// The expr algebra. Sums, products with what has no unknown, blocks, transposes and the like are
 /// affine; any function may be applied to constants; exp, sin and cos also to an affine function of
-/// one variable, and expm to M + F*tau with M F = F M (residues.h). Everything else throws
+/// one variable, and expm to M + F*tau with M F = F M (forall/residues.h). Everything else throws
 /// EvaluationError with the unknown, or the function of tau, at fault.
 struct AffineAlgebra {
   using Value = AffineForm;
 
-  MonomialTable* monomials = nullptr;
+  forall::MonomialTable* monomials = nullptr;
   const Unknowns* unknowns = nullptr;
 
   void apply(const expr::Instruction& instruction, std::span<const AffineForm* const> operands,
              AffineForm& out) const;
 };
+
+/// The affine form of a program, with the unknowns and the variables of the table.
+AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
+                           forall::MonomialTable& monomials, const numbers::Values& values);
+
+/// With the values of a point besides.
+AffineForm evaluate_at(const expr::Program& program, const Unknowns& unknowns,
+                       forall::MonomialTable& monomials, const numbers::Values& values,
+                       const forall::Point& point);
+
+/// The monomials that stand in a form, but for the constant.
+std::set<int> monomials_in(const AffineForm& form);
+
+/// Removes the monomials whose terms are rounding noise (forall::noise).
+void remove_noise(AffineForm& form, const forall::MonomialTable& monomials);
+
+/// The form with numbers for its monomials.
+AffineForm at_vertex(const AffineForm& form, const std::vector<double>& values);
+
+/// A form without unknowns as its coefficients by monomial; the constant 0 when it has none.
+forall::Expansion expansion_of(const AffineForm& form);
+
+/// The matrix of a form without monomials at x.
+numbers::Matrix value_of(const AffineForm& form, const std::vector<double>& x);
 
 }  // namespace gainsmith::lmi

@@ -1,20 +1,9 @@
 #include "lmi/block.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <deque>
-
-#include "expr/evaluate.h"
 
 namespace gainsmith::lmi {
-
-double smallest_eigenvalue(const numbers::Matrix& matrix) {
-  return Eigen::SelfAdjointEigenSolver<numbers::Matrix>(0.5 * (matrix + matrix.transpose()),
-                                                     Eigen::EigenvaluesOnly)
-      .eigenvalues()
-      .minCoeff();
-}
 
 numbers::Matrix Block::value(const std::vector<double>& x) const {
   numbers::Matrix result = numbers::Matrix::Zero(size, size);
@@ -26,24 +15,6 @@ numbers::Matrix Block::value(const std::vector<double>& x) const {
 bool is_homogeneous(const std::vector<Block>& blocks) {
   return std::all_of(blocks.begin(), blocks.end(),
                      [](const Block& block) { return block.constant_size == 0; });
-}
-
-AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
-                           MonomialTable& monomials, const numbers::Values& values) {
-  expr::Evaluator<AffineAlgebra> evaluator(program, {&monomials, &unknowns});
-  std::deque<AffineForm> inputs;
-  for (const expr::Input& input : program.inputs) {
-    if (const int variable = monomials.find_variable(input.name); variable >= 0) {
-      inputs.push_back(variable_form(monomials, variable));
-    } else if (const Unknown* unknown = unknowns.find(input.name)) {
-      inputs.push_back(unknown_form(*unknown));
-    } else {
-      inputs.push_back(constant_form(values.at(input.name)));
-    }
-    evaluator.set(input.name, inputs.back());
-  }
-  // An input alone is its own result.
-  return evaluator.run();
 }
 
 namespace {

@@ -14,7 +14,7 @@ namespace gainsmith::lmi {
 struct Block {
   std::string name;    ///< of the requirement, "name.2" for the second comparison of a chain
   std::string point;   ///< "tau = 0.7", "cos(2*tau) = 1"; empty without forall
-  std::size_t at = 0;  ///< which of the points it was imposed at, see Imposed
+  std::size_t at = 0;  ///< which of the points it was imposed at, see forall::Imposed
   bool strict = true;
   int size = 0;
   std::vector<std::pair<int, Sparse>> terms;
@@ -26,15 +26,8 @@ struct Block {
   numbers::Matrix value(const std::vector<double>& x) const;
 };
 
-/// The smallest eigenvalue of the symmetric part.
-double smallest_eigenvalue(const numbers::Matrix& matrix);
-
 /// Whether no block has a constant term: then x = 0 satisfies every inequality but for strictness.
 bool is_homogeneous(const std::vector<Block>& blocks);
-
-/// The affine form of a program, with the unknowns and the variables of the table.
-AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,
-                           MonomialTable& monomials, const numbers::Values& values);
 
 /// The block of a symmetric affine form without monomials. InputError, at `place`, when it is not
 /// symmetric, has no rows, or has a coefficient that is not finite.

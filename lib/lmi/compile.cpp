@@ -1,106 +1,105 @@
 #include "lmi/compile.h"
 
-#include <optional>
 #include <set>
+#include <utility>
 
-#include "expr/compile.h"
-#include "lmi/hull.h"
+#include "forall/hull.h"
 #include "lmi/vertex_gains.h"
 
 namespace gainsmith::lmi {
 
 namespace {
 
+using forall::Imposed;
+using model::Over;
+
 std::string joined(const std::string& a, const std::string& b) {
   return a.empty() || b.empty() ? a + b : a + ", " + b;
 }
 
-using Over = model::Forall::Over;
-
-/// One requirement on its way to blocks.
+/// One inequality on its way to blocks.
 class Compiler {
  public:
-  Compiler(const model::Instance& instance, const model::Requirement& requirement,
-           const Unknowns& unknowns, int slices)
-      : known_(instance.known_values()),
-        domain_(domain_of(instance, requirement)),
-        relations_(expr::compile_relations(requirement.that, scope_with(instance, domain_))),
-        place_(requirement.that.place(*requirement.that.root)),
-        name_(requirement.name),
-        unknowns_(unknowns),
-        slices_(slices) {}
+  Compiler(const Inequalities& of, const Statement& statement, int slices)
+      : of_(of), statement_(statement), domain_(statement.domain), slices_(slices) {}
 
   std::vector<Block> blocks(Imposed& imposed) const {
-    if (imposed.way == model::Way::automatic) choose(imposed);
-    if (imposed.way == model::Way::exchange && !intervals(domain_).empty()) {
-      if (imposed.points.empty()) imposed.points = first_points(domain_);
+    if (imposed.way == model::Way::automatic) return choose(imposed);
+    if (imposed.way == model::Way::exchange && !forall::intervals(domain_).empty()) {
+      if (imposed.points.empty()) imposed.points = forall::first_points(domain_);
       return blocks_at(imposed.points, {Over::polytope}, imposed);
     }
-    return blocks_at(combinations(domain_, Over::set), {Over::polytope, Over::interval}, imposed);
+    return blocks_at(forall::combinations(domain_, Over::set), {Over::polytope, Over::interval},
+                     imposed);
   }
 
  private:
   /// The hull when it loses nothing, otherwise exchange. What is wrong in both ways is found, and
   /// said, by exchange.
-  void choose(Imposed& imposed) const {
+  std::vector<Block> choose(Imposed& imposed) const {
     imposed.way = model::Way::hull;
-    if (intervals(domain_).empty()) return;
+    if (forall::intervals(domain_).empty()) return blocks(imposed);
     try {
-      blocks(imposed);
+      std::vector<Block> hull = blocks(imposed);
+      if (imposed.exact) return hull;
     } catch (const InputError&) {
       imposed.exact = false;
     }
-    if (imposed.exact) return;
     imposed.way = model::Way::exchange;
     imposed.exact = true;
+    return blocks(imposed);
   }
 
   /// Blocks at the given points; variables over the other kinds of domain stay symbolic.
-  std::vector<Block> blocks_at(const std::vector<Point>& points, const std::set<Over>& symbolic,
-                               Imposed& imposed) const {
-    Domain variables;
-    for (const Variable& variable : domain_)
+  std::vector<Block> blocks_at(const std::vector<forall::Point>& points,
+                               const std::set<Over>& symbolic, Imposed& imposed) const {
+    forall::Domain variables;
+    for (const forall::Variable& variable : domain_)
       if (symbolic.contains(variable.over)) variables.push_back(variable);
     std::vector<Block> result;
-    for (std::size_t k = 0; k < relations_.size(); ++k) {
-      const std::string suffix = relations_.size() > 1 ? "." + std::to_string(k + 1) : "";
-      for (std::size_t at = 0; at < points.size(); ++at) {
-        const Point& point = points[at];
-        MonomialTable monomials(variables);
-        numbers::Values values = known_;
-        for (const auto& [name, value] : point.values) values.insert_or_assign(name, value);
-        AffineForm form = evaluate_affine(relations_[k].difference, unknowns_, monomials, values);
-        remove_noise(form, monomials);
-        const Hull hull = hull_of(form, monomials, slices_, place_);
-        imposed.exact &= hull.exact;
-        for (const Vertex& vertex : hull.vertices) {
-          result.push_back(block_of(at_vertex(form, vertex.values), name_ + suffix,
-                                    joined(point.label, vertex.label), relations_[k].strict,
-                                    place_));
-          result.back().at = at;
+    for (std::size_t k = 0; k < statement_.differences.size(); ++k)
+      for (std::size_t at = 0; at < points.size(); ++at)
+        for (Block& block : blocks_of(k, points[at], variables, imposed)) {
+          block.at = at;
+          result.push_back(std::move(block));
         }
-      }
-    }
     return result;
   }
 
-  numbers::Values known_;
-  Domain domain_;
-  std::vector<expr::CompiledRelation> relations_;
-  Place place_;
-  std::string name_;
-  const Unknowns& unknowns_;
+  /// The blocks of comparison k at one point, one a vertex of its hull.
+  std::vector<Block> blocks_of(std::size_t k, const forall::Point& point,
+                               const forall::Domain& variables, Imposed& imposed) const {
+    const model::Design::Inequality& stated = *statement_.stated;
+    const model::Design::Comparison& comparison = stated.comparisons[k];
+    forall::MonomialTable monomials(variables);
+    AffineForm form =
+        evaluate_at(statement_.differences[k], of_.unknowns, monomials, of_.instance.values, point);
+    remove_noise(form, monomials);
+    const forall::Hull hull =
+        forall::hull_of(monomials_in(form), monomials, slices_, stated.that_place);
+    imposed.exact &= hull.exact;
+    std::vector<Block> blocks;
+    for (const forall::Vertex& vertex : hull.vertices)
+      blocks.push_back(block_of(at_vertex(form, vertex.values), comparison.name,
+                                joined(point.label, vertex.label), comparison.strict,
+                                stated.that_place));
+    return blocks;
+  }
+
+  const Inequalities& of_;
+  const Statement& statement_;
+  const forall::Domain& domain_;
   int slices_;
 };
 
-void set_objective(const model::Instance& instance, Lmi& lmi) {
-  const auto& minimize = instance.method->minimize;
-  if (!minimize) return;
-  MonomialTable none;
-  const auto program = expr::compile(*minimize, instance.design_scope(), expr::Shape{});
-  const AffineForm form = evaluate_affine(program, lmi.unknowns, none, instance.known_values());
+void set_objective(const Inequalities& of, Lmi& lmi) {
+  const auto& objective = of.design().objective;
+  if (!objective) return;
+  forall::MonomialTable none;
+  const AffineForm form =
+      evaluate_affine(of.bodies.link(objective->program), of.unknowns, none, of.instance.values);
   lmi.has_objective = true;
-  lmi.objective.assign(static_cast<std::size_t>(lmi.unknowns.size()), 0.0);
+  lmi.objective.assign(static_cast<std::size_t>(lmi.unknowns), 0.0);
   for (const auto& [key, matrix] : form.terms) {
     const double value = matrix.coeff(0, 0);
     (key.second == 0 ? lmi.objective_constant
@@ -110,26 +109,31 @@ void set_objective(const model::Instance& instance, Lmi& lmi) {
 
 }  // namespace
 
-Lmi compile(const model::Instance& instance, Plan& plan) {
-  Lmi lmi(instance);
-  std::optional<Box> box;
-  if (plan.uses_vertex_gains()) box = vertex_box(instance);
-  for (std::size_t k = 0; k < instance.method->require.size(); ++k) {
-    const model::Requirement& requirement = instance.method->require[k];
-    const Compiler compiler(instance, requirement, lmi.unknowns, plan.slices);
-    Imposed& imposed = plan.requirements[k];
-    for (Block& block : imposed.way == model::Way::vertex_gains
-                            ? vertex_blocks(instance, requirement, lmi.unknowns, *box)
-                            : compiler.blocks(imposed))
-      lmi.blocks.push_back(std::move(block));
+double Lmi::objective_at(const std::vector<double>& x) const {
+  double value = objective_constant;
+  for (std::size_t i = 0; i < objective.size(); ++i) value += objective[i] * x[i];
+  return value;
+}
+
+Lmi compile(const Inequalities& inequalities, forall::Plan& plan) {
+  Lmi lmi;
+  lmi.unknowns = inequalities.unknowns.size();
+  for (std::size_t k = 0; k < inequalities.statements.size(); ++k) {
+    const Statement& statement = inequalities.statements[k];
+    Imposed& imposed = plan.inequalities[k];
+    std::vector<Block> blocks =
+        imposed.way == model::Way::vertex_gains
+            ? vertex_blocks(inequalities, statement)
+            : Compiler(inequalities, statement, plan.slices).blocks(imposed);
+    for (Block& block : blocks) lmi.blocks.push_back(std::move(block));
   }
-  set_objective(instance, lmi);
+  set_objective(inequalities, lmi);
   return lmi;
 }
 
-Lmi compile(const model::Instance& instance) {
-  Plan plan = make_plan(instance);
-  return compile(instance, plan);
+Lmi compile(const Inequalities& inequalities) {
+  forall::Plan plan = forall::make_plan(inequalities.design());
+  return compile(inequalities, plan);
 }
 
 }  // namespace gainsmith::lmi

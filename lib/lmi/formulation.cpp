@@ -161,7 +161,7 @@ Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
   std::vector<const Block*> bound_blocks;
   for (const Block& block : bounds.blocks) bound_blocks.push_back(&block);
   result.releases = find_releases(lmi, bound_blocks);
-  const int m = lmi.unknowns.size();
+  const int m = lmi.unknowns;
   const bool extra = goal == Goal::homogeneous_feasibility || goal == Goal::feasibility;
   const int own = m + bounds.scalars + 1;  // the goal's own variable, when it has one
   result.unit = result.homogeneous() ? 1.0 : data_size(lmi);
@@ -195,7 +195,7 @@ Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
 std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
                               const sdp::Solution& solution) {
   std::vector<double> x = solution.x;
-  x.resize(static_cast<std::size_t>(lmi.unknowns.size()));
+  x.resize(static_cast<std::size_t>(lmi.unknowns));
   for (double& value : x) value *= formulation.unit;
   std::vector<double> required;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
@@ -236,6 +236,19 @@ model::NamedMatrices multipliers(const Lmi& lmi, const GainBounds& bounds,
   for (std::size_t k = 0; k < bounds.blocks.size(); ++k)
     add(bounds.blocks[k], all_rows(bounds.blocks[k]), lmi.blocks.size() + k);
   return result;
+}
+
+std::vector<double> multiplier_sizes(const Lmi& lmi, const Formulation& formulation,
+                                     const sdp::Solution& solution, const std::string& inequality,
+                                     std::size_t points) {
+  std::vector<double> sizes(points, 0.0);
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+    const Block& block = lmi.blocks[k];
+    if (block.name != inequality && !block.name.starts_with(inequality + ".")) continue;
+    const std::size_t n = formulation.releases.kept[k].size();
+    for (std::size_t i = 0; i < n; ++i) sizes.at(block.at) += solution.Y.values[k][i * n + i];
+  }
+  return sizes;
 }
 
 }  // namespace gainsmith::lmi

@@ -27,7 +27,6 @@
 #include "lmi/compile.h"
 #include "lmi/gain_bounds.h"
 #include "lmi/release.h"
-#include "model/problem.h"
 #include "sdp/problem.h"
 #include "sdp/solution.h"
 
@@ -79,5 +78,11 @@ double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
 /// The multiplier matrices of a certificate by the name and point of their block.
 model::NamedMatrices multipliers(const Lmi& lmi, const GainBounds& bounds,
                                  const Formulation& formulation, const sdp::Solution& solution);
+
+/// tr(Y) of an inequality at each of its points, over all its comparisons and vertices of
+/// polytopes.
+std::vector<double> multiplier_sizes(const Lmi& lmi, const Formulation& formulation,
+                                     const sdp::Solution& solution, const std::string& inequality,
+                                     std::size_t points);
 
 }  // namespace gainsmith::lmi

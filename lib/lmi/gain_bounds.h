@@ -20,12 +20,11 @@
 
 #include "lmi/compile.h"
 #include "model/gains.h"
-#include "model/instance.h"
 
 namespace gainsmith::lmi {
 
 /// The bound on one product. `s` and `e` are forms in the unknowns; `e` is transposed for E*inv(S).
-struct GainBound {
+struct BoundedProduct {
   std::string what;  ///< "inv(P1)*Y"
   AffineForm s;      ///< n x n
   AffineForm e;      ///< n x k
@@ -34,14 +33,13 @@ struct GainBound {
 
 struct GainBounds {
   double beta = 0;
-  std::vector<GainBound> list;
+  std::vector<BoundedProduct> list;
   std::vector<Block> blocks;  ///< all non-strict, in terms of the unknowns and the scalars s
   int scalars = 0;            ///< number of scalars s, with the indices m + 1, m + 2, ...
 };
 
 /// One bound for each different product in the gain formulas; none without `beta`.
-GainBounds gain_bounds(const model::Instance& instance, const Unknowns& unknowns,
-                       std::optional<double> beta);
+GainBounds gain_bounds(const Inequalities& inequalities, std::optional<double> beta);
 
 /// How far each bound is used at x: sqrt(lambda_max(E' inv(S) E) / lambda_min(S)), never less than
 /// the largest singular value of the gain; `active` here: above 99 % of the bound.

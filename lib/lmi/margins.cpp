@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "expr/compile.h"
-#include "lmi/prove.h"
-#include "lmi/worst.h"
+#include "forall/between.h"
+#include "forall/worst.h"
+#include "numbers/dense.h"
 
 namespace gainsmith::lmi {
 
@@ -46,112 +46,124 @@ namespace {
 /// The margins of one instance, inequality by inequality.
 class Checker {
  public:
-  Checker(const model::Instance& instance, const Lmi& lmi, const Plan& plan,
+  Checker(const Inequalities& of, const Lmi& lmi, const forall::Plan& plan,
           const std::vector<double>& scales, const std::vector<double>& x)
-      : instance_(instance),
-        lmi_(lmi),
-        plan_(plan),
-        scales_(scales),
-        x_(x),
-        values_(instance.known_values()) {
-    for (auto& [name, matrix] : lmi.unknowns.values(x)) values_[name] = matrix;
+      : of_(of), lmi_(lmi), plan_(plan), scales_(scales), x_(x), values_(of.instance.values) {
+    for (auto& [name, matrix] : of.unknowns.values(x)) values_[name] = matrix;
   }
 
-  Check run(bool homogeneous, double required) {
+  Margins run(bool homogeneous, double required) {
     double size = 1;
     if (homogeneous) {
       size = 0;
       for (const double value : x_) size = std::max(size, std::abs(value));
     }
-    for (std::size_t k = 0; k < instance_.method->require.size(); ++k) {
-      const model::Requirement& requirement = instance_.method->require[k];
-      const Domain domain = domain_of(instance_, requirement);
-      for (const auto& relation :
-           expr::compile_relations(requirement.that, scope_with(instance_, domain)))
-        add(k, domain, relation, size, relation.strict ? required : 0.0);
+    for (std::size_t k = 0; k < of_.statements.size(); ++k) {
+      const Statement& statement = of_.statements[k];
+      for (std::size_t c = 0; c < statement.differences.size(); ++c)
+        add(k, statement.differences[c], statement.stated->comparisons[c], size,
+            statement.stated->comparisons[c].strict ? required : 0.0);
     }
-    return std::move(check_);
+    return std::move(result_);
   }
 
  private:
   static constexpr double kRounding = 1e-11;
 
   /// The next inequality: its blocks are the next ones of the same name.
-  void add(std::size_t requirement, const Domain& domain, const expr::CompiledRelation& relation,
-           double size, double required) {
+  void add(std::size_t inequality, const expr::Program& difference,
+           const model::Design::Comparison& comparison, double size, double required) {
+    const forall::Domain& domain = of_.statements[inequality].domain;
     model::Margin margin;
-    margin.name = lmi_.blocks[at_].name;
-    margin.strict = relation.strict;
+    margin.name = comparison.name;
+    margin.strict = comparison.strict;
     margin.scale = scales_[at_] * size;
     margin.required = required;
     Worst worst;
     double terms = 0;
     for (; at_ < lmi_.blocks.size() && lmi_.blocks[at_].name == margin.name; ++at_) {
-      worst.meet(smallest_eigenvalue(lmi_.blocks[at_].value(x_)), lmi_.blocks[at_].point);
+      worst.meet(numbers::smallest_eigenvalue(lmi_.blocks[at_].value(x_)), lmi_.blocks[at_].point);
       terms = std::max(terms, term_size(lmi_.blocks[at_], x_));
     }
     const auto set = [&](double value) {
       margin.smallest_eigenvalue = value;
       margin.reached = margin.scale > 0 ? value / margin.scale : 0.0;
-      margin.holds = relation.strict ? value > 0 : value >= -kRounding * terms;
+      margin.holds = comparison.strict ? value > 0 : value >= -kRounding * terms;
     };
-    const std::size_t violations = check_.violations.size();
-    const auto meet = [&](const Minimum& minimum) {
+    const std::size_t violations = result_.violations.size();
+    const auto meet = [&](const forall::Minimum& minimum) {
       worst.meet(minimum.value, minimum.point.label);
       set(minimum.value);
       if (!domain.empty() && !is_kept(margin))
-        check_.violations.push_back({requirement, minimum.point});
+        result_.violations.push_back({inequality, minimum.point});
     };
-    const Minima minima = local_minima(relation.difference, domain, values_);
-    for (const Minimum& minimum : minima.list) meet(minimum);
-    if (check_.violations.size() == violations &&
-        plan_.requirements[requirement].way == model::Way::exchange)
-      for (const Minimum& violation : prove(margin.name, domain, relation, terms, minima.resolved))
+    const forall::Minima minima = forall::local_minima(difference, domain, values_);
+    for (const forall::Minimum& minimum : minima.list) meet(minimum);
+    if (result_.violations.size() == violations &&
+        plan_.inequalities[inequality].way == model::Way::exchange)
+      for (const forall::Minimum& violation :
+           look_between(domain, difference, comparison, terms, minima.resolved))
         meet(violation);
     set(worst.value);
     margin.worst_point = worst.point;
-    check_.margins.push_back(std::move(margin));
+    result_.margins.push_back(std::move(margin));
   }
 
   /// The points that show that the inequality does not hold. What has no known derivatives must
   /// at least have been resolved by the search.
-  std::vector<Minimum> prove(const std::string& name, const Domain& domain,
-                             const expr::CompiledRelation& relation, double terms, bool resolved) {
-    // What may be 0 is proved up to a part of its terms that is small for them, and large enough
+  std::vector<forall::Minimum> look_between(const forall::Domain& domain,
+                                            const expr::Program& difference,
+                                            const model::Design::Comparison& comparison,
+                                            double terms, bool resolved) {
+    // What may be 0 is bounded up to a part of its terms that is small for them, and large enough
     // to be reached with few pieces.
     constexpr double kAllowed = 1e-7;
-    using Status = DomainProof::Status;
-    if (intervals(domain).empty()) return {};
-    DomainProof proof = prove_on_domain(relation.difference, domain, values_,
-                                        relation.strict ? 0.0 : kAllowed * terms);
-    if (proof.status == Status::unknown) {
-      check_.searched = true;
-      if (!resolved) leave_open(name, "it grows without end within the interval");
+    using Status = forall::DomainBound::Status;
+    if (forall::intervals(domain).empty()) return {};
+    const auto expand = [&](const forall::Point& fixed, forall::MonomialTable& monomials) {
+      return expansion(difference, fixed, monomials);
+    };
+    forall::DomainBound bound =
+        forall::bound_on_domain(expand, domain, comparison.strict ? 0.0 : kAllowed * terms);
+    if (bound.status == Status::unknown) {
+      result_.searched = true;
+      if (!resolved) leave_open(comparison.name, "it grows without end within the interval");
     }
-    if (proof.status == Status::open) leave_open(name, "not settled for " + proof.where);
-    return std::move(proof.violations);
+    if (bound.status == Status::open) leave_open(comparison.name, "not settled for " + bound.where);
+    return std::move(bound.violations);
+  }
+
+  /// The difference as a combination of functions of its variables; none when it is no such.
+  std::optional<forall::Expansion> expansion(const expr::Program& difference,
+                                             const forall::Point& fixed,
+                                             forall::MonomialTable& monomials) const {
+    try {
+      return expansion_of(evaluate_at(difference, Unknowns{}, monomials, values_, fixed));
+    } catch (const InputError&) {
+      return std::nullopt;
+    }
   }
 
   void leave_open(const std::string& name, const std::string& what) {
-    check_.open += (check_.open.empty() ? "" : "; ") + name + ": " + what;
+    result_.open += (result_.open.empty() ? "" : "; ") + name + ": " + what;
   }
 
-  const model::Instance& instance_;
+  const Inequalities& of_;
   const Lmi& lmi_;
-  const Plan& plan_;
+  const forall::Plan& plan_;
   const std::vector<double>& scales_;
   const std::vector<double>& x_;
   numbers::Values values_;
   std::size_t at_ = 0;
-  Check check_;
+  Margins result_;
 };
 
 }  // namespace
 
-Check check_margins(const model::Instance& instance, const Lmi& lmi, const Plan& plan,
-                    const std::vector<double>& scales, bool homogeneous, double required,
-                    const std::vector<double>& x) {
-  return Checker(instance, lmi, plan, scales, x).run(homogeneous, required);
+Margins compute_margins(const Inequalities& of, const Lmi& lmi, const forall::Plan& plan,
+                        const std::vector<double>& scales, bool homogeneous, double required,
+                        const std::vector<double>& x) {
+  return Checker(of, lmi, plan, scales, x).run(homogeneous, required);
 }
 
 }  // namespace gainsmith::lmi

@@ -5,6 +5,8 @@
 #include <numeric>
 #include <utility>
 
+#include "numbers/dense.h"
+
 namespace gainsmith::lmi {
 
 namespace {
@@ -63,7 +65,7 @@ bool satisfied(const Lmi& lmi, int i, const std::vector<double>& required,
   constexpr double kShare = 0.995;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
     if (coefficient(lmi.blocks[k], i) != nullptr &&
-        smallest_eigenvalue(lmi.blocks[k].value(x)) < kShare * required[k])
+        numbers::smallest_eigenvalue(lmi.blocks[k].value(x)) < kShare * required[k])
       return false;
   return true;
 }
@@ -78,7 +80,7 @@ bool Releases::released(int unknown) const {
 Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others) {
   Releases result;
   result.kept = all_rows(lmi);
-  for (int i = 1; lmi.has_objective && i <= lmi.unknowns.size(); ++i) {
+  for (int i = 1; lmi.has_objective && i <= lmi.unknowns; ++i) {
     const bool elsewhere = std::any_of(others.begin(), others.end(), [&](const Block* block) {
       return coefficient(*block, i) != nullptr;
     });

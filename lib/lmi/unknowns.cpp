@@ -24,8 +24,8 @@ std::vector<std::pair<int, int>> Unknown::places(int k) const {
   return {{k % rows, k / rows}};
 }
 
-Unknowns::Unknowns(const model::Instance& instance) {
-  for (const model::UnknownMatrix& declared : instance.unknowns) {
+Unknowns::Unknowns(const std::vector<model::UnknownMatrix>& matrices) {
+  for (const model::UnknownMatrix& declared : matrices) {
     Unknown unknown;
     unknown.name = declared.name;
     unknown.structure = declared.structure;

@@ -10,8 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include "numbers/real.h"
 #include "model/instance.h"
+#include "numbers/real.h"
 
 namespace gainsmith::lmi {
 
@@ -28,7 +28,8 @@ struct Unknown {
 
 class Unknowns {
  public:
-  explicit Unknowns(const model::Instance& instance);
+  Unknowns() = default;
+  explicit Unknowns(const std::vector<model::UnknownMatrix>& matrices);
 
   /// The number m of scalars.
   int size() const { return size_; }

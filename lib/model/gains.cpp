@@ -1,7 +1,5 @@
 #include "model/gains.h"
 
-#include <filesystem>
-
 #include "base/hash.h"
 
 namespace gainsmith::model {
@@ -32,13 +30,6 @@ std::string limits_of(const CertificateRecord& certificate) {
 
 std::string statement_hash(const Statement& statement) {
   return sha256(statement.method_text + '\0' + statement.problem_text);
-}
-
-Statement statement_of(const Problem& problem) {
-  Statement statement{problem.method->name, problem.method->text,
-                      std::filesystem::path(problem.file).filename().string(), problem.text, ""};
-  statement.hash = statement_hash(statement);
-  return statement;
 }
 
 }  // namespace gainsmith::model

@@ -6,9 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "numbers/matrix.h"
-#include "model/problem.h"
+#include "model/design.h"
 #include "model/words.h"
+#include "numbers/matrix.h"
 
 namespace gainsmith::model {
 
@@ -88,19 +88,8 @@ struct SearchRecord {
   std::optional<PolishRecord> polish;
 };
 
-struct Statement {
-  std::string method_name;
-  std::string method_text;
-  std::string problem_file;  ///< its name only, no folders of the machine
-  std::string problem_text;
-  std::string hash;  ///< statement_hash
-};
-
 /// sha256 of the method's text, a zero byte and the problem's text.
 std::string statement_hash(const Statement& statement);
-
-/// The statement of a problem as it was read.
-Statement statement_of(const Problem& problem);
 
 /// A gain that is a function of a scalar.
 struct GainFunction {
@@ -112,11 +101,19 @@ struct GainFunction {
   std::string name;
   std::string variable;
   Kind kind = Kind::formula;
-  std::string formula;                     ///< in the matrix language
+  std::string formula;                        ///< in the matrix language
   std::vector<numbers::Matrix> coefficients;  ///< polynomial
 };
 
 std::string to_string(GainFunction::Kind kind);
+
+/// An unknown function over its coefficients: "Y(tau)", "Y_0 + Y_1*tau".
+struct StatedFunction {
+  std::string signature;
+  std::string text;
+  /// Of a function that was synthesized here; none when it was read from a file.
+  std::optional<expr::Program> body;
+};
 
 struct Gains {
   std::string problem_name;
@@ -127,8 +124,8 @@ struct Gains {
   NamedMatrices gains;                          ///< constant ones
   std::vector<GainFunction> gain_functions;     ///< the others
   NamedMatrices unknowns;
-  /// How unknown functions follow from `unknowns`: {"Y(tau)", "Y_0 + Y_1*tau"}.
-  std::vector<std::pair<std::string, std::string>> functions;
+  /// How unknown functions follow from `unknowns`.
+  std::vector<StatedFunction> functions;
   NamedMatrices report;  ///< what the method asks to be shown
   NamedMatrices parameters;
   Overrides searched;  ///< scalars that a search set: they replace those of the statement

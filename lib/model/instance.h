@@ -1,14 +1,14 @@
-// A problem whose data are values and whose names have shapes: what every room works on.
+// A design with values for its data and parameters.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "model/design.h"
+#include "model/function.h"
 #include "numbers/real.h"
-#include "expr/scope.h"
-#include "model/problem.h"
-#include "model/unknown_function.h"
 
 namespace gainsmith::model {
 
@@ -22,73 +22,47 @@ struct UnknownMatrix {
 };
 
 struct Instance {
-  const Problem* problem = nullptr;  ///< outlives the instance
-  const Method* method = nullptr;
-  Overrides overrides;  ///< the values that replaced those of the problem
-
-  Dimensions dimensions;
-  numbers::Values data;        ///< the problem's or the method's default
-  numbers::Values parameters;  ///< 1 x 1
-  /// Data and parameters as symbols with values; `let`, outputs, signals and unknown functions as
-  /// definitions.
-  expr::Scope scope;
-  std::vector<UnknownMatrix> unknowns;     ///< of an unknown function its coefficients
-  std::vector<UnknownFunction> functions;  ///< the unknowns that are functions of a scalar
-  std::vector<std::pair<std::string, expr::Shape>> states;  ///< plant first, then observer
-
-  /// The scope with the unknowns as symbols: what `require`, `minimize` and `gains` may use.
-  expr::Scope design_scope() const;
-  /// The scope with unknowns, gains, states and the timer as symbols, and gains that are functions
-  /// as definitions: what flow and jump maps and claims may use.
-  expr::Scope simulation_scope() const;
-  /// Data and parameters together.
-  numbers::Values known_values() const;
+  DesignPtr design;
+  Overrides overrides;     ///< the values that replaced those of the problem
+  numbers::Values values;  ///< of data and parameters
 };
 
-/// Finds dimensions, data, parameters and shapes and checks the method's assumptions. An overridden
-/// scalar has that value whatever the problem gives; defaults that use it follow. A scalar that is
-/// searched and has neither value nor default stands at the end of its range from which the search
-/// goes: the high one of `smallest`, otherwise the low one. InputError for a
-/// datum that is missing, has the wrong shape or is not symmetric where it must be, for an
-/// assumption that fails (at the place of the datum), for unknown names, and for an override that
-/// names no scalar datum or parameter or is not finite.
-Instance make_instance(const Problem& problem, const Overrides& overrides = {});
+/// Values for the data and parameters of a design. An overridden scalar has that value whatever the
+/// problem gives; defaults that use it follow. The design of the instance is the one given, or one
+/// bound anew when an override changes a dimension (the degree of an unknown function, a rank).
+/// InputError for a datum without a value, one that is not symmetric or diagonal where it must be,
+/// for an assumption that fails (at the place of the datum), and for an override that names no
+/// scalar datum or parameter or is not finite.
+Instance evaluate(const DesignPtr& design, const Overrides& overrides = {});
+
+/// InputError when the assumption fails.
+void check_assumption(const Design& design, const Design::Assumption& assumption,
+                      const numbers::Values& values);
+
+/// The same instance with a changed design: an inequality left out, an objective replaced.
+template <class Change>
+Instance with_design(Instance instance, Change change) {
+  auto changed = std::make_shared<Design>(*instance.design);
+  change(*changed);
+  instance.design = std::move(changed);
+  return instance;
+}
+
+/// The unknown functions of a design as polynomials of their declared degree.
+std::vector<Function> polynomials(const Design& design);
+
+/// All unknown matrices in the order of the method, those of a function being its coefficients.
+std::vector<UnknownMatrix> unknown_matrices(const Design& design,
+                                            const std::vector<Function>& functions);
+
+/// Whether every input of a program has a value; `free` is one that needs none.
+bool has_values(const expr::Program& program, const numbers::Values& values,
+                const std::string& free = "");
+
+/// The value of a 1 x 1 formula.
+double scalar_value(const Formula& formula, const numbers::Values& values);
 
 /// The ends of a range as numbers. InputError at its place unless low < high and both are finite.
-std::pair<double, double> ends_of(const ScalarRange& range, const expr::Scope& scope,
-                                  const numbers::Values& values);
-
-/// The parameters that the problem gives no value and the method a range: synthesis looks for them.
-std::vector<ScalarRange> open_parameters(const Problem& problem);
-
-/// The names of the scalar data and the parameters of a method, in its order: what may be
-/// overridden.
-std::vector<std::string> scalar_names(const Method& method);
-
-/// InputError at `place` when `name` is none of scalar_names, with the nearest that is.
-void check_scalar_name(const Method& method, const std::string& name, const Place& place);
-
-/// Compiles everything that the method and the problem say, without solving: flow and jump maps,
-/// claims, gains, the campaign and the expectations. InputError for the first that does not fit.
-void check_everything(const Instance& instance);
-
-/// The program of a gain's formula; the variable of a function is an input.
-expr::Program compile_gain(const Gain& gain, expr::Scope scope);
-
-/// The shapes of the gains, in order; of a function that of its values.
-std::vector<std::pair<std::string, expr::Shape>> gain_shapes(const Instance& instance);
-
-/// The value of an expression that must be a scalar given by `values`.
-double scalar_value(const expr::Expression& expression, const expr::Scope& scope,
-                    const numbers::Values& values);
-
-/// The program of a problem's datum, initial value or expectation; a flat list becomes a column
-/// where a column is expected.
-expr::Program compile_value(const Value& value, const expr::Scope& scope,
-                            std::optional<expr::Shape> expected);
-
-/// The value of such a program.
-numbers::Matrix matrix_value(const Value& value, const expr::Scope& scope, const numbers::Values& values,
-                          std::optional<expr::Shape> expected);
+std::pair<double, double> ends_of(const Range& range, const numbers::Values& values);
 
 }  // namespace gainsmith::model

@@ -1,4 +1,5 @@
-// A method: a published design as text. Every expression keeps its place in the file.
+// A method: a published design as read. Every expression keeps its place in the file. bind() makes
+// a design of it (design.h).
 #pragma once
 
 #include <optional>
@@ -70,11 +71,6 @@ struct Gain {
 
 /// "forall: tau in [a, b]", "forall: k in {a, b, c}" or "forall: A in conv{A1, A2}".
 struct Forall {
-  enum class Over {
-    interval,  ///< all numbers between two ends
-    set,       ///< finitely many elements, numbers or matrices of one shape
-    polytope   ///< all convex combinations of matrices of one shape
-  };
   std::string variable;
   Over over = Over::interval;
   std::vector<expr::Expression> points;  ///< the two ends, the elements, or the vertices
@@ -112,14 +108,8 @@ struct Timer {
 /// What a simulation can check of the gains. Expressions may use data, parameters, gains, values of
 /// unknowns, states, outputs, signals and the timer.
 struct Claim {
-  enum class Kind {
-    nonincreasing,  ///< value never increases, along flows and over jumps
-    cost,    ///< int flow_cost dt + sum over jumps of jump_cost (before the jump) <= value at the
-             ///< start
-    shrinks  ///< value at the end of the run <= factor * value at the start
-  };
   std::string name;
-  Kind kind = Kind::nonincreasing;
+  ClaimKind kind = ClaimKind::nonincreasing;
   expr::Expression value;                     ///< scalar
   std::optional<expr::Expression> flow_cost;  ///< cost
   std::optional<expr::Expression> jump_cost;  ///< cost
@@ -150,5 +140,12 @@ struct Method {
   std::vector<Named> signals;  ///< e.g. the errors e = z - zh
   std::vector<Claim> claims;
 };
+
+/// The names of the scalar data and the parameters of a method, in its order: what may be
+/// overridden.
+std::vector<std::string> scalar_names(const Method& method);
+
+/// InputError at `place` when `name` is none of scalar_names, with the nearest that is.
+void check_scalar_name(const Method& method, const std::string& name, const Place& place);
 
 }  // namespace gainsmith::model

@@ -1,4 +1,5 @@
-// A problem: plant data, a method's name, how to simulate and what is expected.
+// A problem as read: plant data, a method, how to simulate and what is expected. bind() makes a
+// design of it (design.h).
 #pragma once
 
 #include <cstdint>
@@ -22,32 +23,17 @@ struct Value {
   Place place;
 };
 
-/// How the sampling intervals of a run are chosen, within the timer's [low, high].
+/// How the sampling intervals of a run are chosen.
 struct SamplingLaw {
-  enum class Kind {
-    constant,  ///< always the value
-    uniform,   ///< independent, uniform in [low, high]
-    extremes,  ///< independent, low or high with probability one half
-    sinusoid,  ///< (high - low)/2 sin(t) + (high + low)/2 at a jump at time t
-    list       ///< the values in turn, again from the start when they are used up
-  };
-  Kind kind = Kind::uniform;
+  LawKind kind = LawKind::uniform;
   std::vector<expr::Expression> values;  ///< constant: one; list: all
   Place place;
 };
 
-std::string to_string(SamplingLaw::Kind kind);
-
 /// Where a state starts.
 struct InitialValue {
-  enum class Kind {
-    expression,  ///< may use data, gains and the states declared before it
-    box,  ///< uniform in [low, high], element by element; low and high scalar or of the state's
-          ///< shape
-    list  ///< run i takes element i modulo their number
-  };
   std::string state;
-  Kind kind = Kind::expression;
+  StartKind kind = StartKind::expression;
   std::vector<Value> values;  ///< one expression; low and high; or the elements
   Place place;
 };
@@ -83,24 +69,6 @@ struct Expectation {
   Place place;
 };
 
-/// How an inequality is imposed for all values of its variables.
-enum class Way {
-  automatic,    ///< hull where it loses nothing, exchange elsewhere
-  hull,         ///< at the vertices of the box of the ranges of its scalar functions
-  exchange,     ///< at few points, to which the worst ones are added until none is left
-  vertex_gains  ///< hull, with one matrix for each vertex in unknowns that are functions
-};
-
-std::string to_string(Way way);
-
-/// Choices for the synthesis.
-struct SynthesisOptions {
-  Way way = Way::automatic;
-  int slices = 1;                          ///< hull: equal parts of each interval
-  double margin = 1e-7;                    ///< of strict inequalities, relative to their scale
-  std::optional<double> gain_bound = 1e4;  ///< none: off
-};
-
 /// What is searched besides the unknowns (docs/search.md).
 struct Search {
   /// The scalar whose largest or smallest feasible value is wanted, found by bisection.
@@ -113,8 +81,11 @@ struct Search {
   Place place;
 };
 
-/// Values for scalar data and parameters, by name, in place of those of the problem.
-using Overrides = std::map<std::string, double>;
+/// What the command line asks beside the file.
+struct Questions {
+  std::vector<ScalarRange> ranges;
+  std::vector<expr::Expression> figures;  ///< scalars that are shown of each result
+};
 
 struct Problem {
   std::string name;
@@ -130,6 +101,7 @@ struct Problem {
   std::vector<ScalarRange> negotiable;  ///< scalars along which `explain` says how far one must go
   Campaign campaign;
   std::optional<Expectation> expect;
+  Questions questions;
 };
 
 }  // namespace gainsmith::model

@@ -11,20 +11,6 @@
 
 namespace gainsmith::model {
 
-std::string to_string(Structure structure) {
-  switch (structure) {
-    case Structure::full:
-      return "full";
-    case Structure::symmetric:
-      return "symmetric";
-    case Structure::diagonal:
-      return "diagonal";
-    case Structure::scalar:
-      return "scalar";
-  }
-  return "?";
-}
-
 namespace {
 
 /// The words of the text with their offsets, cut at spaces.

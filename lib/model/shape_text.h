@@ -1,19 +1,14 @@
 // Declared shapes: "n x p", "n" (a column), "scalar", "symmetric n", "diagonal n".
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 
 #include "expr/ast.h"
 #include "expr/program.h"
+#include "model/words.h"
 
 namespace gainsmith::model {
-
-enum class Structure { full, symmetric, diagonal, scalar };
-
-/// "full", "symmetric", "diagonal", "scalar".
-std::string to_string(Structure structure);
 
 /// Sizes are whole-number expressions in dimension names, such as n, 2 or n + p.
 struct ShapeText {
@@ -28,9 +23,6 @@ struct ShapeText {
 
 /// InputError when the text is none of the forms above.
 ShapeText parse_shape(const expr::Text& text);
-
-/// Sizes of dimension names, found so far.
-using Dimensions = std::map<std::string, int>;
 
 /// The shape, when all its dimension names are known; otherwise none. InputError when a size is
 /// negative or no whole number.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "expr/compile.h"
 #include "expr/parser.h"
+#include "model/binding.h"
 
 namespace gainsmith::model {
 
@@ -16,35 +18,83 @@ std::size_t count_coefficients(const std::string& name, const Gains& gains) {
   return count;
 }
 
-[[noreturn]] void refuse_missing_coefficients(const UnknownFunction& function, const Gains& gains) {
-  throw InputError({gains.file}, "the gain file lacks the coefficients " +
-                                     coefficient_name(function.name, 0) + ", ... of " +
-                                     function.signature());
+/// The polynomial of `count` coefficients.
+Function polynomial(const std::string& name, const std::string& variable, expr::Shape shape,
+                    std::size_t count, const Place& place) {
+  return {name,
+          variable,
+          shape,
+          Structure::full,
+          monomials(variable, static_cast<int>(count) - 1, place),
+          place};
 }
 
 class Builder {
  public:
   Builder(const Instance& instance, const Gains& gains)
-      : instance_(with_functions(instance, gains)), gains_(gains) {
-    stated_.scope = instance_.simulation_scope();
-    stated_.values = instance_.known_values();
+      : instance_(instance), design_(*instance.design), gains_(gains) {
+    stated_.values = instance.values;
   }
 
   Stated build() {
+    add_functions();
     for (const auto& [name, value] : gains_.parameters)
-      if (instance_.parameters.contains(name)) take(name, {}, value);
-    for (const UnknownMatrix& unknown : instance_.unknowns)
+      if (is_parameter(name)) take(name, {}, value);
+    for (const UnknownMatrix& unknown : stated_.unknowns)
       if (const numbers::Matrix* value = gains_.find(unknown.name))
         take(unknown.name, unknown.shape, *value);
-    const auto shapes = gain_shapes(instance_);
-    for (std::size_t i = 0; i < shapes.size(); ++i)
-      add_gain(instance_.method->gains[i], shapes[i].second);
+    for (const Design::Gain& gain : design_.gains) add_gain(gain);
     return std::move(stated_);
   }
 
  private:
+  bool is_parameter(const std::string& name) const {
+    return std::any_of(design_.parameters.begin(), design_.parameters.end(),
+                       [&](const Design::Datum& parameter) { return parameter.name == name; });
+  }
+
+  /// The unknown functions as the file defines them, and all unknown matrices.
+  void add_functions() {
+    std::vector<Function> functions = polynomials(design_);
+    for (const Function& function : functions) stated_.bodies.set(function.name, function.body());
+    for (const StatedFunction& stated : gains_.functions) {
+      const auto known = std::find_if(
+          functions.begin(), functions.end(),
+          [&](const Function& function) { return function.signature() == stated.signature; });
+      if (known == functions.end())
+        throw InputError({gains_.file}, "the gain file defines " + stated.signature +
+                                            ", which is no unknown function of the method");
+      const std::size_t count = count_coefficients(known->name, gains_);
+      if (count == 0 && gains_.unknowns.empty()) continue;  // there is no point
+      if (count == 0)
+        throw InputError({gains_.file}, "the gain file lacks the coefficients " +
+                                            coefficient_name(known->name, 0) + ", ... of " +
+                                            stated.signature);
+      *known = polynomial(known->name, known->variable, known->shape, count, {gains_.file});
+      stated_.bodies.set(known->name, {known->variable, body_of(*known, stated)});
+    }
+    stated_.unknowns = unknown_matrices(design_, functions);
+  }
+
+  /// `polynomial` has as many coefficients as the file.
+  expr::Program body_of(const Function& polynomial, const StatedFunction& stated) const {
+    if (stated.body) return *stated.body;
+    if (stated.text == polynomial.text()) return polynomial.body().program;
+    const Place place{gains_.file};
+    expr::Scope scope;
+    scope.symbols[polynomial.variable] = {};
+    for (const std::string& coefficient : polynomial.coefficients())
+      scope.symbols[coefficient] = {polynomial.shape};
+    const expr::Program body =
+        expr::compile(expr::parse(expr::Text::generated(stated.text, place)), scope);
+    if (body.shape() != polynomial.shape)
+      throw InputError(place, stated.signature + " is " + to_string(polynomial.shape) + ", but '" +
+                                  stated.text + "' is " + to_string(body.shape()));
+    return body;
+  }
+
   void take(const std::string& name, expr::Shape shape, const numbers::Matrix& value) {
-    const expr::Shape found{static_cast<int>(value.rows()), static_cast<int>(value.cols())};
+    const expr::Shape found = numbers::shape_of(value);
     if (found != shape)
       throw InputError({gains_.file}, name + " in the gain file is " + to_string(found) +
                                           ", expected " + to_string(shape));
@@ -53,71 +103,57 @@ class Builder {
     stated_.values.insert_or_assign(name, value);
   }
 
-  void add_gain(const Gain& gain, expr::Shape shape) {
+  void add_gain(const Design::Gain& gain) {
     const numbers::Matrix* value = gains_.find(gain.name);
     if (gain.variable.empty()) {
-      if (value != nullptr) take(gain.name, shape, *value);
+      if (value != nullptr) take(gain.name, gain.shape, *value);
       return;
     }
-    if (value != nullptr) return add_polynomial(gain.name, gain.variable, shape, {*value});
+    if (value != nullptr) return add_polynomial(gain, gain.variable, {*value});
+    stated_.bodies.set(gain.name, {gain.variable, gain.formula.program});
     for (const GainFunction& function : gains_.gain_functions) {
       if (function.name != gain.name) continue;
       if (function.kind == GainFunction::Kind::polynomial)
-        return add_polynomial(gain.name, function.variable, shape, function.coefficients);
-      define(gain.name, function.variable, function.formula);
-      if (const expr::Shape found = defined_shape(gain.name); found != shape)
-        throw InputError({gains_.file}, gain.name + " in the gain file is " + to_string(found) +
-                                            ", expected " + to_string(shape));
+        return add_polynomial(gain, function.variable, function.coefficients);
+      if (function.formula != gain.formula.text || function.variable != gain.variable)
+        add_formula(gain, function);
     }
   }
 
-  void add_polynomial(const std::string& name, const std::string& variable, expr::Shape shape,
+  /// A formula that is not the method's own.
+  void add_formula(const Design::Gain& gain, const GainFunction& function) {
+    const Place place{gains_.file};
+    expr::Program body =
+        bind_gain_formula(instance_, stated_.unknowns, function.formula, function.variable, place);
+    if (body.shape() != gain.shape)
+      throw InputError(place, gain.name + " in the gain file is " + to_string(body.shape()) +
+                                  ", expected " + to_string(gain.shape));
+    stated_.bodies.set(gain.name, {function.variable, std::move(body)});
+  }
+
+  void add_polynomial(const Design::Gain& gain, const std::string& variable,
                       const std::vector<numbers::Matrix>& coefficients) {
     if (coefficients.empty())
-      throw InputError({gains_.file}, name + " in the gain file has no coefficients");
-    define(name, variable,
-           polynomial_text(name, variable, static_cast<int>(coefficients.size()) - 1));
-    for (std::size_t k = 0; k < coefficients.size(); ++k) {
-      const std::string coefficient = coefficient_name(name, k);
-      stated_.scope.symbols[coefficient] = {shape, std::nullopt};
-      take(coefficient, shape, coefficients[k]);
-    }
+      throw InputError({gains_.file}, gain.name + " in the gain file has no coefficients");
+    const Function function =
+        polynomial(gain.name, variable, gain.shape, coefficients.size(), {gains_.file});
+    stated_.bodies.set(gain.name, function.body());
+    for (std::size_t k = 0; k < coefficients.size(); ++k)
+      take(coefficient_name(gain.name, k), gain.shape, coefficients[k]);
   }
 
-  void define(const std::string& name, const std::string& variable, const std::string& text) {
-    stated_.scope.definitions[name] = {{variable},
-                                       expr::parse(expr::Text::generated(text, {gains_.file}))};
-  }
-
-  expr::Shape defined_shape(const std::string& name) const {
-    const expr::Definition& definition = stated_.scope.definitions.at(name);
-    return compile_gain({name, definition.body, {gains_.file}, definition.parameters.front()},
-                        stated_.scope)
-        .shape();
-  }
-
-  Instance instance_;
+  const Instance& instance_;
+  const Design& design_;
   const Gains& gains_;
   Stated stated_;
 };
 
 }  // namespace
 
-Instance with_functions(Instance instance, const Gains& gains) {
-  for (const auto& [key, text] : gains.functions) {
-    const auto known = std::find_if(
-        instance.functions.begin(), instance.functions.end(),
-        [&, wanted = key](const UnknownFunction& f) { return f.signature() == wanted; });
-    if (known == instance.functions.end())
-      throw InputError({gains.file}, "the gain file defines " + key +
-                                         ", which is no unknown function of the method");
-    const std::string name = known->name;
-    const std::size_t count = count_coefficients(name, gains);
-    if (count == 0 && gains.unknowns.empty()) continue;  // there is no point
-    if (count == 0) refuse_missing_coefficients(*known, gains);
-    redefine(instance, name, count, text, {gains.file});
-  }
-  return instance;
+std::optional<numbers::Matrix> Stated::value(const expr::Program& program) const {
+  const expr::Program linked = bodies.link(program);
+  if (!has_values(linked, values)) return std::nullopt;
+  return numbers::evaluate(linked, values);
 }
 
 Stated state(const Instance& instance, const Gains& gains) {

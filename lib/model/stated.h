@@ -1,8 +1,8 @@
-// What a gain file says, for expressions: names and values.
+// What a gain file says, for programs: values, and what the functions stand for.
 //
-//   unknown function Y    Y(tau) is the file's text over the file's coefficients Y_0, Y_1, ...
+//   unknown function Y    the file's text over the file's coefficients Y_0, Y_1, ...
 //   gain L                the file's matrix
-//   gain F(tau)           of a constant      F_0, the file's matrix
+//   gain F(tau)           of a constant      the file's matrix
 //                         of a polynomial    F_0 + F_1*tau + ..., the file's coefficients
 //                         otherwise          the file's formula
 //
@@ -10,23 +10,25 @@
 // would generate others today.
 #pragma once
 
-#include "numbers/real.h"
-#include "expr/scope.h"
+#include "model/function.h"
 #include "model/gains.h"
 #include "model/instance.h"
 
 namespace gainsmith::model {
 
-/// The instance with its unknown functions defined as the gain file defines them. InputError when
-/// the file defines what is no unknown function, or lacks its coefficients.
-Instance with_functions(Instance instance, const Gains& gains);
-
 struct Stated {
-  expr::Scope scope;    ///< Instance::simulation_scope, with what the file says of functions
-  numbers::Values values;  ///< data, parameters, gains, unknowns, coefficients: all that have a value
+  numbers::Values values;  ///< data, parameters, gains, unknowns, coefficients: all that are known
+  Bodies bodies;           ///< of unknown functions and of gains that are functions
+  /// How many coefficients each unknown function has in the file; its own number without a point.
+  std::vector<UnknownMatrix> unknowns;
+
+  /// The value of a program; none when it uses something that has no value, such as a gain of a
+  /// problem without solution.
+  std::optional<numbers::Matrix> value(const expr::Program& program) const;
 };
 
-/// InputError for a matrix of another shape or not finite, and as with_functions().
+/// InputError for a matrix of another shape or not finite, when the file defines what is no unknown
+/// function, lacks its coefficients, or holds a text that does not fit.
 Stated state(const Instance& instance, const Gains& gains);
 
 }  // namespace gainsmith::model

@@ -11,14 +11,9 @@ namespace {
 
 /// The place of element (i, j) when the matrix is written element by element, of the whole
 /// otherwise.
-Place element_place(const Value& value, const numbers::Matrix& matrix, int i, int j) {
-  const expr::Node& root = *value.value.root;
-  const bool by_element = root.kind == expr::NodeKind::block && root.columns == matrix.cols() &&
-                          std::ssize(root.children) == matrix.size();
-  return by_element ? value.value.place(*root.children[static_cast<std::size_t>(i) *
-                                                           static_cast<std::size_t>(root.columns) +
-                                                       static_cast<std::size_t>(j)])
-                    : value.place;
+Place element_place(const Design::Datum& datum, const numbers::Matrix& matrix, int i, int j) {
+  if (std::ssize(datum.elements) != matrix.size()) return datum.place;
+  return datum.elements[static_cast<std::size_t>(i * matrix.cols() + j)];
 }
 
 std::string element_text(int i, int j, double value) {
@@ -28,8 +23,8 @@ std::string element_text(int i, int j, double value) {
 
 }  // namespace
 
-void enforce_structure(const Declaration& datum, const Value& value, numbers::Matrix& matrix) {
-  const Structure structure = datum.shape.structure;
+void enforce_structure(const Design::Datum& datum, numbers::Matrix& matrix) {
+  const Structure structure = datum.structure;
   if (structure != Structure::symmetric && structure != Structure::diagonal) return;
   const double rounding = 1e-12 * matrix.lpNorm<Eigen::Infinity>();
   for (int i = 0; i < matrix.rows(); ++i) {
@@ -37,11 +32,11 @@ void enforce_structure(const Declaration& datum, const Value& value, numbers::Ma
       const double upper = matrix(j, i);
       const double lower = matrix(i, j);
       if (structure == Structure::symmetric && std::abs(upper - lower) > rounding)
-        throw InputError(element_place(value, matrix, i, j),
+        throw InputError(element_place(datum, matrix, i, j),
                          "the datum " + datum.name + " must be symmetric, but " +
                              element_text(i, j, lower) + " and " + element_text(j, i, upper));
       if (structure == Structure::diagonal && (upper != 0 || lower != 0))
-        throw InputError(element_place(value, matrix, i, j),
+        throw InputError(element_place(datum, matrix, i, j),
                          "the datum " + datum.name + " must be diagonal, but " +
                              element_text(i, j, lower != 0 ? lower : upper));
     }

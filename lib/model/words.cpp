@@ -1,7 +1,5 @@
 #include "model/words.h"
 
-#include "model/problem.h"
-
 namespace gainsmith::model {
 
 std::string to_string(Verdict verdict) {
@@ -34,18 +32,44 @@ std::string to_string(Way way) {
   return "?";
 }
 
-std::string to_string(SamplingLaw::Kind kind) {
+std::string to_string(LawKind kind) {
   switch (kind) {
-    case SamplingLaw::Kind::constant:
+    case LawKind::constant:
       return "constant";
-    case SamplingLaw::Kind::uniform:
+    case LawKind::uniform:
       return "uniform";
-    case SamplingLaw::Kind::extremes:
+    case LawKind::extremes:
       return "extremes";
-    case SamplingLaw::Kind::sinusoid:
+    case LawKind::sinusoid:
       return "sinusoid";
-    case SamplingLaw::Kind::list:
+    case LawKind::list:
       return "list";
+  }
+  return "?";
+}
+
+std::string to_string(ClaimKind kind) {
+  switch (kind) {
+    case ClaimKind::nonincreasing:
+      return "nonincreasing";
+    case ClaimKind::cost:
+      return "cost";
+    case ClaimKind::shrinks:
+      return "shrinks";
+  }
+  return "?";
+}
+
+std::string to_string(Structure structure) {
+  switch (structure) {
+    case Structure::full:
+      return "full";
+    case Structure::symmetric:
+      return "symmetric";
+    case Structure::diagonal:
+      return "diagonal";
+    case Structure::scalar:
+      return "scalar";
   }
   return "?";
 }

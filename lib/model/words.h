@@ -1,6 +1,8 @@
-// Answers, in the words of the architecture.
+// Words that texts, designs and results share.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <string>
 
 namespace gainsmith::model {
@@ -12,5 +14,66 @@ std::string to_string(Verdict verdict);
 /// The answer of a campaign.
 enum class CampaignVerdict { held, violated };
 std::string to_string(CampaignVerdict verdict);
+
+enum class Structure { full, symmetric, diagonal, scalar };
+/// "full", "symmetric", "diagonal", "scalar".
+std::string to_string(Structure structure);
+
+/// What a variable of `forall` runs over.
+enum class Over {
+  interval,  ///< all numbers between two ends
+  set,       ///< finitely many elements, numbers or matrices of one shape
+  polytope   ///< all convex combinations of matrices of one shape
+};
+
+/// How an inequality is imposed for all values of its variables.
+enum class Way {
+  automatic,    ///< hull where it loses nothing, exchange elsewhere
+  hull,         ///< at the vertices of the box of the ranges of its scalar functions
+  exchange,     ///< at few points, to which the worst ones are added until none is left
+  vertex_gains  ///< hull, with one matrix for each vertex in unknowns that are functions
+};
+std::string to_string(Way way);
+
+/// What a simulation can check of the gains.
+enum class ClaimKind {
+  nonincreasing,  ///< value never increases, along flows and over jumps
+  cost,           ///< int flow_cost dt + sum over jumps of jump_cost (before the jump) <= value at
+                  ///< the start
+  shrinks         ///< value at the end of the run <= factor * value at the start
+};
+std::string to_string(ClaimKind kind);
+
+/// How the sampling intervals of a run are chosen, within the timer's [low, high].
+enum class LawKind {
+  constant,  ///< always the value
+  uniform,   ///< independent, uniform in [low, high]
+  extremes,  ///< independent, low or high with probability one half
+  sinusoid,  ///< (high - low)/2 sin(t) + (high + low)/2 at a jump at time t
+  list       ///< the values in turn, again from the start when they are used up
+};
+std::string to_string(LawKind kind);
+
+/// Where a state starts.
+enum class StartKind {
+  expression,  ///< may use data, gains and the states declared before it
+  box,         ///< uniform in [low, high], element by element; low and high scalar or of the
+               ///< state's shape
+  list         ///< run i takes element i modulo their number
+};
+
+/// Choices for the synthesis.
+struct SynthesisOptions {
+  Way way = Way::automatic;
+  int slices = 1;                          ///< hull: equal parts of each interval
+  double margin = 1e-7;                    ///< of strict inequalities, relative to their scale
+  std::optional<double> gain_bound = 1e4;  ///< none: off
+};
+
+/// Sizes of dimension names.
+using Dimensions = std::map<std::string, int>;
+
+/// Values for scalar data and parameters, by name, in place of those of the problem.
+using Overrides = std::map<std::string, double>;
 
 }  // namespace gainsmith::model

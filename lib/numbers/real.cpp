@@ -31,8 +31,8 @@ double KnownDoubles::number(const expr::Program& program) const {
   return evaluate(program, values_)(0, 0);
 }
 
-int KnownDoubles::rank(const expr::Program& program, double tolerance) const {
-  return numerical_rank(evaluate(program, values_), tolerance);
+int KnownDoubles::rank(const expr::Program& matrix, const expr::Program* tolerance) const {
+  return numerical_rank(evaluate(matrix, values_), tolerance != nullptr ? number(*tolerance) : -1);
 }
 
 int numerical_rank(const Matrix& matrix, double tolerance) {

@@ -49,7 +49,7 @@ class KnownDoubles : public expr::KnownValues {
   explicit KnownDoubles(Values values) : values_(std::move(values)) {}
 
   double number(const expr::Program& program) const override;
-  int rank(const expr::Program& program, double tolerance) const override;
+  int rank(const expr::Program& matrix, const expr::Program* tolerance) const override;
 
  private:
   Values values_;

@@ -1,11 +1,11 @@
 // The largest or smallest value of one scalar with the answer yes.
 //
-// A question has the answer yes, no (proved), undecided, or refused (the value makes no sense) at
-// each value. First a few values spread over the whole range are asked, both ends among them: they
-// show an answer that is not monotone.
-// Then the bracket between the outermost yes and the nearest no beyond it is halved. A value that
-// is undecided or refused ends neither side: the bracket is closed from the yes up to it and from
-// the no down to it, and what lies between stays open and is reported.
+// At each value the answer is yes, no (solutions are excluded), undecided, or refused (the value
+// makes no sense). First a few values spread over the whole range are asked, both ends among them:
+// they show an answer that is not monotone. Then the bracket between the outermost yes and the
+// nearest no beyond it is halved. A value that is undecided or refused ends neither side: the
+// bracket is closed from the yes up to it and from the no down to it, and what lies between stays
+// open and is reported.
 #pragma once
 
 #include <cmath>
@@ -52,8 +52,9 @@ struct Sample {
   Answer answer = Answer::undecided;
 };
 
-/// `open` is empty when `yes` and `no` meet within the tolerance. Otherwise it holds the undecided
-/// or refused values next to `yes` and next to `no`.
+/// `open` is empty when nothing was asked between `yes` and `no`: they meet within the tolerance if
+/// the bisection is finished. Otherwise it holds the undecided or refused values next to `yes` and
+/// next to `no`; without `no`, the outermost one.
 struct Bisection {
   std::optional<double> yes;  ///< the outermost value with yes
   std::optional<double> no;   ///< the nearest value beyond it with no; none when there is none

@@ -5,7 +5,8 @@
 
 namespace gainsmith::search {
 
-/// Ipopt with a quasi-Newton Hessian (limited memory) and its linear solver MUMPS; silent.
+/// Ipopt with a quasi-Newton Hessian (limited memory) and the linear solver that it takes by
+/// default (MUMPS in Debian's package); silent.
 SmoothSolver ipopt_solver();
 
 }  // namespace gainsmith::search

@@ -28,7 +28,8 @@ struct MinimizeOptions {
   /// The figure as the local searches ask for it, one point after the other: the best value so far
   /// may make it cheaper. Without it they use the figure itself.
   std::function<std::optional<double>(const Point&, double best)> warm;
-  /// How far a point is from feasible, >= 0; not called unless the grid has no feasible point.
+  /// How far a point is from feasible, >= 0, infinite when that is not known; called from several
+  /// threads at once, but not unless the grid has no feasible point.
   std::function<double(const Point&)> violation;
   std::function<bool()> interrupted;
 };

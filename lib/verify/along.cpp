@@ -31,8 +31,11 @@ AlongFunction::AlongFunction(const expr::Program& program, const hybrid::System&
     evaluator_.fix(input.name, constants_.back());
   }
   const auto moving = [](expr::Shape shape) {
-    return numbers::Pack{
-        false, shape.rows, shape.cols, {}, Eigen::ArrayXXd::Zero(numbers::Pack::kLanes, shape.size())};
+    return numbers::Pack{false,
+                         shape.rows,
+                         shape.cols,
+                         {},
+                         Eigen::ArrayXXd::Zero(numbers::Pack::kLanes, shape.size())};
   };
   for (const hybrid::Slot& slot : system.layout.slots)
     if (program.uses(slot.name)) slots_.push_back(slot);
@@ -43,7 +46,7 @@ AlongFunction::AlongFunction(const expr::Program& program, const hybrid::System&
 }
 
 numbers::Matrix AlongFunction::operator()(const Eigen::Ref<const numbers::Matrix>& states,
-                                       const Eigen::Ref<const Eigen::VectorXd>& timers) {
+                                          const Eigen::Ref<const Eigen::VectorXd>& timers) {
   numbers::Matrix values(elements_, timers.size());
   for (Index first = 0; first < timers.size(); first += numbers::Pack::kLanes) {
     const Index count = std::min<Index>(numbers::Pack::kLanes, timers.size() - first);
@@ -60,12 +63,12 @@ numbers::Matrix AlongFunction::operator()(const Eigen::Ref<const numbers::Matrix
   return values;
 }
 
-Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::Steps& steps,
+Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::FlowSteps& steps,
                                 AlongFunction& integrand) {
-  constexpr Index kNodes = hybrid::Steps::kNodes;
+  constexpr Index kNodes = hybrid::FlowSteps::kNodes;
   constexpr Index kBatch = numbers::Pack::kLanes / kNodes;
-  const auto& positions = hybrid::Steps::node_positions();
-  const Eigen::Map<const Eigen::VectorXd> weights(hybrid::Steps::node_weights().data(), kNodes);
+  const auto& positions = hybrid::FlowSteps::node_positions();
+  const Eigen::Map<const Eigen::VectorXd> weights(hybrid::FlowSteps::node_weights().data(), kNodes);
 
   Eigen::VectorXd integrals = Eigen::VectorXd::Zero(static_cast<Index>(arc.moves.size()));
   numbers::Matrix states(arc.size, numbers::Pack::kLanes);
@@ -83,7 +86,7 @@ Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::Steps& ste
   };
   for (std::size_t k = 0; k < arc.moves.size(); ++k) {
     if (arc.moves[k].jump) continue;
-    const hybrid::Step& step = arc.moves[k].step;
+    const hybrid::FlowStep& step = arc.moves[k].step;
     const Index at = static_cast<Index>(batch.size()) * kNodes;
     steps.nodes(step, arc.state(k), states.middleCols(at, kNodes));
     for (Index i = 0; i < kNodes; ++i)

@@ -21,9 +21,10 @@ class AlongFunction {
   AlongFunction& operator=(AlongFunction&&) = default;
 
   /// states: size x N, timers: N. The result is elements x N, the value's elements column by
-  /// column; it holds infinities or NaNs where the value is none.
+  /// column; it holds infinities or NaNs where the value is none. InputError when a part that does
+  /// not move along the arc has no value.
   numbers::Matrix operator()(const Eigen::Ref<const numbers::Matrix>& states,
-                          const Eigen::Ref<const Eigen::VectorXd>& timers);
+                             const Eigen::Ref<const Eigen::VectorXd>& timers);
 
  private:
   std::vector<hybrid::Slot> slots_;  ///< the states that the program uses
@@ -35,8 +36,8 @@ class AlongFunction {
 };
 
 /// For each flow step of an arc, in order, the integral of a scalar over it, by Gauss-Legendre
-/// quadrature with Steps::kNodes nodes on the exact flow; one element a move, 0 for jumps.
-Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::Steps& steps,
+/// quadrature with FlowSteps::kNodes nodes on the exact flow; one element a move, 0 for jumps.
+Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::FlowSteps& steps,
                                 AlongFunction& integrand);
 
 }  // namespace gainsmith::verify

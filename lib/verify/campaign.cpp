@@ -66,7 +66,7 @@ void add(const Tally& later, Tally& sum) {
   }
 }
 
-Tally judge(std::uint64_t run, const hybrid::Arc& arc, std::vector<Check>& checks) {
+Tally judge(std::uint64_t run, const hybrid::Arc& arc, std::vector<ClaimCheck>& checks) {
   Tally tally;
   tally.run = run;
   tally.termination = arc.termination;
@@ -74,7 +74,7 @@ Tally judge(std::uint64_t run, const hybrid::Arc& arc, std::vector<Check>& check
   tally.unfinished = arc.termination == Termination::horizon ? 0 : 1;
   tally.violated = tally.unfinished > 0;
   tally.score = -std::numeric_limits<double>::infinity();
-  for (Check& check : checks) {
+  for (ClaimCheck& check : checks) {
     const Finding finding = check(arc);
     tally.violated = tally.violated || finding.violated;
     tally.claims.push_back({finding.violated ? 1U : 0U, run, finding});
@@ -89,7 +89,7 @@ Tally judge(std::uint64_t run, const hybrid::Arc& arc, std::vector<Check>& check
 /// Runs first, first + 1, ..., last - 1.
 Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
   hybrid::Simulator simulator(setup.system, setup.scenario, setup.steps);
-  std::vector<Check> checks = make_checks(setup);
+  std::vector<ClaimCheck> checks = make_checks(setup);
   Tally sum;
   for (std::uint64_t run = first; run < last; ++run)
     add(judge(run, simulator.run(seed, run), checks), sum);
@@ -120,7 +120,7 @@ Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
 std::vector<CheckReport> report_checks(const Setup& setup, const Tally& tally) {
   std::vector<CheckReport> reports;
   std::size_t next = 0;
-  for (const CompiledClaim& claim : setup.claims) {
+  for (const LinkedClaim& claim : setup.claims) {
     CheckReport report{claim.name, claim.kind, claim.stated(), claim.missing, 0, 0, {}};
     if (claim.stated()) {
       const ClaimTally& found = tally.claims[next++];
@@ -133,11 +133,11 @@ std::vector<CheckReport> report_checks(const Setup& setup, const Tally& tally) {
   return reports;
 }
 
-void require_a_claim(const model::Method& method, const std::vector<CompiledClaim>& claims) {
-  const Place place{method.file, 0, 0};
+void require_a_claim(const model::Design& design, const std::vector<LinkedClaim>& claims) {
+  const Place place{design.method_file, 0, 0};
   if (claims.empty())
     throw InputError(place, "the method makes no claims, so there is nothing to verify");
-  for (const CompiledClaim& claim : claims)
+  for (const LinkedClaim& claim : claims)
     if (claim.stated()) return;
   throw InputError(place, "no claim can be checked: there is no value for " +
                               claims.front().missing.front() + ", which '" + claims.front().name +
@@ -148,13 +148,14 @@ void require_a_claim(const model::Method& method, const std::vector<CompiledClai
 
 Report run_campaign(const model::Instance& instance, const model::Gains& gains,
                     const CampaignOptions& options) {
-  const model::Campaign& campaign = instance.problem->campaign;
+  const model::Design& design = *instance.design;
   const Setup setup = make_setup(instance, gains);
-  require_a_claim(*instance.method, setup.claims);
+  require_a_claim(design, setup.claims);
   Report report;
-  report.runs = options.runs.value_or(campaign.runs);
-  report.seed = options.seed.value_or(campaign.seed);
-  if (report.runs == 0) throw InputError(campaign.place, "a campaign needs at least one run");
+  report.runs = options.runs.value_or(design.campaign.runs);
+  report.seed = options.seed.value_or(design.campaign.seed);
+  if (report.runs == 0)
+    throw InputError(design.campaign.place, "a campaign needs at least one run");
 
   const Tally tally = judge_all(setup, report.seed, report.runs, options);
   report.verdict =

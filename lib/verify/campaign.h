@@ -13,7 +13,7 @@
 #include "model/gains.h"
 #include "model/instance.h"
 #include "model/words.h"
-#include "verify/check.h"
+#include "verify/claim_check.h"
 
 namespace gainsmith::verify {
 
@@ -28,7 +28,7 @@ struct CampaignOptions {
 /// One claim over all runs.
 struct CheckReport {
   std::string name;
-  model::Claim::Kind kind = model::Claim::Kind::nonincreasing;
+  model::ClaimKind kind = model::ClaimKind::nonincreasing;
   bool stated = true;  ///< false: not checked, because `missing` have no value
   std::vector<std::string> missing;
   std::uint64_t violations = 0;
@@ -43,8 +43,8 @@ struct Report {
   std::uint64_t violations = 0;  ///< runs that violate a claim or do not reach the horizon
   std::uint64_t unfinished = 0;  ///< runs that do not reach the horizon
   /// The run that violates worst; of a campaign that held, the run nearest to it. Runs that do not
-  /// reach the horizon come first, then violating runs, then by the largest score of a claim; ties
-  /// to the lowest.
+  /// reach the horizon come first, then violating runs, then by the largest score of a claim, among
+  /// those that it violates if any; ties to the lowest.
   std::uint64_t worst_run = 0;
   hybrid::Termination worst_termination = hybrid::Termination::horizon;
   std::string worst_message;  ///< why it ended, when a jump map had no value

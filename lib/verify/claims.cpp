@@ -2,57 +2,40 @@
 
 #include <algorithm>
 
-#include "expr/compile.h"
-
 namespace gainsmith::verify {
 
 namespace {
 
-CompiledClaim compile_claim(const model::Claim& claim, const hybrid::System& system) {
-  CompiledClaim compiled;
-  compiled.name = claim.name;
-  compiled.kind = claim.kind;
-  const auto scalar = [&](const expr::Expression& expression) {
-    expr::Program program = expr::compile(expression, system.scope, expr::Shape{1, 1});
-    for (const std::string& name : hybrid::missing_values(program, system.layout, system.constants))
-      if (std::find(compiled.missing.begin(), compiled.missing.end(), name) ==
-          compiled.missing.end())
-        compiled.missing.push_back(name);
+LinkedClaim link_claim(const model::Design::Claim& claim, const hybrid::System& system) {
+  LinkedClaim linked;
+  linked.name = claim.name;
+  linked.kind = claim.kind;
+  const auto link = [&](const model::Formula& formula) {
+    expr::Program program = system.link(formula);
+    for (const std::string& name : system.missing(program))
+      if (std::find(linked.missing.begin(), linked.missing.end(), name) == linked.missing.end())
+        linked.missing.push_back(name);
     return program;
   };
-  compiled.value = scalar(claim.value);
-  if (claim.flow_cost) compiled.flow_cost = scalar(*claim.flow_cost);
-  if (claim.jump_cost) compiled.jump_cost = scalar(*claim.jump_cost);
-  if (claim.factor) compiled.factor = scalar(*claim.factor);
-  if (claim.kind == model::Claim::Kind::shrinks && !claim.factor)
+  linked.value = link(claim.value);
+  if (claim.flow_cost) linked.flow_cost = link(*claim.flow_cost);
+  if (claim.jump_cost) linked.jump_cost = link(*claim.jump_cost);
+  if (claim.factor) linked.factor = link(*claim.factor);
+  if (claim.kind == model::ClaimKind::shrinks && !claim.factor)
     throw InputError(claim.place, "the claim '" + claim.name + "' has no factor");
-  return compiled;
+  return linked;
 }
 
 }  // namespace
 
-std::vector<CompiledClaim> compile_claims(const model::Instance& instance,
-                                          const hybrid::System& system) {
-  std::vector<CompiledClaim> claims;
-  for (const model::Claim& claim : instance.method->claims) {
-    claims.push_back(compile_claim(claim, system));
-    // How far an error shrinks says something only about a time that somebody chose.
-    if (claim.kind == model::Claim::Kind::shrinks && !instance.problem->campaign.horizon)
+std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::System& system) {
+  std::vector<LinkedClaim> claims;
+  for (const model::Design::Claim& claim : design.claims) {
+    claims.push_back(link_claim(claim, system));
+    if (claim.kind == model::ClaimKind::shrinks && !design.campaign.horizon)
       claims.back().missing.emplace_back("campaign.horizon");
   }
   return claims;
-}
-
-std::string to_string(model::Claim::Kind kind) {
-  switch (kind) {
-    case model::Claim::Kind::nonincreasing:
-      return "nonincreasing";
-    case model::Claim::Kind::cost:
-      return "cost";
-    case model::Claim::Kind::shrinks:
-      return "shrinks";
-  }
-  return "?";
 }
 
 }  // namespace gainsmith::verify

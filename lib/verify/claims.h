@@ -1,4 +1,4 @@
-// The claims of a method, compiled for one gain file.
+// The claims of a method for one gain file.
 #pragma once
 
 #include <optional>
@@ -6,15 +6,16 @@
 #include <vector>
 
 #include "hybrid/system.h"
-#include "model/instance.h"
 
 namespace gainsmith::verify {
 
-/// A claim is stated when every symbol that its expressions use has a value; otherwise `missing`
-/// names those that have none (P1 when the analysis was infeasible) and it cannot be checked.
-struct CompiledClaim {
+/// A claim whose programs call nothing. It is stated when every symbol that they use has a value
+/// and, of `shrinks`, the problem gives the time in which it must: how far an error shrinks says
+/// something only about a time that somebody chose. Otherwise `missing` names what has no value (P1
+/// when the analysis was infeasible, campaign.horizon) and the claim cannot be checked.
+struct LinkedClaim {
   std::string name;
-  model::Claim::Kind kind = model::Claim::Kind::nonincreasing;
+  model::ClaimKind kind = model::ClaimKind::nonincreasing;
   std::vector<std::string> missing;
   expr::Program value;
   std::optional<expr::Program> flow_cost;
@@ -24,12 +25,7 @@ struct CompiledClaim {
   bool stated() const { return missing.empty(); }
 };
 
-/// All claims, in the method's order. InputError for an expression that does not compile or is no
-/// scalar.
-std::vector<CompiledClaim> compile_claims(const model::Instance& instance,
-                                          const hybrid::System& system);
-
-/// "nonincreasing", "cost", "shrinks".
-std::string to_string(model::Claim::Kind kind);
+/// All claims, in the method's order. InputError for `shrinks` without a factor.
+std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::System& system);
 
 }  // namespace gainsmith::verify

@@ -1,6 +1,5 @@
 #include "verify/replay.h"
 
-#include "expr/compile.h"
 #include "verify/along.h"
 #include "verify/setup.h"
 
@@ -37,26 +36,24 @@ class Table {
   Replay* replay_;
 };
 
-void add_signals(const model::Method& method, const Setup& setup, const hybrid::Arc& arc,
+void add_signals(const model::Design& design, const hybrid::System& system, const hybrid::Arc& arc,
                  Table& table) {
   const Eigen::Map<const Eigen::VectorXd> timers(arc.timer.data(),
                                                  static_cast<Index>(arc.timer.size()));
-  for (const model::Named& signal : method.signals) {
-    const expr::Program program = expr::compile(signal.value, setup.system.scope);
-    if (!hybrid::missing_values(program, setup.system.layout, setup.system.constants).empty())
-      continue;
-    AlongFunction along(program, setup.system);
+  for (const model::NamedFormula& signal : design.signals) {
+    const expr::Program program = system.link(signal.value);
+    if (!system.missing(program).empty()) continue;
+    AlongFunction along(program, system);
     table.add_elements(signal.name, program.shape(), along(arc.states(), timers));
   }
 }
 
 void add_claims(const Setup& setup, Replay& replay, Table& table) {
-  for (const CompiledClaim& claim : setup.claims) {
-    if (!claim.stated()) continue;
-    Check check(claim, setup.system, setup.steps);
+  for (ClaimCheck& check : make_checks(setup)) {
+    const LinkedClaim& claim = check.claim();
     replay.claims.push_back({claim.name, check(replay.arc)});
     table.add(claim.name, check.values(replay.arc));
-    if (claim.kind == model::Claim::Kind::cost)
+    if (claim.kind == model::ClaimKind::cost)
       table.add(claim.name + "_cost", check.running_cost(replay.arc));
   }
 }
@@ -80,7 +77,7 @@ Replay replay(const model::Instance& instance, const model::Gains& gains, std::u
   for (const hybrid::Slot& slot : setup.system.layout.slots)
     table.add_elements(slot.name, slot.shape,
                        arc.states().middleRows(slot.offset, slot.shape.size()));
-  add_signals(*instance.method, setup, arc, table);
+  add_signals(*instance.design, setup.system, arc, table);
   add_claims(setup, result, table);
   return result;
 }

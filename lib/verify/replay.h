@@ -8,7 +8,7 @@
 #include "hybrid/arc.h"
 #include "model/gains.h"
 #include "model/instance.h"
-#include "verify/check.h"
+#include "verify/claim_check.h"
 
 namespace gainsmith::verify {
 
@@ -20,9 +20,8 @@ struct ReplayedClaim {
 
 /// The run as a table with a row for each sample of the arc. Columns: t, j, the timer, the states,
 /// the method's signals, then for each claim that is stated its value and, for a cost, the cost so
-/// far
-/// (`name_cost`). A 1 x 1 value has its name; the elements of a column z are z1, z2, ...; those of
-/// a matrix M are M1_1, M2_1, ....
+/// far (`name_cost`). A 1 x 1 value has its name; the elements of a column z are z1, z2, ...; those
+/// of any other matrix M are M1_1, M2_1, ....
 struct Replay {
   hybrid::Arc arc;
   std::vector<std::string> columns;

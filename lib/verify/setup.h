@@ -5,7 +5,7 @@
 
 #include "hybrid/simulate.h"
 #include "hybrid/system.h"
-#include "verify/check.h"
+#include "verify/claim_check.h"
 #include "verify/claims.h"
 
 namespace gainsmith::verify {
@@ -13,13 +13,14 @@ namespace gainsmith::verify {
 struct Setup {
   hybrid::System system;
   hybrid::Scenario scenario;
-  hybrid::Steps steps;
-  std::vector<CompiledClaim> claims;
+  hybrid::FlowSteps steps;
+  std::vector<LinkedClaim> claims;
 };
 
 Setup make_setup(const model::Instance& instance, const model::Gains& gains);
 
-/// A check for each claim that is stated, in order. The setup must outlive them.
-std::vector<Check> make_checks(const Setup& setup);
+/// A check for each claim that is stated, in order: what campaigns and replays look at. The setup
+/// must outlive them.
+std::vector<ClaimCheck> make_checks(const Setup& setup);
 
 }  // namespace gainsmith::verify

@@ -8,11 +8,9 @@ namespace gainsmith::verify {
 /// The one-sided Clopper-Pearson bound: with probability `confidence` over the draws of the runs,
 /// the probability of a violation is at most this p,
 ///     P(at most `violations` of `runs` | p) = 1 - confidence,
-/// which is 1 - (1 - confidence)^(1/runs) without violations, and 1 when every run violates (or
+/// I_p(violations + 1, runs - violations) = confidence with the regularised incomplete beta
+/// function: 1 - (1 - confidence)^(1/runs) without violations, and 1 when every run violates (or
 /// there is no run).
 double violation_probability_bound(std::uint64_t violations, std::uint64_t runs, double confidence);
-
-/// The regularised incomplete beta function I_x(a, b), a, b > 0, 0 <= x <= 1.
-double incomplete_beta(double a, double b, double x);
 
 }  // namespace gainsmith::verify

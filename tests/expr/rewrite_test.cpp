@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <stdexcept>
+#include <string>
 
 #include "expr/world.h"
 #include "support/input_error.h"
@@ -34,8 +36,8 @@ class Rewriting : public testing::Test {
   }
   Program linked(const std::string& text) const {
     const Program program = compile(text);
-    return link(program, [&](const Instruction& call) -> const Body& {
-      return bodies.at(call.text.substr(0, 1));
+    return link(program, [&](const std::string& function, const Instruction&) -> const Body& {
+      return bodies.at(function);
     });
   }
   void expect_same(const std::string& called, const std::string& written_out) const {
@@ -94,9 +96,20 @@ TEST_F(Rewriting, SumsOfTerms) {
   const Values& v = world.values;
   EXPECT_EQ(evaluate(sum, v), evaluate(compile("A + t^2*P0 + 3*P1"), v));
   EXPECT_EQ(sum.code.back().place(), place);
-  EXPECT_EQ(evaluate(sum_of({"t", "t"}, place), v)(0, 0), 0.8);
-  EXPECT_EQ(evaluate(input_program("A", {2, 2}, place), v), v.at("A"));
-  EXPECT_EQ(evaluate(constant_program("0.3", place), v)(0, 0), 0.3);
+}
+
+TEST_F(Rewriting, AComposedProgramIsItsText) {
+  const Place place{"here", 2, 3};
+  Composer compose(place);
+  const int matrix =
+      compose.apply(Op::scale, {compose.number("0.3"), compose.input("A", {2, 2})}, {2, 2});
+  const int square = compose.program(expr::compile(parse({"t^2", "test"}), world.scope));
+  const int result =
+      compose.apply(Op::add, {matrix, compose.apply(Op::identity, {square}, {2, 2})}, {2, 2});
+  const Program program = compose.take(result);
+  EXPECT_EQ(evaluate(program, world.values), evaluate(compile("0.3*A + t^2*I"), world.values));
+  EXPECT_EQ(program.code.back().place(), place);
+  EXPECT_THROW(compose.apply(Op::add, {matrix, square}, {2, 2}), std::logic_error);
 }
 
 TEST_F(Rewriting, SlackIsAMultipleOfI) {

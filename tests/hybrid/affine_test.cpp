@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "expr/compile.h"
 #include "hybrid/text_problem.h"
 
 namespace gainsmith::hybrid {
@@ -11,11 +10,9 @@ namespace {
 /// The operation that is not affine in x (2 x 1) and s (1 x 1), "" when there is none. M is
 /// constant.
 std::string culprit(const std::string& text) {
-  expr::Scope scope;
-  scope.symbols["x"] = {{2, 1}, std::nullopt};
-  scope.symbols["s"] = {{1, 1}, std::nullopt};
-  scope.symbols["M"] = {{2, 2}, std::nullopt};
-  const expr::Program program = expr::compile(tests::parse(text), scope);
+  tests::TextProblem problem;
+  problem.data("M", "2 x 2", "[1, 2; 3, 5]").state("x", "2").state("s", "scalar");
+  const expr::Program program = problem.program(text);
   const auto* at =
       first_not_affine(program, [](const std::string& name) { return name == "x" || name == "s"; });
   return at == nullptr ? "" : expr::to_string(at->op);

@@ -11,7 +11,7 @@
 namespace gainsmith::hybrid {
 namespace {
 
-using Kind = model::SamplingLaw::Kind;
+using Kind = model::LawKind;
 using tests::TextProblem;
 
 TextProblem plant() {
@@ -23,13 +23,13 @@ TextProblem plant() {
 
 std::vector<Law> laws(TextProblem& problem) {
   const model::Instance instance = problem.instance();
-  return make_laws(instance.problem->campaign, make_system(instance, problem.gains));
+  return make_laws(instance.design->campaign, make_system(instance, problem.gains));
 }
 
 std::string error_of(TextProblem& problem) {
   try {
     const model::Instance instance = problem.instance();
-    make_scenario(instance.problem->campaign, make_system(instance, problem.gains));
+    make_scenario(*instance.design, make_system(instance, problem.gains));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -87,15 +87,26 @@ TEST(Law, WithoutAnyThereAreFive) {
   EXPECT_EQ(made[4].values, std::vector{1.1});
 }
 
+/// The plant with a gain of 0: what uses it is known only with the gain file.
+TextProblem plant_with_gain() {
+  TextProblem problem = plant();
+  problem.gain("g", tests::scalar(0));
+  return problem;
+}
+
 TEST(Law, ValuesOutsideTheTimersRangeAreRefusedAtTheirPlace) {
-  TextProblem low = plant();
-  low.law(Kind::constant, {"0.4"});
-  EXPECT_NE(error_of(low).find("test.yaml:1:1: the sampling interval 0.4 is outside"),
-            std::string::npos)
-      << error_of(low);
-  TextProblem high = plant();
-  high.law(Kind::list, {"0.5", "1.2"});
-  EXPECT_NE(error_of(high).find("1.2"), std::string::npos);
+  for (const char* value : {"0.4", "0.4 + g"}) {
+    TextProblem low = plant_with_gain();
+    low.law(Kind::constant, {value});
+    EXPECT_NE(error_of(low).find("test.yaml:1:1: the sampling interval 0.4 is outside"),
+              std::string::npos)
+        << error_of(low);
+  }
+  for (const char* value : {"1.2", "1.2 - g"}) {
+    TextProblem high = plant_with_gain();
+    high.law(Kind::list, {"0.5", value});
+    EXPECT_NE(error_of(high).find("1.2"), std::string::npos);
+  }
   TextProblem empty = plant();
   empty.law(Kind::list);
   EXPECT_NE(error_of(empty).find("at least one interval"), std::string::npos);
@@ -104,17 +115,35 @@ TEST(Law, ValuesOutsideTheTimersRangeAreRefusedAtTheirPlace) {
 TEST(Scenario, FirstValueAndHorizonAreChecked) {
   TextProblem first = plant();
   first.first("1.2");
-  EXPECT_NE(error_of(first).find("first value 1.2"), std::string::npos);
+  EXPECT_NE(error_of(first).find("first timer value 1.2 is outside"), std::string::npos);
   TextProblem horizon = plant();
   horizon.horizon("0");
-  EXPECT_NE(error_of(horizon).find("horizon is 0"), std::string::npos);
+  EXPECT_NE(error_of(horizon).find("horizon must be positive, not 0"), std::string::npos);
   TextProblem zero = plant();
   zero.first("0").horizon("1e-3");
   EXPECT_EQ(error_of(zero), "");
 }
 
+TEST(Scenario, WhatTheGainFileDecidesIsCheckedWithIt) {
+  TextProblem first = plant_with_gain();
+  first.first("1.2 + g");
+  EXPECT_NE(error_of(first).find("test.yaml:1:1: the first value 1.2"), std::string::npos)
+      << error_of(first);
+  TextProblem horizon = plant_with_gain();
+  horizon.horizon("g");
+  EXPECT_NE(error_of(horizon).find("test.yaml:1:1: the horizon is 0"), std::string::npos)
+      << error_of(horizon);
+  horizon.gains.gains.clear();
+  EXPECT_NE(error_of(horizon).find("test.yaml:1:1: there is no value for g"), std::string::npos)
+      << error_of(horizon);
+  TextProblem box = plant_with_gain();
+  box.start("x", model::StartKind::box, {"1", "g"});
+  EXPECT_NE(error_of(box).find("test.yaml:11:5: the box of x is empty"), std::string::npos)
+      << error_of(box);
+}
+
 TEST(Scenario, StartsAreChecked) {
-  using Start = model::InitialValue::Kind;
+  using Start = model::StartKind;
   TextProblem unknown = plant();
   unknown.start("y", Start::expression, {"1"});
   EXPECT_NE(error_of(unknown).find("no state 'y'"), std::string::npos);
@@ -123,7 +152,7 @@ TEST(Scenario, StartsAreChecked) {
   EXPECT_NE(error_of(later).find("declared before"), std::string::npos);
   TextProblem empty = plant();
   empty.start("x", Start::box, {"1", "-1"});
-  EXPECT_NE(error_of(empty).find("empty"), std::string::npos);
+  EXPECT_NE(error_of(empty).find("low end above its high end"), std::string::npos);
 }
 
 }  // namespace

@@ -13,8 +13,8 @@ namespace gainsmith::hybrid {
 namespace {
 
 using numbers::Matrix;
-using Law = model::SamplingLaw::Kind;
-using Start = model::InitialValue::Kind;
+using Law = model::LawKind;
+using Start = model::StartKind;
 using tests::column;
 using tests::sampled_data;
 using tests::scalar;
@@ -23,8 +23,8 @@ using tests::TextProblem;
 Arc simulate(TextProblem& problem, std::uint64_t seed = 1, std::uint64_t run = 0) {
   const model::Instance instance = problem.instance();
   const System system = make_system(instance, problem.gains);
-  const Scenario scenario = make_scenario(instance.problem->campaign, system);
-  const Steps steps = make_steps(system);
+  const Scenario scenario = make_scenario(*instance.design, system);
+  const FlowSteps steps = make_steps(system);
   return Simulator(system, scenario, steps).run(seed, run);
 }
 
@@ -122,7 +122,8 @@ TEST(Simulate, StartsFromExpressionsAndLists) {
   EXPECT_EQ(Eigen::VectorXd(second.state(0)), column({1, 2, 0, 0, -1.5}));
 }
 
-/// The flow matrix of (8), built from the paper's formula and not from the simulated text.
+/// The flow matrix of Ferrante and Seuret 2021, (8), built from the paper's formula and not from
+/// the simulated text.
 Matrix error_flow(const Matrix& L, double H) {
   const Matrix A{{0.2, -1.01}, {1, 0}};
   const Matrix C{{0.5, -1}};
@@ -131,7 +132,7 @@ Matrix error_flow(const Matrix& L, double H) {
   return phi;
 }
 
-/// S(tau) of sampled-data.md.
+/// S(tau), from sample to sample (docs/theory/sampled-data.md).
 Matrix sample_map(const Matrix& L, const Matrix& F, double H, double tau) {
   Matrix start = Matrix::Zero(3, 2);
   start.topRows(2) = Matrix::Identity(2, 2) - F * Matrix{{0.5, -1}};
@@ -253,9 +254,9 @@ TEST(Simulate, IntervalsThatShrinkToNothingHitTheJumpLimit) {
   problem.state("x", "scalar").timer("0", "1", "0", "0").law(Law::constant, {"0"});
   const model::Instance instance = problem.instance();
   const System system = make_system(instance, problem.gains);
-  Scenario scenario = make_scenario(instance.problem->campaign, system);
+  Scenario scenario = make_scenario(*instance.design, system);
   scenario.jump_limit = 100;
-  const Steps steps = make_steps(system);
+  const FlowSteps steps = make_steps(system);
   const Arc arc = Simulator(system, scenario, steps).run(1, 0);
   EXPECT_EQ(arc.termination, Termination::jump_limit);
   EXPECT_EQ(arc.j.back(), 100);

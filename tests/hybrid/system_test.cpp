@@ -28,18 +28,18 @@ TEST(System, FlowAndJumpOfPlantAndObserverAreRead) {
   TextProblem problem = sampled_data("1.1", column({2, 3}), column({0.1, -0.9}), scalar(-5));
   const System system = system_of(problem);
   numbers::Matrix flow{{0.2, -1.01, 0, 0, 0},
-                    {1, 0, 0, 0, 0},
-                    {0, 0, 0.2, -1.01, 2},
-                    {0, 0, 1, 0, 3},
-                    {0, 0, 0, 0, -5}};
+                       {1, 0, 0, 0, 0},
+                       {0, 0, 0.2, -1.01, 2},
+                       {0, 0, 1, 0, 3},
+                       {0, 0, 0, 0, -5}};
   EXPECT_EQ(system.flow.linear, flow);
   EXPECT_TRUE(system.flow.constant.isZero(0));
   const double rest = 1 - (0.5 * 0.1 + 0.9);  // I - C F
   numbers::Matrix jump{{1, 0, 0, 0, 0},
-                    {0, 1, 0, 0, 0},
-                    {0.05, -0.1, 0.95, 0.1, 0},
-                    {-0.45, 0.9, 0.45, 0.1, 0},
-                    {0.5 * rest, -rest, -0.5 * rest, rest, 0}};
+                       {0, 1, 0, 0, 0},
+                       {0.05, -0.1, 0.95, 0.1, 0},
+                       {-0.45, 0.9, 0.45, 0.1, 0},
+                       {0.5 * rest, -rest, -0.5 * rest, rest, 0}};
   ASSERT_TRUE(system.affine_jump.has_value());
   EXPECT_LT((system.affine_jump->linear - jump).cwiseAbs().maxCoeff(), 1e-15);
   EXPECT_EQ(system.high, 1.1);
@@ -55,8 +55,8 @@ TEST(System, ErrorFlowIsEquationEight) {
   const numbers::Matrix A{{0.2, -1.01}, {1, 0}};
   const numbers::Matrix C{{0.5, -1}};
   numbers::Matrix errors(3, 5);  // [e; q] = errors x
-  errors << numbers::Matrix::Identity(2, 2), -numbers::Matrix::Identity(2, 2), numbers::Matrix::Zero(2, 1),
-      C, -C, -numbers::Matrix::Identity(1, 1);
+  errors << numbers::Matrix::Identity(2, 2), -numbers::Matrix::Identity(2, 2),
+      numbers::Matrix::Zero(2, 1), C, -C, -numbers::Matrix::Identity(1, 1);
   numbers::Matrix flow(3, 3);
   flow << A - L * C, L, C * A - C * L * C - H * C, C * L + scalar(H);
   numbers::Matrix jump = numbers::Matrix::Zero(3, 3);

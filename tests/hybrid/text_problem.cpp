@@ -1,5 +1,7 @@
 #include "hybrid/text_problem.h"
 
+#include <memory>
+
 #include "expr/parser.h"
 
 namespace gainsmith::tests {
@@ -7,6 +9,8 @@ namespace gainsmith::tests {
 namespace {
 
 constexpr const char* kFile = "test.yaml";
+
+expr::Expression parse(const std::string& text) { return expr::parse(expr::Text(text, kFile)); }
 
 std::vector<model::Named> named(const Pairs& entries) {
   std::vector<model::Named> result;
@@ -22,8 +26,6 @@ model::Declaration declare(const std::string& name, const std::string& shape) {
 }
 
 }  // namespace
-
-expr::Expression parse(const std::string& text) { return expr::parse(expr::Text(text, kFile)); }
 
 TextProblem& TextProblem::data(const std::string& name, const std::string& shape,
                                const std::string& value) {
@@ -43,8 +45,28 @@ TextProblem& TextProblem::gain(const std::string& name, const numbers::Matrix& v
   return *this;
 }
 
+TextProblem& TextProblem::gain_function(const std::string& name,
+                                        const std::vector<double>& coefficients) {
+  method_.gains.push_back({name, parse("zeros(1, 1)"), {}, "s"});
+  model::GainFunction function{name, "s", model::GainFunction::Kind::polynomial, "", {}};
+  for (const double coefficient : coefficients)
+    function.coefficients.push_back(scalar(coefficient));
+  gains.gain_functions.push_back(std::move(function));
+  return *this;
+}
+
 TextProblem& TextProblem::unknown(const std::string& name, const std::string& shape) {
   method_.unknowns.push_back({declare(name, shape), "", std::nullopt});
+  return *this;
+}
+
+TextProblem& TextProblem::unknown_function(const std::string& name,
+                                           const std::vector<double>& coefficients) {
+  const std::string degree = std::to_string(coefficients.size() - 1);
+  method_.unknowns.push_back({declare(name, "scalar"), "s", parse(degree)});
+  for (const double coefficient : coefficients)
+    gains.unknowns.emplace_back(name + "_" + std::to_string(gains.unknowns.size()),
+                                scalar(coefficient));
   return *this;
 }
 
@@ -76,26 +98,25 @@ TextProblem& TextProblem::timer(const std::string& low, const std::string& high,
 }
 
 TextProblem& TextProblem::nonincreasing(const std::string& name, const std::string& value) {
-  method_.claims.push_back({name, model::Claim::Kind::nonincreasing, parse(value), {}, {}, {}, {}});
+  method_.claims.push_back({name, model::ClaimKind::nonincreasing, parse(value), {}, {}, {}, {}});
   return *this;
 }
 
 TextProblem& TextProblem::cost(const std::string& name, const std::string& bound,
                                const std::string& flow_cost, const std::string& jump_cost) {
   method_.claims.push_back(
-      {name, model::Claim::Kind::cost, parse(bound), parse(flow_cost), parse(jump_cost), {}, {}});
+      {name, model::ClaimKind::cost, parse(bound), parse(flow_cost), parse(jump_cost), {}, {}});
   return *this;
 }
 
 TextProblem& TextProblem::shrinks(const std::string& name, const std::string& value,
                                   const std::string& factor) {
   method_.claims.push_back(
-      {name, model::Claim::Kind::shrinks, parse(value), {}, {}, parse(factor), {}});
+      {name, model::ClaimKind::shrinks, parse(value), {}, {}, parse(factor), {}});
   return *this;
 }
 
-TextProblem& TextProblem::law(model::SamplingLaw::Kind kind,
-                              const std::vector<std::string>& values) {
+TextProblem& TextProblem::law(model::LawKind kind, const std::vector<std::string>& values) {
   model::SamplingLaw law{kind, {}, {kFile, 9, 5}};
   for (const std::string& value : values) law.values.push_back(parse(value));
   problem_.campaign.sampling.push_back(law);
@@ -112,7 +133,7 @@ TextProblem& TextProblem::horizon(const std::string& value) {
   return *this;
 }
 
-TextProblem& TextProblem::start(const std::string& state, model::InitialValue::Kind kind,
+TextProblem& TextProblem::start(const std::string& state, model::StartKind kind,
                                 const std::vector<std::string>& values) {
   model::InitialValue initial{state, kind, {}, {kFile, 11, 5}};
   for (const std::string& value : values) {
@@ -128,9 +149,16 @@ TextProblem& TextProblem::runs(std::uint64_t count) {
   return *this;
 }
 
-model::Instance TextProblem::instance() {
-  problem_.method = std::make_shared<const model::Method>(method_);
-  return model::make_instance(problem_);
+model::Instance TextProblem::instance() const {
+  model::Problem problem = problem_;
+  problem.method = std::make_shared<const model::Method>(method_);
+  return model::bind(problem);
+}
+
+expr::Program TextProblem::program(const std::string& text) const {
+  TextProblem problem = *this;
+  problem.signals({{"value of " + text, text}});
+  return problem.instance().design->signals.front().value.program;
 }
 
 TextProblem sampled_data(const std::string& T2, const numbers::Matrix& L, const numbers::Matrix& F,

@@ -1,17 +1,14 @@
 // Problems for the tests of hybrid and verify, written as text without a YAML file.
 #pragma once
 
-#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "model/bind.h"
 #include "model/gains.h"
-#include "model/instance.h"
 
 namespace gainsmith::tests {
-
-expr::Expression parse(const std::string& text);
 
 /// {"A", "[0, 1; 2, 3]"}.
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -21,7 +18,11 @@ class TextProblem {
  public:
   TextProblem& data(const std::string& name, const std::string& shape, const std::string& value);
   TextProblem& gain(const std::string& name, const numbers::Matrix& value);
+  /// A gain that is the polynomial with these coefficients in s.
+  TextProblem& gain_function(const std::string& name, const std::vector<double>& coefficients);
   TextProblem& unknown(const std::string& name, const std::string& shape);
+  /// A scalar unknown that is the polynomial with these coefficients in s.
+  TextProblem& unknown_function(const std::string& name, const std::vector<double>& coefficients);
   TextProblem& state(const std::string& name, const std::string& shape);
   TextProblem& flow(const Pairs& entries);
   TextProblem& jump(const Pairs& entries);
@@ -33,15 +34,17 @@ class TextProblem {
                     const std::string& jump_cost);
   TextProblem& shrinks(const std::string& name, const std::string& value,
                        const std::string& factor);
-  TextProblem& law(model::SamplingLaw::Kind kind, const std::vector<std::string>& values = {});
+  TextProblem& law(model::LawKind kind, const std::vector<std::string>& values = {});
   TextProblem& first(const std::string& value);
   TextProblem& horizon(const std::string& value);
-  TextProblem& start(const std::string& state, model::InitialValue::Kind kind,
+  TextProblem& start(const std::string& state, model::StartKind kind,
                      const std::vector<std::string>& values);
   TextProblem& runs(std::uint64_t count);
 
-  /// Stands as long as this object.
-  model::Instance instance();
+  model::Instance instance() const;
+  /// An expression over data, gains, unknowns, states and the timer.
+  expr::Program program(const std::string& text) const;
+
   model::Gains gains;
 
  private:
@@ -49,8 +52,8 @@ class TextProblem {
   model::Problem problem_;
 };
 
-/// The plant, observer and errors of theory/sampled-data.md with the published A, C, T1 and the
-/// given T2, the given gains, signals e and q, first timer value in [0, T2].
+/// The plant (1), observer (4) and errors of Ferrante and Seuret 2021 with the published A, C, T1
+/// and the given T2, the given gains, signals e and q, first timer value in [0, T2].
 TextProblem sampled_data(const std::string& T2, const numbers::Matrix& L, const numbers::Matrix& F,
                          const numbers::Matrix& H);
 

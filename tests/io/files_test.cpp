@@ -8,7 +8,7 @@
 #include "base/file.h"
 #include "io/method_yaml.h"
 #include "io/problem_text.h"
-#include "model/instance.h"
+#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -38,8 +38,7 @@ TEST(Problems, OfTheRepositoryParseAndCheck) {
   for (const fs::path& path : files) {
     SCOPED_TRACE(path.filename().string());
     const model::Problem problem = parse_problem(read_text(path), path.string(), library());
-    const model::Instance instance = model::make_instance(problem);
-    model::check_everything(instance);
+    EXPECT_NO_THROW(model::bind(problem));
     const fs::path named = problem.name + ".yaml";
     EXPECT_EQ(named, fs::relative(path, GAINSMITH_PROBLEMS)) << "the name is the path";
     EXPECT_TRUE(problem.expect) << "a problem of the repository says what is expected";
@@ -64,9 +63,7 @@ TEST(Problems, EveryBuiltInMethodIsUsableWithItsDefaults) {
       if (!parameter.fallback) text += parameter.name + ": 1, ";
     text += "}\n";
     const model::Problem problem = read_problem(text);
-    const model::Instance instance = model::make_instance(problem);
-    model::check_everything(instance);
-    EXPECT_EQ(instance.unknowns.size(), method.unknowns.size());
+    EXPECT_EQ(model::bind(problem).design->unknowns.size(), method.unknowns.size());
   }
 }
 

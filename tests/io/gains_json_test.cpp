@@ -10,11 +10,17 @@
 #include <string>
 
 #include "io/problem_text.h"
+#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
 
 using tests::input_error;
+
+const model::Statement& statement() {
+  static const model::Statement kStatement = model::bind(read_problem(kProblem)).design->statement;
+  return kStatement;
+}
 
 /// A gain file in which every part stands, with random numbers of all magnitudes.
 class RandomGains {
@@ -40,7 +46,7 @@ class RandomGains {
           {"K", "tau", Kind::polynomial, "inv(P)*Y(tau)", {matrix(2, 1), matrix(2, 1)}},
           {"M", "s", Kind::formula, "Y(s)'*Y(s)", {}},
           {"N", "s", Kind::vertices, "Y(s)", {}}};
-      gains.functions = {{"Y(tau)", "Y_0 + \"Y_1\"*tau"}};
+      gains.functions = {{"Y(tau)", "Y_0 + \"Y_1\"*tau", {}}};
     }
     if (random_() % 2 == 0) gains.searched = {{"T2", number()}, {"delta", number()}};
     for (int i = 0; i < 2; ++i)
@@ -51,7 +57,7 @@ class RandomGains {
       gains.certificate = model::CertificateRecord{
           number(), number(), number(), number(), true, {{"flow", matrix(2, 2)}}, "hull"};
     if (random_() % 2 == 0) gains.search = search();
-    gains.statement = model::statement_of(read_problem(kProblem));
+    gains.statement = statement();
     gains.timings = {{"solve", number()}, {"total", 0.25}};
     return gains;
   }

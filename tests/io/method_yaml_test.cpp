@@ -29,15 +29,15 @@ TEST(Method, IsReadWhole) {
   EXPECT_EQ(method.let[0].signature.parameters, std::vector<std::string>{"tau"});
   ASSERT_EQ(method.require.size(), 2U);
   ASSERT_EQ(method.require[1].forall.size(), 1U);
-  EXPECT_EQ(method.require[1].forall[0].over, model::Forall::Over::interval);
+  EXPECT_EQ(method.require[1].forall[0].over, model::Over::interval);
   EXPECT_EQ(method.require[1].place, (Place{"m.yaml", 17, 3}));
   ASSERT_TRUE(method.timer);
   EXPECT_EQ(method.timer->first_high.text->str(), "2") << "first is like reset when left out";
   ASSERT_EQ(method.claims.size(), 3U);
-  EXPECT_EQ(method.claims[1].kind, model::Claim::Kind::cost);
+  EXPECT_EQ(method.claims[1].kind, model::ClaimKind::cost);
   EXPECT_TRUE(method.claims[1].flow_cost);
   EXPECT_FALSE(method.claims[1].jump_cost);
-  EXPECT_EQ(method.claims[2].kind, model::Claim::Kind::shrinks);
+  EXPECT_EQ(method.claims[2].kind, model::ClaimKind::shrinks);
 }
 
 model::Forall forall(const std::string& text) { return parse_forall({text, "f"}); }
@@ -45,11 +45,11 @@ model::Forall forall(const std::string& text) { return parse_forall({text, "f"})
 TEST(Forall, IsAnIntervalOrASet) {
   const model::Forall interval = forall("tau in [0, max(T1, T2)]");
   EXPECT_EQ(interval.variable, "tau");
-  EXPECT_EQ(interval.over, model::Forall::Over::interval);
+  EXPECT_EQ(interval.over, model::Over::interval);
   ASSERT_EQ(interval.points.size(), 2U);
   EXPECT_EQ(interval.points[1].text->str(), " max(T1, T2)");
   const model::Forall set = forall("s in  {1, 2*(3), A(1, 2)} ");
-  EXPECT_EQ(set.over, model::Forall::Over::set);
+  EXPECT_EQ(set.over, model::Over::set);
   EXPECT_EQ(set.points.size(), 3U);
   EXPECT_EQ(forall("s in {0}").points.size(), 1U);
 }

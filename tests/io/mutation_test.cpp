@@ -7,7 +7,7 @@
 
 #include "io/method_yaml.h"
 #include "io/problem_text.h"
-#include "model/instance.h"
+#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -72,10 +72,8 @@ constexpr unsigned kMutations = 2000;
 TEST(Mutations, OfAProblemAreReadOrRefused) {
   unsigned read = 0;
   for (unsigned seed = 0; seed < kMutations; ++seed)
-    read += reads(Mutator(seed)(kProblem), [](const std::string& text) {
-      const model::Problem problem = read_problem(text);
-      model::check_everything(model::make_instance(problem));
-    });
+    read += reads(Mutator(seed)(kProblem),
+                  [](const std::string& text) { model::bind(read_problem(text)); });
   EXPECT_GT(read, 0U) << "every mutation was refused: the test does not reach far";
   EXPECT_LT(read, kMutations);
 }
@@ -85,9 +83,8 @@ TEST(Mutations, OfAMethodAreReadOrRefused) {
   for (unsigned seed = 0; seed < kMutations; ++seed)
     read += reads(Mutator(seed)(kMethod), [](const std::string& text) {
       const MethodLibrary own{[&](const std::string&) { return text; }, {"own"}};
-      const model::Problem problem =
-          parse_problem("problem: a\nmethod: own\ndata: {A: [[1, 2], [3, 4]]}\n", "p.yaml", own);
-      model::check_everything(model::make_instance(problem));
+      model::bind(
+          parse_problem("problem: a\nmethod: own\ndata: {A: [[1, 2], [3, 4]]}\n", "p.yaml", own));
     });
   EXPECT_GT(read, 0U);
   EXPECT_LT(read, kMutations);

@@ -29,8 +29,8 @@ TEST(Problem, IsReadWhole) {
 }
 
 TEST(Problem, HasACampaign) {
-  using Law = model::SamplingLaw::Kind;
-  using Initial = model::InitialValue::Kind;
+  using Law = model::LawKind;
+  using Initial = model::StartKind;
   const model::Campaign campaign = read_problem(kProblem).campaign;
   EXPECT_EQ(campaign.runs, 20U);
   EXPECT_EQ(campaign.seed, 3U);

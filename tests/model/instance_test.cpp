@@ -3,105 +3,153 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include "expr/compile.h"
 #include "expr/parser.h"
+#include "model/binding.h"
 #include "model/small_problem.h"
+#include "support/input_error.h"
 
 namespace gainsmith::model {
 namespace {
 
 using Shapes = std::vector<std::pair<std::string, expr::Shape>>;
 
+template <class Item>
+Shapes shapes_of(const std::vector<Item>& items) {
+  Shapes shapes;
+  for (const Item& item : items) shapes.emplace_back(item.name, item.shape);
+  return shapes;
+}
+
+using Names = std::set<std::string>;
+
+Names inputs_of(const expr::Program& program) {
+  Names names;
+  for (const expr::Input& input : program.inputs) names.insert(input.name);
+  return names;
+}
+
 TEST(Instance, FindsDimensionsDataAndParameters) {
   const Small small;
   const Instance& instance = small.instance;
-  EXPECT_EQ(instance.dimensions, (Dimensions{{"n", 2}, {"m", 1}}));
-  EXPECT_EQ(instance.data.at("A"), (numbers::Matrix{{1, 2}, {3, 4}}));
-  EXPECT_EQ(instance.data.at("T1")(0, 0), 0.5);
-  EXPECT_EQ(instance.data.at("T2")(0, 0), 1.0) << "a default may use the data before it";
-  EXPECT_EQ(instance.data.at("Q"), (numbers::Matrix{{2, 0}, {0, 2}}));
-  EXPECT_EQ(instance.parameters.at("delta")(0, 0), 0.5 / 10);
-  EXPECT_EQ(instance.parameters.at("rate")(0, 0), 1);
-  EXPECT_EQ(instance.known_values().size(), instance.data.size() + 2);
+  EXPECT_EQ(small.design().dimensions, (Dimensions{{"n", 2}, {"m", 1}}));
+  EXPECT_EQ(instance.values.at("A"), (numbers::Matrix{{1, 2}, {3, 4}}));
+  EXPECT_EQ(instance.values.at("T1")(0, 0), 0.5);
+  EXPECT_EQ(instance.values.at("T2")(0, 0), 1.0) << "a default may use the data before it";
+  EXPECT_EQ(instance.values.at("Q"), (numbers::Matrix{{2, 0}, {0, 2}}));
+  EXPECT_EQ(instance.values.at("delta")(0, 0), 0.5 / 10);
+  EXPECT_EQ(instance.values.at("rate")(0, 0), 1);
+  EXPECT_EQ(small.design().data.size(), small.problem->method->data.size());
+  EXPECT_EQ(small.design().parameters.size(), 2U);
+  EXPECT_EQ(instance.values.size(), small.design().data.size() + 2);
 }
 
 TEST(Instance, AnOverrideReplacesAScalarAndWhatFollowsFromIt) {
   const Small small;
-  const Instance instance = make_instance(*small.problem, {{"T1", 2.0}, {"rate", 7.0}});
-  EXPECT_EQ(instance.data.at("T1")(0, 0), 2.0);
-  EXPECT_EQ(instance.data.at("T2")(0, 0), 4.0) << "its default is 2*T1";
-  EXPECT_EQ(instance.parameters.at("delta")(0, 0), 2.0 / 10) << "its default is T1/10";
-  EXPECT_EQ(instance.parameters.at("rate")(0, 0), 7.0);
-  EXPECT_EQ(instance.data.at("A"), small.instance.data.at("A"));
+  const Instance instance = bind(small.problem, {{"T1", 2.0}, {"rate", 7.0}});
+  EXPECT_EQ(instance.values.at("T1")(0, 0), 2.0);
+  EXPECT_EQ(instance.values.at("T2")(0, 0), 4.0) << "its default is 2*T1";
+  EXPECT_EQ(instance.values.at("delta")(0, 0), 2.0 / 10) << "its default is T1/10";
+  EXPECT_EQ(instance.values.at("rate")(0, 0), 7.0);
+  EXPECT_EQ(instance.values.at("A"), small.instance.values.at("A"));
   EXPECT_EQ(instance.overrides, (Overrides{{"T1", 2.0}, {"rate", 7.0}}));
 }
 
 TEST(Instance, AnOverrideMayGiveADatumThatTheProblemLeavesOut) {
-  const io::MethodLibrary library{[](const std::string&) { return kSmallMethod; }, {"small"}};
-  const Problem problem =
-      io::parse_problem(changed(kSmallProblem, "  T1: 0.5\n", ""), "p.yaml", library);
-  EXPECT_THROW(make_instance(problem), InputError);
-  EXPECT_EQ(make_instance(problem, {{"T1", 0.25}}).data.at("T1")(0, 0), 0.25);
+  const Problem problem = small_problem(changed(kSmallProblem, "  T1: 0.5\n", ""));
+  const InputError missing = tests::input_error([&] { bind(problem); });
+  const Instance instance = bind(problem, {{"T1", 0.25}});
+  EXPECT_EQ(instance.values.at("T1")(0, 0), 0.25);
+  const InputError again = tests::input_error([&] { evaluate(instance.design); });
+  EXPECT_STREQ(again.what(), missing.what());
 }
 
 TEST(Instance, AFlatListIsAColumnWhereAColumnIsDeclared) {
-  EXPECT_EQ(Small().instance.data.at("b"), (numbers::Matrix{{5}, {6}}));
+  EXPECT_EQ(Small().instance.values.at("b"), (numbers::Matrix{{5}, {6}}));
   const Small upright(changed(kSmallProblem, "b: [5, 6]", "b: [[5], [6]]"));
-  EXPECT_EQ(upright.instance.data.at("b"), (numbers::Matrix{{5}, {6}}));
+  EXPECT_EQ(upright.instance.values.at("b"), (numbers::Matrix{{5}, {6}}));
 }
 
 TEST(Instance, KnowsTheShapesOfUnknownsStatesAndGains) {
   const Small small;
-  EXPECT_EQ(small.instance.unknowns,
+  EXPECT_EQ(unknown_matrices(small.design(), polynomials(small.design())),
             (std::vector<UnknownMatrix>{{"P", {2, 2}, Structure::symmetric},
                                         {"X", {2, 1}, Structure::full},
                                         {"g", {1, 1}, Structure::scalar}}));
-  EXPECT_EQ(small.instance.states, (Shapes{{"z", {2, 1}}, {"zh", {2, 1}}, {"th", {1, 1}}}));
-  EXPECT_EQ(gain_shapes(small.instance), (Shapes{{"K", {1, 2}}, {"A", {2, 2}}}));
+  EXPECT_EQ(shapes_of(small.design().states),
+            (Shapes{{"z", {2, 1}}, {"zh", {2, 1}}, {"th", {1, 1}}}));
+  EXPECT_EQ(shapes_of(small.design().gains), (Shapes{{"K", {1, 2}}, {"A", {2, 2}}}));
 }
 
 TEST(Instance, AMatrixSymmetricToRoundingIsMadeExactlySo) {
   const Small small(
       changed(kSmallProblem, "  T1:", "  Q: [[1, 0.30000000000000004], [0.3, 1]]\n  T1:"));
-  const numbers::Matrix& Q = small.instance.data.at("Q");
+  const numbers::Matrix& Q = small.instance.values.at("Q");
   EXPECT_EQ(Q(0, 1), Q(1, 0));
   EXPECT_NEAR(Q(0, 1), 0.3, 1e-15);
 }
 
 TEST(Instance, IdentityAndZeroTakeTheDeclaredSize) {
   const Small small(changed(kSmallProblem, "  T1:", "  Q: 0\n  D: -3*I\n  T1:"));
-  EXPECT_EQ(small.instance.data.at("Q"), numbers::Matrix::Zero(2, 2));
-  EXPECT_EQ(small.instance.data.at("D"), -3 * numbers::Matrix::Identity(2, 2));
+  EXPECT_EQ(small.instance.values.at("Q"), numbers::Matrix::Zero(2, 2));
+  EXPECT_EQ(small.instance.values.at("D"), -3 * numbers::Matrix::Identity(2, 2));
 }
 
-TEST(Instance, ItsScopesHoldWhatEachPartMayUse) {
+/// What stands behind definitions and outputs is an input: data, unknowns, gains, states, the
+/// timer.
+TEST(Instance, ProgramsTakeWhatTheyUseAsInputs) {
   const Small small;
-  const auto design = small.instance.design_scope();
-  EXPECT_TRUE(design.symbols.contains("P"));
-  EXPECT_FALSE(design.symbols.at("P").value);
-  EXPECT_TRUE(design.symbols.at("A").value);
-  EXPECT_FALSE(design.symbols.contains("z"));
-  const auto simulation = small.instance.simulation_scope();
-  for (const char* name : {"P", "K", "z", "zh", "th", "s"})
-    EXPECT_TRUE(simulation.symbols.contains(name)) << name;
-  EXPECT_TRUE(simulation.symbols.at("A").value) << "a gain that is a datum keeps its value";
+  const Design& design = small.design();
+  ASSERT_EQ(design.inequalities.size(), 1U);
+  EXPECT_EQ(inputs_of(design.inequalities[0].comparisons.at(0).difference),
+            (Names{"P", "A", "Q", "g", "delta", "tau"}));
+  EXPECT_EQ(inputs_of(design.objective->program), Names{"g"});
+  EXPECT_EQ(inputs_of(design.gains[0].formula.program), (Names{"b", "P"}));
+  ASSERT_EQ(design.flow.size(), 2U);
+  EXPECT_EQ(inputs_of(design.flow[1].value.program), (Names{"K", "zh"}));
+  EXPECT_EQ(design.states[design.flow[1].state].name, "th");
+  EXPECT_EQ(inputs_of(design.claims[0].value.program), (Names{"P", "z", "zh", "s"}));
+  EXPECT_EQ(inputs_of(design.claims[1].flow_cost->program), (Names{"b", "z"}));
+  EXPECT_EQ(inputs_of(design.campaign.horizon->program), Names{"T2"});
+  EXPECT_EQ(inputs_of(design.expect->values[0].what.program), Names{"objective"});
+  EXPECT_EQ(inputs_of(design.data[5].value->program), Names{"T1"}) << "T2: 2*T1";
+}
+
+TEST(Instance, EachPartMayUseWhatItsScopeHolds) {
+  const Small small;
+  const model::Names& names = *small.design().names;
+  const std::vector<std::pair<std::string, int>> first = {
+      {"A", 0}, {"delta", 0}, {"P", 1}, {"g", 1},        {"K", 2},
+      {"z", 2}, {"th", 2},    {"s", 2}, {"objective", 3}};
+  const expr::Scope* scopes[] = {&names.known, &names.design, &names.running, &names.results};
+  for (const auto& [name, from] : first)
+    for (int k = 0; k < 4; ++k)
+      EXPECT_EQ(scopes[k]->symbols.contains(name), k >= from) << name << " in scope " << k;
+  EXPECT_TRUE(names.running.symbols.at("A").known) << "a gain that is a datum keeps its value";
+  EXPECT_FALSE(names.design.symbols.at("P").known);
 }
 
 TEST(Instance, DefinitionsOutputsAndSignalsEvaluate) {
   const Small small;
-  numbers::Values values = small.instance.known_values();
+  numbers::Values values = small.instance.values;
   values["z"] = numbers::Matrix{{1}, {2}};
   values["zh"] = numbers::Matrix{{3}, {5}};
-  const auto scope = small.instance.simulation_scope();
   const auto value = [&](const std::string& text) {
-    return scalar_value(expr::parse({text, "t"}), scope, values);
+    const auto program =
+        expr::compile(expr::parse({text, "t"}), small.design().names->running, expr::Shape{});
+    return numbers::evaluate(program, values)(0, 0);
   };
   EXPECT_EQ(value("y"), 5 * 1 + 6 * 2);
   EXPECT_EQ(value("e(2)"), 2 - 5);
   EXPECT_DOUBLE_EQ(value("f(2)"), std::exp(0.05 * 2));
+  ASSERT_EQ(small.design().signals.size(), 1U);
+  EXPECT_EQ(numbers::evaluate(small.design().signals[0].value.program, values),
+            (numbers::Matrix{{-2}, {-3}}));
 }
 
 }  // namespace

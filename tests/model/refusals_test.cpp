@@ -47,7 +47,7 @@ TEST(Refusal, MissingAndMisspeltParameters) {
 TEST(Refusal, OverridesOfWhatIsNoScalar) {
   const Small small;
   const auto message = [&](const Overrides& overrides) {
-    return input_error([&] { make_instance(*small.problem, overrides); }).message();
+    return input_error([&] { bind(small.problem, overrides); }).message();
   };
   EXPECT_NE(message({{"T11", 1}}).find("did you mean 'T1'?"), std::string::npos);
   EXPECT_NE(message({{"A", 1}}).find("'A' is a matrix (n x n)"), std::string::npos);

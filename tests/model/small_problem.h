@@ -7,7 +7,7 @@
 #include <string>
 
 #include "io/problem_yaml.h"
-#include "model/instance.h"
+#include "model/bind.h"
 
 namespace gainsmith::model {
 
@@ -63,17 +63,23 @@ inline std::string changed(std::string text, const std::string& from, const std:
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-/// A problem and its instance, which points to it.
+inline Problem small_problem(const std::string& text = kSmallProblem,
+                             const std::string& method = kSmallMethod) {
+  return io::parse_problem(text, "p.yaml", {[&](const std::string&) { return method; }, {"small"}});
+}
+
+/// A problem and its instance.
 struct Small {
-  std::unique_ptr<Problem> problem;
+  std::shared_ptr<const Problem> problem;
   Instance instance;
 
   explicit Small(const std::string& text = kSmallProblem,
                  const std::string& method = kSmallMethod) {
-    const io::MethodLibrary library{[&](const std::string&) { return method; }, {"small"}};
-    problem = std::make_unique<Problem>(io::parse_problem(text, "p.yaml", library));
-    instance = make_instance(*problem);
+    problem = std::make_shared<const Problem>(small_problem(text, method));
+    instance = bind(problem);
   }
+
+  const Design& design() const { return *instance.design; }
 };
 
 }  // namespace gainsmith::model

@@ -5,9 +5,11 @@
 
 #include <cmath>
 #include <string>
+#include <vector>
 
 #include "expr/compile.h"
 #include "expr/parser.h"
+#include "model/binding.h"
 #include "model/small_problem.h"
 #include "support/input_error.h"
 
@@ -30,14 +32,15 @@ Gains file() {
   gains.file = "g.json";
   gains.gains = {{"K", numbers::Matrix{{9, 8}}}};
   gains.unknowns = {{"P", 2 * numbers::Matrix::Identity(2, 2)}, {"X_0", kFirst}, {"X_1", kSecond}};
-  gains.functions = {{"X(tau)", "X_0 + X_1*tau"}};
+  gains.functions = {{"X(tau)", "X_0 + X_1*tau", {}}};
   return gains;
 }
 
 numbers::Matrix value(const Gains& gains, const std::string& text) {
   const Small small(kSmallProblem, kMethod);
-  const Stated stated = state(small.instance, gains);
-  return numbers::evaluate(expr::compile(expr::parse({text, "test"}), stated.scope), stated.values);
+  const expr::Program program =
+      expr::compile(expr::parse({text, "test"}), small.design().names->running);
+  return state(small.instance, gains).value(program).value();
 }
 
 std::string refusal(const Gains& gains) {
@@ -46,17 +49,19 @@ std::string refusal(const Gains& gains) {
   return error.message();
 }
 
-TEST(Stated, AGainIsTheMatrixOfTheFile) { EXPECT_EQ(value(file(), "K"), (numbers::Matrix{{9, 8}})); }
+TEST(Stated, AGainIsTheMatrixOfTheFile) {
+  EXPECT_EQ(value(file(), "K"), (numbers::Matrix{{9, 8}}));
+}
 
 TEST(Stated, AFormulaIsEvaluatedOverTheFilesTexts) {
   Gains gains = file();
   gains.gain_functions = {{"G", "t", Kind::formula, "inv(P)*X(t)", {}}};
   EXPECT_TRUE(value(gains, "G(3)").isApprox((kFirst + 3 * kSecond) / 2, 1e-15));
-  gains.functions = {{"X(tau)", "exp(-tau)*X_0 + (1 - exp(-tau))*X_1"}};
+  gains.functions = {{"X(tau)", "exp(-tau)*X_0 + (1 - exp(-tau))*X_1", {}}};
   const double w = std::exp(-3.0);
   EXPECT_TRUE(value(gains, "G(3)").isApprox((w * kFirst + (1 - w) * kSecond) / 2, 1e-15));
   gains.gain_functions[0].formula = "-X(2*t)";
-  gains.functions = {{"X(tau)", "X_0 + X_1*tau"}};
+  gains.functions = {{"X(tau)", "X_0 + X_1*tau", {}}};
   EXPECT_TRUE(value(gains, "G(3)").isApprox(-(kFirst + 6 * kSecond), 1e-15));
 }
 
@@ -75,19 +80,48 @@ TEST(Stated, AConstantMayBeCalled) {
 TEST(Stated, MoreCoefficientsThanTheDegreeAskFor) {
   Gains gains = file();
   gains.unknowns.emplace_back("X_2", kFirst);
-  gains.functions = {{"X(tau)", "X_0*tau + X_1*(1 - tau) + X_2"}};
+  gains.functions = {{"X(tau)", "X_0*tau + X_1*(1 - tau) + X_2", {}}};
   const Small small(kSmallProblem, kMethod);
-  EXPECT_EQ(with_functions(small.instance, gains).unknowns.size(), 5U);
+  EXPECT_EQ(state(small.instance, gains).unknowns,
+            (std::vector<UnknownMatrix>{{"P", {2, 2}, Structure::symmetric},
+                                        {"X_0", {2, 1}},
+                                        {"X_1", {2, 1}},
+                                        {"X_2", {2, 1}},
+                                        {"g", {1, 1}, Structure::scalar}}));
   EXPECT_TRUE(value(gains, "X(0.5)").isApprox(1.5 * kFirst + 0.5 * kSecond, 1e-15));
+}
+
+/// The file's formula may use all coefficients of the file, and the data as they are now.
+TEST(Stated, AFormulaUsesTheCoefficientsAndDataOfTheFile) {
+  Gains gains = file();
+  gains.unknowns.emplace_back("X_2", kFirst);
+  gains.functions = {{"X(tau)", "X_0*tau + X_1*(1 - tau) + X_2", {}}};
+  gains.gain_functions = {{"G", "t", Kind::formula, "X_2*t", {}}};
+  EXPECT_TRUE(value(gains, "G(3)").isApprox(3 * kFirst, 1e-15));
+
+  const Small small(kSmallProblem, kMethod);
+  gains.gain_functions[0].formula = "orth([T1 - 0.5; 0; 0; 0])*0 + X(t)";
+  EXPECT_NE(tests::input_error([&] { state(small.instance, gains); }).message().find("4 x 0"),
+            std::string::npos);
+  gains.gain_functions[0].formula = "[trace(orth(T1 - 0.5)*orth(T1 - 0.5)'); 0]";
+  const auto program = expr::compile(expr::parse({"G(1)", "test"}), small.design().names->running);
+  EXPECT_EQ(state(small.instance, gains).value(program).value()(0, 0), 0);
+  const Instance later = evaluate(small.instance.design, {{"T1", 0.75}});
+  EXPECT_EQ(later.design, small.instance.design);
+  EXPECT_DOUBLE_EQ(state(later, gains).value(program).value()(0, 0), 1);
 }
 
 TEST(Stated, WhatDoesNotFitIsRefused) {
   Gains gains = file();
-  gains.functions = {{"Y(tau)", "X_0"}};
+  gains.functions = {{"Y(tau)", "X_0", {}}};
   EXPECT_NE(refusal(gains).find("defines Y(tau), which is no unknown function"), std::string::npos);
   gains = file();
-  gains.functions = {{"X(tau)", "X_0 + X_3"}};
+  gains.functions = {{"X(tau)", "X_0 + X_3", {}}};
   EXPECT_NE(refusal(gains).find("unknown name 'X_3'"), std::string::npos);
+  gains.functions = {{"X(tau)", "X_0'", {}}};
+  EXPECT_NE(refusal(gains).find("X(tau) is 2 x 1, but 'X_0'' is 1 x 2"), std::string::npos);
+  gains.functions = {{"X(tau)", "X_0 +", {}}};
+  EXPECT_NE(refusal(gains).find("expected"), std::string::npos);
   gains = file();
   gains.unknowns.erase(gains.unknowns.begin() + 1);
   EXPECT_NE(refusal(gains).find("lacks the coefficients X_0"), std::string::npos);
@@ -102,15 +136,20 @@ TEST(Stated, WhatDoesNotFitIsRefused) {
   EXPECT_NE(refusal(gains).find("no coefficients"), std::string::npos);
   gains.gain_functions = {{"G", "t", Kind::formula, "b'", {}}};
   EXPECT_NE(refusal(gains).find("G in the gain file is 1 x 2, expected 2 x 1"), std::string::npos);
+  gains.gain_functions = {{"G", "s", Kind::formula, "inv(P)*X(t)", {}}};
+  EXPECT_NE(refusal(gains).find("unknown name 't'"), std::string::npos);
 }
 
 TEST(Stated, WithoutAPointNothingOfItHasAValue) {
   Gains gains;
-  gains.functions = {{"X(tau)", "X_0 + X_1*tau"}};
+  gains.functions = {{"X(tau)", "X_0 + X_1*tau", {}}};
   const Small small(kSmallProblem, kMethod);
   const Stated stated = state(small.instance, gains);
   EXPECT_FALSE(stated.values.contains("X_0"));
-  EXPECT_TRUE(stated.scope.definitions.contains("G"));
+  EXPECT_TRUE(stated.bodies.contains("G"));
+  EXPECT_TRUE(stated.bodies.contains("X"));
+  const auto program = expr::compile(expr::parse({"G(1)", "test"}), small.design().names->running);
+  EXPECT_FALSE(stated.value(program));
 }
 
 }  // namespace

@@ -12,14 +12,14 @@ namespace gainsmith::verify {
 namespace {
 
 using model::CampaignVerdict;
-using model::InitialValue;
-using model::SamplingLaw;
+using model::LawKind;
+using model::StartKind;
 using tests::column;
 using tests::sampled_data;
 using tests::scalar;
 using tests::TextProblem;
 
-// The shape in which row II contracts by 0.7789 per sample (theory/sampled-data.md, item 3).
+// The shape in which row II contracts by 0.7789 per sample (docs/theory/sampled-data.md).
 constexpr const char* kShape = "[5.697, -1.308; -1.308, 1.364]";
 
 TextProblem row_two() {
@@ -63,8 +63,8 @@ TEST(Campaign, PublishedRowThreeIsCaughtAtTheLongestInterval) {
   problem.runs(30)
       .horizon("44")
       .shrinks("shrinks", "norm(e)", "0.5")
-      .law(SamplingLaw::Kind::constant, {"T1"});
-  problem.law(SamplingLaw::Kind::constant, {"T2"});
+      .law(LawKind::constant, {"T1"});
+  problem.law(LawKind::constant, {"T2"});
   const Report report = run(problem);
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
   EXPECT_EQ(report.violations, 15U);
@@ -106,7 +106,7 @@ TextProblem growing() {
   TextProblem problem;
   problem.data("a", "scalar", "1").state("x", "scalar").flow({{"x", "a*x"}});
   problem.timer("1", "1", "1", "1").horizon("2").runs(9);
-  problem.start("x", InitialValue::Kind::list, {"1", "2", "3"});
+  problem.start("x", StartKind::list, {"1", "2", "3"});
   return problem;
 }
 
@@ -192,9 +192,9 @@ TEST(Campaign, HowFarAnErrorShrinksNeedsAHorizon) {
 TEST(Campaign, ExactEstimateHoldsInSpiteOfRounding) {
   // With zh(0) = z(0) and th(0) = 0 the error is zero but for rounding, while z grows.
   TextProblem problem = row_two();
-  problem.start("z", InitialValue::Kind::box, {"-10", "10"});
-  problem.start("zh", InitialValue::Kind::expression, {"z"});
-  problem.start("th", InitialValue::Kind::expression, {"zeros(1, 1)"});
+  problem.start("z", StartKind::box, {"-10", "10"});
+  problem.start("zh", StartKind::expression, {"z"});
+  problem.start("th", StartKind::expression, {"zeros(1, 1)"});
   problem.runs(15).horizon("60").nonincreasing("V", "e'*e").cost("J", "e'*e", "e'*e", "0");
   problem.shrinks("shrinks", "norm(e)", "0.1");
   const Report report = run(problem);

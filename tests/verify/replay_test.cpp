@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "hybrid/text_problem.h"
 #include "verify/campaign.h"
 
@@ -59,6 +61,31 @@ TEST(Replay, FindsWhatTheCampaignFound) {
     EXPECT_EQ(finding.t, check.worst.t);
     EXPECT_EQ(finding.j, check.worst.j);
   }
+}
+
+TEST(Replay, FunctionsAreThoseOfTheGainFile) {
+  TextProblem problem;
+  problem.unknown_function("W", {1, 2, -0.5}).gain_function("F", {0.5, -1, 3});
+  problem.state("x", "scalar").jump({{"x", "F(0.25)*x"}}).timer("1", "1", "1", "1").horizon("2.5");
+  problem.signals({{"w", "W(tau)"}}).nonincreasing("V", "W(tau)*x^2");
+  problem.start("x", model::StartKind::expression, {"8"});
+  const Replay result = replay(problem.instance(), problem.gains, 1, 0);
+  const double factor = 0.5 - 0.25 + 3 * 0.25 * 0.25;
+  for (std::size_t k = 0; k < result.arc.samples(); ++k) {
+    const auto row = static_cast<Eigen::Index>(k);
+    const double tau = result.arc.timer[k];
+    const double w = 1 + 2 * tau - 0.5 * tau * tau;
+    const double x = 8 * std::pow(factor, static_cast<double>(result.arc.j[k]));
+    EXPECT_DOUBLE_EQ(result.table(row, find(result, "x")), x);
+    EXPECT_DOUBLE_EQ(result.table(row, find(result, "w")), w);
+    EXPECT_DOUBLE_EQ(result.table(row, find(result, "V")), w * x * x);
+  }
+  EXPECT_EQ(result.arc.j.back(), 2);
+
+  problem.gains.unknowns.clear();
+  const Replay without = replay(problem.instance(), problem.gains, 1, 0);
+  EXPECT_TRUE(without.claims.empty());
+  EXPECT_THAT(without.columns, ElementsAre("t", "j", "tau", "x"));
 }
 
 TEST(Replay, MatrixStatesAreNamedByRowAndColumn) {

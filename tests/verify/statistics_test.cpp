@@ -19,13 +19,18 @@ double binomial(int k, int n, double p) {
 TEST(Statistics, NoViolationHasTheClosedForm) {
   EXPECT_NEAR(violation_probability_bound(0, 10000, 0.95), 1 - std::pow(0.05, 1e-4), 1e-16);
   EXPECT_DOUBLE_EQ(violation_probability_bound(0, 1, 0.95), 0.95);
+  // 1 - exp(x) = -x (1 + x/2 + ...) where runs are many.
+  const double x = std::log(0.05) / 1e15;
+  EXPECT_NEAR(violation_probability_bound(0, 1000000000000000, 0.95) / -x, 1 + x / 2, 1e-14);
 }
 
 TEST(Statistics, BoundSolvesTheBinomialEquation) {
-  for (const auto& [k, n] : {std::pair{1, 10}, {3, 1000}, {999, 1000}, {400, 1000}, {9, 10}}) {
+  for (const auto& [k, n] :
+       {std::pair{1, 10}, {3, 1000}, {999, 1000}, {400, 1000}, {9, 10}, {2, 1000000}}) {
     const double bound = violation_probability_bound(static_cast<std::uint64_t>(k),
                                                      static_cast<std::uint64_t>(n), 0.95);
-    EXPECT_NEAR(binomial(k, n, bound), 0.05, 1e-10) << k << " of " << n;
+    // The logarithms of the factorials cancel, so their rounding grows with n.
+    EXPECT_NEAR(binomial(k, n, bound), 0.05, 1e-10 + 1e-15 * n) << k << " of " << n;
   }
 }
 
@@ -34,12 +39,28 @@ TEST(Statistics, NothingIsExcludedWhenAllRunsViolate) {
   EXPECT_EQ(violation_probability_bound(0, 0, 0.95), 1);
 }
 
-TEST(Statistics, IncompleteBetaOfClosedForms) {
-  for (const double x : {0.0, 0.01, 0.3, 0.77, 1.0}) {
-    EXPECT_NEAR(incomplete_beta(1, 1, x), x, 1e-14);
-    EXPECT_NEAR(incomplete_beta(3, 1, x), x * x * x, 1e-14);
-    EXPECT_NEAR(incomplete_beta(0.5, 0.5, x), 2 / M_PI * std::asin(std::sqrt(x)), 1e-13);
+/// All runs but one: 1 - p^n = 1 - confidence.
+TEST(Statistics, AllButOneHasTheClosedForm) {
+  for (const double confidence : {0.5, 0.95, 0.999}) {
+    for (const int n : {2, 10, 1000}) {
+      const double bound = violation_probability_bound(static_cast<std::uint64_t>(n - 1),
+                                                       static_cast<std::uint64_t>(n), confidence);
+      EXPECT_NEAR(bound, std::pow(confidence, 1.0 / n), 1e-15) << n;
+    }
   }
+}
+
+/// k of 2k + 1: by symmetry one half is as likely above as below.
+TEST(Statistics, AtOneHalfTheBoundIsTheMiddle) {
+  for (const std::uint64_t k : {1U, 7U, 500U, 500000U})
+    EXPECT_NEAR(violation_probability_bound(k, 2 * k + 1, 0.5), 0.5, 1e-15) << k;
+}
+
+TEST(Statistics, MoreViolationsAndMoreConfidenceRaiseTheBound) {
+  const double bound = violation_probability_bound(20, 1000, 0.95);
+  EXPECT_GT(violation_probability_bound(21, 1000, 0.95), bound);
+  EXPECT_GT(violation_probability_bound(20, 1000, 0.99), bound);
+  EXPECT_GT(violation_probability_bound(20, 999, 0.95), bound);
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+// The command line as records: what a subcommand takes, in the order in which its help shows it.
+// command_line.cpp alone knows the library that reads them.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "base/error.h"
+
+namespace gainsmith::app {
+
+/// An option, flag or positional argument: where its value goes, and what the value may be.
+struct Option {
+  /// The type says how the value is read: bool is a flag; an optional stays empty when nothing is
+  /// given, all else keeps its default, which help shows; a vector takes one value each time its
+  /// option stands, or, as a positional argument, all that are left.
+  using Target = std::variant<bool*, int*, unsigned*, std::uint64_t*, double*, std::string*,
+                              std::vector<std::string>*, std::optional<int>*,
+                              std::optional<std::uint64_t>*, std::optional<double>*>;
+  template <typename Number>
+  using Range = std::pair<Number, Number>;
+  using Check = std::function<std::string(const std::string&)>;
+
+  /// `in_name`: "-o,--output"; without dashes for a positional argument.
+  template <typename Value>
+  Option(std::string in_name, Value& value, std::string in_text)
+      : name(std::move(in_name)), target(&value), text(std::move(in_text)) {}
+
+  Option& required() { return is_required = true, *this; }
+  /// Both ends are allowed; their type is the one that help names.
+  template <typename Number>
+  Option& within(Number low, Number high) {
+    return range = Range<Number>(low, high), *this;
+  }
+  Option& not_negative() { return within(0.0, std::numeric_limits<double>::max()); }
+  Option& one_of(std::vector<std::string> words) { return choices = std::move(words), *this; }
+  /// `find_error` says what is wrong with a text; nothing when it is fine.
+  Option& checked(Check find_error) { return check = std::move(find_error), *this; }
+  /// This many values in a row, for a vector.
+  Option& values(int number) { return count = number, *this; }
+  /// Not together with these options, which stand above this one.
+  Option& excludes(std::vector<std::string> names) { return excluded = std::move(names), *this; }
+
+  std::string name;
+  Target target;
+  std::string text;
+  bool is_required = false;
+  std::variant<std::monostate, Range<int>, Range<std::uint64_t>, Range<double>> range;
+  std::vector<std::string> choices;
+  Check check;
+  std::optional<int> count;
+  std::vector<std::string> excluded;
+};
+
+struct Command {
+  std::string name;
+  std::string text;
+  std::vector<Option> options;
+  std::string footer;
+  std::function<ExitCode()> work;  ///< holds what the options' targets point to
+};
+
+struct Program {
+  std::string name;
+  std::string text;
+  std::string version;
+  std::string footer;
+  std::vector<Command> commands;
+};
+
+/// Reads the command line and does the work of its subcommand, or prints help, the version or what
+/// is wrong; the exit code. InputError for an unknown subcommand and where the results could not be
+/// printed; the rest is what the work throws.
+ExitCode run(const Program& program, int argc, char** argv);
+
+}  // namespace gainsmith::app

@@ -1,0 +1,32 @@
+#include "design/exchange.h"
+
+#include <map>
+#include <utility>
+
+#include "forall/centres.h"
+
+namespace gainsmith::design {
+
+bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::Lmi& lmi,
+          const Attempt& attempt) {
+  constexpr std::size_t kMostAtOnce = 24;  // the worst come first
+  std::map<std::size_t, std::vector<forall::Point>> fresh;
+  for (const lmi::Violation& violation : attempt.margins.violations)
+    if (plan.inequalities[violation.inequality].way == model::Way::exchange &&
+        fresh[violation.inequality].size() < kMostAtOnce)
+      fresh[violation.inequality].push_back(violation.point);
+  bool grown = false;
+  for (auto& [k, points] : fresh) {
+    const lmi::Statement& statement = inequalities.statements[k];
+    forall::Imposed& imposed = plan.inequalities[k];
+    const auto sizes = lmi::multiplier_sizes(lmi, attempt.formulation, attempt.solution,
+                                             statement.stated->name, imposed.points.size());
+    for (forall::Point& centre : forall::centres(imposed, statement.domain, sizes))
+      points.push_back(std::move(centre));
+    for (const forall::Point& point : points)
+      grown |= forall::add_point(imposed, statement.domain, point);
+  }
+  return grown;
+}
+
+}  // namespace gainsmith::design

@@ -1,0 +1,13 @@
+// More points for the inequalities that are imposed by exchange.
+#pragma once
+
+#include "design/attempt.h"
+
+namespace gainsmith::design {
+
+/// Adds to each exchange of the plan the worst points at which the attempt's point fails, and those
+/// where its points draw together (forall/centres.h); false when there is none.
+bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::Lmi& lmi,
+          const Attempt& attempt);
+
+}  // namespace gainsmith::design

@@ -1,0 +1,21 @@
+// How many texts were read and bound so far, so that a test can say what does none of it.
+#pragma once
+
+#include <cstdint>
+
+namespace gainsmith::expr {
+
+struct Work {
+  std::uint64_t parsed = 0;  ///< calls of parse() (parser.h)
+  std::uint64_t bound = 0;   ///< calls of compile() and compile_relations() (compile.h)
+
+  bool operator==(const Work&) const = default;
+};
+
+/// Of the whole process, all threads.
+Work work_done();
+
+void count_parsed();
+void count_bound();
+
+}  // namespace gainsmith::expr

@@ -1,0 +1,42 @@
+// "For all tau" by vertices: the box of the ranges of the functions that stand in an inequality.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "forall/monomials.h"
+
+namespace gainsmith::forall {
+
+/// Values for all monomials of a table.
+struct Vertex {
+  std::vector<double> values;
+  std::string label;  ///< "tau = 0.7", "cos(2*tau) = 1, sin(2*tau) = 0", "A = A2"
+};
+
+struct Hull {
+  std::vector<Vertex> vertices;
+  /// Whether each vertex is a point of the domain, so that nothing is lost: every interval variable
+  /// enters through one function at most.
+  bool exact = true;
+};
+
+/// The size that the terms of each monomial of a form reach at most: coefficient times monomial.
+using Sizes = std::map<int, double>;
+
+/// The largest |phi| of a monomial on the domain, or more.
+double largest_value(const Monomial& monomial, const MonomialTable& monomials);
+
+/// The monomials whose terms are rounding noise: below 1e-13 of the largest term on the whole
+/// domain. `coefficients`: the largest |coefficient| of each.
+std::set<int> noise(const Sizes& coefficients, const MonomialTable& monomials);
+
+/// The vertices for the monomials that stand in a form without noise. Each interval that enters
+/// through several functions is cut into `slices` equal parts with a box each. InputError at
+/// `place` for more than 2^12 vertices and for functions that are too large for double.
+Hull hull_of(const std::set<int>& standing, const MonomialTable& monomials, int slices,
+             const Place& place);
+
+}  // namespace gainsmith::forall

@@ -1,0 +1,137 @@
+#include "forall/residues.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "expr/evaluate.h"
+#include "numbers/dense.h"
+
+namespace gainsmith::forall {
+
+namespace {
+
+using Complex = std::complex<double>;
+using numbers::ComplexMatrix;
+
+/// Relative to ||F||: a defective eigenvalue of multiplicity m is split by about eps^(1/m).
+constexpr double kSameEigenvalue = 1e-4;
+constexpr double kRounding = 1e-14;
+
+struct Cluster {
+  Complex mean;
+  int size = 0;
+  double distance = 0;  ///< to the nearest other eigenvalue; 0 when there is none
+};
+
+/// Groups of eigenvalues that are chained by small distances.
+std::vector<Cluster> clusters_of(const Eigen::VectorXcd& eigenvalues, double norm) {
+  const auto n = static_cast<std::size_t>(eigenvalues.size());
+  std::vector<std::size_t> group(n);
+  for (std::size_t i = 0; i < n; ++i) group[i] = i;
+  const auto at = [&](std::size_t i) { return eigenvalues(static_cast<Eigen::Index>(i)); };
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (group[i] != group[j] && std::abs(at(i) - at(j)) <= kSameEigenvalue * norm)
+        std::replace(group.begin(), group.end(), group[i], group[j]);
+  std::vector<Cluster> clusters;
+  for (std::size_t g = 0; g < n; ++g) {
+    Cluster cluster;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (group[i] != g) continue;
+      cluster.mean += at(i);
+      ++cluster.size;
+    }
+    if (cluster.size == 0) continue;
+    cluster.mean /= cluster.size;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (group[i] == g) continue;
+      const double distance = std::abs(at(i) - cluster.mean);
+      if (cluster.distance == 0 || distance < cluster.distance) cluster.distance = distance;
+    }
+    const double noise = 10 * kRounding * norm;
+    if (std::abs(cluster.mean.real()) <= noise) cluster.mean.real(0);
+    if (std::abs(cluster.mean.imag()) <= noise) cluster.mean.imag(0);
+    clusters.push_back(cluster);
+  }
+  return clusters;
+}
+
+/// (1/2 pi i) times the integral of inv(sI - F) on a circle around the cluster, by the trapezoid
+/// rule, whose error falls like 2^-points.
+ComplexMatrix projector(const numbers::Matrix& F, const Cluster& cluster, double norm) {
+  constexpr int kPoints = 64;
+  const double radius = cluster.distance > 0 ? 0.5 * cluster.distance : norm + 1;
+  const Eigen::Index n = F.rows();
+  ComplexMatrix sum = ComplexMatrix::Zero(n, n);
+  for (int k = 0; k < kPoints; ++k) {
+    const Complex step = std::polar(radius, 2 * std::numbers::pi * (k + 0.5) / kPoints);
+    const ComplexMatrix shifted =
+        (cluster.mean + step) * ComplexMatrix::Identity(n, n) - F.cast<Complex>();
+    sum += step * numbers::complex_inverse(shifted);
+  }
+  return sum / kPoints;
+}
+
+void add(std::vector<std::pair<Atom, numbers::Matrix>>& terms, const Atom& atom,
+         numbers::Matrix matrix, double size) {
+  const double noise = kRounding * std::max(size, 1.0) * static_cast<double>(matrix.rows());
+  matrix = (matrix.array().abs() <= noise).select(0, matrix);
+  if (!matrix.isZero(0)) terms.emplace_back(atom, std::move(matrix));
+}
+
+/// The terms of one eigenvalue with Im l >= 0.
+void add_terms(std::vector<std::pair<Atom, numbers::Matrix>>& terms, const numbers::Matrix& F,
+               const Cluster& cluster, double norm, double longest) {
+  const Complex l = cluster.mean;
+  const double size = norm + 1;
+  ComplexMatrix residue = projector(F, cluster, norm);
+  const double noise = 1e-11 * residue.cwiseAbs().maxCoeff();
+  double factor = 1;  // 1 / j!
+  for (int j = 0; j < cluster.size; ++j) {
+    if (j > 0) {
+      residue = F.cast<Complex>() * residue - l * residue;
+      factor /= j;
+      if (residue.cwiseAbs().maxCoeff() * factor * std::pow(longest, j) <= noise) return;
+    }
+    if (l.imag() == 0) {
+      add(terms, {j, l.real(), 0, false}, factor * residue.real(), size);
+    } else {
+      add(terms, {j, l.real(), l.imag(), false}, 2 * factor * residue.real(), size);
+      add(terms, {j, l.real(), l.imag(), true}, -2 * factor * residue.imag(), size);
+    }
+  }
+}
+
+void verify(const std::vector<std::pair<Atom, numbers::Matrix>>& terms, const numbers::Matrix& F,
+            double low, double high) {
+  constexpr int kPieces = 6;
+  constexpr double kTolerance = 1e-10;
+  for (int i = 0; i <= kPieces; ++i) {
+    const double t = low + (high - low) * i / kPieces;
+    const numbers::Matrix exact = numbers::exponential(F * t);
+    numbers::Matrix sum = numbers::Matrix::Zero(F.rows(), F.cols());
+    for (const auto& [atom, matrix] : terms) sum += evaluate(atom, t) * matrix;
+    if (!((sum - exact).norm() <= kTolerance * exact.norm()))
+      throw expr::EvaluationError(
+          "expm cannot be written as a sum of scalar functions to 10 digits: its matrix has "
+          "eigenvalues that are close but not equal; use the way exchange");
+  }
+}
+
+}  // namespace
+
+std::vector<std::pair<Atom, numbers::Matrix>> residue_expansion(const numbers::Matrix& F,
+                                                                double low, double high) {
+  const double norm = F.norm();
+  const double longest = std::max(std::abs(low), std::abs(high));
+  std::vector<std::pair<Atom, numbers::Matrix>> terms;
+  const Eigen::VectorXcd eigenvalues = numbers::eigenvalues(F);
+  for (const Cluster& cluster : clusters_of(eigenvalues, norm))
+    if (cluster.mean.imag() >= 0) add_terms(terms, F, cluster, norm, longest);
+  verify(terms, F, low, high);
+  return terms;
+}
+
+}  // namespace gainsmith::forall

@@ -1,0 +1,109 @@
+#include "forall/worst.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "expr/evaluate.h"
+#include "forall/minima.h"
+#include "numbers/dense.h"
+
+namespace gainsmith::forall {
+
+namespace {
+
+/// The matrix as a function of the interval variables, the others fixed.
+class Family {
+ public:
+  Family(const expr::Program& program, const numbers::Values& known, const Point& fixed,
+         const std::vector<const Variable*>& axes)
+      : evaluator_(program), moving_(axes.size(), numbers::Matrix::Zero(1, 1)) {
+    for (const expr::Input& input : program.inputs) {
+      const auto chosen = fixed.values.find(input.name);
+      if (chosen != fixed.values.end()) {
+        evaluator_.fix(input.name, chosen->second);
+      } else if (const auto value = known.find(input.name); value != known.end()) {
+        evaluator_.fix(input.name, value->second);
+      }
+    }
+    for (std::size_t i = 0; i < axes.size(); ++i) evaluator_.set(axes[i]->name, moving_[i]);
+  }
+
+  numbers::Matrix matrix(const std::vector<double>& at) {
+    for (std::size_t i = 0; i < at.size(); ++i) moving_[i](0, 0) = at[i];
+    const numbers::Matrix& value = evaluator_.run();
+    return 0.5 * (value + value.transpose());
+  }
+
+  double value(const std::vector<double>& at) {
+    solver_.compute_values(matrix(at));
+    return solver_.values()(0);
+  }
+
+  /// The derivative of the smallest eigenvalue, v' B'(t) v with its eigenvector v, by differences
+  /// of fourth order inside [low, high].
+  double slope(double t, double low, double high) {
+    const double width = high - low;
+    const double h = std::min({1e-3 * width, (t - low) / 2, (high - t) / 2});
+    solver_.compute(matrix({t}));
+    const Eigen::VectorXd v = solver_.vectors().col(0);
+    const auto form = [&](double s) { return v.dot(matrix({s}) * v); };
+    if (h < 1e-8 * width) {
+      const double inside = t - low < high - t ? 1e-6 * width : -1e-6 * width;
+      return (form(t + inside) - form(t)) / inside;
+    }
+    return (8 * (form(t + h) - form(t - h)) - (form(t + 2 * h) - form(t - 2 * h))) / (12 * h);
+  }
+
+ private:
+  expr::Evaluator<numbers::RealAlgebra> evaluator_;
+  std::vector<numbers::Matrix> moving_;
+  numbers::SymmetricEigen solver_;
+};
+
+void add_minima(Family& family, const Point& fixed, const std::vector<const Variable*>& axes,
+                Minima& minima) {
+  if (axes.empty()) {
+    minima.list.push_back({family.value({}), fixed});
+    return;
+  }
+  if (axes.size() == 1) {
+    const Variable& axis = *axes.front();
+    const Curve curve{[&](double t) { return family.value({t}); },
+                      [&](double t) { return family.slope(t, axis.low, axis.high); }};
+    const CurveMinima curves = local_minima(curve, axis.low, axis.high);
+    minima.resolved &= curves.resolved;
+    for (const CurveMinimum& found : curves.list)
+      minima.list.push_back({found.value, extended(fixed, axis.name, found.at)});
+    return;
+  }
+  std::vector<double> low;
+  std::vector<double> high;
+  for (const Variable* axis : axes) {
+    low.push_back(axis->low);
+    high.push_back(axis->high);
+  }
+  const auto value = [&](const std::vector<double>& at) { return family.value(at); };
+  for (const BoxMinimum& found : local_minima(value, low, high)) {
+    Point point = fixed;
+    for (std::size_t i = 0; i < axes.size(); ++i)
+      point = extended(point, axes[i]->name, found.at[i]);
+    minima.list.push_back({found.value, std::move(point)});
+  }
+}
+
+}  // namespace
+
+Minima local_minima(const expr::Program& difference, const Domain& domain,
+                    const numbers::Values& known) {
+  Minima minima;
+  const auto axes = intervals(domain);
+  for (const Point& fixed : finite_points(domain)) {
+    Family family(difference, known, fixed, axes);
+    add_minima(family, fixed, axes, minima);
+  }
+  std::stable_sort(minima.list.begin(), minima.list.end(),
+                   [](const Minimum& a, const Minimum& b) { return a.value < b.value; });
+  return minima;
+}
+
+}  // namespace gainsmith::forall

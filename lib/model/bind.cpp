@@ -1,0 +1,123 @@
+#include "model/bind.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "base/nearest.h"
+#include "model/binding.h"
+#include "model/gains.h"
+
+namespace gainsmith::model {
+
+double Recorder::number(const expr::Program& program) const {
+  return numbers::evaluate(program, values)(0, 0);
+}
+
+int Recorder::rank(const expr::Program& matrix, const expr::Program* tolerance) const {
+  for (const Design::Rank& known : ranks)
+    if (is_same(known.matrix, matrix) && known.tolerance.has_value() == (tolerance != nullptr) &&
+        (tolerance == nullptr || is_same(*known.tolerance, *tolerance)))
+      return known.rank;
+  const int found = numbers::KnownDoubles(values).rank(matrix, tolerance);
+  ranks.push_back({matrix, tolerance ? std::optional(*tolerance) : std::nullopt, found});
+  return found;
+}
+
+bool is_proper_column(expr::Shape shape) { return shape.cols == 1 && shape.rows > 1; }
+
+expr::Expression oriented(const Value& value, bool column) {
+  if (!value.flat || !column) return value.value;
+  auto turned = std::make_shared<expr::Node>();
+  turned->kind = expr::NodeKind::transpose;
+  turned->begin = value.value.root->begin;
+  turned->end = value.value.root->end;
+  turned->children = {value.value.root};
+  return {value.value.text, turned};
+}
+
+Binding::Binding(std::shared_ptr<const Problem> problem, const Overrides& overrides, Checks checks)
+    : source_(std::move(problem)),
+      overrides_(overrides),
+      checks_(checks),
+      design_(std::make_shared<Design>()),
+      names_(std::make_shared<Names>()),
+      recorder_(std::make_shared<Recorder>()) {
+  design_->name = source_->name;
+  design_->file = source_->file;
+  design_->method = method().name;
+  design_->method_file = method().file;
+  design_->method_place = source_->method_place;
+  design_->synthesis = source_->synthesis;
+  design_->source = source_;
+  design_->statement = {method().name, method().text,
+                        std::filesystem::path(source_->file).filename().string(), source_->text,
+                        ""};
+  design_->statement.hash = statement_hash(design_->statement);
+  names_->known.known = recorder_;
+}
+
+Instance Binding::run() {
+  bind_data();
+  bind_inequalities();
+  bind_gains();
+  bind_components();
+  bind_search();
+  bind_claims();
+  bind_campaign();
+  bind_expectation();
+  design_->ranks = recorder_->ranks;
+  design_->names = names_;
+  return {design_, overrides_, recorder_->values};
+}
+
+Formula Binding::scalar(const expr::Expression& expression, const expr::Scope& scope) const {
+  return formula(expression, scope, expr::Shape{});
+}
+
+Formula Binding::formula(const expr::Expression& expression, const expr::Scope& scope,
+                         std::optional<expr::Shape> expected) const {
+  return {expr::compile(expression, scope, expected), expression.place(*expression.root),
+          expression.text->str()};
+}
+
+Formula Binding::value(const Value& value, const expr::Scope& scope,
+                       std::optional<expr::Shape> expected) const {
+  Formula result =
+      formula(oriented(value, expected && is_proper_column(*expected)), scope, expected);
+  result.place = value.place;
+  return result;
+}
+
+Instance bind(std::shared_ptr<const Problem> problem, const Overrides& overrides) {
+  return Binding(std::move(problem), overrides, Checks::all).run();
+}
+
+Instance bind(const Problem& problem, const Overrides& overrides) {
+  return bind(std::make_shared<const Problem>(problem), overrides);
+}
+
+Instance bind_again(const Design& design, const Overrides& overrides) {
+  return Binding(design.source, overrides, Checks::none).run();
+}
+
+std::vector<std::string> scalar_names(const Method& method) {
+  std::vector<std::string> names;
+  for (const Declaration& datum : method.data)
+    if (datum.shape.structure == Structure::scalar) names.push_back(datum.name);
+  for (const Parameter& parameter : method.parameters) names.push_back(parameter.name);
+  return names;
+}
+
+void check_scalar_name(const Method& method, const std::string& name, const Place& place) {
+  const std::vector<std::string> known = scalar_names(method);
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  for (const Declaration& datum : method.data)
+    if (datum.name == name)
+      throw InputError(place, "'" + name + "' is a matrix (" + datum.shape.text +
+                                  "); expected a scalar datum or parameter");
+  throw InputError(place, "the method " + method.name + " has no scalar datum or parameter '" +
+                              name + "'" + suggestion(name, known));
+}
+
+}  // namespace gainsmith::model

@@ -1,0 +1,109 @@
+// How to simulate.
+#include <algorithm>
+
+#include "base/nearest.h"
+#include "base/number.h"
+#include "model/binding.h"
+
+namespace gainsmith::model {
+
+/// The value of a formula that is to be checked and uses data and parameters alone; none when it
+/// uses gains.
+std::optional<numbers::Matrix> Binding::known_value(const Formula& formula) const {
+  const bool known =
+      formula.program.functions.empty() && has_values(formula.program, recorder_->values);
+  if (!known || checks_ == Checks::none) return std::nullopt;
+  return numbers::evaluate(formula.program, recorder_->values);
+}
+
+std::optional<double> Binding::known_scalar(const Formula& formula) const {
+  const auto value = known_value(formula);
+  return value ? std::optional((*value)(0, 0)) : std::nullopt;
+}
+
+/// InputError when the value is known and outside [low, high].
+void Binding::check_within(const Formula& formula, const Formula& low, const Formula& high,
+                           const std::string& what) const {
+  const auto value = known_scalar(formula);
+  const auto least = known_scalar(low);
+  const auto most = known_scalar(high);
+  if (!value || !least || !most || (*value >= *least && *value <= *most)) return;
+  throw InputError(formula.place, what + " " + brief(*value) + " is outside [" + brief(*least) +
+                                      ", " + brief(*most) + "]");
+}
+
+void Binding::check_box(const Design::Start& start, const InitialValue& initial) const {
+  const auto low = known_value(start.values[0]);
+  const auto high = known_value(start.values[1]);
+  if (!low || !high || numbers::shape_of(*low) != numbers::shape_of(*high)) return;
+  if ((low->array() > high->array()).any())
+    throw InputError(initial.values[1].place,
+                     "the box of " + initial.state + " has its low end above its high end");
+}
+
+Design::Start Binding::start(const InitialValue& initial) const {
+  const expr::Scope& scope = names_->running;
+  Design::Start bound{state_of(initial.state), initial.kind, {}, initial.place};
+  if (bound.state == design_->states.size()) {
+    std::vector<std::string> names;
+    for (const Design::State& state : design_->states) names.push_back(state.name);
+    throw InputError(initial.place, "there is no state '" + initial.state + "'" +
+                                        suggestion(initial.state, names));
+  }
+  const expr::Shape state = design_->states[bound.state].shape;
+  for (const Value& given : initial.values) {
+    if (initial.kind != StartKind::box) {
+      bound.values.push_back(value(given, scope, state));
+      continue;
+    }
+    Formula end = value(given, scope, std::nullopt);
+    const expr::Shape shape = end.program.shape();
+    const bool turned = given.flat && shape == expr::Shape{state.cols, state.rows};
+    if (shape != state && !shape.is_scalar() && !turned)
+      throw InputError(given.place, "a bound of the state " + initial.state +
+                                        " must be a number or " + to_string(state) + "; found " +
+                                        to_string(shape));
+    bound.values.push_back(shape.is_scalar() ? std::move(end) : value(given, scope, state));
+  }
+  const bool enough = initial.kind == StartKind::list  ? !bound.values.empty()
+                      : initial.kind == StartKind::box ? bound.values.size() == 2
+                                                       : bound.values.size() == 1;
+  if (!enough)
+    throw InputError(initial.place, "the initial value of " + initial.state + " is incomplete");
+  if (initial.kind == StartKind::box) check_box(bound, initial);
+  return bound;
+}
+
+void Binding::bind_campaign() {
+  const Campaign& campaign = problem().campaign;
+  const expr::Scope& scope = names_->running;
+  Design::Campaign& bound = design_->campaign;
+  const auto& timer = design_->timer;
+  bound.runs = campaign.runs;
+  bound.seed = campaign.seed;
+  bound.place = campaign.place;
+  if (campaign.horizon) {
+    bound.horizon = scalar(*campaign.horizon, scope);
+    const auto horizon = known_scalar(*bound.horizon);
+    if (horizon && !(*horizon > 0))
+      throw InputError(bound.horizon->place,
+                       "the horizon must be positive, not " + brief(*horizon));
+  }
+  if (campaign.first) {
+    bound.first = scalar(*campaign.first, scope);
+    if (timer)
+      check_within(*bound.first, timer->first_low, timer->first_high, "the first timer value");
+  }
+  for (const SamplingLaw& law : campaign.sampling) {
+    Design::Law& into = bound.laws.emplace_back();
+    into.kind = law.kind;
+    into.place = law.place;
+    for (const expr::Expression& each : law.values) {
+      into.values.push_back(scalar(each, scope));
+      if (timer) check_within(into.values.back(), timer->low, timer->high, "the sampling interval");
+    }
+  }
+  for (const InitialValue& initial : campaign.initial) bound.starts.push_back(start(initial));
+}
+
+}  // namespace gainsmith::model

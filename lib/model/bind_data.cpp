@@ -1,0 +1,259 @@
+// Dimensions, data, parameters, assumptions, unknowns and states.
+#include <algorithm>
+#include <cmath>
+
+#include "base/nearest.h"
+#include "base/number.h"
+#include "model/binding.h"
+
+namespace gainsmith::model {
+
+namespace {
+
+template <class Item>
+const Item* find_named(const std::vector<Item>& items, const std::string& name) {
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  names.reserve(items.size());
+  for (const Item& item : items) names.push_back(item.name);
+  return names;
+}
+
+std::string declared(const Declaration& declaration, const Dimensions& dimensions) {
+  std::string text = declaration.shape.text;
+  std::string known;
+  for (const auto& part : {declaration.shape.rows, declaration.shape.cols}) {
+    if (!part) continue;
+    for (const std::string& name : names_in(*part)) {
+      const auto found = dimensions.find(name);
+      const std::string fact =
+          found == dimensions.end() ? "" : name + " = " + std::to_string(found->second);
+      if (!fact.empty() && known.find(fact) == std::string::npos)
+        known += (known.empty() ? "" : ", ") + fact;
+    }
+  }
+  return text + (known.empty() ? "" : " (" + known + ")");
+}
+
+/// Whether the expression may take its size from its place: a bare number or a multiple of I.
+bool has_free_size(const Value& value) {
+  const auto names = names_in(value.value);
+  return names.contains("I") || value.value.root->kind == expr::NodeKind::number;
+}
+
+/// Where each element stands, row by row, when the matrix is written element by element.
+std::vector<Place> element_places(const Value& value, expr::Shape shape) {
+  const expr::Node& root = *value.value.root;
+  std::vector<Place> places;
+  if (root.kind != expr::NodeKind::block || root.columns != shape.cols ||
+      std::ssize(root.children) != shape.size())
+    return places;
+  for (const expr::NodePtr& element : root.children) places.push_back(value.value.place(*element));
+  return places;
+}
+
+}  // namespace
+
+void Binding::bind_data() {
+  refuse_unknown_names();
+  for (const auto& [name, value] : overrides_) {
+    check_scalar_name(method(), name, {problem().file});
+    if (!std::isfinite(value))
+      throw InputError({problem().file}, name + ": expected a finite number");
+  }
+  for (const Declaration& datum : method().data) add_datum(datum);
+  for (const Declaration& datum : method().data) check_shape(datum);
+  for (const Parameter& parameter : method().parameters) add_parameter(parameter);
+  add_definitions();
+  for (const Named& assumption : method().assume) add_assumption(assumption);
+  add_unknowns();
+  add_states();
+}
+
+void Binding::refuse_unknown_names() const {
+  const auto data = names_of(method().data);
+  const auto parameters = names_of(method().parameters);
+  const auto refuse = [&](const std::vector<Value>& values, const std::vector<std::string>& known,
+                          const std::vector<std::string>& elsewhere, const char* what,
+                          const char* other) {
+    for (const Value& value : values) {
+      if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
+      const bool misplaced =
+          std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
+      throw InputError(value.place, "the method " + method().name + " has no " + what + " '" +
+                                        value.name + "'" +
+                                        (misplaced ? "; it is one of its " + std::string(other)
+                                                   : suggestion(value.name, known)));
+    }
+  };
+  refuse(problem().data, data, parameters, "datum", "parameters");
+  refuse(problem().parameters, parameters, data, "parameter", "data");
+}
+
+/// The range in which the problem looks for a scalar.
+const ScalarRange* Binding::find_searched(const std::string& name) const {
+  if (!problem().search) return nullptr;
+  const Search& search = *problem().search;
+  if (search.extreme && search.extreme->name == name) return &*search.extreme;
+  return find_named(search.over, name);
+}
+
+/// A scalar without a value stands where the search for it begins.
+void Binding::start_at_end(const ScalarRange& searched, Design::Datum& datum) const {
+  datum.range = range(searched);
+  const auto& search = problem().search;
+  const bool smallest =
+      search && !search->largest && search->extreme && search->extreme->name == searched.name;
+  datum.value = smallest ? datum.range->high : datum.range->low;
+  datum.place = searched.place;
+}
+
+void Binding::define(Design::Datum datum, std::vector<Design::Datum>& list) {
+  numbers::Matrix matrix = value_of(*design_, datum, overrides_, recorder_->values);
+  names_->known.symbols[datum.name] = {datum.shape, true};
+  names_->known.dimensions = design_->dimensions;
+  recorder_->values[datum.name] = std::move(matrix);
+  list.push_back(std::move(datum));
+}
+
+void Binding::add_datum(const Declaration& datum) {
+  Dimensions& dimensions = design_->dimensions;
+  Design::Datum bound;
+  bound.name = datum.name;
+  bound.structure = datum.shape.structure;
+  bound.declared = datum.shape.text;
+  bound.missing = "the datum " + datum.name + " (" + datum.shape.text + ") of the method " +
+                  method().name + " is missing under 'data'";
+  const Value* given = find_named(problem().data, datum.name);
+  const ScalarRange* searched = find_searched(datum.name);
+  if (given == nullptr && !datum.fallback && searched != nullptr) {
+    start_at_end(*searched, bound);
+    return define(std::move(bound), design_->data);
+  }
+  if (given == nullptr && !datum.fallback) return define(std::move(bound), design_->data);
+  const Value value = given ? *given : Value{datum.name, *datum.fallback, false, datum.place};
+  const auto expected = resolve(datum.shape, dimensions);
+  const bool column = datum.shape.is_column() || (expected && is_proper_column(*expected));
+  Value turned{value.name, oriented(value, column), false, value.place};
+  bound.place = value.place;
+  bound.value =
+      formula(turned.value, names_->known, has_free_size(value) ? expected : std::nullopt);
+  bound.shape = bound.value->program.shape();
+  if (!learn(datum.shape, bound.shape, dimensions))
+    throw InputError(value.place, "the datum " + datum.name + " is declared " +
+                                      declared(datum, dimensions) + "; found " +
+                                      to_string(bound.shape));
+  bound.elements = element_places(value, bound.shape);
+  define(std::move(bound), design_->data);
+}
+
+/// A size such as n + p may have been unknown when the datum was read.
+void Binding::check_shape(const Declaration& datum) const {
+  const expr::Shape shape = names_->known.symbols.at(datum.name).shape;
+  const Value* given = find_named(problem().data, datum.name);
+  // A default may be empty: no output at jumps, nothing that is hidden.
+  const bool empty = shape.size() == 0 && given != nullptr;
+  if (learn(datum.shape, shape, design_->dimensions) && !empty) return;
+  throw InputError(given ? given->place : datum.place, "the datum " + datum.name + " is declared " +
+                                                           declared(datum, design_->dimensions) +
+                                                           "; found " + to_string(shape));
+}
+
+void Binding::add_parameter(const Parameter& parameter) {
+  Design::Datum bound;
+  bound.name = parameter.name;
+  bound.structure = Structure::scalar;
+  bound.declared = "scalar";
+  bound.missing = "the parameter " + parameter.name + " of the method " + method().name +
+                  " has no default and is missing under 'parameters'";
+  const Value* given = find_named(problem().parameters, parameter.name);
+  const ScalarRange* searched = find_searched(parameter.name);
+  if (searched == nullptr && parameter.search) searched = &*parameter.search;
+  if (given != nullptr || parameter.fallback) {
+    bound.value = scalar(given ? given->value : *parameter.fallback, names_->known);
+    bound.place = given ? given->place : parameter.place;
+  } else if (searched != nullptr) {
+    start_at_end(*searched, bound);
+  }
+  define(std::move(bound), design_->parameters);
+}
+
+void Binding::add_definitions() {
+  auto& definitions = names_->known.definitions;
+  for (const Let& let : method().let)
+    definitions[let.signature.name] = {let.signature.parameters, let.body};
+  for (const Component* part : {&method().plant, &method().observer})
+    for (const Named& output : part->outputs) definitions[output.name] = {{}, output.value};
+  for (const Named& signal : method().signals) definitions[signal.name] = {{}, signal.value};
+}
+
+void Binding::add_assumption(const Named& assumption) {
+  Design::Assumption bound;
+  bound.text = assumption.value.text->str();
+  for (const auto& relation : compile_relations(assumption.value, names_->known))
+    bound.differences.emplace_back(relation.difference, relation.strict);
+  for (const std::string& name : names_in(assumption.value)) {
+    const auto value = recorder_->values.find(name);
+    if (value == recorder_->values.end() || value->second.size() != 1) continue;
+    bound.scalars.push_back(name);
+    for (const auto* list : {&problem().data, &problem().parameters})
+      if (const Value* given = find_named(*list, name)) bound.place = given->place;
+  }
+  check_assumption(*design_, bound, recorder_->values);
+  design_->assumptions.push_back(std::move(bound));
+}
+
+int Binding::degree_of(const UnknownDeclaration& unknown, Design::Unknown& bound) const {
+  constexpr int kLargest = 30;
+  if (!unknown.degree) return 0;
+  bound.degree_formula = scalar(*unknown.degree, names_->known);
+  const double degree = scalar_value(*bound.degree_formula, recorder_->values);
+  if (!(degree >= 0 && degree <= kLargest) || std::trunc(degree) != degree)
+    throw InputError(bound.degree_formula->place,
+                     "the degree of " + unknown.name + " must be a whole number from 0 to " +
+                         std::to_string(kLargest) + ", not " + brief(degree));
+  return static_cast<int>(degree);
+}
+
+void Binding::add_unknowns() {
+  names_->design = names_->known;
+  expr::Scope& scope = names_->design;
+  for (const UnknownDeclaration& unknown : method().unknowns) {
+    Design::Unknown bound;
+    bound.name = unknown.name;
+    bound.shape = known_shape(unknown, "unknown");
+    bound.structure = unknown.shape.structure;
+    bound.variable = unknown.variable;
+    bound.place = unknown.place;
+    bound.degree = degree_of(unknown, bound);
+    if (unknown.variable.empty()) {
+      scope.symbols[unknown.name] = {bound.shape};
+    } else {
+      for (int k = 0; k <= bound.degree; ++k)
+        scope.symbols[coefficient_name(unknown.name, static_cast<std::size_t>(k))] = {bound.shape};
+      scope.functions[unknown.name] = bound.shape;
+    }
+    design_->unknowns.push_back(std::move(bound));
+  }
+}
+
+void Binding::add_states() {
+  for (const Component* part : {&method().plant, &method().observer})
+    for (const Declaration& state : part->states)
+      design_->states.push_back({state.name, known_shape(state, "state"), std::nullopt});
+}
+
+expr::Shape Binding::known_shape(const Declaration& declaration, const char* what) const {
+  if (const auto shape = resolve(declaration.shape, design_->dimensions)) return *shape;
+  throw InputError(declaration.place, "the size of the " + std::string(what) + " " +
+                                          declaration.name + " (" + declaration.shape.text +
+                                          ") does not follow from the data");
+}
+
+}  // namespace gainsmith::model

@@ -1,0 +1,47 @@
+// The inequalities and the objective.
+#include "model/binding.h"
+
+namespace gainsmith::model {
+
+Design::Variable Binding::variable(const Forall& forall) const {
+  Design::Variable bound{forall.variable, forall.over, {}, {}, forall.place};
+  const expr::Scope& scope = names_->known;
+  if (forall.over == Over::interval) {
+    for (const expr::Expression& end : forall.points) bound.points.push_back(scalar(end, scope));
+    return bound;
+  }
+  for (const expr::Expression& element : forall.points) {
+    bound.points.push_back(formula(element, scope));
+    const expr::Shape shape = bound.points.back().program.shape();
+    if (bound.points.size() == 1) bound.shape = shape;
+    if (shape != bound.shape)
+      throw InputError(element.place(*element.root),
+                       "the elements of " + forall.variable + " must have one shape; found " +
+                           to_string(bound.shape) + " and " + to_string(shape));
+    bound.points.back().text = element.quote(*element.root);
+  }
+  return bound;
+}
+
+void Binding::bind_inequalities() {
+  for (const Requirement& requirement : method().require) {
+    Design::Inequality bound;
+    bound.name = requirement.name;
+    bound.place = requirement.place;
+    bound.that_place = requirement.that.place(*requirement.that.root);
+    expr::Scope scope = names_->design;
+    for (const Forall& forall : requirement.forall) {
+      bound.domain.push_back(variable(forall));
+      scope.symbols[forall.variable] = {bound.domain.back().shape};
+    }
+    const auto relations = expr::compile_relations(requirement.that, scope);
+    for (std::size_t k = 0; k < relations.size(); ++k)
+      bound.comparisons.push_back(
+          {relations.size() > 1 ? bound.name + "." + std::to_string(k + 1) : bound.name,
+           relations[k].difference, relations[k].strict});
+    design_->inequalities.push_back(std::move(bound));
+  }
+  if (method().minimize) design_->objective = scalar(*method().minimize, names_->design);
+}
+
+}  // namespace gainsmith::model

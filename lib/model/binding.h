@@ -1,0 +1,126 @@
+// Internal to model: the state of one binding.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "expr/compile.h"
+#include "expr/scope.h"
+#include "model/bind.h"
+
+namespace gainsmith::model {
+
+/// What each part of a design may use (design.h).
+struct Names {
+  expr::Scope known;    ///< data, parameters, definitions
+  expr::Scope design;   ///< and unknowns
+  expr::Scope running;  ///< and gains, states, the timer
+  expr::Scope results;  ///< and the objective
+};
+
+/// The values of data and parameters so far. Notes the ranks that were asked for.
+struct Recorder : expr::KnownValues {
+  numbers::Values values;
+  mutable std::vector<Design::Rank> ranks;
+
+  double number(const expr::Program& program) const override;
+  int rank(const expr::Program& matrix, const expr::Program* tolerance) const override;
+};
+
+bool is_proper_column(expr::Shape shape);
+
+/// A flat list is a row; where a column is declared it is turned.
+expr::Expression oriented(const Value& value, bool column);
+
+/// What is asked of values besides data and assumptions: that ranges have ends in order, and that
+/// the campaign lies within its ranges.
+enum class Checks { all, none };
+
+class Binding {
+ public:
+  Binding(std::shared_ptr<const Problem> problem, const Overrides& overrides, Checks checks);
+  Instance run();
+
+ private:
+  const Problem& problem() const { return *source_; }
+  const Method& method() const { return *source_->method; }
+
+  // bind_data.cpp
+  void bind_data();
+  void refuse_unknown_names() const;
+  const ScalarRange* find_searched(const std::string& name) const;
+  void start_at_end(const ScalarRange& searched, Design::Datum& datum) const;
+  void add_datum(const Declaration& datum);
+  void check_shape(const Declaration& datum) const;
+  void add_parameter(const Parameter& parameter);
+  void define(Design::Datum datum, std::vector<Design::Datum>& list);
+  void add_definitions();
+  void add_assumption(const Named& assumption);
+  int degree_of(const UnknownDeclaration& unknown, Design::Unknown& bound) const;
+  void add_unknowns();
+  void add_states();
+  expr::Shape known_shape(const Declaration& declaration, const char* what) const;
+
+  // bind_inequalities.cpp
+  void bind_inequalities();
+  Design::Variable variable(const Forall& forall) const;
+
+  // bind_gains.cpp
+  void bind_gains();
+  void add_products(const Gain& gain, const expr::Scope& scope, Design::Gain& bound) const;
+
+  // bind_simulation.cpp
+  void bind_components();
+  std::vector<Design::MapEntry> map(const std::vector<Named>& entries) const;
+  std::vector<NamedFormula> named(const std::vector<Named>& list, const expr::Scope& scope) const;
+  void bind_timer();
+  void bind_claims();
+
+  // bind_campaign.cpp
+  void bind_campaign();
+  Design::Start start(const InitialValue& initial) const;
+  void check_box(const Design::Start& start, const InitialValue& initial) const;
+  void check_within(const Formula& formula, const Formula& low, const Formula& high,
+                    const std::string& what) const;
+  std::optional<numbers::Matrix> known_value(const Formula& formula) const;
+  std::optional<double> known_scalar(const Formula& formula) const;
+  std::size_t state_of(const std::string& name) const;
+
+  // bind_search.cpp
+  void bind_search();
+  Range range(const ScalarRange& range) const;
+  Formula figure(const expr::Expression& text) const;
+  void bind_expectation();
+
+  Formula scalar(const expr::Expression& expression, const expr::Scope& scope) const;
+  Formula formula(const expr::Expression& expression, const expr::Scope& scope,
+                  std::optional<expr::Shape> expected = std::nullopt) const;
+  /// A value that may be a flat list, which is a column where a column is expected.
+  Formula value(const Value& value, const expr::Scope& scope,
+                std::optional<expr::Shape> expected) const;
+
+  std::shared_ptr<const Problem> source_;
+  Overrides overrides_;
+  Checks checks_;
+  std::shared_ptr<Design> design_;
+  std::shared_ptr<Names> names_;
+  std::shared_ptr<Recorder> recorder_;
+};
+
+/// The value of a datum or parameter from those declared before it.
+numbers::Matrix value_of(const Design& design, const Design::Datum& datum,
+                         const Overrides& overrides, const numbers::Values& values);
+
+/// Binds the texts of a design anew for values that change its shapes. Ranges and the campaign were
+/// checked with the values of the problem; a scan goes beyond them.
+Instance bind_again(const Design& design, const Overrides& overrides);
+
+/// The formula of a gain that a gain file brings, over the names of its design and the file's
+/// coefficients.
+expr::Program bind_gain_formula(const Instance& instance,
+                                const std::vector<UnknownMatrix>& unknowns, const std::string& text,
+                                const std::string& variable, const Place& place);
+
+}  // namespace gainsmith::model

@@ -1,0 +1,289 @@
+// Everything that a problem and its method say, bound once: programs with shapes and places.
+//
+// A problem and a method are read as texts (problem.h, method.h). bind() turns the two into one
+// Design, and nothing behind it sees a syntax tree or a scope again. A Design holds no values but
+// those that fixed its shapes; evaluate() gives values to its data and parameters (instance.h), and
+// an override changes values, never a program.
+//
+// What the programs may use, as inputs by name:
+//   data, parameters, assumptions    data and parameters declared before, dimensions
+//   inequalities, objective, gains   all data and parameters, unknowns; a function's coefficients;
+//                                    the variables of `forall` and of a gain that is a function
+//   report, signals, flow, jump, claims, campaign   those, and gains, states and the timer
+//   what is expected, searched or asked for         those, and `objective`
+// Unknown functions and gains that are functions are called, and linked before evaluation
+// (function.h, stated.h).
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/error.h"
+#include "expr/program.h"
+#include "model/words.h"
+
+namespace gainsmith::model {
+
+struct Problem;  // problem.h: the texts, kept to bind again when a dimension changes
+struct Names;    // binding.h: the scopes, for formulas that a gain file brings
+
+/// A bound expression.
+struct Formula {
+  expr::Program program;
+  Place place;
+  std::string text;  ///< as written
+};
+
+struct NamedFormula {
+  std::string name;
+  Formula value;
+  Place place;
+};
+
+/// What was solved, so that a gain file stands alone.
+struct Statement {
+  std::string method_name;
+  std::string method_text;
+  std::string problem_file;  ///< its name only, no folders of the machine
+  std::string problem_text;
+  std::string hash;  ///< statement_hash
+};
+
+/// A scalar and the range in which it is looked for.
+struct Range {
+  std::string name;
+  Formula low;
+  Formula high;
+  Place place;
+};
+
+struct Design {
+  struct Datum {
+    std::string name;
+    expr::Shape shape;
+    Structure structure = Structure::full;
+    /// The problem's, the method's default, or the end of the range from which it is searched; none
+    /// when only an override gives it.
+    std::optional<Formula> value;
+    std::optional<Range> range;   ///< from whose end the value is
+    Place place;                  ///< of the value
+    std::vector<Place> elements;  ///< row by row, when it is written element by element
+    std::string declared;         ///< its shape, as written
+    std::string missing;          ///< what is said when it has no value
+  };
+
+  /// A comparison of scalars that data and parameters must satisfy.
+  struct Assumption {
+    std::vector<std::pair<expr::Program, bool>> differences;  ///< to be > 0 (true) or >= 0
+    std::string text;
+    std::vector<std::string> scalars;  ///< that stand in it
+    Place place;                       ///< of one of them in the problem
+  };
+
+  /// A matrix or, with `variable`, a function of a scalar: a polynomial unless a room chooses
+  /// another basis.
+  struct Unknown {
+    std::string name;
+    expr::Shape shape;
+    Structure structure = Structure::full;
+    std::string variable;  ///< empty: a matrix
+    int degree = 0;        ///< of the polynomial
+    std::optional<Formula> degree_formula;
+    Place place;
+  };
+
+  /// A variable of `forall`.
+  struct Variable {
+    std::string name;
+    Over over = Over::interval;
+    expr::Shape shape;
+    std::vector<Formula> points;  ///< the two ends, the elements, or the vertices
+    Place place;
+  };
+
+  /// One comparison: the larger side minus the smaller one, to be > 0 (strict) or >= 0.
+  struct Comparison {
+    std::string name;  ///< of the inequality; "bounds.2" for the second of a chain
+    expr::Program difference;
+    bool strict = true;
+  };
+
+  /// A named matrix inequality, or a chain of them, for all values of its variables.
+  struct Inequality {
+    std::string name;
+    std::vector<Variable> domain;
+    std::vector<Comparison> comparisons;
+    Place place;       ///< of the name
+    Place that_place;  ///< of the comparison
+
+    /// Whether an unknown function is called in it.
+    bool calls_functions() const;
+  };
+
+  /// A part of a gain formula next to an inverse, for the bound on the gain (lmi/gain_bounds.h):
+  /// inv(S)*E, or E*inv(S).
+  struct Product {
+    std::string inverse;  ///< S as written: a symmetric unknown or a call of one, "P", "P(t)"
+    bool left = true;     ///< inv(S) stands left of E
+    struct Factor {
+      std::optional<expr::Program> program;  ///< none: it has no value of its own
+      std::string text;
+      /// The calls of unknown functions in `text`: first byte, length.
+      std::vector<std::pair<std::size_t, std::size_t>> calls;
+    };
+    Factor all;      ///< the product of all factors beside the inverse
+    Factor nearest;  ///< the one next to it
+  };
+
+  struct Gain {
+    std::string name;
+    std::string variable;  ///< empty: a matrix; otherwise a function of it
+    expr::Shape shape;
+    Formula formula;
+    std::vector<Product> products;
+    Product::Factor whole;  ///< the formula itself
+  };
+
+  struct State {
+    std::string name;
+    expr::Shape shape;
+    std::optional<Formula> start;
+  };
+
+  /// The derivative of a state, or its value after a jump.
+  struct MapEntry {
+    std::size_t state = 0;
+    Formula value;
+    Place place;
+  };
+
+  struct Timer {
+    std::string name;
+    Formula low, high;              ///< of its reset values
+    Formula first_low, first_high;  ///< of its first value
+    Place place;
+  };
+
+  struct Claim {
+    std::string name;
+    ClaimKind kind = ClaimKind::nonincreasing;
+    Formula value;                     ///< scalar
+    std::optional<Formula> flow_cost;  ///< cost
+    std::optional<Formula> jump_cost;  ///< cost
+    std::optional<Formula> factor;     ///< shrinks
+    Place place;
+  };
+
+  struct Law {
+    LawKind kind = LawKind::uniform;
+    std::vector<Formula> values;  ///< constant: one; list: all
+    Place place;
+  };
+
+  struct Start {
+    std::size_t state = 0;
+    StartKind kind = StartKind::expression;
+    /// One value; low and high, scalar or of the state's shape; or the elements.
+    std::vector<Formula> values;
+    Place place;
+  };
+
+  /// A Monte-Carlo campaign. Run i uses law i modulo their number.
+  struct Campaign {
+    std::uint64_t runs = 1000;
+    std::uint64_t seed = 1;
+    std::optional<Formula> horizon;
+    std::vector<Law> laws;
+    std::optional<Formula> first;
+    std::vector<Start> starts;
+    Place place;
+  };
+
+  struct ExpectedValue {
+    std::string name;
+    Formula what;
+    Formula value;
+    std::optional<double> relative;
+    std::optional<double> absolute;
+    Place place;
+  };
+
+  struct Expectation {
+    std::optional<std::string> verdict, status, campaign;
+    std::optional<std::vector<std::string>> active_bounds;
+    std::vector<ExpectedValue> values;
+    Place place;
+  };
+
+  /// What is searched besides the unknowns.
+  struct Search {
+    std::optional<Range> extreme;
+    bool largest = true;
+    std::optional<double> tolerance;
+    std::vector<Range> over;
+    std::optional<Formula> minimize;
+    int evaluations = 200;
+  };
+
+  /// A number that binding took from values: the columns of orth and null. When it changes, so do
+  /// shapes, and the texts are bound again.
+  struct Rank {
+    expr::Program matrix;
+    std::optional<expr::Program> tolerance;
+    int rank = 0;
+  };
+
+  std::string name;  ///< of the problem
+  std::string file;
+  std::string method;
+  std::string method_file;
+  Place method_place;  ///< where the problem names it
+  Statement statement;
+
+  Dimensions dimensions;
+  std::vector<Datum> data;
+  std::vector<Datum> parameters;  ///< scalars
+  std::vector<Assumption> assumptions;
+  std::vector<Unknown> unknowns;
+  std::vector<Inequality> inequalities;
+  std::optional<Formula> objective;
+  std::vector<Gain> gains;
+  std::vector<NamedFormula> report;
+
+  std::vector<State> states;  ///< plant first, then observer
+  std::vector<MapEntry> flow;
+  std::vector<MapEntry> jump;
+  std::optional<Timer> timer;
+  std::vector<NamedFormula> signals;
+  std::vector<Claim> claims;
+
+  SynthesisOptions synthesis;
+  std::optional<Search> search;
+  std::vector<Range> open;            ///< parameters without a value that synthesis looks for
+  std::vector<Range> negotiable;      ///< scalars along which `explain` says how far one must go
+  std::vector<Range> asked;           ///< ranges of the command line
+  std::vector<NamedFormula> figures;  ///< scalars of the command line, shown of each result
+  Campaign campaign;
+  std::optional<Expectation> expect;
+
+  std::vector<Rank> ranks;
+  std::shared_ptr<const Problem> source;
+  std::shared_ptr<const Names> names;
+};
+
+using DesignPtr = std::shared_ptr<const Design>;
+
+/// The inequality of a name; nullptr when there is none.
+const Design::Inequality* find_inequality(const Design& design, const std::string& name);
+
+/// The names of the scalar data and the parameters, in order: what may be overridden.
+std::vector<std::string> scalar_names(const Design& design);
+
+/// InputError at `place` when `name` is none of scalar_names, with the nearest that is.
+void check_scalar_name(const Design& design, const std::string& name, const Place& place);
+
+}  // namespace gainsmith::model

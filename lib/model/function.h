@@ -1,0 +1,74 @@
+// Functions of a scalar that are unknown: a basis and a matrix for each of its elements,
+//   Y(s) = sum_k phi_k(s) Y_k.
+// The coefficients Y_k are unknowns like any other. Inequalities, gains and simulations call Y; a
+// program is linked with the function's body before it is evaluated, so another basis changes no
+// program that was bound.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "expr/program.h"
+#include "expr/rewrite.h"
+#include "model/words.h"
+
+namespace gainsmith::model {
+
+/// phi_0, phi_1, ...: 1 x 1 programs in the variable. One without instructions is the constant 1.
+struct Basis {
+  enum class Kind {
+    monomials,  ///< 1, s, s^2, ...
+    weights     ///< those of the vertices of a box (forall/box.h): >= 0, their sum is 1
+  };
+  Kind kind = Kind::monomials;
+  std::vector<expr::Program> elements;
+  std::vector<std::string> texts;  ///< of each element in the matrix language; "" for 1
+};
+
+Basis monomials(const std::string& variable, int degree, const Place& place);
+
+struct Function {
+  std::string name;      ///< "YL"
+  std::string variable;  ///< "tau"
+  expr::Shape shape;     ///< of the function and of each coefficient
+  Structure structure = Structure::full;
+  Basis basis;
+  Place place;  ///< of the declaration
+
+  /// "YL(tau)".
+  std::string signature() const { return name + "(" + variable + ")"; }
+  std::size_t size() const { return basis.elements.size(); }
+  /// "YL_0", "YL_1", ....
+  std::vector<std::string> coefficients() const;
+  /// In the matrix language: "YL_0 + YL_1*tau", or with the weights before the coefficients.
+  std::string text() const;
+  /// What a call of the function is linked with.
+  expr::Body body() const;
+};
+
+/// "YL_2": the coefficient k = 0, 1, ... of the function `name`.
+std::string coefficient_name(const std::string& name, std::size_t k);
+
+/// "YL_0 + YL_1*tau + YL_2*tau^2", for `degree` 2.
+std::string polynomial_text(const std::string& name, const std::string& variable, int degree);
+
+/// What the functions of a program stand for, by name.
+class Bodies {
+ public:
+  Bodies() = default;
+  explicit Bodies(const std::vector<Function>& functions);
+
+  void set(const std::string& name, expr::Body body) {
+    bodies_.insert_or_assign(name, std::move(body));
+  }
+  bool contains(const std::string& name) const { return bodies_.contains(name); }
+  /// The program without calls; std::logic_error for a function that has no body.
+  expr::Program link(const expr::Program& program) const;
+
+ private:
+  std::map<std::string, expr::Body> bodies_;
+};
+
+}  // namespace gainsmith::model

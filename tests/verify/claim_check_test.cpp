@@ -1,0 +1,168 @@
+#include "verify/claim_check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <unsupported/Eigen/MatrixFunctions>
+
+#include "hybrid/simulate.h"
+#include "hybrid/text_problem.h"
+#include "verify/setup.h"
+
+namespace gainsmith::verify {
+namespace {
+
+using numbers::Matrix;
+using Law = model::LawKind;
+using Start = model::StartKind;
+using tests::TextProblem;
+
+/// A run of a problem, and its claims checked one by one.
+struct Checked {
+  hybrid::Arc arc;
+  std::vector<Finding> findings;
+  std::vector<Eigen::VectorXd> costs;
+};
+
+Checked check(TextProblem& problem, std::uint64_t run = 0) {
+  const Setup setup = make_setup(problem.instance(), problem.gains);
+  Checked result;
+  result.arc = hybrid::Simulator(setup.system, setup.scenario, setup.steps).run(1, run);
+  for (ClaimCheck& one : make_checks(setup)) {
+    result.findings.push_back(one(result.arc));
+    result.costs.push_back(one.running_cost(result.arc));
+  }
+  return result;
+}
+
+/// int_0^t x' W x ds for x' = M x from x0, by Van Loan's block exponential.
+double van_loan(const Matrix& M, const Matrix& W, double t, const Eigen::VectorXd& x0) {
+  const Eigen::Index n = M.rows();
+  Matrix block = Matrix::Zero(2 * n, 2 * n);
+  block << -M.transpose(), W, Matrix::Zero(n, n), M;
+  const Matrix exponential = Matrix(block * t).exp();
+  return x0.dot(exponential.bottomRightCorner(n, n).transpose() * exponential.topRightCorner(n, n) *
+                x0);
+}
+
+TextProblem linear_plant(const std::string& matrix) {
+  TextProblem problem;
+  problem.data("A", "n x n", matrix).data("W", "n x n", "[2, 0.5; 0.5, 1]").state("x", "n");
+  problem.flow({{"x", "A*x"}}).jump({{"x", "0.5*x"}}).timer("0.5", "1.1", "0", "1.1");
+  problem.start("x", Start::expression, {"[1; -2]"});
+  return problem;
+}
+
+TEST(Cost, IntegralOverAFlowIsVanLoans) {
+  TextProblem problem = linear_plant("[0.2, -4; 3, -0.5]");
+  problem.first("1.1").horizon("1.09").cost("J", "1000", "x'*W*x", "0");
+  const Checked result = check(problem);
+  const Matrix A{{0.2, -4}, {3, -0.5}};
+  const Matrix W{{2, 0.5}, {0.5, 1}};
+  const double expected = van_loan(A, W, 1.09, Eigen::Vector2d(1, -2));
+  EXPECT_NEAR(result.costs[0].tail(1)(0), expected, 1e-13 * expected);
+}
+
+TEST(Cost, StiffTransientIsIntegratedInFull) {
+  // x1' = -k x1: int x1^2 = (1 - exp(-2 k t))/(2 k), all of it in the first 1/k of the interval.
+  for (const double k : {30.0, 1e3, 1e5}) {
+    TextProblem problem = linear_plant("[-" + std::to_string(k) + ", 0; 0, -0.1]");
+    problem.first("1.1").horizon("1.1").cost("J", "1000", "x(1)^2", "0");
+    const double expected = (1 - std::exp(-2 * k * 1.1)) / (2 * k);
+    EXPECT_NEAR(check(problem).costs[0].tail(1)(0), expected, 1e-11 * expected) << k;
+  }
+}
+
+TEST(Cost, StableLoopCostsWhatLyapunovSays) {
+  // A'P + P A + W = 0 by hand for A = diag(-1, -2): P = [W11/2, W12/3; ., W22/4].
+  TextProblem problem = linear_plant("[-1, 0; 0, -2]");
+  problem.jump({}).horizon("40").cost("J", "x'*[1, 0.5/3; 0.5/3, 0.25]*x", "x'*W*x", "0");
+  const Checked result = check(problem);
+  const double expected = 1 - 2 * 2 * 0.5 / 3 + 4 * 0.25;
+  EXPECT_NEAR(result.costs[0].tail(1)(0), expected, 1e-12);
+  EXPECT_FALSE(result.findings[0].violated);  // the bound is attained: rounding must not count
+  EXPECT_NEAR(result.findings[0].score, 0, 1e-12);
+}
+
+TEST(Cost, JumpCostsAreTakenBeforeTheJump) {
+  TextProblem problem = linear_plant("[0, 0; 0, 0]");
+  problem.first("1")
+      .horizon("2.1")
+      .law(Law::constant, {"1"})
+      .cost("J", "6", "0", "x(1)^2 + x(2)^2");
+  const Checked result = check(problem);
+  EXPECT_DOUBLE_EQ(result.costs[0].tail(1)(0), 5 + 5.0 / 4);
+  EXPECT_TRUE(result.findings[0].violated);
+  EXPECT_DOUBLE_EQ(result.findings[0].value, 6.25);
+  EXPECT_EQ(result.findings[0].j, 2);
+  EXPECT_DOUBLE_EQ(result.findings[0].score, 0.25 / 6);
+}
+
+TEST(Cost, BoundMustHoldAtEveryInstant) {
+  // The cost rises to 5 at the first jump and a negative jump cost takes it back afterwards.
+  TextProblem problem = linear_plant("[0, 0; 0, 0]");
+  problem.first("1").horizon("2.1").law(Law::constant, {"1"});
+  problem.cost("J", "4", "0", "where(abs(x(1)) > 0.9, 5, -5)");
+  const Checked result = check(problem);
+  EXPECT_DOUBLE_EQ(result.costs[0].tail(1)(0), 0);
+  EXPECT_TRUE(result.findings[0].violated);
+  EXPECT_EQ(result.findings[0].j, 1);
+  EXPECT_EQ(result.findings[0].value, 5);
+}
+
+TEST(Nonincreasing, RotationKeepsItsNormWithinRounding) {
+  TextProblem problem = linear_plant("[0, -7; 7, 0]");
+  problem.jump({}).horizon("100").nonincreasing("V", "x'*x");
+  EXPECT_FALSE(check(problem).findings[0].violated);
+}
+
+TEST(Nonincreasing, SlowCreepIsSeen) {
+  // Each step raises V by less than 1e-9 of it, all of them by 2e-6.
+  TextProblem problem = linear_plant("[1e-8, 0; 0, 1e-8]");
+  problem.jump({}).horizon("100").nonincreasing("V", "x'*x");
+  const Finding finding = check(problem).findings[0];
+  EXPECT_TRUE(finding.violated);
+  EXPECT_EQ(finding.t, 100);
+  EXPECT_NEAR(finding.score, 2e-6, 1e-9);
+}
+
+TEST(Nonincreasing, RiseOverAJumpIsFoundAtTheJump) {
+  TextProblem problem = linear_plant("[-0.1, 0; 0, -0.1]");
+  problem.jump({{"x", "3*x"}}).first("0.7").horizon("0.8").nonincreasing("V", "x'*x");
+  const Finding finding = check(problem).findings[0];
+  EXPECT_TRUE(finding.violated);
+  EXPECT_EQ(finding.t, 0.7);
+  EXPECT_EQ(finding.j, 1);
+  EXPECT_NEAR(finding.value, 45 * std::exp(-0.14), 1e-12);
+  EXPECT_NEAR(finding.bound, 5 * std::exp(-0.14), 1e-13);
+}
+
+TEST(Nonincreasing, HeldRunSaysWhatIsLeft) {
+  TextProblem problem = linear_plant("[-0.1, 0; 0, -0.1]");
+  problem.jump({}).horizon("5").nonincreasing("V", "x'*x");
+  const Finding finding = check(problem).findings[0];
+  EXPECT_FALSE(finding.violated);
+  EXPECT_NEAR(finding.score, std::exp(-1) - 1, 1e-13);
+}
+
+TEST(Shrinks, ComparesTheEndWithTheStart) {
+  TextProblem problem = linear_plant("[-0.1, 0; 0, -0.1]");
+  problem.jump({}).horizon("5").shrinks("most", "norm(x)", "exp(-0.5)");
+  problem.shrinks("more", "norm(x)", "exp(-0.5001)");
+  const auto findings = check(problem).findings;
+  EXPECT_FALSE(findings[0].violated);
+  EXPECT_TRUE(findings[1].violated);
+  EXPECT_NEAR(findings[1].score, std::expm1(1e-4), 1e-12);
+  EXPECT_EQ(findings[1].t, 5);
+}
+
+TEST(Shrinks, StartAtZeroHolds) {
+  TextProblem problem = linear_plant("[0, 1; 0, 0]");
+  problem.horizon("40").shrinks("grows", "abs(x(1) - 1)", "0.1");
+  const Finding finding = check(problem).findings[0];
+  EXPECT_FALSE(finding.violated);
+  EXPECT_EQ(finding.score, -1);
+}
+
+}  // namespace
+}  // namespace gainsmith::verify
