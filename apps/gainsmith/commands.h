@@ -17,4 +17,7 @@ Command check_command();
 Command solve_command();
 Command methods_command();
 
+/// gainsmith with all of them.
+Program all_commands();
+
 }  // namespace gainsmith::app

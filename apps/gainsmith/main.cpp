@@ -1,4 +1,4 @@
-// The program: names the subcommands and turns what happens into exit codes.
+// The program: runs the command line and turns what happens into exit codes.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -8,7 +8,6 @@
 #include <system_error>
 
 #include "base/error.h"
-#include "base/version.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/optimizers.h"
 
@@ -22,23 +21,10 @@ int report(ExitCode code, const char* message) {
   return static_cast<int>(code);
 }
 
-app::Program program() {
-  return {
-      "gainsmith",
-      "gainsmith: observer gains by linear matrix inequalities, verified by simulation",
-      std::string("gainsmith ") + gainsmith::kVersion,
-      "Exit codes of every subcommand: 0 done and the answer is yes; 1 done and the answer is no;\n"
-      "2 the command line or a file is wrong; 3 undecided; 70 a fault of the program.\n"
-      "Each subcommand has --help with examples.",
-      {app::synth_command(), app::bisect_command(), app::scan_command(), app::optimize_command(),
-       app::explain_command(), app::verify_command(), app::simulate_command(), app::run_command(),
-       app::check_command(), app::solve_command(), app::methods_command()}};
-}
-
 /// Runs the command line; the exit code.
 int run(int argc, char** argv) {
   try {
-    return static_cast<int>(app::run(program(), argc, argv));
+    return static_cast<int>(app::run(app::all_commands(), argc, argv));
   } catch (const gainsmith::InputError& error) {
     return report(ExitCode::bad_input, error.what());
   } catch (const std::system_error& error) {

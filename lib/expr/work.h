@@ -6,8 +6,10 @@
 namespace gainsmith::expr {
 
 struct Work {
-  std::uint64_t parsed = 0;  ///< calls of parse() (parser.h)
-  std::uint64_t bound = 0;   ///< calls of compile() and compile_relations() (compile.h)
+  std::uint64_t parsed = 0;    ///< calls of parse() (parser.h)
+  std::uint64_t bound = 0;     ///< calls of compile() and compile_relations() (compile.h)
+  std::uint64_t problems = 0;  ///< problem files that were read
+  std::uint64_t designs = 0;   ///< problems that were bound
 
   bool operator==(const Work&) const = default;
 };
@@ -17,5 +19,7 @@ Work work_done();
 
 void count_parsed();
 void count_bound();
+void count_problem();
+void count_design();
 
 }  // namespace gainsmith::expr

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/nearest.h"
+#include "expr/work.h"
 #include "io/expectation_yaml.h"
 #include "io/method_node.h"
 #include "io/method_yaml.h"
@@ -195,6 +196,7 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
 
 model::Problem parse_problem(const std::string& text, const std::string& file,
                              const MethodLibrary& library) {
+  expr::count_problem();
   const YamlFile yaml(text, file);
   YamlMap map(yaml, yaml.root(), "problem");
   model::Problem problem;

@@ -5,10 +5,9 @@
 
 #include <map>
 #include <set>
-#include <span>
 #include <utility>
+#include <vector>
 
-#include "expr/evaluate.h"
 #include "forall/between.h"
 #include "forall/monomials.h"
 #include "lmi/sparse.h"
@@ -18,8 +17,10 @@
 namespace gainsmith::lmi {
 
 struct AffineForm {
+  using Key = std::pair<int, int>;
+
   expr::Shape shape;
-  std::map<std::pair<int, int>, Sparse> terms;  ///< (monomial, unknown) -> M_ai; zeros are left out
+  std::map<Key, Sparse> terms;  ///< (monomial, unknown) -> M_ai; zeros are left out
 
   bool is_constant() const;
   /// Whether an unknown stands in it; then `which` is the index of one.
@@ -36,19 +37,12 @@ AffineForm unknown_form(const Unknown& unknown);
 /// A variable of the table: the function tau itself, or the convex combination of the vertices.
 AffineForm variable_form(forall::MonomialTable& monomials, int variable);
 
-/// The expr algebra. Sums, products with what has no unknown, blocks, transposes and the like are
-/// affine; any function may be applied to constants; exp, sin and cos also to an affine function of
-/// one variable, and expm to M + F*tau with M F = F M (forall/residues.h). Everything else throws
-/// EvaluationError with the unknown, or the function of tau, at fault.
-struct AffineAlgebra {
-  using Value = AffineForm;
+/// Adds a coefficient to a form; what cancels is left out.
+void add_term(AffineForm& form, AffineForm::Key key, Sparse matrix);
+void add_term(AffineForm& form, AffineForm::Key key, const Sparse& matrix, double factor);
 
-  forall::MonomialTable* monomials = nullptr;
-  const Unknowns* unknowns = nullptr;
-
-  void apply(const expr::Instruction& instruction, std::span<const AffineForm* const> operands,
-             AffineForm& out) const;
-};
+/// The matrix of a constant form.
+numbers::Matrix dense_constant(const AffineForm& form);
 
 /// The affine form of a program, with the unknowns and the variables of the table.
 AffineForm evaluate_affine(const expr::Program& program, const Unknowns& unknowns,

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "lmi/affine.h"
+#include "lmi/affine_algebra.h"
 #include "numbers/real.h"
 
 namespace gainsmith::lmi {

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <utility>
 
-#include "base/nearest.h"
+#include "expr/work.h"
 #include "model/binding.h"
 #include "model/gains.h"
 
@@ -58,6 +58,7 @@ Binding::Binding(std::shared_ptr<const Problem> problem, const Overrides& overri
 }
 
 Instance Binding::run() {
+  expr::count_design();
   bind_data();
   bind_inequalities();
   bind_gains();

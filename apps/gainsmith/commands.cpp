@@ -1,0 +1,20 @@
+#include "gainsmith/commands.h"
+
+#include "base/version.h"
+
+namespace gainsmith::app {
+
+Program all_commands() {
+  return {
+      "gainsmith",
+      "gainsmith: observer gains by linear matrix inequalities, verified by simulation",
+      std::string("gainsmith ") + kVersion,
+      "Exit codes of every subcommand: 0 done and the answer is yes; 1 done and the answer is no;\n"
+      "2 the command line or a file is wrong; 3 undecided; 70 a fault of the program.\n"
+      "Each subcommand has --help with examples.",
+      {synth_command(), bisect_command(), scan_command(), optimize_command(), explain_command(),
+       verify_command(), simulate_command(), run_command(), check_command(), solve_command(),
+       methods_command()}};
+}
+
+}  // namespace gainsmith::app

@@ -1,0 +1,326 @@
+#include "lmi/affine_algebra.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+#include <vector>
+
+#include "forall/residues.h"
+#include "numbers/dense.h"
+#include "numbers/real.h"
+
+namespace gainsmith::lmi {
+
+namespace {
+
+expr::Shape transposed(expr::Shape shape) { return {shape.cols, shape.rows}; }
+
+Sparse sparse(const numbers::Matrix& matrix) { return matrix.sparseView(0.0, 0.0); }
+
+/// The form with every coefficient mapped linearly.
+template <class Map>
+AffineForm map_terms(const AffineForm& form, expr::Shape shape, Map map) {
+  AffineForm result{shape, {}};
+  for (const auto& [key, matrix] : form.terms) add_term(result, key, map(matrix));
+  return result;
+}
+
+AffineForm sum(const AffineForm& a, const AffineForm& b, double factor) {
+  AffineForm result = a;
+  for (const auto& [key, matrix] : b.terms) add_term(result, key, matrix, factor);
+  return result;
+}
+
+/// A matrix from the elements of `matrix` moved to other places.
+template <class Move>
+Sparse moved(const Sparse& matrix, int rows, int cols, Move move) {
+  std::vector<Eigen::Triplet<double>> elements;
+  for (int k = 0; k < matrix.outerSize(); ++k)
+    for (Sparse::InnerIterator it(matrix, k); it; ++it) move(it, elements);
+  Sparse result(rows, cols);
+  result.setFromTriplets(elements.begin(), elements.end());
+  return result;
+}
+
+AffineForm blocks(const expr::Instruction& instruction,
+                  std::span<const AffineForm* const> operands) {
+  AffineForm result{instruction.shape, {}};
+  const auto columns = static_cast<std::size_t>(instruction.attributes[0]);
+  int row = 0;
+  for (std::size_t first = 0; first < operands.size(); first += columns) {
+    int column = 0;
+    for (std::size_t j = first; j < first + columns; ++j) {
+      for (const auto& [key, matrix] : operands[j]->terms)
+        add_term(result, key,
+                 placed(matrix, instruction.shape.rows, instruction.shape.cols, row, column));
+      column += operands[j]->shape.cols;
+    }
+    row += operands[first]->shape.rows;
+  }
+  return result;
+}
+
+AffineForm index(const expr::Instruction& instruction, const AffineForm& form) {
+  const auto& [row, row_end, column, column_end] = instruction.attributes;
+  return map_terms(form, instruction.shape, [&, row = row, column = column](const Sparse& matrix) {
+    return Sparse(matrix.block(row, column, instruction.shape.rows, instruction.shape.cols));
+  });
+}
+
+AffineForm identity(const AffineForm& form, expr::Shape shape) {
+  return map_terms(form, shape, [&](const Sparse& matrix) {
+    Sparse eye(shape.rows, shape.cols);
+    eye.setIdentity();
+    return Sparse(matrix.coeff(0, 0) * eye);
+  });
+}
+
+AffineForm trace(const AffineForm& form) {
+  return map_terms(form, {}, [](const Sparse& matrix) {
+    return sparse(numbers::Matrix::Constant(1, 1, matrix.diagonal().sum()));
+  });
+}
+
+AffineForm diagonal(const expr::Instruction& instruction, const AffineForm& form) {
+  const expr::Shape shape = instruction.shape;
+  if (instruction.op == expr::Op::diagonal_of)
+    return map_terms(form, shape, [](const Sparse& matrix) { return sparse(matrix.diagonal()); });
+  return map_terms(form, shape, [&](const Sparse& matrix) {
+    return moved(matrix, shape.rows, shape.cols, [](const auto& it, auto& elements) {
+      const int at = static_cast<int>(it.row() + it.col());
+      elements.emplace_back(at, at, it.value());
+    });
+  });
+}
+
+bool all_constant(std::span<const AffineForm* const> operands) {
+  return std::all_of(operands.begin(), operands.end(),
+                     [](const AffineForm* form) { return form->is_constant(); });
+}
+
+/// The rules of one evaluation, with the tables for messages.
+class Rules {
+ public:
+  Rules(forall::MonomialTable& monomials, const Unknowns& unknowns)
+      : monomials_(monomials), unknowns_(unknowns) {}
+
+  AffineForm product(const AffineForm& a, const AffineForm& b, expr::Shape shape,
+                     bool scaling) const {
+    refuse_two_unknowns(a, b);
+    AffineForm result{shape, {}};
+    for (const auto& [left_key, left] : a.terms) {
+      for (const auto& [right_key, right] : b.terms) {
+        const Sparse matrix = scaling ? Sparse(left.coeff(0, 0) * right) : multiplied(left, right);
+        for (const auto& [factor, monomial] : monomials_.product(left_key.first, right_key.first))
+          add_term(result, {monomial, left_key.second + right_key.second}, matrix, factor);
+      }
+    }
+    return result;
+  }
+
+  AffineForm power(const AffineForm& form, int exponent) const {
+    AffineForm result = constant_form(numbers::Matrix::Identity(form.shape.rows, form.shape.rows));
+    for (int i = 0; i < exponent; ++i) result = product(result, form, form.shape, false);
+    return result;
+  }
+
+  AffineForm quotient(const AffineForm& a, const AffineForm& b) const {
+    if (!b.is_constant()) refuse(expr::Op::divide, b);
+    const double divisor = dense_constant(b)(0, 0);
+    if (divisor == 0) throw expr::EvaluationError("division by zero");
+    return map_terms(a, a.shape, [&](const Sparse& matrix) { return Sparse(matrix / divisor); });
+  }
+
+  /// exp, sin or cos of c0 + c1 tau.
+  AffineForm function_of_tau(expr::Op op, const AffineForm& form) const {
+    if (!form.shape.is_scalar()) refuse(op, form);
+    const Linear argument = linear(op, form);
+    const double offset = argument.constant(0, 0);
+    const double slope = argument.slope(0, 0);
+    AffineForm result;
+    const auto add = [&](double factor, const forall::Atom& atom) {
+      add_term(result, {monomials_.index(argument.variable, atom), 0},
+               sparse(numbers::Matrix::Constant(1, 1, factor)));
+    };
+    if (op == expr::Op::exp) {
+      add(std::exp(offset), {0, slope, 0, false});
+      return result;
+    }
+    // sin(c0 + c1 t) = sin c0 cos c1 t + cos c0 sin c1 t; cos likewise. b >= 0 in an atom.
+    const double sign = slope < 0 ? -1 : 1;
+    const bool sine = op == expr::Op::sin;
+    add(sine ? std::sin(offset) : std::cos(offset), {0, 0, std::abs(slope), false});
+    add(sign * (sine ? std::cos(offset) : -std::sin(offset)), {0, 0, std::abs(slope), true});
+    return result;
+  }
+
+  /// expm(M + F tau) = expm(M) expm(F tau) when M F = F M.
+  AffineForm matrix_exponential(const AffineForm& form) const {
+    constexpr double kCommutes = 1e-13;
+    const Linear argument = linear(expr::Op::matrix_exponential, form);
+    const numbers::Matrix& M = argument.constant;
+    const numbers::Matrix& F = argument.slope;
+    if ((M * F - F * M).norm() > kCommutes * M.norm() * F.norm())
+      refuse(expr::Op::matrix_exponential, form);
+    const forall::Variable& tau =
+        monomials_.variables()[static_cast<std::size_t>(argument.variable)];
+    const numbers::Matrix before = numbers::exponential(M);
+    AffineForm result{form.shape, {}};
+    for (const auto& [atom, matrix] : forall::residue_expansion(F, tau.low, tau.high))
+      add_term(result, {monomials_.index(argument.variable, atom), 0},
+               sparse(M.isZero(0) ? matrix : numbers::Matrix(before * matrix)));
+    return result;
+  }
+
+  [[noreturn]] void refuse(expr::Op op, const AffineForm& form) const {
+    int which = 0;
+    if (form.has_unknown(&which))
+      throw expr::EvaluationError("not affine in the unknowns: the " + to_string(op) +
+                                  " depends on " + unknowns_.scalar_name(which));
+    throw expr::EvaluationError(
+        "the " + to_string(op) +
+        " of a function of a 'forall' variable: the way hull takes sums and products of powers, "
+        "exp, sin and cos of affine functions and expm of multiples of one variable; use the way "
+        "exchange");
+  }
+
+ private:
+  /// constant + slope * (one interval variable).
+  struct Linear {
+    numbers::Matrix constant;
+    numbers::Matrix slope;
+    int variable = -1;
+  };
+
+  Linear linear(expr::Op op, const AffineForm& form) const {
+    const numbers::Matrix zero = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
+    Linear result{zero, zero};
+    for (const auto& [key, matrix] : form.terms) {
+      const forall::Monomial& monomial = monomials_[key.first];
+      if (key.second != 0) refuse(op, form);
+      if (monomial.empty()) {
+        result.constant = numbers::Matrix(matrix);
+        continue;
+      }
+      const forall::Factor& factor = monomial.front();
+      if (result.variable >= 0 || monomial.size() > 1 || factor.weight > 0 ||
+          !(factor.atom == forall::Atom{1, 0, 0, false}))
+        refuse(op, form);
+      result.slope = numbers::Matrix(matrix);
+      result.variable = factor.variable;
+    }
+    return result;
+  }
+
+  void refuse_two_unknowns(const AffineForm& a, const AffineForm& b) const {
+    int first = 0;
+    int second = 0;
+    if (!a.has_unknown(&first) || !b.has_unknown(&second)) return;
+    throw expr::EvaluationError("not affine in the unknowns: a product of " +
+                                unknowns_.scalar_name(first) + " and " +
+                                unknowns_.scalar_name(second));
+  }
+
+  forall::MonomialTable& monomials_;
+  const Unknowns& unknowns_;
+};
+
+/// The rules of expr/number_type.h; one operand at least is not constant.
+struct AffineRules {
+  using Op = expr::Op;
+  using At = expr::Step<AffineForm>;
+  template <Op op>
+  using Is = expr::Is<op>;
+
+  const Rules& rules;
+
+  template <Op op>
+  requires expr::OneOf<op, Op::add, Op::subtract>
+  void operator()(Is<op>, const At& at, AffineForm& out) const {
+    out = sum(at[0], at[1], op == Op::add ? 1 : -1);
+  }
+  void operator()(Is<Op::negate>, const At& at, AffineForm& out) const {
+    out = sum({at[0].shape, {}}, at[0], -1);
+  }
+  template <Op op>
+  requires expr::OneOf<op, Op::multiply, Op::scale>
+  void operator()(Is<op>, const At& at, AffineForm& out) const {
+    out = rules.product(at[0], at[1], at.shape(), op == Op::scale);
+  }
+  void operator()(Is<Op::divide>, const At& at, AffineForm& out) const {
+    out = rules.quotient(at[0], at[1]);
+  }
+  void operator()(Is<Op::power>, const At& at, AffineForm& out) const {
+    out = rules.power(at[0], at.attribute(0));
+  }
+  void operator()(Is<Op::transpose>, const At& at, AffineForm& out) const {
+    out = map_terms(at[0], transposed(at[0].shape),
+                    [](const Sparse& m) { return Sparse(m.transpose()); });
+  }
+  void operator()(Is<Op::blocks>, const At& at, AffineForm& out) const {
+    out = blocks(at.instruction, at.operands);
+  }
+  void operator()(Is<Op::index>, const At& at, AffineForm& out) const {
+    out = index(at.instruction, at[0]);
+  }
+  void operator()(Is<Op::identity>, const At& at, AffineForm& out) const {
+    out = identity(at[0], at.shape());
+  }
+  void operator()(Is<Op::fill>, const At& at, AffineForm& out) const {
+    const expr::Shape shape = at.shape();
+    out = rules.product(at[0], constant_form(numbers::Matrix::Ones(shape.rows, shape.cols)), shape,
+                        true);
+  }
+  void operator()(Is<Op::trace>, const At& at, AffineForm& out) const { out = trace(at[0]); }
+  template <Op op>
+  requires expr::OneOf<op, Op::diagonal_matrix, Op::diagonal_of>
+  void operator()(Is<op>, const At& at, AffineForm& out) const {
+    out = diagonal(at.instruction, at[0]);
+  }
+  template <Op op>
+  requires expr::OneOf<op, Op::exp, Op::sin, Op::cos>
+  void operator()(Is<op>, const At& at, AffineForm& out) const {
+    out = rules.function_of_tau(op, at[0]);
+  }
+  void operator()(Is<Op::matrix_exponential>, const At& at, AffineForm& out) const {
+    out = rules.matrix_exponential(at[0]);
+  }
+  /// Not affine in what moves: no value.
+  template <Op op>
+  requires expr::OneOf<op, Op::constant, Op::zeros, Op::scalar_power, Op::log, Op::sqrt, Op::tanh,
+                       Op::abs, Op::sign, Op::minimum, Op::maximum, Op::where, Op::norm,
+                       Op::inverse, Op::pseudo_inverse, Op::singular_values, Op::range_basis,
+                       Op::kernel_basis>
+  void operator()(Is<op>, const At& at, AffineForm&) const {
+    for (const AffineForm* operand : at.operands)
+      if (!operand->is_constant()) rules.refuse(op, *operand);
+  }
+};
+
+/// An operation on constants, in doubles.
+AffineForm constant_result(const expr::Instruction& instruction,
+                           std::span<const AffineForm* const> operands) {
+  std::vector<numbers::Matrix> dense;
+  std::vector<const numbers::Matrix*> pointers;
+  dense.reserve(operands.size());
+  pointers.reserve(operands.size());
+  for (const AffineForm* operand : operands) dense.push_back(dense_constant(*operand));
+  for (const numbers::Matrix& matrix : dense) pointers.push_back(&matrix);
+  numbers::Matrix result;
+  numbers::RealAlgebra().apply(instruction, pointers, result);
+  return constant_form(result);
+}
+
+}  // namespace
+
+void AffineAlgebra::apply(const expr::Instruction& instruction,
+                          std::span<const AffineForm* const> operands, AffineForm& out) const {
+  if (all_constant(operands)) {
+    out = constant_result(instruction, operands);
+    return;
+  }
+  const Rules rules(*monomials, *unknowns);
+  expr::dispatch(AffineRules{rules}, instruction, operands, out);
+}
+
+}  // namespace gainsmith::lmi
