@@ -21,7 +21,7 @@ struct Margin {
   double reached = 0;   ///< smallest eigenvalue / scale, over all points of `forall`
   double required = 0;  ///< what the solver was asked for
   double smallest_eigenvalue = 0;
-  double scale = 0;         ///< of its data
+  double scale = 0;         ///< s_k, or c_k max |x_i| without constant parts (docs/conventions.md)
   std::string worst_point;  ///< "tau = 0"; empty without forall
   bool holds = false;
 };
@@ -41,16 +41,17 @@ struct CertificateRecord {
   double min_eigenvalue = 0;
   double excluded_radius = 0;
   bool checked = false;
-  /// One multiplier matrix for each inequality and point: its name and the matrix.
+  /// One multiplier matrix for each inequality and point, and for the bounds on gains that it needs:
+  /// its name and the matrix.
   NamedMatrices multipliers;
-  /// What it proves infeasible: "problem", or a condition that is only sufficient for the problem's
-  /// inequalities: their "hull", or the test at the "vertices" (docs/language.md).
+  /// What it excludes: the "problem", or a condition that is only sufficient for its inequalities:
+  /// their "hull", or the test at the "vertices" (docs/gain-file.md).
   std::string about = "problem";
 
   bool exact() const { return about == "problem"; }
 };
 
-/// What is added to "proved infeasible": "", " for the hull only", " for the vertex test only".
+/// What is added to "excluded": "", " for the hull only", " for the vertex test only".
 std::string limits_of(const CertificateRecord& certificate);
 
 struct SolverRecord {
@@ -76,9 +77,9 @@ struct PolishRecord {
 struct SearchRecord {
   std::string figure;            ///< "largest T2", "objective", "trace(P1)", "margin"
   std::optional<double> value;   ///< of the figure; none when nothing feasible was found
-  std::optional<double> beyond;  ///< the nearest value beyond it that is proved infeasible
-  std::vector<double> open;      ///< undecided ones next to `value` and `beyond`, or empty
-  std::vector<double> breaks;    ///< proved infeasible on the inner side of `value`
+  std::optional<double> beyond;  ///< the nearest value beyond it that a checked certificate excludes
+  std::vector<double> open;      ///< undecided or refused ones next to `value` and `beyond`, or empty
+  std::vector<double> breaks;    ///< excluded on the inner side of `value`
   std::optional<CertificateRecord> certificate;  ///< at `beyond`
   std::vector<std::string> over;                 ///< the scalars that were optimised outside
   std::vector<std::string> at_end;               ///< those of `over` found at an end of their range

@@ -5,7 +5,7 @@
 // that the expression may use, beside the names of world().
 #include <cstddef>
 #include <cstdint>
-#include <optional>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,21 +13,22 @@
 
 #include "expr/compile.h"
 #include "expr/parser.h"
-#include "expr/real.h"
 #include "fuzz/places.h"
+#include "numbers/real.h"
 
 namespace gainsmith::expr {
 namespace {
+
+using numbers::Matrix;
 
 const std::string kFile = "fuzz";
 
 struct World {
   Scope scope;
-  Values values;
+  numbers::Values values;
 
   void set(const std::string& name, const Matrix& value, bool known) {
-    const Shape shape{static_cast<int>(value.rows()), static_cast<int>(value.cols())};
-    scope.symbols[name] = {shape, known ? std::optional(value) : std::nullopt};
+    scope.symbols[name] = {numbers::shape_of(value), known};
     values[name] = value;
   }
 };
@@ -52,6 +53,7 @@ World world() {
   define("Q", {}, "C'*C");
   define("mu", {"t"}, "exp(g*t) - 1");
   define("f", {"a", "b"}, "[a, b; *, I]");
+  world.scope.known = std::make_shared<numbers::KnownDoubles>(world.values);
   return world;
 }
 
@@ -76,16 +78,16 @@ void run(const std::string_view whole) {
   const Expression expression = parse({std::string(text), kFile, start});
   if (expression.root->kind == NodeKind::compare) {
     for (const CompiledRelation& relation : compile_relations(expression, here.scope))
-      evaluate(relation.difference, here.values);
+      numbers::evaluate(relation.difference, here.values);
     return;
   }
   // Both must be tried: with an expected shape a bare I or 0 has a size.
   try {
-    evaluate(compile(expression, here.scope, Shape{2, 2}), here.values);
+    numbers::evaluate(compile(expression, here.scope, Shape{2, 2}), here.values);
   } catch (const InputError& error) {
     require_place(error, kFile, whole);
   }
-  evaluate(compile(expression, here.scope), here.values);
+  numbers::evaluate(compile(expression, here.scope), here.values);
 }
 
 }  // namespace
