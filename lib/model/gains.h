@@ -1,6 +1,7 @@
 // What synth writes and verify reads: gains, the statement that was solved and how well it holds.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -116,6 +117,18 @@ struct StatedFunction {
   std::optional<expr::Program> body;
 };
 
+/// The decimal that is printed for a double: 17 digits. Zero keeps its sign as "-0.0", since JSON
+/// reads "-0" as a whole number, which has none.
+std::string printed(double value);
+
+/// A matrix as a gain file prints it. What the file states are these decimals; doubles are their
+/// roundings, and a proof computes with the decimals.
+struct Decimals {
+  std::string key;  ///< "gains.L", "gain_functions.K.coefficients[1]", "searched.T2"
+  expr::Shape shape;
+  std::vector<std::string> elements;  ///< row by row
+};
+
 struct Gains {
   std::string problem_name;
   Verdict verdict = Verdict::undecided;
@@ -129,17 +142,31 @@ struct Gains {
   std::vector<StatedFunction> functions;
   NamedMatrices report;  ///< what the method asks to be shown
   NamedMatrices parameters;
-  Overrides searched;  ///< scalars that a search set: they replace those of the statement
+  /// Scalars that a search set: they replace those of the statement. Their decimals count.
+  Overrides searched;
   std::optional<SearchRecord> search;
   std::vector<Margin> margins;
   std::vector<GainBound> bounds;
   std::optional<CertificateRecord> certificate;
   Statement statement;
+  /// Of the matrices that were read with other decimals than printed(): all elements, by key.
+  std::map<std::string, std::vector<std::string>> decimals;
   std::string file;                                     ///< where it was read, for messages
   std::string version;                                  ///< of gainsmith
   std::vector<std::pair<std::string, double>> timings;  ///< seconds; apart from all results
 
   const numbers::Matrix* find(const std::string& name) const;
 };
+
+/// The key of a coefficient of a gain that is a polynomial.
+std::string coefficient_key(const std::string& gain, std::size_t k);
+
+/// The decimals of the matrix that stands under a key: those that were read, as long as the matrix
+/// holds their doubles, otherwise printed().
+Decimals decimals_at(const Gains& gains, const std::string& key, const numbers::Matrix& matrix);
+
+/// The decimals of a gain, a coefficient of a gain that is a polynomial ("K_1"), an unknown, a
+/// parameter or a searched scalar: the first of that name in this order. None for other names.
+std::optional<Decimals> decimals_of(const Gains& gains, const std::string& name);
 
 }  // namespace gainsmith::model
