@@ -37,7 +37,7 @@ std::vector<Part> parts_of(const AffineForm& form, const forall::MonomialTable& 
 }
 
 /// Whether a text is a call of the function.
-bool calls(const std::string& text, const std::string& function) {
+bool is_call_of(const std::string& text, const std::string& function) {
   const std::size_t after = text.find_first_not_of(" \t\n", function.size());
   return text.starts_with(function) && after < text.size() && text[after] == '(';
 }
@@ -54,7 +54,7 @@ std::vector<Choice> choices_of(const Inequalities& of, const model::Design::Gain
     const std::string text = gain.whole.text.substr(call->first, call->second);
     const auto function =
         std::find_if(of.functions.begin(), of.functions.end(),
-                     [&](const model::Function& f) { return calls(text, f.name); });
+                     [&](const model::Function& f) { return is_call_of(text, f.name); });
     if (function == of.functions.end() || choices.front().contains(text)) continue;
     std::vector<Choice> next;
     for (const Choice& choice : choices) {

@@ -25,7 +25,7 @@ using testing::Case;
 using testing::ended;
 using testing::infeasible;
 using testing::optimal;
-using testing::Run;
+using testing::Scripted;
 using testing::unbounded;
 using testing::undecided;
 
@@ -57,12 +57,12 @@ std::vector<std::string> names(const model::NamedMatrices& matrices) {
 
 TEST(Ladder, APointThatKeepsItsMarginIsTheAnswer) {
   const Case of(kFloor);
-  const Run run(of, {[](const sdp::Problem& problem) {
-                  sdp::Solution solution = optimal({1.5})(problem);
-                  solution.dual_objective = 1 + kMargin;  // F_0 . Y with Y = 1
-                  solution.iterations = 7;
-                  return solution;
-                }});
+  const Scripted run(of, {[](const sdp::Problem& problem) {
+                       sdp::Solution solution = optimal({1.5})(problem);
+                       solution.dual_objective = 1 + kMargin;  // F_0 . Y with Y = 1
+                       solution.iterations = 7;
+                       return solution;
+                     }});
   EXPECT_EQ(run.tried, Rungs{Rung::own});
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_EQ(run.gains.solver.status, "optimal");
@@ -79,7 +79,7 @@ TEST(Ladder, APointThatKeepsItsMarginIsTheAnswer) {
 
 TEST(Ladder, APointThatIsShortIsBackedOff) {
   const Case of(kFloor);
-  const Run run(of, {optimal({1 + kMargin / 2}), optimal({1 + 2 * kMargin})});
+  const Scripted run(of, {optimal({1 + kMargin / 2}), optimal({1 + 2 * kMargin})});
   EXPECT_EQ(run.tried, (Rungs{Rung::own, Rung::backed_off}));
   EXPECT_EQ(run.gains.verdict, Verdict::yes) << run.message();
   EXPECT_EQ((*run.gains.find("x"))(0, 0), 1 + 2 * kMargin);
@@ -92,7 +92,7 @@ TEST(Ladder, APointThatIsShortIsBackedOff) {
 TEST(Ladder, WhereBackingOffFailsTheFirstPointCounts) {
   const Case of(kFloor);
   for (const Answer& second : {undecided(), infeasible(), unbounded()}) {
-    const Run run(of, {optimal({1 + kMargin / 2}), second});
+    const Scripted run(of, {optimal({1 + kMargin / 2}), second});
     EXPECT_EQ(run.tried, (Rungs{Rung::own, Rung::backed_off}));
     EXPECT_EQ(run.gains.verdict, Verdict::undecided);
     EXPECT_EQ(run.gains.solver.status, "undecided");
@@ -107,7 +107,7 @@ TEST(Ladder, WhereBackingOffFailsTheFirstPointCounts) {
 /// Whatever it is that the second point is short of, it is no yes.
 TEST(Ladder, ABackedOffPointIsJudgedByItsOwnMargins) {
   const Case of(kFloor);
-  const Run run(of, {optimal({1 + kMargin / 2}), optimal({0.5})});
+  const Scripted run(of, {optimal({1 + kMargin / 2}), optimal({0.5})});
   EXPECT_EQ(run.gains.verdict, Verdict::undecided);
   EXPECT_TRUE(run.says("floor: margin -0.5")) << run.message();
   EXPECT_EQ(run.tried, (Rungs{Rung::own, Rung::backed_off}));
@@ -116,7 +116,7 @@ TEST(Ladder, ABackedOffPointIsJudgedByItsOwnMargins) {
 TEST(Ladder, WhatIsWorseThanATolerancesWorthIsNotBackedOff) {
   const Case of(kFloor);
   for (const double x : {1 - 2e-6, 0.9, -5.0}) {
-    const Run run(of, {optimal({x})});
+    const Scripted run(of, {optimal({x})});
     EXPECT_EQ(run.tried, Rungs{Rung::own}) << x;
     EXPECT_EQ(run.gains.verdict, Verdict::undecided);
   }
@@ -124,7 +124,7 @@ TEST(Ladder, WhatIsWorseThanATolerancesWorthIsNotBackedOff) {
 
 TEST(Ladder, AnInequalityThatMayTouchIsBackedOffFromZero) {
   const Case of(floor_of("x >= 1"));
-  const Run run(of, {optimal({1 - 1e-9}), optimal({1})});
+  const Scripted run(of, {optimal({1 - 1e-9}), optimal({1})});
   EXPECT_EQ(run.tried, (Rungs{Rung::own, Rung::backed_off}));
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_DOUBLE_EQ(run.asked[0].f[0].at(0).value, 1);
@@ -135,7 +135,7 @@ TEST(Ladder, AnInfeasibleProblemWithoutBoundsIsOne) {
   for (const std::string& method : {kFloor, std::string("  unknowns: {x: scalar}\n  require: {a: "
                                                         "x > 0, b: x < 0}\n")}) {
     const Case of(method);
-    const Run run(of, {infeasible()});
+    const Scripted run(of, {infeasible()});
     EXPECT_EQ(run.tried, Rungs{Rung::own});
     EXPECT_EQ(run.gains.verdict, Verdict::no);
     EXPECT_EQ(run.gains.solver.status, "infeasible");
@@ -156,13 +156,13 @@ TEST(Ladder, AnInfeasibleProblemWithoutBoundsIsOne) {
 /// What a certificate excludes is said in the units of the unknowns.
 TEST(Ladder, TheExcludedRadiusIsInTheUnitsOfTheProblem) {
   const Case of("  unknowns: {x: scalar}\n  require: {floor: 2*x > 600}\n  minimize: x\n");
-  const Run run(of, {infeasible()});
+  const Scripted run(of, {infeasible()});
   EXPECT_DOUBLE_EQ(run.gains.certificate.value().excluded_radius, 300 * 1e14);
 }
 
 TEST(Ladder, BoundsOnGainsMustNotDecide) {
   const Case of(kFreeGain);
-  const Run without(of, {infeasible(), infeasible()});
+  const Scripted without(of, {infeasible(), infeasible()});
   EXPECT_EQ(without.tried, (Rungs{Rung::own, Rung::free}));
   EXPECT_EQ(without.asked[0].blocks.size(), 2U);
   EXPECT_EQ(without.asked[1].blocks.size(), 1U);
@@ -171,7 +171,7 @@ TEST(Ladder, BoundsOnGainsMustNotDecide) {
   EXPECT_EQ(names(without.gains.certificate.value().multipliers),
             std::vector<std::string>{"floor"});
   for (const Answer& free : {optimal({2, 1e9}), undecided(), unbounded()}) {
-    const Run within(of, {infeasible(), free});
+    const Scripted within(of, {infeasible(), free});
     EXPECT_EQ(within.tried, (Rungs{Rung::own, Rung::free}));
     EXPECT_EQ(within.gains.verdict, Verdict::no);
     EXPECT_EQ(within.message(),
@@ -185,7 +185,7 @@ TEST(Ladder, BoundsOnGainsMustNotDecide) {
 
 TEST(Ladder, ALargestMarginThatSufficesIsAPoint) {
   const Case of(window(false));
-  const Run run(of, {optimal({1.5, 0.25})});
+  const Scripted run(of, {optimal({1.5, 0.25})});
   EXPECT_EQ(run.tried, Rungs{Rung::own});
   EXPECT_EQ(run.at(Rung::own).question.goal, Goal::feasibility);
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
@@ -196,7 +196,7 @@ TEST(Ladder, ALargestMarginThatSufficesIsAPoint) {
 TEST(Ladder, ALargestMarginThatIsTooSmallNeedsACertificate) {
   const Case of(window(false));
   for (const Answer& first : {optimal({1.5, 1e-9}), optimal({1.5, -3.0}), infeasible()}) {
-    const Run no(of, {first, infeasible()});
+    const Scripted no(of, {first, infeasible()});
     EXPECT_EQ(no.tried, (Rungs{Rung::own, Rung::margin}));
     EXPECT_EQ(no.at(Rung::margin).question.goal, Goal::certificate);
     // Without limits on x and without the margin as a variable.
@@ -208,11 +208,11 @@ TEST(Ladder, ALargestMarginThatIsTooSmallNeedsACertificate) {
               (std::vector<std::string>{"low", "high"}));
   }
   for (const Answer& second : {undecided(), optimal({1e7})}) {
-    const Run small(of, {optimal({1.5, 1e-9}), second});
+    const Scripted small(of, {optimal({1.5, 1e-9}), second});
     EXPECT_EQ(small.gains.verdict, Verdict::undecided);
     EXPECT_EQ(small.gains.solver.status, "undecided");
     EXPECT_EQ(small.message(), "the largest margin is 1e-09, below the one asked for");
-    const Run far(of, {infeasible(), second});
+    const Scripted far(of, {infeasible(), second});
     EXPECT_EQ(far.gains.verdict, Verdict::undecided);
     EXPECT_EQ(far.message(), "solutions, if any, are far larger than the data suggest");
     EXPECT_FALSE(far.gains.certificate);
@@ -221,24 +221,24 @@ TEST(Ladder, ALargestMarginThatIsTooSmallNeedsACertificate) {
 
 TEST(Ladder, ACertificateAtTheMarginIsAskedForWithoutBoundsToo) {
   const Case of(window(true));
-  const Run no(of, {infeasible(), infeasible(), infeasible()});
+  const Scripted no(of, {infeasible(), infeasible(), infeasible()});
   EXPECT_EQ(no.tried, (Rungs{Rung::own, Rung::margin, Rung::free}));
   EXPECT_EQ(no.at(Rung::free).question.goal, Goal::certificate);
   EXPECT_EQ(no.asked[2].blocks.size(), 2U);
   EXPECT_EQ(no.gains.verdict, Verdict::no);
   EXPECT_EQ(no.message(), "");
-  const Run within(of, {optimal({1.5, 1e-9}), infeasible(), undecided()});
+  const Scripted within(of, {optimal({1.5, 1e-9}), infeasible(), undecided()});
   EXPECT_EQ(within.tried, (Rungs{Rung::own, Rung::margin, Rung::free}));
   EXPECT_EQ(within.gains.verdict, Verdict::no);
   EXPECT_TRUE(within.says("within the gain bound 10"));
   EXPECT_EQ(within.gains.certificate.value().multipliers.size(), 3U);
-  const Run open(of, {infeasible(), undecided()});
+  const Scripted open(of, {infeasible(), undecided()});
   EXPECT_EQ(open.tried, (Rungs{Rung::own, Rung::margin}));
   EXPECT_EQ(open.gains.verdict, Verdict::undecided);
 }
 
 TEST(Ladder, AnUnboundedObjectiveIsSaid) {
-  const Run run(Case(kFreeGain), {unbounded()});
+  const Scripted run(Case(kFreeGain), {unbounded()});
   EXPECT_EQ(run.tried, Rungs{Rung::own});
   EXPECT_EQ(run.gains.verdict, Verdict::undecided);
   EXPECT_EQ(run.gains.solver.status, "undecided");
@@ -247,12 +247,12 @@ TEST(Ladder, AnUnboundedObjectiveIsSaid) {
 
 TEST(Ladder, WithoutAnAnswerTheCauseIsKept) {
   for (const std::string& method : {kFloor, kFreeGain, window(false), window(true)}) {
-    const Run run(Case(method), {[](const sdp::Problem& problem) {
-                    sdp::Solution solution = ended(sdp::Status::undecided, problem);
-                    solution.cause = sdp::Cause::time_limit;
-                    solution.message = "out of time";
-                    return solution;
-                  }});
+    const Scripted run(Case(method), {[](const sdp::Problem& problem) {
+                         sdp::Solution solution = ended(sdp::Status::undecided, problem);
+                         solution.cause = sdp::Cause::time_limit;
+                         solution.message = "out of time";
+                         return solution;
+                       }});
     EXPECT_EQ(run.tried, Rungs{Rung::own});
     EXPECT_EQ(run.gains.verdict, Verdict::undecided);
     EXPECT_EQ(run.gains.solver.status, "undecided");
@@ -264,7 +264,7 @@ TEST(Ladder, WithoutAnAnswerTheCauseIsKept) {
 
 TEST(Ladder, AFreeGainIsMarkedByATighterBound) {
   const Case of(kFreeGain);
-  const Run run(of, {optimal({1.5, 5}), optimal({1.5, 0.5})});
+  const Scripted run(of, {optimal({1.5, 5}), optimal({1.5, 0.5})});
   EXPECT_EQ(run.tried, (Rungs{Rung::own, Rung::tighter}));
   EXPECT_EQ(run.at(Rung::tighter).question.bounds.beta, 1);
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
@@ -276,7 +276,7 @@ TEST(Ladder, AFreeGainIsMarkedByATighterBound) {
   EXPECT_EQ((*run.gains.find("y"))(0, 0), 5);  // the point is not the tighter one
   // Another objective, no point, or a gain that stays: the objective asks for the gain.
   for (const Answer& second : {optimal({1.6, 0.5}), undecided(), infeasible(), optimal({1.5, 4})}) {
-    const Run asked(of, {optimal({1.5, 5}), second});
+    const Scripted asked(of, {optimal({1.5, 5}), second});
     EXPECT_EQ(asked.tried, (Rungs{Rung::own, Rung::tighter}));
     EXPECT_EQ(asked.gains.verdict, Verdict::yes);
     EXPECT_FALSE(asked.gains.bounds[0].active);
@@ -287,20 +287,20 @@ TEST(Ladder, NoTighterBoundWhereItTellsNothing) {
   const Case of(kFreeGain);
   const std::vector<std::pair<double, bool>> gains = {{0.09, false}, {9.95, true}, {-9.95, true}};
   for (const auto& [y, active] : gains) {
-    const Run run(of, {optimal({1.5, y})});
+    const Scripted run(of, {optimal({1.5, y})});
     EXPECT_EQ(run.tried, Rungs{Rung::own}) << y;
     EXPECT_EQ(run.gains.bounds.at(0).active, active);
   }
-  const Run wrong(of, {optimal({0.5, 5})});  // not kept
+  const Scripted wrong(of, {optimal({0.5, 5})});  // not kept
   EXPECT_EQ(wrong.tried, Rungs{Rung::own});
   EXPECT_EQ(wrong.gains.verdict, Verdict::undecided);
-  const Run plain(Case(window(true)), {optimal({1.5, 0.25})});  // no objective
+  const Scripted plain(Case(window(true)), {optimal({1.5, 0.25})});  // no objective
   EXPECT_EQ(plain.tried, Rungs{Rung::own});
 }
 
 TEST(Ladder, ABackedOffPointHasItsTighterBound) {
   const Case of(kFreeGain);
-  const Run run(of, {optimal({1 + kMargin / 2, 5}), optimal({1.5, 5}), optimal({1.5, 0.1})});
+  const Scripted run(of, {optimal({1 + kMargin / 2, 5}), optimal({1.5, 5}), optimal({1.5, 0.1})});
   EXPECT_EQ(run.tried, (Rungs{Rung::own, Rung::backed_off, Rung::tighter}));
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_TRUE(run.gains.bounds.at(0).active);
@@ -310,16 +310,16 @@ TEST(Ladder, ABackedOffPointHasItsTighterBound) {
 /// Of solutions that may have any size the relative margin is too large.
 TEST(Ladder, AHomogeneousProblemNamesTheRemedy) {
   const std::string cone = "  unknowns: {x: scalar, y: scalar}\n  require: {a: x > 0, b: y > 0}\n";
-  const Run yes(Case(cone), {optimal({1, 1, 1})});
+  const Scripted yes(Case(cone), {optimal({1, 1, 1})});
   EXPECT_EQ(yes.at(Rung::own).question.goal, Goal::homogeneous_feasibility);
   EXPECT_EQ(yes.gains.verdict, Verdict::yes);
   const Case of(cone + "  minimize: x + y\n");
-  const Run small(of, {optimal({1, 1e8}), undecided()});
+  const Scripted small(of, {optimal({1, 1e8}), undecided()});
   EXPECT_EQ(small.at(Rung::own).question.goal, Goal::normalised_objective);
   EXPECT_EQ(small.tried, (Rungs{Rung::own, Rung::backed_off}));
   EXPECT_EQ(small.gains.verdict, Verdict::undecided);
   EXPECT_TRUE(small.says("a smaller synthesis.margin, or P > I instead of P > 0, may do"));
-  const Run negative(of, {optimal({-1, 1e8}), undecided()});
+  const Scripted negative(of, {optimal({-1, 1e8}), undecided()});
   EXPECT_EQ(negative.gains.verdict, Verdict::undecided);
   EXPECT_FALSE(negative.says("a smaller synthesis.margin"));
 }
@@ -330,7 +330,7 @@ TEST(Ladder, WhatIsOpenBetweenThePointsIsNoYes) {
       "cos(1e7*t) > 0\"}\n  minimize: x\nsynthesis: {forall: exchange}\n");
   const double unit =
       lmi::formulate(of.lmi, of.bounds, of.posed().choices(), Goal::bounded_objective).unit;
-  const Run run(of, {optimal({1.0001 / unit})});
+  const Scripted run(of, {optimal({1.0001 / unit})});
   EXPECT_EQ(run.gains.verdict, Verdict::undecided);
   EXPECT_TRUE(run.says("the solver converged, but for all values wave: not settled for t in ["))
       << run.message();
@@ -338,12 +338,12 @@ TEST(Ladder, WhatIsOpenBetweenThePointsIsNoYes) {
 
 TEST(Ladder, ACertificateThatWasNotCheckedIsNoNo) {
   for (const std::string& method : {kFloor, kFreeGain, window(false)}) {
-    const Run run(Case(method), {infeasible(false)});
+    const Scripted run(Case(method), {infeasible(false)});
     EXPECT_EQ(run.gains.verdict, Verdict::undecided);
     EXPECT_EQ(run.gains.solver.status, "undecided");
     EXPECT_FALSE(run.gains.certificate);
   }
-  const Run free(Case(kFreeGain), {infeasible(), infeasible(false)});
+  const Scripted free(Case(kFreeGain), {infeasible(), infeasible(false)});
   EXPECT_TRUE(free.says("within the gain bound 10"));
 }
 
@@ -364,7 +364,7 @@ TEST(Ladder, TheSolversWordAloneIsNoYes) {
                     1 + size * normal(generator), size * normal(generator)};
       return solution;
     };
-    const Run run(random, of);
+    const Scripted run(random, of);
     const numbers::Matrix& P = *run.gains.find("P");
     const double g = (*run.gains.find("g"))(0, 0);
     numbers::Matrix link(3, 3);

@@ -81,10 +81,10 @@ inline constexpr Rung kRungs[] = {Rung::own, Rung::margin, Rung::free, Rung::bac
 
 /// One climb over a script, with what holds for every climb: the programs asked are those of the
 /// rungs in their order, each tried once, and a record stays as it was.
-class Run {
+class Scripted {
  public:
-  Run(const Case& of, const std::vector<Answer>& script)
-      : Run(
+  Scripted(const Case& of, const std::vector<Answer>& script)
+      : Scripted(
             [script, at = std::size_t{0}](const sdp::Problem& problem) mutable {
               if (at == script.size()) ADD_FAILURE() << "more is asked than the script has";
               return at == script.size() ? ended(sdp::Status::undecided, problem)
@@ -92,7 +92,7 @@ class Run {
             },
             of) {}
 
-  Run(const Answer& answer, const Case& of)
+  Scripted(const Answer& answer, const Case& of)
       : climb(of.posed(), of.bounds, [this, answer](const sdp::Problem& problem) {
           asked.push_back(problem);
           return answer(problem);
@@ -124,7 +124,7 @@ class Run {
   Climb climb;
 
  private:
-  using Record = std::tuple<Goal, double, double, sdp::Status, bool, std::vector<double>,
+  using Record = std::tuple<lmi::Goal, double, double, sdp::Status, bool, std::vector<double>,
                             std::vector<double>, std::vector<double>>;
 
   std::vector<Record> records() {

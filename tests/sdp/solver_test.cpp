@@ -128,9 +128,10 @@ TEST(Precision, IsTheNarrowestWithTheDigitsAskedFor) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Precision, Catalogue, ::testing::ValuesIn(kPrecisions), [](const auto& p) {
-  return p.param == "50" ? std::string("fifty") : p.param;
-});
+INSTANTIATE_TEST_SUITE_P(
+    Precision, Catalogue,
+    ::testing::ValuesIn(std::vector<std::string>(std::begin(kPrecisions), std::end(kPrecisions))),
+    [](const auto& p) { return p.param == "50" ? std::string("fifty") : p.param; });
 
 TEST(Solver, GivesTheSameBitsForAnyNumberOfThreads) {
   for (const CatalogueProblem& known : testing::sdp_catalogue()) {
