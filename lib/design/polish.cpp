@@ -4,7 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <memory>
+#include <set>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -20,9 +21,18 @@ using Vector = std::vector<double>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The design with the request's own figure as its objective.
+/// The design with the request's own figure as its objective. NotSmooth when the figure is one of
+/// the gains or of the result, not of the unknowns.
 model::DesignPtr with_figure(const model::Instance& own, const SearchRequest& request) {
   if (!request.minimize) return own.design;
+  std::set<std::string> known;
+  for (const auto& [name, value] : own.values) known.insert(name);
+  for (const auto& unknown : unknown_matrices(*own.design, model::polynomials(*own.design)))
+    known.insert(unknown.name);
+  const expr::Program& figure = request.minimize->program;
+  for (const expr::Input& input : figure.inputs)
+    if (!known.contains(input.name))
+      throw NotSmooth{"the figure is of " + input.name + ", which is no unknown"};
   return with_design(own, [&](model::Design& design) { design.objective = request.minimize; })
       .design;
 }
