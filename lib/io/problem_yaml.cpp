@@ -46,8 +46,6 @@ std::uint64_t whole(const YamlFile& file, const YamlItem& item, double least) {
   return static_cast<std::uint64_t>(value);
 }
 
-constexpr int kMostSlices = 10000;
-
 model::Way way_of(const YamlFile& file, const YamlItem& item) {
   using model::Way;
   std::vector<std::string> words;
@@ -60,44 +58,42 @@ model::Way way_of(const YamlFile& file, const YamlItem& item) {
                    item.key + ": unknown way '" + word + "'" + suggestion(word, words));
 }
 
+/// "forall: hull" or "forall: {way: hull, slices: 4}".
+void read_way(const YamlFile& file, const YamlItem& item, model::SynthesisOptions& options) {
+  constexpr int kMostSlices = 10000;
+  if (!item.value.IsMap()) {
+    options.way = way_of(file, item);
+    return;
+  }
+  YamlMap parts(file, item.value, "forall");
+  options.way = way_of(file, parts.require("way"));
+  if (const auto slices = parts.find("slices")) {
+    options.slices = static_cast<int>(whole(file, *slices, 1));
+    if (options.slices > kMostSlices)
+      throw InputError(file.place(slices->value), "slices: at most " + std::to_string(kMostSlices));
+    if (options.way != model::Way::hull)
+      throw InputError(file.place(slices->value), "slices: the way '" + to_string(options.way) +
+                                                      "' has none, only 'hull' has");
+  }
+  parts.finish();
+}
+
 model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<YamlItem>& item) {
   model::SynthesisOptions options;
   if (!item) return options;
   YamlMap map(file, item->value, "synthesis");
-  const auto positive = [&](const YamlItem& entry) {
-    const double value = file.number(entry.value, entry.key);
-    if (!(value > 0))
-      throw InputError(file.place(entry.value), entry.key + ": expected a positive number");
-    return value;
-  };
   if (const auto margin = map.find("margin")) {
-    options.margin = positive(*margin);
+    options.margin = file.positive(margin->value, "margin");
     if (options.margin >= 1)
       throw InputError(file.place(margin->value),
                        "margin: relative to the data's scale, so below 1");
   }
   if (const auto bound = map.find("gain_bound")) {
     const bool off = bound->value.IsScalar() && bound->value.Scalar() == "none";
-    options.gain_bound = off ? std::nullopt : std::optional(positive(*bound));
+    options.gain_bound =
+        off ? std::nullopt : std::optional(file.positive(bound->value, "gain_bound"));
   }
-  if (const auto forall = map.find("forall")) {
-    if (forall->value.IsMap()) {
-      YamlMap parts(file, forall->value, "forall");
-      options.way = way_of(file, parts.require("way"));
-      if (const auto slices = parts.find("slices")) {
-        options.slices = static_cast<int>(whole(file, *slices, 1));
-        if (options.slices > kMostSlices)
-          throw InputError(file.place(slices->value),
-                           "slices: at most " + std::to_string(kMostSlices));
-        if (options.way != model::Way::hull)
-          throw InputError(file.place(slices->value), "slices: the way '" + to_string(options.way) +
-                                                          "' has none, only 'hull' has");
-      }
-      parts.finish();
-    } else {
-      options.way = way_of(file, *forall);
-    }
-  }
+  if (const auto forall = map.find("forall")) read_way(file, *forall, options);
   map.finish();
   return options;
 }

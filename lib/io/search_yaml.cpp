@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "model/instance.h"
-
 namespace gainsmith::io {
 
 namespace {
@@ -17,13 +15,6 @@ std::optional<model::ScalarRange> extreme(const YamlFile& file, const std::optio
     throw InputError(item->place,
                      item->key + ": expected one scalar and its range, such as {T2: [0.5, 1.1]}");
   return ranges.front();
-}
-
-double positive(const YamlFile& file, const YamlItem& item) {
-  const double value = file.number(item.value, item.key);
-  if (!(value > 0))
-    throw InputError(file.place(item.value), item.key + ": expected a positive number");
-  return value;
 }
 
 int evaluations(const YamlFile& file, const YamlItem& item) {
@@ -81,7 +72,7 @@ model::Search search_from(const YamlFile& file, const YamlItem& item, const mode
     throw InputError(tolerance->place, "search: 'tolerance' belongs to 'largest' or 'smallest'");
   if (count && search.over.empty())
     throw InputError(count->place, "search: 'evaluations' belongs to 'over'");
-  if (tolerance) search.tolerance = positive(file, *tolerance);
+  if (tolerance) search.tolerance = file.positive(tolerance->value, "tolerance");
   if (minimize) search.minimize = file.expression(minimize->value, "minimize");
   if (count) search.evaluations = evaluations(file, *count);
   return search;

@@ -254,6 +254,12 @@ double YamlFile::number(const YAML::Node& node, const std::string& what) const {
   return *value;
 }
 
+double YamlFile::positive(const YAML::Node& node, const std::string& what) const {
+  const double value = number(node, what);
+  if (!(value > 0)) throw InputError(place(node), what + ": expected a positive number");
+  return value;
+}
+
 YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what)
     : what_(std::move(what)), place_(file.place(node)) {
   if (!node.IsMap())

@@ -32,6 +32,8 @@ class YamlFile {
   std::string string(const YAML::Node& node, const std::string& what) const;
   /// A number written as such (not an expression).
   double number(const YAML::Node& node, const std::string& what) const;
+  /// A number above 0.
+  double positive(const YAML::Node& node, const std::string& what) const;
 
  private:
   /// yaml-cpp counts lines and columns from 0, and columns in bytes.
