@@ -21,20 +21,16 @@ using Vector = std::vector<double>;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-/// The design with the request's own figure as its objective. NotSmooth when the figure is one of
-/// the gains or of the result, not of the unknowns.
-model::DesignPtr with_figure(const model::Instance& own, const SearchRequest& request) {
-  if (!request.minimize) return own.design;
+/// NotSmooth when the figure is one of the gains or of the result, not of the unknowns.
+void require_figure_of_unknowns(const model::Instance& own, const SearchRequest& request) {
+  if (!request.minimize) return;
   std::set<std::string> known;
   for (const auto& [name, value] : own.values) known.insert(name);
   for (const auto& unknown : unknown_matrices(*own.design, model::polynomials(*own.design)))
     known.insert(unknown.name);
-  const expr::Program& figure = request.minimize->program;
-  for (const expr::Input& input : figure.inputs)
+  for (const expr::Input& input : request.minimize->program.inputs)
     if (!known.contains(input.name))
       throw NotSmooth{"the figure is of " + input.name + ", which is no unknown"};
-  return with_design(own, [&](model::Design& design) { design.objective = request.minimize; })
-      .design;
 }
 
 /// A lower triangular L with L L' = M, M (whose terms are of size 1) made positive definite.
@@ -100,13 +96,22 @@ class SmoothDesign {
     return scalars_.size() + static_cast<std::size_t>(i) - 1;
   }
 
+  /// The design at values of its scalars, with the request's own figure as its objective.
+  model::Instance instance_at(const model::Overrides& values) const {
+    model::Instance instance = model::evaluate(design_, values);
+    if (instance.design != design_) throw NotSmooth{"a dimension changes with the scalars"};
+    if (!figure_) return instance;
+    return with_design(std::move(instance),
+                       [&](model::Design& design) { design.objective = figure_; });
+  }
+
   /// The blocks at the scalars of v; the last few are kept.
   const SmoothBlocks& at(const Vector& v) {
     const Vector key(v.begin(), v.begin() + static_cast<std::ptrdiff_t>(scalars_.size()));
     if (const auto found = cache_.find(key); found != cache_.end()) return found->second;
     constexpr std::size_t kKept = 32;
     if (cache_.size() > kKept) cache_.clear();
-    SmoothBlocks blocks = smooth_blocks(model::evaluate(design_, scalars(key)));
+    SmoothBlocks blocks = smooth_blocks(instance_at(scalars(key)));
     if (!factors_.empty()) {
       bool same = blocks.list.size() == factors_.size();
       for (std::size_t k = 0; same && k < factors_.size(); ++k)
@@ -314,6 +319,7 @@ class SmoothDesign {
   }
 
   model::DesignPtr design_;
+  std::optional<model::Formula> figure_;  ///< in place of the objective
   model::Overrides held_;
   std::vector<SearchedScalar> scalars_;
   std::ptrdiff_t extreme_ = -1;  ///< which scalar is the figure; -1: none

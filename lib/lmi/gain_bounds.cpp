@@ -188,8 +188,11 @@ class Collector {
       factor = &product.nearest;
       parts = affine_parts(gain, *factor, choice);
     }
-    const Unknown& unknown = *of_.unknowns.find(product.inverse);
-    const std::string inverse = "inv(" + product.inverse + ")";
+    // inv(Q(t)) of an unknown function is bounded through its coefficients.
+    const auto coefficient = choice.find(product.inverse);
+    const std::string& name = coefficient == choice.end() ? product.inverse : coefficient->second;
+    const Unknown& unknown = *of_.unknowns.find(name);
+    const std::string inverse = "inv(" + name + ")";
     const std::string text = text_of(*factor, choice);
     for (const Part& part : parts)
       add({(product.left ? inverse + "*" + text : text + "*" + inverse) + part.factor,
