@@ -46,7 +46,8 @@ Matrix factor(const Matrix& matrix) {
 class SmoothDesign {
  public:
   SmoothDesign(const model::Instance& own, const SearchRequest& request, const model::Gains& gains)
-      : design_(with_figure(own, request)), held_(own.overrides) {
+      : design_(own.design), figure_(request.minimize), held_(own.overrides) {
+    require_figure_of_unknowns(own, request);
     scalars_ = request.over;
     if (request.extreme) {
       extreme_ = static_cast<std::ptrdiff_t>(scalars_.size());
