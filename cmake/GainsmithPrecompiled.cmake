@@ -1,18 +1,25 @@
-# Third-party headers that are read once for all sources of the rooms that see them.
+# Headers that are read once for all sources of the rooms that see them.
 
-# gainsmith_precompiled(TARGET)
-#   The sources of TARGET start with Eigen, nlohmann-json and fmt, precompiled. They still include what
-#   they use: clang and clang-tidy read them without.
-function(gainsmith_precompiled target)
-  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR GAINSMITH_TIDY)
+# gainsmith_precompiled(TARGET SET)
+#   The sources of TARGET start with a set of precompiled headers: `eigen`, or `all` with nlohmann-json and
+#   fmt besides. They still include what they use: clang, clang-tidy and the dev preset, where ccache serves
+#   better, read them without.
+function(gainsmith_precompiled target set)
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR GAINSMITH_TIDY OR NOT CMAKE_BUILD_TYPE STREQUAL "Release")
     return()
   endif()
-  if(NOT TARGET gainsmith_headers)
-    set(source "${PROJECT_BINARY_DIR}/generated/headers.cpp")
+  set(headers gainsmith_headers_${set})
+  if(NOT TARGET ${headers})
+    set(source "${PROJECT_BINARY_DIR}/generated/${headers}.cpp")
     file(CONFIGURE OUTPUT "${source}" CONTENT "")
-    add_library(gainsmith_headers OBJECT "${source}")
-    target_link_libraries(gainsmith_headers PRIVATE Eigen3::Eigen nlohmann_json::nlohmann_json third_party::fmt)
-    target_precompile_headers(gainsmith_headers PRIVATE <Eigen/Core> <nlohmann/json.hpp> <fmt/format.h>)
+    add_library(${headers} OBJECT "${source}")
+    target_link_libraries(${headers} PRIVATE Eigen3::Eigen third_party::fmt)
+    target_precompile_headers(${headers} PRIVATE
+      <Eigen/Core> <algorithm> <functional> <map> <memory> <optional> <set> <string> <vector>)
+    if(set STREQUAL "all")
+      target_link_libraries(${headers} PRIVATE nlohmann_json::nlohmann_json)
+      target_precompile_headers(${headers} PRIVATE <nlohmann/json.hpp> <fmt/format.h>)
+    endif()
   endif()
-  target_precompile_headers(${target} REUSE_FROM gainsmith_headers)
+  target_precompile_headers(${target} REUSE_FROM ${headers})
 endfunction()
