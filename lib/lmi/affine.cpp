@@ -134,8 +134,8 @@ forall::Expansion expansion_of(const AffineForm& form) {
 numbers::Matrix value_of(const AffineForm& form, const std::vector<double>& x) {
   numbers::Matrix result = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
   for (const auto& [key, matrix] : form.terms)
-    result += (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) *
-              numbers::Matrix(matrix);
+    add_multiple(result, key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1],
+                 matrix);
   return result;
 }
 

@@ -8,7 +8,7 @@ namespace gainsmith::lmi {
 numbers::Matrix Block::value(const std::vector<double>& x) const {
   numbers::Matrix result = numbers::Matrix::Zero(size, size);
   for (const auto& [i, matrix] : terms)
-    result += (i == 0 ? 1.0 : x[static_cast<std::size_t>(i) - 1]) * numbers::Matrix(matrix);
+    add_multiple(result, i == 0 ? 1.0 : x[static_cast<std::size_t>(i) - 1], matrix);
   return result;
 }
 

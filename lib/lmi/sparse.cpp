@@ -55,6 +55,11 @@ Sparse placed(const Sparse& matrix, int rows, int cols, int row, int column) {
   return result;
 }
 
+void add_multiple(Eigen::MatrixXd& sum, double factor, const Sparse& matrix) {
+  for (int j = 0; j < matrix.outerSize(); ++j)
+    for (Sparse::InnerIterator it(matrix, j); it; ++it) sum(it.row(), j) += factor * it.value();
+}
+
 Sparse sum_of(const Sparse& a, const Sparse& b, double factor) {
   Sparse result(a.rows(), a.cols());
   result.reserve(a.nonZeros() + b.nonZeros());

@@ -20,6 +20,9 @@ Sparse multiplied(const Sparse& a, const Sparse& b);
 /// A rows x cols matrix with `matrix` at (row, column), zeros elsewhere.
 Sparse placed(const Sparse& matrix, int rows, int cols, int row, int column);
 
+/// sum += factor matrix.
+void add_multiple(Eigen::MatrixXd& sum, double factor, const Sparse& matrix);
+
 /// a + factor b, without elements that cancel.
 Sparse sum_of(const Sparse& a, const Sparse& b, double factor);
 
