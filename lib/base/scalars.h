@@ -11,7 +11,7 @@
 
 namespace gainsmith {
 
-/// 100 decimal digits (MPFR, kept on the stack), for small problems that 31 do not settle.
+/// 100 decimal digits (MPFR, kept on the stack), for what 31 do not settle.
 using Decimal100 = boost::multiprecision::number<
     boost::multiprecision::mpfr_float_backend<100, boost::multiprecision::allocate_stack>,
     boost::multiprecision::et_off>;

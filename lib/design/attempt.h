@@ -42,7 +42,10 @@ struct Attempt {
   lmi::Margins margins;   ///< at x, recomputed; of a point
 
   bool is_optimal() const { return solution.status == sdp::Status::optimal; }
-  bool is_infeasible() const { return solution.status == sdp::Status::primal_infeasible; }
+  /// A certificate counts when it was checked.
+  bool is_infeasible() const {
+    return solution.status == sdp::Status::primal_infeasible && solution.certificate.checked;
+  }
   /// Of Goal::feasibility, when optimal.
   double largest_margin() const { return solution.x.back(); }
 };

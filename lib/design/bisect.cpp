@@ -90,8 +90,9 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
   std::map<double, model::Gains> tried;
   std::optional<InputError> refusal;
   const auto question = [&](double value) {
-    model::Overrides overrides = fixed;
-    overrides[choices.scalar.name] = value;
+    model::Overrides overrides = {{choices.scalar.name, value}};
+    overrides.insert(fixed.begin(), fixed.end());
+    overrides.insert(own.overrides.begin(), own.overrides.end());
     try {
       model::Gains gains = synthesize_at(own.design, overrides, solver);
       const search::Answer answer = answer_of(gains.verdict);

@@ -9,12 +9,12 @@ namespace gainsmith::design {
 
 namespace {
 
-model::SolverRecord record_of(const sdp::Solution& solution) {
+model::SolverRecord record_of(const Attempt& attempt) {
+  const sdp::Solution& solution = attempt.solution;
   model::SolverRecord record;
-  const bool infeasible = solution.status == sdp::Status::primal_infeasible;
-  record.status = infeasible                                ? "infeasible"
-                  : solution.status == sdp::Status::optimal ? "optimal"
-                                                            : "undecided";
+  record.status = attempt.is_infeasible() ? "infeasible"
+                  : attempt.is_optimal()  ? "optimal"
+                                          : "undecided";
   record.cause = to_string(solution.cause);
   record.message = solution.message;
   record.iterations = solution.iterations;
@@ -110,17 +110,17 @@ void accept_certificate(const Climb& climb, const Attempt& infeasible, bool with
 void conclude(const Climb& climb, model::Gains& gains) {
   gains.verdict = model::Verdict::undecided;
   if (const Attempt* point = climb.point()) {
-    gains.solver = record_of(point->solution);
+    gains.solver = record_of(*point);
     return accept_point(climb, *point, gains);
   }
   bool within_bounds = false;
   if (const Attempt* infeasible = climb.certificate(within_bounds)) {
-    gains.solver = record_of(infeasible->solution);
+    gains.solver = record_of(*infeasible);
     return accept_certificate(climb, *infeasible, within_bounds, gains);
   }
   const Attempt& own = climb.own();
   const Attempt* margin = climb.find(Rung::margin);
-  gains.solver = record_of((margin != nullptr ? *margin : own).solution);
+  gains.solver = record_of(margin != nullptr ? *margin : own);
   if (margin != nullptr)
     leave_undecided(gains, own.is_infeasible()
                                ? "solutions, if any, are far larger than the data suggest"

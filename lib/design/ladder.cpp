@@ -88,7 +88,7 @@ void Climb::from_point() {
 void Climb::climb(bool from_point) {
   using Clock = std::chrono::steady_clock;
   for (const Row& row : kLadder) {
-    if (row.from_point != from_point || !row.is_due(*this)) continue;
+    if (row.from_point != from_point || find(row.rung) != nullptr || !row.is_due(*this)) continue;
     const auto start = Clock::now();
     tried_.emplace(row.rung, attempt(posed_, row.asks(*this), solve_));
     seconds_ += std::chrono::duration<double>(Clock::now() - start).count();

@@ -1,20 +1,17 @@
 // The attempts of a synthesis, in their order.
 //
-//   rung          asks                                      is tried after
-//   own           the problem's own goal                    -
-//   margin        a certificate at the margin asked for     a search for the largest margin that
-//                                                           found none, or one too small: its own
-//                                                           certificate may rest on the limits on x
-//   free          the same without bounds on the gains      an infeasible one with bounds, which
-//   must
-//                                                           not decide
+//   rung          asks                                 is tried after
+//   own           the problem's own goal               -
+//   margin        a certificate at the margin that     a search for the largest margin that found
+//                 was asked for                        none, or one too small: its own certificate
+//                                                      may rest on the limits on x
+//   free          the same without bounds on gains     an infeasible one with bounds, which are not
+//                                                      to decide
 //   (more points: an exchange grows by the points at which the solution fails, and begins again)
-//   backed off    more than the margin                      a point short of it by what the
-//   solver's
-//                                                           tolerance explains
-//   tighter       bounds ten times smaller                  a yes with gains near their bounds:
-//   those
-//                                                           that shrink are limited by them alone
+//   backed off    more than the margin                 a point short of it by what the solver's
+//                                                      tolerance explains
+//   tighter       bounds ten times smaller             a yes with gains near their bounds: those
+//                                                      that shrink are limited by them alone
 //
 // Each rung is tried once at most and its record stays; what they mean together is conclude().
 #pragma once

@@ -70,7 +70,7 @@ class OuterSearch {
   }
 
   model::Overrides overrides(const search::Point& point) const {
-    model::Overrides values;
+    model::Overrides values = own_.overrides;
     for (std::size_t i = 0; i < point.size(); ++i) values[request_.over[i].name] = point[i];
     return values;
   }

@@ -40,7 +40,7 @@ Matrix factor(const Matrix& matrix) {
 class SmoothDesign {
  public:
   SmoothDesign(const model::Instance& own, const SearchRequest& request, const model::Gains& gains)
-      : design_(with_figure(own, request)) {
+      : design_(with_figure(own, request)), held_(own.overrides) {
     scalars_ = request.over;
     if (request.extreme) {
       extreme_ = static_cast<std::ptrdiff_t>(scalars_.size());
@@ -58,7 +58,7 @@ class SmoothDesign {
   }
 
   model::Overrides scalars(const Vector& v) const {
-    model::Overrides values;
+    model::Overrides values = held_;
     for (std::size_t i = 0; i < scalars_.size(); ++i)
       values[scalars_[i].name] = scalars_[i].axis.at(v[i]);
     return values;
@@ -304,6 +304,7 @@ class SmoothDesign {
   }
 
   model::DesignPtr design_;
+  model::Overrides held_;
   std::vector<SearchedScalar> scalars_;
   std::ptrdiff_t extreme_ = -1;  ///< which scalar is the figure; -1: none
   double direction_ = 1;

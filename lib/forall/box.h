@@ -1,4 +1,4 @@
-// The box of the ranges of scalar functions on an interval: the smallest box that holds the curve
+// The box of the ranges of scalar functions on an interval. It holds the curve
 //   tau -> (theta_1(tau), ..., theta_N(tau)),   tau in [low, high].
 #pragma once
 

@@ -19,7 +19,7 @@ struct Vertex {
 struct Hull {
   std::vector<Vertex> vertices;
   /// Whether each vertex is a point of the domain, so that nothing is lost: every interval variable
-  /// enters through one function at most.
+  /// enters through one function at most, whose range is known exactly.
   bool exact = true;
 };
 

@@ -22,7 +22,7 @@ namespace gainsmith::forall {
 
 /// The functions and their coefficient matrices, which have the shape of F (square). Elements that
 /// are rounding noise are 0. EvaluationError when the sum differs from expm(F tau) by more than
-/// 1e-10 of its size anywhere among points of [low, high]: eigenvalues that are close but not
+/// 1e-10 of its size at one of seven points of [low, high]: eigenvalues that are close but not
 /// equal.
 std::vector<std::pair<Atom, numbers::Matrix>> residue_expansion(const numbers::Matrix& F,
                                                                 double low, double high);

@@ -8,10 +8,31 @@ namespace gainsmith::io {
 
 namespace {
 
-Json matrices_json(const model::NamedMatrices& matrices) {
+/// The rows of a matrix with the decimals of its key.
+Json rows_json(const model::Gains& gains, const std::string& key, const numbers::Matrix& matrix) {
+  if (!gains.decimals.contains(key)) return matrix_json(matrix);
+  const model::Decimals decimals = decimals_at(gains, key, matrix);
+  auto decimal = decimals.elements.begin();
+  Json rows = Json::array();
+  for (int i = 0; i < decimals.shape.rows; ++i) {
+    rows.push_back(Json::array());
+    for (int j = 0; j < decimals.shape.cols; ++j) rows.back().push_back(decimal_json(*decimal++));
+  }
+  return rows;
+}
+
+/// A number when the matrix is 1 x 1.
+Json element_json(const model::Gains& gains, const std::string& key,
+                  const numbers::Matrix& matrix) {
+  const Json rows = rows_json(gains, key, matrix);
+  return matrix.size() == 1 ? rows[0][0] : rows;
+}
+
+Json matrices_json(const model::Gains& gains, const std::string& key,
+                   const model::NamedMatrices& matrices) {
   Json result = Json::object();
   for (const auto& [name, matrix] : matrices)
-    result[name] = matrix.size() == 1 ? Json(matrix(0, 0)) : matrix_json(matrix);
+    result[name] = element_json(gains, key + "." + name, matrix);
   return result;
 }
 
@@ -47,24 +68,29 @@ Json bound_json(const model::GainBound& bound) {
           {"active", bound.active}};
 }
 
-Json gain_function_json(const model::GainFunction& gain) {
+Json gain_function_json(const model::Gains& gains, const model::GainFunction& gain) {
   Json result = {{"of", gain.variable}, {"kind", to_string(gain.kind)}, {"formula", gain.formula}};
-  if (gain.kind == model::GainFunction::Kind::polynomial)
-    result["coefficients"] = list_json(gain.coefficients, matrix_json);
+  if (gain.kind != model::GainFunction::Kind::polynomial) return result;
+  result["coefficients"] = Json::array();
+  for (std::size_t k = 0; k < gain.coefficients.size(); ++k) {
+    const std::string key = model::coefficient_key(gain.name, k);
+    result["coefficients"].push_back(rows_json(gains, key, gain.coefficients[k]));
+  }
   return result;
 }
 
-Json certificate_json(const model::CertificateRecord& certificate) {
+Json certificate_json(const model::Gains& gains, const std::string& key,
+                      const model::CertificateRecord& certificate) {
   return {{"checked", certificate.checked},
           {"about", certificate.about},
           {"value", certificate.value},
           {"residual", certificate.residual},
           {"min_eigenvalue", certificate.min_eigenvalue},
           {"excluded_radius", finite_or_null(certificate.excluded_radius)},
-          {"multipliers", matrices_json(certificate.multipliers)}};
+          {"multipliers", matrices_json(gains, key + ".multipliers", certificate.multipliers)}};
 }
 
-Json search_json(const model::SearchRecord& search) {
+Json search_json(const model::Gains& gains, const model::SearchRecord& search) {
   const auto number = [](const std::optional<double>& value) {
     return value ? Json(*value) : Json();
   };
@@ -78,7 +104,8 @@ Json search_json(const model::SearchRecord& search) {
                         {"after", number(polish->after)},
                         {"kept", polish->kept},
                         {"cause", polish->cause}};
-  if (search.certificate) result["certificate"] = certificate_json(*search.certificate);
+  if (search.certificate)
+    result["certificate"] = certificate_json(gains, "search.certificate", *search.certificate);
   return result;
 }
 
@@ -107,7 +134,24 @@ model::SolverRecord solver_of(const JsonReader& reader) {
           reader.at("precision").text()};
 }
 
-model::GainFunction gain_function_of(const std::string& name, const JsonReader& reader) {
+/// A matrix; `gains` keeps its decimals when they are not those that would be printed.
+numbers::Matrix matrix_of(const JsonReader& reader, model::Gains& gains) {
+  numbers::Matrix matrix = reader.matrix();
+  std::vector<std::string> decimals = reader.decimals();
+  if (model::decimals_at({}, "", matrix).elements != decimals)
+    gains.decimals[reader.path()] = std::move(decimals);
+  return matrix;
+}
+
+model::NamedMatrices matrices_of(const JsonReader& reader, model::Gains& gains) {
+  model::NamedMatrices result;
+  for (const auto& [name, item] : reader.members())
+    result.emplace_back(name, matrix_of(item, gains));
+  return result;
+}
+
+model::GainFunction gain_function_of(const std::string& name, const JsonReader& reader,
+                                     model::Gains& gains) {
   using Kind = model::GainFunction::Kind;
   model::GainFunction gain{
       name, reader.at("of").text(), Kind::formula, reader.at("formula").text(), {}};
@@ -117,7 +161,7 @@ model::GainFunction gain_function_of(const std::string& name, const JsonReader& 
     gain.kind = candidate;
     if (candidate == Kind::polynomial)
       for (const JsonReader& item : reader.at("coefficients").items())
-        gain.coefficients.push_back(item.matrix());
+        gain.coefficients.push_back(matrix_of(item, gains));
     return gain;
   }
   kind.fail("expected polynomial, vertices or formula");
@@ -134,17 +178,17 @@ model::Margin margin_of(const JsonReader& reader) {
           reader.at("holds").truth()};
 }
 
-model::CertificateRecord certificate_of(const JsonReader& reader) {
+model::CertificateRecord certificate_of(const JsonReader& reader, model::Gains& gains) {
   return {reader.at("value").number(),
           reader.at("residual").number(),
           reader.at("min_eigenvalue").number(),
           reader.at("excluded_radius").number_or_infinity(),
           reader.at("checked").truth(),
-          reader.at("multipliers").matrices(),
+          matrices_of(reader.at("multipliers"), gains),
           reader.has("about") ? reader.at("about").text() : "problem"};
 }
 
-model::SearchRecord search_of(const JsonReader& reader) {
+model::SearchRecord search_of(const JsonReader& reader, model::Gains& gains) {
   const auto number = [](const JsonReader& value) {
     return value.is_null() ? std::nullopt : std::optional(value.number());
   };
@@ -170,7 +214,8 @@ model::SearchRecord search_of(const JsonReader& reader) {
     search.polish = {polish.at("before").number(), number(polish.at("after")),
                      polish.at("kept").truth(), polish.at("cause").text()};
   }
-  if (reader.has("certificate")) search.certificate = certificate_of(reader.at("certificate"));
+  if (reader.has("certificate"))
+    search.certificate = certificate_of(reader.at("certificate"), gains);
   return search;
 }
 
@@ -203,25 +248,28 @@ Json to_json(const model::Gains& gains) {
                    {"cause", gains.solver.cause}};
   if (gains.objective) document["objective"] = *gains.objective;
   if (gains.objective_lower_bound) document["objective_lower_bound"] = *gains.objective_lower_bound;
-  document["gains"] = matrices_json(gains.gains);
+  document["gains"] = matrices_json(gains, "gains", gains.gains);
   if (!gains.gain_functions.empty()) {
     document["gain_functions"] = Json::object();
     for (const model::GainFunction& gain : gains.gain_functions)
-      document["gain_functions"][gain.name] = gain_function_json(gain);
+      document["gain_functions"][gain.name] = gain_function_json(gains, gain);
   }
-  document["unknowns"] = matrices_json(gains.unknowns);
+  document["unknowns"] = matrices_json(gains, "unknowns", gains.unknowns);
   if (!gains.functions.empty()) {
     document["functions"] = Json::object();
     for (const model::StatedFunction& function : gains.functions)
       document["functions"][function.signature] = function.text;
   }
-  if (!gains.report.empty()) document["report"] = matrices_json(gains.report);
-  document["parameters"] = matrices_json(gains.parameters);
-  if (!gains.searched.empty()) document["searched"] = gains.searched;
-  if (gains.search) document["search"] = search_json(*gains.search);
+  if (!gains.report.empty()) document["report"] = matrices_json(gains, "report", gains.report);
+  document["parameters"] = matrices_json(gains, "parameters", gains.parameters);
+  for (const auto& [name, value] : gains.searched)
+    document["searched"][name] =
+        element_json(gains, "searched." + name, numbers::Matrix::Constant(1, 1, value));
+  if (gains.search) document["search"] = search_json(gains, *gains.search);
   document["margins"] = list_json(gains.margins, margin_json);
   document["bounds"] = list_json(gains.bounds, bound_json);
-  if (gains.certificate) document["certificate"] = certificate_json(*gains.certificate);
+  if (gains.certificate)
+    document["certificate"] = certificate_json(gains, "certificate", *gains.certificate);
   document["solver"] = solver_json(gains.solver);
   document["statement"] = statement_json(gains.statement);
   Json timings = Json::object();
@@ -243,26 +291,29 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   if (reader.has("objective")) gains.objective = reader.at("objective").number();
   if (reader.has("objective_lower_bound"))
     gains.objective_lower_bound = reader.at("objective_lower_bound").number();
-  gains.gains = reader.at("gains").matrices();
+  gains.gains = matrices_of(reader.at("gains"), gains);
   if (reader.has("gain_functions"))
     for (const auto& [name, item] : reader.at("gain_functions").members())
-      gains.gain_functions.push_back(gain_function_of(name, item));
-  gains.unknowns = reader.at("unknowns").matrices();
+      gains.gain_functions.push_back(gain_function_of(name, item, gains));
+  gains.unknowns = matrices_of(reader.at("unknowns"), gains);
   if (reader.has("functions"))
     for (const auto& [name, item] : reader.at("functions").members())
       gains.functions.push_back({name, item.text(), std::nullopt});
-  if (reader.has("report")) gains.report = reader.at("report").matrices();
-  gains.parameters = reader.at("parameters").matrices();
+  if (reader.has("report")) gains.report = matrices_of(reader.at("report"), gains);
+  gains.parameters = matrices_of(reader.at("parameters"), gains);
   if (reader.has("searched"))
-    for (const auto& [name, value] : reader.at("searched").members())
+    for (const auto& [name, value] : reader.at("searched").members()) {
       gains.searched[name] = value.number();
-  if (reader.has("search")) gains.search = search_of(reader.at("search"));
+      matrix_of(value, gains);
+    }
+  if (reader.has("search")) gains.search = search_of(reader.at("search"), gains);
   for (const JsonReader& item : reader.at("margins").items())
     gains.margins.push_back(margin_of(item));
   for (const JsonReader& item : reader.at("bounds").items())
     gains.bounds.push_back({item.at("gain").text(), item.at("bound").number(),
                             item.at("reached").number(), item.at("active").truth()});
-  if (reader.has("certificate")) gains.certificate = certificate_of(reader.at("certificate"));
+  if (reader.has("certificate"))
+    gains.certificate = certificate_of(reader.at("certificate"), gains);
   gains.solver = solver_of(reader.at("solver"));
   for (const auto& [key, value] :
        {std::pair{"status", &gains.solver.status}, {"cause", &gains.solver.cause}})

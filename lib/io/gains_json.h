@@ -10,7 +10,8 @@
 namespace gainsmith::io {
 
 /// The document. Timings stand in a block of their own, last. A decimal with 17 digits reads back
-/// to the same double, so writing, reading and writing again gives the same bytes.
+/// to the same double, so writing, reading and writing again gives the same bytes. Matrices and
+/// searched scalars that were read with other decimals are written with these again.
 Json to_json(const model::Gains& gains);
 
 /// The text of a gain file.
@@ -18,7 +19,8 @@ std::string gains_text(const model::Gains& gains);
 
 /// Reads a gain file. InputError with the place, or the path of the key, when it is truncated,
 /// lacks a key, holds an unknown one or a value of the wrong kind, when its status or cause differs
-/// from its solver's, or when its statement does not match its hash.
+/// from its solver's, or when its statement does not match its hash. The decimals of its matrices and
+/// searched scalars are kept (model::decimals_of).
 model::Gains parse_gains(const std::string& text, const std::string& file);
 
 /// The problem that a gain file states; the method is the text in the file, whatever the program's

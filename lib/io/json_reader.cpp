@@ -40,8 +40,8 @@ std::string JsonReader::text() const {
 }
 
 double JsonReader::number() const {
-  if (!value_.is_number()) fail("expected a number");
-  return value_.get<double>();
+  if (!is_number(value_)) fail("expected a number");
+  return number_of(value_);
 }
 
 double JsonReader::number_or_infinity() const {
@@ -80,7 +80,7 @@ std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
 }
 
 numbers::Matrix JsonReader::matrix() const {
-  if (value_.is_number()) return numbers::Matrix::Constant(1, 1, number());
+  if (is_number(value_)) return numbers::Matrix::Constant(1, 1, number());
   const auto rows = items();
   numbers::Matrix result(rows.size(), rows.empty() ? 0 : rows.front().items().size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -93,9 +93,11 @@ numbers::Matrix JsonReader::matrix() const {
   return result;
 }
 
-model::NamedMatrices JsonReader::matrices() const {
-  model::NamedMatrices result;
-  for (const auto& [name, reader] : members()) result.emplace_back(name, reader.matrix());
+std::vector<std::string> JsonReader::decimals() const {
+  if (is_number(value_)) return {decimal_of(value_)};
+  std::vector<std::string> result;
+  for (const Json& row : value_)
+    for (const Json& element : row) result.push_back(decimal_of(element));
   return result;
 }
 

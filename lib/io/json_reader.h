@@ -37,7 +37,10 @@ class JsonReader {
   std::vector<std::pair<std::string, JsonReader>> members() const;
   /// A list of rows, or a number.
   numbers::Matrix matrix() const;
-  model::NamedMatrices matrices() const;
+  /// The decimals of a matrix, row by row.
+  std::vector<std::string> decimals() const;
+  /// "gains.L"; empty for the document.
+  const std::string& path() const { return path_; }
 
   /// InputError for the first key below here that nothing asked for, with the nearest known one.
   void finish() const;

@@ -2,11 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/number.h"
+#include "model/gains.h"
 
 namespace gainsmith::io {
 
@@ -44,14 +48,8 @@ void write_items(const Json& value, std::size_t indent, std::string& out) {
 void write(const Json& value, std::size_t indent, std::string& out) {
   if (value.is_structured()) {
     write_items(value, indent, out);
-  } else if (value.is_number_float()) {
-    const double number = value.get<double>();
-    if (!std::isfinite(number))
-      throw std::invalid_argument("JSON has no spelling for " + decimal17(number));
-    // "-0" would be read back as the whole number 0.
-    out += number == 0 && std::signbit(number) ? "-0.0" : decimal17(number);
   } else {
-    out += dumped(value);
+    out += is_number(value) ? decimal_of(value) : dumped(value);
   }
 }
 
@@ -65,6 +63,77 @@ Place place_of(const std::string& text, const std::string& file, std::size_t byt
           1 + static_cast<int>(std::ranges::count_if(before.substr(start), is_first_byte))};
 }
 
+/// Builds a document and keeps decimals.
+class Builder : public nlohmann::json_sax<Json> {
+ public:
+  Builder(const std::string& text, const std::string& file) : text_(text), file_(file) {}
+
+  Json take() { return std::move(root_); }
+
+  bool null() override { return add(Json()); }
+  bool boolean(bool value) override { return add(value); }
+  bool number_integer(std::int64_t value) override { return add(value); }
+  bool number_unsigned(std::uint64_t value) override { return add(value); }
+  bool number_float(double value, const std::string& decimal) override {
+    return add(decimal == model::printed(value) ? Json(value) : decimal_json(decimal));
+  }
+  bool string(std::string& value) override { return add(std::move(value)); }
+  bool binary(Json::binary_t& value) override { return add(std::move(value)); }
+  bool start_object(std::size_t) override { return open(Json::object()); }
+  bool start_array(std::size_t) override { return open(Json::array()); }
+  bool end_object() override { return close(); }
+  bool end_array() override { return close(); }
+  bool key(std::string& key) override {
+    key_ = std::move(key);
+    return true;
+  }
+
+  bool parse_error(std::size_t byte, const std::string& token,
+                   const Json::exception& error) override {
+    if (dynamic_cast<const Json::out_of_range*>(&error) != nullptr)
+      throw InputError(place_of(text_, file_, byte - token.size()),
+                       "the number " + token + " is beyond the range of double");
+    if (text_.find_first_not_of(" \t\r\n") == std::string::npos)
+      throw InputError({file_}, "the file is empty; expected a JSON document");
+    const std::string message = error.what();
+    const std::size_t known = message.find("syntax error");
+    throw InputError(place_of(text_, file_, byte > 0 ? byte - 1 : 0),
+                     "this is no complete JSON document: " +
+                         message.substr(known == std::string::npos ? 0 : known));
+  }
+
+ private:
+  bool add(Json value) {
+    place(std::move(value));
+    return true;
+  }
+
+  bool open(Json empty) {
+    open_.push_back(&place(std::move(empty)));
+    return true;
+  }
+
+  bool close() {
+    open_.pop_back();
+    return true;
+  }
+
+  /// An element stands where it is as long as those inside it are read: its list grows later.
+  Json& place(Json value) {
+    if (open_.empty()) return root_ = std::move(value);
+    Json& parent = *open_.back();
+    if (parent.is_object()) return parent[key_] = std::move(value);
+    parent.push_back(std::move(value));
+    return parent.back();
+  }
+
+  const std::string& text_;
+  const std::string& file_;
+  Json root_;
+  std::vector<Json*> open_;
+  std::string key_;
+};
+
 }  // namespace
 
 std::string to_text(const Json& document) {
@@ -76,31 +145,32 @@ std::string to_text(const Json& document) {
 
 Json finite_or_null(double value) { return std::isfinite(value) ? Json(value) : Json(); }
 
+Json decimal_json(const std::string& text) {
+  return Json::binary(std::vector<std::uint8_t>(text.begin(), text.end()));
+}
+
+bool is_number(const Json& value) { return value.is_number() || value.is_binary(); }
+
+double number_of(const Json& number) {
+  if (!number.is_binary()) return number.get<double>();
+  const auto value = parse_decimal(decimal_of(number));
+  if (!value) throw std::invalid_argument(decimal_of(number) + " is no number in double");
+  return *value;
+}
+
+std::string decimal_of(const Json& number) {
+  if (number.is_binary()) return {number.get_binary().begin(), number.get_binary().end()};
+  if (!number.is_number_float()) return number.dump();
+  const double value = number.get<double>();
+  if (!std::isfinite(value))
+    throw std::invalid_argument("JSON has no spelling for " + decimal17(value));
+  return model::printed(value);
+}
+
 Json parse_json(const std::string& text, const std::string& file) {
-  try {
-    return Json::parse(text);
-  } catch (const Json::parse_error& error) {
-    if (text.find_first_not_of(" \t\r\n") == std::string::npos)
-      throw InputError({file}, "the file is empty; expected a JSON document");
-    const std::string message = error.what();
-    const std::size_t colon = message.rfind(": ");
-    throw InputError(place_of(text, file, error.byte > 0 ? error.byte - 1 : 0),
-                     "this is no complete JSON document: " +
-                         (colon == std::string::npos
-                              ? message
-                              : message.substr(message.find("syntax error") != std::string::npos
-                                                   ? message.find("syntax error")
-                                                   : colon + 2)));
-  } catch (const Json::out_of_range& error) {
-    // "...: number overflow parsing '1e999'" does not say where.
-    const std::string message = error.what();
-    const std::size_t open = message.find('\'');
-    const std::size_t close = message.rfind('\'');
-    if (open == close) throw InputError({file}, message);
-    const std::string number = message.substr(open + 1, close - open - 1);
-    throw InputError(place_of(text, file, text.find(number)),
-                     "the number " + number + " is beyond the range of double");
-  }
+  Builder builder(text, file);
+  Json::sax_parse(text, &builder);
+  return builder.take();
 }
 
 }  // namespace gainsmith::io

@@ -1,4 +1,7 @@
 // JSON as text: numbers with 17 digits, matrices one row a line; reading with places.
+//
+// A number that was written with other digits keeps its decimal: it is then a binary value that
+// holds the text, the one kind of value that JSON itself has no spelling for.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,15 +11,27 @@ namespace gainsmith::io {
 
 using Json = nlohmann::ordered_json;
 
-/// The text of a document, ending in a newline. Floating-point numbers have 17 significant digits;
-/// lists of scalars stand on one line. std::invalid_argument when a number is not finite (JSON has
-/// no spelling for it).
+/// The text of a document, ending in a newline. Floating-point numbers have 17 significant digits,
+/// or the digits that they were read with; lists of scalars stand on one line.
+/// std::invalid_argument when a number is not finite (JSON has no spelling for it).
 std::string to_text(const Json& document);
 
 /// The number, or null when it is not finite: JSON has no infinity and no NaN.
 Json finite_or_null(double value);
 
-/// Parses. InputError with file:line:column when the text is no JSON.
+/// A number that is written as `text`, a decimal that is finite in double.
+Json decimal_json(const std::string& text);
+
+bool is_number(const Json& value);
+
+/// The double nearest to a number.
+double number_of(const Json& number);
+
+/// The decimal of a number, as to_text writes it.
+std::string decimal_of(const Json& number);
+
+/// Parses. Numbers with a point or an exponent that to_text would write otherwise keep their
+/// decimal. InputError with file:line:column when the text is no JSON.
 Json parse_json(const std::string& text, const std::string& file);
 
 }  // namespace gainsmith::io

@@ -30,7 +30,7 @@ struct Block {
 bool is_homogeneous(const std::vector<Block>& blocks);
 
 /// The block of a symmetric affine form without monomials. InputError, at `place`, when it is not
-/// symmetric, has no rows, or has a coefficient that is not finite.
+/// symmetric up to 1e-12 of its largest element (what is, is made so exactly), has no rows, or has a coefficient that is not finite.
 Block block_of(const AffineForm& form, std::string name, std::string point, bool strict,
                const Place& place);
 

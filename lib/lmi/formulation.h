@@ -3,8 +3,8 @@
 // Scales. Each block k has a scale s_k: the larger of its constant data and of kappa times its
 // coefficients, where kappa is the smallest ratio constant/coefficient among the blocks (the size
 // of the unknowns that the data set); all points of one inequality share the largest. The program
-// is written in x/kappa and B/kappa (kappa = 1 when homogeneous): multiplying all data by a number
-// multiplies all scales by it and leaves the program as it is.
+// is written in x/kappa and B/kappa (kappa = 1 when homogeneous): multiplying all constant parts by a
+// number multiplies all scales by it and leaves the program as it is.
 //
 // Which program is solved:
 //   bounded objective   some block has constant data, and there is an objective:

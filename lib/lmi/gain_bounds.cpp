@@ -36,6 +36,12 @@ std::vector<Part> parts_of(const AffineForm& form, const forall::MonomialTable& 
   return parts;
 }
 
+/// Whether a text is a call of the function.
+bool is_call_of(const std::string& text, const std::string& function) {
+  const std::size_t after = text.find_first_not_of(" \t\n", function.size());
+  return text.starts_with(function) && after < text.size() && text[after] == '(';
+}
+
 /// Which coefficient stands for each call of an unknown function, by the call's text.
 using Choice = std::map<std::string, std::string>;
 
@@ -48,7 +54,7 @@ std::vector<Choice> choices_of(const Inequalities& of, const model::Design::Gain
     const std::string text = gain.whole.text.substr(call->first, call->second);
     const auto function =
         std::find_if(of.functions.begin(), of.functions.end(),
-                     [&](const model::Function& f) { return text.starts_with(f.name + "("); });
+                     [&](const model::Function& f) { return is_call_of(text, f.name); });
     if (function == of.functions.end() || choices.front().contains(text)) continue;
     std::vector<Choice> next;
     for (const Choice& choice : choices) {
@@ -72,13 +78,21 @@ std::string text_of(const Factor& factor, const Choice& choice) {
   return text;
 }
 
-/// The program with the coefficients chosen.
-expr::Program chosen(const expr::Program& program, const Choice& choice) {
+/// The program with the coefficients chosen. A call that stands in a definition is no part of the
+/// gain's text: it stays the whole function.
+expr::Program chosen(const Inequalities& of, const expr::Program& program, const Choice& choice) {
   std::map<std::string, expr::Body> bodies;
   return expr::link(
-      program, [&](const std::string&, const expr::Instruction& call) -> const expr::Body& {
+      program, [&](const std::string& name, const expr::Instruction& call) -> const expr::Body& {
+        const auto found = choice.find(call.text);
+        if (found == choice.end()) {
+          const auto function =
+              std::find_if(of.functions.begin(), of.functions.end(),
+                           [&](const model::Function& f) { return f.name == name; });
+          return bodies.try_emplace(name, function->body()).first->second;
+        }
         expr::Composer composer(call.place());
-        const int coefficient = composer.input(choice.at(call.text), call.shape);
+        const int coefficient = composer.input(found->second, call.shape);
         return bodies.try_emplace(call.text, expr::Body{"", composer.take(coefficient)})
             .first->second;
       });
@@ -156,7 +170,7 @@ class Collector {
     if (!factor.program) return {};
     forall::MonomialTable monomials(forall::free_variable(gain.variable));
     try {
-      const AffineForm form = evaluate_affine(chosen(*factor.program, choice), of_.unknowns,
+      const AffineForm form = evaluate_affine(chosen(of_, *factor.program, choice), of_.unknowns,
                                               monomials, of_.instance.values);
       return parts_of(form, monomials, gain.variable);
     } catch (const InputError&) {

@@ -3,15 +3,16 @@
 //
 // A gain formula that holds inv(S)*E (or E*inv(S)), S a symmetric unknown and E affine in the
 // unknowns, is bounded by beta through a scalar s of its own:
-//   S >= s I,   [ S , E/beta ; * , s I ] >= 0    <=>    E' inv(S) E <= beta^2 s,  s <=
-//   lambda_min(S).
+//   S >= s I,   [ S , E/beta ; * , s I ] >= 0    <=>    E' inv(S) E <= beta^2 s I,
+//   s <= lambda_min(S).
 // With G = inv(S) E that is G' S G <= beta^2 lambda_min(S), so the largest singular value of G is
 // at most beta. It does not change when the unknowns are scaled together. A gain that is affine in
 // the unknowns
-// is bounded by its largest singular value: [ beta I , K ; * , beta I ] >= 0.
+// is bounded by its largest singular value: [ I , K/beta ; * , I ] >= 0, which has a constant part.
 //
 // A gain that is a function of a scalar is bounded coefficient by coefficient: inv(S)*Y_k for
-// inv(S)*Y(tau), and the matrix that each function theta(tau) in it multiplies.
+// inv(S)*Y(tau), and the matrix that each function theta(tau) in it multiplies. That bounds a gain at
+// vertices itself, of a polynomial its coefficients.
 #pragma once
 
 #include <optional>
@@ -38,7 +39,9 @@ struct GainBounds {
   int scalars = 0;            ///< number of scalars s, with the indices m + 1, m + 2, ...
 };
 
-/// One bound for each different product in the gain formulas; none without `beta`.
+/// One bound for each different product in the gain formulas: inv(S) with all factors beside it, or
+/// with the nearest where their product is not affine; none where that is not either, and none
+/// without `beta`.
 GainBounds gain_bounds(const Inequalities& inequalities, std::optional<double> beta);
 
 /// How far each bound is used at x: sqrt(lambda_max(E' inv(S) E) / lambda_min(S)), never less than

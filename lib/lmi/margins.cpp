@@ -18,7 +18,8 @@ struct Worst {
   std::string point;
 
   void meet(double found, const std::string& where) {
-    if (!(found < value)) return;
+    // What is no number is worse than any number.
+    if (std::isnan(value) || found >= value) return;
     value = found;
     point = where;
   }
@@ -88,7 +89,8 @@ class Checker {
     const auto set = [&](double value) {
       margin.smallest_eigenvalue = value;
       margin.reached = margin.scale > 0 ? value / margin.scale : 0.0;
-      margin.holds = comparison.strict ? value > 0 : value >= -kRounding * terms;
+      margin.holds =
+          std::isfinite(value) && (comparison.strict ? value > 0 : value >= -kRounding * terms);
     };
     const std::size_t violations = result_.violations.size();
     const auto meet = [&](const forall::Minimum& minimum) {

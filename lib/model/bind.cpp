@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <utility>
 
+#include "base/nearest.h"
 #include "expr/work.h"
 #include "model/binding.h"
 #include "model/gains.h"

@@ -1,6 +1,11 @@
 #include "model/gains.h"
 
+#include <cmath>
+
 #include "base/hash.h"
+#include "base/number.h"
+#include "model/function.h"
+#include "numbers/real.h"
 
 namespace gainsmith::model {
 
@@ -30,6 +35,47 @@ std::string limits_of(const CertificateRecord& certificate) {
 
 std::string statement_hash(const Statement& statement) {
   return sha256(statement.method_text + '\0' + statement.problem_text);
+}
+
+std::string coefficient_key(const std::string& gain, std::size_t k) {
+  return "gain_functions." + gain + ".coefficients[" + std::to_string(k) + "]";
+}
+
+std::string printed(double value) {
+  return value == 0 && std::signbit(value) ? "-0.0" : decimal17(value);
+}
+
+Decimals decimals_at(const Gains& gains, const std::string& key, const numbers::Matrix& matrix) {
+  Decimals result{key, numbers::shape_of(matrix), {}};
+  const auto read = gains.decimals.find(key);
+  const bool fits = read != gains.decimals.end() && std::ssize(read->second) == matrix.size();
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
+      const double value = matrix(i, j);
+      const std::size_t at = result.elements.size();
+      const bool holds = fits && parse_decimal(read->second[at]) == value;
+      result.elements.push_back(holds ? read->second[at] : printed(value));
+    }
+  }
+  return result;
+}
+
+std::optional<Decimals> decimals_of(const Gains& gains, const std::string& name) {
+  const auto find = [&](const NamedMatrices& list, const char* key) -> std::optional<Decimals> {
+    for (const auto& [known, matrix] : list)
+      if (known == name) return decimals_at(gains, std::string(key) + "." + name, matrix);
+    return std::nullopt;
+  };
+  if (auto found = find(gains.gains, "gains")) return found;
+  for (const GainFunction& gain : gains.gain_functions)
+    for (std::size_t k = 0; k < gain.coefficients.size(); ++k)
+      if (coefficient_name(gain.name, k) == name)
+        return decimals_at(gains, coefficient_key(gain.name, k), gain.coefficients[k]);
+  if (auto found = find(gains.unknowns, "unknowns")) return found;
+  if (auto found = find(gains.parameters, "parameters")) return found;
+  const auto searched = gains.searched.find(name);
+  if (searched == gains.searched.end()) return std::nullopt;
+  return decimals_at(gains, "searched." + name, numbers::Matrix::Constant(1, 1, searched->second));
 }
 
 }  // namespace gainsmith::model

@@ -1,6 +1,7 @@
 // What synth writes and verify reads: gains, the statement that was solved and how well it holds.
 #pragma once
 
+#include <map>
 #include <optional>
 #include <string>
 #include <utility>
@@ -21,7 +22,7 @@ struct Margin {
   double reached = 0;   ///< smallest eigenvalue / scale, over all points of `forall`
   double required = 0;  ///< what the solver was asked for
   double smallest_eigenvalue = 0;
-  double scale = 0;         ///< of its data
+  double scale = 0;         ///< s_k, or c_k max |x_i| without constant parts (docs/conventions.md)
   std::string worst_point;  ///< "tau = 0"; empty without forall
   bool holds = false;
 };
@@ -41,16 +42,17 @@ struct CertificateRecord {
   double min_eigenvalue = 0;
   double excluded_radius = 0;
   bool checked = false;
-  /// One multiplier matrix for each inequality and point: its name and the matrix.
+  /// One multiplier matrix for each inequality and point, and for the bounds on gains that it needs:
+  /// its name and the matrix.
   NamedMatrices multipliers;
-  /// What it proves infeasible: "problem", or a condition that is only sufficient for the problem's
-  /// inequalities: their "hull", or the test at the "vertices" (docs/language.md).
+  /// What it excludes: the "problem", or a condition that is only sufficient for its inequalities:
+  /// their "hull", or the test at the "vertices" (docs/gain-file.md).
   std::string about = "problem";
 
   bool exact() const { return about == "problem"; }
 };
 
-/// What is added to "proved infeasible": "", " for the hull only", " for the vertex test only".
+/// What is added to "excluded": "", " for the hull only", " for the vertex test only".
 std::string limits_of(const CertificateRecord& certificate);
 
 struct SolverRecord {
@@ -76,9 +78,9 @@ struct PolishRecord {
 struct SearchRecord {
   std::string figure;            ///< "largest T2", "objective", "trace(P1)", "margin"
   std::optional<double> value;   ///< of the figure; none when nothing feasible was found
-  std::optional<double> beyond;  ///< the nearest value beyond it that is proved infeasible
-  std::vector<double> open;      ///< undecided ones next to `value` and `beyond`, or empty
-  std::vector<double> breaks;    ///< proved infeasible on the inner side of `value`
+  std::optional<double> beyond;  ///< the nearest value beyond it that a checked certificate excludes
+  std::vector<double> open;      ///< undecided or refused ones next to `value` and `beyond`, or empty
+  std::vector<double> breaks;    ///< excluded on the inner side of `value`
   std::optional<CertificateRecord> certificate;  ///< at `beyond`
   std::vector<std::string> over;                 ///< the scalars that were optimised outside
   std::vector<std::string> at_end;               ///< those of `over` found at an end of their range
@@ -115,6 +117,18 @@ struct StatedFunction {
   std::optional<expr::Program> body;
 };
 
+/// The decimal that is printed for a double: 17 digits. Zero keeps its sign as "-0.0", since JSON
+/// reads "-0" as a whole number, which has none.
+std::string printed(double value);
+
+/// A matrix as a gain file prints it. What the file states are these decimals; doubles are their
+/// roundings, and a proof computes with the decimals.
+struct Decimals {
+  std::string key;  ///< "gains.L", "gain_functions.K.coefficients[1]", "searched.T2"
+  expr::Shape shape;
+  std::vector<std::string> elements;  ///< row by row
+};
+
 struct Gains {
   std::string problem_name;
   Verdict verdict = Verdict::undecided;
@@ -128,17 +142,31 @@ struct Gains {
   std::vector<StatedFunction> functions;
   NamedMatrices report;  ///< what the method asks to be shown
   NamedMatrices parameters;
-  Overrides searched;  ///< scalars that a search set: they replace those of the statement
+  /// Scalars that a search set: they replace those of the statement. Their decimals count.
+  Overrides searched;
   std::optional<SearchRecord> search;
   std::vector<Margin> margins;
   std::vector<GainBound> bounds;
   std::optional<CertificateRecord> certificate;
   Statement statement;
+  /// Of the matrices that were read with other decimals than printed(): all elements, by key.
+  std::map<std::string, std::vector<std::string>> decimals;
   std::string file;                                     ///< where it was read, for messages
   std::string version;                                  ///< of gainsmith
   std::vector<std::pair<std::string, double>> timings;  ///< seconds; apart from all results
 
   const numbers::Matrix* find(const std::string& name) const;
 };
+
+/// The key of a coefficient of a gain that is a polynomial.
+std::string coefficient_key(const std::string& gain, std::size_t k);
+
+/// The decimals of the matrix that stands under a key: those that were read, as long as the matrix
+/// holds their doubles, otherwise printed().
+Decimals decimals_at(const Gains& gains, const std::string& key, const numbers::Matrix& matrix);
+
+/// The decimals of a gain, a coefficient of a gain that is a polynomial ("K_1"), an unknown, a
+/// parameter or a searched scalar: the first of that name in this order. None for other names.
+std::optional<Decimals> decimals_of(const Gains& gains, const std::string& name);
 
 }  // namespace gainsmith::model

@@ -41,8 +41,8 @@ struct BlockData {
   std::vector<Term> terms;
 
   /// Where any F_i (F_0 included) or the diagonal has an entry, both triangles: rows of column j
-  /// are pattern_row[pattern_start[j]] .. [pattern_start[j+1] - 1]. X and dX live there. Empty when
-  /// that is most of the block.
+  /// are pattern_row[pattern_start[j]] .. [pattern_start[j+1] - 1]. X and dX live there. Kept for
+  /// large blocks of which it is a small part; else empty.
   std::vector<int> pattern_start, pattern_row;
 
   int lists() const { return static_cast<int>(constraint.size()); }
@@ -50,7 +50,8 @@ struct BlockData {
 };
 
 /// minimise c'x s.t. sum x_i F_i - F_0 in the cone `layout`, after presolve and scaling. The
-/// scaling factors are powers of two, so these numbers are exact and serve every precision.
+/// scaling factors are powers of two, so these numbers are those of the problem as given and serve
+/// every precision.
 struct Data {
   Layout layout;
   std::vector<double> c, c_rest;

@@ -5,15 +5,17 @@
 
 namespace gainsmith::sdp {
 
-/// A lower bound of the smallest eigenvalue of the symmetric tridiagonal matrix, within half a
-/// percent; `enough` when all eigenvalues are above it. Bisection on the signs of the pivots of T -
-/// s I (Givens 1954). enough < 0.
+/// A lower bound of the smallest eigenvalue of the symmetric tridiagonal matrix, within a
+/// thousandth of it; `enough` when all eigenvalues are above it. Bisection on the signs of the
+/// pivots of T - s I (Givens 1954). enough < 0.
 double smallest_of_tridiagonal(const Eigen::Ref<const Eigen::VectorXd>& diagonal,
                                const Eigen::Ref<const Eigen::VectorXd>& subdiagonal, double enough);
 
-/// Lanczos with full reorthogonalisation on W = L^-1 D L^-T (Toh 2002): a lower bound of its
-/// smallest eigenvalue, theta - |beta s| of the smallest Ritz pair (theta, s), as soon as that is
-/// within a few percent of theta or above `enough`. The work space is kept between calls.
+/// Lanczos with full reorthogonalisation on W = L^-1 D L^-T (Toh 2002): theta - |beta s| of the
+/// smallest Ritz pair (theta, s), as soon as that is within a hundredth of theta or above `enough`.
+/// A lower bound of the eigenvalue that theta has found. That is the smallest, or where the start
+/// has little of its eigenvector one some percent above it: a step by this bound is to be checked.
+/// The work space is kept between calls.
 class Lanczos {
  public:
   explicit Lanczos(Eigen::Index n);

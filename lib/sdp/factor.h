@@ -26,9 +26,11 @@ class ConeFactor {
   /// of L twice; with a stored V^-1 it would with that of V.
   void divide(int b, const View<T>& M, const View<T>& work);
 
-  /// The largest a <= `longest` with V + a D >= 0: a = -1 / lambda_min(L^-1 D L^-T) where that is
-  /// negative. The eigenvalues of that well-scaled matrix are taken in double in every arithmetic:
-  /// a step length needs no more digits.
+  /// The largest a <= `longest` with V + a D >= 0, or up to a hundredth less: a = -1 / l with a
+  /// lower bound l of lambda_min(L^-1 D L^-T) where that is negative. In large blocks, in double, l
+  /// may miss the smallest eigenvalue (extreme.h) and a be too long. The eigenvalues of that
+  /// well-scaled matrix are taken in double in every arithmetic: a step length needs no more
+  /// digits.
   T step(const Blocks<T>& D, const T& longest);
 
  private:

@@ -31,14 +31,14 @@ Strided<T> map(const View<T>& v) {
 
 // ---- double-double product -------------------------------------------------------------------
 
-/// The halves of a matrix apart, in panels of kLanes rows (zeros below the last one), for the
+/// The halves of a matrix apart, in panels of kWidth rows (zeros below the last one), for the
 /// vector unit; and for each row a power of two above its norm.
 struct Halves {
   std::vector<double> high, low, bound;
 
   void take(const View<const DoubleDouble>& a) {
-    const Index panels = (a.rows + kLanes - 1) / kLanes;
-    const auto rows = static_cast<std::size_t>(panels * kLanes);
+    const Index panels = (a.rows + kWidth - 1) / kWidth;
+    const auto rows = static_cast<std::size_t>(panels * kWidth);
     const std::size_t size = rows * static_cast<std::size_t>(a.columns);
     if (high.size() < size) {
       high.resize(size);
@@ -50,16 +50,16 @@ struct Halves {
 
  private:
   void take_panel(const View<const DoubleDouble>& a, Index p) {
-    const Index first = p * kLanes, count = std::min<Index>(kLanes, a.rows - first);
+    const Index first = p * kWidth, count = std::min<Index>(kWidth, a.rows - first);
     double* to_high = high.data() + first * a.columns;
     double* to_low = low.data() + first * a.columns;
-    PairLanes squares = {};
-    for (Index k = 0; k < a.columns; ++k, to_high += kLanes, to_low += kLanes) {
-      PairLanes upper, lower;
-      if (count == kLanes) {
+    Register squares = {};
+    for (Index k = 0; k < a.columns; ++k, to_high += kWidth, to_low += kWidth) {
+      Register upper, lower;
+      if (count == kWidth) {
         split_pairs(&a(first, k), upper, lower);
       } else {
-        std::array<DoubleDouble, kLanes> part{};
+        std::array<DoubleDouble, kWidth> part{};
         std::copy_n(&a(first, k), count, part.begin());
         split_pairs(part.data(), upper, lower);
       }
@@ -67,12 +67,12 @@ struct Halves {
       std::memcpy(to_low, &lower, sizeof lower);
       squares += upper * upper;
     }
-    for (int r = 0; r < kLanes; ++r)
+    for (int r = 0; r < kWidth; ++r)
       bound[static_cast<std::size_t>(first + r)] = power_above(std::sqrt(squares[r]));
   }
 };
 
-/// The columns j .. j + count - 1 of C, to kLanes rows at a time.
+/// The columns j .. j + count - 1 of C, to kWidth rows at a time.
 template <std::size_t count>
 void multiply_columns(const Halves& a, Index inner, const View<const DoubleDouble>& b,
                       const View<DoubleDouble>& c, Index j, Update update) {
@@ -84,20 +84,20 @@ void multiply_columns(const Halves& a, Index inner, const View<const DoubleDoubl
     }
     bound[q] = power_above(std::sqrt(bound[q]));
   }
-  for (Index i = 0; i < c.rows; i += kLanes) {
+  for (Index i = 0; i < c.rows; i += kWidth) {
     BiasedSums<count> sums(a.bound.data() + i, bound);
     const double* high = a.high.data() + i * inner;
     const double* low = a.low.data() + i * inner;
-    for (Index k = 0; k < inner; ++k, high += kLanes, low += kLanes)
+    for (Index k = 0; k < inner; ++k, high += kWidth, low += kWidth)
       sums.add(high, low, &b(k, j), b.stride);
       // Unrolled, or the sums are not kept in registers.
 #pragma GCC unroll 8
     for (std::size_t q = 0; q < count; ++q) {
       DoubleDouble* const entries = &c(i, j + static_cast<Index>(q));
-      if (c.rows - i >= kLanes) {
+      if (c.rows - i >= kWidth) {
         sums.store(q, update == Update::subtract, entries);
       } else {
-        std::array<DoubleDouble, kLanes> part;
+        std::array<DoubleDouble, kWidth> part;
         std::copy_n(entries, c.rows - i, part.begin());
         sums.store(q, update == Update::subtract, part.data());
         std::copy_n(part.begin(), c.rows - i, entries);
@@ -110,9 +110,13 @@ void multiply_pairs(const View<const DoubleDouble>& a, const View<const DoubleDo
                     const View<DoubleDouble>& c, Update update) {
   static thread_local Halves halves;
   halves.take(a);
+  // As many columns as leave registers for the factors: of 32 with AVX-512, else of 16.
+  constexpr int kColumns = kWidth == 8 ? 6 : 4;
   Index j = 0;
-  for (; j + 6 <= c.columns; j += 6) multiply_columns<6>(halves, a.columns, b, c, j, update);
-  for (; j + 3 <= c.columns; j += 3) multiply_columns<3>(halves, a.columns, b, c, j, update);
+  for (; j + kColumns <= c.columns; j += kColumns)
+    multiply_columns<kColumns>(halves, a.columns, b, c, j, update);
+  for (; j + kColumns / 2 <= c.columns; j += kColumns / 2)
+    multiply_columns<kColumns / 2>(halves, a.columns, b, c, j, update);
   for (; j < c.columns; ++j) multiply_columns<1>(halves, a.columns, b, c, j, update);
 }
 

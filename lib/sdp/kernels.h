@@ -1,5 +1,7 @@
-// Dense kernels in every arithmetic: BLAS-3 speed in double (Eigen) and in double-double
-// (vectorised here), plain loops in the widest. Matrices are column-major with a leading dimension.
+// Dense kernels in every arithmetic. Products run at the rate of the vector unit in double
+// (product.h) and in double-double (pairs.h), as plain loops in 100 digits; factors and inverses
+// are blocked on them. Matrices are column-major with a leading dimension; a result must not
+// overlap an argument unless it is one.
 #pragma once
 
 #include <vector>
@@ -9,7 +11,7 @@
 
 namespace gainsmith::sdp {
 
-/// C = A B, or C -= A B. C must not overlap A or B.
+/// C = A B, or C -= A B.
 template <typename T>
 void multiply(const View<const T>& a, const View<const T>& b, const View<T>& c,
               Update update = Update::assign);
@@ -19,7 +21,7 @@ template <typename T>
 void multiply_sparse(const View<const T>& a, const View<const T>& s, const std::vector<int>& start,
                      const std::vector<int>& rows, const View<T>& c);
 
-/// C = A B'.
+/// C = A B', or C -= A B'.
 template <typename T>
 void multiply_outer(const View<const T>& a, const View<const T>& b, const View<T>& c,
                     Update update = Update::assign);
@@ -31,17 +33,17 @@ void multiply_upper(const View<const T>& a, const View<const T>& u, const View<T
 template <typename T>
 void multiply_lower(const View<const T>& a, const View<const T>& l, const View<T>& c);
 
-/// C = A' A, both triangles; A is lower triangular with zeros above.
+/// C = A' A, both triangles, from a lower triangular A with zeros above, and A'.
 template <typename T>
 void multiply_transposed(const View<const T>& a, const View<const T>& a_transposed,
                          const View<T>& c);
 
-/// A = L L' in place: the lower triangle of A is read and becomes L; the upper one is left alone.
-/// False when A is not positive definite in this arithmetic.
+/// A = L L' in place: the lower triangle of A is read and becomes L; the upper one serves as
+/// scratch and is not to be read. False when A is not positive definite in this arithmetic.
 template <typename T>
 bool cholesky(const View<T>& a);
 
-/// result = L^-1, the upper triangle zero. L is the lower triangle of `l`.
+/// result = L^-1, the upper triangle zero. L is the lower triangle of `l`, here and below.
 template <typename T>
 void invert_lower(const View<const T>& l, const View<T>& result);
 

@@ -75,12 +75,4 @@ T inner(const Blocks<T>& a, const Blocks<T>& b) {
   return a.flat().dot(b.flat());
 }
 
-/// trace(A).
-template <typename T>
-T trace(const Blocks<T>& a) {
-  T sum(0);
-  for (int b = 0; b < a.layout().blocks(); ++b) sum += a.dense(b).trace();
-  return sum + a.linear().sum();
-}
-
 }  // namespace gainsmith::sdp

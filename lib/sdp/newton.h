@@ -46,7 +46,8 @@ class Newton {
 
   /// Sets up the Schur complement at the point that was factored. False when it cannot be factored.
   /// In wide arithmetic, directions need not hold the dual equation to better than a part of its
-  /// present defect, nor of `allowance` where that moves the objective by less than X.Y.
+  /// present defect, nor of `allowance` where that moves the objective by less than X.Y. In double,
+  /// at a fixed tau, H(X^-1 R Y) is left out where it is nothing beside Y.
   bool prepare(const Iterate<T>& point, const Defect<T>& defect, Model model, double allowance);
 
   /// sigma = 0, eta = 1, C = 0.
@@ -63,8 +64,8 @@ class Newton {
   /// Does it miss the equation by a fiftieth of the present defect?
   bool imprecise() const { return imprecise_; }
 
-  /// The largest steps <= `longest` that keep point + step direction in the cone; in the
-  /// homogeneous model both are the shorter one.
+  /// The largest steps <= `longest` that keep point + step direction in the cone, as sharp as
+  /// ConeFactor::step; in the homogeneous model both are the shorter one.
   Steps<T> step(const Iterate<T>& point, const Iterate<T>& direction, const T& longest);
 
  private:

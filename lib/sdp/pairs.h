@@ -1,6 +1,10 @@
 // Sums of products of double-double numbers, kept in two halves.
 #pragma once
 
+#if defined(__FMA__)
+#include <immintrin.h>
+#endif
+
 #include <array>
 #include <bit>
 #include <cmath>
@@ -14,17 +18,72 @@ namespace gainsmith::sdp {
 
 constexpr int kLanes = 8;
 
+/// A vector register of the machine, and a b + c in it with one rounding. The instruction is named:
+/// compilers prefer to fuse element by element where they think that wide registers cost speed.
+#if defined(__AVX512F__)
+constexpr int kWidth = 8;
+using Register = double __attribute__((vector_size(64)));
+inline Register multiply_add(const Register& a, const Register& b, const Register& c) {
+  return _mm512_fmadd_pd(a, b, c);
+}
+#elif defined(__FMA__)
+constexpr int kWidth = 4;
+using Register = double __attribute__((vector_size(32)));
+inline Register multiply_add(const Register& a, const Register& b, const Register& c) {
+  return _mm256_fmadd_pd(a, b, c);
+}
+#else
+constexpr int kWidth = 2;
+using Register = double __attribute__((vector_size(16)));
+inline Register multiply_add(const Register& a, const Register& b, const Register& c) {
+  return Register{std::fma(a[0], b[0], c[0]), std::fma(a[1], b[1], c[1])};
+}
+#endif
+inline double multiply_add(double a, double b, double c) { return std::fma(a, b, c); }
+
+/// The halves of kWidth numbers apart, and together again.
+inline void split_pairs(const DoubleDouble* from, Register& high, Register& low) {
+  Register first, second;
+  std::memcpy(&first, from, sizeof first);
+  std::memcpy(&second, from + kWidth / 2, sizeof second);
+#if defined(__AVX512F__)
+  high = __builtin_shufflevector(first, second, 0, 2, 4, 6, 8, 10, 12, 14);
+  low = __builtin_shufflevector(first, second, 1, 3, 5, 7, 9, 11, 13, 15);
+#elif defined(__FMA__)
+  high = __builtin_shufflevector(first, second, 0, 2, 4, 6);
+  low = __builtin_shufflevector(first, second, 1, 3, 5, 7);
+#else
+  high = __builtin_shufflevector(first, second, 0, 2);
+  low = __builtin_shufflevector(first, second, 1, 3);
+#endif
+}
+inline void join_pairs(const Register& high, const Register& low, DoubleDouble* to) {
+#if defined(__AVX512F__)
+  const Register first = __builtin_shufflevector(high, low, 0, 8, 1, 9, 2, 10, 3, 11);
+  const Register second = __builtin_shufflevector(high, low, 4, 12, 5, 13, 6, 14, 7, 15);
+#elif defined(__FMA__)
+  const Register first = __builtin_shufflevector(high, low, 0, 4, 1, 5);
+  const Register second = __builtin_shufflevector(high, low, 2, 6, 3, 7);
+#else
+  const Register first = __builtin_shufflevector(high, low, 0, 2);
+  const Register second = __builtin_shufflevector(high, low, 1, 3);
+#endif
+  std::memcpy(static_cast<void*>(to), &first, sizeof first);
+  std::memcpy(static_cast<void*>(to + kWidth / 2), &second, sizeof second);
+}
+
 /// (high, low) += (a_high + a_low) (b_high + b_low), with the rounding errors of the product and of
-/// the sum (Ogita, Rump, Oishi 2005, Dot2, extended to factors of two halves): as accurate as if
-/// computed in twice the precision and rounded.
-inline void add_product(double& high, double& low, double a_high, double a_low, double b_high,
-                        double b_low) {
-  const double p = a_high * b_high;
-  double e = std::fma(a_high, b_high, -p);
-  e = std::fma(a_high, b_low, e);
-  e = std::fma(a_low, b_high, e);
-  const double s = high + p;
-  const double t = s - high;
+/// the sum (Ogita, Rump, Oishi 2005, Dot2, extended to factors of two halves): about as accurate as
+/// if computed in twice the precision and rounded. In a double or in every lane of a register.
+template <typename V>
+void add_product(V& high, V& low, const V& a_high, const V& a_low, const V& b_high,
+                 const V& b_low) {
+  const V p = a_high * b_high;
+  V e = multiply_add(a_high, b_high, -p);
+  e = multiply_add(a_high, b_low, e);
+  e = multiply_add(a_low, b_high, e);
+  const V s = high + p;
+  const V t = s - high;
   low += ((high - (s - t)) + (p - t)) + e;
   high = s;
 }
@@ -41,27 +100,39 @@ struct PairSum {
 
 /// kLanes of them side by side, for the vector unit.
 struct PairSums {
-  std::array<double, kLanes> high{}, low{};
+  static constexpr std::size_t kParts = kLanes / kWidth;
+  std::array<Register, kParts> high{}, low{};
 
   /// One factor for all lanes.
   void add(const double* a_high, const double* a_low, double b_high, double b_low) {
-    for (std::size_t r = 0; r < kLanes; ++r)
-      add_product(high[r], low[r], a_high[r], a_low[r], b_high, b_low);
+    const Register of_high = Register{} + b_high, of_low = Register{} + b_low;
+    for (std::size_t p = 0; p < kParts; ++p) {
+      Register a_upper, a_lower;
+      std::memcpy(&a_upper, a_high + p * kWidth, sizeof a_upper);
+      std::memcpy(&a_lower, a_low + p * kWidth, sizeof a_lower);
+      add_product(high[p], low[p], a_upper, a_lower, of_high, of_low);
+    }
   }
   /// a_r b_r in lane r.
   void add(const DoubleDouble* a, const DoubleDouble* b) {
-    for (std::size_t r = 0; r < kLanes; ++r)
-      add_product(high[r], low[r], a[r].hi(), a[r].lo(), b[r].hi(), b[r].lo());
+    for (std::size_t p = 0; p < kParts; ++p) {
+      Register a_upper, a_lower, b_upper, b_lower;
+      split_pairs(a + p * kWidth, a_upper, a_lower);
+      split_pairs(b + p * kWidth, b_upper, b_lower);
+      add_product(high[p], low[p], a_upper, a_lower, b_upper, b_lower);
+    }
   }
-  DoubleDouble operator[](std::size_t r) const {
-    return DoubleDouble(high[r]) + DoubleDouble(low[r]);
+  PairSum lane(std::size_t r) const {
+    return {high[r / kWidth][r % kWidth], low[r / kWidth][r % kWidth]};
   }
+  DoubleDouble operator[](std::size_t r) const { return lane(r).value(); }
   /// The sum over the lanes.
   PairSum total() const {
     PairSum sum;
     for (std::size_t r = 0; r < kLanes; ++r) {
-      add_product(sum.high, sum.low, high[r], 0, 1, 0);
-      sum.low += low[r];
+      const PairSum part = lane(r);
+      add_product(sum.high, sum.low, part.high, 0.0, 1.0, 0.0);
+      sum.low += part.low;
     }
     return sum;
   }
@@ -73,25 +144,7 @@ inline double power_above(double value) {
   return 2 * std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) & kExponent);
 }
 
-/// kLanes doubles: one register, if the machine has such.
-using PairLanes = double __attribute__((vector_size(kLanes * sizeof(double))));
-
-/// The halves of kLanes numbers apart, and together again.
-inline void split_pairs(const DoubleDouble* from, PairLanes& high, PairLanes& low) {
-  PairLanes first, second;
-  std::memcpy(&first, from, sizeof first);
-  std::memcpy(&second, from + kLanes / 2, sizeof second);
-  high = __builtin_shufflevector(first, second, 0, 2, 4, 6, 8, 10, 12, 14);
-  low = __builtin_shufflevector(first, second, 1, 3, 5, 7, 9, 11, 13, 15);
-}
-inline void join_pairs(const PairLanes& high, const PairLanes& low, DoubleDouble* to) {
-  const PairLanes first = __builtin_shufflevector(high, low, 0, 8, 1, 9, 2, 10, 3, 11);
-  const PairLanes second = __builtin_shufflevector(high, low, 4, 12, 5, 13, 6, 14, 7, 15);
-  std::memcpy(static_cast<void*>(to), &first, sizeof first);
-  std::memcpy(static_cast<void*>(to + kLanes / 2), &second, sizeof second);
-}
-
-/// kLanes x count sums for matrix products, at half the operations of PairSums: `high` starts from
+/// kWidth x count sums for matrix products, at half the operations of PairSums: `high` starts from
 /// a bias of 3 u, u a bound of the sum of |a b|, and so stays in the binade [2 u, 4 u). There s =
 /// high + a b, rounded once, has the errors high - s and a b + (high - s), the former exact. What
 /// is lost is relative to u, the product of the bounds of row and column, not to each sum: 2^-104
@@ -102,53 +155,44 @@ class BiasedSums {
   /// row[r] column[q] >= sum of |a_r b_q|, all of them powers of two (or 0).
   BiasedSums(const double* row, const std::array<double, count>& column) {
     for (std::size_t q = 0; q < count; ++q)
-      for (std::size_t r = 0; r < kLanes; ++r) bias_[q][r] = 3 * row[r] * column[q];
+      for (std::size_t r = 0; r < kWidth; ++r) bias_[q][r] = 3 * row[r] * column[q];
     high_ = bias_;
   }
   /// Lane r: a_r b_q, where b_q is q strides from b.
   void add(const double* a_high, const double* a_low, const DoubleDouble* b,
            std::ptrdiff_t stride) {
-    Lanes high, low;
+    Register high, low;
     std::memcpy(&high, a_high, sizeof high);
     std::memcpy(&low, a_low, sizeof low);
 #pragma GCC unroll 8
     for (std::size_t q = 0; q < count; ++q, b += stride) {
-      const Lanes b_high = Lanes{} + b->hi(), b_low = Lanes{} + b->lo();
-      Lanes sum, error;
-      multiply_add(high, b_high, high_[q], sum);
-      const Lanes moved = high_[q] - sum;
-      multiply_add(high, b_high, moved, error);
+      const Register b_high = Register{} + b->hi(), b_low = Register{} + b->lo();
+      const Register sum = multiply_add(high, b_high, high_[q]);
+      Register error = multiply_add(high, b_high, high_[q] - sum);
       high_[q] = sum;
-      multiply_add(high, b_low, error, error);
-      multiply_add(low, b_high, error, error);
-      low_[q] += error;
+      error = multiply_add(high, b_low, error);
+      low_[q] += multiply_add(low, b_high, error);
     }
   }
 
   /// c_r = the sum q of lane r, or c_r loses it; with an error of 2^-105 of the larger one.
   void store(std::size_t q, bool subtract, DoubleDouble* c) const {
-    Lanes high = high_[q] - bias_[q], low = low_[q];
+    Register high = high_[q] - bias_[q], low = low_[q];
     if (subtract) {
-      Lanes c_high, c_low;
+      Register c_high, c_low;
       split_pairs(c, c_high, c_low);
-      const Lanes difference = c_high - high;
-      const Lanes moved = difference - c_high;
+      const Register difference = c_high - high;
+      const Register moved = difference - c_high;
       low = ((c_high - (difference - moved)) - (high + moved)) + (c_low - low);
       high = difference;
     }
-    const Lanes sum = high + low;
-    const Lanes moved = sum - high;
+    const Register sum = high + low;
+    const Register moved = sum - high;
     join_pairs(sum, (high - (sum - moved)) + (low - moved), c);
   }
 
  private:
-  using Lanes = PairLanes;
-
-  static void multiply_add(const Lanes& a, const Lanes& b, const Lanes& c, Lanes& result) {
-    for (int r = 0; r < kLanes; ++r) result[r] = std::fma(a[r], b[r], c[r]);
-  }
-
-  std::array<Lanes, count> bias_, high_, low_{};
+  std::array<Register, count> bias_, high_, low_{};
 };
 
 /// sum of a_i b_i, i < count.

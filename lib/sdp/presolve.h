@@ -13,9 +13,9 @@ double frobenius_norm(const std::vector<Entry>& list);
 
 /// How the working problem came about:
 ///   F'_i = s_i F_i  (i >= 1),  F'_0 = F_0 / gamma_f,  c'_i = s_i c_i / gamma_c,
-/// with s_i and the gammas powers of two, so that ||F'_i|| is from 1 to 2; restricted to the rows
-/// that occur and split into the connected components of the blocks' common pattern (outside of it
-/// X is zero, and Y may be). Hence
+/// with s_i and the gammas powers of two, so that ||F'_i|| is from 1 to 2 and so is max |c'_i|;
+/// restricted to the rows that occur and split into the connected components of the blocks' common
+/// pattern (outside of it X is zero, and Y may be). Hence
 ///   x_i = gamma_f s_i x'_i,  X = gamma_f X',  Y = gamma_c Y'.
 /// Rows are not scaled: the direction does not depend on congruences D F_i D.
 struct Recovery {
@@ -39,7 +39,7 @@ struct Presolved {
   /// 1999): the sizes that the data suggest for X and Y, times the square root of n, or n.
   double far_X = 1;
   double far_Y = 1;
-  /// An i with F_i = 0 and c_i != 0, from 0: x = -sign(c_i) e_i proves dual infeasibility; or -1.
+  /// An i with F_i = 0 and c_i != 0, from 0: x = -sign(c_i) e_i is a certificate; or -1.
   int free_descent = -1;
 };
 

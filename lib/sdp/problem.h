@@ -43,7 +43,7 @@ struct Problem {
 
 /// Throws std::invalid_argument unless `problem` is well formed: f has m + 1 lists, blocks have
 /// positive sizes, entries lie in the upper triangle of their block (on the diagonal of a diagonal
-/// one), all values are finite.
+/// one), values and costs are finite, c_rest is empty or has m entries.
 void validate(const Problem& problem);
 
 }  // namespace gainsmith::sdp

@@ -23,11 +23,13 @@ class Residuals {
   double complementarity = 0;       ///< X.Y / (1 + |primal| + |dual|)
   double primal_infeasibility = 0;  ///< ||sum x_i F_i - F_0 - X||_F / (1 + max|F_0|)
   double dual_infeasibility = 0;    ///< ||F_i.Y - c_i|| / (1 + max|c|)
-  /// What rounding alone does to the two: epsilon times the numbers that cancel in them.
+  /// What rounding alone does to the two: epsilon times the numbers that cancel in them, sum_i
+  /// |x_i| ||F_i|| (to a factor of 2) and ||Y||.
   double primal_rounding = 0;
   double dual_rounding = 0;
   /// By how much infeasibility may move the objectives, relative as the gap: with (x, Y) standing
-  /// for the solution, sum_i |x_i| |F_i.Y - c_i| + sum_b ||(sum x_i F_i - F_0 - X)_b|| ||Y_b||.
+  /// for the solution, sum_i |x_i| |F_i.Y - c_i| + sum_b ||(sum x_i F_i - F_0 - X)_b|| ||Y_b|| over
+  /// the blocks b of the working problem.
   double objective_error = 0;
 
   /// Of Y and x as directions, on the original problem (see Certificate); infinite when the sign is

@@ -86,43 +86,8 @@ typename Schur<T>::Plan Schur<T>::plan_block(const BlockData& block, int n) cons
   double following = 0;
   for (const std::size_t k : order) following += static_cast<double>(nonzeros(k));
   for (const std::size_t k : order) {
-    List& list = plan.lists.emplace_back();
-    list.constraint = block.constraint[k] - 1;
-    list.first = plan.terms.size();
-    std::set<int> rows;
-    for (std::size_t t = block.start[k]; t < block.start[k + 1]; ++t) {
-      const Term& term = block.terms[t];
-      plan.terms.push_back(term);
-      plan.value.push_back(coefficient<T>(term));
-      plan.packed.push_back(static_cast<int>(packed_index(term.row, term.column)));
-      rows.insert(term.row);
-      rows.insert(term.column);
-    }
-    list.last = plan.terms.size();
-    const double order_n = n, r = static_cast<double>(rows.size());
-    double cost = kProductCost * order_n * order_n * order_n + kPanelCost * following;
-    const double by_rows = kDotCost * 2 * r * following + kPanelCost * r * order_n;
-    Cover cover = cover_of(plan.terms.data() + list.first, plan.terms.data() + list.last, n);
-    const double by_rank =
-        cover.found
-            ? kProductCost * order_n *
-                      (order_n * (2.0 * static_cast<double>(cover.rows.size()) + kRankRest) +
-                       2.0 * static_cast<double>(nonzeros(k))) +
-                  kPanelCost * following
-            : std::numeric_limits<double>::infinity();
-    if (by_rank < cost) {
-      list.formula = Formula::rank;
-      list.rows = std::move(cover.rows);
-      cost = by_rank;
-    }
-    if (by_rows < cost) {
-      list.formula = Formula::rows;
-      list.rows.assign(rows.begin(), rows.end());
-      cost = by_rows;
-    }
-    cover.slot.resize(nonzeros(k));
-    plan.slot.insert(plan.slot.end(), cover.slot.begin(), cover.slot.end());
-    plan.cost += cost;
+    append_list(block, k, plan);
+    choose_formula(plan, following, n);
     following -= static_cast<double>(nonzeros(k));
   }
   for (std::size_t first = 0; first < plan.lists.size();) {
@@ -135,6 +100,54 @@ typename Schur<T>::Plan Schur<T>::plan_block(const BlockData& block, int n) cons
     first = last;
   }
   return plan;
+}
+
+template <typename T>
+void Schur<T>::append_list(const BlockData& block, std::size_t k, Plan& plan) const {
+  List& list = plan.lists.emplace_back();
+  list.constraint = block.constraint[k] - 1;
+  list.first = plan.terms.size();
+  for (std::size_t t = block.start[k]; t < block.start[k + 1]; ++t) {
+    const Term& term = block.terms[t];
+    plan.terms.push_back(term);
+    plan.value.push_back(coefficient<T>(term));
+    plan.packed.push_back(static_cast<int>(packed_index(term.row, term.column)));
+  }
+  list.last = plan.terms.size();
+}
+
+template <typename T>
+void Schur<T>::choose_formula(Plan& plan, double following, int n) const {
+  List& list = plan.lists.back();
+  const Term* const first = plan.terms.data() + list.first;
+  const Term* const last = plan.terms.data() + list.last;
+  const auto nonzeros = static_cast<double>(last - first);
+  const double size = n, products = kPanelCost * following;
+  double cost = kProductCost * size * size * size + products;
+
+  Cover cover = cover_of(first, last, n);
+  cover.slot.resize(list.last - list.first);
+  plan.slot.insert(plan.slot.end(), cover.slot.begin(), cover.slot.end());
+  const double inner = 2.0 * static_cast<double>(cover.rows.size()) + kRankRest;
+  const double by_rank = kProductCost * size * (size * inner + 2.0 * nonzeros) + products;
+  if (cover.found && by_rank < cost) {
+    list.formula = Formula::rank;
+    list.rows = std::move(cover.rows);
+    cost = by_rank;
+  }
+  std::set<int> rows;
+  for (const Term* term = first; term != last; ++term) {
+    rows.insert(term->row);
+    rows.insert(term->column);
+  }
+  const auto r = static_cast<double>(rows.size());
+  const double by_rows = kDotCost * 2 * r * following + kPanelCost * r * size;
+  if (by_rows < cost) {
+    list.formula = Formula::rows;
+    list.rows.assign(rows.begin(), rows.end());
+    cost = by_rows;
+  }
+  plan.cost += cost;
 }
 
 template <typename T>

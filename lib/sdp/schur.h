@@ -32,9 +32,9 @@ class Schur {
 
   void assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y);
 
-  /// Cholesky of B + delta diag(B) with its diagonal scaled to one, delta a few epsilon in double
-  /// and 0 in wider arithmetic; where that fails, with the smallest delta = eps 8^k, k >= 1, that
-  /// succeeds. False when none does.
+  /// Cholesky of B + delta diag(B) with its diagonal scaled to one, delta = 16 epsilon in double
+  /// and 0 in wider arithmetic; where that fails, with 8 times as much (8 epsilon after 0), again
+  /// and again. False when no delta in reason succeeds.
   bool factorise();
 
   /// x = B^-1 r as the factor gives it; newton.h refines it.
@@ -69,13 +69,18 @@ class Schur {
     Vector<T> h;     ///< F_i Y, transposed: (n * kBatch) x n, or |R| x n
     Vector<T> u;     ///< X^-1 F_i Y
     Matrix<T> p, q;  ///< by rank: U = P Q'
-    Panel<T> panel;  ///< symmetric part of U, packed upper triangle
+    Panel<T> panel;  ///< U + U' (U on the diagonal), packed upper triangle
   };
 
   void add_batch(const Plan& plan, const Batch& batch, const ConstMatrixMap<T>& inverse_X,
                  const ConstMatrixMap<T>& Y, Workspace& w);
   void size_workspaces();
   Plan plan_block(const BlockData& block, int n) const;
+  /// Appends list k of `block`.
+  void append_list(const BlockData& block, std::size_t k, Plan& plan) const;
+  /// Gives the last list of `plan` the cheapest formula, `following` being the terms of the lists
+  /// from it on, and adds what that costs.
+  void choose_formula(Plan& plan, double following, int n) const;
   void add_dense(const Plan& plan, std::size_t first, std::size_t last,
                  const ConstMatrixMap<T>& inverse_X, const ConstMatrixMap<T>& Y, Workspace& w);
   void multiply_lists(const Plan& plan, std::size_t first, std::size_t last,

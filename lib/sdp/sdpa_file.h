@@ -23,7 +23,8 @@ namespace gainsmith::sdp {
 /// that ends early.
 Problem read_sdpa(std::string_view text, const std::string& file_name);
 
-/// The text of a problem in that format, numbers with 17 digits: read_sdpa gives the same problem.
+/// The text of a problem in that format, numbers with 17 digits: read_sdpa gives the same doubles.
+/// What they were rounded from (Entry::rest) is not written.
 std::string write_sdpa(const Problem& problem);
 
 }  // namespace gainsmith::sdp

@@ -1,4 +1,5 @@
-// What a solve found: why it stopped, how good the point is, and the proof when there is none.
+// What a solve found: why it stopped, how good the point is, and the certificate when there is
+// none.
 #pragma once
 
 #include <array>
@@ -8,9 +9,10 @@
 namespace gainsmith::sdp {
 
 /// What is known. `optimal`: both objectives agree to the tolerance and the errors recomputed on
-/// the unscaled problem are below it; it does not prove that the true optimum is attained.
-/// `primal_infeasible`, `dual_infeasible`: a certificate was found, recomputed from the raw data
-/// and passed its check. `undecided`: none of these, whatever the point looks like.
+/// the unscaled problem are below it; it does not say that the true optimum is attained.
+/// `primal_infeasible`, `dual_infeasible`: a certificate was recomputed from the raw data, in
+/// floating point, and passed its check; it excludes solutions up to a size, no more (Certificate).
+/// `undecided`: none of these, whatever the point looks like.
 enum class Status { optimal, primal_infeasible, dual_infeasible, undecided };
 
 /// Why the iteration stopped; never mixed with the quality of the point.
@@ -34,7 +36,8 @@ struct BlockMatrix {
   std::vector<std::vector<double>> values;
 };
 
-/// A Farkas certificate as it was checked, from the raw data.
+/// A Farkas certificate as it was checked, from the raw data in the arithmetic of the point. A
+/// matrix counts as >= -e I when M + e I has a Cholesky factor there, e = 0 or a power of two.
 /// Primal infeasible: Y >= 0 with F_0.Y = 1 (normalised) and r_i = F_i.Y nearly 0. Any feasible x
 /// has
 ///   sum_i r_i x_i = X.Y + F_0.Y >= 1, so every x with max|x_i| < 1 / sum|r_i| is excluded.
@@ -44,7 +47,7 @@ struct BlockMatrix {
 struct Certificate {
   double value = 0;            ///< F_0.Y, or -c'x, after normalisation: 1
   double residual = 0;         ///< sum_i |F_i.Y|, or e
-  double min_eigenvalue = 0;   ///< of Y (all blocks), or of sum_i x_i F_i
+  double min_eigenvalue = 0;   ///< of Y (all blocks), or of sum_i x_i F_i; -e where negative
   double excluded_radius = 0;  ///< no solution smaller than this: 1/residual
   bool checked = false;
 };
@@ -72,7 +75,8 @@ struct Solution {
   double relative_gap = 0;      ///< (primal - dual) / (1 + |primal| + |dual|)
   /// The six DIMACS errors, recomputed on the unscaled problem: 1 ||F_i.Y - c_i|| / (1 + max|c|),
   /// 2 max(0, -lambda_min(Y)) / (1 + max|c|), 3 ||sum x_i F_i - F_0 - X||_F / (1 + max|F_0|),
-  /// 4 max(0, -lambda_min(X)) / (1 + max|F_0|), 5 gap, 6 X.Y / (1 + |primal| + |dual|).
+  /// 4 max(0, -lambda_min(X)) / (1 + max|F_0|), 5 gap, 6 X.Y / (1 + |primal| + |dual|); the
+  /// eigenvalues of 2 and 4 rounded up to a power of two.
   std::array<double, 6> dimacs{};
   Certificate certificate;
 

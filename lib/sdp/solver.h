@@ -28,8 +28,8 @@ struct Options {
   int iteration_limit = 500;            ///< over all arithmetics together
   double time_limit = 0;                ///< seconds; 0 = none
   unsigned threads = 1;                 ///< 0: one a core; results do not depend on it
-  /// "auto": double first, then 31 and 100 digits from the best point found where double stalls
-  /// short of the tolerance (not when the problem is so large that it would take hours); "double";
+  /// "auto": double first, then 31 and 100 digits where double stalls short of the tolerance and
+  /// the problem is small enough, by an estimate of its operations; "double";
   /// "quad" (31 digits from the start); or a number of decimal digits, 1 to 100, rounded up to what
   /// there is.
   std::string precision = "auto";

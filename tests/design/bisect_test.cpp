@@ -43,7 +43,7 @@ synthesis: {forall: hull}
 TEST(Bisect, FindsTheLimitOfQuadraticStabilityWithProofsOnBothSides) {
   const YamlProblem problem(kCircle);
   const BisectResult result =
-      bisect(*problem.problem, {}, {{"kmax", search::axis(1, 10)}, true, {1e-4}, {}}, {});
+      bisect(problem.instance, {}, {{"kmax", search::axis(1, 10)}, true, {1e-4}, {}}, {});
   ASSERT_EQ(result.gains.verdict, model::Verdict::yes);
   const double limit = 1 + 2 * std::sqrt(2.0);
   const model::SearchRecord& record = *result.gains.search;
@@ -62,12 +62,12 @@ TEST(Bisect, FindsTheLimitOfQuadraticStabilityWithProofsOnBothSides) {
 TEST(Bisect, WithoutAFeasibleValueNothingIsSaidOfThoseBetween) {
   const YamlProblem problem(kCircle);
   const BisectResult result =
-      bisect(*problem.problem, {}, {{"kmax", search::axis(4, 10)}, true, {0.1}, {}}, {});
+      bisect(problem.instance, {}, {{"kmax", search::axis(4, 10)}, true, {0.1}, {}}, {});
   EXPECT_EQ(result.gains.verdict, model::Verdict::undecided);
   EXPECT_FALSE(result.gains.certificate);
   EXPECT_FALSE(result.gains.search->value);
-  EXPECT_NE(result.gains.solver.message.find("among the 9 values tried in [4, 10]; each is proved "
-                                             "infeasible"),
+  EXPECT_NE(result.gains.solver.message.find("among the 9 values tried in [4, 10]; each is "
+                                             "excluded by a certificate"),
             std::string::npos)
       << result.gains.solver.message;
 }
@@ -75,19 +75,28 @@ TEST(Bisect, WithoutAFeasibleValueNothingIsSaidOfThoseBetween) {
 TEST(Bisect, TheProblemsOwnValueIsTried) {
   const YamlProblem inside(window(0.3));
   const BisectResult found =
-      bisect(*inside.problem, {}, {{"k", search::axis(0, 1)}, true, {1e-4}, {}}, {});
+      bisect(inside.instance, {}, {{"k", search::axis(0, 1)}, true, {1e-4}, {}}, {});
   EXPECT_EQ(found.gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(found.found.yes.value(), 0.31, 2e-4);
   const YamlProblem outside(window(0));
   EXPECT_EQ(
-      synthesize_searched(*outside.problem, request_of(*outside.problem), nullptr, 1, {}).verdict,
+      synthesize_searched(outside.instance, request_of(outside.instance), nullptr, 1, {}).verdict,
       model::Verdict::undecided);
+}
+
+/// The largest c is 4 - (a - 1)^2.
+TEST(Bisect, WhatAnInstanceOverridesIsHeld) {
+  const YamlProblem problem(testing::kRidge + "data: {a: 1, c: 0}\n");
+  const BisectChoices choices{{"c", search::axis(-5, 9)}, true, {1e-3}, {}};
+  const model::Instance moved = model::evaluate(problem.instance.design, {{"a", 2}});
+  EXPECT_NEAR(bisect(moved, {}, choices, {}).found.yes.value(), 3, 2e-3);
+  EXPECT_NEAR(bisect(moved, {{"a", 3}}, choices, {}).found.yes.value(), 0, 2e-3);
 }
 
 TEST(Bisect, RefusedValuesAreNoErrorUnlessAllAre) {
   const YamlProblem problem(kAssumed);
   const auto over = [&](double low, double high) {
-    return bisect(*problem.problem, {}, {{"k", search::axis(low, high)}, true, {1e-4}, {}}, {});
+    return bisect(problem.instance, {}, {{"k", search::axis(low, high)}, true, {1e-4}, {}}, {});
   };
   const BisectResult found = over(-1, 5);
   EXPECT_NEAR(found.found.yes.value(), 1, 2e-4);
@@ -100,13 +109,13 @@ TEST(Bisect, RefusedValuesAreNoErrorUnlessAllAre) {
 TEST(Bisect, AnEndThatOnlyTheHullProvesSaysSo) {
   const YamlProblem problem(kHull);
   const BisectResult found =
-      bisect(*problem.problem, {}, {{"c", search::axis(0, 9)}, true, {1e-3}, {}}, {});
+      bisect(problem.instance, {}, {{"c", search::axis(0, 9)}, true, {1e-3}, {}}, {});
   ASSERT_TRUE(found.found.no);
   EXPECT_LT(*found.found.no, 3.9);
   EXPECT_EQ(found.gains.search->certificate.value().about, "hull");
   const BisectResult none =
-      bisect(*problem.problem, {}, {{"c", search::axis(3.5, 9)}, true, {1e-3}, {}}, {});
-  EXPECT_NE(none.gains.solver.message.find("proved infeasible for the hull only"),
+      bisect(problem.instance, {}, {{"c", search::axis(3.5, 9)}, true, {1e-3}, {}}, {});
+  EXPECT_NE(none.gains.solver.message.find("excluded by a certificate for the hull only"),
             std::string::npos)
       << none.gains.solver.message;
 }

@@ -25,50 +25,49 @@ data: {a: 3, b: 1}
 /// What a chain gives counts at both of its ends: a - t s < x < b + t s.
 TEST(Elastic, TheSmallestSlacksCloseTheGap) {
   const YamlProblem problem(kInterval);
-  const ByRequirement scales = scales_of(*problem.problem, {});
+  const ByInequality scales = scales_of(problem.instance);
   ASSERT_EQ(scales.size(), 3U);
   // A slack of the chain alone leaves x < b: it gives a - b at its lower end.
-  const auto alone = smallest_slacks(*problem.problem, {{"between", scales.at("between")}}, {}, {});
+  const auto alone = smallest_slacks(problem.instance, {{"between", scales.at("between")}}, {});
   ASSERT_EQ(alone.verdict, model::Verdict::yes);
-  ASSERT_EQ(alone.by_requirement.size(), 1U);
-  EXPECT_NEAR(alone.by_requirement.at("between") * scales.at("between"), 2, 1e-4);
-  // The other requirements alone cannot close the gap.
-  EXPECT_EQ(smallest_slacks(*problem.problem, {{"room", 1}, {"again", 1}}, {}, {}).verdict,
+  ASSERT_EQ(alone.by_inequality.size(), 1U);
+  EXPECT_NEAR(alone.by_inequality.at("between") * scales.at("between"), 2, 1e-4);
+  // The other inequalities alone cannot close the gap.
+  EXPECT_EQ(smallest_slacks(problem.instance, {{"room", 1}, {"again", 1}}, {}).verdict,
             model::Verdict::no);
   sdp::Options interrupted;
   interrupted.interrupted = [] { return true; };
-  EXPECT_EQ(smallest_slacks(*problem.problem, {{"room", 1}}, {}, interrupted).verdict,
+  EXPECT_EQ(smallest_slacks(problem.instance, {{"room", 1}}, interrupted).verdict,
             model::Verdict::undecided);
   // a - t < x < b + min(t, u) with the slacks t of the chain and u of the other needs t + u > a -
   // b.
   const auto all =
-      smallest_slacks(*problem.problem, {{"between", 1}, {"again", 1}, {"room", 1}}, {}, {});
+      smallest_slacks(problem.instance, {{"between", 1}, {"again", 1}, {"room", 1}}, {});
   ASSERT_EQ(all.verdict, model::Verdict::yes);
-  EXPECT_NEAR(all.by_requirement.at("between") + all.by_requirement.at("again"), 2, 1e-4);
-  EXPECT_EQ(all.by_requirement.at("room"), 0);
+  EXPECT_NEAR(all.by_inequality.at("between") + all.by_inequality.at("again"), 2, 1e-4);
+  EXPECT_EQ(all.by_inequality.at("room"), 0);
 }
 
 TEST(Elastic, AFeasibleProblemNeedsNoSlack) {
   const YamlProblem problem(kInterval);
-  const model::Overrides wider = {{"b", 5}};
-  const auto slacks =
-      smallest_slacks(*problem.problem, scales_of(*problem.problem, wider), wider, {});
+  const model::Instance wider = model::evaluate(problem.instance.design, {{"b", 5}});
+  const auto slacks = smallest_slacks(wider, scales_of(wider), {});
   ASSERT_EQ(slacks.verdict, model::Verdict::yes);
-  for (const auto& [requirement, slack] : slacks.by_requirement) EXPECT_EQ(slack, 0) << requirement;
+  for (const auto& [inequality, slack] : slacks.by_inequality) EXPECT_EQ(slack, 0) << inequality;
 }
 
 /// Every comparison of a chain gives by the same slack, which is not negative.
-TEST(Elastic, AChainBecomesOneRequirementForEachComparison) {
+TEST(Elastic, AChainBecomesOneInequalityForEachComparison) {
   const YamlProblem problem(kInterval);
   std::map<std::string, std::string> names;
-  const model::Problem relaxed = elastic(*problem.problem, {{"between", 2}}, names);
+  const model::Instance relaxed = elastic(problem.instance, {{"between", 2}}, names);
   ASSERT_EQ(names.size(), 1U);
   std::vector<std::string> found;
-  for (const model::Requirement& requirement : relaxed.method->require)
-    found.push_back(requirement.name);
+  for (const model::Design::Inequality& inequality : relaxed.design->inequalities)
+    found.push_back(inequality.name);
   EXPECT_EQ(found, (std::vector<std::string>{"room", "between.1", "between.2", names.at("between"),
                                              "again"}));
-  EXPECT_EQ(relaxed.method->minimize->text->str(), names.at("between"));
+  EXPECT_EQ(relaxed.design->objective->text, names.at("between"));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ negotiable: {c: [-2, 5], d: [0, 9]}
 
 TEST(Explain, NamesTheConflictWhatItTakesAndHowFar) {
   const YamlProblem problem(kGap);
-  const Explanation found = explain(*problem.problem, {});
+  const Explanation found = explain(problem.instance, {});
   ASSERT_EQ(found.gains.verdict, model::Verdict::no);
   ASSERT_TRUE(found.conflict);
   EXPECT_EQ(found.conflict->names, (std::vector<std::string>{"floor", "ceiling"}));
@@ -61,7 +61,7 @@ TEST(Explain, AChainAloneCanConflict) {
   const YamlProblem problem(
       "problem: chain\nmethod:\n  method: m\n  unknowns: {x: scalar}\n"
       "  require: {range: 2 < x < 1}\ndata: {}\n");
-  const Explanation found = explain(*problem.problem, {});
+  const Explanation found = explain(problem.instance, {});
   ASSERT_TRUE(found.conflict);
   EXPECT_EQ(found.conflict->names, std::vector<std::string>{"range"});
   EXPECT_NEAR(*found.relaxations[0].alone * found.relaxations[0].scale, 0.5, 1e-4);
@@ -69,7 +69,7 @@ TEST(Explain, AChainAloneCanConflict) {
 
 TEST(Explain, AFeasibleProblemHasNothingToExplain) {
   const YamlProblem feasible(std::string(kGap).replace(kGap.find("{c: 3}"), 6, "{c: 0}"));
-  const Explanation found = explain(*feasible.problem, {});
+  const Explanation found = explain(feasible.instance, {});
   EXPECT_EQ(found.gains.verdict, model::Verdict::yes);
   EXPECT_FALSE(found.conflict);
   EXPECT_TRUE(found.relaxations.empty());
@@ -86,7 +86,7 @@ TEST(Explain, AnUndecidedRestIsNotBlamedOnTheGainBound) {
     const model::Gains gains = synthesize(problem.instance, {});
     sdp::Options interrupted;
     interrupted.interrupted = [] { return true; };
-    const auto conflict = find_conflict(*problem.problem, gains, interrupted);
+    const auto conflict = find_conflict(problem.instance, gains, interrupted);
     ASSERT_TRUE(conflict);
     EXPECT_FALSE(conflict->gain_bound);
     EXPECT_EQ(conflict->within_gain_bound, with_gains);
@@ -101,7 +101,7 @@ TEST(Explain, AGainBoundThatIsTooTightIsNamed) {
       "problem: bound\nmethod:\n  method: m\n  unknowns: {x: scalar}\n"
       "  require: {floor: x > 5}\n  minimize: x\n  gains: {K: x}\n"
       "synthesis: {gain_bound: 1}\n");
-  const Explanation found = explain(*problem.problem, {});
+  const Explanation found = explain(problem.instance, {});
   ASSERT_EQ(found.gains.verdict, model::Verdict::no);
   ASSERT_TRUE(found.conflict);
   EXPECT_TRUE(found.conflict->gain_bound);
@@ -114,7 +114,7 @@ TEST(Explain, AHomogeneousConflict) {
       "problem: unstable\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
       "  require: {positive: P > 0, decrease: He(P*A) < 0, weak: P >= 0}\n"
       "data: {A: [[1, 0], [0, -1]]}\n");
-  const Explanation found = explain(*problem.problem, {});
+  const Explanation found = explain(problem.instance, {});
   ASSERT_TRUE(found.conflict);
   EXPECT_EQ(found.conflict->names, (std::vector<std::string>{"positive", "decrease"}));
 }
@@ -134,7 +134,7 @@ data: {F: [[0, -2], [2, 0]], H: [[1, 0]], rho: 0.2}
 negotiable: {rho: [0.1, 1]}
 synthesis: {forall: vertex_gains}
 )yaml");
-  const Explanation found = explain(*problem.problem, {});
+  const Explanation found = explain(problem.instance, {});
   ASSERT_EQ(found.gains.verdict, model::Verdict::no);
   ASSERT_TRUE(found.conflict);
   EXPECT_EQ(found.conflict->names.back(), "step");
@@ -142,7 +142,7 @@ synthesis: {forall: vertex_gains}
   ASSERT_EQ(found.reaches.size(), 1U);
   EXPECT_FALSE(found.reaches[0].at_most);
   const model::Gains there =
-      synthesize(model::make_instance(*problem.problem, {{"rho", *found.reaches[0].feasible}}), {});
+      synthesize_at(problem.instance.design, {{"rho", *found.reaches[0].feasible}}, {});
   EXPECT_EQ(there.verdict, model::Verdict::yes);
 }
 

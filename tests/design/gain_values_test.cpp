@@ -17,21 +17,22 @@ const numbers::Matrix kP{{2, 0}, {0, 4}};
 const numbers::Matrix kFirst{{2}, {4}};
 const numbers::Matrix kSecond{{6}, {-8}};
 
-tests::YamlProblem problem(const std::string& gain, int degree) {
-  return tests::YamlProblem(
+lmi::Inequalities problem(const std::string& gain, int degree) {
+  const tests::YamlProblem yaml(
       "problem: p\nmethod:\n  method: m\n  data: {C: p x n}\n  unknowns: {P: symmetric n, "
       "Y: {shape: n x p, of: tau, degree: " +
       std::to_string(degree) + "}}\n  require: {positive: P > 0}\n  gains: {" + gain +
       "}\ndata: {C: [[1, 2]]}\n");
+  return lmi::Inequalities(yaml.instance);
 }
 
-model::Gains gains_of(const tests::YamlProblem& yaml) {
-  numbers::Values values = yaml.instance.known_values();
+model::Gains gains_of(const lmi::Inequalities& inequalities) {
+  numbers::Values values = inequalities.instance.values;
   values["P"] = kP;
   values["Y_0"] = kFirst;
   values["Y_1"] = kSecond;
   model::Gains gains;
-  add_gain_values(yaml.instance, values, gains);
+  add_gain_values(inequalities, values, gains);
   return gains;
 }
 
@@ -73,17 +74,19 @@ TEST(GainValues, AnythingElseIsAFormula) {
 }
 
 TEST(GainValues, OneMatrixAVertexIsAKindOfItsOwn) {
-  tests::YamlProblem yaml = problem("L(tau): inv(P)*Y(tau)", 1);
-  redefine(yaml.instance, "Y", 2, "cos(tau)*Y_0 + (1 - cos(tau))*Y_1", {});
-  const auto gains = gains_of(yaml);
+  lmi::Inequalities inequalities = problem("L(tau): inv(P)*Y(tau)", 1);
+  const auto box = forall::box_of({{0, 0, 1, false}}, "tau", 0, 1.5, {});
+  inequalities.functions[0].basis = forall::weights(box, "tau", {});
+  inequalities.bodies = model::Bodies(inequalities.functions);
+  const auto gains = gains_of(inequalities);
   ASSERT_EQ(gains.gain_functions.size(), 1U);
   EXPECT_EQ(gains.gain_functions[0].kind, Kind::vertices);
 }
 
 TEST(GainValues, WithoutAPointOnlyWhatFollowsFromDataIsKnown) {
-  const auto yaml = problem("L(tau): inv(P)*Y(tau), M(tau): C*tau, N: 2*C", 1);
+  const auto inequalities = problem("L(tau): inv(P)*Y(tau), M(tau): C*tau, N: 2*C", 1);
   model::Gains gains;
-  add_gain_values(yaml.instance, yaml.instance.known_values(), gains);
+  add_gain_values(inequalities, inequalities.instance.values, gains);
   ASSERT_EQ(gains.gain_functions.size(), 1U);
   EXPECT_EQ(gains.gain_functions[0].name, "M");
   ASSERT_EQ(gains.gains.size(), 1U);
@@ -96,7 +99,7 @@ TEST(Report, HoldsWhatHasAValue) {
       "  require: {positive: P > 0}\n  gains: {G(t): t*C}\n"
       "  report: {sizes: svd(3*C), floor: trace(P), half: G(1/2)}\ndata: {C: [[3, 4]]}\n");
   model::Gains gains;
-  add_gain_values(yaml.instance, yaml.instance.known_values(), gains);
+  add_gain_values(lmi::Inequalities(yaml.instance), yaml.instance.values, gains);
   add_report(yaml.instance, gains);
   ASSERT_EQ(gains.report.size(), 2U);
   EXPECT_EQ(gains.report[0].first, "sizes");

@@ -22,10 +22,10 @@ using tests::YamlProblem;
 TEST(Polish, MovesScalarsAndUnknownsTogetherToTheOptimum) {
   const YamlProblem problem(kBowl +
                             "search: {over: {a: [0, 9], b: [0.01, 90]}, evaluations: 20}\n");
-  SearchRequest request = request_of(*problem.problem);
-  const model::Gains coarse = optimize(*problem.problem, request, kOptimizers, 1, {});
+  SearchRequest request = request_of(problem.instance);
+  const model::Gains coarse = optimize(problem.instance, request, kOptimizers, 1, {});
   request.polish = true;
-  const model::Gains fine = optimize(*problem.problem, request, kOptimizers, 1, {});
+  const model::Gains fine = optimize(problem.instance, request, kOptimizers, 1, {});
   ASSERT_TRUE(fine.search->polish);
   EXPECT_TRUE(fine.search->polish->kept) << fine.search->polish->cause;
   EXPECT_EQ(fine.search->polish->before, *coarse.objective);
@@ -40,7 +40,7 @@ TEST(Polish, MovesScalarsAndUnknownsTogetherToTheOptimum) {
 TEST(Polish, RowsOfVanishingBlocksHaveTheSizeOfTheirTerms) {
   const YamlProblem problem(kBowl +
                             "search: {over: {a: [0, 9], b: [0.01, 90]}, evaluations: 20}\n");
-  SearchRequest request = request_of(*problem.problem);
+  SearchRequest request = request_of(problem.instance);
   request.polish = true;
   double largest = 0;
   const search::SmoothSolver recorder = [&](const search::SmoothProgram& program, double, int) {
@@ -48,17 +48,17 @@ TEST(Polish, RowsOfVanishingBlocksHaveTheSizeOfTheirTerms) {
       largest = std::max(largest, std::abs(element));
     return search::SmoothSolution{program.start, true, "recorded", 0};
   };
-  optimize(*problem.problem, request, {kOptimizers.local, recorder}, 1, {});
+  optimize(problem.instance, request, {kOptimizers.local, recorder}, 1, {});
   EXPECT_GT(largest, 1);
   EXPECT_LT(largest, 100);
 }
 
 TEST(Polish, TheLargestScalarIsPolishedToo) {
   const YamlProblem problem(std::string(kRidge).replace(kRidge.find("60"), 2, "12"));
-  SearchRequest request = request_of(*problem.problem);
+  SearchRequest request = request_of(problem.instance);
   request.tolerance = {1e-6};
   request.polish = true;
-  const model::Gains gains = optimize(*problem.problem, request, kOptimizers, 1, {});
+  const model::Gains gains = optimize(problem.instance, request, kOptimizers, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_TRUE(gains.search->polish->kept) << gains.search->polish->cause;
   EXPECT_NEAR(gains.searched.at("c"), 4, 1e-5);
@@ -73,9 +73,9 @@ TEST(Polish, WorksOnMatrixInequalities) {
       "  unknowns: {P: symmetric 2}\n  let: {A: \"[-1, a; 0, -2]\"}\n"
       "  require: {decrease: He(P*A) + I < 0, positive: P > 0}\n  minimize: trace(P)\n"
       "search: {over: {a: [-1, 2.5]}, evaluations: 6}\n");
-  SearchRequest request = request_of(*problem.problem);
+  SearchRequest request = request_of(problem.instance);
   request.polish = true;
-  const model::Gains gains = optimize(*problem.problem, request, kOptimizers, 1, {});
+  const model::Gains gains = optimize(problem.instance, request, kOptimizers, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_TRUE(gains.search->polish->kept) << gains.search->polish->cause;
   EXPECT_NEAR(gains.searched.at("a"), 0, 2e-2);
@@ -86,9 +86,9 @@ TEST(Polish, WorksOnMatrixInequalities) {
 TEST(Polish, IsNotKeptWithoutGain) {
   const YamlProblem problem(kBowl +
                             "search: {over: {a: [0, 9]}, minimize: K^2}\nparameters: {b: 3}\n");
-  SearchRequest request = request_of(*problem.problem);
+  SearchRequest request = request_of(problem.instance);
   request.polish = true;
-  const model::Gains gains = optimize(*problem.problem, request, kOptimizers, 1, {});
+  const model::Gains gains = optimize(problem.instance, request, kOptimizers, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   ASSERT_TRUE(gains.search->polish);
   EXPECT_FALSE(gains.search->polish->kept);

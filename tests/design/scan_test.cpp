@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "design/search_problems.h"
+#include "expr/parser.h"
 #include "search/axis.h"
 #include "support/input_error.h"
 #include "support/yaml_problem.h"
@@ -19,10 +20,10 @@ using testing::window;
 using tests::YamlProblem;
 
 TEST(Scan, GivesEveryPointInOrderForAnyThreads) {
-  const YamlProblem problem(kBowl);
-  const std::vector<expr::Expression> figures = {expr::parse(expr::Text("2*K", "--show"))};
+  model::Problem problem = *YamlProblem(kBowl).problem;
+  problem.questions.figures = {expr::parse(expr::Text("2*K", "--show"))};
   const auto points = search::grid({{1, 2, 9}, {3, 4}});
-  const auto rows = scan(*problem.problem, {"a", "b"}, points, figures, 4, {});
+  const auto rows = scan(model::bind(problem).design, {"a", "b"}, points, 4, {});
   ASSERT_EQ(rows.size(), 6U);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(rows[i].at, points[i]);
@@ -42,10 +43,10 @@ TEST(Scan, AnInterruptMarksWhatHasNoAnswer) {
   bool enough = false;
   sdp::Options solver;
   solver.interrupted = [&] { return std::exchange(enough, true); };
-  const auto rows = scan(*problem.problem, {"k"}, {{0.3}, {0.3}, {0.3}}, {}, 1, solver);
+  const auto rows = scan(problem.instance.design, {"k"}, {{0.3}, {0.3}, {0.3}}, 1, solver);
   ASSERT_EQ(rows.size(), 3U);
   for (const ScanRow& row : rows) EXPECT_TRUE(row.interrupted);
-  const auto whole = scan(*problem.problem, {"k"}, {{0.3}}, {}, 1, {});
+  const auto whole = scan(problem.instance.design, {"k"}, {{0.3}}, 1, {});
   EXPECT_FALSE(whole[0].interrupted);
 }
 
@@ -53,12 +54,12 @@ TEST(Scan, RefusesUnknownNamesAndKeepsRefusedPoints) {
   const YamlProblem problem(
       "problem: p\nmethod:\n  method: m\n  data: {a: scalar}\n  assume: {low: a < 2}\n"
       "  unknowns: {x: scalar}\n  require: {r: x > a}\n  minimize: x\ndata: {a: 1}\n");
-  EXPECT_THROW(scan(*problem.problem, {"b"}, {{1}}, {}, 1, {}), InputError);
-  const auto rows = scan(*problem.problem, {"a"}, {{1}, {3}}, {}, 1, {});
+  EXPECT_THROW(scan(problem.instance.design, {"b"}, {{1}}, 1, {}), InputError);
+  const auto rows = scan(problem.instance.design, {"a"}, {{1}, {3}}, 1, {});
   EXPECT_EQ(rows[0].refused, "");
   EXPECT_NE(rows[1].refused.find("expected a < 2"), std::string::npos);
   const InputError error = tests::input_error([&] {
-    scan(*problem.problem, {"a"}, {{3}, {4}}, {}, 1, {});
+    scan(problem.instance.design, {"a"}, {{3}, {4}}, 1, {});
   });
   EXPECT_NE(error.message().find("expected a < 2"), std::string::npos);
 }

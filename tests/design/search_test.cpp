@@ -33,7 +33,7 @@ search: {smallest: {rho: [0.05, 2]}, tolerance: 1e-5}
 TEST(Search, AnOptimumAtTheEndOfARangeIsNamed) {
   const YamlProblem problem(kBowl + "search: {over: {a: [2.5, 9], b: [1, 4]}, evaluations: 150}\n");
   const model::Gains gains =
-      synthesize_searched(*problem.problem, request_of(*problem.problem), &kOptimizers, 1, {});
+      synthesize_searched(problem.instance, request_of(problem.instance), &kOptimizers, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(gains.searched.at("b"), 3, 0.03);
   EXPECT_EQ(gains.search->at_end, std::vector<std::string>{"a"});
@@ -42,9 +42,9 @@ TEST(Search, AnOptimumAtTheEndOfARangeIsNamed) {
 /// A generalised eigenvalue problem is a bisection.
 TEST(Search, TheSmallestContractionIsTheSpectralRadius) {
   const YamlProblem problem(kContraction);
-  const SearchRequest request = request_of(*problem.problem);
+  const SearchRequest request = request_of(problem.instance);
   ASSERT_TRUE(request.extreme && request.over.empty());
-  const model::Gains gains = synthesize_searched(*problem.problem, request, nullptr, 1, {});
+  const model::Gains gains = synthesize_searched(problem.instance, request, nullptr, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(gains.searched.at("rho"), 0.8, 2e-5);
   EXPECT_GE(gains.searched.at("rho"), 0.8);
@@ -53,10 +53,10 @@ TEST(Search, TheSmallestContractionIsTheSpectralRadius) {
 
 TEST(Search, ParametersWithoutAValueAreFound) {
   const YamlProblem problem(kBowl);
-  const SearchRequest request = request_of(*problem.problem);
+  const SearchRequest request = request_of(problem.instance);
   ASSERT_EQ(request.over.size(), 2U);
-  EXPECT_EQ(figure_name(request, *problem.instance.method), "objective");
-  const model::Gains gains = synthesize_searched(*problem.problem, request, &kOptimizers, 1, {});
+  EXPECT_EQ(figure_name(request, *problem.instance.design), "objective");
+  const model::Gains gains = synthesize_searched(problem.instance, request, &kOptimizers, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(*gains.objective, 1, 1e-3);
   EXPECT_NEAR(gains.searched.at("a"), 2, 0.03);
@@ -67,27 +67,27 @@ TEST(Search, ParametersWithoutAValueAreFound) {
 
 TEST(Search, ThreadsDoNotChangeTheResult) {
   const YamlProblem problem(kBowl);
-  const SearchRequest request = request_of(*problem.problem);
+  const SearchRequest request = request_of(problem.instance);
   const auto run = [&](unsigned threads) {
-    return synthesize_searched(*problem.problem, request, &kOptimizers, threads, {});
+    return synthesize_searched(problem.instance, request, &kOptimizers, threads, {});
   };
   EXPECT_EQ(run(1).searched, run(4).searched);
 }
 
 TEST(Search, OnlyWhatIsOpenIsSearched) {
   const YamlProblem problem(kBowl + "parameters: {a: 2.5}\n");
-  const SearchRequest request = request_of(*problem.problem);
+  const SearchRequest request = request_of(problem.instance);
   ASSERT_EQ(request.over.size(), 1U);
   EXPECT_EQ(request.over[0].name, "b");
   EXPECT_TRUE(request.over[0].axis.logarithmic);
-  EXPECT_TRUE(request_of(*YamlProblem(kCircle).problem).empty());
+  EXPECT_TRUE(request_of(YamlProblem(kCircle).instance).empty());
 }
 
 TEST(Search, AFigureOfItsOwnIsMinimised) {
   const YamlProblem problem(kBowl + "search: {over: {a: [0, 9]}, minimize: K + 10*a}\n" +
                             "parameters: {b: 3}\n");
-  const SearchRequest request = request_of(*problem.problem);
-  const model::Gains gains = synthesize_searched(*problem.problem, request, &kOptimizers, 1, {});
+  const SearchRequest request = request_of(problem.instance);
+  const model::Gains gains = synthesize_searched(problem.instance, request, &kOptimizers, 1, {});
   // 2((a - 2)^2 + 1) + 10 a is least at a = -0.5; feasible a is at least 0.
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_EQ(gains.search->figure, "K + 10*a");
@@ -97,8 +97,8 @@ TEST(Search, AFigureOfItsOwnIsMinimised) {
 
 TEST(Search, TheLargestScalarOverAnother) {
   const YamlProblem problem(kRidge);
-  const SearchRequest request = request_of(*problem.problem);
-  const model::Gains gains = synthesize_searched(*problem.problem, request, &kOptimizers, 2, {});
+  const SearchRequest request = request_of(problem.instance);
+  const model::Gains gains = synthesize_searched(problem.instance, request, &kOptimizers, 2, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(gains.searched.at("c"), 4, 2e-3);
   EXPECT_NEAR(gains.searched.at("a"), 1, 0.05);
@@ -109,12 +109,12 @@ TEST(Search, TheLargestScalarOverAnother) {
 /// What was found before an interrupt is designed with all its margins.
 TEST(Search, AnInterruptLeavesTheBestSoFar) {
   const YamlProblem problem(kBowl);
-  const SearchRequest request = request_of(*problem.problem);
+  const SearchRequest request = request_of(problem.instance);
   int asked = 0;
   sdp::Options solver;
   solver.interrupted = [&] { return ++asked > 90; };
   const model::Gains gains =
-      synthesize_searched(*problem.problem, request, &kOptimizers, 1, solver);
+      synthesize_searched(problem.instance, request, &kOptimizers, 1, solver);
   EXPECT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_FALSE(gains.search->finished);
   EXPECT_GT(gains.search->feasible, 0);
@@ -130,7 +130,7 @@ TEST(Search, ANarrowFeasibleRangeIsFound) {
       "  unknowns: {x: scalar}\n  require: {floor: \"x > (a - 700)^2\", ceiling: x < 1}\n"
       "  minimize: x\nsearch: {over: {a: [0, 1000]}, evaluations: 100}\n");
   const model::Gains gains =
-      synthesize_searched(*problem.problem, request_of(*problem.problem), &kOptimizers, 2, {});
+      synthesize_searched(problem.instance, request_of(problem.instance), &kOptimizers, 2, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(gains.searched.at("a"), 700, 0.1);
   EXPECT_LT(*gains.objective, 0.01);
@@ -140,7 +140,7 @@ TEST(Search, NothingFeasibleIsUndecided) {
   const YamlProblem problem(kBowl +
                             "search: {over: {a: [6, 9]}, evaluations: 20}\nparameters: {b: 3}\n");
   const model::Gains gains =
-      synthesize_searched(*problem.problem, request_of(*problem.problem), &kOptimizers, 1, {});
+      synthesize_searched(problem.instance, request_of(problem.instance), &kOptimizers, 1, {});
   EXPECT_EQ(gains.verdict, model::Verdict::undecided);
   EXPECT_NE(gains.solver.message.find("a in [6, 9]"), std::string::npos);
   EXPECT_FALSE(gains.search->value);

@@ -2,45 +2,108 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
-#include <fstream>
+#include <cctype>
+#include <filesystem>
+#include <map>
 #include <regex>
+#include <string>
+#include <vector>
 
 #include "end_to_end/program.h"
 
 namespace gainsmith::tests {
 namespace {
 
-std::vector<std::string> files_below(const std::string& folder) {
+/// The problem files below problems/FOLDER, by their path below problems/.
+std::vector<std::string> problems_in(const std::string& folder) {
   std::vector<std::string> files;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    if (entry.path().extension() == ".yaml") files.push_back(entry.path().string());
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(problem(folder)))
+    if (entry.path().extension() == ".yaml")
+      files.push_back(entry.path().lexically_relative(problem("")).string());
+  std::sort(files.begin(), files.end());
   return files;
 }
 
 TEST(ProblemsTest, EveryProblemIsValid) {
   std::vector<std::string> arguments = {"check"};
-  for (const std::string& file : files_below(problem(""))) arguments.push_back(file);
+  for (const std::string& file : problems_in("")) arguments.push_back(problem(file));
   const Outcome outcome = gainsmith(arguments);
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_EQ(static_cast<std::size_t>(std::count(outcome.out.begin(), outcome.out.end(), '\n')),
             arguments.size() - 1);
 }
 
-TEST(ProblemsTest, EveryProblemIsAsExpected) {
+/// One test a file below problems/: what is found when the program is linked.
+class Problems : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(Problems, IsAsExpected) {
   const Folder folder;
-  const Outcome outcome = gainsmith({"run", problem(""), "-o", folder.path("out"), "--runs", "100",
+  const Outcome outcome =
+      gainsmith({"run", problem(GetParam()), "-o", folder.path("out"), "--runs", "100"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
+  EXPECT_EQ(outcome.out.substr(0, 3), "ok ") << outcome.out;
+  const std::string name = std::filesystem::path(GetParam()).stem().string();
+  EXPECT_NE(text_of(folder.path("out/" + name + "/summary.txt")).find("all as expected"),
+            std::string::npos);
+}
+
+/// The file's path in the signs that a test's name may have.
+std::string test_name(const ::testing::TestParamInfo<std::string>& file) {
+  std::string name = std::filesystem::path(file.param).replace_extension().string();
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Files, Problems, ::testing::ValuesIn(problems_in("")), test_name);
+
+TEST(ProblemsTest, AFolderIsRunWithALineAProblem) {
+  const Folder folder;
+  const std::string classics = problem("classics");
+  const Outcome outcome = gainsmith({"run", classics, "-o", folder.path("out"), "--runs", "100",
                                      "--junit", folder.path("junit.xml")});
   EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
-  const std::size_t count = files_below(problem("")).size();
+  const std::size_t count = problems_in("classics").size();
   EXPECT_EQ(static_cast<std::size_t>(std::count(outcome.out.begin(), outcome.out.end(), '\n')),
             count);
   const std::string junit = text_of(folder.path("junit.xml"));
   EXPECT_NE(junit.find("tests=\"" + std::to_string(count) + "\" failures=\"0\" errors=\"0\""),
             std::string::npos)
       << junit;
-  const std::string summary = text_of(folder.path("out/ferrante-seuret-2021/t2-0.70/summary.txt"));
-  EXPECT_NE(summary.find("all as expected"), std::string::npos) << summary;
+  EXPECT_TRUE(std::filesystem::exists(folder.path("out/hinf-norm/gains.json")));
+}
+
+/// Every file of the results by its name, without timings and without the name of the folder.
+std::map<std::string, std::string> results(const std::string& root) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(root)) {
+    const std::filesystem::path& path = entry.path();
+    if (!entry.is_regular_file()) continue;
+    std::string text = text_of(path.string());
+    if (path.extension() == ".json") text = without_timings(text);
+    for (std::size_t at; (at = text.find(root)) != std::string::npos;) text.erase(at, root.size());
+    files[path.lexically_relative(root).string()] = text;
+  }
+  return files;
+}
+
+/// Campaigns of several problems share the threads, loops within a loop.
+TEST(ProblemsTest, TheResultsDoNotDependOnThreads) {
+  const Folder folder;
+  const auto run = [&](const std::string& threads) {
+    const std::string out = folder.path(threads);
+    const Outcome outcome =
+        gainsmith({"run", problem("ferrante-seuret-2021/t2-0.60.yaml"),
+                   problem("ferrante-seuret-2021/row-3.yaml"), problem("classics/hinf-norm.yaml"),
+                   "-o", out, "--runs", "300", "--threads", threads});
+    EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
+    auto files = results(out);
+    files["stdout"] = outcome.out;
+    return files;
+  };
+  const auto one = run("1");
+  EXPECT_EQ(one.count("row-3/campaign.json"), 1U);
+  for (const char* threads : {"2", "5"}) EXPECT_EQ(run(threads), one) << threads;
 }
 
 /// An expectation that is wrong is found: the guard is no formality.

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-#include "lmi/random_atom.h"
+#include "forall/random_atom.h"
 
 namespace gainsmith::forall {
 namespace {

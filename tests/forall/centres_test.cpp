@@ -2,11 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include <numbers>
 #include <random>
 
-#include "lmi/variables.h"
-#include "support/yaml_problem.h"
+#include "forall/variables.h"
 
 namespace gainsmith::forall {
 namespace {
@@ -78,33 +76,6 @@ TEST(CentresTest, TheCentreOfBalancedMultipliersIsTheContactPoint) {
     if (found.empty()) continue;
     EXPECT_NEAR(times_of(found)[0], contact, 1e-12);
   }
-}
-
-TEST(CentresTest, SizesAddComparisonsAndVertices) {
-  const tests::YamlProblem yaml(
-      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
-      "  require:\n    other: P > 0\n    all:\n      forall: [\"tau in [0, 2]\", \"B in conv{A, "
-      "2*A}\"]\n"
-      "      that: \"-3*I < P + sin(tau)*B + tau*I < 5*I\"\n"
-      "data: {A: [[0, 1], [1, 0]]}\nsynthesis: {forall: exchange}\n");
-  Plan plan = make_plan(yaml.instance);
-  const Lmi lmi = compile(yaml.instance, plan);
-  const std::size_t points = plan.requirements[1].points.size();
-  ASSERT_EQ(points, 3U);
-  Formulation formulation;
-  sdp::Solution solution;
-  std::vector<double> expected(points, 0.0);
-  for (const Block& block : lmi.blocks) {
-    formulation.releases.kept.push_back({0, 1});
-    const double size = static_cast<double>(solution.Y.values.size());
-    solution.Y.values.push_back({size, 9, 9, 1});
-    for (std::size_t k = 0; k < points; ++k)
-      if ((block.point + ", ").starts_with(plan.requirements[1].points[k].label + ", "))
-        expected[k] += size + 1;
-  }
-  // At tau = 0 nothing of B is left: two blocks there, four at each of the other points.
-  ASSERT_EQ(lmi.blocks.size(), 1U + 2U + 4U + 4U);
-  EXPECT_EQ(multiplier_sizes(lmi, formulation, solution, "all", points), expected);
 }
 
 }  // namespace

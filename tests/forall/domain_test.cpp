@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lmi/variables.h"
+#include "forall/variables.h"
 #include "support/input_error.h"
 #include "support/yaml_problem.h"
 
@@ -11,16 +11,16 @@ namespace {
 
 using Over = model::Over;
 
-tests::YamlProblem problem_with(const std::string& forall) {
+tests::YamlProblem problem_with(const std::string& forall, const std::string& that = "P > 0") {
   return tests::YamlProblem(
       "problem: p\nmethod:\n  method: m\n  data: {A: n x n, T: scalar}\n"
       "  unknowns: {P: symmetric n}\n  require:\n    all:\n      forall: " +
-      forall + "\n      that: P > 0\ndata: {A: [[0, 1], [-2, -3]], T: 2}\n");
+      forall + "\n      that: \"" + that + "\"\ndata: {A: [[0, 1], [-2, -3]], T: 2}\n");
 }
 
 Domain domain_with(const std::string& forall) {
   const tests::YamlProblem yaml = problem_with(forall);
-  return domain_of(yaml.instance, yaml.instance.method->require.front());
+  return domain_of(yaml.instance.design->inequalities.front(), yaml.instance.values);
 }
 
 TEST(DomainTest, EndsAndElementsAreExpressionsInTheData) {
@@ -59,12 +59,18 @@ TEST(DomainTest, ElementsHaveOneShape) {
   EXPECT_NE(error.message().find("found 2 x 2 and 1 x 2"), std::string::npos) << error.message();
 }
 
-TEST(DomainTest, TheScopeKnowsTheVariablesAndTheirShapes) {
-  const tests::YamlProblem yaml = problem_with("[\"tau in [0, T]\", \"B in conv{A, A'}\"]");
-  const Domain domain = domain_of(yaml.instance, yaml.instance.method->require.front());
-  const expr::Scope scope = scope_with(yaml.instance, domain);
-  const expr::Program program = expr::compile(expr::parse({"tau*B*P", "test"}), scope);
+TEST(DomainTest, AnInequalityKnowsItsVariablesAndTheirShapes) {
+  const tests::YamlProblem yaml =
+      problem_with("[\"tau in [0, T]\", \"B in conv{A, A'}\"]", "He(tau*B*P) > 0");
+  const expr::Program& program =
+      yaml.instance.design->inequalities.front().comparisons.at(0).difference;
   EXPECT_EQ(program.shape(), (expr::Shape{2, 2}));
+  const std::vector<std::pair<std::string, expr::Shape>> expected = {{"tau", {1, 1}},
+                                                                     {"B", {2, 2}}};
+  for (const auto& [name, shape] : expected) {
+    ASSERT_TRUE(program.uses(name)) << name;
+    EXPECT_EQ(program.inputs[static_cast<std::size_t>(program.input(name))].shape, shape);
+  }
 }
 
 TEST(DomainTest, CombinationsTakeEveryElementOfTheOneKind) {

@@ -6,8 +6,8 @@
 #include <random>
 
 #include "expr/evaluate.h"
-#include "lmi/random_atom.h"
-#include "lmi/variables.h"
+#include "forall/random_atom.h"
+#include "forall/variables.h"
 
 namespace gainsmith::forall {
 namespace {

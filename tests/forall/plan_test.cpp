@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "lmi/variables.h"
+#include "forall/variables.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::forall {
@@ -15,15 +15,16 @@ TEST(PlanTest, IsWhatTheProblemAsksFor) {
   const std::string method =
       "problem: p\nmethod:\n  method: m\n  unknowns: {g: scalar}\n  require: {a: g > 0, b: g < "
       "1}\n";
-  const Plan open = make_plan(tests::YamlProblem(method).instance);
-  ASSERT_EQ(open.requirements.size(), 2U);
-  EXPECT_EQ(open.requirements[1].way, model::Way::automatic);
+  const Plan open = make_plan(*tests::YamlProblem(method).instance.design);
+  ASSERT_EQ(open.inequalities.size(), 2U);
+  EXPECT_EQ(open.inequalities[1].way, model::Way::automatic);
   EXPECT_EQ(open.slices, 1);
   EXPECT_FALSE(open.uses_exchange());
   EXPECT_EQ(open.points(), 0U);
-  const Plan hull = make_plan(
-      tests::YamlProblem(method + "synthesis: {forall: {way: hull, slices: 6}}\n").instance);
-  EXPECT_EQ(hull.requirements[0].way, model::Way::hull);
+  const Plan hull =
+      make_plan(*tests::YamlProblem(method + "synthesis: {forall: {way: hull, slices: 6}}\n")
+                     .instance.design);
+  EXPECT_EQ(hull.inequalities[0].way, model::Way::hull);
   EXPECT_EQ(hull.slices, 6);
 }
 
@@ -68,7 +69,7 @@ TEST(PlanTest, APointIsAddedOnce) {
   EXPECT_TRUE(add_point(imposed, domain, point(0.5 + 1e-8, 7)));
   EXPECT_EQ(imposed.points.size(), 3U);
   Plan plan;
-  plan.requirements = {imposed, {}, imposed};
+  plan.inequalities = {imposed, {}, imposed};
   EXPECT_TRUE(plan.uses_exchange());
   EXPECT_EQ(plan.points(), 6U);
 }

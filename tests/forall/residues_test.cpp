@@ -12,7 +12,7 @@ namespace gainsmith::forall {
 namespace {
 
 numbers::Matrix sum(const std::vector<std::pair<Atom, numbers::Matrix>>& terms, Eigen::Index n,
-                 double t) {
+                    double t) {
   numbers::Matrix result = numbers::Matrix::Zero(n, n);
   for (const auto& [atom, matrix] : terms) result += evaluate(atom, t) * matrix;
   return result;
@@ -32,7 +32,8 @@ TEST(ResiduesTest, RandomMatrices) {
   std::normal_distribution<double> number;
   for (int trial = 0; trial < 60; ++trial) {
     const int n = 1 + trial % 6;
-    expect_exponential(numbers::Matrix::NullaryExpr(n, n, [&] { return number(generator); }), -0.5, 2);
+    expect_exponential(numbers::Matrix::NullaryExpr(n, n, [&] { return number(generator); }), -0.5,
+                       2);
   }
 }
 

@@ -8,6 +8,7 @@
 #include "expr/compile.h"
 #include "expr/parser.h"
 #include "forall/domain.h"
+#include "numbers/real.h"
 
 namespace gainsmith::forall::testing {
 
@@ -47,11 +48,8 @@ inline numbers::Matrix number(double value) { return numbers::Matrix::Constant(1
 inline expr::Program program(const std::string& text, const Domain& domain,
                              const numbers::Values& known = {}) {
   expr::Scope scope;
-  for (const Variable& variable : domain)
-    scope.symbols[variable.name] = {variable.shape, std::nullopt};
-  for (const auto& [name, value] : known)
-    scope.symbols[name] = {{static_cast<int>(value.rows()), static_cast<int>(value.cols())},
-                           std::nullopt};
+  for (const Variable& variable : domain) scope.symbols[variable.name] = {variable.shape};
+  for (const auto& [name, value] : known) scope.symbols[name] = {numbers::shape_of(value)};
   return expr::compile(expr::parse({text, "test"}), scope);
 }
 

@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-#include "lmi/variables.h"
+#include "forall/variables.h"
 
 namespace gainsmith::forall {
 namespace {
@@ -24,7 +24,8 @@ std::vector<Minimum> minima_of(const std::string& text, const Domain& domain,
 
 numbers::Matrix random_rotation(int n, std::mt19937& generator) {
   std::normal_distribution<double> normal;
-  const numbers::Matrix random = numbers::Matrix::NullaryExpr(n, n, [&] { return normal(generator); });
+  const numbers::Matrix random =
+      numbers::Matrix::NullaryExpr(n, n, [&] { return normal(generator); });
   return Eigen::HouseholderQR<numbers::Matrix>(random).householderQ();
 }
 

@@ -1,6 +1,4 @@
 // libFuzzer target: whatever the bytes, the reader gives a valid problem or an InputError.
-//   cmake -S . -B build/fuzz -G Ninja -DCMAKE_CXX_COMPILER=clang++ -DGAINSMITH_FUZZ=ON
-//   build/fuzz/tests/fuzz/sdpa_fuzz -max_total_time=600
 #include <cstddef>
 #include <cstdint>
 #include <string_view>

@@ -1,8 +1,12 @@
 // A gain file is read with its decimals: what a proof computes with is what is printed.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <random>
+#include <sstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/number.h"
@@ -20,13 +24,17 @@ model::Gains plain_gains() {
   model::Gains gains;
   gains.version = "0.1.0";
   gains.gains = {{"L", numbers::Matrix{{0.1, 0.2}, {0.3, -4}}}, {"H", numbers::Matrix{{5.5}}}};
-  gains.gain_functions = {{"K", "tau", model::GainFunction::Kind::polynomial, "inv(P)*Y(tau)",
+  gains.gain_functions = {{"K",
+                           "tau",
+                           model::GainFunction::Kind::polynomial,
+                           "inv(P)*Y(tau)",
                            {numbers::Matrix{{1}, {2.5}}, numbers::Matrix{{1. / 3}, {1e-9}}}}};
   gains.unknowns = {{"P", numbers::Matrix{{7, 0.7}, {0.7, 8}}}, {"H", numbers::Matrix{{6.5}}}};
   gains.report = {{"rank", numbers::Matrix{{2}}}};
   gains.parameters = {{"delta", numbers::Matrix{{0.03}}}};
   gains.searched = {{"T2", 1.1}, {"delta", 0.03}};
-  gains.certificate = model::CertificateRecord{1, 0, 0, 9, true, {{"flow", numbers::Matrix{{1, 0}, {0, 1}}}}, "problem"};
+  gains.certificate = model::CertificateRecord{
+      1, 0, 0, 9, true, {{"flow", numbers::Matrix{{1, 0}, {0, 1}}}}, "problem"};
   gains.statement = model::bind(read_problem(kProblem)).design->statement;
   return gains;
 }
@@ -42,7 +50,8 @@ TEST(Decimals, OfAFileAreKeptWhole) {
   Json document = to_json(plain_gains());
   edit(document, "/gains/L/0/0", kFortyDigits);
   edit(document, "/gains/L/1/1", "-3.9999999999999999999999999999999999999999");
-  edit(document, "/gain_functions/K/coefficients/1/0/0", "0.3333333333333333333333333333333333333333");
+  edit(document, "/gain_functions/K/coefficients/1/0/0",
+       "0.3333333333333333333333333333333333333333");
   edit(document, "/unknowns/P/0/1", "0.7");
   edit(document, "/unknowns/H", "65e-1");
   edit(document, "/parameters/delta", "0.03");
@@ -95,7 +104,8 @@ TEST(Decimals, InMemoryAreThoseOfTheFileThatWouldBeWritten) {
                                                         {"T2", "/searched/T2"}}) {
     const model::Decimals decimals = decimals_of(gains, name).value();
     std::string written = to_text(document.at(Json::json_pointer(pointer)));
-    for (const char sign : {'[', ']', ' ', ','}) std::replace(written.begin(), written.end(), sign, '\n');
+    for (const char sign : {'[', ']', ' ', ','})
+      std::replace(written.begin(), written.end(), sign, '\n');
     Texts elements;
     std::istringstream words(written);
     for (std::string word; words >> word;) elements.push_back(word);
@@ -153,7 +163,8 @@ TEST(Decimals, OfAnyLengthSurvive) {
     ASSERT_EQ(gains_text(gains), text);
     ASSERT_EQ(decimals_of(gains, "L")->elements, expected);
     for (int k = 0; k < 4; ++k)
-      ASSERT_EQ(gains.find("L")->operator()(k / 2, k % 2), parse_decimal(expected[static_cast<std::size_t>(k)]));
+      ASSERT_EQ(gains.find("L")->operator()(k / 2, k % 2),
+                parse_decimal(expected[static_cast<std::size_t>(k)]));
   }
 }
 

@@ -78,7 +78,7 @@ TEST(JsonReaderTest, FinishFindsWhatNobodyAskedFor) {
 TEST(JsonReaderTest, MembersHaveAnyKeys) {
   const Json document = Json::parse(R"({"gains": {"any": 1, "name": [[2]]}})");
   const JsonReader reader(document, "d.json");
-  EXPECT_EQ(reader.at("gains").matrices().size(), 2U);
+  EXPECT_EQ(reader.at("gains").members().size(), 2U);
   reader.finish();
 }
 

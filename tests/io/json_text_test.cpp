@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/number.h"
 #include "support/input_error.h"
 
 namespace gainsmith::io {
@@ -43,6 +44,39 @@ TEST(JsonText, AnyFiniteNumberIsReadBackToTheSameBits) {
     check(value);
 }
 
+TEST(JsonText, DecimalsAreWrittenAsTheyWereRead) {
+  for (const std::string decimal :
+       {"0.1", "1e-1", "1E5", "1.50", "-0.0", "-2.5e+0300", "123456789012345678901234567890", "0",
+        "3", "-7", "18446744073709551615", "1e-400",
+        "3.14159265358979323846264338327950288419716"}) {
+    const std::string text = "{\n  \"x\": " + decimal + "\n}\n";
+    const Json document = parse_json(text, "f");
+    EXPECT_EQ(to_text(document), text);
+    EXPECT_TRUE(is_number(document["x"]));
+    EXPECT_EQ(decimal_of(document["x"]), decimal);
+    EXPECT_EQ(number_of(document["x"]), parse_decimal(decimal));
+  }
+  EXPECT_EQ(decimal_of(parse_json("-0", "f")), "0") << "a whole number has no sign at zero";
+}
+
+TEST(JsonText, NumbersOf17DigitsStayDoubles) {
+  const Json document = parse_json("[0.10000000000000001, 1.5, 1e+100, 7]", "f");
+  EXPECT_TRUE(document[0].is_number_float());
+  EXPECT_TRUE(document[1].is_number_float());
+  EXPECT_TRUE(document[2].is_number_float());
+  EXPECT_TRUE(document[3].is_number_integer());
+}
+
+/// The parser builds what nlohmann's own builds.
+TEST(ParseJson, BuildsTheDocument) {
+  const std::string text =
+      "{\"b\": [[], {}, [1, -2, 2.5, true, false, null, \"t\\n\"], [[[\"deep\"]]]], \"a\": {\"c\": "
+      "{\"d\": 1}, \"e\": []}, \"b2\": 18446744073709551615}";
+  EXPECT_EQ(parse_json(text, "f"), Json::parse(text));
+  EXPECT_EQ(parse_json("7", "f"), Json(7));
+  EXPECT_EQ(parse_json("\"t\"", "f"), Json("t"));
+}
+
 TEST(JsonText, WhatIsNotFiniteIsRefused) {
   EXPECT_THROW(to_text({{"x", std::nan("")}}), std::invalid_argument);
   EXPECT_THROW(to_text({{"x", std::numeric_limits<double>::infinity()}}), std::invalid_argument);
@@ -74,6 +108,7 @@ TEST(ParseJson, MistakesAreShownWhereTheyAre) {
   expect("{\"a\": 1}\n}", 2, 1, "syntax error");
   expect("{\n\"a\": 1e999}", 2, 6, "1e999 is beyond the range of double");
   expect("{\"a\": 1", 1, 8, "unexpected end of input");
+  expect("{\"1e999\": [2,\n 1e999 ]}", 2, 2, "the number 1e999 is beyond the range of double");
 }
 
 TEST(ParseJson, DeepNestingDoesNotExhaustTheStack) {

@@ -6,8 +6,8 @@
 
 #include "expr/compile.h"
 #include "expr/parser.h"
-#include "lmi/compile.h"
-#include "lmi/variables.h"
+#include "forall/variables.h"
+#include "lmi/inequalities.h"
 #include "support/input_error.h"
 #include "support/yaml_problem.h"
 
@@ -27,17 +27,23 @@ data: {A: [[0.3, -1.2, 2], [4, 0.5, -1], [0.7, 0, 1]], C: [[1, -2, 0.5], [0, 1, 
 class AffineTest : public ::testing::Test {
  protected:
   expr::Program program(const std::string& text) {
-    expr::Scope scope = yaml_.instance.design_scope();
-    scope.symbols["tau"] = {{}, std::nullopt};
+    const model::Design& design = *yaml_.instance.design;
+    expr::Scope scope;
+    scope.dimensions = design.dimensions;
+    for (const model::Design::Datum& datum : design.data)
+      scope.symbols[datum.name] = {datum.shape, true};
+    for (const model::Design::Unknown& unknown : design.unknowns)
+      scope.symbols[unknown.name] = {unknown.shape};
+    scope.symbols["tau"] = {};
     return expr::compile(expr::parse({text, "test"}), scope);
   }
 
   AffineForm form(const std::string& text) {
-    return evaluate_affine(program(text), unknowns_, monomials_, yaml_.instance.known_values());
+    return evaluate_affine(program(text), unknowns_, monomials_, yaml_.instance.values);
   }
 
-  static double value(const Monomial& monomial, double tau) {
-    return monomial.empty() ? 1.0 : evaluate(monomial.front().atom, tau);
+  static double value(const forall::Monomial& monomial, double tau) {
+    return monomial.empty() ? 1.0 : forall::evaluate(monomial.front().atom, tau);
   }
 
   /// The form at x and tau.
@@ -59,7 +65,7 @@ class AffineTest : public ::testing::Test {
       std::vector<double> x;
       for (int i = 0; i < unknowns_.size(); ++i) x.push_back(number(generator_));
       const double tau = number(generator_);
-      numbers::Values values = yaml_.instance.known_values();
+      numbers::Values values = yaml_.instance.values;
       for (const auto& [name, matrix] : unknowns_.values(x)) values[name] = matrix;
       values["tau"] = numbers::Matrix::Constant(1, 1, tau);
       const numbers::Matrix expected = numbers::evaluate(direct, values);
@@ -70,8 +76,8 @@ class AffineTest : public ::testing::Test {
   }
 
   tests::YamlProblem yaml_{kProblem};
-  Unknowns unknowns_{yaml_.instance};
-  MonomialTable monomials_{{testing::interval("tau", -2, 2)}};
+  Unknowns unknowns_ = Inequalities(yaml_.instance).unknowns;
+  forall::MonomialTable monomials_{{forall::testing::interval("tau", -2, 2)}};
   std::mt19937 generator_{7};
 };
 

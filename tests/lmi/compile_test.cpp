@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
 #include <set>
 
 #include "support/input_error.h"
@@ -19,7 +20,7 @@ std::string problem_with(const std::string& require, const std::string& more = "
 TEST(CompileTest, AnIntervalBecomesTheVerticesOfItsAtoms) {
   const tests::YamlProblem yaml(problem_with(
       "    flow: {forall: \"tau in [0, T]\", that: \"He(P*A) + exp(0.5*tau)*P < 0\"}\n"));
-  const Lmi lmi = compile(yaml.instance);
+  const Lmi lmi = compile(Inequalities(yaml.instance));
   ASSERT_EQ(lmi.blocks.size(), 2U);
   EXPECT_EQ(lmi.blocks[0].point, "tau = 0");
   EXPECT_EQ(lmi.blocks[1].point, "tau = 2");
@@ -27,9 +28,64 @@ TEST(CompileTest, AnIntervalBecomesTheVerticesOfItsAtoms) {
   const std::vector<double> x = {2, 1, 3, 0, 0, 0, 0};
   numbers::Matrix P(2, 2);
   P << 2, 1, 1, 3;
-  const numbers::Matrix& A = yaml.instance.data.at("A");
+  const numbers::Matrix& A = yaml.instance.values.at("A");
   const numbers::Matrix expected = -(P * A + (P * A).transpose() + std::exp(1.0) * P);
   EXPECT_LT((lmi.blocks[1].value(x) - expected).norm(), 1e-14);
+}
+
+/// "(Y_0 + (t)*Y_1 + (t)^2*Y_2)", for degree 2.
+std::string polynomial(const std::string& name, const std::string& t, int degree) {
+  std::string sum = "(" + name + "_0";
+  for (int k = 1; k <= degree; ++k)
+    sum += " + (" + t + ")" + (k > 1 ? "^" + std::to_string(k) : "") + "*" + name + "_" +
+           std::to_string(k);
+  return sum + ")";
+}
+
+/// Two functions of degrees that may be 0, called at the variable, at a number and at other
+/// arguments: the blocks are those of the polynomials written out with coefficients as unknowns.
+TEST(CompileTest, CallsAreTheirPolynomials) {
+  const auto blocks = [](const std::string& unknowns, const std::string& that,
+                         const std::string& way) {
+    const tests::YamlProblem yaml(
+        "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n, " +
+        unknowns + "}\n  require:\n    flow: {forall: \"tau in [0.2, 1.7]\", that: \"" + that +
+        "\"}\ndata: {A: [[0, 1], [-2, -3]]}\nsynthesis: {forall: " + way + "}\n");
+    return compile(Inequalities(yaml.instance)).blocks;
+  };
+  const auto that = [](const auto& Y, const auto& Z) {
+    return "He(P*A + exp(tau)*" + Y("tau") + " - A*" + Y("0") + ") + tau*" + Z("2*tau - 1") +
+           " + " + Z("0.3") + " < 3*I";
+  };
+  std::mt19937 generator(5);
+  std::normal_distribution<double> normal;
+  for (int trial = 0; trial < 8; ++trial) {
+    const int dy = trial % 4;
+    const int dz = trial / 4 + trial % 2;
+    std::string written = "Y_0: n x n";
+    for (int k = 1; k <= dy; ++k) written += ", Y_" + std::to_string(k) + ": n x n";
+    for (int k = 0; k <= dz; ++k) written += ", Z_" + std::to_string(k) + ": symmetric n";
+    for (const char* way : {"hull", "exchange", "auto"}) {
+      const auto called =
+          blocks("Y: {shape: n x n, of: s, degree: " + std::to_string(dy) +
+                     "}, Z: {shape: symmetric n, of: tau, degree: " + std::to_string(dz) + "}",
+                 that([](const std::string& t) { return "Y(" + t + ")"; },
+                      [](const std::string& t) { return "Z(" + t + ")"; }),
+                 way);
+      const auto expected =
+          blocks(written,
+                 that([&](const std::string& t) { return polynomial("Y", t, dy); },
+                      [&](const std::string& t) { return polynomial("Z", t, dz); }),
+                 way);
+      ASSERT_EQ(called.size(), expected.size()) << way;
+      std::vector<double> x(static_cast<std::size_t>(3 + 4 * (dy + 1) + 3 * (dz + 1)));
+      for (double& value : x) value = normal(generator);
+      for (std::size_t k = 0; k < called.size(); ++k) {
+        EXPECT_EQ(called[k].point, expected[k].point);
+        EXPECT_TRUE(called[k].value(x).isApprox(expected[k].value(x), 1e-13)) << way << dy << dz;
+      }
+    }
+  }
 }
 
 TEST(CompileTest, AnUnknownFunctionIsItsPolynomial) {
@@ -39,7 +95,7 @@ TEST(CompileTest, AnUnknownFunctionIsItsPolynomial) {
         unknowns + "}\n  require:\n    flow: {forall: \"tau in [0, 2]\", that: \"He(P*A + " + y +
         "*exp(tau)) < 0\"}\ndata: {A: [[0, 1], [-2, -3]]}\n"
         "synthesis: {forall: hull}\n");
-    return compile(yaml.instance).blocks;
+    return compile(Inequalities(yaml.instance)).blocks;
   };
   const auto called = blocks("Y: {shape: n x n, of: tau, degree: 2}", "Y(tau)");
   const auto written = blocks("Y_0: n x n, Y_1: n x n, Y_2: n x n", "(Y_0 + tau*Y_1 + tau^2*Y_2)");
@@ -57,7 +113,7 @@ TEST(CompileTest, TwoAtomsMakeFourVertices) {
       problem_with("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + "
                    "cos(2*tau)*He(P*A) <= 5*I\"}\n") +
       "synthesis: {forall: hull}\n");
-  const Lmi lmi = compile(yaml.instance);
+  const Lmi lmi = compile(Inequalities(yaml.instance));
   ASSERT_EQ(lmi.blocks.size(), 4U);
   std::set<std::string> points;
   for (const Block& block : lmi.blocks) points.insert(block.point);
@@ -70,25 +126,25 @@ TEST(CompileTest, SlicesCutTheInterval) {
       problem_with("    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + "
                    "cos(2*tau)*He(P*A) <= 5*I\"}\n") +
       "synthesis: {forall: {way: hull, slices: 3}}\n");
-  EXPECT_EQ(compile(yaml.instance).blocks.size(), 12U);
+  EXPECT_EQ(compile(Inequalities(yaml.instance)).blocks.size(), 12U);
 }
 
 TEST(CompileTest, FunctionsOfDifferentVariablesAreExactAtTheirVertices) {
   const tests::YamlProblem yaml(problem_with(
       "    box: {forall: [\"tau in [0, T]\", \"k in [1, 3]\"], that: \"k*exp(tau)*P + k*Y*A + "
       "(k*Y*A)' > 0\"}\n"));
-  Plan plan = make_plan(yaml.instance);
-  const Lmi lmi = compile(yaml.instance, plan);
+  forall::Plan plan = forall::make_plan(*yaml.instance.design);
+  const Lmi lmi = compile(Inequalities(yaml.instance), plan);
   ASSERT_EQ(lmi.blocks.size(), 4U);
   EXPECT_EQ(lmi.blocks[3].point, "tau = 2, k = 3");
-  EXPECT_EQ(plan.requirements[0].way, model::Way::hull);
-  EXPECT_TRUE(plan.requirements[0].exact);
+  EXPECT_EQ(plan.inequalities[0].way, model::Way::hull);
+  EXPECT_TRUE(plan.inequalities[0].exact);
 }
 
 TEST(CompileTest, APolytopeHasItsVertices) {
   const tests::YamlProblem yaml(problem_with(
       "    stable: {forall: \"B in conv{A, 2*A, [0, 1; 1, 0]}\", that: \"He(P*B) < 0\"}\n"));
-  const Lmi lmi = compile(yaml.instance);
+  const Lmi lmi = compile(Inequalities(yaml.instance));
   ASSERT_EQ(lmi.blocks.size(), 3U);
   EXPECT_EQ(lmi.blocks[1].point, "B = 2*A");
   EXPECT_TRUE(lmi.blocks[1]
@@ -100,9 +156,9 @@ TEST(CompileTest, SeveralFunctionsMakeAnExchange) {
   const tests::YamlProblem yaml(problem_with(
       "    wave: {forall: \"tau in [0, T]\", that: \"sin(2*tau)*P + cos(2*tau)*He(P*A) <= "
       "5*I\"}\n"));
-  Plan plan = make_plan(yaml.instance);
-  const Lmi lmi = compile(yaml.instance, plan);
-  EXPECT_EQ(plan.requirements[0].way, model::Way::exchange);
+  forall::Plan plan = forall::make_plan(*yaml.instance.design);
+  const Lmi lmi = compile(Inequalities(yaml.instance), plan);
+  EXPECT_EQ(plan.inequalities[0].way, model::Way::exchange);
   ASSERT_EQ(lmi.blocks.size(), 3U);
   EXPECT_EQ(lmi.blocks[2].point, "tau = 1");
 }
@@ -110,7 +166,7 @@ TEST(CompileTest, SeveralFunctionsMakeAnExchange) {
 TEST(CompileTest, FiniteSetsAndChains) {
   const tests::YamlProblem yaml(
       problem_with("    chain: {forall: \"s in {1, 2, T + 1}\", that: \"I <= P <= s*I\"}\n"));
-  const Lmi lmi = compile(yaml.instance);
+  const Lmi lmi = compile(Inequalities(yaml.instance));
   ASSERT_EQ(lmi.blocks.size(), 6U);
   EXPECT_EQ(lmi.blocks[0].name, "chain.1");
   EXPECT_EQ(lmi.blocks[5].name, "chain.2");
@@ -122,13 +178,13 @@ TEST(CompileTest, FiniteSetsAndChains) {
 TEST(CompileTest, AFiniteSetTakesAnyFunction) {
   const tests::YamlProblem yaml(problem_with(
       "    sampled: {forall: \"tau in {0.5, 1}\", that: \"expm(A*tau)'*P*expm(A*tau) < P\"}\n"));
-  EXPECT_EQ(compile(yaml.instance).blocks.size(), 2U);
+  EXPECT_EQ(compile(Inequalities(yaml.instance)).blocks.size(), 2U);
 }
 
 TEST(CompileTest, ObjectivesKeepTheirConstant) {
   const tests::YamlProblem yaml(
       problem_with("    positive: P > I\n  minimize: 2*trace(P) - 3 + Y(2,1)\n"));
-  const Lmi lmi = compile(yaml.instance);
+  const Lmi lmi = compile(Inequalities(yaml.instance));
   ASSERT_TRUE(lmi.has_objective);
   EXPECT_EQ(lmi.objective_constant, -3);
   EXPECT_EQ(lmi.objective, (std::vector<double>{2, 0, 2, 0, 1, 0, 0}));
@@ -136,14 +192,14 @@ TEST(CompileTest, ObjectivesKeepTheirConstant) {
 
 TEST(CompileTest, HomogeneousMeansNoConstantTerm) {
   const tests::YamlProblem cone(problem_with("    positive: P > 0\n    stable: He(P*A) < 0\n"));
-  EXPECT_TRUE(is_homogeneous(compile(cone.instance).blocks));
+  EXPECT_TRUE(is_homogeneous(compile(Inequalities(cone.instance)).blocks));
   const tests::YamlProblem affine(problem_with("    positive: P > I\n"));
-  EXPECT_FALSE(is_homogeneous(compile(affine.instance).blocks));
+  EXPECT_FALSE(is_homogeneous(compile(Inequalities(affine.instance)).blocks));
 }
 
 TEST(CompileTest, WhatIsNotSymmetricIsRefused) {
   const tests::YamlProblem yaml(problem_with("    wrong: P*A < 0\n"));
-  const InputError error = tests::input_error([&] { compile(yaml.instance); });
+  const InputError error = tests::input_error([&] { compile(Inequalities(yaml.instance)); });
   EXPECT_EQ(error.place().line, 7);
   EXPECT_NE(error.message().find("not symmetric"), std::string::npos);
 }
@@ -152,7 +208,7 @@ TEST(CompileTest, DataTooLargeForDoubleAreRefused) {
   const tests::YamlProblem yaml(
       "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
       "  require: {p: P > I, l: He(P*A) < 0}\ndata: {A: \"-1e308*eye(2)\"}\n");
-  const InputError error = tests::input_error([&] { compile(yaml.instance); });
+  const InputError error = tests::input_error([&] { compile(Inequalities(yaml.instance)); });
   EXPECT_NE(error.message().find("'l' has a coefficient that is not finite"), std::string::npos)
       << error.what();
   EXPECT_EQ(error.place().line, 6);
@@ -160,7 +216,7 @@ TEST(CompileTest, DataTooLargeForDoubleAreRefused) {
 
 TEST(CompileTest, WhatHasNoRowsIsRefused) {
   const tests::YamlProblem yaml(problem_with("    empty: P(1:0, 1:0) > 0\n"));
-  const InputError error = tests::input_error([&] { compile(yaml.instance); });
+  const InputError error = tests::input_error([&] { compile(Inequalities(yaml.instance)); });
   EXPECT_EQ(error.place().line, 7);
   EXPECT_NE(error.message().find("'empty' has no rows"), std::string::npos) << error.message();
 }
@@ -168,8 +224,9 @@ TEST(CompileTest, WhatHasNoRowsIsRefused) {
 TEST(CompileTest, AnEmptyIntervalIsRefused) {
   const tests::YamlProblem yaml(
       problem_with("    flow: {forall: \"tau in [T, 1]\", that: \"exp(tau)*P > 0\"}\n"));
-  EXPECT_NE(tests::input_error([&] { compile(yaml.instance); }).message().find("empty"),
-            std::string::npos);
+  EXPECT_NE(
+      tests::input_error([&] { compile(Inequalities(yaml.instance)); }).message().find("empty"),
+      std::string::npos);
 }
 
 }  // namespace

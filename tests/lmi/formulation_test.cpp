@@ -37,7 +37,7 @@ Formulation formulation_of(const Lmi& lmi) { return formulate(lmi, {}, {}, goal_
 TEST(FormulationTest, TheGoalFollowsFromObjectiveAndConstants) {
   const auto goal = [](const std::string& require) {
     const tests::YamlProblem yaml(problem_with(require) + kData);
-    return goal_of(compile(yaml.instance), {});
+    return goal_of(compile(Inequalities(yaml.instance)), {});
   };
   EXPECT_EQ(goal("    a: P > 0\n"), Goal::homogeneous_feasibility);
   EXPECT_EQ(goal("    a: P > I\n"), Goal::feasibility);
@@ -49,7 +49,7 @@ TEST(FormulationTest, StrictBlocksKeepTheirMarginAndOthersDoNot) {
   const tests::YamlProblem yaml(
       problem_with("    strict: He(P*A) + s*I < 0\n    loose: P >= s*I\n  minimize: trace(P)\n") +
       kData);
-  const Lmi lmi = compile(yaml.instance);
+  const Lmi lmi = compile(Inequalities(yaml.instance));
   const Formulation formulation = formulation_of(lmi);
   const std::vector<double> x = {1.5, 0.25, 2.5};
   for (int k = 0; k < 2; ++k) {
@@ -68,7 +68,7 @@ TEST(FormulationTest, ScalesFollowTheData) {
   const auto scales = [](double s) {
     const tests::YamlProblem yaml(problem_with("    a: P > 0\n    b: He(P*A) + s*I < 0\n") +
                                   "data: {A: [[0, 1], [-2, -3]], s: " + std::to_string(s) + "}\n");
-    return formulation_of(compile(yaml.instance)).scales;
+    return formulation_of(compile(Inequalities(yaml.instance))).scales;
   };
   const auto one = scales(1);
   const auto thousand = scales(1000);
@@ -78,7 +78,7 @@ TEST(FormulationTest, ScalesFollowTheData) {
 
 TEST(FormulationTest, HomogeneousFeasibilityAddsTheSizeOfX) {
   const tests::YamlProblem yaml(problem_with("    a: P > 0\n    b: He(P*A) < 0\n") + kData);
-  const Lmi lmi = compile(yaml.instance);
+  const Lmi lmi = compile(Inequalities(yaml.instance));
   const Formulation formulation = formulation_of(lmi);
   ASSERT_EQ(formulation.problem.m(), 4);
   EXPECT_EQ(formulation.problem.c, (std::vector<double>{0, 0, 0, 1}));
@@ -91,7 +91,7 @@ TEST(FormulationTest, HomogeneousFeasibilityAddsTheSizeOfX) {
 
 TEST(FormulationTest, EntriesAreMergedSortedAndInTheUpperTriangle) {
   const tests::YamlProblem yaml(problem_with("    a: He(P*A) + A + A' < P\n") + kData);
-  const Formulation formulation = formulation_of(compile(yaml.instance));
+  const Formulation formulation = formulation_of(compile(Inequalities(yaml.instance)));
   for (const auto& entries : formulation.problem.f) {
     for (const sdp::Entry& entry : entries) EXPECT_LE(entry.row, entry.column);
     const auto same = [](const sdp::Entry& a, const sdp::Entry& b) {
@@ -99,6 +99,33 @@ TEST(FormulationTest, EntriesAreMergedSortedAndInTheUpperTriangle) {
     };
     EXPECT_EQ(std::adjacent_find(entries.begin(), entries.end(), same), entries.end());
   }
+}
+
+TEST(FormulationTest, MultiplierSizesAddComparisonsAndVertices) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
+      "  require:\n    other: P > 0\n    all:\n      forall: [\"tau in [0, 2]\", \"B in conv{A, "
+      "2*A}\"]\n"
+      "      that: \"-3*I < P + sin(tau)*B + tau*I < 5*I\"\n"
+      "data: {A: [[0, 1], [1, 0]]}\nsynthesis: {forall: exchange}\n");
+  forall::Plan plan = forall::make_plan(*yaml.instance.design);
+  const Lmi lmi = compile(Inequalities(yaml.instance), plan);
+  const std::size_t points = plan.inequalities[1].points.size();
+  ASSERT_EQ(points, 3U);
+  Formulation formulation;
+  sdp::Solution solution;
+  std::vector<double> expected(points, 0.0);
+  for (const Block& block : lmi.blocks) {
+    formulation.releases.kept.push_back({0, 1});
+    const double size = static_cast<double>(solution.Y.values.size());
+    solution.Y.values.push_back({size, 9, 9, 1});
+    for (std::size_t k = 0; k < points; ++k)
+      if ((block.point + ", ").starts_with(plan.inequalities[1].points[k].label + ", "))
+        expected[k] += size + 1;
+  }
+  // At tau = 0 nothing of B is left: two blocks there, four at each of the other points.
+  ASSERT_EQ(lmi.blocks.size(), 1U + 2U + 4U + 4U);
+  EXPECT_EQ(multiplier_sizes(lmi, formulation, solution, "all", points), expected);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lmi/inequalities.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::lmi {
@@ -19,7 +20,7 @@ data: {A: [[1, 2, 3], [4, 5, 6], [7, 8, 9]], C: [[1, 0, 0], [0, 1, 0]]}
 
 TEST(UnknownsTest, PackingIsTheDocumentedOne) {
   const tests::YamlProblem yaml(kProblem);
-  const Unknowns unknowns(yaml.instance);
+  const Unknowns unknowns = Inequalities(yaml.instance).unknowns;
   ASSERT_EQ(unknowns.size(), 6 + 6 + 3 + 1);
   std::vector<double> x;
   for (int i = 1; i <= unknowns.size(); ++i) x.push_back(i);
@@ -36,7 +37,7 @@ TEST(UnknownsTest, PackingIsTheDocumentedOne) {
 
 TEST(UnknownsTest, ScalarsHaveNames) {
   const tests::YamlProblem yaml(kProblem);
-  const Unknowns unknowns(yaml.instance);
+  const Unknowns unknowns = Inequalities(yaml.instance).unknowns;
   EXPECT_EQ(unknowns.scalar_name(2), "P(2,1)");
   EXPECT_EQ(unknowns.scalar_name(10), "Y(1,2)");
   EXPECT_EQ(unknowns.scalar_name(16), "g");

@@ -5,10 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "expr/compile.h"
-#include "expr/evaluate.h"
-#include "numbers/real.h"
 #include "lmi/compile.h"
+#include "numbers/real.h"
 #include "support/input_error.h"
 #include "support/yaml_problem.h"
 
@@ -29,63 +27,79 @@ const char* const kStep =
     "    size: I <= Q <= 100*I\n"
     "    step: {forall: \"tau in [0.1, 1.2]\", that: \"[Q, S(tau)'; *, Q] > 0\"}\n";
 
-/// sum over the blocks of alpha_i alpha_j M_ij is the inequality itself, at every tau and x.
-TEST(VertexGainsTest, TheBlocksSumUpToTheInequality) {
-  const tests::YamlProblem yaml(rotation(kStep));
-  const model::Instance instance = with_vertex_gains(yaml.instance);
-  const Box box = vertex_box(yaml.instance);
-  ASSERT_EQ(box.vertices.size(), 4U);
-  ASSERT_EQ(instance.functions.at(0).coefficients.size(), 4U);
-  const Lmi lmi = compile(instance);
-  ASSERT_EQ(lmi.blocks.size(), 2U + 10U);
+/// The values of data, unknowns at random x, and tau.
+numbers::Values random_values(const Inequalities& of, double tau, std::vector<double>& x,
+                              std::mt19937& generator) {
+  std::normal_distribution<double> normal;
+  x.clear();
+  for (int i = 0; i < of.unknowns.size(); ++i) x.push_back(normal(generator));
+  numbers::Values values = of.instance.values;
+  for (auto& [name, matrix] : of.unknowns.values(x)) values[name] = matrix;
+  values["tau"] = numbers::Matrix::Constant(1, 1, tau);
+  return values;
+}
 
-  const model::Requirement& step = instance.method->require[1];
-  const Domain domain = domain_of(instance, step);
-  const auto relation = expr::compile_relations(step.that, scope_with(instance, domain)).at(0);
+/// sum over the blocks of alpha_i alpha_j M_ij is the inequality itself, at every tau and x, for
+/// one function and for two.
+void expect_blocks_to_sum_up(const std::string& text, std::size_t vertices) {
+  const tests::YamlProblem yaml(text);
+  const Inequalities of(yaml.instance);
+  const forall::Box& box = of.box.value();
+  ASSERT_EQ(box.vertices.size(), vertices);
+  for (const model::Function& function : of.functions) ASSERT_EQ(function.size(), vertices);
+  const Lmi lmi = compile(of);
+  ASSERT_EQ(lmi.blocks.size(), 2U + vertices * (vertices + 1) / 2);
   std::mt19937 generator(11);
-  std::normal_distribution<double> number;
   for (int trial = 0; trial < 20; ++trial) {
     std::vector<double> x;
-    for (int i = 0; i < lmi.unknowns.size(); ++i) x.push_back(number(generator));
     const double tau = 0.1 + 1.1 * trial / 19;
+    const numbers::Values values = random_values(of, tau, x, generator);
     std::vector<double> alpha;
     for (const auto& vertex : box.vertices) {
       double weight = 1;
       for (std::size_t k = 0; k < box.atoms.size(); ++k) {
         const auto [low, high] = box.ranges[k];
-        const double share = (evaluate(box.atoms[k], tau) - low) / (high - low);
+        const double share = (forall::evaluate(box.atoms[k], tau) - low) / (high - low);
         weight *= vertex[k] == high ? share : 1 - share;
       }
       alpha.push_back(weight);
     }
     numbers::Matrix sum = numbers::Matrix::Zero(4, 4);
     std::size_t at = 2;
-    for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t j = i; j < 4; ++j)
+    for (std::size_t i = 0; i < vertices; ++i)
+      for (std::size_t j = i; j < vertices; ++j)
         sum += (i == j ? 1 : 2) * alpha[i] * alpha[j] * lmi.blocks[at++].value(x);
-
-    numbers::Values values = instance.known_values();
-    for (auto& [name, matrix] : lmi.unknowns.values(x)) values[name] = matrix;
-    values["tau"] = numbers::Matrix::Constant(1, 1, tau);
-    const numbers::Matrix direct = numbers::evaluate(relation.difference, values);
+    const numbers::Matrix direct = numbers::evaluate(of.statements[1].differences.at(0), values);
     EXPECT_LT((sum - direct).norm(), 1e-13 * (1 + direct.norm())) << tau;
   }
+}
+
+TEST(VertexGainsTest, TheBlocksSumUpToTheInequality) {
+  expect_blocks_to_sum_up(rotation(kStep), 4);
+}
+
+TEST(VertexGainsTest, TwoFunctionsShareTheBox) {
+  std::string text = rotation(
+      "    size: I <= Q <= 100*I\n"
+      "    step: {forall: \"tau in [0.1, 1.2]\", that: \"[Q, S(tau)'; *, Q + He(Z(tau)*H)] > "
+      "0\"}\n");
+  const std::string one = "Y: {shape: n x p, of: s}";
+  text.replace(text.find(one), one.size(), one + ", Z: {shape: n x p, of: r, degree: 3}");
+  expect_blocks_to_sum_up(text, 4);
 }
 
 /// With equal coefficients the function is that constant: the weights sum to 1.
 TEST(VertexGainsTest, WeightsSumToOne) {
   const tests::YamlProblem yaml(rotation(kStep));
-  const model::Instance instance = with_vertex_gains(yaml.instance);
-  const auto gain = expr::parse(expr::Text::generated("Y(t)", {}));
-  expr::Scope scope = instance.design_scope();
-  scope.symbols["t"] = {expr::Shape{}, std::nullopt};
-  const auto program = expr::compile(gain, scope);
+  const Inequalities of(yaml.instance);
+  const expr::Body body = of.functions.at(0).body();
   numbers::Values values;
-  for (const std::string& name : instance.functions.at(0).coefficients)
+  for (const std::string& name : of.functions.at(0).coefficients())
     values[name] = numbers::Matrix::Constant(2, 1, 3);
   for (const double t : {0.1, 0.4, 0.77, 1.2}) {
-    values["t"] = numbers::Matrix::Constant(1, 1, t);
-    EXPECT_LT((numbers::evaluate(program, values) - numbers::Matrix::Constant(2, 1, 3)).norm(), 1e-14);
+    values[body.variable] = numbers::Matrix::Constant(1, 1, t);
+    EXPECT_LT((numbers::evaluate(body.program, values) - numbers::Matrix::Constant(2, 1, 3)).norm(),
+              1e-14);
   }
 }
 
@@ -94,7 +108,7 @@ TEST(VertexGainsTest, SetsAndPolytopesMultiplyTheBlocks) {
       "    step:\n      forall: [\"tau in [0.1, 1.2]\", \"k in {1, 2, 3}\", \"A in conv{F, "
       "2*F}\"]\n"
       "      that: \"[Q, S(tau)'; *, Q] + [A, 0*I; 0*I, A]'*[A, 0*I; 0*I, 0*I]*0 > k*I\"\n"));
-  EXPECT_NE(tests::input_error([&] { with_vertex_gains(yaml.instance); })
+  EXPECT_NE(tests::input_error([&] { const Inequalities of(yaml.instance); })
                 .message()
                 .find("not affine in A"),
             std::string::npos);
@@ -102,20 +116,22 @@ TEST(VertexGainsTest, SetsAndPolytopesMultiplyTheBlocks) {
       rotation("    step:\n      forall: [\"tau in [0.1, 1.2]\", \"k in {1, 2, 3}\", \"A in "
                "conv{F, 2*F}\"]\n"
                "      that: \"He(A*Q) + [S(tau) + S(tau)'] < k*I\"\n"));
-  const auto blocks = compile(with_vertex_gains(affine.instance)).blocks;
+  const auto blocks = compile(Inequalities(affine.instance)).blocks;
   EXPECT_EQ(blocks.size(), 3U * 2U * 10U);
 }
 
 TEST(VertexGainsTest, OtherWaysLeaveTheInstanceAlone) {
   const std::string text = rotation(kStep);
   const tests::YamlProblem hull(text.substr(0, text.find("synthesis")));
-  EXPECT_EQ(with_vertex_gains(hull.instance).functions.at(0).text, "Y_0");
+  const Inequalities of(hull.instance);
+  EXPECT_FALSE(of.box);
+  EXPECT_EQ(of.functions.at(0).text(), "Y_0");
 }
 
 TEST(VertexGainsTest, Refusals) {
   const auto refusal = [](const std::string& text) {
     const tests::YamlProblem yaml(text);
-    return tests::input_error([&] { compile(with_vertex_gains(yaml.instance)); }).message();
+    return tests::input_error([&] { compile(Inequalities(yaml.instance)); }).message();
   };
   EXPECT_NE(refusal(rotation("    set: {forall: \"k in {1, 2}\", that: \"He(S(k)) < 0\"}\n"))
                 .find("'set' has 0"),

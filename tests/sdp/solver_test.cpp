@@ -6,7 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
+#include "sdp/presolve.h"
+#include "sdp/sparse_schur.h"
 #include "support/sdp_catalogue.h"
 #include "support/sdp_check.h"
 
@@ -67,12 +70,21 @@ void expect_answer(const CatalogueProblem& known, const Solution& solution) {
     case Answer::dual_infeasible:
       ASSERT_EQ(to_string(solution.status), "dual-infeasible") << solution.message;
       return expect_dual_certificate(known.problem, solution);
+    case Answer::both_infeasible:
+      ASSERT_TRUE(solution.status == Status::primal_infeasible ||
+                  solution.status == Status::dual_infeasible)
+          << to_string(solution.status) << solution.message;
+      break;
     case Answer::weakly_infeasible:
       EXPECT_NE(to_string(solution.status), "optimal");
-      if (solution.status == Status::primal_infeasible)
-        expect_primal_certificate(known.problem, solution);
   }
+  if (solution.status == Status::primal_infeasible)
+    expect_primal_certificate(known.problem, solution);
+  if (solution.status == Status::dual_infeasible) expect_dual_certificate(known.problem, solution);
 }
+
+/// As `precision` is passed on the command line.
+const char* const kPrecisions[] = {"auto", "double", "quad", "50"};
 
 class Catalogue : public ::testing::TestWithParam<std::string> {};
 
@@ -85,10 +97,41 @@ TEST_P(Catalogue, IsAnsweredRightly) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Precision, Catalogue, ::testing::Values("auto", "double", "quad", "50"),
-                         [](const auto& p) {
-                           return p.param == "50" ? std::string("fifty") : p.param;
-                         });
+// The same with a Schur complement that is mostly zero.
+TEST_P(Catalogue, IsAnsweredRightlyWithASparseSchurComplement) {
+  constexpr int kUnknowns = 160;  // the sparse one is used from 100 on, empty F_i not counted
+  for (const CatalogueProblem& part : testing::sdp_catalogue()) {
+    const CatalogueProblem known =
+        testing::copies(part, std::max(8, kUnknowns / part.problem.m() + 1));
+    SCOPED_TRACE(known.name);
+    const Presolved presolved = presolve(known.problem);
+    EXPECT_TRUE(SparseSchur<double>(presolved.data).worthwhile());
+    Options options;
+    options.precision = GetParam();
+    expect_answer(known, solve(known.problem, options));
+  }
+}
+
+TEST(Precision, IsTheNarrowestWithTheDigitsAskedFor) {
+  const CatalogueProblem known = testing::sdp_catalogue().front();
+  for (const auto& [asked, used] : {std::pair{"1", "double"},
+                                    {"15", "double"},
+                                    {"double", "double"},
+                                    {"16", "31 digits"},
+                                    {"31", "31 digits"},
+                                    {"quad", "31 digits"},
+                                    {"32", "100 digits"},
+                                    {"100", "100 digits"}}) {
+    Options options;
+    options.precision = asked;
+    EXPECT_EQ(solve(known.problem, options).precision, used) << asked;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Precision, Catalogue,
+    ::testing::ValuesIn(std::vector<std::string>(std::begin(kPrecisions), std::end(kPrecisions))),
+    [](const auto& p) { return p.param == "50" ? std::string("fifty") : p.param; });
 
 TEST(Solver, GivesTheSameBitsForAnyNumberOfThreads) {
   for (const CatalogueProblem& known : testing::sdp_catalogue()) {

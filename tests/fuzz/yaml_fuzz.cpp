@@ -1,0 +1,57 @@
+// libFuzzer target: whatever the bytes, a problem and its method are read and bound, or refused
+// with an InputError at a place inside the text.
+//
+// Behind a line "---" stands a method of the problem's own, in whatever name the problem asks for;
+// without one the methods of the program are there.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "fuzz/places.h"
+#include "io/problem_yaml.h"
+#include "methods/methods.h"
+#include "model/bind.h"
+
+namespace gainsmith::io {
+namespace {
+
+const std::string kFile = "fuzz.yaml";
+constexpr std::string_view kBetween = "\n---\n";
+
+/// Everything that is done with a problem before it is solved.
+void bind(const model::Problem& problem) { model::bind(problem); }
+
+struct Texts {
+  std::string problem;
+  std::optional<std::string> method;
+};
+
+Texts split(std::string_view text) {
+  const std::size_t at = text.find(kBetween);
+  if (at == std::string_view::npos) return {std::string(text), std::nullopt};
+  return {std::string(text.substr(0, at + 1)), std::string(text.substr(at + kBetween.size()))};
+}
+
+void run(const Texts& texts) {
+  const MethodLibrary library{
+      [&](const std::string& name) { return texts.method ? texts.method : methods::find(name); },
+      methods::names()};
+  bind(parse_problem(texts.problem, kFile, library));
+}
+
+}  // namespace
+}  // namespace gainsmith::io
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace gainsmith;
+  const io::Texts texts = io::split({reinterpret_cast<const char*>(data), size});
+  try {
+    io::run(texts);
+  } catch (const InputError& error) {
+    const bool about_the_whole_file = error.place() == Place{io::kFile};
+    if (!about_the_whole_file) require_place(error, io::kFile, texts.problem);
+  }
+  return 0;
+}
