@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "numbers/matrix.h"
 #include "expr/program.h"
+#include "numbers/matrix.h"
 
 namespace gainsmith::hybrid {
 
