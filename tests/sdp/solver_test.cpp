@@ -27,14 +27,15 @@ void expect_optimum(const CatalogueProblem& known, const Solution& solution) {
   EXPECT_NEAR(static_cast<double>(errors.primal_objective), known.optimum, allowed);
   EXPECT_NEAR(static_cast<double>(errors.dual_objective), known.optimum, allowed);
   EXPECT_LT(errors.dual, 1e-7L);
-  EXPECT_LT(errors.primal, 1e-7L);
+  EXPECT_LT(errors.primal, 1e-7L + errors.rounding);
   EXPECT_LT(std::abs(errors.gap), 1e-7L);
   EXPECT_LT(std::abs(errors.complementarity), 1e-7L);
   EXPECT_TRUE(errors.cone);
   EXPECT_NEAR(solution.primal_objective, static_cast<double>(errors.primal_objective), allowed);
   EXPECT_NEAR(solution.dual_objective, static_cast<double>(errors.dual_objective), allowed);
   EXPECT_NEAR(solution.dimacs[0], static_cast<double>(errors.dual), 1e-8);
-  EXPECT_NEAR(solution.dimacs[2], static_cast<double>(errors.primal), 1e-8);
+  EXPECT_NEAR(solution.dimacs[2], static_cast<double>(errors.primal),
+              1e-8 + static_cast<double>(errors.rounding));
   EXPECT_NEAR(solution.dimacs[4], static_cast<double>(errors.gap), 1e-8);
   EXPECT_NEAR(solution.dimacs[5], static_cast<double>(errors.complementarity), 1e-8);
 }
@@ -83,20 +84,10 @@ void expect_answer(const CatalogueProblem& known, const Solution& solution) {
   if (solution.status == Status::dual_infeasible) expect_dual_certificate(known.problem, solution);
 }
 
-/// As `precision` is passed on the command line.
-const char* const kPrecisions[] = {"auto", "double", "quad", "50"};
-
-class Catalogue : public ::testing::TestWithParam<std::string> {
- protected:
-  /// Whether the problem has this answer in the arithmetic of the test.
-  static bool has_answer(const CatalogueProblem& known) {
-    return !known.only_in_double || GetParam() == "auto" || GetParam() == "double";
-  }
-};
+class Catalogue : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Catalogue, IsAnsweredRightly) {
   for (const CatalogueProblem& known : testing::sdp_catalogue()) {
-    if (!has_answer(known)) continue;
     SCOPED_TRACE(known.name);
     Options options;
     options.precision = GetParam();
@@ -104,11 +95,15 @@ TEST_P(Catalogue, IsAnsweredRightly) {
   }
 }
 
-// The same with a Schur complement that is mostly zero.
+// The same with a Schur complement that is mostly zero; in 100 digits for the smallest, as the
+// others take their time.
 TEST_P(Catalogue, IsAnsweredRightlyWithASparseSchurComplement) {
   constexpr int kUnknowns = 160;  // the sparse one is used from 100 on, empty F_i not counted
+  constexpr int kSmall = 4;
   for (const CatalogueProblem& part : testing::sdp_catalogue()) {
-    if (!has_answer(part)) continue;
+    int rows = 0;
+    for (const Block& block : part.problem.blocks) rows += block.size;
+    if (GetParam() == "50" && rows > kSmall) continue;
     const CatalogueProblem known =
         testing::copies(part, std::max(8, kUnknowns / part.problem.m() + 1));
     SCOPED_TRACE(known.name);
@@ -136,10 +131,10 @@ TEST(Precision, IsTheNarrowestWithTheDigitsAskedFor) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Precision, Catalogue,
-    ::testing::ValuesIn(std::vector<std::string>(std::begin(kPrecisions), std::end(kPrecisions))),
-    [](const auto& p) { return p.param == "50" ? std::string("fifty") : p.param; });
+INSTANTIATE_TEST_SUITE_P(Precision, Catalogue, ::testing::Values("auto", "double", "quad", "50"),
+                         [](const auto& p) {
+                           return p.param == "50" ? std::string("fifty") : p.param;
+                         });
 
 TEST(Solver, GivesTheSameBitsForAnyNumberOfThreads) {
   for (const CatalogueProblem& known : testing::sdp_catalogue()) {

@@ -22,19 +22,38 @@ Problem empty(std::vector<Block> blocks, int m) {
 
 namespace {
 
-/// F_i in block b, i from 0.
+/// F_i in block b, i from 1.
 MatrixXd coefficient_block(const Planted& plan, int i, int b, Random& random) {
   const Block& block = plan.blocks[at(b)];
   MatrixXd f = random.symmetric(block.size);
+  if (i == 1) f = f * f + MatrixXd::Identity(block.size, block.size);
+  if (block.diagonal) f = MatrixXd(f.diagonal().asDiagonal());
+  if (i == 1) return f;
   if (plan.skip > 0 && (i + b) % plan.skip == 0) f.setZero();
-  if (block.diagonal) return f.diagonal().asDiagonal();
-  if (plan.rows == 0) return f;
-  const int rest = block.size - plan.rows, first = i % (rest + 1);
-  // Zero but for the rows and columns first .. first + rows - 1.
+  if (plan.rows == 0 || block.diagonal) return f;
+  const int first = i % (block.size - plan.rows + 1);
+  const auto is_zero = [&](int row) { return row < first || row >= first + plan.rows; };
   for (int q = 0; q < block.size; ++q)
     for (int p = 0; p < block.size; ++p)
-      if ((p < first || p >= first + plan.rows) && (q < first || q >= first + plan.rows))
-        f(p, q) = 0;
+      if (is_zero(p) && is_zero(q)) f(p, q) = 0;
+  return f;
+}
+
+using BlockList = std::vector<MatrixXd>;
+
+/// F_i, i from 1, of which F_i.D = 0 for i > 1: a multiple of D is taken off where F_i has entries.
+BlockList coefficient(const Planted& plan, int i, const BlockList& d, Random& random) {
+  const double scale = std::pow(10.0, plan.spread * random.number());
+  BlockList f, part;
+  double f_d = 0, d_d = 0;
+  for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
+    f.push_back(scale * coefficient_block(plan, i, static_cast<int>(b), random));
+    if (i == 1) continue;
+    part.push_back((f[b].array() != 0).select(d[b], MatrixXd::Zero(f[b].rows(), f[b].cols())));
+    f_d += trace_product(f[b], part[b]);
+    d_d += trace_product(part[b], part[b]);
+  }
+  for (std::size_t b = 0; b < part.size(); ++b) f[b] -= f_d / d_d * part[b];
   return f;
 }
 
@@ -42,7 +61,7 @@ MatrixXd coefficient_block(const Planted& plan, int i, int b, Random& random) {
 
 CatalogueProblem planted(const Planted& plan) {
   Random random(plan.seed);
-  std::vector<MatrixXd> X, Y, f0;
+  BlockList X, Y, f0, d;
   for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
     const int n = plan.blocks[b].size, rank = plan.rank[b], gap = b == 0 ? plan.gap : 0;
     const MatrixXd q =
@@ -55,21 +74,24 @@ CatalogueProblem planted(const Planted& plan) {
     f0.push_back(-X.back());
   }
   CatalogueProblem result{plan.name, empty(plan.blocks, plan.m)};
-  for (int i = 0; i < plan.m; ++i) {
-    const double scale = std::pow(10.0, plan.spread * random.number());
-    double norm = 0;
-    std::vector<MatrixXd> f;
-    for (std::size_t b = 0; b < plan.blocks.size(); ++b) {
-      f.push_back(scale * coefficient_block(plan, i, static_cast<int>(b), random));
+  for (int i = 1; i <= plan.m; ++i) {
+    const BlockList f = coefficient(plan, i, d, random);
+    double norm = 0, f_y = 0, trace = 0;
+    for (std::size_t b = 0; b < f.size(); ++b) {
       norm = std::hypot(norm, f[b].norm());
+      f_y += trace_product(f[b], Y[b]);
+      trace += f[b].trace();
     }
+    if (i == 1)
+      for (const MatrixXd& y : Y)
+        d.push_back(y - f_y / trace * MatrixXd::Identity(y.rows(), y.cols()));
     const double x = random.number() / norm;
     for (std::size_t b = 0; b < f.size(); ++b) {
-      result.problem.c[at(i)] += trace_product(f[b], Y[b]);
       f0[b] += x * f[b];
-      put(result.problem.f[at(i) + 1], static_cast<int>(b), f[b]);
+      put(result.problem.f[at(i)], static_cast<int>(b), f[b]);
     }
-    result.optimum += result.problem.c[at(i)] * x;
+    result.problem.c[at(i) - 1] = f_y;
+    result.optimum += f_y * x;
   }
   for (std::size_t b = 0; b < f0.size(); ++b)
     put(result.problem.f[0], static_cast<int>(b), 0.5 * (f0[b] + f0[b].transpose()));

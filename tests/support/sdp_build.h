@@ -61,11 +61,13 @@ struct Planted {
   std::uint64_t seed = 0;
   int gap = 0;  ///< in the first block
   double spread = 0;
-  int skip = 0;  ///< where positive, F_i is empty in block b when skip divides i + b
-  int rows = 0;  ///< where positive, F_i has entries in so many rows and columns only
+  int skip = 0;  ///< where positive, F_i, i > 1, is empty in block b when skip divides i + b
+  int rows = 0;  ///< where positive, F_i, i > 1, has entries in so many rows and columns only
 };
 
-/// Optimal at X, Y and a random x by F_0 = sum x_i F_i - X, c_i = F_i.Y.
+/// Optimal at X, Y and a random x by F_0 = sum x_i F_i - X, c_i = F_i.Y. F_1 > 0, and some s I has
+/// the products with the F_i that Y has: so both sides have interior points, and what rounding does
+/// to F_0 and c cannot make them infeasible.
 CatalogueProblem planted(const Planted& plan);
 
 /// The problems side by side, each with blocks and variables of its own. The sum of the optima; the

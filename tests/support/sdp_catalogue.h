@@ -23,9 +23,6 @@ struct CatalogueProblem {
   double optimum = 0;
   double digits =
       7;  ///< how many the objectives must share with `optimum`, relative to max(1, |.|)
-  /// The answer is that of data before they were rounded to doubles. A feasible set without interior
-  /// does not survive rounding: in more digits it is another problem, with another answer.
-  bool only_in_double = false;
 };
 
 /// Every problem is small: m <= 12, n <= 13, so that the widest arithmetic solves it in a moment.

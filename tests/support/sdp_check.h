@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <vector>
 
 #include "sdp/problem.h"
@@ -89,6 +90,8 @@ struct Errors {
   Real primal_objective = 0, dual_objective = 0;
   Real dual = 0, primal = 0, gap = 0, complementarity = 0;  ///< DIMACS 1, 3, 5, 6
   bool cone = false;                                        ///< DIMACS 2 and 4 below the tolerance
+  /// What rounding here may add to `primal`: where F_i are dependent, some x cancel each other.
+  Real rounding = 0;
 };
 
 inline Errors recompute(const Problem& problem, const Solution& solution, Real tolerance) {
@@ -104,6 +107,8 @@ inline Errors recompute(const Problem& problem, const Solution& solution, Real t
     errors.primal_objective += c * x[i];
     const Real r = inner(problem, problem.f[i + 1], Y) - c;
     errors.dual += r * r;
+    for (const Entry& e : problem.f[i + 1])
+      errors.rounding += 4 * std::numeric_limits<Real>::epsilon() * std::abs(x[i] * e.value);
   }
   for (const Entry& e : problem.f[0]) largest_f0 = std::max<Real>(largest_f0, std::abs(e.value));
   errors.dual_objective = inner(problem, problem.f[0], Y);
@@ -117,6 +122,7 @@ inline Errors recompute(const Problem& problem, const Solution& solution, Real t
   const Real size = 1 + std::abs(errors.primal_objective) + std::abs(errors.dual_objective);
   errors.dual = std::sqrt(errors.dual) / (1 + largest_c);
   errors.primal = std::sqrt(errors.primal) / (1 + largest_f0);
+  errors.rounding /= 1 + largest_f0;
   errors.gap = (errors.primal_objective - errors.dual_objective) / size;
   errors.complementarity /= size;
   errors.cone =

@@ -18,18 +18,9 @@ CatalogueProblem redundant(std::uint64_t seed) {
 
 }  // namespace
 
-namespace {
-
-CatalogueProblem in_double(CatalogueProblem problem) {
-  problem.only_in_double = true;
-  return problem;
-}
-
-}  // namespace
-
 std::vector<CatalogueProblem> planted_problems() {
   return {planted({"planted, strict", {{6, false}}, 6, {3}, 11}),
-          in_double(planted({"planted, not strict", {{6, false}}, 6, {2}, 12, 1})),
+          planted({"planted, not strict", {{6, false}}, 6, {2}, 12, 1}),
           planted({"planted, badly scaled", {{6, false}}, 8, {3}, 13, 0, 4}),
           planted({"planted, diagonal", {{8, true}}, 4, {4}, 25}),
           planted({"planted, diagonal, not strict", {{8, true}}, 3, {4}, 26, 1}),
@@ -53,7 +44,7 @@ std::vector<CatalogueProblem> planted_problems() {
                    0,
                    0,
                    3}),
-          in_double(planted({"planted, F_i of two rows", {{12, false}}, 8, {7}, 30, 0, 0, 0, 2})),
+          planted({"planted, F_i of two rows", {{12, false}}, 8, {7}, 30, 0, 0, 0, 2}),
           redundant(19)};
 }
 
