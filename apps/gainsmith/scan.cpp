@@ -155,7 +155,7 @@ std::string json(const std::vector<design::ScanRow>& rows, const Grid& grid,
 
 /// Undecided when some point was not finished; yes when some point is feasible, no when every point
 /// is excluded.
-ExitCode exit_of(const std::vector<design::ScanRow>& rows) {
+ExitCode exit_of_all(const std::vector<design::ScanRow>& rows) {
   const auto unfinished =
       std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.interrupted; });
   if (unfinished > 0) {
@@ -188,12 +188,12 @@ ExitCode scan(const ScanOptions& options) {
   const std::string file = csv(table_of(rows, grid.names, options.show, kExact));
   if (options.output == "-") {
     fmt::print("{}", file);
-    return exit_of(rows);
+    return exit_of_all(rows);
   }
   if (!options.output.empty()) write_atomically(options.output, file);
   fmt::print("{}", options.json ? json(rows, grid, options.show)
                                 : aligned(table_of(rows, grid.names, options.show, kForPeople)));
-  return exit_of(rows);
+  return exit_of_all(rows);
 }
 
 }  // namespace

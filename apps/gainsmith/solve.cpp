@@ -29,7 +29,7 @@ struct SolveOptions {
   sdp::Options solver;
 };
 
-ExitCode exit_of(sdp::Status status) {
+ExitCode exit_of_solution(sdp::Status status) {
   switch (status) {
     case sdp::Status::optimal:
       return ExitCode::yes;
@@ -42,7 +42,7 @@ ExitCode exit_of(sdp::Status status) {
   return ExitCode::undecided;
 }
 
-void print_progress(const sdp::Progress& line) {
+void print_iteration(const sdp::Progress& line) {
   if (line.iteration == 0)
     fmt::print(stderr, "{:>4} {:>18} {:>18} {:>9} {:>9} {:>9} {:>6} {:>6}  {}\n", "iter", "primal",
                "dual", "gap", "p.infeas", "d.infeas", "p.step", "d.step", "arithmetic");
@@ -155,7 +155,7 @@ ExitCode solve(SolveOptions options) {
   catch_interrupts();
   options.solver.interrupted = interrupted;
   if (!options.quiet && !options.json && progress_wanted())
-    options.solver.progress = print_progress;
+    options.solver.progress = print_iteration;
   const sdp::Solution solution = sdp::solve(problem, options.solver);
   const bool to_stdout = options.output == "-";
   if (!options.output.empty()) {
@@ -168,7 +168,7 @@ ExitCode solve(SolveOptions options) {
   }
   fmt::print(to_stdout ? stderr : stdout, "{}",
              options.json ? json_text(solution) : summary(solution));
-  return exit_of(solution.status);
+  return exit_of_solution(solution.status);
 }
 
 }  // namespace

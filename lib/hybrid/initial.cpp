@@ -7,7 +7,7 @@ namespace gainsmith::hybrid {
 
 namespace {
 
-using Kind = model::StartKind;
+using model::StartKind;
 
 expr::Program link_start(const model::Formula& formula, std::size_t state, const System& system) {
   expr::Program program = system.link(formula);
@@ -36,14 +36,14 @@ numbers::Matrix bound_of(const model::Formula& formula, expr::Shape shape, const
 StartRule make_rule(const model::Design::Start& start, const System& system) {
   const Slot& slot = system.layout.slots[start.state];
   StartRule rule{start.kind, {}, {}, start.place};
-  if (start.kind == Kind::expression) {
+  if (start.kind == StartKind::expression) {
     rule.program = link_start(start.values.front(), start.state, system);
     return rule;
   }
   for (const model::Formula& formula : start.values)
-    rule.values.push_back(start.kind == Kind::box ? bound_of(formula, slot.shape, system)
-                                                  : system.value(formula));
-  if (start.kind == Kind::box && (rule.values[0].array() > rule.values[1].array()).any())
+    rule.values.push_back(start.kind == StartKind::box ? bound_of(formula, slot.shape, system)
+                                                       : system.value(formula));
+  if (start.kind == StartKind::box && (rule.values[0].array() > rule.values[1].array()).any())
     throw InputError(start.place, "the box of " + slot.name + " is empty: low > high");
   return rule;
 }
@@ -51,7 +51,7 @@ StartRule make_rule(const model::Design::Start& start, const System& system) {
 /// The box [-1, 1].
 StartRule unit_box(expr::Shape shape) {
   const numbers::Matrix ones = numbers::Matrix::Ones(shape.rows, shape.cols);
-  return {Kind::box, {-ones, ones}, {}, {}};
+  return {StartKind::box, {-ones, ones}, {}, {}};
 }
 
 }  // namespace
@@ -66,7 +66,7 @@ std::vector<StartRule> make_start_rules(const model::Design& design, const Syste
     if (found != starts.end()) {
       rules.push_back(make_rule(*found, system));
     } else if (usual) {
-      rules.push_back(make_rule({state, Kind::expression, {*usual}, usual->place}, system));
+      rules.push_back(make_rule({state, StartKind::expression, {*usual}, usual->place}, system));
     } else {
       rules.push_back(unit_box(design.states[state].shape));
     }
@@ -77,7 +77,7 @@ std::vector<StartRule> make_start_rules(const model::Design& design, const Syste
 Starts::Starts(const std::vector<StartRule>& rules, const System& system)
     : rules_(&rules), layout_(&system.layout) {
   for (const StartRule& rule : rules)
-    if (rule.kind == Kind::expression)
+    if (rule.kind == StartKind::expression)
       expressions_.emplace_back(rule.program, system.layout, system.constants);
 }
 
@@ -89,13 +89,13 @@ Eigen::VectorXd Starts::operator()(std::uint64_t run, RandomStream& random) {
     const Slot& slot = layout_->slots[i];
     auto part = x.segment(slot.offset, slot.shape.size());
     switch (rule.kind) {
-      case Kind::expression:
+      case StartKind::expression:
         part = expressions_[expression++](x, 0).reshaped();
         break;
-      case Kind::list:
+      case StartKind::list:
         part = rule.values[run % rule.values.size()].reshaped();
         break;
-      case Kind::box: {
+      case StartKind::box: {
         const Eigen::VectorXd low = rule.values[0].reshaped();
         const Eigen::VectorXd high = rule.values[1].reshaped();
         for (Eigen::Index k = 0; k < part.size(); ++k)

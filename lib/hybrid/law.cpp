@@ -10,7 +10,7 @@ namespace gainsmith::hybrid {
 
 namespace {
 
-using Kind = model::LawKind;
+using model::LawKind;
 
 double checked_value(const model::Formula& formula, const System& system) {
   const double value = system.scalar(formula);
@@ -26,15 +26,15 @@ double checked_value(const model::Formula& formula, const System& system) {
 
 double Law::reset_value(std::size_t jump, double t, RandomStream& random) const {
   switch (kind) {
-    case Kind::constant:
+    case LawKind::constant:
       return values.front();
-    case Kind::uniform:
+    case LawKind::uniform:
       return low + (high - low) * random.uniform();
-    case Kind::extremes:
+    case LawKind::extremes:
       return random.uniform() < 0.5 ? low : high;
-    case Kind::sinusoid:
+    case LawKind::sinusoid:
       return std::clamp((high - low) / 2 * std::sin(t) + (high + low) / 2, low, high);
-    case Kind::list:
+    case LawKind::list:
       return values[jump % values.size()];
   }
   return high;
@@ -44,17 +44,17 @@ std::vector<Law> make_laws(const model::Design::Campaign& campaign, const System
   const double low = system.low;
   const double high = system.high;
   if (campaign.laws.empty())
-    return {{Kind::uniform, low, high, {}},
-            {Kind::extremes, low, high, {}},
-            {Kind::sinusoid, low, high, {}},
-            {Kind::constant, low, high, {low}},
-            {Kind::constant, low, high, {high}}};
+    return {{LawKind::uniform, low, high, {}},
+            {LawKind::extremes, low, high, {}},
+            {LawKind::sinusoid, low, high, {}},
+            {LawKind::constant, low, high, {low}},
+            {LawKind::constant, low, high, {high}}};
   std::vector<Law> laws;
   for (const model::Design::Law& law : campaign.laws) {
     Law result{law.kind, low, high, {}};
     for (const model::Formula& value : law.values)
       result.values.push_back(checked_value(value, system));
-    const bool needs_values = law.kind == Kind::constant || law.kind == Kind::list;
+    const bool needs_values = law.kind == LawKind::constant || law.kind == LawKind::list;
     if (needs_values && result.values.empty())
       throw InputError(law.place, "the sampling law " + model::to_string(law.kind) +
                                       " needs at least one interval");

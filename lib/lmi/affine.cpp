@@ -11,8 +11,6 @@ namespace {
 
 using Key = AffineForm::Key;
 
-Sparse sparse(const numbers::Matrix& matrix) { return matrix.sparseView(0.0, 0.0); }
-
 }  // namespace
 
 void add_term(AffineForm& form, AffineForm::Key key, Sparse matrix) {

@@ -15,8 +15,6 @@ namespace {
 
 expr::Shape transposed(expr::Shape shape) { return {shape.cols, shape.rows}; }
 
-Sparse sparse(const numbers::Matrix& matrix) { return matrix.sparseView(0.0, 0.0); }
-
 /// The form with every coefficient mapped linearly.
 template <class Map>
 AffineForm map_terms(const AffineForm& form, expr::Shape shape, Map map) {

@@ -6,6 +6,8 @@
 
 namespace gainsmith::lmi {
 
+Sparse sparse(const Eigen::MatrixXd& matrix) { return matrix.sparseView(0.0, 0.0); }
+
 double largest_element(const Sparse& matrix) {
   double result = 0;
   for (int k = 0; k < matrix.outerSize(); ++k)

@@ -11,6 +11,9 @@ namespace gainsmith::lmi {
 
 using Sparse = Eigen::SparseMatrix<double>;
 
+/// The elements of a dense matrix that are not 0.
+Sparse sparse(const Eigen::MatrixXd& matrix);
+
 /// The largest |element|.
 double largest_element(const Sparse& matrix);
 

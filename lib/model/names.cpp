@@ -20,7 +20,7 @@ bool is_name(const std::string& text) {
          std::all_of(text.begin(), text.end(), is_part);
 }
 
-class Names {
+class NameCheck {
  public:
   /// A dimension may stand in several shapes.
   void add_dimensions(const ShapeText& shape) {
@@ -94,7 +94,7 @@ void check_maps(const Component& component, const std::vector<Named>& map,
 }  // namespace
 
 void check_names(const Method& method) {
-  Names names;
+  NameCheck names;
   for (const auto* list : {&method.data, &method.plant.states, &method.observer.states})
     for (const Declaration& declaration : *list) names.add_dimensions(declaration.shape);
   for (const UnknownDeclaration& unknown : method.unknowns) names.add_dimensions(unknown.shape);

@@ -11,28 +11,28 @@ using Index = Eigen::Index;
 /// A tile of C is kRegisters x kColumns vector registers: with the column of A that it is
 /// multiplied by, what the machine has.
 #if defined(__AVX512F__)
-constexpr Index kWidth = 8, kRegisters = 3, kColumns = 8;
+constexpr Index kVector = 8, kRegisters = 3, kColumns = 8;
 #elif defined(__AVX__)
-constexpr Index kWidth = 4, kRegisters = 3, kColumns = 4;
+constexpr Index kVector = 4, kRegisters = 3, kColumns = 4;
 #else
-constexpr Index kWidth = 2, kRegisters = 2, kColumns = 4;
+constexpr Index kVector = 2, kRegisters = 2, kColumns = 4;
 #endif
-constexpr Index kTileRows = kWidth * kRegisters;
+constexpr Index kTileRows = kVector * kRegisters;
 /// Rows of A and inner length that are packed at a time: a packed A stays in the second-level
 /// cache, the columns of B that a tile needs in the first.
 constexpr Index kInner = 256, kRows = 10 * kTileRows;
 
-using Lanes = double __attribute__((vector_size(kWidth * sizeof(double))));
+using Lanes = double __attribute__((vector_size(kVector * sizeof(double))));
 
 enum class Write { assign, add, subtract };
 
-/// Up to kWidth numbers and zeros after them.
+/// Up to kVector numbers and zeros after them.
 Lanes load(const double* from, Index count) {
   Lanes result;
-  if (count >= kWidth) {
+  if (count >= kVector) {
     std::memcpy(&result, from, sizeof result);
   } else {
-    for (Index i = 0; i < kWidth; ++i) result[i] = i < count ? from[i] : 0.0;
+    for (Index i = 0; i < kVector; ++i) result[i] = i < count ? from[i] : 0.0;
   }
   return result;
 }
@@ -42,7 +42,7 @@ void pack_rows(const View<const double>& a, double* to) {
   for (Index i = 0; i < a.rows; i += kTileRows) {
     const Index rows = std::min(kTileRows, a.rows - i);
     for (Index k = 0; k < a.columns; ++k)
-      for (Index r = 0; r < rows; r += kWidth, to += kWidth) {
+      for (Index r = 0; r < rows; r += kVector, to += kVector) {
         const Lanes part = load(&a(i + r, k), rows - r);
         std::memcpy(to, &part, sizeof part);
       }
@@ -60,7 +60,7 @@ void put(const Lanes& value, Write how, double* to) {
 void put(const Lanes& value, Write how, double* to, Index count) {
   Lanes part = how == Write::assign ? Lanes{} : load(to, count);
   part = how == Write::subtract ? part - value : part + value;
-  for (Index i = 0; i < kWidth; ++i)
+  for (Index i = 0; i < kVector; ++i)
     if (i < count) to[i] = part[i];
 }
 
@@ -76,10 +76,10 @@ struct Right {
 template <Index registers, Index columns>
 void multiply_tile(const double* a, Right b, Index inner, const View<double>& c, Write how) {
   Lanes sum[columns][registers] = {};
-  for (Index k = 0; k < inner; ++k, a += registers * kWidth, b.at += b.down) {
+  for (Index k = 0; k < inner; ++k, a += registers * kVector, b.at += b.down) {
     Lanes row[registers];
 #pragma GCC unroll 8
-    for (Index r = 0; r < registers; ++r) std::memcpy(&row[r], a + r * kWidth, sizeof row[r]);
+    for (Index r = 0; r < registers; ++r) std::memcpy(&row[r], a + r * kVector, sizeof row[r]);
 #pragma GCC unroll 8
     for (Index q = 0; q < columns; ++q)
 #pragma GCC unroll 8
@@ -89,11 +89,11 @@ void multiply_tile(const double* a, Right b, Index inner, const View<double>& c,
   for (Index q = 0; q < columns; ++q)
 #pragma GCC unroll 8
     for (Index r = 0; r < registers; ++r) {
-      const Index left = c.rows - r * kWidth;
-      if (left >= kWidth)
-        put(sum[q][r], how, &c(r * kWidth, q));
+      const Index left = c.rows - r * kVector;
+      if (left >= kVector)
+        put(sum[q][r], how, &c(r * kVector, q));
       else
-        put(sum[q][r], how, &c(r * kWidth, q), left);
+        put(sum[q][r], how, &c(r * kVector, q), left);
     }
 }
 
@@ -107,9 +107,9 @@ void multiply_columns(const double* a, const Right& b, Index inner, const View<d
       const Index rows = std::min(kTileRows, c.rows - i);
       const View<double> tile = c.part(i, j, rows, columns);
       const double* const panel = a + i * inner;
-      if (rows <= kWidth)
+      if (rows <= kVector)
         multiply_tile<1, columns>(panel, right, inner, tile, how);
-      else if (rows <= 2 * kWidth)
+      else if (rows <= 2 * kVector)
         multiply_tile<2, columns>(panel, right, inner, tile, how);
       else
         multiply_tile<kRegisters, columns>(panel, right, inner, tile, how);
