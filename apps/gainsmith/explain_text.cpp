@@ -60,13 +60,15 @@ std::string conflict_statement(const design::Conflict& conflict) {
   return listed(conflict.names) + " cannot hold together" + limits;
 }
 
+std::string certificate_brief(const model::CertificateRecord& certificate) {
+  if (certificate.exact) return "exact";
+  return "no solution survives a relative change of " + brief(certificate.omega, 2);
+}
+
 std::string conflict_text(const design::Conflict& conflict) {
   std::string text = "conflict    " + conflict_statement(conflict) + "\n";
   if (conflict.gain_bound) return text;
-  text +=
-      fmt::format("            certificate of these alone: F_0.Y = {} and sum |F_i.Y| = {}, {}\n",
-                  brief(conflict.certificate.value), brief(conflict.certificate.residual, 3),
-                  conflict.certificate.checked ? "checked" : "NOT CHECKED");
+  text += "            certificate of these alone: " + certificate_brief(conflict.certificate) + "\n";
   if (conflict.undecided.empty())
     return text + "            without any one of them the others can be satisfied\n";
   return text + fmt::format("            whether {} {} needed is undecided\n",
@@ -125,9 +127,9 @@ io::Json explanation_json(const design::Explanation& explanation) {
                             {"undecided", conflict->undecided},
                             {"gain_bound", conflict->gain_bound},
                             {"within_gain_bound", conflict->within_gain_bound},
-                            {"checked", conflict->certificate.checked},
+                            {"exact", conflict->certificate.exact},
                             {"about", conflict->certificate.about},
-                            {"residual", conflict->certificate.residual}};
+                            {"omega", conflict->certificate.omega}};
   for (const auto& relaxation : explanation.relaxations)
     document["relaxations"].push_back({{"requirement", relaxation.name},
                                        {"scale", relaxation.scale},

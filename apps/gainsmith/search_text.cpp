@@ -25,8 +25,7 @@ std::string beyond_text(const model::Gains& gains) {
   if (search.beyond) {
     text += fmt::format("            {} is excluded", brief(*search.beyond, kDigits));
     if (const auto& certificate = search.certificate)
-      text += model::limits_of(*certificate) +
-              (certificate->checked ? " by a checked certificate" : "");
+      text += model::limits_of(*certificate) + " by a checked certificate";
     text += place_text(gains) + "\n";
   }
   if (!search.open.empty())

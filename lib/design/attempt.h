@@ -2,16 +2,25 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include "forall/plan.h"
 #include "lmi/formulation.h"
 #include "lmi/margins.h"
+#include "lmi/refutation.h"
 
 namespace gainsmith::design {
 
+/// How hard the solver tries: its arithmetic, and the relative gap at which it stops.
+struct Effort {
+  std::string precision = "auto";
+  double tolerance = 1e-9;
+};
+
 /// Solves a semidefinite program: sdp::solve with its options, or a script in a test.
-using Solve = std::function<sdp::Solution(const sdp::Problem& problem)>;
+using Solve = std::function<sdp::Solution(const sdp::Problem& problem, const Effort& effort)>;
 
 /// Inequalities with the blocks that stand for them.
 struct Posed {
@@ -24,42 +33,44 @@ struct Posed {
 
 /// What is asked.
 struct Question {
-  lmi::Goal goal = lmi::Goal::bounded_objective;
+  lmi::Goal goal = lmi::Goal::objective;
   lmi::GainBounds bounds;  ///< none: gains of any size
-  double backoff = 0;      ///< see lmi::formulate
-  bool recomputed = true;  ///< whether the margins of a point are wanted
+  Effort effort;
+  double shift = 0;  ///< objective: what strict blocks keep, in balanced units
 };
 
-/// What came of it: why the solver stopped, with its point or certificate (solution), and how good
-/// the point is (margins). The two are never mixed.
+/// What came of it: why the solver stopped (solution), how good its point is (margins), and what its
+/// multipliers exclude (refutation). They are never mixed: a point that is good enough counts
+/// however the iteration stopped.
 struct Attempt {
   Question question;
   lmi::Formulation formulation;
   sdp::Solution solution;
-  /// An optimal solution that leaves the margin that was asked for, as far as the solver knows.
+  /// Every block is positive definite at x, as evaluated in double.
   bool point = false;
-  std::vector<double> x;  ///< the unknowns, of a point
-  lmi::Margins margins;   ///< at x, recomputed; of a point
+  std::vector<double> x;  ///< the unknowns
+  lmi::Margins margins;   ///< at x, of a point
+  /// Of an interior question without bounds and without a point.
+  std::optional<lmi::Refutation> refutation;
+  /// Of an interior question without a point: what its multipliers leave for the blocks as they were
+  /// solved, gain bounds and corners of boxes included (lmi::relaxed_omega).
+  double relaxed_omega = 1;
 
   bool is_optimal() const { return solution.status == sdp::Status::optimal; }
-  /// A certificate counts when it was checked.
-  bool is_infeasible() const {
-    return solution.status == sdp::Status::primal_infeasible && solution.certificate.checked;
-  }
-  /// Of Goal::feasibility, when optimal.
-  double largest_margin() const { return solution.x.back(); }
+  /// Every inequality holds at the decimals of x: a yes.
+  bool holds() const { return point && lmi::all_hold(margins); }
+  /// No x satisfies the inequalities.
+  bool refuted() const;
+  /// No x satisfies the blocks as they were solved, up to rounding.
+  bool relaxation_refuted() const;
 };
 
 /// Pure: the same question of the same blocks has the same answer.
 Attempt attempt(const Posed& posed, Question question, const Solve& solve);
 
-/// Whether the recomputed margins of a point say yes: every inequality keeps its margin, and
-/// nothing is open between the points of an exchange.
-bool is_kept(const Attempt& attempt);
-
-/// How much the worst inequality of a point is short of its margin, relative to its scale, when
-/// that is no more than the solver's tolerance explains; 0 when none is, or when it is worse than
-/// that.
-double shortfall(const Attempt& attempt);
+/// A point between the minimum and a point inside: x(e) = x* + e (x_f - x*) with the smallest e = 1e-12,
+/// 1e-11, ... for which every inequality holds:  B(x(e)) >= e B(x_f) + (1 - e) B(x*).  The attempt of
+/// the minimum with that point; none when there is no such e below 1.
+std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const Attempt& inside);
 
 }  // namespace gainsmith::design

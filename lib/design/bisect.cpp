@@ -11,16 +11,12 @@ namespace gainsmith::design {
 
 namespace {
 
-search::Answer answer_of(model::Verdict verdict) {
-  switch (verdict) {
-    case model::Verdict::yes:
-      return search::Answer::yes;
-    case model::Verdict::no:
-      return search::Answer::no;
-    case model::Verdict::undecided:
-      break;
-  }
-  return search::Answer::undecided;
+/// A value that only the hull or the vertex test excludes counts as excluded; what the certificate is
+/// limited to is said.
+search::Answer answer_of(const model::Gains& gains) {
+  if (gains.verdict == model::Verdict::yes) return search::Answer::yes;
+  const bool excluded = gains.verdict == model::Verdict::no || gains.certificate;
+  return excluded ? search::Answer::no : search::Answer::undecided;
 }
 
 /// The bracket in the words of the gain file.
@@ -70,7 +66,7 @@ std::string nothing_found(const search::Bisection& found, const BisectChoices& c
 /// What the weakest of the certificates is limited to.
 std::string weakest_limits(const std::map<double, model::Gains>& tried) {
   for (const auto& [value, gains] : tried)
-    if (gains.certificate && !gains.certificate->exact())
+    if (gains.certificate && !gains.certificate->is_about_problem())
       return model::limits_of(*gains.certificate);
   return "";
 }
@@ -95,7 +91,7 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
     overrides.insert(own.overrides.begin(), own.overrides.end());
     try {
       model::Gains gains = synthesize_at(own.design, overrides, solver);
-      const search::Answer answer = answer_of(gains.verdict);
+      const search::Answer answer = answer_of(gains);
       tried.insert_or_assign(value, std::move(gains));
       return answer;
     } catch (const InputError& error) {

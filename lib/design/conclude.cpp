@@ -3,20 +3,27 @@
 #include <cmath>
 
 #include "base/number.h"
+#include "base/scalars.h"
+#include "design/gain_values.h"
 #include "design/ladder.h"
+#include "numbers/dense.h"
 
 namespace gainsmith::design {
 
 namespace {
 
+void add_message(model::Gains& gains, const std::string& text) {
+  std::string& message = gains.solver.message;
+  message += (message.empty() ? "" : "; ") + text;
+}
+
 model::SolverRecord record_of(const Attempt& attempt) {
   const sdp::Solution& solution = attempt.solution;
   model::SolverRecord record;
-  record.status = attempt.is_infeasible() ? "infeasible"
-                  : attempt.is_optimal()  ? "optimal"
-                                          : "undecided";
+  record.status = attempt.refuted()      ? "infeasible"
+                  : attempt.is_optimal() ? "optimal"
+                                         : "undecided";
   record.cause = to_string(solution.cause);
-  record.message = solution.message;
   record.iterations = solution.iterations;
   record.relative_gap = solution.relative_gap;
   record.primal_infeasibility = solution.dimacs[2];
@@ -25,29 +32,27 @@ model::SolverRecord record_of(const Attempt& attempt) {
   return record;
 }
 
-void leave_undecided(model::Gains& gains, const std::string& message) {
-  gains.solver.status = "undecided";
-  gains.solver.message = message;
+/// What a point that holds has less than was wished for.
+void note_wishes(const Attempt& point, model::Gains& gains) {
+  // A minimum has its margin in the solver's units, within this of the margin in its own diagonal.
+  constexpr double kSame = 1e-3;
+  for (const model::Margin& margin : point.margins.margins)
+    if (margin.strict && margin.reached < kSame * margin.required)
+      add_message(gains, margin.name + " holds with the margin " + brief(margin.reached, 2) +
+                             ", less than the " + brief(margin.required, 2) + " asked for");
 }
 
-/// The verdict of a point, with what it falls short of.
-void judge(const Attempt& point, model::Gains& gains) {
-  gains.verdict = is_kept(point) ? model::Verdict::yes : model::Verdict::undecided;
-  if (gains.verdict == model::Verdict::yes) return;
+/// What a point that does not hold falls short of.
+void note_failures(const Attempt& point, model::Gains& gains) {
   std::string failed;
-  bool positive = true;
-  for (const model::Margin& margin : point.margins.margins) {
-    if (lmi::is_kept(margin)) continue;
-    failed += (failed.empty() ? "" : "; ") + margin.name + ": margin " + brief(margin.reached) +
-              ", asked for " + brief(margin.required);
-    positive &= margin.reached > 0;
-  }
-  std::string message =
-      failed.empty() ? "the solver converged, but for all values " + point.margins.open
-                     : "the solver converged, but recomputed from the written decimals " + failed;
-  if (!failed.empty() && positive && point.formulation.homogeneous())
-    message += "; a smaller synthesis.margin, or P > I instead of P > 0, may do";
-  leave_undecided(gains, message);
+  for (const model::Margin& margin : point.margins.margins)
+    if (!margin.holds)
+      failed += (failed.empty() ? "" : ", ") + margin.name + " (margin " +
+                brief(margin.reached, 2) +
+                (margin.worst_point.empty() ? "" : " at " + margin.worst_point) + ")";
+  if (!failed.empty())
+    add_message(gains, "the best point found does not hold for certain at its decimals in " + failed);
+  if (!point.margins.open.empty()) add_message(gains, "for all values " + point.margins.open);
 }
 
 /// A gain that the objective does not determine is limited by its bound alone, wherever between
@@ -56,7 +61,7 @@ void mark_free_gains(const Attempt& tighter, const lmi::Lmi& lmi, model::Gains& 
   constexpr double kNear = 0.01;
   constexpr double kSameObjective = 1e-6;
   constexpr double kShrunk = 0.5;
-  if (!tighter.is_optimal()) return;
+  if (!tighter.is_optimal() || !tighter.point) return;
   if (std::abs(lmi.objective_at(tighter.x) - *gains.objective) >
       kSameObjective * std::abs(*gains.objective))
     return;
@@ -68,6 +73,38 @@ void mark_free_gains(const Attempt& tighter, const lmi::Lmi& lmi, model::Gains& 
   }
 }
 
+void note_objective(const Climb& climb, const Attempt& point, model::Gains& gains) {
+  const lmi::Lmi& lmi = climb.posed().lmi;
+  if (!lmi.has_objective) return;
+  gains.objective = lmi.objective_at(point.x);
+  if (point.question.goal == lmi::Goal::objective) {
+    // The dual solution is feasible to the solver's tolerance only.
+    gains.objective_lower_bound =
+        std::min(*gains.objective,
+                 lmi::objective_lower_bound(lmi, point.formulation, point.solution));
+    return;
+  }
+  const Attempt* minimum = climb.find(Rung::minimum);
+  if (!lmi::has_minimum(lmi, climb.bounds()))
+    add_message(gains,
+                "the objective has no minimum: without constant parts every solution may be scaled, "
+                "so its infimum is 0 or there is none");
+  else if (minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible)
+    add_message(gains, "the objective has no minimum: it is unbounded below");
+  else
+    add_message(gains, "the objective is that of a point inside, not its minimum: the minimum was "
+                       "not found");
+}
+
+/// The largest singular value of the gains of a point; of functions at 65 points of their variable's
+/// intervals.
+double gain_size(const Climb& climb, const Attempt& point) {
+  const lmi::Inequalities& of = climb.posed().inequalities;
+  numbers::Values values = of.instance.values;
+  for (auto& [name, matrix] : of.unknowns.values(point.x)) values[name] = matrix;
+  return largest_gain(of, values);
+}
+
 void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
   const lmi::Unknowns& unknowns = climb.posed().inequalities.unknowns;
@@ -75,61 +112,85 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
   const numbers::Values values = unknowns.values(point.x);
   for (const lmi::Unknown& unknown : unknowns.list())
     gains.unknowns.emplace_back(unknown.name, values.at(unknown.name));
-  gains.bounds = lmi::reached_bounds(point.question.bounds, point.x);
-  if (lmi.has_objective) {
-    gains.objective = lmi.objective_at(point.x);
-    // The dual solution is feasible to the solver's tolerance only.
-    if (point.question.goal == lmi::Goal::bounded_objective)
-      gains.objective_lower_bound = std::min(
-          *gains.objective, lmi::objective_lower_bound(lmi, point.formulation, point.solution));
+  const lmi::GainBounds& bounds = climb.bounds();
+  gains.bounds = lmi::reached_bounds(bounds, point.x);
+  note_objective(climb, point, gains);
+  if (!point.holds()) return note_failures(point, gains);
+  gains.verdict = model::Verdict::yes;
+  if (climb.is_free(point)) {
+    const double largest = gain_size(climb, point);
+    for (model::GainBound& bound : gains.bounds) bound.active = false;
+    if (!(largest <= bounds.beta)) {
+      gains.verdict = model::Verdict::undecided;
+      gains.bound_only = largest;
+      add_message(gains, "no gains within the gain bound " + brief(bounds.beta) +
+                             " were found, but gains of " + brief(largest, 2) +
+                             " exist: raise synthesis.gain_bound");
+      return;
+    }
   }
-  judge(point, gains);
+  note_wishes(point, gains);
   if (const Attempt* tighter = climb.find(Rung::tighter)) mark_free_gains(*tighter, lmi, gains);
 }
 
-void accept_certificate(const Climb& climb, const Attempt& infeasible, bool within_bounds,
-                        model::Gains& gains) {
+/// The multipliers by the name and point of their block.
+model::NamedMatrices named_multipliers(const Climb& climb, const Attempt& attempt) {
+  const lmi::Lmi& lmi = climb.posed().lmi;
+  const lmi::GainBounds& bounds = attempt.question.bounds;
+  const auto list = lmi::multipliers(lmi, bounds, attempt.formulation, attempt.solution);
+  model::NamedMatrices result;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const lmi::Block& block =
+        k < lmi.blocks.size() ? lmi.blocks[k] : bounds.blocks[k - lmi.blocks.size()];
+    result.emplace_back(block.name + (block.point.empty() ? "" : " at " + block.point), list[k]);
+  }
+  return result;
+}
+
+void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains& gains) {
   gains.verdict = model::Verdict::no;
-  const sdp::Certificate& certificate = infeasible.solution.certificate;
-  gains.certificate =
-      model::CertificateRecord{certificate.value,
-                               certificate.residual,
-                               certificate.min_eigenvalue,
-                               infeasible.formulation.unit * certificate.excluded_radius,
-                               certificate.checked,
-                               lmi::multipliers(climb.posed().lmi, infeasible.question.bounds,
-                                                infeasible.formulation, infeasible.solution)};
-  if (within_bounds)
-    gains.solver.message = "no gains within the gain bound " +
-                           brief(infeasible.question.bounds.beta) +
-                           ": the certificate needs it; raise synthesis.gain_bound";
+  gains.certificate = model::CertificateRecord{refuted.refutation->exact, refuted.refutation->omega,
+                                               refuted.refutation->digits,
+                                               named_multipliers(climb, refuted)};
+}
+
+/// What is known where neither a point nor a certificate decides.
+void note_undecided(const Climb& climb, model::Gains& gains) {
+  const Attempt& last = climb.last();
+  const auto& refutation = last.refutation;
+  const double margin =
+      last.question.goal == lmi::Goal::interior && !last.solution.x.empty()
+          ? lmi::interior_margin(last.solution)
+          : 0;
+  add_message(gains, "the largest margin found is " + brief(margin, 2) +
+                         (refutation && refutation->omega < 1
+                              ? ", and solutions, if any, do not survive a relative change of " +
+                                    brief(refutation->omega, 2) + " of the coefficients"
+                              : ""));
 }
 
 }  // namespace
 
 void conclude(const Climb& climb, model::Gains& gains) {
   gains.verdict = model::Verdict::undecided;
-  if (const Attempt* point = climb.point()) {
+  const Attempt* point = climb.point();
+  const Attempt* refuted = climb.refutation();
+  if (point != nullptr && (point->holds() || refuted == nullptr)) {
     gains.solver = record_of(*point);
     return accept_point(climb, *point, gains);
   }
-  bool within_bounds = false;
-  if (const Attempt* infeasible = climb.certificate(within_bounds)) {
-    gains.solver = record_of(*infeasible);
-    return accept_certificate(climb, *infeasible, within_bounds, gains);
+  if (refuted != nullptr) {
+    gains.solver = record_of(*refuted);
+    return accept_refutation(climb, *refuted, gains);
   }
-  const Attempt& own = climb.own();
-  const Attempt* margin = climb.find(Rung::margin);
-  gains.solver = record_of(margin != nullptr ? *margin : own);
-  if (margin != nullptr)
-    leave_undecided(gains, own.is_infeasible()
-                               ? "solutions, if any, are far larger than the data suggest"
-                               : "the largest margin is " + brief(own.largest_margin()) +
-                                     ", below the one asked for");
-  if (own.solution.status == sdp::Status::dual_infeasible)
-    leave_undecided(
-        gains,
-        "the objective is unbounded below: some direction of the unknowns lowers it without end");
+  gains.solver = record_of(climb.last());
+  if (climb.last().relaxation_refuted()) {
+    // What it is about is said by the plan (synthesize.cpp).
+    gains.certificate = model::CertificateRecord{false, climb.last().relaxed_omega, kDoubleDigits,
+                                                 named_multipliers(climb, climb.last()), ""};
+    return;
+  }
+  note_undecided(climb, gains);
 }
 
 }  // namespace gainsmith::design

@@ -1,6 +1,7 @@
 #include "design/elastic.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 #include <vector>
 
@@ -74,15 +75,15 @@ model::Instance with_inequalities(const model::Instance& instance,
 ByInequality scales_of(const model::Instance& instance) {
   const lmi::Inequalities inequalities(instance);
   const lmi::Lmi lmi = lmi::compile(inequalities);
-  const lmi::Formulation formulation =
-      lmi::formulate(lmi, {}, instance.design->synthesis, lmi::goal_of(lmi, {}));
+  const lmi::Balance balance = lmi::formulate_objective(lmi, {}, 0).balance;
   ByInequality scales;
   for (const Design::Inequality& inequality : instance.design->inequalities) {
     double& scale = scales[inequality.name];
     for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
       if (lmi.blocks[k].name == inequality.name ||
           lmi.blocks[k].name.starts_with(inequality.name + "."))
-        scale = std::max(scale, formulation.scales[k]);
+        for (int r = 0; r < lmi.blocks[k].size; ++r)
+          scale = std::max(scale, std::pow(balance.row(k, r), -2));
   }
   return scales;
 }

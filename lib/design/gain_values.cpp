@@ -1,12 +1,14 @@
 #include "design/gain_values.h"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include "lmi/affine.h"
 #include "model/stated.h"
+#include "numbers/dense.h"
 
 namespace gainsmith::design {
 
@@ -73,6 +75,38 @@ void add_gain_values(const lmi::Inequalities& inequalities, const numbers::Value
         {gain.name, gain.variable, kind, gain.formula.text,
          coefficients ? std::move(*coefficients) : std::vector<numbers::Matrix>{}});
   }
+}
+
+double largest_gain(const lmi::Inequalities& inequalities, const numbers::Values& values) {
+  constexpr int kPoints = 64;
+  double largest = 0;
+  const auto meet = [&](const expr::Program& program, const numbers::Values& at) {
+    try {
+      const numbers::Matrix gain = numbers::evaluate(program, at);
+      if (gain.size() > 0) largest = std::max(largest, numbers::singular_values(gain)[0]);
+    } catch (const expr::EvaluationError&) {
+      largest = std::numeric_limits<double>::infinity();
+    }
+  };
+  for (const model::Design::Gain& gain : inequalities.design().gains) {
+    const expr::Program program = inequalities.bodies.link(gain.formula.program);
+    if (!model::has_values(program, values, gain.variable)) continue;
+    if (gain.variable.empty() || !program.uses(gain.variable)) {
+      meet(program, values);
+      continue;
+    }
+    for (const lmi::Statement& statement : inequalities.statements)
+      for (const forall::Variable& variable : statement.domain) {
+        if (variable.name != gain.variable || !variable.is_interval()) continue;
+        numbers::Values at = values;
+        for (int k = 0; k <= kPoints; ++k) {
+          const double t = variable.low + (variable.high - variable.low) * k / kPoints;
+          at.insert_or_assign(variable.name, numbers::Matrix::Constant(1, 1, t));
+          meet(program, at);
+        }
+      }
+  }
+  return largest;
 }
 
 void add_report(const model::Instance& instance, model::Gains& gains) {

@@ -3,57 +3,78 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
 #include <utility>
 
 namespace gainsmith::design {
 
 /// When each rung is due, and what it asks.
 struct Rungs {
-  static constexpr double kSafety = 4;     ///< of a back-off, times what is short
   static constexpr double kTighter = 0.1;  ///< times the bound on gains
   static constexpr double kNear = 0.01;  ///< of the bound; a gain far below it is not limited by it
 
-  static bool always(const Climb&) { return true; }
-
-  static bool margin_is_open(const Climb& climb) {
-    const Attempt& own = climb.own();
-    return own.question.goal == lmi::Goal::feasibility &&
-           (own.is_infeasible() || (own.is_optimal() && !own.point));
+  static bool has_minimum(const Climb& climb) {
+    return lmi::has_minimum(climb.posed_.lmi, climb.bounds_);
   }
-
-  static bool bounds_may_decide(const Climb& climb) {
-    return infeasible(climb).is_infeasible() && !climb.bounds_.list.empty();
+  static bool nothing_holds(const Climb& climb) {
+    const Attempt* point = climb.point();
+    return (point == nullptr || !point->holds()) && climb.refutation() == nullptr;
   }
+  static bool is_bounded(const Climb& climb) { return !climb.bounds_.list.empty(); }
 
-  static bool is_short(const Climb& climb) { return shortfall(climb.own()) > 0; }
-
-  static bool is_near_bounds(const Climb& climb) {
-    const Attempt& point = *climb.point();
-    if (!climb.posed_.lmi.has_objective || !is_kept(point)) return false;
-    const auto bounds = lmi::reached_bounds(climb.bounds_, point.x);
+  static bool minimum_is_due(const Climb& climb) { return has_minimum(climb); }
+  static bool blended_is_due(const Climb& climb) {
+    const Attempt* minimum = climb.find(Rung::minimum);
+    const Attempt* inside = climb.find(Rung::inside);
+    return minimum != nullptr && !minimum->holds() && inside != nullptr && inside->holds();
+  }
+  static bool free_minimum_is_due(const Climb& climb) {
+    return is_bounded(climb) && has_minimum(climb) && nothing_holds(climb);
+  }
+  static bool free_inside_is_due(const Climb& climb) {
+    return is_bounded(climb) && nothing_holds(climb);
+  }
+  static bool tighter_is_due(const Climb& climb) {
+    const Attempt* point = climb.point();
+    if (point == nullptr || !point->holds() || !has_minimum(climb) || climb.is_free(*point))
+      return false;
+    const auto bounds = lmi::reached_bounds(climb.bounds_, point->x);
     return std::any_of(bounds.begin(), bounds.end(), [](const model::GainBound& bound) {
       return !bound.active && bound.reached > kNear * bound.bound;
     });
   }
 
-  static Question own(const Climb& climb) {
-    return {lmi::goal_of(climb.posed_.lmi, climb.bounds_), climb.bounds_};
+  static Attempt ask(const Climb& climb, Question question) {
+    return attempt(climb.posed_, std::move(question), climb.solve_);
   }
-  static Question margin(const Climb& climb) { return {lmi::Goal::certificate, climb.bounds_}; }
-  static Question free(const Climb& climb) { return {infeasible(climb).question.goal, {}}; }
-  static Question backed_off(const Climb& climb) {
-    return {climb.own().question.goal, climb.bounds_, kSafety * shortfall(climb.own())};
+  static Question objective(const Climb& climb, lmi::GainBounds bounds) {
+    return {lmi::Goal::objective, std::move(bounds), {"auto", 1e-8}, climb.posed_.choices().margin};
   }
-  static Question tighter(const Climb& climb) {
-    return {climb.own().question.goal,
-            lmi::gain_bounds(climb.posed_.inequalities, kTighter * climb.bounds_.beta), 0, false};
+  static Question interior(lmi::GainBounds bounds, Effort effort = {}) {
+    return {lmi::Goal::interior, std::move(bounds), std::move(effort), 0};
   }
 
-  /// The attempt with bounds that would be infeasible.
-  static const Attempt& infeasible(const Climb& climb) {
-    const Attempt* margin = climb.find(Rung::margin);
-    return margin != nullptr ? *margin : climb.own();
+  static std::optional<Attempt> minimum(const Climb& climb) {
+    return ask(climb, objective(climb, climb.bounds_));
+  }
+  static std::optional<Attempt> inside(const Climb& climb) {
+    return ask(climb, interior(climb.bounds_));
+  }
+  static std::optional<Attempt> blended(const Climb& climb) {
+    return design::blended(climb.posed_, *climb.find(Rung::minimum), *climb.find(Rung::inside));
+  }
+  static std::optional<Attempt> free_minimum(const Climb& climb) {
+    return ask(climb, objective(climb, {}));
+  }
+  static std::optional<Attempt> free_inside(const Climb& climb) { return ask(climb, interior({})); }
+  static std::optional<Attempt> in_31_digits(const Climb& climb) {
+    return ask(climb, interior({}, {"quad", 1e-22}));
+  }
+  static std::optional<Attempt> in_100_digits(const Climb& climb) {
+    return ask(climb, interior({}, {"100", 1e-40}));
+  }
+  static std::optional<Attempt> tighter(const Climb& climb) {
+    return ask(climb, objective(climb, lmi::gain_bounds(climb.posed_.inequalities,
+                                                        kTighter * climb.bounds_.beta)));
   }
 };
 
@@ -61,17 +82,19 @@ namespace {
 
 struct Row {
   Rung rung;
-  bool from_point;
   bool (*is_due)(const Climb&);
-  Question (*asks)(const Climb&);
+  std::optional<Attempt> (*tries)(const Climb&);
 };
 
-constexpr std::array<Row, 5> kLadder = {{
-    {Rung::own, false, Rungs::always, Rungs::own},
-    {Rung::margin, false, Rungs::margin_is_open, Rungs::margin},
-    {Rung::free, false, Rungs::bounds_may_decide, Rungs::free},
-    {Rung::backed_off, true, Rungs::is_short, Rungs::backed_off},
-    {Rung::tighter, true, Rungs::is_near_bounds, Rungs::tighter},
+constexpr std::array<Row, 8> kLadder = {{
+    {Rung::minimum, Rungs::minimum_is_due, Rungs::minimum},
+    {Rung::inside, Rungs::nothing_holds, Rungs::inside},
+    {Rung::blended, Rungs::blended_is_due, Rungs::blended},
+    {Rung::free_minimum, Rungs::free_minimum_is_due, Rungs::free_minimum},
+    {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside},
+    {Rung::in_31_digits, Rungs::nothing_holds, Rungs::in_31_digits},
+    {Rung::in_100_digits, Rungs::nothing_holds, Rungs::in_100_digits},
+    {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter},
 }};
 
 }  // namespace
@@ -79,18 +102,17 @@ constexpr std::array<Row, 5> kLadder = {{
 Climb::Climb(const Posed& posed, lmi::GainBounds bounds, Solve solve)
     : posed_(posed), bounds_(std::move(bounds)), solve_(std::move(solve)) {}
 
-void Climb::to_answer() { climb(false); }
+void Climb::to_point() { climb(false); }
 
-void Climb::from_point() {
-  if (point() != nullptr) climb(true);
-}
+void Climb::to_end() { climb(true); }
 
-void Climb::climb(bool from_point) {
+void Climb::climb(bool to_end) {
   using Clock = std::chrono::steady_clock;
   for (const Row& row : kLadder) {
-    if (row.from_point != from_point || find(row.rung) != nullptr || !row.is_due(*this)) continue;
+    if (!to_end && (point() != nullptr || refutation() != nullptr)) return;
+    if (find(row.rung) != nullptr || !row.is_due(*this)) continue;
     const auto start = Clock::now();
-    tried_.emplace(row.rung, attempt(posed_, row.asks(*this), solve_));
+    if (auto found = row.tries(*this)) tried_.emplace(row.rung, std::move(*found));
     seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
   }
 }
@@ -101,19 +123,34 @@ const Attempt* Climb::find(Rung rung) const {
 }
 
 const Attempt* Climb::point() const {
-  const Attempt* backed_off = find(Rung::backed_off);
-  if (backed_off != nullptr && backed_off->point) return backed_off;
-  return own().point ? &own() : nullptr;
+  // A minimum is worth more than a point inside; within the bounds more than without.
+  constexpr Rung kWorth[] = {Rung::minimum,     Rung::blended,      Rung::inside,
+                             Rung::free_minimum, Rung::free_inside, Rung::in_31_digits,
+                             Rung::in_100_digits};
+  const Attempt* first = nullptr;
+  for (const Rung rung : kWorth) {
+    const Attempt* attempt = find(rung);
+    if (attempt == nullptr || !attempt->point) continue;
+    if (attempt->holds()) return attempt;
+    if (first == nullptr) first = attempt;
+  }
+  return first;
 }
 
-const Attempt* Climb::certificate(bool& within_bounds) const {
-  const Attempt* free = find(Rung::free);
-  within_bounds = free != nullptr && !free->is_infeasible();
-  if (free != nullptr && free->is_infeasible()) return free;
-  const Attempt& bounded = Rungs::infeasible(*this);
-  // A certificate of a search for the largest margin may rest on the limits on x.
-  const bool limited = bounded.question.goal == lmi::Goal::feasibility;
-  return bounded.is_infeasible() && !limited ? &bounded : nullptr;
+const Attempt* Climb::refutation() const {
+  for (const auto& [rung, attempt] : tried_)
+    if (attempt.refuted()) return &attempt;
+  return nullptr;
+}
+
+const Attempt& Climb::last() const {
+  for (const Rung rung : {Rung::in_100_digits, Rung::in_31_digits, Rung::free_inside, Rung::inside})
+    if (const Attempt* attempt = find(rung)) return *attempt;
+  return tried_.begin()->second;
+}
+
+bool Climb::is_free(const Attempt& attempt) const {
+  return !bounds_.list.empty() && attempt.question.bounds.list.empty();
 }
 
 }  // namespace gainsmith::design

@@ -1,19 +1,19 @@
 // The attempts of a synthesis, in their order.
 //
-//   rung          asks                                 is tried after
-//   own           the problem's own goal               -
-//   margin        a certificate at the margin that     a search for the largest margin that found
-//                 was asked for                        none, or one too small: its own certificate
-//                                                      may rest on the limits on x
-//   free          the same without bounds on gains     an infeasible one with bounds, which are not
-//                                                      to decide
-//   (more points: an exchange grows by the points at which the solution fails, and begins again)
-//   backed off    more than the margin                 a point short of it by what the solver's
-//                                                      tolerance explains
-//   tighter       bounds ten times smaller             a yes with gains near their bounds: those
-//                                                      that shrink are limited by them alone
+//   rung            asks                                    is tried after
+//   minimum         the objective, within the gain bounds   -  (where it can have a minimum)
+//   inside          the largest margin, within the bounds   no minimum that holds
+//   blended         a point between the two                 both, the minimum not holding
+//   free minimum    the objective, gains of any size        nothing that holds within the bounds
+//   free inside     the largest margin, gains of any size   the same
+//   31 digits       the same in these digits                nothing that holds, nothing refuted
+//   100 digits      the same                                the same
+//   tighter         bounds ten times smaller                a yes with gains near their bounds: those
+//                                                           that shrink are limited by them alone
 //
-// Each rung is tried once at most and its record stays; what they mean together is conclude().
+// (An exchange grows by the points at which a solution fails, and begins again.) Each rung is tried
+// once at most and its record stays; what they mean together is conclude(). A no comes from a rung
+// without bounds.
 #pragma once
 
 #include <map>
@@ -23,7 +23,16 @@
 
 namespace gainsmith::design {
 
-enum class Rung { own, margin, free, backed_off, tighter };
+enum class Rung {
+  minimum,
+  inside,
+  blended,
+  free_minimum,
+  free_inside,
+  in_31_digits,
+  in_100_digits,
+  tighter
+};
 
 /// The attempts so far.
 class Climb {
@@ -31,27 +40,31 @@ class Climb {
   /// `bounds` are those of the problem.
   Climb(const Posed& posed, lmi::GainBounds bounds, Solve solve);
 
-  /// The rungs up to a point or a certificate.
-  void to_answer();
-  /// The rungs that improve on a point.
-  void from_point();
+  /// The rungs up to the first point, or the refutation.
+  void to_point();
+  /// All the others that are due.
+  void to_end();
 
   /// nullptr: not tried.
   const Attempt* find(Rung rung) const;
-  const Attempt& own() const { return tried_.at(Rung::own); }
-  /// The attempt whose point counts; nullptr without one.
+  /// The attempt whose point counts: the first that holds, otherwise the first with a point;
+  /// nullptr without one.
   const Attempt* point() const;
-  /// The attempt whose certificate counts; nullptr without one. With `within_bounds` it needs the
-  /// bounds on the gains.
-  const Attempt* certificate(bool& within_bounds) const;
+  /// The attempt that refutes the inequalities; nullptr without one.
+  const Attempt* refutation() const;
+  /// The last attempt without gain bounds, or with them when there is no other.
+  const Attempt& last() const;
+  /// Whether the point was found without the bounds of the problem.
+  bool is_free(const Attempt& attempt) const;
 
   const Posed& posed() const { return posed_; }
+  const lmi::GainBounds& bounds() const { return bounds_; }
   double seconds() const { return seconds_; }
 
  private:
   friend struct Rungs;
 
-  void climb(bool from_point);
+  void climb(bool to_end);
 
   const Posed posed_;
   lmi::GainBounds bounds_;
@@ -61,8 +74,8 @@ class Climb {
 };
 
 /// The verdict of the attempts, with the point or the certificate, its margins, bounds and
-/// messages. Verdicts come from margins as recomputed and from certificates as checked, never from
-/// the solver's word alone.
+/// messages. A yes is a check of the decimals that are written, a no a certificate that was checked
+/// on the decimals of the file; never the solver's own word.
 void conclude(const Climb& climb, model::Gains& gains);
 
 }  // namespace gainsmith::design

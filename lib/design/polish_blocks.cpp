@@ -1,5 +1,7 @@
 #include "design/polish_blocks.h"
 
+#include <algorithm>
+
 #include "numbers/dense.h"
 
 namespace gainsmith::design {
@@ -11,9 +13,15 @@ SmoothBlocks smooth_blocks(const model::Instance& instance) {
   SmoothBlocks result;
   result.layout = inequalities.unknowns;
   result.bounds = lmi::gain_bounds(inequalities, choices.gain_bound);
-  lmi::Goal goal = lmi::goal_of(lmi, result.bounds);
-  if (goal == lmi::Goal::feasibility) goal = lmi::Goal::certificate;
-  result.shifts = lmi::formulate(lmi, result.bounds, choices, goal).shifts;
+  const lmi::Formulation formulation =
+      lmi::formulate_objective(lmi, result.bounds, choices.margin);
+  // The shift is that of the row with the smallest: any is enough, since what is found is solved again.
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+    double unit = formulation.balance.row(k, 0);
+    for (int r = 1; r < lmi.blocks[k].size; ++r)
+      unit = std::max(unit, formulation.balance.row(k, r));
+    result.shifts.push_back(lmi.blocks[k].strict ? choices.margin / (unit * unit) : 0.0);
+  }
   result.list = lmi.blocks;
   result.list.insert(result.list.end(), result.bounds.blocks.begin(), result.bounds.blocks.end());
   result.shifts.resize(result.list.size(), 0.0);

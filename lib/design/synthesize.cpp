@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
+#include "base/number.h"
 #include "base/version.h"
 #include "design/exchange.h"
 #include "design/gain_values.h"
@@ -54,17 +55,23 @@ void report_ways(const forall::Plan& plan, int rounds, bool searched, model::Gai
       text += !searched ? ", bounded between them" : ", searched between them";
     add_message(gains, text);
   }
+  if (!gains.certificate || gains.certificate->is_about_problem()) return;
   const bool exact = std::all_of(plan.inequalities.begin(), plan.inequalities.end(),
                                  [](const forall::Imposed& imposed) { return imposed.exact; });
-  if (gains.verdict != model::Verdict::no || exact) return;
+  if (exact) {
+    // A certificate of the very inequalities that is not sharp enough to say no.
+    add_message(gains, "a certificate in double speaks against any solution, but more digits do not "
+                       "confirm it: solutions, if any, do not survive a relative change of " +
+                           brief(gains.certificate->omega, 2) + " of the coefficients");
+    gains.certificate.reset();
+    return;
+  }
   gains.certificate->about = plan.uses_vertex_gains() ? "vertices" : "hull";
   add_message(gains, plan.uses_vertex_gains()
-                         ? "the certificate is about the test at the vertices of the box, which is "
-                           "only sufficient; the way exchange with a polynomial may still find a "
-                           "solution"
-                         : "the certificate is about the hull, which is larger than what the "
-                           "variables reach; the way exchange or more slices may still find a "
-                           "solution");
+                         ? "no solution of the test at the vertices of the box, which is only "
+                           "sufficient; synthesis.forall: exchange with a polynomial may find one"
+                         : "no solution for the hull, which is larger than what the variables reach; "
+                           "synthesis.forall: exchange, or more synthesis.slices, may find one");
 }
 
 /// Gains whose formulas use nothing but data are known in any case, the others when the verdict is
@@ -79,14 +86,6 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
   add_report(inequalities.instance, gains);
 }
 
-/// A certificate excludes solutions with entries below 1/residual in size: only far beyond what can
-/// be built does that count as infeasible.
-sdp::Options with_sharp_certificates(sdp::Options options) {
-  constexpr double kCertificateResidual = 1e-12;
-  options.certificate_tolerance = std::min(options.certificate_tolerance, kCertificateResidual);
-  return options;
-}
-
 }  // namespace
 
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options) {
@@ -98,23 +97,34 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   const auto bounds = lmi::gain_bounds(inequalities, inequalities.design().synthesis.gain_bound);
   model::Gains gains = stated(instance);
   refuse_zero_solution(inequalities.design(), lmi);
-  const sdp::Options solver = with_sharp_certificates(options);
+  const Solve solve = [&](const sdp::Problem& problem, const Effort& effort) {
+    sdp::Options solver = options;
+    if (effort.precision != "auto") solver.precision = effort.precision;
+    solver.tolerance = std::min(solver.tolerance, effort.tolerance);
+    return sdp::solve(problem, solver);
+  };
   double compile_seconds = seconds_since(start);
   double solve_seconds = 0;
   for (int round = 1;; ++round) {
-    Climb climb({inequalities, plan, lmi}, bounds,
-                [&](const sdp::Problem& problem) { return sdp::solve(problem, solver); });
-    climb.to_answer();
-    if (climb.own().point && round < kMostRounds && grow(plan, inequalities, lmi, climb.own())) {
-      solve_seconds += climb.seconds();
-      gains.margins = climb.own().margins.margins;
-      const auto again = Clock::now();
+    Climb climb({inequalities, plan, lmi}, bounds, solve);
+    climb.to_point();
+    const auto grown = [&] {
+      const Attempt* point = climb.point();
+      return point != nullptr && !point->holds() && round < kMostRounds &&
+             grow(plan, inequalities, lmi, *point);
+    };
+    bool again = grown();
+    if (!again) {
+      climb.to_end();
+      again = grown();
+    }
+    solve_seconds += climb.seconds();
+    if (again) {
+      const auto compiling = Clock::now();
       lmi = lmi::compile(inequalities, plan);
-      compile_seconds += seconds_since(again);
+      compile_seconds += seconds_since(compiling);
       continue;
     }
-    climb.from_point();
-    solve_seconds += climb.seconds();
     conclude(climb, gains);
     const Attempt* point = climb.point();
     report_ways(plan, round, point != nullptr && point->margins.searched, gains);
@@ -136,7 +146,9 @@ sdp::Problem semidefinite_program(const model::Instance& instance) {
   const model::SynthesisOptions& choices = inequalities.design().synthesis;
   const lmi::Lmi lmi = lmi::compile(inequalities);
   const lmi::GainBounds bounds = lmi::gain_bounds(inequalities, choices.gain_bound);
-  return lmi::formulate(lmi, bounds, choices, lmi::goal_of(lmi, bounds)).problem;
+  if (lmi::has_minimum(lmi, bounds))
+    return lmi::formulate_objective(lmi, bounds, choices.margin).problem;
+  return lmi::formulate_interior(lmi, bounds, {}).problem;
 }
 
 }  // namespace gainsmith::design

@@ -11,14 +11,11 @@ namespace gainsmith::design {
 /// Poses the inequalities of the instance, climbs the ladder of attempts (ladder.h) and reads the
 /// gains back.
 ///
-/// verdict yes: the solver converged, every inequality holds at the matrices as written (margins
-/// recomputed in double, exchanges bounded between their points), and strict ones keep the margin
-/// that was asked for up to 1 %.
-/// verdict no: a Farkas certificate that was checked on the program's data excludes every solution
-/// that keeps the margin and has entries below 1e12 times the size that the data set (of a
-/// homogeneous problem: every solution with a relative margin above 1e-12); it is stored with its
-/// multipliers. When only the gain bound makes it so, the message says so.
-/// verdict undecided: neither, with the cause. Then only the gains whose formulas use nothing but
+/// verdict yes: every inequality holds at the matrices as written, for all values of its variables.
+/// verdict no: a certificate that was checked on the decimals of the file excludes every solution of
+/// the inequalities, of any size, without margins or bounds (lmi/refutation.h); it is stored with its
+/// multipliers.
+/// verdict undecided: neither, with what is known. Then only the gains whose formulas use nothing but
 /// data are given.
 ///
 /// InputError for what cannot be posed.

@@ -103,6 +103,35 @@ Range range(const Atom& atom, double begin, double end) {
   return atom.power == 0 ? wave_range(atom, begin, end) : product_range(atom, begin, end);
 }
 
+std::optional<double> place_of(const Atom& atom, double value, double begin, double end) {
+  constexpr int kMostExtrema = 1000;
+  constexpr double kSame = 1e-9;
+  std::vector<double> places = {begin, end};
+  if (atom.frequency == 0) {
+    if (atom.rate != 0) places.push_back(-atom.power / atom.rate);
+  } else if (atom.power == 0) {
+    // a cos(bt) - b sin(bt) = 0, or a sin(bt) + b cos(bt) = 0.
+    const double phase = atom.sine ? std::atan2(-atom.frequency, atom.rate)
+                                   : std::atan2(atom.rate, atom.frequency);
+    const double half = std::acos(-1.0) / atom.frequency;
+    const double first = std::ceil((begin - phase / atom.frequency) / half);
+    for (int k = 0; k < kMostExtrema; ++k) {
+      const double t = phase / atom.frequency + (first + k) * half;
+      if (!(t < end)) break;
+      places.push_back(t);
+    }
+  }
+  double best = begin;
+  double size = 0;
+  for (const double t : places) {
+    if (!(t >= begin && t <= end)) continue;
+    size = std::max(size, std::abs(evaluate(atom, t)));
+    if (std::abs(evaluate(atom, t) - value) < std::abs(evaluate(atom, best) - value)) best = t;
+  }
+  if (!(std::abs(evaluate(atom, best) - value) <= kSame * size)) return std::nullopt;
+  return best;
+}
+
 std::vector<std::pair<double, Atom>> derivative(const Atom& atom) {
   std::vector<std::pair<double, Atom>> terms;
   if (atom.power > 0) {

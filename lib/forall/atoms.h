@@ -6,6 +6,7 @@
 // if it is so at the vertices of the box.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -41,6 +42,10 @@ struct Range {
 /// for b = 0 and for k = 0, a bound from outside (within a few percent of a piece of 1/64 half
 /// wave) otherwise.
 Range range(const Atom& atom, double begin, double end);
+
+/// A t in [begin, end] with theta(t) = value, one of the ends or an extremum between them; none when
+/// none of these has it, up to 1e-9 of the largest value there.
+std::optional<double> place_of(const Atom& atom, double value, double begin, double end);
 
 /// d theta/dt as a combination of atoms.
 std::vector<std::pair<double, Atom>> derivative(const Atom& atom);

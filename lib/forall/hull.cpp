@@ -17,6 +17,7 @@ struct Corners {
   std::vector<Factor> factors;
   std::vector<std::vector<double>> values;  ///< [vertex][factor]
   std::vector<std::string> labels;
+  std::vector<std::optional<numbers::Matrix>> places;  ///< of the variable, where they are known
   bool exact = true;
 };
 
@@ -44,8 +45,9 @@ void add_box(Corners& corners, const Variable& variable, double low, double high
 
 Corners interval_corners(const Variable& variable, std::vector<Factor> factors, int slices,
                          const Place& place) {
-  Corners corners{std::move(factors), {}, {}, true};
-  if (corners.factors.empty()) return {{}, {{}}, {""}, true};
+  Corners corners{std::move(factors), {}, {}, {}, true};
+  if (corners.factors.empty())
+    return {{}, {{}}, {""}, {numbers::Matrix::Constant(1, 1, variable.low)}, true};
   const auto is_bounded_from_outside = [](const Factor& factor) {
     return factor.atom.power > 0 && factor.atom.frequency != 0;
   };
@@ -58,18 +60,26 @@ Corners interval_corners(const Variable& variable, std::vector<Factor> factors, 
     add_box(corners, variable, low, high, place);
     if (corners.values.size() > kMostVertices) refuse_vertices(place);
   }
+  for (const std::vector<double>& values : corners.values) {
+    const auto found = corners.exact ? place_of(corners.factors[0].atom, values[0], variable.low,
+                                                variable.high)
+                                     : std::nullopt;
+    std::optional<numbers::Matrix>& at = corners.places.emplace_back();
+    if (found) at = numbers::Matrix::Constant(1, 1, *found);
+  }
   return corners;
 }
 
 Corners polytope_corners(const Variable& variable, std::vector<Factor> factors) {
-  Corners corners{std::move(factors), {}, {}, true};
-  if (corners.factors.empty()) return {{}, {{}}, {""}, true};
+  Corners corners{std::move(factors), {}, {}, {}, true};
+  if (corners.factors.empty()) return {{}, {{}}, {""}, {variable.elements.front()}, true};
   for (std::size_t j = 0; j < variable.elements.size(); ++j) {
     std::vector<double> values;
     for (const Factor& factor : corners.factors)
       values.push_back(factor.weight == static_cast<int>(j) ? 1.0 : 0.0);
     corners.values.push_back(std::move(values));
     corners.labels.push_back(variable.labels[j]);
+    corners.places.emplace_back(variable.elements[j]);
   }
   return corners;
 }
@@ -91,12 +101,16 @@ std::vector<Vertex> all_vertices(const std::vector<Corners>& corners,
   std::vector<Vertex> vertices;
   for (std::size_t at = 0; at < count; ++at) {
     Vertex vertex;
+    vertex.point.emplace();
     std::vector<std::size_t> choice;
     for (std::size_t v = 0, rest = at; v < corners.size(); ++v) {
       choice.push_back(rest % corners[v].values.size());
       rest /= corners[v].values.size();
       const std::string& label = corners[v].labels[choice[v]];
       vertex.label += (vertex.label.empty() || label.empty() ? "" : ", ") + label;
+      const auto& value = corners[v].places[choice[v]];
+      if (!value) vertex.point.reset();
+      if (vertex.point) vertex.point->values.insert_or_assign(monomials.variables()[v].name, *value);
     }
     for (int index = 0; index < monomials.size(); ++index) {
       double value = 1;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -14,6 +15,9 @@ namespace gainsmith::forall {
 struct Vertex {
   std::vector<double> values;
   std::string label;  ///< "tau = 0.7", "cos(2*tau) = 1, sin(2*tau) = 0", "A = A2"
+  /// The values of the variables there, when it is a point of the domain: up to rounding where an
+  /// interval's function has its extremum inside.
+  std::optional<Point> point;
 };
 
 struct Hull {

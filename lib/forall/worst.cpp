@@ -15,8 +15,8 @@ namespace {
 class Family {
  public:
   Family(const expr::Program& program, const numbers::Values& known, const Point& fixed,
-         const std::vector<const Variable*>& axes)
-      : evaluator_(program), moving_(axes.size(), numbers::Matrix::Zero(1, 1)) {
+         const std::vector<const Variable*>& axes, const numbers::Vector& rows)
+      : evaluator_(program), rows_(rows), moving_(axes.size(), numbers::Matrix::Zero(1, 1)) {
     for (const expr::Input& input : program.inputs) {
       const auto chosen = fixed.values.find(input.name);
       if (chosen != fixed.values.end()) {
@@ -31,7 +31,8 @@ class Family {
   numbers::Matrix matrix(const std::vector<double>& at) {
     for (std::size_t i = 0; i < at.size(); ++i) moving_[i](0, 0) = at[i];
     const numbers::Matrix& value = evaluator_.run();
-    return 0.5 * (value + value.transpose());
+    if (rows_.size() == 0) return 0.5 * (value + value.transpose());
+    return 0.5 * rows_.asDiagonal() * (value + value.transpose()) * rows_.asDiagonal();
   }
 
   double value(const std::vector<double>& at) {
@@ -56,6 +57,7 @@ class Family {
 
  private:
   expr::Evaluator<numbers::RealAlgebra> evaluator_;
+  const numbers::Vector& rows_;
   std::vector<numbers::Matrix> moving_;
   numbers::SymmetricEigen solver_;
 };
@@ -94,16 +96,24 @@ void add_minima(Family& family, const Point& fixed, const std::vector<const Vari
 }  // namespace
 
 Minima local_minima(const expr::Program& difference, const Domain& domain,
-                    const numbers::Values& known) {
+                    const numbers::Values& known, const numbers::Vector& rows) {
   Minima minima;
   const auto axes = intervals(domain);
   for (const Point& fixed : finite_points(domain)) {
-    Family family(difference, known, fixed, axes);
+    Family family(difference, known, fixed, axes, rows);
     add_minima(family, fixed, axes, minima);
   }
   std::stable_sort(minima.list.begin(), minima.list.end(),
                    [](const Minimum& a, const Minimum& b) { return a.value < b.value; });
   return minima;
+}
+
+numbers::Matrix matrix_at(const expr::Program& difference, const Point& point,
+                          const numbers::Values& known) {
+  numbers::Values values = known;
+  for (const auto& [name, matrix] : point.values) values.insert_or_assign(name, matrix);
+  const numbers::Matrix value = numbers::evaluate(difference, values);
+  return 0.5 * (value + value.transpose());
 }
 
 }  // namespace gainsmith::forall

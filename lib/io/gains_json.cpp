@@ -58,7 +58,7 @@ Json margin_json(const model::Margin& margin) {
   return {{"name", margin.name},         {"strict", margin.strict},
           {"holds", margin.holds},       {"reached", margin.reached},
           {"required", margin.required}, {"smallest_eigenvalue", margin.smallest_eigenvalue},
-          {"scale", margin.scale},       {"worst_point", margin.worst_point}};
+          {"worst_point", margin.worst_point}};
 }
 
 Json bound_json(const model::GainBound& bound) {
@@ -81,12 +81,10 @@ Json gain_function_json(const model::Gains& gains, const model::GainFunction& ga
 
 Json certificate_json(const model::Gains& gains, const std::string& key,
                       const model::CertificateRecord& certificate) {
-  return {{"checked", certificate.checked},
+  return {{"exact", certificate.exact},
           {"about", certificate.about},
-          {"value", certificate.value},
-          {"residual", certificate.residual},
-          {"min_eigenvalue", certificate.min_eigenvalue},
-          {"excluded_radius", finite_or_null(certificate.excluded_radius)},
+          {"omega", certificate.omega},
+          {"digits", certificate.digits},
           {"multipliers", matrices_json(gains, key + ".multipliers", certificate.multipliers)}};
 }
 
@@ -173,17 +171,12 @@ model::Margin margin_of(const JsonReader& reader) {
           reader.at("reached").number(),
           reader.at("required").number(),
           reader.at("smallest_eigenvalue").number(),
-          reader.at("scale").number(),
           reader.at("worst_point").text(),
           reader.at("holds").truth()};
 }
 
 model::CertificateRecord certificate_of(const JsonReader& reader, model::Gains& gains) {
-  return {reader.at("value").number(),
-          reader.at("residual").number(),
-          reader.at("min_eigenvalue").number(),
-          reader.at("excluded_radius").number_or_infinity(),
-          reader.at("checked").truth(),
+  return {reader.at("exact").truth(), reader.at("omega").number(), reader.at("digits").whole(),
           matrices_of(reader.at("multipliers"), gains),
           reader.has("about") ? reader.at("about").text() : "problem"};
 }

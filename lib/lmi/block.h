@@ -1,10 +1,12 @@
 // From a matrix inequality as text to blocks  B(x) = B_0 + sum_i x_i B_i  that must be >= 0.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "forall/domain.h"
 #include "lmi/affine.h"
 #include "lmi/unknowns.h"
 
@@ -16,6 +18,11 @@ struct Block {
   std::string point;   ///< "tau = 0.7", "cos(2*tau) = 1"; empty without forall
   std::size_t at = 0;  ///< which of the points it was imposed at, see forall::Imposed
   bool strict = true;
+  std::size_t inequality = 0;  ///< its index in the method
+  std::size_t comparison = 0;  ///< of its chain
+  /// The values of all variables there. None: it stands for no point of the domain, as a corner of a
+  /// box that the functions of a variable do not reach.
+  std::optional<forall::Point> where;
   int size = 0;
   std::vector<std::pair<int, Sparse>> terms;
   /// b: largest |element| of B_0; c: largest |element| of the other B_i.

@@ -79,10 +79,15 @@ class Compiler {
         forall::hull_of(monomials_in(form), monomials, slices_, stated.that_place);
     imposed.exact &= hull.exact;
     std::vector<Block> blocks;
-    for (const forall::Vertex& vertex : hull.vertices)
-      blocks.push_back(block_of(at_vertex(form, vertex.values), comparison.name,
-                                joined(point.label, vertex.label), comparison.strict,
-                                stated.that_place));
+    for (const forall::Vertex& vertex : hull.vertices) {
+      Block block = block_of(at_vertex(form, vertex.values), comparison.name,
+                             joined(point.label, vertex.label), comparison.strict,
+                             stated.that_place);
+      block.comparison = k;
+      block.where = vertex.point;
+      if (block.where) block.where->values.insert(point.values.begin(), point.values.end());
+      blocks.push_back(std::move(block));
+    }
     return blocks;
   }
 
@@ -125,7 +130,10 @@ Lmi compile(const Inequalities& inequalities, forall::Plan& plan) {
         imposed.way == model::Way::vertex_gains
             ? vertex_blocks(inequalities, statement)
             : Compiler(inequalities, statement, plan.slices).blocks(imposed);
-    for (Block& block : blocks) lmi.blocks.push_back(std::move(block));
+    for (Block& block : blocks) {
+      block.inequality = k;
+      lmi.blocks.push_back(std::move(block));
+    }
   }
   set_objective(inequalities, lmi);
   return lmi;

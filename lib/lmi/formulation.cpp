@@ -1,240 +1,185 @@
 #include "lmi/formulation.h"
 
 #include <algorithm>
-#include <limits>
-#include <numeric>
-#include <tuple>
+#include <cmath>
 #include <utility>
+
+#include "lmi/assembler.h"
+#include "lmi/correlation.h"
 
 namespace gainsmith::lmi {
 
 namespace {
 
-/// On unknowns when nothing else bounds them, relative to the size that the data set.
-constexpr double kLimit = 1e6;
-
-/// kappa; 1 when no block has constant data.
-double data_size(const Lmi& lmi) {
-  double kappa = std::numeric_limits<double>::infinity();
-  for (const Block& block : lmi.blocks)
-    if (block.constant_size > 0 && block.coefficient_size > 0)
-      kappa = std::min(kappa, block.constant_size / block.coefficient_size);
-  return kappa == std::numeric_limits<double>::infinity() ? 1 : kappa;
+std::vector<const Block*> all_blocks(const Lmi& lmi, const GainBounds& bounds) {
+  std::vector<const Block*> blocks;
+  for (const auto* list : {&lmi.blocks, &bounds.blocks})
+    for (const Block& block : *list) blocks.push_back(&block);
+  return blocks;
 }
 
-std::vector<double> scales_of(const Lmi& lmi, bool homogeneous) {
-  const double kappa = data_size(lmi);
-  std::vector<double> scales;
-  for (const Block& block : lmi.blocks) {
-    const double scale = homogeneous
-                             ? block.coefficient_size
-                             : std::max(block.constant_size, kappa * block.coefficient_size);
-    scales.push_back(scale > 0 ? scale : 1);
-  }
-  // The points of one inequality share the largest scale among them, so that it has one margin.
-  for (std::size_t first = 0; first < scales.size();) {
-    std::size_t end = first;
-    while (end < scales.size() && lmi.blocks[end].name == lmi.blocks[first].name) ++end;
-    const auto from = scales.begin() + static_cast<std::ptrdiff_t>(first);
-    const auto to = scales.begin() + static_cast<std::ptrdiff_t>(end);
-    std::fill(from, to, *std::max_element(from, to));
-    first = end;
-  }
-  return scales;
+bool is_homogeneous(const Lmi& lmi, const GainBounds& bounds) {
+  return is_homogeneous(lmi.blocks) && is_homogeneous(bounds.blocks);
 }
 
-/// Fills an SDP in the SDPA form X = sum x_i F_i - F_0 from blocks B(x) = B_0 + sum x_i B_i >=
-/// shift, all constants divided by `unit`.
-class Assembler {
- public:
-  Assembler(int variables, double unit) : unit_(unit) {
-    problem_.c.assign(static_cast<std::size_t>(variables), 0.0);
-    problem_.f.resize(static_cast<std::size_t>(variables) + 1);
+/// S B(x) S in balanced units, at the variables y of the program; the constant part times `one`.
+numbers::Matrix balanced_value(const Block& block, std::size_t at, const Balance& balance,
+                               const std::vector<double>& y, double one) {
+  numbers::Matrix value = numbers::Matrix::Zero(block.size, block.size);
+  for (const auto& [i, matrix] : block.terms) {
+    const double x = i == 0 ? one : y[static_cast<std::size_t>(i) - 1] * balance.unit(i);
+    add_multiple(value, x, matrix);
   }
-
-  int add_block(int size, bool diagonal) {
-    problem_.blocks.push_back({size, diagonal});
-    return static_cast<int>(problem_.blocks.size()) - 1;
+  for (int r = 0; r < block.size; ++r) {
+    value.row(r) *= balance.row(at, r);
+    value.col(r) *= balance.row(at, r);
   }
+  return value;
+}
 
-  /// B(x) >= shift I, restricted to the rows `kept`.
-  void add(const Block& block, const std::vector<int>& kept, double shift) {
-    constexpr int kDropped = -1;
-    std::vector<int> moved(static_cast<std::size_t>(block.size), kDropped);
-    for (std::size_t k = 0; k < kept.size(); ++k)
-      moved[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
-    const int size = static_cast<int>(kept.size());
-    const int at = add_block(size, false);
-    for (const auto& [i, matrix] : block.terms) {
-      for (int k = 0; k < matrix.outerSize(); ++k) {
-        for (Sparse::InnerIterator it(matrix, k); it; ++it) {
-          const int row = moved[static_cast<std::size_t>(it.row())];
-          const int column = moved[static_cast<std::size_t>(it.col())];
-          if (row != kDropped && column != kDropped && row <= column)
-            add_entry(i, at, row, column, i == 0 ? it.value() / unit_ : it.value());
-        }
+/// N - sum_k tr(D_k^-1 B_k(x)) - x_0 / D_0 >= 0.
+void add_trace_limit(const std::vector<const Block*>& blocks, const Balance& balance,
+                     const Round& round, int constant, int rows, Assembler& assembler) {
+  const int limit = assembler.add_block(1, true);
+  assembler.add_entry(0, limit, 0, 0, rows);
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    for (const auto& [i, matrix] : blocks[k]->terms)
+      for (int r = 0; r < blocks[k]->size; ++r) {
+        const double d = round.diagonals.empty() ? 1 : round.diagonals[k][r];
+        assembler.add_entry(i == 0 ? constant : i, limit, 0, 0,
+                            -matrix.coeff(r, r) * balance.factor(k, r, r, i) / d);
       }
-    }
-    add_identity(0, at, size, -shift / unit_);
-  }
-
-  /// The coefficient of variable i (0: the constant B_0) at one place of the upper triangle.
-  void add_entry(int i, int block, int row, int column, double value) {
-    if (value == 0) return;
-    problem_.f[static_cast<std::size_t>(i)].push_back(
-        {block, row, column, i == 0 ? -value : value});
-  }
-
-  void add_identity(int i, int block, int size, double factor) {
-    for (int k = 0; k < size; ++k) add_entry(i, block, k, k, factor);
-  }
-
-  void set_cost(int i, double cost) { problem_.c[static_cast<std::size_t>(i) - 1] = cost; }
-
-  /// The problem with entries of one place merged.
-  sdp::Problem take() {
-    for (auto& entries : problem_.f) merge(entries);
-    return std::move(problem_);
-  }
-
- private:
-  static void merge(std::vector<sdp::Entry>& entries) {
-    const auto key = [](const sdp::Entry& e) { return std::tuple(e.block, e.row, e.column); };
-    std::stable_sort(entries.begin(), entries.end(),
-                     [&](const sdp::Entry& a, const sdp::Entry& b) { return key(a) < key(b); });
-    std::vector<sdp::Entry> merged;
-    for (const sdp::Entry& entry : entries) {
-      if (!merged.empty() && key(merged.back()) == key(entry)) {
-        merged.back().value += entry.value;
-      } else {
-        merged.push_back(entry);
-      }
-    }
-    std::erase_if(merged, [](const sdp::Entry& entry) { return entry.value == 0; });
-    entries = std::move(merged);
-  }
-
-  double unit_;
-  sdp::Problem problem_;
-};
-
-std::vector<int> all_rows(const Block& block) {
-  std::vector<int> rows(static_cast<std::size_t>(block.size));
-  std::iota(rows.begin(), rows.end(), 0);
-  return rows;
-}
-
-/// -r <= x_i <= r with r the variable `size_variable`, or the constant `limit` when it is 0.
-void add_limits(Assembler& assembler, int m, int size_variable, double limit) {
-  if (m == 0) return;  // a method without unknowns
-  const int at = assembler.add_block(2 * m, true);
-  for (int i = 1; i <= m; ++i) {
-    for (int side = 0; side < 2; ++side) {
-      const int row = 2 * (i - 1) + side;
-      assembler.add_entry(i, at, row, row, side == 0 ? 1.0 : -1.0);
-      assembler.add_entry(size_variable, at, row, row, size_variable == 0 ? limit : 1.0);
-    }
-  }
-}
-
-/// t <= 1.
-void add_cap(Assembler& assembler, int variable) {
-  const int at = assembler.add_block(1, true);
-  assembler.add_entry(0, at, 0, 0, 1.0);
-  assembler.add_entry(variable, at, 0, 0, -1.0);
+  if (constant > 0) assembler.add_entry(constant, limit, 0, 0, -1 / round.constant);
 }
 
 }  // namespace
 
-Goal goal_of(const Lmi& lmi, const GainBounds& bounds) {
-  const bool homogeneous = is_homogeneous(lmi.blocks) && is_homogeneous(bounds.blocks);
-  if (lmi.has_objective) return homogeneous ? Goal::normalised_objective : Goal::bounded_objective;
-  return homogeneous ? Goal::homogeneous_feasibility : Goal::feasibility;
+bool has_minimum(const Lmi& lmi, const GainBounds& bounds) {
+  return lmi.has_objective && !is_homogeneous(lmi, bounds);
 }
 
-Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
-                      const model::SynthesisOptions& options, Goal goal, double backoff) {
+Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double shift) {
   Formulation result;
-  result.goal = goal;
-  result.margin = options.margin;
-  result.scales = scales_of(lmi, result.homogeneous());
+  result.shift = shift;
+  const auto blocks = all_blocks(lmi, bounds);
+  const int variables = lmi.unknowns + bounds.scalars;
+  result.balance = balance(blocks, variables, lmi.objective);
   std::vector<const Block*> bound_blocks;
   for (const Block& block : bounds.blocks) bound_blocks.push_back(&block);
   result.releases = find_releases(lmi, bound_blocks);
-  const int m = lmi.unknowns;
-  const bool extra = goal == Goal::homogeneous_feasibility || goal == Goal::feasibility;
-  const int own = m + bounds.scalars + 1;  // the goal's own variable, when it has one
-  result.unit = result.homogeneous() ? 1.0 : data_size(lmi);
-  Assembler assembler(extra ? own : own - 1, result.unit);
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
-    const Block& block = lmi.blocks[k];
-    const double unit = block.strict ? result.scales[k] : 0.0;
-    const bool variable_margin = goal == Goal::feasibility;
-    result.shifts.push_back(
-        variable_margin ? 0.0 : unit * result.strict_margin() + backoff * result.scales[k]);
-    assembler.add(block, result.releases.kept[k], result.shifts.back());
-    if (variable_margin && block.strict)
-      assembler.add_identity(own, static_cast<int>(k), block.size, -unit / result.unit);
+  Assembler assembler(variables, result.balance);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const bool own = k < lmi.blocks.size();
+    const auto& kept = own ? result.releases.kept[k] : all_rows(*blocks[k]);
+    const int added = assembler.add(*blocks[k], k, kept, 0, 1);
+    if (own && blocks[k]->strict)
+      for (int r = 0; r < static_cast<int>(kept.size()); ++r)
+        assembler.add_entry(0, added, r, r, -shift);
   }
-  for (const Block& block : bounds.blocks) assembler.add(block, all_rows(block), 0);
-  if (goal == Goal::homogeneous_feasibility) {
-    add_limits(assembler, m, own, 0);
-    assembler.set_cost(own, 1);
-  } else if (goal == Goal::feasibility) {
-    add_limits(assembler, m, 0, kLimit);
-    add_cap(assembler, own);
-    assembler.set_cost(own, -1);
-  } else if (goal != Goal::certificate) {
-    for (int i = 1; i <= m; ++i)
-      assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1]);
-  }
+  for (int i = 1; lmi.has_objective && i <= lmi.unknowns; ++i)
+    assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1] * result.balance.unit(i));
   result.problem = assembler.take();
   return result;
 }
 
+Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round) {
+  Formulation result;
+  result.goal = Goal::interior;
+  result.homogenised = !is_homogeneous(lmi, bounds);
+  const auto blocks = all_blocks(lmi, bounds);
+  const int own = lmi.unknowns + bounds.scalars;
+  const int constant = result.homogenised ? own + 1 : 0;
+  const int margin = own + (result.homogenised ? 2 : 1);
+  result.balance = balance(blocks, own, {});
+  Assembler assembler(margin, result.balance);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const int added =
+        assembler.add(*blocks[k], k, all_rows(*blocks[k]), constant, 1 - round.margin);
+    for (int r = 0; r < blocks[k]->size; ++r)
+      assembler.add_entry(margin, added, r, r,
+                          round.diagonals.empty() ? -1 : -round.diagonals[k][r]);
+    result.rows += blocks[k]->size;
+  }
+  if (result.homogenised) {
+    const int added = assembler.add_block(1, true);
+    assembler.add_entry(constant, added, 0, 0, 1 - round.margin);
+    assembler.add_entry(margin, added, 0, 0, -round.constant);
+    ++result.rows;
+  }
+  add_trace_limit(blocks, result.balance, round, constant, result.rows, assembler);
+  assembler.set_cost(margin, -1);
+  result.problem = assembler.take();
+  return result;
+}
+
+double interior_margin(const sdp::Solution& solution) { return solution.x.back(); }
+
 std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
                               const sdp::Solution& solution) {
+  const bool homogenised = formulation.homogenised;
+  const double one = homogenised ? solution.x[solution.x.size() - 2] : 1;
   std::vector<double> x = solution.x;
   x.resize(static_cast<std::size_t>(lmi.unknowns));
-  for (double& value : x) value *= formulation.unit;
-  std::vector<double> required;
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
-    required.push_back(lmi.blocks[k].strict ? formulation.scales[k] * formulation.strict_margin()
-                                            : 0.0);
-  restore(lmi, formulation.releases, required, x);
+  for (int i = 1; i <= lmi.unknowns; ++i) {
+    double& value = x[static_cast<std::size_t>(i) - 1];
+    value = value / one * formulation.balance.unit(i);
+  }
+  if (formulation.goal == Goal::objective) restore(lmi, formulation.releases, formulation.balance, x);
   return x;
+}
+
+std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
+                                const Formulation& formulation, const sdp::Solution& solution) {
+  const auto blocks = all_blocks(lmi, bounds);
+  const double one = formulation.homogenised ? solution.x[solution.x.size() - 2] : 1;
+  Round round;
+  round.margin = 1;
+  round.constant = one;
+  if (!(one > 0)) return std::nullopt;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const numbers::Matrix value =
+        balanced_value(*blocks[k], k, formulation.balance, solution.x, one);
+    const double found = correlation_margin(value);
+    if (!(found > 0)) return std::nullopt;
+    round.margin = std::min(round.margin, found);
+    round.diagonals.push_back(value.diagonal());
+  }
+  return round;
 }
 
 double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
                              const sdp::Solution& solution) {
   // F_0 holds the shifts on the diagonals: take them out again.
-  double bound = formulation.unit * solution.dual_objective + lmi.objective_constant;
+  double bound = solution.dual_objective + lmi.objective_constant;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+    if (!lmi.blocks[k].strict) continue;
     const std::size_t n = formulation.releases.kept[k].size();
     for (std::size_t i = 0; i < n; ++i)
-      bound -= formulation.shifts[k] * solution.Y.values[k][i * n + i];
+      bound -= formulation.shift * solution.Y.values[k][i * n + i];
   }
   return bound;
 }
 
-model::NamedMatrices multipliers(const Lmi& lmi, const GainBounds& bounds,
-                                 const Formulation& formulation, const sdp::Solution& solution) {
-  model::NamedMatrices result;
-  const auto add = [&](const Block& block, const std::vector<int>& kept, std::size_t at) {
-    const std::string name = block.name + (block.point.empty() ? "" : " at " + block.point);
-    const auto n = static_cast<Eigen::Index>(kept.size());
-    const Eigen::Map<const numbers::Matrix> y(solution.Y.values[at].data(), n, n);
+std::vector<numbers::Matrix> multipliers(const Lmi& lmi, const GainBounds& bounds,
+                                         const Formulation& formulation,
+                                         const sdp::Solution& solution) {
+  const auto blocks = all_blocks(lmi, bounds);
+  std::vector<numbers::Matrix> result;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
     // The multiplier of a row that was left out is zero.
-    numbers::Matrix whole = numbers::Matrix::Zero(block.size, block.size);
+    const bool some = formulation.goal == Goal::objective && k < lmi.blocks.size();
+    const std::vector<int> kept = some ? formulation.releases.kept[k] : all_rows(*blocks[k]);
+    const auto n = static_cast<Eigen::Index>(kept.size());
+    const Eigen::Map<const numbers::Matrix> y(solution.Y.values[k].data(), n, n);
+    numbers::Matrix whole = numbers::Matrix::Zero(blocks[k]->size, blocks[k]->size);
     for (Eigen::Index i = 0; i < n; ++i)
-      for (Eigen::Index j = 0; j < n; ++j)
-        whole(kept[static_cast<std::size_t>(i)], kept[static_cast<std::size_t>(j)]) = y(i, j);
-    result.emplace_back(name, std::move(whole));
-  };
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
-    add(lmi.blocks[k], formulation.releases.kept[k], k);
-  for (std::size_t k = 0; k < bounds.blocks.size(); ++k)
-    add(bounds.blocks[k], all_rows(bounds.blocks[k]), lmi.blocks.size() + k);
+      for (Eigen::Index j = 0; j < n; ++j) {
+        const int r = kept[static_cast<std::size_t>(i)];
+        const int c = kept[static_cast<std::size_t>(j)];
+        whole(r, c) = y(i, j) * formulation.balance.row(k, r) * formulation.balance.row(k, c);
+      }
+    result.push_back(std::move(whole));
+  }
   return result;
 }
 
@@ -245,7 +190,8 @@ std::vector<double> multiplier_sizes(const Lmi& lmi, const Formulation& formulat
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     const Block& block = lmi.blocks[k];
     if (block.name != inequality && !block.name.starts_with(inequality + ".")) continue;
-    const std::size_t n = formulation.releases.kept[k].size();
+    const std::size_t n = formulation.goal == Goal::objective ? formulation.releases.kept[k].size()
+                                                              : static_cast<std::size_t>(block.size);
     for (std::size_t i = 0; i < n; ++i) sizes.at(block.at) += solution.Y.values[k][i * n + i];
   }
   return sizes;

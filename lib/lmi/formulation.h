@@ -1,29 +1,24 @@
 // From affine blocks to a semidefinite program that means what an engineer asks, and back.
 //
-// Scales. Each block k has a scale s_k: the larger of its constant data and of kappa times its
-// coefficients, where kappa is the smallest ratio constant/coefficient among the blocks (the size
-// of the unknowns that the data set); all points of one inequality share the largest. The program
-// is written in x/kappa and B/kappa (kappa = 1 when homogeneous): multiplying all constant parts by a
-// number multiplies all scales by it and leaves the program as it is.
+// Everything is solved in balanced units (balance.h): B_k(x) below is S_k B_k(x) S_k in x_i / d_i, so
+// what comes out does not depend on the units of the problem.
 //
-// Which program is solved:
-//   bounded objective   some block has constant data, and there is an objective:
-//                         minimise c'x,  B_k(x) >= margin s_k I (strict),  B_k(x) >= 0 (else)
-//   normalised objective   all blocks are homogeneous: x can be scaled, so strict blocks are
-//                         B_k(x) >= c_k I with c_k the size of the coefficients; x = 0 never counts
-//   homogeneous feasibility   no objective, homogeneous:
-//                         minimise r,  B_k(x) >= c_k I (strict),  B_k(x) >= 0,  -r <= x_i <= r;
-//                       1/r is the largest margin relative to the size of x
-//   feasibility         no objective, constant data:
-//                         maximise t <= 1,  B_k(x) >= t s_k I (strict),  B_k(x) >= 0,  |x_i| <=
-//                         limit;
-//                       feasible when t >= margin; otherwise the program at t = margin is solved
-//                       for a certificate
+//   objective   minimise c'x,  B_k(x) >= shift I (strict),  B_k(x) >= 0 (the others)
+//   interior    the largest unit-free margin, min over k of the smallest eigenvalue of
+//               D^-1/2 B_k(x) D^-1/2 with D = diag(B_k(x)), of the homogenised blocks
+//                 x_0 B_k0 + sum_i x_i B_ki > 0,   x_0 > 0  (where a block has a constant part):
+//                 maximise s,  B_k(x) - t diag(B_k(x)) >= s D_k,  x_0 (1 - t) >= s D_0,
+//                              sum_k tr(D_k^-1 B_k(x)) + x_0 / D_0 <= N, the number of rows
+//               begun with t = 0, D_k = I and repeated with t the margin found and D_k = diag(B_k(x)):
+//               t rises to the largest margin. The program always has a solution, s >= 0. With s > 0
+//               x / x_0 satisfies every inequality strictly; with s = 0 the dual solution is a
+//               certificate that none does (refutation.h).
 #pragma once
 
 #include <optional>
 #include <vector>
 
+#include "lmi/balance.h"
 #include "lmi/compile.h"
 #include "lmi/gain_bounds.h"
 #include "lmi/release.h"
@@ -32,55 +27,57 @@
 
 namespace gainsmith::lmi {
 
-enum class Goal {
-  bounded_objective,
-  normalised_objective,
-  homogeneous_feasibility,
-  feasibility,
-  certificate  ///< `feasibility` with t fixed at the margin
+enum class Goal { objective, interior };
+
+/// Where a round of `interior` begins.
+struct Round {
+  double margin = 0;                     ///< t
+  std::vector<numbers::Vector> diagonals;  ///< D_k of all blocks, bounds included; empty: I
+  double constant = 1;                   ///< D_0
 };
 
 struct Formulation {
-  Goal goal = Goal::bounded_objective;
-  double margin = 0;           ///< as asked for
-  double unit = 1;             ///< kappa: x = unit times the program's variables
-  std::vector<double> scales;  ///< s_k, or c_k when homogeneous; one a block of the Lmi
-  sdp::Problem problem;  ///< its first blocks are those of the Lmi, then the gain bounds, then
-                         ///< limits on x
-  std::vector<double> shifts;  ///< what B_k(x) must keep: margin and back-off, in the data's units
-  Releases releases;           ///< scalars left out, and the rows of each block that stay
-
-  bool homogeneous() const {
-    return goal == Goal::normalised_objective || goal == Goal::homogeneous_feasibility;
-  }
-  /// What strict blocks keep, in units of their scale.
-  double strict_margin() const { return homogeneous() ? 1.0 : margin; }
+  Goal goal = Goal::objective;
+  Balance balance;       ///< of the blocks of the Lmi, then of the gain bounds
+  double shift = 0;      ///< objective
+  bool homogenised = false;  ///< interior: x_0 stands before s, which is the last variable
+  int rows = 0;              ///< interior: N
+  sdp::Problem problem;      ///< its first blocks are those of the Lmi, then the gain bounds
+  Releases releases;  ///< objective: scalars left out, and the rows of each block that stay
 };
 
-/// The goal that the Lmi asks for; a bound with constant data makes it inhomogeneous.
-Goal goal_of(const Lmi& lmi, const GainBounds& bounds);
+/// Whether the Lmi asks for an objective that can have a minimum: without constant parts x may be
+/// scaled, and the infimum is 0 or there is none.
+bool has_minimum(const Lmi& lmi, const GainBounds& bounds);
 
-/// `backoff`, relative to the scales, is kept in every inequality beyond its margin: a second
-/// attempt when the solver's own tolerance left one of them short.
-Formulation formulate(const Lmi& lmi, const GainBounds& bounds,
-                      const model::SynthesisOptions& options, Goal goal, double backoff = 0);
+Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double shift);
+Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round);
 
-/// The scalars x of the Lmi from the solution (the program has more variables: those of the gain
-/// bounds and of the goal), released ones restored.
+/// s of an interior solution.
+double interior_margin(const sdp::Solution& solution);
+
+/// The scalars x of the Lmi from the solution (the program has more variables), released ones
+/// restored; of an interior solution x / x_0.
 std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
                               const sdp::Solution& solution);
 
+/// The round after an interior solution; none when a block has a diagonal element <= 0 there.
+std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
+                                const Formulation& formulation, const sdp::Solution& solution);
+
 /// A lower bound on the objective without margins: weak duality with the dual solution Y,
-///   c'x >= F_0(margin 0) . Y   for every x that satisfies the inequalities.
+///   c'x >= F_0(shift 0) . Y   for every x that satisfies the inequalities.
 double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
                              const sdp::Solution& solution);
 
-/// The multiplier matrices of a certificate by the name and point of their block.
-model::NamedMatrices multipliers(const Lmi& lmi, const GainBounds& bounds,
-                                 const Formulation& formulation, const sdp::Solution& solution);
+/// The multipliers Y_k of a dual solution in the units of the data, for the blocks of the Lmi and
+/// then of the bounds: <B_ki, Y_k> is the same number in both units.
+std::vector<numbers::Matrix> multipliers(const Lmi& lmi, const GainBounds& bounds,
+                                         const Formulation& formulation,
+                                         const sdp::Solution& solution);
 
 /// tr(Y) of an inequality at each of its points, over all its comparisons and vertices of
-/// polytopes.
+/// polytopes, in balanced units.
 std::vector<double> multiplier_sizes(const Lmi& lmi, const Formulation& formulation,
                                      const sdp::Solution& solution, const std::string& inequality,
                                      std::size_t points);

@@ -6,6 +6,7 @@
 
 #include "forall/between.h"
 #include "forall/worst.h"
+#include "lmi/correlation.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::lmi {
@@ -17,22 +18,28 @@ struct Worst {
   double value = std::numeric_limits<double>::infinity();
   std::string point;
 
-  void meet(double found, const std::string& where) {
-    // What is no number is worse than any number.
-    if (std::isnan(value) || found >= value) return;
+  /// Whether it is the worst so far.
+  bool meet(double found, const std::string& where) {
+    if (found >= value) return false;
     value = found;
     point = where;
+    return true;
   }
 };
 
-/// The largest |element| of a term x_i B_i: what cancels in a block is known to rounding of this.
-double term_size(const Block& block, const std::vector<double>& x) {
-  double size = 0;
+/// Rounding of B(x), relative to its diagonal (margins.h).
+double rounding_of(const Block& block, const numbers::Matrix& value, const std::vector<double>& x) {
+  numbers::Matrix terms = numbers::Matrix::Zero(block.size, block.size);
   for (const auto& [i, matrix] : block.terms) {
     const double factor = i == 0 ? 1.0 : std::abs(x[static_cast<std::size_t>(i) - 1]);
-    size = std::max(size, factor * largest_element(matrix));
+    for (int k = 0; k < matrix.outerSize(); ++k)
+      for (Sparse::InnerIterator it(matrix, k); it; ++it)
+        terms(it.row(), it.col()) += factor * std::abs(it.value());
   }
-  return size;
+  const numbers::Vector scale = value.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseInverse();
+  const numbers::Matrix relative = scale.asDiagonal() * terms * scale.asDiagonal();
+  const double count = static_cast<double>(block.terms.size()) + block.size;
+  return count * std::numeric_limits<double>::epsilon() * relative.rowwise().sum().maxCoeff();
 }
 
 }  // namespace
@@ -42,73 +49,80 @@ bool is_kept(const model::Margin& margin) {
   return margin.holds && (!margin.strict || margin.reached >= kSlack * margin.required);
 }
 
+bool all_hold(const Margins& margins) {
+  return margins.open.empty() &&
+         std::all_of(margins.margins.begin(), margins.margins.end(),
+                     [](const model::Margin& margin) { return margin.holds; });
+}
+
 namespace {
 
 /// The margins of one instance, inequality by inequality.
 class Checker {
  public:
-  Checker(const Inequalities& of, const Lmi& lmi, const forall::Plan& plan,
-          const std::vector<double>& scales, const std::vector<double>& x)
-      : of_(of), lmi_(lmi), plan_(plan), scales_(scales), x_(x), values_(of.instance.values) {
+  Checker(const Inequalities& of, const Lmi& lmi, const forall::Plan& plan, const Balance& balance,
+          const std::vector<double>& x)
+      : of_(of), lmi_(lmi), plan_(plan), balance_(balance), x_(x), values_(of.instance.values) {
     for (auto& [name, matrix] : of.unknowns.values(x)) values_[name] = matrix;
   }
 
-  Margins run(bool homogeneous, double required) {
-    double size = 1;
-    if (homogeneous) {
-      size = 0;
-      for (const double value : x_) size = std::max(size, std::abs(value));
-    }
+  Margins run(double wished) {
     for (std::size_t k = 0; k < of_.statements.size(); ++k) {
       const Statement& statement = of_.statements[k];
       for (std::size_t c = 0; c < statement.differences.size(); ++c)
-        add(k, statement.differences[c], statement.stated->comparisons[c], size,
-            statement.stated->comparisons[c].strict ? required : 0.0);
+        add(k, statement.differences[c], statement.stated->comparisons[c],
+            statement.stated->comparisons[c].strict ? wished : 0.0);
     }
     return std::move(result_);
   }
 
  private:
-  static constexpr double kRounding = 1e-11;
-
   /// The next inequality: its blocks are the next ones of the same name.
   void add(std::size_t inequality, const expr::Program& difference,
-           const model::Design::Comparison& comparison, double size, double required) {
+           const model::Design::Comparison& comparison, double wished) {
     const forall::Domain& domain = of_.statements[inequality].domain;
     model::Margin margin;
     margin.name = comparison.name;
     margin.strict = comparison.strict;
-    margin.scale = scales_[at_] * size;
-    margin.required = required;
+    margin.required = wished;
     Worst worst;
-    double terms = 0;
+    double rounding = 0;
+    const numbers::Vector rows = rows_of_next();
+    const auto meet = [&](const numbers::Matrix& value, const std::string& label) {
+      const double reached = correlation_margin(value);
+      if (worst.meet(reached, label)) margin.smallest_eigenvalue = numbers::smallest_eigenvalue(value);
+      return reached > rounding;
+    };
     for (; at_ < lmi_.blocks.size() && lmi_.blocks[at_].name == margin.name; ++at_) {
-      worst.meet(numbers::smallest_eigenvalue(lmi_.blocks[at_].value(x_)), lmi_.blocks[at_].point);
-      terms = std::max(terms, term_size(lmi_.blocks[at_], x_));
+      const numbers::Matrix value = lmi_.blocks[at_].value(x_);
+      rounding = std::max(rounding, rounding_of(lmi_.blocks[at_], value, x_));
+      meet(value, lmi_.blocks[at_].point);
     }
-    const auto set = [&](double value) {
-      margin.smallest_eigenvalue = value;
-      margin.reached = margin.scale > 0 ? value / margin.scale : 0.0;
-      margin.holds =
-          std::isfinite(value) && (comparison.strict ? value > 0 : value >= -kRounding * terms);
-    };
     const std::size_t violations = result_.violations.size();
-    const auto meet = [&](const forall::Minimum& minimum) {
-      worst.meet(minimum.value, minimum.point.label);
-      set(minimum.value);
-      if (!domain.empty() && !is_kept(margin))
-        result_.violations.push_back({inequality, minimum.point});
+    const auto meet_point = [&](const forall::Minimum& minimum) {
+      const bool holds =
+          meet(forall::matrix_at(difference, minimum.point, values_), minimum.point.label);
+      if (!domain.empty() && !holds) result_.violations.push_back({inequality, minimum.point});
     };
-    const forall::Minima minima = forall::local_minima(difference, domain, values_);
-    for (const forall::Minimum& minimum : minima.list) meet(minimum);
+    const forall::Minima minima = forall::local_minima(difference, domain, values_, rows);
+    for (const forall::Minimum& minimum : minima.list) meet_point(minimum);
     if (result_.violations.size() == violations &&
         plan_.inequalities[inequality].way == model::Way::exchange)
       for (const forall::Minimum& violation :
-           look_between(domain, difference, comparison, terms, minima.resolved))
-        meet(violation);
-    set(worst.value);
+           look_between(domain, difference, comparison, minima.resolved))
+        meet_point(violation);
+    margin.reached = worst.value;
     margin.worst_point = worst.point;
+    margin.holds = worst.value > rounding;
     result_.margins.push_back(std::move(margin));
+  }
+
+  /// The units of the rows of the next block.
+  numbers::Vector rows_of_next() const {
+    if (at_ == lmi_.blocks.size()) return {};
+    numbers::Vector rows(lmi_.blocks[at_].size);
+    for (int r = 0; r < rows.size(); ++r) rows[r] = balance_.row(at_, r);
+    return rows;
   }
 
   /// The points that show that the inequality does not hold. What has no known derivatives must
@@ -116,17 +130,13 @@ class Checker {
   std::vector<forall::Minimum> look_between(const forall::Domain& domain,
                                             const expr::Program& difference,
                                             const model::Design::Comparison& comparison,
-                                            double terms, bool resolved) {
-    // What may be 0 is bounded up to a part of its terms that is small for them, and large enough
-    // to be reached with few pieces.
-    constexpr double kAllowed = 1e-7;
+                                            bool resolved) {
     using Status = forall::DomainBound::Status;
     if (forall::intervals(domain).empty()) return {};
     const auto expand = [&](const forall::Point& fixed, forall::MonomialTable& monomials) {
       return expansion(difference, fixed, monomials);
     };
-    forall::DomainBound bound =
-        forall::bound_on_domain(expand, domain, comparison.strict ? 0.0 : kAllowed * terms);
+    forall::DomainBound bound = forall::bound_on_domain(expand, domain, 0);
     if (bound.status == Status::unknown) {
       result_.searched = true;
       if (!resolved) leave_open(comparison.name, "it grows without end within the interval");
@@ -153,7 +163,7 @@ class Checker {
   const Inequalities& of_;
   const Lmi& lmi_;
   const forall::Plan& plan_;
-  const std::vector<double>& scales_;
+  const Balance& balance_;
   const std::vector<double>& x_;
   numbers::Values values_;
   std::size_t at_ = 0;
@@ -163,9 +173,8 @@ class Checker {
 }  // namespace
 
 Margins compute_margins(const Inequalities& of, const Lmi& lmi, const forall::Plan& plan,
-                        const std::vector<double>& scales, bool homogeneous, double required,
-                        const std::vector<double>& x) {
-  return Checker(of, lmi, plan, scales, x).run(homogeneous, required);
+                        const Balance& balance, double wished, const std::vector<double>& x) {
+  return Checker(of, lmi, plan, balance, x).run(wished);
 }
 
 }  // namespace gainsmith::lmi

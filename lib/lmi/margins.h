@@ -5,13 +5,13 @@
 #include <vector>
 
 #include "forall/plan.h"
+#include "lmi/balance.h"
 #include "lmi/compile.h"
 #include "model/gains.h"
 
 namespace gainsmith::lmi {
 
-/// A local minimum, over the domain of its `forall`, at which an inequality is short of what was
-/// asked for.
+/// A local minimum, over the domain of its `forall`, at which an inequality does not hold.
 struct Violation {
   std::size_t inequality = 0;  ///< its index in the method
   forall::Point point;
@@ -28,20 +28,21 @@ struct Margins {
   bool searched = false;
 };
 
-/// How far every inequality holds. The smallest eigenvalue is taken over
+/// How far every inequality holds at x, as its unit-free margin (correlation.h), taken over
 ///  - the vertices and points that were imposed, from the affine blocks, and
-///  - the whole domain of `forall`, from the text itself evaluated over double (forall/worst.h),
-/// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where the
-/// plan imposed points, what holds at all of them is then bounded between them (forall/between.h).
-/// `scale` of a homogeneous problem is the coefficients' size times the largest |x_i|. A strict
-/// inequality holds when its smallest eigenvalue is positive, another when it is above -1e-11 times
-/// the largest element of a term x_i B_i.
+///  - the local minima over the whole domain of `forall`, from the text itself evaluated over double
+///    (forall/worst.h, in the rows' units of `balance`),
+/// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where the plan
+/// imposed points, what holds at all of them is then bounded between them (forall/between.h).
+/// An inequality, strict or not, holds when its margin is above what rounding explains: the largest
+/// row sum of D^-1/2 E D^-1/2 with E = (terms + n) 2^-52 sum_i |x_i| |B_i|, B_0 included.
 Margins compute_margins(const Inequalities& inequalities, const Lmi& lmi, const forall::Plan& plan,
-                        const std::vector<double>& scales, bool homogeneous, double required,
-                        const std::vector<double>& x);
+                        const Balance& balance, double wished, const std::vector<double>& x);
 
-/// Whether an inequality holds at the written decimals with the margin that was asked for, up to
-/// 1 % of it.
+/// Whether all of them hold, and nothing is open.
+bool all_hold(const Margins& margins);
+
+/// Whether an inequality holds with the margin that was wished for, up to 1 % of it.
 bool is_kept(const model::Margin& margin);
 
 }  // namespace gainsmith::lmi

@@ -2,10 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
-#include "numbers/dense.h"
+#include "lmi/correlation.h"
 
 namespace gainsmith::lmi {
 
@@ -60,12 +61,29 @@ std::vector<std::vector<int>> all_rows(const Lmi& lmi) {
   return kept;
 }
 
-bool satisfied(const Lmi& lmi, int i, const std::vector<double>& required,
-               const std::vector<double>& x) {
-  constexpr double kShare = 0.995;
+/// The unit-free margin of the rows of a block.
+double margin_of_rows(const numbers::Matrix& whole, const std::vector<int>& rows) {
+  const numbers::Matrix part = whole(rows, rows);
+  return correlation_margin(part);
+}
+
+/// The rows of each block that the search for one scalar looks at.
+using Rows = std::vector<std::vector<int>>;
+
+void add_rows(const Rows& more, Rows& rows) {
+  for (std::size_t k = 0; k < rows.size(); ++k) {
+    rows[k].insert(rows[k].end(), more[k].begin(), more[k].end());
+    std::sort(rows[k].begin(), rows[k].end());
+  }
+}
+
+/// Whether each block that holds scalar i has at least half of `wanted`.
+bool is_large_enough(const Lmi& lmi, int i, const Rows& rows, const std::vector<double>& wanted,
+                     const std::vector<double>& x) {
+  constexpr double kShare = 0.5;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
     if (coefficient(lmi.blocks[k], i) != nullptr &&
-        numbers::smallest_eigenvalue(lmi.blocks[k].value(x)) < kShare * required[k])
+        !(margin_of_rows(lmi.blocks[k].value(x), rows[k]) >= kShare * wanted[k]))
       return false;
   return true;
 }
@@ -87,26 +105,36 @@ Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others) 
     const double sign = release_sign(lmi, i);
     if (lmi.objective[static_cast<std::size_t>(i) - 1] != 0 || elsewhere || sign == 0) continue;
     std::vector<std::vector<int>> rest;
-    for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
-      rest.push_back(without_rows(lmi.blocks[k], i, result.kept[k]));
+    std::vector<std::vector<int>> removed;
+    for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+      const std::vector<int>& before = result.kept[k];
+      rest.push_back(without_rows(lmi.blocks[k], i, before));
+      std::set_difference(before.begin(), before.end(), rest.back().begin(), rest.back().end(),
+                          std::back_inserter(removed.emplace_back()));
+    }
     if (std::any_of(rest.begin(), rest.end(), [](const auto& rows) { return rows.empty(); }))
       continue;
     result.kept = std::move(rest);
-    result.list.push_back({i, sign});
+    result.list.push_back({i, sign, std::move(removed)});
   }
   return result;
 }
 
-void restore(const Lmi& lmi, const Releases& releases, const std::vector<double>& required,
+void restore(const Lmi& lmi, const Releases& releases, const Balance& balance,
              std::vector<double>& x) {
-  constexpr int kMostDoublings = 80;
-  double size = 0;
-  for (const double value : x) size = std::max(size, std::abs(value));
+  constexpr int kSmallest = -40;
+  constexpr int kLargest = 80;
+  Rows rows = releases.kept;
   for (const Release& release : releases.list) {
+    std::vector<double> wanted;
+    for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
+      wanted.push_back(margin_of_rows(lmi.blocks[k].value(x), rows[k]));
+    add_rows(release.rows, rows);
     double& value = x[static_cast<std::size_t>(release.unknown) - 1];
-    value = release.sign * std::max(size, 1e-300) * 1e-6;
-    for (int k = 0; k < kMostDoublings && !satisfied(lmi, release.unknown, required, x); ++k)
-      value *= 2;
+    for (int k = kSmallest; k <= kLargest; ++k) {
+      value = release.sign * std::ldexp(balance.unit(release.unknown), k);
+      if (is_large_enough(lmi, release.unknown, rows, wanted, x)) break;
+    }
   }
 }
 

@@ -7,6 +7,7 @@
 
 #include <vector>
 
+#include "lmi/balance.h"
 #include "lmi/compile.h"
 
 namespace gainsmith::lmi {
@@ -14,6 +15,8 @@ namespace gainsmith::lmi {
 struct Release {
   int unknown = 0;  ///< i
   double sign = 1;  ///< towards +infinity or -infinity
+  /// For each block of the Lmi the rows that it takes out, in order.
+  std::vector<std::vector<int>> rows;
 };
 
 struct Releases {
@@ -29,10 +32,12 @@ struct Releases {
 /// (bounds on gains) stay.
 Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others);
 
-/// Gives the released scalars of x a size at which each block has at least 99.5 % of its required
-/// smallest eigenvalue, by doubling. Left as found after 2^80 when that does not happen; the
+/// Gives the released scalars of x a size, one after the other: in each block that holds one, the
+/// rows that stay, those of the ones before it and its own must have half the unit-free margin
+/// (correlation.h) that they have without its own. Found by doubling from 2^-40 of the unknown's
+/// unit d_i, so that it does not depend on units; left at 2^80 of it when that does not happen: the
 /// margins then show it.
-void restore(const Lmi& lmi, const Releases& releases, const std::vector<double>& required,
+void restore(const Lmi& lmi, const Releases& releases, const Balance& balance,
              std::vector<double>& x);
 
 }  // namespace gainsmith::lmi

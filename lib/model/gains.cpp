@@ -29,7 +29,7 @@ std::string to_string(GainFunction::Kind kind) {
 }
 
 std::string limits_of(const CertificateRecord& certificate) {
-  if (certificate.exact()) return "";
+  if (certificate.is_about_problem()) return "";
   return certificate.about == "hull" ? " for the hull only" : " for the vertex test only";
 }
 

@@ -15,14 +15,15 @@ namespace gainsmith::model {
 
 using NamedMatrices = std::vector<std::pair<std::string, numbers::Matrix>>;
 
-/// One matrix inequality, evaluated in double from the decimals as written.
+/// One matrix inequality at the decimals as written.
 struct Margin {
   std::string name;  ///< of the requirement; "jump", or "bounds.1" in a chain
   bool strict = true;
-  double reached = 0;   ///< smallest eigenvalue / scale, over all points of `forall`
-  double required = 0;  ///< what the solver was asked for
-  double smallest_eigenvalue = 0;
-  double scale = 0;         ///< s_k, or c_k max |x_i| without constant parts (docs/conventions.md)
+  /// The smallest eigenvalue of D^-1/2 M D^-1/2 with D = diag(M), over all points of `forall`: from 0
+  /// to 1 where M > 0, the same in all units.
+  double reached = 0;
+  double required = 0;             ///< wished for
+  double smallest_eigenvalue = 0;  ///< of M, in the data's units
   std::string worst_point;  ///< "tau = 0"; empty without forall
   bool holds = false;
 };
@@ -35,13 +36,12 @@ struct GainBound {
   bool active = false;
 };
 
-/// The Farkas certificate of an infeasible problem, as checked (see sdp/solution.h).
+/// The certificate of a no, as it was checked on the decimals of the file (lmi/refutation.h), or of
+/// what is only sufficient for the inequalities.
 struct CertificateRecord {
-  double value = 0;
-  double residual = 0;
-  double min_eigenvalue = 0;
-  double excluded_radius = 0;
-  bool checked = false;
+  bool exact = false;  ///< no solution, shown; otherwise none survives a relative change omega
+  double omega = 1;    ///< rounded upward
+  int digits = 0;      ///< of the arithmetic that it was checked in
   /// One multiplier matrix for each inequality and point, and for the bounds on gains that it needs:
   /// its name and the matrix.
   NamedMatrices multipliers;
@@ -49,7 +49,7 @@ struct CertificateRecord {
   /// their "hull", or the test at the "vertices" (docs/gain-file.md).
   std::string about = "problem";
 
-  bool exact() const { return about == "problem"; }
+  bool is_about_problem() const { return about == "problem"; }
 };
 
 /// What is added to "excluded": "", " for the hull only", " for the vertex test only".
@@ -134,6 +134,8 @@ struct Gains {
   Verdict verdict = Verdict::undecided;
   SolverRecord solver;
   std::optional<double> objective;
+  /// Gains beyond the gain bound were found, of this size, and none within it.
+  std::optional<double> bound_only;
   std::optional<double> objective_lower_bound;  ///< of the problem without margins, by weak duality
   NamedMatrices gains;                          ///< constant ones
   std::vector<GainFunction> gain_functions;     ///< the others

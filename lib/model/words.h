@@ -66,7 +66,7 @@ enum class StartKind {
 struct SynthesisOptions {
   Way way = Way::automatic;
   int slices = 1;                          ///< hull: equal parts of each interval
-  double margin = 1e-7;                    ///< of strict inequalities, relative to their scale
+  double margin = 1e-9;                    ///< wished for of strict inequalities, without units
   std::optional<double> gain_bound = 1e4;  ///< none: off
 };
 

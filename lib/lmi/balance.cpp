@@ -1,0 +1,186 @@
+#include "lmi/balance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "numbers/matrix.h"
+
+namespace gainsmith::lmi {
+
+namespace {
+
+/// One element: its unknown (0: constant), its two rows among all rows, log2 of its size.
+struct Element {
+  int unknown = 0;
+  int first = 0;
+  int second = 0;
+  double log = 0;
+  double weight = 1;
+};
+
+/// Logarithms of the units; rows that share them have one place.
+struct Units {
+  numbers::Vector rows;
+  std::vector<double> unknowns;  ///< [0] is the constant's, 0
+
+  double balanced(const Element& e) const {
+    return e.log + rows[e.first] + rows[e.second] + unknowns[static_cast<std::size_t>(e.unknown)];
+  }
+};
+
+/// The places of the rows of each block: the first of them.
+std::vector<int> places_of(const std::vector<const Block*>& blocks, std::vector<double>& weights,
+                           int& rows) {
+  std::map<std::pair<std::string, int>, std::pair<int, int>> shared;  // first row, blocks
+  std::vector<int> first;
+  for (const Block* block : blocks) {
+    const auto [found, fresh] = shared.try_emplace({block->name, block->size}, rows, 0);
+    if (fresh) rows += block->size;
+    ++found->second.second;
+    first.push_back(found->second.first);
+  }
+  for (const Block* block : blocks)
+    weights.push_back(1.0 / shared.at({block->name, block->size}).second);
+  return first;
+}
+
+void add_elements(const Block& block, int first, double weight, std::vector<Element>& out) {
+  for (const auto& [i, matrix] : block.terms)
+    for (int k = 0; k < matrix.outerSize(); ++k)
+      for (Sparse::InnerIterator it(matrix, k); it; ++it)
+        if (it.value() != 0)
+          out.push_back({i, first + static_cast<int>(it.row()), first + static_cast<int>(it.col()),
+                         std::log2(std::abs(it.value())), weight});
+}
+
+/// The least-squares solution. The unknowns are eliminated: given the rows, log2 d_i is minus the
+/// mean of its elements.
+Units fit(const std::vector<Element>& elements, int rows, int unknowns) {
+  numbers::Matrix normal = numbers::Matrix::Zero(rows, rows);
+  numbers::Vector right = numbers::Vector::Zero(rows);
+  const auto count = static_cast<std::size_t>(unknowns) + 1;
+  std::vector<double> weight(count, 0.0), logs(count, 0.0);
+  std::vector<std::map<int, double>> mean(count);  // by row
+  for (const Element& e : elements) {
+    const auto i = static_cast<std::size_t>(e.unknown);
+    for (const auto& [a, b] : {std::pair(e.first, e.second), std::pair(e.second, e.first)}) {
+      normal(a, a) += e.weight;
+      normal(a, b) += e.weight;
+      right[a] -= e.weight * e.log;
+      mean[i][a] += e.weight;
+    }
+    weight[i] += e.weight;
+    logs[i] += e.weight * e.log;
+  }
+  for (std::size_t i = 1; i < count; ++i)
+    for (const auto& [a, wa] : mean[i]) {
+      for (const auto& [b, wb] : mean[i]) normal(a, b) -= wa * wb / weight[i];
+      right[a] += wa * logs[i] / weight[i];
+    }
+  // Gaussian elimination in order; a direction that is not determined stays where it is.
+  constexpr double kDetermined = 1e-9;
+  const numbers::Vector diagonal = normal.diagonal();
+  std::vector<char> free(static_cast<std::size_t>(rows), 0);
+  for (int p = 0; p < rows; ++p) {
+    if (!(normal(p, p) > kDetermined * std::max(1.0, diagonal[p]))) {
+      free[static_cast<std::size_t>(p)] = 1;
+      continue;
+    }
+    for (int q = p + 1; q < rows; ++q) {
+      const double factor = normal(q, p) / normal(p, p);
+      if (factor == 0) continue;
+      normal.row(q).tail(rows - p) -= factor * normal.row(p).tail(rows - p);
+      right[q] -= factor * right[p];
+    }
+  }
+  Units units{numbers::Vector::Zero(rows), std::vector<double>(count, 0.0)};
+  for (int p = rows - 1; p >= 0; --p)
+    if (!free[static_cast<std::size_t>(p)])
+      units.rows[p] =
+          (right[p] - normal.row(p).tail(rows - p - 1).dot(units.rows.tail(rows - p - 1))) /
+          normal(p, p);
+  for (std::size_t i = 1; i < count; ++i) {
+    if (weight[i] == 0) continue;
+    double sum = logs[i];
+    for (const auto& [a, w] : mean[i]) sum += w * units.rows[a];
+    units.unknowns[i] = -sum / weight[i];
+  }
+  return units;
+}
+
+/// Without the elements that are small in these units.
+std::vector<Element> without_small(const std::vector<Element>& elements, const Units& units) {
+  const double small = std::log2(1e-8);
+  const double none = -std::numeric_limits<double>::infinity();
+  std::vector<double> of_row(static_cast<std::size_t>(units.rows.size()), none);
+  std::vector<double> of_unknown(units.unknowns.size(), none);
+  for (const Element& e : elements) {
+    const double size = units.balanced(e);
+    for (const int row : {e.first, e.second})
+      of_row[static_cast<std::size_t>(row)] = std::max(of_row[static_cast<std::size_t>(row)], size);
+    double& largest = of_unknown[static_cast<std::size_t>(e.unknown)];
+    largest = std::max(largest, size);
+  }
+  std::vector<Element> kept;
+  for (const Element& e : elements) {
+    const double size = units.balanced(e);
+    if (size >= small || size >= of_unknown[static_cast<std::size_t>(e.unknown)] ||
+        size >= of_row[static_cast<std::size_t>(e.first)] ||
+        size >= of_row[static_cast<std::size_t>(e.second)])
+      kept.push_back(e);
+  }
+  return kept;
+}
+
+int rounded(double exponent) { return static_cast<int>(std::floor(exponent + 0.5137)); }
+
+}  // namespace
+
+double Balance::factor(std::size_t block, int r, int c, int unknown) const {
+  const std::vector<int>& exponents = rows[block];
+  return std::ldexp(1.0, exponents[static_cast<std::size_t>(r)] +
+                             exponents[static_cast<std::size_t>(c)] +
+                             (unknown == 0 ? 0 : unknowns[static_cast<std::size_t>(unknown) - 1]));
+}
+
+double Balance::unit(int unknown) const {
+  return std::ldexp(1.0, unknowns[static_cast<std::size_t>(unknown) - 1]);
+}
+
+double Balance::row(std::size_t block, int r) const {
+  return std::ldexp(1.0, rows[block][static_cast<std::size_t>(r)]);
+}
+
+Balance balance(const std::vector<const Block*>& blocks, int unknowns,
+                const std::vector<double>& objective) {
+  int rows = 0;
+  std::vector<double> weights;
+  const std::vector<int> first = places_of(blocks, weights, rows);
+  std::vector<Element> elements;
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    add_elements(*blocks[k], first[k], weights[k], elements);
+  // Its unit, log2 s_c, enters with both rows: half of it is what is fitted.
+  if (!objective.empty()) {
+    for (std::size_t i = 0; i < objective.size(); ++i)
+      if (objective[i] != 0)
+        elements.push_back(
+            {static_cast<int>(i) + 1, rows, rows, std::log2(std::abs(objective[i])), 1});
+    ++rows;
+  }
+  Units units = fit(elements, rows, unknowns);
+  units = fit(without_small(elements, units), rows, unknowns);
+  Balance result;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    std::vector<int>& of_block = result.rows.emplace_back();
+    for (int r = 0; r < blocks[k]->size; ++r) of_block.push_back(rounded(units.rows[first[k] + r]));
+  }
+  for (int i = 1; i <= unknowns; ++i)
+    result.unknowns.push_back(rounded(units.unknowns[static_cast<std::size_t>(i)]));
+  return result;
+}
+
+}  // namespace gainsmith::lmi

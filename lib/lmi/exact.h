@@ -1,0 +1,39 @@
+// Blocks from the decimals of the file, in as many digits as are asked for: what a certificate is
+// checked on. Nothing in them went through double.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "lmi/balance.h"
+#include "lmi/inequalities.h"
+#include "numbers/enclosure.h"
+
+namespace gainsmith::lmi {
+
+/// B_ki with bounds of their errors, in the units of a balance: i = 0 is the constant part, and
+/// unknowns that do not stand in it have no entry.
+template <class S>
+struct ExactBlock {
+  std::vector<std::pair<int, numbers::Enclosed<S>>> terms;
+};
+
+/// Evaluates the inequality of a block with `where` at x = 0 and at each unit vector: B_ki =
+/// B_k(e_i) - B_k(0). EvaluationError when an operation has no result there.
+template <class S>
+class ExactBlocks {
+ public:
+  ExactBlocks(const Inequalities& of, const Balance& balance);
+
+  /// `at`: the place of the block in the balance.
+  ExactBlock<S> block(const Block& block, std::size_t at) const;
+
+ private:
+  numbers::EnclosedValues<S> values_at(const Block& block) const;
+
+  const Inequalities& of_;
+  const Balance& balance_;
+  numbers::EnclosedValues<S> values_;  ///< of data and parameters
+};
+
+}  // namespace gainsmith::lmi

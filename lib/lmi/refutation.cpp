@@ -1,0 +1,283 @@
+#include "lmi/refutation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "base/eigen_scalars.h"
+#include "numbers/dense.h"
+
+namespace gainsmith::lmi {
+
+namespace {
+
+using numbers::Enclosed;
+using numbers::MatrixOf;
+
+template <class S>
+using VectorOf = Eigen::Matrix<S, Eigen::Dynamic, 1>;
+
+/// L with M = L L'; none when M is not positive definite in S.
+template <class S>
+std::optional<MatrixOf<S>> cholesky(const MatrixOf<S>& M) {
+  using std::sqrt;
+  const Eigen::Index n = M.rows();
+  MatrixOf<S> L = MatrixOf<S>::Zero(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    S pivot = M(j, j);
+    for (Eigen::Index k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
+    if (!(pivot > S(0))) return std::nullopt;
+    L(j, j) = sqrt(pivot);
+    for (Eigen::Index i = j + 1; i < n; ++i) {
+      S sum = M(i, j);
+      for (Eigen::Index k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
+      L(i, j) = sum / L(j, j);
+    }
+  }
+  return L;
+}
+
+/// L^-1.
+template <class S>
+MatrixOf<S> lower_inverse(const MatrixOf<S>& L) {
+  const Eigen::Index n = L.rows();
+  MatrixOf<S> inverse = MatrixOf<S>::Zero(n, n);
+  for (Eigen::Index j = 0; j < n; ++j) {
+    inverse(j, j) = S(1) / L(j, j);
+    for (Eigen::Index i = j + 1; i < n; ++i) {
+      S sum(0);
+      for (Eigen::Index k = j; k < i; ++k) sum += L(i, k) * inverse(k, j);
+      inverse(i, j) = -sum / L(i, i);
+    }
+  }
+  return inverse;
+}
+
+/// The sums over all blocks.
+template <class S>
+struct Sums {
+  VectorOf<S> r;         ///< r_0 = sum <B_k0, Y_k> = -v
+  Eigen::VectorXd error;  ///< of r
+  Eigen::VectorXd W;
+  MatrixOf<S> H;
+  double strict = 0;  ///< tr of the Y_k of strict blocks
+  double whole = 0;
+};
+
+template <class S>
+double upper(const S& value) {
+  using std::abs;
+  return static_cast<double>(as<double>(S(abs(value)))) * (1 + 1e-15) +
+         std::numeric_limits<double>::denorm_min();
+}
+
+template <class S>
+void add_block(const ExactBlock<S>& block, const MatrixOf<S>& Y, bool strict, Sums<S>& sums) {
+  const Eigen::Index n = Y.rows();
+  const double rounding = static_cast<double>(n * n + 2) * numbers::unit_roundoff<S>();
+  std::vector<MatrixOf<S>> moved;  // Y B_j Y
+  for (const auto& [i, B] : block.terms) {
+    moved.push_back(Y * B.mid * Y);
+    S r(0);
+    double size = 0;
+    double error = 0;
+    for (Eigen::Index a = 0; a < n; ++a)
+      for (Eigen::Index b = 0; b < n; ++b) {
+        r += B.mid(a, b) * Y(a, b);
+        const double y = upper(Y(a, b));
+        size += upper(B.mid(a, b)) * y;
+        error += B.rad(a, b) * y;
+      }
+    sums.r[i] += r;
+    sums.W[i] += size;
+    sums.error[i] += (error + rounding * size) * (1 + 1e-12);
+  }
+  for (std::size_t a = 0; a < moved.size(); ++a)
+    for (std::size_t b = a; b < moved.size(); ++b) {
+      const int i = block.terms[a].first;
+      const int j = block.terms[b].first;
+      S h(0);
+      const MatrixOf<S>& B = block.terms[b].second.mid;
+      for (Eigen::Index c = 0; c < n; ++c)
+        for (Eigen::Index d = 0; d < n; ++d) h += moved[a](d, c) * B(d, c);
+      sums.H(i, j) += h;
+      if (i != j) sums.H(j, i) += h;
+    }
+  const double trace = upper(S(Y.trace()));
+  sums.whole += trace;
+  if (strict) sums.strict += trace;
+}
+
+/// r' H^-1 r < 1, over the unknowns that stand in a block.
+template <class S>
+bool is_exact(const Sums<S>& sums, bool homogeneous) {
+  std::vector<Eigen::Index> used;
+  for (Eigen::Index i = homogeneous ? 1 : 0; i < sums.r.size(); ++i)
+    if (sums.W[i] > 0 || i == 0) used.push_back(i);
+  const auto m = static_cast<Eigen::Index>(used.size());
+  MatrixOf<S> H(m, m);
+  VectorOf<S> r(m);
+  for (Eigen::Index a = 0; a < m; ++a) {
+    for (Eigen::Index b = 0; b < m; ++b)
+      H(a, b) = sums.H(used[static_cast<std::size_t>(a)], used[static_cast<std::size_t>(b)]);
+    r[a] = sums.r[used[static_cast<std::size_t>(a)]];
+  }
+  if (!homogeneous) {
+    // y_0 = v makes its own row of the residual 0.
+    H(0, 0) += r[0] * r[0];
+    r[0] = S(0);
+  }
+  const auto L = cholesky(H);
+  if (!L) return false;
+  const MatrixOf<S> R = lower_inverse(*L);  // R H R' = I
+  const MatrixOf<S> rest = MatrixOf<S>::Identity(m, m) - R * H * R.transpose();
+  double defect = 0;
+  for (Eigen::Index a = 0; a < m; ++a) {
+    double sum = 0;
+    for (Eigen::Index b = 0; b < m; ++b) sum += upper(rest(a, b));
+    defect = std::max(defect, sum);
+  }
+  const VectorOf<S> e = R * r;
+  double norm = 0;
+  for (Eigen::Index a = 0; a < m; ++a) {
+    double size = upper(e[a]);
+    for (Eigen::Index b = 0; b <= a; ++b)
+      size += upper(R(a, b)) * sums.error[used[static_cast<std::size_t>(b)]];
+    norm += size * size;
+  }
+  // What H itself is known to, and the rounding of these lines, is far below the half that is asked.
+  return defect < 0.01 && norm * (1 + 1e-9) < 0.5;
+}
+
+/// Y, lifted where rounding left it indefinite; none when it is further from being >= 0.
+template <class S>
+std::optional<MatrixOf<S>> positive(MatrixOf<S> Y) {
+  constexpr double kMostLift = 1e-27;
+  const double size = upper(S(Y.trace()));
+  if (size == 0 && Y.isZero()) return Y;
+  for (double lift = 0; lift <= kMostLift; lift = std::max(1e-33, 10 * lift)) {
+    MatrixOf<S> lifted = Y;
+    lifted.diagonal().array() += S(lift * size);
+    if (cholesky(lifted)) return lifted;
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+Multipliers multipliers_of(const Lmi& lmi, const sdp::Solution& solution) {
+  Multipliers result;
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+    const int n = lmi.blocks[k].size;
+    numbers::MatrixOf<DoubleDouble> Y(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        const auto at = static_cast<std::size_t>(i + n * j);
+        const double rest =
+            solution.rest.Y.values.empty() ? 0 : solution.rest.Y.values[k][at];
+        Y(i, j) = DoubleDouble(solution.Y.values[k][at], rest);
+      }
+    result.push_back(DoubleDouble(0.5) * (Y + Y.transpose().eval()));
+  }
+  return result;
+}
+
+template <class S>
+Refutation refute(const Inequalities& of, const Lmi& lmi, const Balance& balance,
+                  const Multipliers& Y) {
+  constexpr double kCounts = 1e-6;  // what strict blocks, or v, must have of all multipliers
+  Refutation result;
+  result.digits = std::is_same_v<S, DoubleDouble> ? kQuadDigits : kWideDigits;
+  const bool known = std::all_of(lmi.blocks.begin(), lmi.blocks.end(),
+                                 [](const Block& block) { return block.where.has_value(); });
+  if (!known) return result;
+  const auto m = static_cast<Eigen::Index>(lmi.unknowns) + 1;
+  Sums<S> sums{VectorOf<S>::Zero(m), Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m),
+               MatrixOf<S>::Zero(m, m)};
+  const ExactBlocks<S> exact(of, balance);
+  bool definite = true;
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+    const MatrixOf<S> given = Y[k].unaryExpr([](const DoubleDouble& y) { return as<S>(y); });
+    definite &= cholesky(given).has_value();
+    const auto lifted = positive<S>(given);
+    if (!lifted) return result;
+    add_block(exact.block(lmi.blocks[k], k), *lifted, lmi.blocks[k].strict, sums);
+  }
+  const bool homogeneous = sums.W[0] == 0;
+  const double v = static_cast<double>(as<double>(S(-sums.r[0])));
+  if (definite && (homogeneous || v > sums.error[0])) result.exact = is_exact(sums, homogeneous);
+  if (sums.strict < kCounts * sums.whole && v < kCounts * sums.whole) return result;
+  double omega = 0;
+  for (Eigen::Index i = 0; i < m; ++i) {
+    if (sums.W[i] == 0 || (i == 0 && v >= 0)) continue;
+    omega = std::max(omega, (upper(sums.r[i]) + sums.error[i]) / sums.W[i]);
+  }
+  result.omega = std::isfinite(omega) ? std::min(1.0, omega * (1 + 1e-12)) : 1;
+  return result;
+}
+
+template Refutation refute<DoubleDouble>(const Inequalities&, const Lmi&, const Balance&,
+                                         const Multipliers&);
+template Refutation refute<Decimal100>(const Inequalities&, const Lmi&, const Balance&,
+                                       const Multipliers&);
+
+double relaxed_omega(const Lmi& lmi, const GainBounds& bounds, const Formulation& formulation,
+                     const sdp::Solution& solution) {
+  const auto Y = multipliers(lmi, bounds, formulation, solution);
+  std::vector<double> r(static_cast<std::size_t>(lmi.unknowns + bounds.scalars) + 1, 0.0);
+  std::vector<double> W = r;
+  double trace = 0;
+  for (std::size_t k = 0; k < Y.size(); ++k) {
+    const Block& block =
+        k < lmi.blocks.size() ? lmi.blocks[k] : bounds.blocks[k - lmi.blocks.size()];
+    // Y_k is >= 0 up to what the solver leaves: made so, at the price of the residuals.
+    numbers::SymmetricEigen eigen(Y[k]);
+    const numbers::Matrix y = eigen.vectors() * eigen.values().cwiseMax(0).asDiagonal() *
+                              eigen.vectors().transpose();
+    trace += y.trace();
+    for (const auto& [i, matrix] : block.terms)
+      for (int c = 0; c < matrix.outerSize(); ++c)
+        for (Sparse::InnerIterator it(matrix, c); it; ++it) {
+          r[static_cast<std::size_t>(i)] += it.value() * y(it.row(), it.col());
+          W[static_cast<std::size_t>(i)] += std::abs(it.value() * y(it.row(), it.col()));
+        }
+  }
+  double omega = trace > 0 ? 0 : 1;
+  for (std::size_t i = 0; i < r.size(); ++i)
+    if (W[i] > 0 && !(i == 0 && r[0] <= 0)) omega = std::max(omega, std::abs(r[i]) / W[i]);
+  return std::min(1.0, omega + 1e-14);
+}
+
+std::optional<ZeroDiagonal> find_zero_diagonal(const Inequalities& of, const Lmi& lmi,
+                                               const Balance& balance) {
+  std::optional<ExactBlocks<DoubleDouble>> exact;
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+    const Block& block = lmi.blocks[k];
+    if (!block.where) continue;
+    for (int row = 0; row < block.size; ++row) {
+      const bool zero = std::all_of(block.terms.begin(), block.terms.end(), [&](const auto& term) {
+        return term.second.coeff(row, row) == 0;
+      });
+      if (!zero) continue;
+      if (!exact) exact.emplace(of, balance);
+      const ExactBlock<DoubleDouble> known = exact->block(block, k);
+      // The element (row, column) is certainly the same constant other than 0 for every x.
+      for (int column = 0; column < block.size; ++column) {
+        bool vanishes = true;
+        bool constant = false;
+        for (const auto& [i, B] : known.terms) {
+          vanishes &= B.ball(row, row).is_zero();
+          if (i == 0)
+            constant = upper(B.mid(row, column)) * (1 - 1e-12) > B.rad(row, column);
+          else
+            vanishes &= B.ball(row, column).is_zero();
+        }
+        if (column != row && vanishes && constant) return ZeroDiagonal{block.name, row + 1, column + 1};
+      }
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace gainsmith::lmi
