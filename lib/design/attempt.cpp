@@ -50,11 +50,20 @@ void solve_interior(const Posed& posed, const Solve& solve, Attempt& result) {
   constexpr int kMostRounds = 8;
   constexpr double kRises = 1e-3;
   const Question& asked = result.question;
+  // More digits are worth having only for data that have them.
+  const bool wide = asked.effort.precision != "auto";
+  std::optional<lmi::ExactBlocks<Decimal100>> exact;
+  const lmi::Exactly exactly = [&](std::size_t k, const lmi::Balance& balance,
+                                   const std::vector<int>& kept) {
+    if (!exact) exact.emplace(posed.inequalities, balance);
+    return lmi::rounded(exact->block(posed.lmi.blocks[k], k, kept), static_cast<int>(kept.size()));
+  };
   lmi::Round round;
   for (int k = 0; k < kMostRounds; ++k) {
-    lmi::Formulation formulation = lmi::formulate_interior(posed.lmi, asked.bounds, round);
+    lmi::Formulation formulation =
+        lmi::formulate_interior(posed.lmi, asked.bounds, round, wide ? exactly : lmi::Exactly{});
     sdp::Solution solution = solve(formulation.problem, asked.effort);
-    const auto next = lmi::next_round(posed.lmi, asked.bounds, formulation, solution);
+    const auto next = lmi::next_round(formulation, solution);
     const std::vector<double> x = lmi::read_back(posed.lmi, formulation, solution);
     if (k == 0 || (next && next->margin > round.margin)) {
       result.formulation = std::move(formulation);
@@ -68,12 +77,12 @@ void solve_interior(const Posed& posed, const Solve& solve, Attempt& result) {
 }
 
 void refute(const Posed& posed, Attempt& result) {
-  const auto Y = lmi::multipliers_of(posed.lmi, result.solution);
-  const lmi::Balance& balance = result.formulation.balance;
-  result.refutation = lmi::refute<DoubleDouble>(posed.inequalities, posed.lmi, balance, Y);
+  const lmi::Formulation& formulation = result.formulation;
+  const auto Y = lmi::multipliers_of(formulation, posed.lmi.blocks.size(), result.solution);
+  result.refutation = lmi::refute<DoubleDouble>(posed.inequalities, posed.lmi, formulation, Y);
   // What 31 digits see is not of the data's making when 100 are asked for.
   if (result.refutation->exact || result.question.effort.precision == "auto") return;
-  result.refutation = lmi::refute<Decimal100>(posed.inequalities, posed.lmi, balance, Y);
+  result.refutation = lmi::refute<Decimal100>(posed.inequalities, posed.lmi, formulation, Y);
 }
 
 }  // namespace
@@ -98,8 +107,8 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
   if (result.point) {
     result.margins = margins_at(posed, result, result.x);
   } else if (interior && !result.solution.x.empty()) {
-    result.relaxed_omega = lmi::relaxed_omega(posed.lmi, result.question.bounds,
-                                              result.formulation, result.solution);
+    result.relaxed_omega =
+        lmi::relaxed_omega(posed.lmi, result.question.bounds, result.formulation, result.solution);
     if (result.question.bounds.list.empty()) refute(posed, result);
   }
   return result;

@@ -39,8 +39,8 @@ struct Question {
   double shift = 0;  ///< objective: what strict blocks keep, in balanced units
 };
 
-/// What came of it: why the solver stopped (solution), how good its point is (margins), and what its
-/// multipliers exclude (refutation). They are never mixed: a point that is good enough counts
+/// What came of it: why the solver stopped (solution), how good its point is (margins), and what
+/// its multipliers exclude (refutation). They are never mixed: a point that is good enough counts
 /// however the iteration stopped.
 struct Attempt {
   Question question;
@@ -52,8 +52,8 @@ struct Attempt {
   lmi::Margins margins;   ///< at x, of a point
   /// Of an interior question without bounds and without a point.
   std::optional<lmi::Refutation> refutation;
-  /// Of an interior question without a point: what its multipliers leave for the blocks as they were
-  /// solved, gain bounds and corners of boxes included (lmi::relaxed_omega).
+  /// Of an interior question without a point: what its multipliers leave for the blocks as they
+  /// were solved, gain bounds and corners of boxes included (lmi::relaxed_omega).
   double relaxed_omega = 1;
 
   bool is_optimal() const { return solution.status == sdp::Status::optimal; }
@@ -68,9 +68,9 @@ struct Attempt {
 /// Pure: the same question of the same blocks has the same answer.
 Attempt attempt(const Posed& posed, Question question, const Solve& solve);
 
-/// A point between the minimum and a point inside: x(e) = x* + e (x_f - x*) with the smallest e = 1e-12,
-/// 1e-11, ... for which every inequality holds:  B(x(e)) >= e B(x_f) + (1 - e) B(x*).  The attempt of
-/// the minimum with that point; none when there is no such e below 1.
+/// A point between the minimum and a point inside: x(e) = x* + e (x_f - x*) with the smallest e =
+/// 1e-12, 1e-11, ... for which every inequality holds:  B(x(e)) >= e B(x_f) + (1 - e) B(x*).  The
+/// attempt of the minimum with that point; none when there is no such e below 1.
 std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const Attempt& inside);
 
 }  // namespace gainsmith::design

@@ -11,8 +11,8 @@ namespace gainsmith::design {
 
 namespace {
 
-/// A value that only the hull or the vertex test excludes counts as excluded; what the certificate is
-/// limited to is said.
+/// A value that only the hull or the vertex test excludes counts as excluded; what the certificate
+/// is limited to is said.
 search::Answer answer_of(const model::Gains& gains) {
   if (gains.verdict == model::Verdict::yes) return search::Answer::yes;
   const bool excluded = gains.verdict == model::Verdict::no || gains.certificate;

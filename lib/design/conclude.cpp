@@ -20,9 +20,7 @@ void add_message(model::Gains& gains, const std::string& text) {
 model::SolverRecord record_of(const Attempt& attempt) {
   const sdp::Solution& solution = attempt.solution;
   model::SolverRecord record;
-  record.status = attempt.refuted()      ? "infeasible"
-                  : attempt.is_optimal() ? "optimal"
-                                         : "undecided";
+  record.status = attempt.refuted() ? "infeasible" : attempt.is_optimal() ? "optimal" : "undecided";
   record.cause = to_string(solution.cause);
   record.iterations = solution.iterations;
   record.relative_gap = solution.relative_gap;
@@ -51,7 +49,8 @@ void note_failures(const Attempt& point, model::Gains& gains) {
                 brief(margin.reached, 2) +
                 (margin.worst_point.empty() ? "" : " at " + margin.worst_point) + ")";
   if (!failed.empty())
-    add_message(gains, "the best point found does not hold for certain at its decimals in " + failed);
+    add_message(gains,
+                "the best point found does not hold for certain at its decimals in " + failed);
   if (!point.margins.open.empty()) add_message(gains, "for all values " + point.margins.open);
 }
 
@@ -79,25 +78,26 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
   gains.objective = lmi.objective_at(point.x);
   if (point.question.goal == lmi::Goal::objective) {
     // The dual solution is feasible to the solver's tolerance only.
-    gains.objective_lower_bound =
-        std::min(*gains.objective,
-                 lmi::objective_lower_bound(lmi, point.formulation, point.solution));
+    gains.objective_lower_bound = std::min(
+        *gains.objective, lmi::objective_lower_bound(lmi, point.formulation, point.solution));
     return;
   }
   const Attempt* minimum = climb.find(Rung::minimum);
   if (!lmi::has_minimum(lmi, climb.bounds()))
-    add_message(gains,
-                "the objective has no minimum: without constant parts every solution may be scaled, "
-                "so its infimum is 0 or there is none");
+    add_message(
+        gains,
+        "the objective has no minimum: without constant parts every solution may be scaled, "
+        "so its infimum is 0 or there is none");
   else if (minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible)
     add_message(gains, "the objective has no minimum: it is unbounded below");
   else
-    add_message(gains, "the objective is that of a point inside, not its minimum: the minimum was "
-                       "not found");
+    add_message(gains,
+                "the objective is that of a point inside, not its minimum: the minimum was "
+                "not found");
 }
 
-/// The largest singular value of the gains of a point; of functions at 65 points of their variable's
-/// intervals.
+/// The largest singular value of the gains of a point; of functions at 65 points of their
+/// variable's intervals.
 double gain_size(const Climb& climb, const Attempt& point) {
   const lmi::Inequalities& of = climb.posed().inequalities;
   numbers::Values values = of.instance.values;
@@ -149,19 +149,18 @@ model::NamedMatrices named_multipliers(const Climb& climb, const Attempt& attemp
 
 void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains& gains) {
   gains.verdict = model::Verdict::no;
-  gains.certificate = model::CertificateRecord{refuted.refutation->exact, refuted.refutation->omega,
-                                               refuted.refutation->digits,
-                                               named_multipliers(climb, refuted)};
+  gains.certificate =
+      model::CertificateRecord{refuted.refutation->exact, refuted.refutation->omega,
+                               refuted.refutation->digits, named_multipliers(climb, refuted)};
 }
 
 /// What is known where neither a point nor a certificate decides.
 void note_undecided(const Climb& climb, model::Gains& gains) {
   const Attempt& last = climb.last();
   const auto& refutation = last.refutation;
-  const double margin =
-      last.question.goal == lmi::Goal::interior && !last.solution.x.empty()
-          ? lmi::interior_margin(last.solution)
-          : 0;
+  const double margin = last.question.goal == lmi::Goal::interior && !last.solution.x.empty()
+                            ? lmi::interior_margin(last.solution)
+                            : 0;
   add_message(gains, "the largest margin found is " + brief(margin, 2) +
                          (refutation && refutation->omega < 1
                               ? ", and solutions, if any, do not survive a relative change of " +

@@ -124,7 +124,7 @@ const Attempt* Climb::find(Rung rung) const {
 
 const Attempt* Climb::point() const {
   // A minimum is worth more than a point inside; within the bounds more than without.
-  constexpr Rung kWorth[] = {Rung::minimum,     Rung::blended,      Rung::inside,
+  constexpr Rung kWorth[] = {Rung::minimum,      Rung::blended,     Rung::inside,
                              Rung::free_minimum, Rung::free_inside, Rung::in_31_digits,
                              Rung::in_100_digits};
   const Attempt* first = nullptr;

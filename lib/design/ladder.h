@@ -8,7 +8,8 @@
 //   free inside     the largest margin, gains of any size   the same
 //   31 digits       the same in these digits                nothing that holds, nothing refuted
 //   100 digits      the same                                the same
-//   tighter         bounds ten times smaller                a yes with gains near their bounds: those
+//   tighter         bounds ten times smaller                a yes with gains near their bounds:
+//   those
 //                                                           that shrink are limited by them alone
 //
 // (An exchange grows by the points at which a solution fails, and begins again.) Each rung is tried

@@ -13,9 +13,9 @@ SmoothBlocks smooth_blocks(const model::Instance& instance) {
   SmoothBlocks result;
   result.layout = inequalities.unknowns;
   result.bounds = lmi::gain_bounds(inequalities, choices.gain_bound);
-  const lmi::Formulation formulation =
-      lmi::formulate_objective(lmi, result.bounds, choices.margin);
-  // The shift is that of the row with the smallest: any is enough, since what is found is solved again.
+  const lmi::Formulation formulation = lmi::formulate_objective(lmi, result.bounds, choices.margin);
+  // The shift is that of the row with the smallest: any is enough, since what is found is solved
+  // again.
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     double unit = formulation.balance.row(k, 0);
     for (int r = 1; r < lmi.blocks[k].size; ++r)

@@ -60,18 +60,20 @@ void report_ways(const forall::Plan& plan, int rounds, bool searched, model::Gai
                                  [](const forall::Imposed& imposed) { return imposed.exact; });
   if (exact) {
     // A certificate of the very inequalities that is not sharp enough to say no.
-    add_message(gains, "a certificate in double speaks against any solution, but more digits do not "
-                       "confirm it: solutions, if any, do not survive a relative change of " +
-                           brief(gains.certificate->omega, 2) + " of the coefficients");
+    add_message(gains,
+                "a certificate in double speaks against any solution, but more digits do not "
+                "confirm it: solutions, if any, do not survive a relative change of " +
+                    brief(gains.certificate->omega, 2) + " of the coefficients");
     gains.certificate.reset();
     return;
   }
   gains.certificate->about = plan.uses_vertex_gains() ? "vertices" : "hull";
-  add_message(gains, plan.uses_vertex_gains()
-                         ? "no solution of the test at the vertices of the box, which is only "
-                           "sufficient; synthesis.forall: exchange with a polynomial may find one"
-                         : "no solution for the hull, which is larger than what the variables reach; "
-                           "synthesis.forall: exchange, or more synthesis.slices, may find one");
+  add_message(gains,
+              plan.uses_vertex_gains()
+                  ? "no solution of the test at the vertices of the box, which is only "
+                    "sufficient; synthesis.forall: exchange with a polynomial may find one"
+                  : "no solution for the hull, which is larger than what the variables reach; "
+                    "synthesis.forall: exchange, or more synthesis.slices, may find one");
 }
 
 /// Gains whose formulas use nothing but data are known in any case, the others when the verdict is

@@ -12,11 +12,10 @@ namespace gainsmith::design {
 /// gains back.
 ///
 /// verdict yes: every inequality holds at the matrices as written, for all values of its variables.
-/// verdict no: a certificate that was checked on the decimals of the file excludes every solution of
-/// the inequalities, of any size, without margins or bounds (lmi/refutation.h); it is stored with its
-/// multipliers.
-/// verdict undecided: neither, with what is known. Then only the gains whose formulas use nothing but
-/// data are given.
+/// verdict no: a certificate that was checked on the decimals of the file excludes every solution
+/// of the inequalities, of any size, without margins or bounds (lmi/refutation.h); it is stored
+/// with its multipliers. verdict undecided: neither, with what is known. Then only the gains whose
+/// formulas use nothing but data are given.
 ///
 /// InputError for what cannot be posed.
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options);

@@ -5,6 +5,8 @@
 #include <tuple>
 #include <utility>
 
+#include "base/double_double.h"
+
 namespace gainsmith::lmi {
 
 namespace {
@@ -16,7 +18,10 @@ void merge(std::vector<sdp::Entry>& entries) {
   std::vector<sdp::Entry> merged;
   for (const sdp::Entry& entry : entries) {
     if (!merged.empty() && key(merged.back()) == key(entry)) {
-      merged.back().value += entry.value;
+      const DoubleDouble sum = DoubleDouble(merged.back().value, merged.back().rest) +
+                               DoubleDouble(entry.value, entry.rest);
+      merged.back().value = sum.hi();
+      merged.back().rest = sum.lo();
     } else {
       merged.push_back(entry);
     }
@@ -33,7 +38,38 @@ std::vector<int> all_rows(const Block& block) {
   return rows;
 }
 
-Assembler::Assembler(int variables, const Balance& balance) : balance_(balance) {
+BalancedBlock balanced(const Block& block, const Balance& balance, std::size_t at,
+                       const std::vector<int>& kept) {
+  constexpr int kDropped = -1;
+  std::vector<int> moved(static_cast<std::size_t>(block.size), kDropped);
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    moved[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
+  BalancedBlock result{static_cast<int>(kept.size()), {}};
+  for (const auto& [i, matrix] : block.terms) {
+    for (int k = 0; k < matrix.outerSize(); ++k) {
+      for (Sparse::InnerIterator it(matrix, k); it; ++it) {
+        const auto r = static_cast<int>(it.row());
+        const auto c = static_cast<int>(it.col());
+        const int row = moved[static_cast<std::size_t>(r)];
+        const int column = moved[static_cast<std::size_t>(c)];
+        if (row == kDropped || column == kDropped || row > column) continue;
+        result.elements.push_back({i, row, column, it.value() * balance.factor(at, r, c, i), 0});
+      }
+    }
+  }
+  return result;
+}
+
+numbers::Matrix value_of(const BalancedBlock& block, const std::vector<double>& y, double one) {
+  numbers::Matrix value = numbers::Matrix::Zero(block.size, block.size);
+  for (const BalancedBlock::Element& e : block.elements)
+    value(e.row, e.column) +=
+        e.value * (e.unknown == 0 ? one : y[static_cast<std::size_t>(e.unknown) - 1]);
+  value.triangularView<Eigen::StrictlyLower>() = value.transpose();
+  return value;
+}
+
+Assembler::Assembler(int variables) {
   problem_.c.assign(static_cast<std::size_t>(variables), 0.0);
   problem_.f.resize(static_cast<std::size_t>(variables) + 1);
 }
@@ -43,33 +79,21 @@ int Assembler::add_block(int size, bool diagonal) {
   return static_cast<int>(problem_.blocks.size()) - 1;
 }
 
-int Assembler::add(const Block& block, std::size_t at, const std::vector<int>& kept, int constant,
-                   double diagonal) {
-  constexpr int kDropped = -1;
-  std::vector<int> moved(static_cast<std::size_t>(block.size), kDropped);
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    moved[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
-  const int added = add_block(static_cast<int>(kept.size()));
-  for (const auto& [i, matrix] : block.terms) {
-    for (int k = 0; k < matrix.outerSize(); ++k) {
-      for (Sparse::InnerIterator it(matrix, k); it; ++it) {
-        const auto r = static_cast<int>(it.row());
-        const auto c = static_cast<int>(it.col());
-        const int row = moved[static_cast<std::size_t>(r)];
-        const int column = moved[static_cast<std::size_t>(c)];
-        if (row == kDropped || column == kDropped || row > column) continue;
-        const double value = it.value() * balance_.factor(at, r, c, i);
-        add_entry(i == 0 ? constant : i, added, row, column,
-                  row == column ? diagonal * value : value);
-      }
-    }
+int Assembler::add(const BalancedBlock& block, int constant, double diagonal) {
+  const int added = add_block(block.size);
+  for (const BalancedBlock::Element& e : block.elements) {
+    const double factor = e.row == e.column ? diagonal : 1;
+    add_entry(e.unknown == 0 ? constant : e.unknown, added, e.row, e.column, factor * e.value,
+              factor * e.rest);
   }
   return added;
 }
 
-void Assembler::add_entry(int i, int block, int row, int column, double value) {
+void Assembler::add_entry(int i, int block, int row, int column, double value, double rest) {
   if (value == 0) return;
-  problem_.f[static_cast<std::size_t>(i)].push_back({block, row, column, i == 0 ? -value : value});
+  const double sign = i == 0 ? -1 : 1;
+  problem_.f[static_cast<std::size_t>(i)].push_back(
+      {block, row, column, sign * value, sign * rest});
 }
 
 void Assembler::set_cost(int i, double cost) { problem_.c[static_cast<std::size_t>(i) - 1] = cost; }

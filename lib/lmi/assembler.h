@@ -9,19 +9,38 @@
 
 namespace gainsmith::lmi {
 
+/// The rows of a block that are solved, in balanced units: elements of the upper triangle.
+struct BalancedBlock {
+  struct Element {
+    int unknown = 0;  ///< i; 0: of the constant part
+    int row = 0;
+    int column = 0;
+    double value = 0;
+    double rest = 0;  ///< what rounding to double took from it, where that is known
+  };
+  int size = 0;
+  std::vector<Element> elements;
+};
+
+/// The rows `kept` of a block; `at` is its place in the balance.
+BalancedBlock balanced(const Block& block, const Balance& balance, std::size_t at,
+                       const std::vector<int>& kept);
+
+/// S B(x) S at the variables y of the program, the constant part times `one`.
+numbers::Matrix value_of(const BalancedBlock& block, const std::vector<double>& y, double one);
+
 class Assembler {
  public:
-  Assembler(int variables, const Balance& balance);
+  explicit Assembler(int variables);
 
   int add_block(int size, bool diagonal = false);
 
-  /// B(x) in the rows `kept` as a new block; `at` is its place in the balance. Its constant part
-  /// is multiplied by variable `constant` (0: by 1), its diagonals by `diagonal`.
-  int add(const Block& block, std::size_t at, const std::vector<int>& kept, int constant,
-          double diagonal);
+  /// B(x) as a new block. Its constant part is multiplied by variable `constant` (0: by 1), its
+  /// diagonals by `diagonal`.
+  int add(const BalancedBlock& block, int constant, double diagonal);
 
   /// The coefficient of variable i (0: the constant) at one place of the upper triangle.
-  void add_entry(int i, int block, int row, int column, double value);
+  void add_entry(int i, int block, int row, int column, double value, double rest = 0);
 
   void set_cost(int i, double cost);
 
@@ -29,7 +48,6 @@ class Assembler {
   sdp::Problem take();
 
  private:
-  const Balance& balance_;
   sdp::Problem problem_;
 };
 

@@ -1,9 +1,10 @@
 // Units that suit blocks  B_k(x) = B_k0 + sum_i x_i B_ki:  powers of two s_kr for the rows of each
 // block and d_i for the unknowns, with
 //   S_k B_k(x) S_k = sum_i (x_i / d_i) (d_i S_k B_ki S_k),   S_k = diag(s_k),   d_0 = 1,
-// such that the elements of the coefficients are as near to 1 as can be. The truth of B_k(x) > 0 does
-// not depend on them, and a solver's answer on the balanced blocks does not depend on the units of the
-// problem (Curtis & Reid 1972, On the automatic scaling of matrices for Gaussian elimination).
+// such that the elements of the coefficients are as near to 1 as can be. The truth of B_k(x) > 0
+// does not depend on them, and a solver's answer on the balanced blocks does not depend on the
+// units of the problem (Curtis & Reid 1972, On the automatic scaling of matrices for Gaussian
+// elimination).
 //
 //   minimise  sum over nonzero elements  w (log2 |B_ki[r,c]| + log2 s_kr + log2 s_kc + log2 d_i)^2
 //
@@ -13,8 +14,8 @@
 //
 // Equivariant: other units that are powers of two give the same balanced numbers, bit for bit. So
 // directions that nothing determines are pinned by the pattern alone (rows in order, after the
-// unknowns were eliminated), and exponents are rounded by floor(y + 0.5137): exact halves, which are
-// common in data of whole numbers, must not fall to either side by a rounding of y.
+// unknowns were eliminated), and exponents are rounded by floor(y + 0.5137): exact halves, which
+// are common in data of whole numbers, must not fall to either side by a rounding of y.
 #pragma once
 
 #include <vector>

@@ -20,8 +20,8 @@ struct Block {
   bool strict = true;
   std::size_t inequality = 0;  ///< its index in the method
   std::size_t comparison = 0;  ///< of its chain
-  /// The values of all variables there. None: it stands for no point of the domain, as a corner of a
-  /// box that the functions of a variable do not reach.
+  /// The values of all variables there. None: it stands for no point of the domain, as a corner of
+  /// a box that the functions of a variable do not reach.
   std::optional<forall::Point> where;
   int size = 0;
   std::vector<std::pair<int, Sparse>> terms;
@@ -37,7 +37,8 @@ struct Block {
 bool is_homogeneous(const std::vector<Block>& blocks);
 
 /// The block of a symmetric affine form without monomials. InputError, at `place`, when it is not
-/// symmetric up to 1e-12 of its largest element (what is, is made so exactly), has no rows, or has a coefficient that is not finite.
+/// symmetric up to 1e-12 of its largest element (what is, is made so exactly), has no rows, or has
+/// a coefficient that is not finite.
 Block block_of(const AffineForm& form, std::string name, std::string point, bool strict,
                const Place& place);
 

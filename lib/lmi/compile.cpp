@@ -80,9 +80,9 @@ class Compiler {
     imposed.exact &= hull.exact;
     std::vector<Block> blocks;
     for (const forall::Vertex& vertex : hull.vertices) {
-      Block block = block_of(at_vertex(form, vertex.values), comparison.name,
-                             joined(point.label, vertex.label), comparison.strict,
-                             stated.that_place);
+      Block block =
+          block_of(at_vertex(form, vertex.values), comparison.name,
+                   joined(point.label, vertex.label), comparison.strict, stated.that_place);
       block.comparison = k;
       block.where = vertex.point;
       if (block.where) block.where->values.insert(point.values.begin(), point.values.end());

@@ -77,21 +77,22 @@ EnclosedValues<S> ExactBlocks<S>::values_at(const Block& block) const {
       for (std::size_t e = 0; e < variable.elements.size() && program == nullptr; ++e)
         if (variable.elements[e] == at) program = &stated[e].program;
     }
-    values[variable.name] =
-        program != nullptr ? numbers::enclose(*program, values_)
-                           : numbers::exactly<S>(at.unaryExpr([](double x) { return S(x); }));
+    values[variable.name] = program != nullptr
+                                ? numbers::enclose(*program, values_)
+                                : numbers::exactly<S>(at.unaryExpr([](double x) { return S(x); }));
   }
   return values;
 }
 
 template <class S>
-ExactBlock<S> ExactBlocks<S>::block(const Block& block, std::size_t at) const {
+ExactBlock<S> ExactBlocks<S>::block(const Block& block, std::size_t at,
+                                    const std::vector<int>& kept) const {
   const Statement& statement = of_.statements[block.inequality];
   const expr::Program& program = statement.differences[block.comparison];
   EnclosedValues<S> values = values_at(block);
   for (const Unknown& unknown : of_.unknowns.list())
-    values[unknown.name] = numbers::exactly<S>(
-        numbers::MatrixOf<S>::Zero(unknown.shape.rows, unknown.shape.cols));
+    values[unknown.name] =
+        numbers::exactly<S>(numbers::MatrixOf<S>::Zero(unknown.shape.rows, unknown.shape.cols));
   expr::Evaluator<numbers::Enclosure<S>> evaluator(program);
   for (const expr::Input& input : program.inputs) {
     const bool moves = of_.unknowns.find(input.name) != nullptr;
@@ -105,7 +106,8 @@ ExactBlock<S> ExactBlocks<S>::block(const Block& block, std::size_t at) const {
   const auto add = [&](int i, Enclosed<S> matrix) {
     if (matrix.is_zero()) return;
     scale(matrix, [&](int r, int c) { return balance_.factor(at, r, c, i); });
-    result.terms.emplace_back(i, std::move(matrix));
+    Enclosed<S> part{matrix.mid(kept, kept), matrix.rad(kept, kept)};
+    if (!part.is_zero()) result.terms.emplace_back(i, std::move(part));
   };
   add(0, constant);
   for (const Unknown& unknown : of_.unknowns.list()) {
@@ -120,6 +122,21 @@ ExactBlock<S> ExactBlocks<S>::block(const Block& block, std::size_t at) const {
   }
   return result;
 }
+
+template <class S>
+BalancedBlock rounded(const ExactBlock<S>& block, int size) {
+  BalancedBlock result{size, {}};
+  for (const auto& [i, matrix] : block.terms)
+    for (int c = 0; c < size; ++c)
+      for (int r = 0; r <= c; ++r) {
+        const auto value = as<DoubleDouble>(matrix.mid(r, c));
+        if (value.hi() != 0) result.elements.push_back({i, r, c, value.hi(), value.lo()});
+      }
+  return result;
+}
+
+template BalancedBlock rounded(const ExactBlock<DoubleDouble>&, int);
+template BalancedBlock rounded(const ExactBlock<Decimal100>&, int);
 
 template class ExactBlocks<DoubleDouble>;
 template class ExactBlocks<Decimal100>;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "lmi/assembler.h"
 #include "lmi/balance.h"
 #include "lmi/inequalities.h"
 #include "numbers/enclosure.h"
@@ -25,8 +26,8 @@ class ExactBlocks {
  public:
   ExactBlocks(const Inequalities& of, const Balance& balance);
 
-  /// `at`: the place of the block in the balance.
-  ExactBlock<S> block(const Block& block, std::size_t at) const;
+  /// The rows `kept` of a block; `at` is its place in the balance.
+  ExactBlock<S> block(const Block& block, std::size_t at, const std::vector<int>& kept) const;
 
  private:
   numbers::EnclosedValues<S> values_at(const Block& block) const;
@@ -35,5 +36,9 @@ class ExactBlocks {
   const Balance& balance_;
   numbers::EnclosedValues<S> values_;  ///< of data and parameters
 };
+
+/// Its coefficients in 31 digits.
+template <class S>
+BalancedBlock rounded(const ExactBlock<S>& block, int size);
 
 }  // namespace gainsmith::lmi

@@ -1,23 +1,25 @@
 // From affine blocks to a semidefinite program that means what an engineer asks, and back.
 //
-// Everything is solved in balanced units (balance.h): B_k(x) below is S_k B_k(x) S_k in x_i / d_i, so
-// what comes out does not depend on the units of the problem.
+// Everything is solved in balanced units (balance.h): B_k(x) below is S_k B_k(x) S_k in x_i / d_i,
+// so what comes out does not depend on the units of the problem.
 //
-//   objective   minimise c'x,  B_k(x) >= shift I (strict),  B_k(x) >= 0 (the others)
+//   objective   minimise c'x,  B_k(x) >= shift I, strict or not; gain bounds >= 0
 //   interior    the largest unit-free margin, min over k of the smallest eigenvalue of
 //               D^-1/2 B_k(x) D^-1/2 with D = diag(B_k(x)), of the homogenised blocks
 //                 x_0 B_k0 + sum_i x_i B_ki > 0,   x_0 > 0  (where a block has a constant part):
 //                 maximise s,  B_k(x) - t diag(B_k(x)) >= s D_k,  x_0 (1 - t) >= s D_0,
 //                              sum_k tr(D_k^-1 B_k(x)) + x_0 / D_0 <= N, the number of rows
-//               begun with t = 0, D_k = I and repeated with t the margin found and D_k = diag(B_k(x)):
-//               t rises to the largest margin. The program always has a solution, s >= 0. With s > 0
-//               x / x_0 satisfies every inequality strictly; with s = 0 the dual solution is a
-//               certificate that none does (refutation.h).
+//               begun with t = 0, D_k = I and repeated with t the margin found and D_k =
+//               diag(B_k(x)): t rises to the largest margin. The program always has a solution, s
+//               >= 0. With s > 0 x / x_0 satisfies every inequality strictly; with s = 0 the dual
+//               solution is a certificate that none does (refutation.h).
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
+#include "lmi/assembler.h"
 #include "lmi/balance.h"
 #include "lmi/compile.h"
 #include "lmi/gain_bounds.h"
@@ -31,27 +33,35 @@ enum class Goal { objective, interior };
 
 /// Where a round of `interior` begins.
 struct Round {
-  double margin = 0;                     ///< t
+  double margin = 0;                       ///< t
   std::vector<numbers::Vector> diagonals;  ///< D_k of all blocks, bounds included; empty: I
-  double constant = 1;                   ///< D_0
+  double constant = 1;                     ///< D_0
 };
 
 struct Formulation {
   Goal goal = Goal::objective;
-  Balance balance;       ///< of the blocks of the Lmi, then of the gain bounds
-  double shift = 0;      ///< objective
+  Balance balance;           ///< of the blocks of the Lmi, then of the gain bounds
+  double shift = 0;          ///< objective
   bool homogenised = false;  ///< interior: x_0 stands before s, which is the last variable
   int rows = 0;              ///< interior: N
   sdp::Problem problem;      ///< its first blocks are those of the Lmi, then the gain bounds
-  Releases releases;  ///< objective: scalars left out, and the rows of each block that stay
+  Releases releases;         ///< scalars left out, and the rows of each block that stay
+  std::vector<BalancedBlock> blocks;  ///< as solved, those of the bounds last
 };
+
+/// Exact coefficients of a block in place of those in double.
+using Exactly = std::function<BalancedBlock(std::size_t block, const Balance& balance,
+                                            const std::vector<int>& kept)>;
 
 /// Whether the Lmi asks for an objective that can have a minimum: without constant parts x may be
 /// scaled, and the infimum is 0 or there is none.
 bool has_minimum(const Lmi& lmi, const GainBounds& bounds);
 
 Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double shift);
-Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round);
+/// With `exactly` the coefficients of the Lmi's blocks are those, in 31 digits; there must be no
+/// bounds then.
+Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round,
+                               const Exactly& exactly = {});
 
 /// s of an interior solution.
 double interior_margin(const sdp::Solution& solution);
@@ -62,8 +72,7 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
                               const sdp::Solution& solution);
 
 /// The round after an interior solution; none when a block has a diagonal element <= 0 there.
-std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
-                                const Formulation& formulation, const sdp::Solution& solution);
+std::optional<Round> next_round(const Formulation& formulation, const sdp::Solution& solution);
 
 /// A lower bound on the objective without margins: weak duality with the dual solution Y,
 ///   c'x >= F_0(shift 0) . Y   for every x that satisfies the inequalities.

@@ -11,8 +11,8 @@
 // is bounded by its largest singular value: [ I , K/beta ; * , I ] >= 0, which has a constant part.
 //
 // A gain that is a function of a scalar is bounded coefficient by coefficient: inv(S)*Y_k for
-// inv(S)*Y(tau), and the matrix that each function theta(tau) in it multiplies. That bounds a gain at
-// vertices itself, of a polynomial its coefficients.
+// inv(S)*Y(tau), and the matrix that each function theta(tau) in it multiplies. That bounds a gain
+// at vertices itself, of a polynomial its coefficients.
 #pragma once
 
 #include <optional>

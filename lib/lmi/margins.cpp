@@ -90,7 +90,8 @@ class Checker {
     const numbers::Vector rows = rows_of_next();
     const auto meet = [&](const numbers::Matrix& value, const std::string& label) {
       const double reached = correlation_margin(value);
-      if (worst.meet(reached, label)) margin.smallest_eigenvalue = numbers::smallest_eigenvalue(value);
+      if (worst.meet(reached, label))
+        margin.smallest_eigenvalue = numbers::smallest_eigenvalue(value);
       return reached > rounding;
     };
     for (; at_ < lmi_.blocks.size() && lmi_.blocks[at_].name == margin.name; ++at_) {

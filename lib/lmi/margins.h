@@ -30,10 +30,11 @@ struct Margins {
 
 /// How far every inequality holds at x, as its unit-free margin (correlation.h), taken over
 ///  - the vertices and points that were imposed, from the affine blocks, and
-///  - the local minima over the whole domain of `forall`, from the text itself evaluated over double
+///  - the local minima over the whole domain of `forall`, from the text itself evaluated over
+///  double
 ///    (forall/worst.h, in the rows' units of `balance`),
-/// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where the plan
-/// imposed points, what holds at all of them is then bounded between them (forall/between.h).
+/// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where the
+/// plan imposed points, what holds at all of them is then bounded between them (forall/between.h).
 /// An inequality, strict or not, holds when its margin is above what rounding explains: the largest
 /// row sum of D^-1/2 E D^-1/2 with E = (terms + n) 2^-52 sum_i |x_i| |B_i|, B_0 included.
 Margins compute_margins(const Inequalities& inequalities, const Lmi& lmi, const forall::Plan& plan,

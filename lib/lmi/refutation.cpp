@@ -57,11 +57,12 @@ MatrixOf<S> lower_inverse(const MatrixOf<S>& L) {
 /// The sums over all blocks.
 template <class S>
 struct Sums {
-  VectorOf<S> r;         ///< r_0 = sum <B_k0, Y_k> = -v
+  VectorOf<S> r;          ///< r_0 = sum <B_k0, Y_k> = -v
   Eigen::VectorXd error;  ///< of r
   Eigen::VectorXd W;
   MatrixOf<S> H;
-  double strict = 0;  ///< tr of the Y_k of strict blocks
+  numbers::Matrix H_error;  ///< of H: its rounding, and what the B_ki are known to
+  double strict = 0;        ///< tr of the Y_k of strict blocks
   double whole = 0;
 };
 
@@ -76,9 +77,18 @@ template <class S>
 void add_block(const ExactBlock<S>& block, const MatrixOf<S>& Y, bool strict, Sums<S>& sums) {
   const Eigen::Index n = Y.rows();
   const double rounding = static_cast<double>(n * n + 2) * numbers::unit_roundoff<S>();
-  std::vector<MatrixOf<S>> moved;  // Y B_j Y
+  const numbers::Matrix sizes = Y.unaryExpr([](const S& y) { return upper(y); });
+  const double products = 4 * static_cast<double>(n + 2) * numbers::unit_roundoff<S>();
+  std::vector<MatrixOf<S>> moved;        // Y B_j Y
+  std::vector<numbers::Matrix> largest;  // |Y| |B_j| |Y|
+  std::vector<numbers::Matrix> of_B;     // |B_j|
+  std::vector<numbers::Matrix>
+      error_of_B;  // what B_j is known to, and the rounding of the products
   for (const auto& [i, B] : block.terms) {
     moved.push_back(Y * B.mid * Y);
+    of_B.push_back(B.mid.unaryExpr([](const S& b) { return upper(b); }) + B.rad);
+    error_of_B.push_back(products * of_B.back() + B.rad);
+    largest.push_back(sizes * of_B.back() * sizes);
     S r(0);
     double size = 0;
     double error = 0;
@@ -102,7 +112,13 @@ void add_block(const ExactBlock<S>& block, const MatrixOf<S>& Y, bool strict, Su
       for (Eigen::Index c = 0; c < n; ++c)
         for (Eigen::Index d = 0; d < n; ++d) h += moved[a](d, c) * B(d, c);
       sums.H(i, j) += h;
-      if (i != j) sums.H(j, i) += h;
+      const double error = (error_of_B[b].cwiseProduct(largest[a]).sum() +
+                            error_of_B[a].cwiseProduct(largest[b]).sum()) *
+                           (1 + 1e-12);
+      sums.H_error(i, j) += error;
+      if (i == j) continue;
+      sums.H(j, i) += h;
+      sums.H_error(j, i) += error;
     }
   const double trace = upper(S(Y.trace()));
   sums.whole += trace;
@@ -118,9 +134,14 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
   const auto m = static_cast<Eigen::Index>(used.size());
   MatrixOf<S> H(m, m);
   VectorOf<S> r(m);
+  numbers::Matrix error(m, m);
   for (Eigen::Index a = 0; a < m; ++a) {
-    for (Eigen::Index b = 0; b < m; ++b)
-      H(a, b) = sums.H(used[static_cast<std::size_t>(a)], used[static_cast<std::size_t>(b)]);
+    for (Eigen::Index b = 0; b < m; ++b) {
+      const Eigen::Index i = used[static_cast<std::size_t>(a)];
+      const Eigen::Index j = used[static_cast<std::size_t>(b)];
+      H(a, b) = sums.H(i, j);
+      error(a, b) = sums.H_error(i, j);
+    }
     r[a] = sums.r[used[static_cast<std::size_t>(a)]];
   }
   if (!homogeneous) {
@@ -129,12 +150,18 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
     r[0] = S(0);
   }
   const auto L = cholesky(H);
+  if (!L && getenv("DBG")) fprintf(stderr, "H not definite\n");
   if (!L) return false;
   const MatrixOf<S> R = lower_inverse(*L);  // R H R' = I
   const MatrixOf<S> rest = MatrixOf<S>::Identity(m, m) - R * H * R.transpose();
+  // What H is known to, and the rounding of R H R'.
+  const numbers::Matrix size_R = R.unaryExpr([](const S& x) { return upper(x); });
+  error += 4 * static_cast<double>(m + 2) * numbers::unit_roundoff<S>() *
+           H.unaryExpr([](const S& x) { return upper(x); });
+  const numbers::Matrix unknown = size_R * error * size_R.transpose();
   double defect = 0;
   for (Eigen::Index a = 0; a < m; ++a) {
-    double sum = 0;
+    double sum = unknown.row(a).sum();
     for (Eigen::Index b = 0; b < m; ++b) sum += upper(rest(a, b));
     defect = std::max(defect, sum);
   }
@@ -146,7 +173,8 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
       size += upper(R(a, b)) * sums.error[used[static_cast<std::size_t>(b)]];
     norm += size * size;
   }
-  // What H itself is known to, and the rounding of these lines, is far below the half that is asked.
+  if (getenv("DBG")) fprintf(stderr, "defect %g norm %g\n", defect, norm);
+  // The rounding of these lines is far below the half that is left.
   return defect < 0.01 && norm * (1 + 1e-9) < 0.5;
 }
 
@@ -166,16 +194,16 @@ std::optional<MatrixOf<S>> positive(MatrixOf<S> Y) {
 
 }  // namespace
 
-Multipliers multipliers_of(const Lmi& lmi, const sdp::Solution& solution) {
+Multipliers multipliers_of(const Formulation& formulation, std::size_t blocks,
+                           const sdp::Solution& solution) {
   Multipliers result;
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
-    const int n = lmi.blocks[k].size;
+  for (std::size_t k = 0; k < blocks; ++k) {
+    const int n = formulation.blocks[k].size;
     numbers::MatrixOf<DoubleDouble> Y(n, n);
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j) {
         const auto at = static_cast<std::size_t>(i + n * j);
-        const double rest =
-            solution.rest.Y.values.empty() ? 0 : solution.rest.Y.values[k][at];
+        const double rest = solution.rest.Y.values.empty() ? 0 : solution.rest.Y.values[k][at];
         Y(i, j) = DoubleDouble(solution.Y.values[k][at], rest);
       }
     result.push_back(DoubleDouble(0.5) * (Y + Y.transpose().eval()));
@@ -184,7 +212,7 @@ Multipliers multipliers_of(const Lmi& lmi, const sdp::Solution& solution) {
 }
 
 template <class S>
-Refutation refute(const Inequalities& of, const Lmi& lmi, const Balance& balance,
+Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
                   const Multipliers& Y) {
   constexpr double kCounts = 1e-6;  // what strict blocks, or v, must have of all multipliers
   Refutation result;
@@ -194,32 +222,40 @@ Refutation refute(const Inequalities& of, const Lmi& lmi, const Balance& balance
   if (!known) return result;
   const auto m = static_cast<Eigen::Index>(lmi.unknowns) + 1;
   Sums<S> sums{VectorOf<S>::Zero(m), Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m),
-               MatrixOf<S>::Zero(m, m)};
-  const ExactBlocks<S> exact(of, balance);
+               MatrixOf<S>::Zero(m, m), numbers::Matrix::Zero(m, m)};
+  const ExactBlocks<S> exact(of, formulation.balance);
   bool definite = true;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     const MatrixOf<S> given = Y[k].unaryExpr([](const DoubleDouble& y) { return as<S>(y); });
     definite &= cholesky(given).has_value();
     const auto lifted = positive<S>(given);
+    if (!lifted && getenv("DBG")) fprintf(stderr, "not positive %zu\n", k);
     if (!lifted) return result;
-    add_block(exact.block(lmi.blocks[k], k), *lifted, lmi.blocks[k].strict, sums);
+    add_block(exact.block(lmi.blocks[k], k, formulation.releases.kept[k]), *lifted,
+              lmi.blocks[k].strict, sums);
   }
   const bool homogeneous = sums.W[0] == 0;
   const double v = static_cast<double>(as<double>(S(-sums.r[0])));
   if (definite && (homogeneous || v > sums.error[0])) result.exact = is_exact(sums, homogeneous);
+  if (getenv("DBG"))
+    fprintf(stderr, "S %d definite %d exact %d strict %g whole %g v %g\n", result.digits, definite,
+            result.exact, sums.strict, sums.whole, v);
   if (sums.strict < kCounts * sums.whole && v < kCounts * sums.whole) return result;
   double omega = 0;
   for (Eigen::Index i = 0; i < m; ++i) {
     if (sums.W[i] == 0 || (i == 0 && v >= 0)) continue;
     omega = std::max(omega, (upper(sums.r[i]) + sums.error[i]) / sums.W[i]);
+    if (getenv("DBG"))
+      fprintf(stderr, "i %d r %g err %g W %g\n", (int)i, upper(sums.r[i]), sums.error[i],
+              sums.W[i]);
   }
   result.omega = std::isfinite(omega) ? std::min(1.0, omega * (1 + 1e-12)) : 1;
   return result;
 }
 
-template Refutation refute<DoubleDouble>(const Inequalities&, const Lmi&, const Balance&,
+template Refutation refute<DoubleDouble>(const Inequalities&, const Lmi&, const Formulation&,
                                          const Multipliers&);
-template Refutation refute<Decimal100>(const Inequalities&, const Lmi&, const Balance&,
+template Refutation refute<Decimal100>(const Inequalities&, const Lmi&, const Formulation&,
                                        const Multipliers&);
 
 double relaxed_omega(const Lmi& lmi, const GainBounds& bounds, const Formulation& formulation,
@@ -233,8 +269,8 @@ double relaxed_omega(const Lmi& lmi, const GainBounds& bounds, const Formulation
         k < lmi.blocks.size() ? lmi.blocks[k] : bounds.blocks[k - lmi.blocks.size()];
     // Y_k is >= 0 up to what the solver leaves: made so, at the price of the residuals.
     numbers::SymmetricEigen eigen(Y[k]);
-    const numbers::Matrix y = eigen.vectors() * eigen.values().cwiseMax(0).asDiagonal() *
-                              eigen.vectors().transpose();
+    const numbers::Matrix y =
+        eigen.vectors() * eigen.values().cwiseMax(0).asDiagonal() * eigen.vectors().transpose();
     trace += y.trace();
     for (const auto& [i, matrix] : block.terms)
       for (int c = 0; c < matrix.outerSize(); ++c)
@@ -261,7 +297,7 @@ std::optional<ZeroDiagonal> find_zero_diagonal(const Inequalities& of, const Lmi
       });
       if (!zero) continue;
       if (!exact) exact.emplace(of, balance);
-      const ExactBlock<DoubleDouble> known = exact->block(block, k);
+      const ExactBlock<DoubleDouble> known = exact->block(block, k, all_rows(block));
       // The element (row, column) is certainly the same constant other than 0 for every x.
       for (int column = 0; column < block.size; ++column) {
         bool vanishes = true;
@@ -273,7 +309,8 @@ std::optional<ZeroDiagonal> find_zero_diagonal(const Inequalities& of, const Lmi
           else
             vanishes &= B.ball(row, column).is_zero();
         }
-        if (column != row && vanishes && constant) return ZeroDiagonal{block.name, row + 1, column + 1};
+        if (column != row && vanishes && constant)
+          return ZeroDiagonal{block.name, row + 1, column + 1};
       }
     }
   }

@@ -3,7 +3,8 @@
 // Multipliers Y_k > 0 of the blocks, v = -sum_k <B_k0, Y_k> (y_0 of the block x_0 > 0 of the
 // homogenised inequalities), r_i = sum_k <B_ki, Y_k> for i >= 1, r_0 = 0.
 //
-//   exact   H_ij = sum_k <B_ki, Y_k B_kj Y_k> (+ v^2 for i = j = 0). When r' H^-1 r < 1 the correction
+//   exact   H_ij = sum_k <B_ki, Y_k B_kj Y_k> (+ v^2 for i = j = 0). When r' H^-1 r < 1 the
+//   correction
 //           dY_k = -sum_j (H^-1 r)_j Y_k B_kj Y_k is smaller than Y_k, so Y + dY is a certificate
 //           without any residual: no x satisfies the inequalities. It does not depend on units or
 //           coordinates. With any R near H^-1/2: r' H^-1 r <= |R' r|^2 / (1 - |I - R' H R|).
@@ -29,25 +30,27 @@ struct Refutation {
   int digits = 0;      ///< of the arithmetic that found it
 };
 
-/// The multipliers in 31 digits, balanced units, one a block of the Lmi.
+/// The multipliers of the rows that were solved, in 31 digits and balanced units, one a block of
+/// the Lmi.
 using Multipliers = std::vector<numbers::MatrixOf<DoubleDouble>>;
 
 /// Of an interior solution.
-Multipliers multipliers_of(const Lmi& lmi, const sdp::Solution& solution);
+Multipliers multipliers_of(const Formulation& formulation, std::size_t blocks,
+                           const sdp::Solution& solution);
 
 /// What Y says over S. Nothing (omega = 1) when a block stands for no point of its domain, when the
 /// Y_k are not positive semidefinite, or when only blocks with >= have multipliers and v is 0.
 template <class S>
-Refutation refute(const Inequalities& of, const Lmi& lmi, const Balance& balance,
+Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
                   const Multipliers& Y);
 
-/// omega of an interior solution for the blocks as they were solved, gain bounds and corners of boxes
-/// included, in double: what it excludes is only sufficient for the inequalities.
+/// omega of an interior solution for the blocks as they were solved, gain bounds and corners of
+/// boxes included, in double: what it excludes is only sufficient for the inequalities.
 double relaxed_omega(const Lmi& lmi, const GainBounds& bounds, const Formulation& formulation,
                      const sdp::Solution& solution);
 
-/// A block with >= has a diagonal element that is 0 for every x and in its row a constant that is not:
-/// its name and the row, from 1. No multiplier shows this (the inequalities are only weakly
+/// A block with >= has a diagonal element that is 0 for every x and in its row a constant that is
+/// not: its name and the row, from 1. No multiplier shows this (the inequalities are only weakly
 /// infeasible).
 struct ZeroDiagonal {
   std::string inequality;

@@ -95,15 +95,17 @@ bool Releases::released(int unknown) const {
                      [&](const Release& release) { return release.unknown == unknown; });
 }
 
-Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others) {
+Releases find_releases(const Lmi& lmi, const std::vector<Block>& others, bool objective) {
   Releases result;
   result.kept = all_rows(lmi);
-  for (int i = 1; lmi.has_objective && i <= lmi.unknowns; ++i) {
-    const bool elsewhere = std::any_of(others.begin(), others.end(), [&](const Block* block) {
-      return coefficient(*block, i) != nullptr;
+  for (int i = 1; i <= lmi.unknowns; ++i) {
+    const bool elsewhere = std::any_of(others.begin(), others.end(), [&](const Block& block) {
+      return coefficient(block, i) != nullptr;
     });
+    const bool priced =
+        objective && lmi.has_objective && lmi.objective[static_cast<std::size_t>(i) - 1] != 0;
     const double sign = release_sign(lmi, i);
-    if (lmi.objective[static_cast<std::size_t>(i) - 1] != 0 || elsewhere || sign == 0) continue;
+    if (priced || elsewhere || sign == 0) continue;
     std::vector<std::vector<int>> rest;
     std::vector<std::vector<int>> removed;
     for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {

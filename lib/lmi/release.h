@@ -27,10 +27,10 @@ struct Releases {
   bool released(int unknown) const;
 };
 
-/// The scalars that can be released. Nothing is released without an objective, nor what would, with
-/// those released before it, leave a block without rows. Scalars that stand in one of the `others`
-/// (bounds on gains) stay.
-Releases find_releases(const Lmi& lmi, const std::vector<const Block*>& others);
+/// The scalars that can be released; what would, with those released before it, leave a block
+/// without rows is not. Scalars that stand in one of the `others` (bounds on gains) stay, and those
+/// that have a price when the `objective` counts.
+Releases find_releases(const Lmi& lmi, const std::vector<Block>& others, bool objective);
 
 /// Gives the released scalars of x a size, one after the other: in each block that holds one, the
 /// rows that stay, those of the ones before it and its own must have half the unit-free margin
