@@ -152,9 +152,32 @@ Ball<S> operator-(const Ball<S>& x, const Ball<S>& y) {
   return x + (-y);
 }
 
+/// A product of two balls that are wide, from their ends: it keeps what is known of its sign.
+template <class S>
+Ball<S> wide_product(const Ball<S>& x, const Ball<S>& y) {
+  const double a = low_end(x), b = high_end(x), c = low_end(y), d = high_end(y);
+  if (!(std::isfinite(a) && std::isfinite(b) && std::isfinite(c) && std::isfinite(d)))
+    return {S(0), kNothingKnown};
+  const auto [low, high] = std::minmax({a * c, a * d, b * c, b * d});
+  if (!std::isfinite(low) || !std::isfinite(high)) return {S(0), kNothingKnown};
+  const double below_low = low - up(std::abs(low) * 0x1p-52 + kTiny);
+  const double above_high = high + up(std::abs(high) * 0x1p-52 + kTiny);
+  const bool same =
+      (is_not_negative(x) && is_not_negative(y)) || (is_not_negative(-x) && is_not_negative(-y));
+  const bool opposite =
+      (is_not_negative(x) && is_not_negative(-y)) || (is_not_negative(-x) && is_not_negative(y));
+  if (opposite) return -hull<S>(std::max(0.0, -above_high), -below_low);
+  return hull<S>(same ? std::max(0.0, below_low) : below_low, above_high);
+}
+
+/// Relative radius from which a product is taken from the ends.
+constexpr double kWide = 0.01;
+
 template <class S>
 Ball<S> operator*(const Ball<S>& x, const Ball<S>& y) {
   if (x.is_zero() || y.is_zero()) return {};
+  if (x.rad > kWide * magnitude(x.mid) && y.rad > kWide * magnitude(y.mid))
+    return wide_product(x, y);
   const S product = x.mid * y.mid;
   const double size = magnitude(product);
   const double error = rounding_error(x.mid, y.mid, product, error_of_product);
@@ -175,7 +198,8 @@ Ball<S> operator/(const Ball<S>& x, const Ball<S>& y) {
   const bool exact = y.is_exact() && (y.mid == S(1) || y.mid == S(-1));
   const double error = exact ? 0 : unit_roundoff<S>() * size;
   double rad = up((x.rad + size * y.rad) / least + error);
-  if (!exact || x.rad != 0) rad += kTiny;
+  // In 31 digits the remainder of the division may underflow before it is divided.
+  if (!exact || x.rad != 0) rad += kTiny + up(kTiny / least);
   return {quotient, bound_or_nothing(rad)};
 }
 

@@ -1,6 +1,8 @@
 // Functions of a ball (ball.h): the value at its middle, and how far the function moves over it.
 #pragma once
 
+#include <algorithm>
+#include <iterator>
 #include <optional>
 
 #include "numbers/ball.h"
@@ -16,10 +18,18 @@ Ball<S> moved_by(const S& value, double moved) {
           bound_or_nothing(up(moved + function_roundoff<S>() * magnitude(value), 16) + kTiny)};
 }
 
+/// Above this radius of a logarithm a ball is taken from its ends.
+constexpr double kWideLogarithm = 0.1;
+
 template <class S>
 Ball<S> exp(const Ball<S>& x) {
   using std::exp;
   if (x.is_zero()) return {S(1), 0};
+  if (x.rad > kWideLogarithm) {
+    const double low = std::exp(low_end(x)) * (1 - 0x1p-48) - kTiny;
+    if (std::isinf(low)) return {S(exp(x.mid)), kNothingKnown};
+    return hull<S>(std::max(0.0, low), up(std::exp(high_end(x)), 16) + kTiny);
+  }
   const S value = exp(x.mid);
   return moved_by(value, x.rad == 0 ? 0 : up(magnitude(value) * std::expm1(x.rad), 16));
 }
@@ -45,7 +55,8 @@ std::optional<Ball<S>> sqrt(const Ball<S>& x) {
   const S value = sqrt(x.mid);
   // sqrt(m) - sqrt(m - r) = r / (sqrt(m) + sqrt(m - r)).
   const double sum = std::sqrt(below(x.mid)) + std::sqrt(std::max(0.0, low_end(x)));
-  return moved_by(value, up(x.rad / sum, 16));
+  // In 31 digits the square of the root may underflow in its last half.
+  return moved_by(value, up(x.rad / sum + kTiny / sum, 16));
 }
 
 template <class S>
@@ -142,6 +153,13 @@ std::optional<Ball<S>> power(const Ball<S>& x, const Ball<S>& y) {
                             (magnitude(y.mid) + y.rad) * std::log1p(-ratio),
                         16) +
                      kTiny;
+    if (d > kWideLogarithm) {
+      const double corners[] = {std::pow(low_end(x), low_end(y)), std::pow(low_end(x), high_end(y)),
+                                std::pow(high_end(x), low_end(y)),
+                                std::pow(high_end(x), high_end(y))};
+      const auto [least, most] = std::minmax_element(std::begin(corners), std::end(corners));
+      return hull<S>(std::max(0.0, *least * (1 - 0x1p-48) - kTiny), up(*most, 16) + kTiny);
+    }
     const S value = pow(x.mid, y.mid);
     return moved_by(value, d <= 2 * kTiny ? kTiny : up(magnitude(value) * std::expm1(d), 16));
   }

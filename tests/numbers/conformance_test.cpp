@@ -2,6 +2,7 @@
 
 #include "base/eigen_scalars.h"
 #include "numbers/enclosure.h"
+#include "numbers/jet.h"
 #include "numbers/pack.h"
 
 namespace gainsmith::numbers {
@@ -35,6 +36,22 @@ Subject enclosure(const std::string& name, double tolerance) {
   return subject<Enclosure<Scalar>>(name, tolerance, exact, moving, middle);
 }
 
+/// What moves has the slope 1.
+Subject jet() {
+  const auto fixed = [](const Matrix& matrix) { return constant_jet(exactly<double>(matrix)); };
+  const auto moving = [](const Matrix& matrix) {
+    Jet result = constant_jet(exactly<double>(matrix));
+    result.order = 1;
+    result.derivatives[1] = exactly<double>(Matrix::Ones(matrix.rows(), matrix.cols()));
+    return result;
+  };
+  const auto middle = [](const Jet& value) -> Matrix {
+    EXPECT_TRUE(value.value().is_known());
+    return value.value().mid;
+  };
+  return subject<JetAlgebra>("jet", 1e-14, fixed, moving, middle);
+}
+
 Subject pack() {
   const auto moving = [](const Matrix& matrix) {
     Pack result{false, matrix.rows(), matrix.cols(), {}, {}};
@@ -55,7 +72,7 @@ Subject pack() {
 INSTANTIATE_TEST_SUITE_P(NumberTypes, Conformance,
                          testing::Values(real<double>("double", 1e-14),
                                          real<DoubleDouble>("31 digits", 1e-29),
-                                         real<Decimal100>("100 digits", 1e-97), pack(),
+                                         real<Decimal100>("100 digits", 1e-97), pack(), jet(),
                                          enclosure<double>("enclosure", 1e-14),
                                          enclosure<DoubleDouble>("enclosure 31 digits", 1e-29),
                                          enclosure<Decimal100>("enclosure 100 digits", 1e-97)),
