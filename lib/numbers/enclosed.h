@@ -123,17 +123,18 @@ Enclosed<S> transposed(const Enclosed<S>& x) {
 namespace enclosed {
 
 /// For each row the relative error of a sum of as many products as it has elements: 0 for a row
-/// that picks one element.
-template <class S>
-Vector row_roundoff(const Enclosed<S>& x) {
-  Vector roundoff(x.rows());
-  for (Eigen::Index i = 0; i < x.rows(); ++i) {
+/// that picks one element. `element(i, j)` are those of the matrix, or of its transpose.
+template <class S, class Element>
+Vector row_roundoff(Eigen::Index rows, Eigen::Index cols, const Element& element) {
+  Vector roundoff(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
     int count = 0;
     bool picks = true;
-    for (Eigen::Index j = 0; j < x.cols(); ++j) {
-      if (x.ball(i, j).is_zero()) continue;
+    for (Eigen::Index j = 0; j < cols; ++j) {
+      const Ball<S> x = element(i, j);
+      if (x.is_zero()) continue;
       ++count;
-      if (x.rad(i, j) != 0 || (x.mid(i, j) != S(1) && x.mid(i, j) != S(-1))) picks = false;
+      picks = picks && x.is_exact() && (x.mid == S(1) || x.mid == S(-1));
     }
     roundoff(i) = count == 0 || (count == 1 && picks) ? 0 : (count + 2) * unit_roundoff<S>();
   }
@@ -159,22 +160,31 @@ Enclosed<S> product(const Enclosed<S>& x, const Enclosed<S>& y) {
     out.set(0, x.ball(0) * y.ball(0));
     return out;
   }
-  out.mid.noalias() = x.mid.lazyProduct(y.mid);
   const Matrix left = magnitudes<S>(x.mid);
   const Matrix right = magnitudes<S>(y.mid);
-  const Vector along = enclosed::row_roundoff(x);
-  const Vector down = enclosed::row_roundoff(transposed(y));
-  out.rad.noalias() = left.lazyProduct(right);
-  const auto k = static_cast<double>(x.cols());
-  for (Eigen::Index j = 0; j < out.cols(); ++j)
-    for (Eigen::Index i = 0; i < out.rows(); ++i) out.rad(i, j) *= std::min(along(i), down(j));
-  const bool exact_left = x.is_exact();
-  const bool exact_right = y.is_exact();
-  if (!exact_right) out.rad.noalias() += left.lazyProduct(y.rad);
-  if (!exact_left) {
-    const Matrix reach = right + y.rad;
-    out.rad.noalias() += x.rad.lazyProduct(reach);
+  const Vector along =
+      enclosed::row_roundoff<S>(x.rows(), x.cols(), [&](auto i, auto j) { return x.ball(i, j); });
+  const Vector down =
+      enclosed::row_roundoff<S>(y.cols(), y.rows(), [&](auto j, auto i) { return y.ball(i, j); });
+  out.mid.setZero(x.rows(), y.cols());
+  out.rad.setZero(x.rows(), y.cols());
+  Vector sizes(x.rows());
+  for (Eigen::Index j = 0; j < y.cols(); ++j) {
+    sizes.setZero();
+    for (Eigen::Index k = 0; k < x.cols(); ++k) {
+      const S by = y.mid(k, j);
+      const double size = right(k, j), rad = y.rad(k, j), reach = size + rad;
+      if (reach == 0) continue;
+      for (Eigen::Index i = 0; i < x.rows(); ++i) {
+        out.mid(i, j) += x.mid(i, k) * by;
+        sizes(i) += left(i, k) * size;
+        out.rad(i, j) += left(i, k) * rad + x.rad(i, k) * reach;
+      }
+    }
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+      out.rad(i, j) += sizes(i) * std::min(along(i), down(j));
   }
+  const auto k = static_cast<double>(x.cols());
   const bool may_underflow =
       std::min(enclosed::least_element(left), enclosed::least_element(x.rad)) *
           std::min(enclosed::least_element(right), enclosed::least_element(y.rad)) <
