@@ -3,7 +3,10 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
+
+#include "numbers/balance.h"
 
 namespace gainsmith::numbers {
 
@@ -26,7 +29,15 @@ Matrix Cholesky::solve(const Matrix& B) const {
   return result;
 }
 
-Matrix exponential(const Matrix& M) { return M.size() == 0 ? M : Matrix(M.exp()); }
+Matrix exponential(const Matrix& M) {
+  if (M.size() == 0) return M;
+  const auto scale = [](double x, int exponent) { return std::ldexp(x, exponent); };
+  std::vector<int> units = balance(M.cwiseAbs());
+  const Matrix B = in_units(M, units, scale);
+  const Matrix result = B.exp();
+  for (int& unit : units) unit = -unit;
+  return in_units(result, units, scale);
+}
 
 Vector singular_values(const Matrix& M) {
   if (M.size() == 0) return Vector::Zero(0);

@@ -1,24 +1,10 @@
 #include "numbers/real.h"
 
-#include <numbers>
-#include <optional>
-
-#include "base/number.h"
 #include "numbers/dense.h"
+#include "numbers/foundation.h"
 #include "numbers/real_rules.h"
 
 namespace gainsmith::numbers {
-
-template <>
-struct Foundation<double> {
-  static std::optional<double> parse(const std::string& decimal) { return parse_decimal(decimal); }
-  static std::optional<double> pi() { return std::numbers::pi; }
-  static double least_condition() { return 1e-15; }
-  static Inverse inverse(const Matrix& M) { return numbers::inverse(M); }
-  static Vector singular_values(const Matrix& M) { return numbers::singular_values(M); }
-  static Svd full_svd(const Matrix& M) { return numbers::full_svd(M); }
-  static Matrix exponential(const Matrix& M) { return numbers::exponential(M); }
-};
 
 template struct Real<double>;
 template Matrix evaluate<double>(const expr::Program&, const Values&);

@@ -2,9 +2,6 @@
 
 namespace gainsmith::numbers {
 
-template <>
-struct Foundation<Decimal100> : WideFoundation<Decimal100> {};
-
 template struct Real<Decimal100>;
 template MatrixOf<Decimal100> evaluate<Decimal100>(const expr::Program&,
                                                    const ValuesOf<Decimal100>&);

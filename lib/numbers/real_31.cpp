@@ -2,9 +2,6 @@
 
 namespace gainsmith::numbers {
 
-template <>
-struct Foundation<DoubleDouble> : WideFoundation<DoubleDouble> {};
-
 template struct Real<DoubleDouble>;
 template MatrixOf<DoubleDouble> evaluate<DoubleDouble>(const expr::Program&,
                                                        const ValuesOf<DoubleDouble>&);

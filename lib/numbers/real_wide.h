@@ -7,9 +7,12 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
+#include "numbers/balance.h"
+#include "numbers/ball.h"
 #include "numbers/real_rules.h"
 
 namespace gainsmith::numbers {
@@ -30,7 +33,7 @@ struct WideSvd {
 /// e^M = (e^X)^(2^k) with X = M / 2^k, |X| <= 1/2 in the 1-norm, and e^X by its series, of which
 /// the first term left out is below epsilon / 8.
 template <class Scalar>
-MatrixOf<Scalar> wide_exponential(const MatrixOf<Scalar>& M) {
+MatrixOf<Scalar> balanced_exponential(const MatrixOf<Scalar>& M) {
   constexpr int kMostSquarings = 5000;
   if (M.size() == 0) return M;
   Scalar norm = M.cwiseAbs().colwise().sum().maxCoeff();
@@ -49,6 +52,17 @@ MatrixOf<Scalar> wide_exponential(const MatrixOf<Scalar>& M) {
   for (int k = terms; k >= 1; --k) result = (I + X * result / Scalar(k)).eval();
   for (int k = 0; k < squarings; ++k) result = (result * result).eval();
   return result;
+}
+
+/// e^M, in the units that numbers::exponential (dense.h) takes.
+template <class Scalar>
+MatrixOf<Scalar> wide_exponential(const MatrixOf<Scalar>& M) {
+  const auto scale = [](const Scalar& x, int exponent) { return times_power_of_two(x, exponent); };
+  std::vector<int> units =
+      balance(M.unaryExpr([](const Scalar& x) { return std::abs(static_cast<double>(x)); }));
+  const MatrixOf<Scalar> result = balanced_exponential<Scalar>(in_units(M, units, scale));
+  for (int& unit : units) unit = -unit;
+  return in_units(result, units, scale);
 }
 
 template <class Scalar>
@@ -79,5 +93,10 @@ struct WideFoundation {
   }
   static Wide exponential(const Wide& M) { return wide_exponential<Scalar>(M); }
 };
+
+template <>
+struct Foundation<DoubleDouble> : WideFoundation<DoubleDouble> {};
+template <>
+struct Foundation<Decimal100> : WideFoundation<Decimal100> {};
 
 }  // namespace gainsmith::numbers

@@ -1,6 +1,8 @@
 #include "numbers/conformance.h"
 
 #include "base/eigen_scalars.h"
+#include "numbers/enclosure.h"
+#include "numbers/jet.h"
 #include "numbers/pack.h"
 
 namespace gainsmith::numbers {
@@ -14,6 +16,40 @@ Subject real(const std::string& name, double tolerance) {
     return value.unaryExpr([](const Scalar& x) { return static_cast<double>(x); });
   };
   return subject<Real<Scalar>>(name, tolerance, to, to, from);
+}
+
+/// What moves has a radius, too small to show in the middle.
+template <class Scalar>
+Subject enclosure(const std::string& name, double tolerance) {
+  using Value = Enclosed<Scalar>;
+  const auto exact = [](const Matrix& matrix) -> Value {
+    return exactly<Scalar>(matrix.cast<Scalar>());
+  };
+  const auto moving = [](const Matrix& matrix) -> Value {
+    return {matrix.cast<Scalar>(),
+            Matrix::Constant(matrix.rows(), matrix.cols(), unit_roundoff<Scalar>())};
+  };
+  const auto middle = [](const Value& value) -> Matrix {
+    EXPECT_TRUE(value.is_known());
+    return value.mid.unaryExpr([](const Scalar& x) { return static_cast<double>(x); });
+  };
+  return subject<Enclosure<Scalar>>(name, tolerance, exact, moving, middle);
+}
+
+/// What moves has the slope 1.
+Subject jet() {
+  const auto fixed = [](const Matrix& matrix) { return constant_jet(exactly<double>(matrix)); };
+  const auto moving = [](const Matrix& matrix) {
+    Jet result = constant_jet(exactly<double>(matrix));
+    result.order = 1;
+    result.derivatives[1] = exactly<double>(Matrix::Ones(matrix.rows(), matrix.cols()));
+    return result;
+  };
+  const auto middle = [](const Jet& value) -> Matrix {
+    EXPECT_TRUE(value.value().is_known());
+    return value.value().mid;
+  };
+  return subject<JetAlgebra>("jet", 1e-14, fixed, moving, middle);
 }
 
 Subject pack() {
@@ -36,7 +72,10 @@ Subject pack() {
 INSTANTIATE_TEST_SUITE_P(NumberTypes, Conformance,
                          testing::Values(real<double>("double", 1e-14),
                                          real<DoubleDouble>("31 digits", 1e-29),
-                                         real<Decimal100>("100 digits", 1e-97), pack()),
+                                         real<Decimal100>("100 digits", 1e-97), pack(), jet(),
+                                         enclosure<double>("enclosure", 1e-14),
+                                         enclosure<DoubleDouble>("enclosure 31 digits", 1e-29),
+                                         enclosure<Decimal100>("enclosure 100 digits", 1e-97)),
                          [](const auto& tested) {
                            std::string name = tested.param.name;
                            std::ranges::replace(name, ' ', '_');

@@ -1,0 +1,391 @@
+// Internal to forall: proof.h, instantiated by one source a scalar.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <string_view>
+#include <utility>
+
+#include "base/number.h"
+#include "expr/evaluate.h"
+#include "forall/proof.h"
+#include "numbers/definite.h"
+#include "numbers/jet.h"
+
+namespace gainsmith::forall::proof {
+
+using numbers::Enclosed;
+using numbers::Matrix;
+using numbers::Sign;
+
+struct Piece {
+  std::vector<double> low;
+  std::vector<double> high;
+
+  std::vector<double> corner(std::size_t which) const {
+    std::vector<double> at = low;
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (((which >> i) & 1U) != 0) at[i] = high[i];
+    return at;
+  }
+  std::size_t corners() const { return std::size_t{1} << low.size(); }
+};
+
+/// The rows that are not exactly 0, with `more`.
+template <class S>
+void drop_zero_rows(Enclosed<S>& B, Matrix& more) {
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index i = 0; i < B.rows(); ++i) {
+    const bool is_zero = (B.mid.row(i).array() == S(0)).all() &&
+                         (B.mid.col(i).array() == S(0)).all() &&
+                         (B.rad.row(i).array() == 0).all() && (B.rad.col(i).array() == 0).all() &&
+                         (more.size() == 0 ||
+                          ((more.row(i).array() == 0).all() && (more.col(i).array() == 0).all()));
+    if (!is_zero) kept.push_back(i);
+  }
+  if (static_cast<Eigen::Index>(kept.size()) == B.rows()) return;
+  B = {numbers::MatrixOf<S>(B.mid(kept, kept)), Matrix(B.rad(kept, kept))};
+  if (more.size() != 0) more = Matrix(more(kept, kept));
+}
+
+/// B at points and over pieces, with the elements of sets and polytopes chosen.
+template <class S>
+class Function {
+ public:
+  struct Corner {
+    Enclosed<S> value;
+    Sign sign = Sign::open;
+    numbers::Vector direction;
+    std::string fault;  ///< why there is no value
+  };
+  /// Over a piece.
+  struct Spread {
+    Enclosed<double> value;
+    std::vector<Matrix> errors;  ///< of the interpolation, along each variable
+    std::string fault;
+  };
+
+  Function(const expr::Program& program, const numbers::EnclosedValues<S>& known, bool strict,
+           const std::vector<const Variable*>& axes)
+      : axes_(axes), strict_(strict), points_(program), at_(axes.size()) {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      along_.emplace_back(program);
+      variables_.emplace_back(axes.size());
+    }
+    for (const expr::Input& input : program.inputs) {
+      const auto value = known.find(input.name);
+      if (value == known.end()) continue;
+      points_.fix(input.name, constants_.emplace_back(value->second));
+      const auto& jet =
+          jets_.emplace_back(numbers::constant_jet(numbers::converted<double>(value->second)));
+      for (auto& evaluator : along_) evaluator.fix(input.name, jet);
+    }
+    for (std::size_t k = 0; k < axes.size(); ++k) {
+      points_.set(axes[k]->name, at_[k]);
+      for (std::size_t i = 0; i < axes.size(); ++i) along_[i].set(axes[k]->name, variables_[i][k]);
+    }
+  }
+
+  const Corner& corner(const std::vector<double>& at, double& margin) {
+    const auto [found, is_new] = corners_.try_emplace(at);
+    Corner& corner = found->second;
+    if (!is_new) return corner;
+    for (std::size_t k = 0; k < at.size(); ++k) at_[k] = numbers::exact_number<S>(S(at[k]));
+    try {
+      corner.value = numbers::symmetric_part(points_.run());
+    } catch (const expr::EvaluationError& error) {
+      corner.fault = error.what();
+      return corner;
+    }
+    Enclosed<S> rows = corner.value;
+    Matrix none;
+    if (!strict_) drop_zero_rows(rows, none);
+    numbers::Definite definite = numbers::definite(rows);
+    corner.sign = definite.sign;
+    corner.direction = std::move(definite.direction);
+    if (corner.sign == Sign::negative && rows.rows() != corner.value.rows())
+      corner.direction = numbers::definite(corner.value).direction;
+    margin = std::min(
+        margin,
+        numbers::margin(rows.mid.unaryExpr([](const S& x) { return static_cast<double>(x); })));
+    return corner;
+  }
+
+  bool fails_at(const Corner& corner) const {
+    return corner.sign == Sign::negative || (strict_ && corner.sign == Sign::not_positive);
+  }
+
+  Spread over(const Piece& piece) {
+    Spread spread;
+    try {
+      for (std::size_t i = 0; i < axes_.size(); ++i) {
+        for (std::size_t k = 0; k < axes_.size(); ++k)
+          variables_[i][k] = k == i ? numbers::variable_jet(piece.low[k], piece.high[k])
+                                    : numbers::other_variable_jet(piece.low[k], piece.high[k]);
+        const numbers::Jet& jet = along_[i].run();
+        if (i == 0) spread.value = jet.value();
+        spread.errors.push_back(chord_error(jet, piece.high[i] - piece.low[i]));
+      }
+    } catch (const expr::EvaluationError& error) {
+      spread.fault = error.what();
+    }
+    return spread;
+  }
+
+  bool strict() const { return strict_; }
+
+ private:
+  static Matrix chord_error(const numbers::Jet& jet, double width) {
+    const Eigen::Index n = jet.value().rows();
+    if (jet.order == 0) return Matrix::Zero(n, n);
+    const double w = width * (1 + 0x1p-50);
+    Matrix error = jet.derivatives[1].rad * (w / 2);
+    if (jet.order == 2) {
+      const auto& bend = jet.derivatives[2];
+      error =
+          error.cwiseMin(((bend.mid.cwiseAbs() + bend.rad) * (w * w / 8 * (1 + 0x1p-50))).eval());
+    }
+    return error * (1 + 0x1p-50);
+  }
+
+  const std::vector<const Variable*>& axes_;
+  bool strict_;
+  expr::Evaluator<numbers::Enclosure<S>> points_;
+  std::vector<Enclosed<S>> at_;
+  std::deque<expr::Evaluator<numbers::JetAlgebra>> along_;
+  std::deque<std::vector<numbers::Jet>> variables_;
+  std::deque<Enclosed<S>> constants_;
+  std::deque<numbers::Jet> jets_;
+  std::map<std::vector<double>, Corner> corners_;
+};
+
+/// Halves pieces until each holds; stops at the first point where the inequality fails.
+template <class S>
+class Search {
+ public:
+  Search(Function<S>& function, Piece whole, std::size_t budget)
+      : function_(function), whole_(whole), budget_(budget) {
+    stack_.push_back(std::move(whole));
+  }
+
+  /// After a first open piece only so many more are looked at, for a point that fails.
+  static constexpr std::size_t kMoreAfterOpen = 200;
+
+  void run() {
+    while (!stack_.empty() && !failed) {
+      const Piece piece = std::move(stack_.back());
+      if (pieces == budget_) {
+        if (!open) leave(piece, kTooMany);
+        return;
+      }
+      stack_.pop_back();
+      ++pieces;
+      visit(piece);
+    }
+  }
+
+  std::optional<std::pair<std::vector<double>, numbers::Vector>> failed;
+  std::optional<Piece> open;
+  std::string reason;
+  double margin = 1;
+  std::size_t pieces = 0;
+
+ private:
+  using Corner = typename Function<S>::Corner;
+
+  void leave(const Piece& piece, std::string_view why) {
+    if (open) return;
+    open = piece;
+    reason = why;
+    budget_ = std::min(budget_, pieces + kMoreAfterOpen);
+  }
+
+  void visit(const Piece& piece) {
+    std::vector<const Corner*> corners;
+    bool all_positive = true;
+    for (std::size_t c = 0; c < piece.corners(); ++c) {
+      const auto at = piece.corner(c);
+      corners.push_back(&function_.corner(at, margin));
+      if (!corners.back()->fault.empty()) return leave(piece, corners.back()->fault);
+      if (function_.fails_at(*corners.back())) {
+        failed = {at, corners.back()->direction};
+        return;
+      }
+      all_positive = all_positive && corners.back()->sign == Sign::positive;
+    }
+    if (piece.low.empty()) {
+      if (!all_positive) leave(piece, kNotDecided);
+      return;
+    }
+    if (!all_positive) {
+      // The corner stays in one of the halves.
+      if (is_fine(piece)) return leave(piece, kNotDecided);
+      return halve(piece, widest(piece), kNotDecided);
+    }
+    const auto spread = function_.over(piece);
+    if (!spread.fault.empty()) return halve(piece, widest(piece), spread.fault);
+    if (passes(corners, spread)) return;
+    halve(piece, steepest(piece, spread, corners), kTooSteep);
+  }
+
+  bool passes(const std::vector<const Corner*>& corners,
+              const typename Function<S>::Spread& spread) const {
+    Matrix error = spread.errors.front();
+    for (std::size_t i = 1; i < spread.errors.size(); ++i) error += spread.errors[i];
+    error *= 1 + 0x1p-40;
+    if (error.allFinite() && std::all_of(corners.begin(), corners.end(),
+                                         [&](const Corner* c) { return holds(c->value, error); }))
+      return true;
+    return spread.value.is_known() && holds(spread.value, Matrix());
+  }
+
+  template <class T>
+  bool holds(const Enclosed<T>& value, const Matrix& more) const {
+    if (function_.strict()) return numbers::is_positive_definite(value, more);
+    Enclosed<T> B = value;
+    Matrix error = more;
+    drop_zero_rows(B, error);
+    return numbers::is_positive_definite(B, error);
+  }
+
+  /// The variable whose error weighs most against the first corner.
+  std::size_t steepest(const Piece& piece, const typename Function<S>::Spread& spread,
+                       const std::vector<const Corner*>& corners) const {
+    std::size_t along = 0;
+    double most = -1;
+    for (std::size_t i = 0; i < spread.errors.size(); ++i) {
+      double weight = 0;
+      const auto& B = corners.front()->value;
+      for (Eigen::Index k = 0; k < std::min(B.rows(), spread.errors[i].rows()); ++k)
+        weight += spread.errors[i](k, k) / std::abs(static_cast<double>(B.mid(k, k)));
+      if (!std::isfinite(weight)) return widest(piece);
+      if (weight > most) {
+        along = i;
+        most = weight;
+      }
+    }
+    return along;
+  }
+
+  /// Against the whole domain.
+  std::size_t widest(const Piece& piece) const {
+    std::size_t along = 0;
+    for (std::size_t i = 1; i < piece.low.size(); ++i)
+      if (width(piece, i) > width(piece, along)) along = i;
+    return along;
+  }
+
+  double width(const Piece& piece, std::size_t i) const {
+    const double whole = whole_.high[i] - whole_.low[i];
+    return whole > 0 ? (piece.high[i] - piece.low[i]) / whole : 0;
+  }
+
+  bool is_fine(const Piece& piece) const { return width(piece, widest(piece)) < 0x1p-60; }
+
+  void halve(const Piece& piece, std::size_t along, std::string_view why) {
+    const double middle = piece.low[along] + (piece.high[along] - piece.low[along]) / 2;
+    if (!(piece.low[along] < middle && middle < piece.high[along])) return leave(piece, why);
+    Piece left = piece;
+    Piece right = piece;
+    left.high[along] = right.low[along] = middle;
+    stack_.push_back(std::move(right));
+    stack_.push_back(std::move(left));
+  }
+
+  static constexpr std::string_view
+      kNotDecided = "the sign at a point is within its error bound",
+      kTooSteep = "it moves too much between two points that are next to each other",
+      kTooMany = "more pieces than are looked at";
+
+  Function<S>& function_;
+  Piece whole_;
+  std::size_t budget_;
+  std::vector<Piece> stack_;
+};
+
+inline std::string label_of(const Point& fixed, const std::vector<const Variable*>& axes,
+                            const Piece& piece) {
+  std::string label = fixed.label;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    label += (label.empty() ? "" : ", ") + axes[i]->name;
+    label += piece.low[i] == piece.high[i]
+                 ? " = " + brief(piece.low[i], 10)
+                 : " in [" + brief(piece.low[i], 10) + ", " + brief(piece.high[i], 10) + "]";
+  }
+  return label;
+}
+
+/// One choice of the elements, with their enclosures in `known`.
+template <class S>
+struct Choice {
+  Point point;
+  numbers::EnclosedValues<S> known;
+};
+
+template <class S>
+std::vector<Choice<S>> choices(const Domain& domain, const numbers::EnclosedValues<S>& known,
+                               const EnclosedElements<S>& elements) {
+  std::vector<Choice<S>> all = {{{}, known}};
+  for (const Variable& variable : domain) {
+    if (variable.is_interval()) continue;
+    const auto stated = elements.find(variable.name);
+    std::vector<Choice<S>> next;
+    for (const Choice<S>& choice : all)
+      for (std::size_t k = 0; k < variable.elements.size(); ++k) {
+        Choice<S> chosen = choice;
+        chosen.point =
+            extended(choice.point, variable.name, variable.elements[k], variable.labels[k]);
+        chosen.known.insert_or_assign(
+            variable.name, stated != elements.end()
+                               ? stated->second.at(k)
+                               : numbers::exactly<S>(variable.elements[k].template cast<S>()));
+        next.push_back(std::move(chosen));
+      }
+    all = std::move(next);
+  }
+  return all;
+}
+
+}  // namespace gainsmith::forall::proof
+
+namespace gainsmith::forall {
+
+template <class S>
+DomainProof prove_on_domain(const expr::Program& difference, const Domain& domain,
+                            const numbers::EnclosedValues<S>& known, bool strict,
+                            const EnclosedElements<S>& elements, const ProofOptions& options) {
+  using Status = DomainProof::Status;
+  DomainProof result;
+  const auto axes = intervals(domain);
+  proof::Piece whole;
+  for (const Variable* axis : axes) {
+    whole.low.push_back(axis->low);
+    whole.high.push_back(axis->high);
+  }
+  for (const auto& choice : proof::choices(domain, known, elements)) {
+    proof::Function<S> function(difference, choice.known, strict, axes);
+    proof::Search<S> search(function, whole, options.most_pieces - result.pieces);
+    search.run();
+    result.pieces += search.pieces;
+    result.margin = std::min(result.margin, search.margin);
+    if (search.failed) {
+      Point point = choice.point;
+      for (std::size_t i = 0; i < axes.size(); ++i)
+        point = extended(point, axes[i]->name, search.failed->first[i]);
+      result.status = Status::fails;
+      result.point = std::move(point);
+      result.direction = search.failed->second;
+      result.where.clear();
+      result.reason.clear();
+      return result;
+    }
+    if (!search.open || result.status == Status::open) continue;
+    result.status = Status::open;
+    result.where = proof::label_of(choice.point, axes, *search.open);
+    result.reason = search.reason;
+  }
+  return result;
+}
+
+}  // namespace gainsmith::forall

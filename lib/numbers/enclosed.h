@@ -1,0 +1,230 @@
+// Matrices with a bound of the error of each element, and their arithmetic.
+#pragma once
+
+#include <Eigen/Core>
+#include <utility>
+
+#include "base/eigen_scalars.h"
+#include "numbers/ball.h"
+#include "numbers/matrix.h"
+
+namespace gainsmith::numbers {
+
+/// |true - mid| <= rad element by element (ball.h). `mid` is finite.
+template <class S>
+struct Enclosed {
+  MatrixOf<S> mid;
+  Matrix rad;
+
+  Eigen::Index rows() const { return mid.rows(); }
+  Eigen::Index cols() const { return mid.cols(); }
+  Ball<S> ball(Eigen::Index i, Eigen::Index j) const { return {mid(i, j), rad(i, j)}; }
+  Ball<S> ball(Eigen::Index i) const { return {mid(i), rad(i)}; }
+  void set(Eigen::Index i, const Ball<S>& value) {
+    mid(i) = value.mid;
+    rad(i) = value.rad;
+  }
+  void resize(Eigen::Index rows, Eigen::Index cols) {
+    mid.resize(rows, cols);
+    rad.resize(rows, cols);
+  }
+  bool is_exact() const { return (rad.array() == 0).all(); }
+  bool is_zero() const { return is_exact() && (mid.array() == S(0)).all(); }
+  /// A radius is finite everywhere.
+  bool is_known() const { return rad.allFinite(); }
+};
+
+template <class S>
+Enclosed<S> exactly(const MatrixOf<S>& matrix) {
+  return {matrix, Matrix::Zero(matrix.rows(), matrix.cols())};
+}
+template <class S>
+Enclosed<S> exact_number(const S& value) {
+  return exactly<S>(MatrixOf<S>::Constant(1, 1, value));
+}
+template <class S>
+Enclosed<S> exact_identity(Eigen::Index n) {
+  return exactly<S>(MatrixOf<S>::Identity(n, n));
+}
+/// Nothing is known of `matrix`; what is not finite in it becomes 0.
+template <class S>
+Enclosed<S> nothing_known(const MatrixOf<S>& matrix) {
+  using std::isfinite;
+  return {matrix.unaryExpr([](const S& x) { return isfinite(x) ? x : S(0); }),
+          Matrix::Constant(matrix.rows(), matrix.cols(), kNothingKnown)};
+}
+
+/// Not below |mid|, and not below any |true|.
+template <class S>
+Matrix magnitudes(const MatrixOf<S>& mid) {
+  return mid.unaryExpr([](const S& x) { return magnitude(x); });
+}
+template <class S>
+Matrix magnitudes(const Enclosed<S>& x) {
+  return (magnitudes<S>(x.mid) + x.rad) * up(1);
+}
+
+/// A product of matrices with elements >= 0, rounded upward.
+inline Matrix product_upward(const Matrix& a, const Matrix& b) {
+  const auto k = static_cast<double>(a.cols());
+  Matrix product = a.lazyProduct(b);
+  const double slack = up(1, k + 4);
+  for (double& x : product.reshaped())
+    x = bound_or_nothing(x * slack + (x < kLeastNormal && x != 0 ? k * kTiny : 0));
+  return product;
+}
+
+/// f(ball) for each element.
+template <class S, class Function>
+void map_balls(const Function& function, const Enclosed<S>& x, Enclosed<S>& out) {
+  out.resize(x.rows(), x.cols());
+  for (Eigen::Index i = 0; i < x.mid.size(); ++i) out.set(i, function(x.ball(i)));
+}
+template <class S, class Function>
+void map_balls(const Function& function, const Enclosed<S>& x, const Enclosed<S>& y,
+               Enclosed<S>& out) {
+  out.resize(x.rows(), x.cols());
+  for (Eigen::Index i = 0; i < x.mid.size(); ++i) out.set(i, function(x.ball(i), y.ball(i)));
+}
+
+template <class S>
+Enclosed<S> sum(const Enclosed<S>& x, const Enclosed<S>& y) {
+  Enclosed<S> out;
+  map_balls([](const Ball<S>& a, const Ball<S>& b) { return a + b; }, x, y, out);
+  return out;
+}
+template <class S>
+Enclosed<S> difference(const Enclosed<S>& x, const Enclosed<S>& y) {
+  Enclosed<S> out;
+  map_balls([](const Ball<S>& a, const Ball<S>& b) { return a - b; }, x, y, out);
+  return out;
+}
+template <class S>
+Enclosed<S> negative(const Enclosed<S>& x) {
+  return {-x.mid, x.rad};
+}
+template <class S>
+Enclosed<S> scaled(const Ball<S>& factor, const Enclosed<S>& x) {
+  Enclosed<S> out;
+  map_balls([&](const Ball<S>& a) { return factor * a; }, x, out);
+  return out;
+}
+template <class S>
+Enclosed<S> quotient(const Enclosed<S>& x, const Ball<S>& by) {
+  Enclosed<S> out;
+  map_balls([&](const Ball<S>& a) { return a / by; }, x, out);
+  return out;
+}
+template <class S>
+Enclosed<S> transposed(const Enclosed<S>& x) {
+  return {x.mid.transpose(), x.rad.transpose()};
+}
+
+namespace enclosed {
+
+/// For each row the relative error of a sum of as many products as it has elements: 0 for a row
+/// that picks one element. `element(i, j)` are those of the matrix, or of its transpose.
+template <class S, class Element>
+Vector row_roundoff(Eigen::Index rows, Eigen::Index cols, const Element& element) {
+  Vector roundoff(rows);
+  for (Eigen::Index i = 0; i < rows; ++i) {
+    int count = 0;
+    bool picks = true;
+    for (Eigen::Index j = 0; j < cols; ++j) {
+      const Ball<S> x = element(i, j);
+      if (x.is_zero()) continue;
+      ++count;
+      picks = picks && x.is_exact() && (x.mid == S(1) || x.mid == S(-1));
+    }
+    roundoff(i) = count == 0 || (count == 1 && picks) ? 0 : (count + 2) * unit_roundoff<S>();
+  }
+  return roundoff;
+}
+
+/// The least element other than 0; infinite when there is none.
+inline double least_element(const Matrix& sizes) {
+  double least = kNothingKnown;
+  for (const double x : sizes.reshaped())
+    if (x != 0 && x < least) least = x;
+  return least;
+}
+
+}  // namespace enclosed
+
+/// |fl(X Y) - X Y| <= gamma_k |X| |Y|, where k counts the products that are not 0 by themselves.
+template <class S>
+Enclosed<S> product(const Enclosed<S>& x, const Enclosed<S>& y) {
+  Enclosed<S> out;
+  if (x.mid.size() == 1 && y.mid.size() == 1) {
+    out.resize(1, 1);
+    out.set(0, x.ball(0) * y.ball(0));
+    return out;
+  }
+  const Matrix left = magnitudes<S>(x.mid);
+  const Matrix right = magnitudes<S>(y.mid);
+  const Vector along =
+      enclosed::row_roundoff<S>(x.rows(), x.cols(), [&](auto i, auto j) { return x.ball(i, j); });
+  const Vector down =
+      enclosed::row_roundoff<S>(y.cols(), y.rows(), [&](auto j, auto i) { return y.ball(i, j); });
+  out.mid.setZero(x.rows(), y.cols());
+  out.rad.setZero(x.rows(), y.cols());
+  Vector sizes(x.rows());
+  for (Eigen::Index j = 0; j < y.cols(); ++j) {
+    sizes.setZero();
+    for (Eigen::Index k = 0; k < x.cols(); ++k) {
+      const S by = y.mid(k, j);
+      const double size = right(k, j), rad = y.rad(k, j), reach = size + rad;
+      if (reach == 0) continue;
+      for (Eigen::Index i = 0; i < x.rows(); ++i) {
+        out.mid(i, j) += x.mid(i, k) * by;
+        sizes(i) += left(i, k) * size;
+        out.rad(i, j) += left(i, k) * rad + x.rad(i, k) * reach;
+      }
+    }
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+      out.rad(i, j) += sizes(i) * std::min(along(i), down(j));
+  }
+  const auto k = static_cast<double>(x.cols());
+  const bool may_underflow =
+      std::min(enclosed::least_element(left), enclosed::least_element(x.rad)) *
+          std::min(enclosed::least_element(right), enclosed::least_element(y.rad)) <
+      kLeastNormal / unit_roundoff<S>();
+  const double slack = up(1, 2 * k + 8);
+  for (double& r : out.rad.reshaped())
+    r = bound_or_nothing(r * slack + (may_underflow || r != 0 ? (k + 1) * kTiny : 0));
+  return out;
+}
+
+/// Also of the error of a symmetric mean: (X + X') / 2.
+template <class S>
+Enclosed<S> symmetric_part(const Enclosed<S>& x) {
+  Enclosed<S> out = x;
+  for (Eigen::Index j = 0; j < x.cols(); ++j)
+    for (Eigen::Index i = 0; i < j; ++i) {
+      if (x.mid(i, j) == x.mid(j, i) && x.rad(i, j) == x.rad(j, i)) continue;
+      const Ball<S> twice = x.ball(i, j) + x.ball(j, i);
+      const S mid = twice.mid / S(2);
+      out.mid(i, j) = out.mid(j, i) = mid;
+      out.rad(i, j) = out.rad(j, i) = twice.rad / 2 + kTiny;
+    }
+  return out;
+}
+
+/// A matrix of another scalar that holds it.
+template <class To, class From>
+Enclosed<To> converted(const Enclosed<From>& x) {
+  if constexpr (std::is_same_v<To, From>) {
+    return x;
+  } else {
+    Enclosed<To> out;
+    out.resize(x.rows(), x.cols());
+    for (Eigen::Index i = 0; i < x.mid.size(); ++i) {
+      const To mid = as<To>(x.mid(i));
+      const double lost = as<From>(mid) == x.mid(i) ? 0 : up(magnitude(mid) * 0x1p-52) + kTiny;
+      out.set(i, {mid, up(x.rad(i) + lost)});
+    }
+    return out;
+  }
+}
+
+}  // namespace gainsmith::numbers

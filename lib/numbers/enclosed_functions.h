@@ -1,0 +1,235 @@
+// Internal to numbers: matrix functions with bounds of their errors, instantiated by one source a
+// scalar.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "numbers/balance.h"
+#include "numbers/enclosed.h"
+#include "numbers/real_rules.h"
+
+namespace gainsmith::numbers::enclosed {
+
+/// |x|^2 summed, rooted, rounded upward.
+inline double norm_upward(const Matrix& sizes) {
+  const double largest = sizes.size() == 0 ? 0 : sizes.maxCoeff();
+  if (!(largest > 0)) return bound_or_nothing(largest);
+  if (!std::isfinite(largest)) return kNothingKnown;
+  const double norm = (sizes / largest).norm() * largest;
+  return up(norm, static_cast<double>(sizes.size()) + 6) + kTiny;
+}
+
+/// I - X, with its size.
+template <class S>
+Enclosed<S> defect(const Enclosed<S>& x) {
+  return difference(exact_identity<S>(x.rows()), x);
+}
+
+/// |A^-1 - R| <= (I - G)^-1 G |R| for G >= |I - R A| with spectral radius below 1. With v > 0 and
+/// G v <= q v, q < 1, and T = G |R|, T_ij <= c_j v_i, the bound is at most
+///   T + G T + v c' q^2 / (1 - q).
+/// Nothing is known when there is no such q.
+template <class S>
+Enclosed<S> inverse_around(const MatrixOf<S>& R, const Enclosed<S>& A) {
+  const Eigen::Index n = A.rows();
+  const Matrix size = magnitudes<S>(R);
+  const Matrix G = magnitudes<S>(defect(product(exactly<S>(R), A)));
+  if (!G.allFinite() || !size.allFinite()) return nothing_known<S>(R);
+  const Vector v = size * magnitudes<S>(A.mid).rowwise().maxCoeff();
+  if (!(v.array() > 0).all()) return nothing_known<S>(R);
+  const double slack = up(1, static_cast<double>(n) + 6);
+  const double q = ((G * v).array() / v.array()).maxCoeff() * slack;
+  if (!(q < 0.5)) return nothing_known<S>(R);
+  const Matrix T = product_upward(G, size);
+  Matrix bound = (T + product_upward(G, T)) * slack;
+  const double rest = up(q * q / (1 - q));
+  for (Eigen::Index j = 0; j < n; ++j) {
+    const double c = (T.col(j).array() / v.array()).maxCoeff() * slack;
+    bound.col(j) += v * (c * rest * slack);
+  }
+  return {R, bound * slack};
+}
+
+template <class S>
+struct Decomposition {
+  Enclosed<S> U, s, V;                   ///< A = U diag(s) V' up to the radii of `residual`
+  double residual = 0;                   ///< |A - U diag(s) V'| in the Frobenius norm
+  double skew_left = 0, skew_right = 0;  ///< |I - U'U|, |I - V'V|
+
+  /// |s_i - exact singular value|, by Weyl's and Ostrowski's bounds.
+  double radius(double s_i) const {
+    const double skew = skew_left + skew_right;
+    return skew < 0.1 ? up(residual + s_i * skew, 8) + kTiny : kNothingKnown;
+  }
+};
+
+/// A must not be empty. Only min(rows, cols) columns of U and V are of use to the residual.
+template <class S>
+Decomposition<S> decomposed(const Enclosed<S>& A) {
+  const auto svd = Foundation<S>::full_svd(A.mid);
+  const Eigen::Index k = std::min(A.rows(), A.cols());
+  Decomposition<S> result{exactly<S>(svd.U), exactly<S>(svd.s), exactly<S>(svd.V), 0, 0, 0};
+  const MatrixOf<S> U = svd.U.leftCols(k);
+  const MatrixOf<S> V = svd.V.leftCols(k);
+  const MatrixOf<S> s = svd.s.asDiagonal();
+  const auto image =
+      product(product(exactly<S>(U), exactly<S>(s)), exactly<S>(MatrixOf<S>(V.transpose())));
+  const auto skew = [](const MatrixOf<S>& X) {
+    const MatrixOf<S> turned = X.transpose();
+    return norm_upward(magnitudes<S>(defect(product(exactly<S>(turned), exactly<S>(X)))));
+  };
+  result.residual = norm_upward(magnitudes<S>(difference(A, image)));
+  result.skew_left = skew(U);
+  result.skew_right = skew(V);
+  return result;
+}
+
+template <class S>
+Enclosed<S> singular_values(const Enclosed<S>& A) {
+  if (A.mid.size() == 0) return exactly<S>(MatrixOf<S>::Zero(0, 1));
+  const auto parts = decomposed(A);
+  Enclosed<S> out = parts.s;
+  for (Eigen::Index i = 0; i < out.rows(); ++i) out.rad(i) = parts.radius(magnitude(out.mid(i)));
+  return out;
+}
+
+/// An element of a bounded distance from `basis`, each element of which is off by at most `radius`.
+template <class S>
+Enclosed<S> basis_within(const MatrixOf<S>& basis, double radius) {
+  if (!(radius < 0.5)) return nothing_known<S>(basis);
+  return {basis, Matrix::Constant(basis.rows(), basis.cols(), radius)};
+}
+
+/// The k first left singular vectors Q, near an exact orthonormal basis of k directions of the
+/// range: with Q = A W + F, W = V diag(s)^-1, the projection of Q on the range is off by |F|, and
+/// the orthonormal basis nearest to that (its polar factor) by |I - Q'Q| + |F|^2 more.
+template <class S>
+Enclosed<S> range_basis(const Enclosed<S>& A, Eigen::Index k) {
+  const auto parts = decomposed(A);
+  const MatrixOf<S> Q = parts.U.mid.leftCols(k);
+  MatrixOf<S> W = parts.V.mid.leftCols(k);
+  for (Eigen::Index i = 0; i < k; ++i) W.col(i) /= parts.s.mid(i);
+  using std::isfinite;
+  for (const S& x : W.reshaped())
+    if (!isfinite(x)) return nothing_known<S>(Q);
+  const double off =
+      norm_upward(magnitudes<S>(difference(exactly<S>(Q), product(A, exactly<S>(W)))));
+  const MatrixOf<S> turned = Q.transpose();
+  const double skew =
+      norm_upward(magnitudes<S>(defect(product(exactly<S>(turned), exactly<S>(Q)))));
+  return basis_within(Q, up(off + off * off + skew, 8));
+}
+
+/// The k last right singular vectors N, near an exact orthonormal basis of the kernel, which has
+/// dimension k: N is off the kernel by |A N| / s_r =: g with s_r the least of the other singular
+/// values.
+template <class S>
+Enclosed<S> kernel_basis(const Enclosed<S>& A, Eigen::Index k) {
+  const auto parts = decomposed(A);
+  const MatrixOf<S> N = parts.V.mid.rightCols(k);
+  const Eigen::Index rank = A.cols() - k;
+  double off = 0;
+  if (rank > 0) {
+    const double s = below(parts.s.mid(rank - 1));
+    const double least = s - parts.radius(s);
+    if (!(least > 0)) return nothing_known<S>(N);
+    off = up(norm_upward(magnitudes<S>(product(A, exactly<S>(N)))) / (least * (1 - 0x1p-50)));
+  }
+  const MatrixOf<S> turned = N.transpose();
+  const double skew =
+      norm_upward(magnitudes<S>(defect(product(exactly<S>(turned), exactly<S>(N)))));
+  return basis_within(N, up(off + off * off + skew, 8));
+}
+
+/// The degree m of the series for |X| <= 1/2: 2^-(m+1) / (m+1)! is below the unit roundoff. It is
+/// summed in blocks of `block` terms (Paterson & Stockmeyer 1973); block divides m + 1.
+template <class S>
+struct Series {
+  static constexpr int terms = std::is_same_v<S, double>         ? 16
+                               : std::is_same_v<S, DoubleDouble> ? 28
+                                                                 : 64;
+  static constexpr int block = std::is_same_v<S, Decimal100> ? 8 : 4;
+};
+
+/// Whether i is made of j: a path in the pattern of A, or i = j. Outside of it e^A is 0.
+inline Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> paths(const Matrix& sizes) {
+  Eigen::Array<bool, Eigen::Dynamic, Eigen::Dynamic> reach = sizes.array() != 0;
+  for (Eigen::Index k = 0; k < sizes.rows(); ++k)
+    for (Eigen::Index i = 0; i < sizes.rows(); ++i)
+      if (reach(i, k)) reach.row(i) = reach.row(i) || reach.row(k);
+  for (Eigen::Index k = 0; k < sizes.rows(); ++k) reach(k, k) = true;
+  return reach;
+}
+
+/// e^X for |X| <= 1/2 in the largest row sum: the series up to m, and for its rest
+/// |X|^(m+1)/(m+1)! (1 + |X|/(m+2) + ...) <= 2^-(m+1)/(m+1)! * 1.1 wherever a path leads.
+template <class S>
+Enclosed<S> series(const Enclosed<S>& X) {
+  constexpr int terms = Series<S>::terms, block = Series<S>::block;
+  const Eigen::Index n = X.rows();
+  std::vector<Enclosed<S>> powers = {exact_identity<S>(n), X};
+  for (int k = 2; k <= block; ++k) powers.push_back(product(powers.back(), X));
+  std::vector<Ball<S>> coefficients = {{S(1), 0}};
+  for (int k = 1; k < terms; ++k) coefficients.push_back(coefficients.back() / Ball<S>{S(k), 0});
+  Enclosed<S> result;
+  for (int first = terms - block; first >= 0; first -= block) {
+    Enclosed<S> part = exactly<S>(MatrixOf<S>::Zero(n, n));
+    for (int k = block - 1; k >= 0; --k)
+      part = sum(part, scaled(coefficients[static_cast<std::size_t>(first + k)],
+                              powers[static_cast<std::size_t>(k)]));
+    result = first == terms - block ? part : sum(part, product(powers.back(), result));
+  }
+  const double rest = std::exp2(-terms) / std::tgamma(terms + 1.0) * 1.2;
+  const auto reach = paths(magnitudes<S>(X));
+  for (Eigen::Index i = 0; i < result.mid.size(); ++i)
+    if (reach(i)) result.rad(i) = up(result.rad(i) + rest);
+  return result;
+}
+
+/// Element by element times a power of two; what underflows is bounded.
+template <class S>
+Ball<S> ball_times_power_of_two(const Ball<S>& x, int exponent) {
+  if (x.is_zero() || exponent == 0) return x;
+  const S mid = times_power_of_two(x.mid, exponent);
+  double rad = std::ldexp(x.rad, exponent);
+  if (magnitude(mid) < kLeastNormal || rad < kLeastNormal)
+    rad += x.rad == 0 && magnitude(mid) >= kLeastNormal ? 0 : kTiny;
+  return {mid, rad};
+}
+
+template <class S>
+Enclosed<S> enclosed_in_units(const Enclosed<S>& x, const std::vector<int>& exponents) {
+  Enclosed<S> out;
+  out.resize(x.rows(), x.cols());
+  for (Eigen::Index j = 0; j < x.cols(); ++j)
+    for (Eigen::Index i = 0; i < x.rows(); ++i)
+      out.set(j * x.rows() + i,
+              ball_times_power_of_two(x.ball(i, j), exponents[static_cast<std::size_t>(j)] -
+                                                        exponents[static_cast<std::size_t>(i)]));
+  return out;
+}
+
+/// e^A in balanced units (balance.h) by scaling and squaring; the errors of the squarings are
+/// carried along by the products. Nothing is known when A is so large that it has no value in
+/// double.
+template <class S>
+Enclosed<S> exponential(const Enclosed<S>& A) {
+  constexpr int kMostSquarings = 80;
+  if (A.mid.size() == 0) return A;
+  if (A.is_zero()) return exact_identity<S>(A.rows());
+  std::vector<int> units = balance(magnitudes<S>(A));
+  const Enclosed<S> B = enclosed_in_units(A, units);
+  const double norm = up(magnitudes<S>(B).rowwise().sum().maxCoeff(), 100);
+  int squarings = 0;
+  if (norm > 0.5) squarings = std::isfinite(norm) ? std::ilogb(norm) + 2 : kMostSquarings + 1;
+  if (squarings > kMostSquarings) return nothing_known<S>(MatrixOf<S>(A.mid * S(0)));
+  Enclosed<S> X;
+  map_balls([&](const Ball<S>& x) { return ball_times_power_of_two(x, -squarings); }, B, X);
+  Enclosed<S> result = series(X);
+  for (int k = 0; k < squarings; ++k) result = product(result, result);
+  for (int& unit : units) unit = -unit;
+  return enclosed_in_units(result, units);
+}
+
+}  // namespace gainsmith::numbers::enclosed

@@ -1,0 +1,248 @@
+// Internal to numbers: the rules of Enclosure, instantiated by one source a scalar.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "numbers/ball_functions.h"
+#include "numbers/enclosed_functions.h"
+#include "numbers/enclosure.h"
+
+namespace gainsmith::numbers {
+
+template <class S>
+struct EnclosureRules {
+  using Value = Enclosed<S>;
+  using At = expr::Step<Value>;
+  using Op = expr::Op;
+  template <Op op>
+  using Is = expr::Is<op>;
+
+  void operator()(Is<Op::constant>, const At& at, Value& out) const {
+    const std::string& text = at.instruction.text;
+    const auto value = text == "pi" ? Foundation<S>::pi() : Foundation<S>::parse(text);
+    if (!value) expr::fault::beyond_range(at.instruction);
+    out = exact_number<S>(*value);
+    if (!is_exact_decimal(text))
+      out.rad(0) = up(2 * unit_roundoff<S>() * magnitude(*value)) + kTiny;
+  }
+  void operator()(Is<Op::zeros>, const At& at, Value& out) const {
+    out.mid.setZero(at.shape().rows, at.shape().cols);
+    out.rad.setZero(at.shape().rows, at.shape().cols);
+  }
+  void operator()(Is<Op::fill>, const At& at, Value& out) const {
+    out.mid.setConstant(at.shape().rows, at.shape().cols, at[0].mid(0));
+    out.rad.setConstant(at.shape().rows, at.shape().cols, at[0].rad(0));
+  }
+  void operator()(Is<Op::identity>, const At& at, Value& out) const {
+    out.mid.setZero(at.shape().rows, at.shape().cols);
+    out.rad.setZero(at.shape().rows, at.shape().cols);
+    out.mid.diagonal().setConstant(at[0].mid(0));
+    out.rad.diagonal().setConstant(at[0].rad(0));
+  }
+  void operator()(Is<Op::add>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& a, const Ball<S>& b) { return a + b; }, at[0], at[1], out);
+  }
+  void operator()(Is<Op::subtract>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& a, const Ball<S>& b) { return a - b; }, at[0], at[1], out);
+  }
+  void operator()(Is<Op::negate>, const At& at, Value& out) const {
+    out.mid = -at[0].mid;
+    out.rad = at[0].rad;
+  }
+  void operator()(Is<Op::multiply>, const At& at, Value& out) const { out = product(at[0], at[1]); }
+  void operator()(Is<Op::scale>, const At& at, Value& out) const {
+    const Ball<S> factor = at[0].ball(0);
+    map_balls([&](const Ball<S>& a) { return factor * a; }, at[1], out);
+  }
+  void operator()(Is<Op::divide>, const At& at, Value& out) const {
+    const Ball<S> by = at[1].ball(0);
+    if (by.is_zero()) expr::fault::division_by_zero();
+    map_balls([&](const Ball<S>& a) { return a / by; }, at[0], out);
+  }
+  void operator()(Is<Op::power>, const At& at, Value& out) const {
+    if (at.shape().is_scalar()) {
+      out.resize(1, 1);
+      return out.set(0, ball::whole_power(at[0].ball(0), at.attribute(0)));
+    }
+    Value square = at[0];
+    out = exact_identity<S>(square.rows());
+    for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
+      if (exponent % 2 == 1) out = product(out, square);
+      if (exponent > 1) square = product(square, square);
+    }
+  }
+  void operator()(Is<Op::scalar_power>, const At& at, Value& out) const {
+    const auto power = ball::power(at[0].ball(0), at[1].ball(0));
+    if (!power) expr::fault::not_finite(Op::scalar_power);
+    out.resize(1, 1);
+    out.set(0, *power);
+  }
+  void operator()(Is<Op::transpose>, const At& at, Value& out) const { out = transposed(at[0]); }
+  void operator()(Is<Op::blocks>, const At& at, Value& out) const {
+    out.resize(at.shape().rows, at.shape().cols);
+    const auto columns = static_cast<std::size_t>(at.attribute(0));
+    Eigen::Index row = 0;
+    for (std::size_t first = 0; first < at.operands.size(); first += columns) {
+      Eigen::Index column = 0;
+      for (std::size_t j = first; j < first + columns; ++j) {
+        out.mid.block(row, column, at[j].rows(), at[j].cols()) = at[j].mid;
+        out.rad.block(row, column, at[j].rows(), at[j].cols()) = at[j].rad;
+        column += at[j].cols();
+      }
+      row += at[first].rows();
+    }
+  }
+  void operator()(Is<Op::index>, const At& at, Value& out) const {
+    const Eigen::Index row = at.attribute(0), column = at.attribute(2);
+    const Eigen::Index rows = at.attribute(1) - row, columns = at.attribute(3) - column;
+    out.mid = at[0].mid.block(row, column, rows, columns);
+    out.rad = at[0].rad.block(row, column, rows, columns);
+  }
+  void operator()(Is<Op::exp>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& x) { return ball::exp(x); }, at[0], out);
+  }
+  void operator()(Is<Op::log>, const At& at, Value& out) const {
+    partly(
+        Op::log, [](const Ball<S>& x) { return ball::log(x); }, at[0], out);
+  }
+  void operator()(Is<Op::sqrt>, const At& at, Value& out) const {
+    partly(
+        Op::sqrt, [](const Ball<S>& x) { return ball::sqrt(x); }, at[0], out);
+  }
+  void operator()(Is<Op::sin>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& x) { return ball::sin(x); }, at[0], out);
+  }
+  void operator()(Is<Op::cos>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& x) { return ball::cos(x); }, at[0], out);
+  }
+  void operator()(Is<Op::tanh>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& x) { return ball::tanh(x); }, at[0], out);
+  }
+  void operator()(Is<Op::abs>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& x) { return ball::abs(x); }, at[0], out);
+  }
+  void operator()(Is<Op::sign>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& x) { return ball::sign(x); }, at[0], out);
+  }
+  void operator()(Is<Op::minimum>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& a, const Ball<S>& b) { return ball::minimum(a, b); }, at[0], at[1],
+              out);
+  }
+  void operator()(Is<Op::maximum>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& a, const Ball<S>& b) { return ball::maximum(a, b); }, at[0], at[1],
+              out);
+  }
+  void operator()(Is<Op::where>, const At& at, Value& out) const {
+    out.resize(at.shape().rows, at.shape().cols);
+    for (Eigen::Index i = 0; i < out.mid.size(); ++i) {
+      const auto holds = ball::holds(at[0].ball(i), at.attribute(0) != 0);
+      out.set(i, !holds ? ball::either(at[1].ball(i), at[2].ball(i)) : at[*holds ? 1 : 2].ball(i));
+    }
+  }
+  void operator()(Is<Op::trace>, const At& at, Value& out) const {
+    Ball<S> sum;
+    for (Eigen::Index i = 0; i < at[0].rows(); ++i) sum = sum + at[0].ball(i, i);
+    out.resize(1, 1);
+    out.set(0, sum);
+  }
+  void operator()(Is<Op::norm>, const At& at, Value& out) const {
+    const Value& a = at[0];
+    out.resize(1, 1);
+    out.set(0, {});
+    if (a.mid.size() == 0) return;
+    if (a.rows() != 1 && a.cols() != 1) return out.set(0, enclosed::singular_values(a).ball(0));
+    out.set(0, length(a));
+  }
+  void operator()(Is<Op::inverse>, const At& at, Value& out) const {
+    out = at[0];
+    if (out.mid.size() == 0) return;
+    auto found = Foundation<S>::inverse(at[0].mid);
+    if (at[0].is_exact() && !(found.condition > S(0))) expr::fault::singular(at.instruction);
+    out = enclosed::inverse_around<S>(found.matrix, at[0]);
+  }
+  void operator()(Is<Op::pseudo_inverse>, const At& at, Value& out) const {
+    const Value& a = at[0];
+    out = exactly<S>(MatrixOf<S>::Zero(a.cols(), a.rows()));
+    if (a.mid.size() == 0 || a.is_zero()) return;
+    const Value turned = transposed(a);
+    const bool tall = a.rows() >= a.cols();
+    const Value gram = tall ? product(turned, a) : product(a, turned);
+    const auto inverse = enclosed::inverse_around<S>(Foundation<S>::inverse(gram.mid).matrix, gram);
+    out = tall ? product(inverse, turned) : product(turned, inverse);
+  }
+  void operator()(Is<Op::matrix_exponential>, const At& at, Value& out) const {
+    out = enclosed::exponential(at[0]);
+  }
+  void operator()(Is<Op::diagonal_matrix>, const At& at, Value& out) const {
+    const Eigen::Index n = at[0].mid.size();
+    out = exactly<S>(MatrixOf<S>::Zero(n, n));
+    for (Eigen::Index i = 0; i < n; ++i) out.set(i * n + i, at[0].ball(i));
+  }
+  void operator()(Is<Op::diagonal_of>, const At& at, Value& out) const {
+    out.mid = at[0].mid.diagonal();
+    out.rad = at[0].rad.diagonal();
+  }
+  void operator()(Is<Op::singular_values>, const At& at, Value& out) const {
+    out = enclosed::singular_values(at[0]);
+  }
+  void operator()(Is<Op::range_basis>, const At& at, Value& out) const {
+    const int count = at.shape().cols;
+    out = exactly<S>(MatrixOf<S>::Zero(at[0].rows(), count));
+    if (count > 0) out = enclosed::range_basis<S>(at[0], count);
+  }
+  void operator()(Is<Op::kernel_basis>, const At& at, Value& out) const {
+    const int count = at.shape().cols;
+    out = exactly<S>(MatrixOf<S>::Identity(at[0].cols(), count));
+    if (at[0].mid.size() > 0 && count > 0) out = enclosed::kernel_basis<S>(at[0], count);
+  }
+
+ private:
+  template <class Function>
+  static void partly(Op op, const Function& function, const Value& x, Value& out) {
+    out.resize(x.rows(), x.cols());
+    for (Eigen::Index i = 0; i < x.mid.size(); ++i) {
+      const auto value = function(x.ball(i));
+      if (!value) expr::fault::outside_domain(op, static_cast<double>(x.mid.minCoeff()));
+      out.set(i, *value);
+    }
+  }
+
+  /// Of a vector, in units that leave its squares in range.
+  static Ball<S> length(const Value& a) {
+    const double largest = magnitudes<S>(a.mid).maxCoeff();
+    const double moved = enclosed::norm_upward(a.rad);
+    if (!(largest > 0) || !std::isfinite(largest)) return {S(0), moved};
+    const int unit = std::ilogb(largest);
+    S squares(0);
+    for (const S& x : a.mid.reshaped()) {
+      const S part = times_power_of_two(x, -unit);
+      squares += part * part;
+    }
+    using std::sqrt;
+    const S norm = times_power_of_two(S(sqrt(squares)), unit);
+    const double n = static_cast<double>(a.mid.size()) + 6;
+    const bool exact = a.mid.size() == 1 && moved == 0;
+    if (a.mid.size() == 1) return ball::abs(a.ball(0));
+    return {norm, exact ? 0 : up(moved + n * unit_roundoff<S>() * magnitude(norm)) + kTiny};
+  }
+};
+
+template <class S>
+void Enclosure<S>::apply(const expr::Instruction& instruction, expr::Operands<Value> operands,
+                         Value& out) const {
+  expr::dispatch(EnclosureRules<S>{}, instruction, operands, out);
+  if (!out.mid.allFinite()) expr::fault::not_finite(instruction.op);
+}
+
+template <class S>
+Enclosed<S> enclose(const expr::Program& program, const EnclosedValues<S>& values) {
+  expr::Evaluator<Enclosure<S>> evaluator(program);
+  for (const expr::Input& input : program.inputs) {
+    const auto found = values.find(input.name);
+    if (found != values.end()) evaluator.set(input.name, found->second);
+  }
+  return evaluator.run();
+}
+
+}  // namespace gainsmith::numbers

@@ -1,0 +1,180 @@
+#include "numbers/jet.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "numbers/ball_functions.h"
+#include "numbers/enclosed_functions.h"
+#include "numbers/enclosure.h"
+#include "numbers/jet_rules.h"
+
+namespace gainsmith::numbers {
+
+Enclosed<double> Jet::derivative(int k) const {
+  if (k <= order) return derivatives[static_cast<std::size_t>(k)];
+  return exactly<double>(Matrix::Zero(value().rows(), value().cols()));
+}
+
+Jet constant_jet(const Enclosed<double>& value) { return {0, {value, {}, {}}, nullptr}; }
+
+Jet other_variable_jet(double low, double high) {
+  if (low == high) return constant_jet(exact_number<double>(low));
+  Enclosed<double> value;
+  value.resize(1, 1);
+  value.set(0, hull<double>(low, high));
+  return constant_jet(value);
+}
+
+Jet variable_jet(double low, double high) {
+  Jet jet = other_variable_jet(low, high);
+  jet.order = 1;
+  jet.derivatives[1] = exact_number<double>(1);
+  return jet;
+}
+
+namespace jets {
+
+Jet product(const Jet& x, const Jet& y, const Product& multiply) {
+  Jet out;
+  out.order = std::min(2, x.order + y.order);
+  out.derivatives[0] = multiply(x.derivatives[0], y.derivatives[0]);
+  const auto add = [&](int k, Enclosed<double> term) {
+    Enclosed<double>& sum = out.derivatives[static_cast<std::size_t>(k)];
+    sum = sum.mid.size() == 0 ? std::move(term) : numbers::sum(sum, term);
+  };
+  const Ball<double> two{2, 0};
+  if (x.order >= 1) add(1, multiply(x.derivatives[1], y.derivatives[0]));
+  if (y.order >= 1) add(1, multiply(x.derivatives[0], y.derivatives[1]));
+  if (x.order >= 2) add(2, multiply(x.derivatives[2], y.derivatives[0]));
+  if (x.order >= 1 && y.order >= 1)
+    add(2, scaled(two, multiply(x.derivatives[1], y.derivatives[1])));
+  if (y.order >= 2) add(2, multiply(x.derivatives[0], y.derivatives[2]));
+  return out;
+}
+
+Jet matrix_product(const Jet& x, const Jet& y) {
+  return product(x, y, [](const auto& a, const auto& b) { return numbers::product(a, b); });
+}
+
+Jet scaled_jet(const Jet& factor, const Jet& x) {
+  return product(factor, x, [](const auto& s, const auto& a) { return scaled(s.ball(0), a); });
+}
+
+Jet transposed_jet(const Jet& x) {
+  Jet out;
+  out.order = x.order;
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(x.order); ++k)
+    out.derivatives[k] = transposed(x.derivatives[k]);
+  return out;
+}
+
+/// R' = -R X' R,  R'' = -2 R' X' R - R X'' R.
+Jet inverse(const Jet& x, Enclosed<double> value) {
+  Jet out;
+  out.order = x.order == 0 ? 0 : 2;
+  out.derivatives[0] = std::move(value);
+  if (x.order == 0) return out;
+  const auto& R = out.derivatives[0];
+  const auto turned = numbers::product(x.derivatives[1], R);
+  out.derivatives[1] = negative(numbers::product(R, turned));
+  out.derivatives[2] = scaled(Ball<double>{-2, 0}, numbers::product(out.derivatives[1], turned));
+  if (x.order == 2)
+    out.derivatives[2] =
+        difference(out.derivatives[2], numbers::product(R, numbers::product(x.derivatives[2], R)));
+  return out;
+}
+
+/// Not below e^Y - I, Y >= 0: X (1 + X/2 (1 + X/3 ...)) of X = Y / 2^k in balanced units, whose
+/// rest is at most |X|^9/9! * 1.2 wherever a path leads, then k times 2 H + H^2.
+Matrix growth(const Matrix& Y) {
+  constexpr int kTerms = 8;
+  const auto scale = [](double x, int exponent) {
+    return x == 0 ? 0 : std::ldexp(x, exponent) + kTiny;
+  };
+  std::vector<int> units = balance(Y);
+  Matrix X = in_units(Y, units, scale);
+  const double norm = up(X.rowwise().sum().maxCoeff(), 100);
+  const int squarings = norm > 0.5 ? std::ilogb(norm) + 2 : 0;
+  for (double& x : X.reshaped()) x = scale(x, -squarings);
+  const double reached = std::ldexp(norm, -squarings);
+  const double rest = std::pow(reached, kTerms + 1) / std::tgamma(kTerms + 2.0) * 1.2 + kTiny;
+  Matrix H = X / kTerms * up(1);
+  for (int k = kTerms - 1; k >= 1; --k) H = (X + product_upward(X, H)) / k * up(1);
+  const auto paths = enclosed::paths(X);
+  for (Eigen::Index i = 0; i < H.size(); ++i)
+    if (paths(i)) H(i) = up(H(i) + rest);
+  for (int k = 0; k < squarings; ++k) H = (2 * H + product_upward(H, H)) * up(1);
+  for (int& unit : units) unit = -unit;
+  return in_units(H, units, scale);
+}
+
+/// e^(f M) = e^(m M) e^((f - m) M), where the second factor is within e^(r |M|) - I of I.
+Jet exponential_of(const Jet::Ray& ray) {
+  constexpr double kMost = 30;
+  const Ball<double> middle{ray.factor[0].mid, 0};
+  const double radius = ray.factor[0].rad;
+  Enclosed<double> value = enclosed::exponential(scaled(middle, ray.matrix));
+  if (radius > 0) {
+    const Matrix reach = magnitudes<double>(ray.matrix) * radius * up(1);
+    if (!(reach.maxCoeff() < kMost))
+      return {2,
+              {nothing_known<double>(value.mid), nothing_known<double>(value.mid),
+               nothing_known<double>(value.mid)},
+              nullptr};
+    value.rad = (value.rad + product_upward(magnitudes<double>(value), growth(reach))) * up(1);
+  }
+  Jet out{0, {value, {}, {}}, nullptr};
+  const bool moves = !ray.factor[1].is_zero() || !ray.factor[2].is_zero();
+  if (!moves) return out;
+  out.order = 2;
+  const Enclosed<double> first = numbers::product(ray.matrix, value);
+  out.derivatives[1] = scaled(ray.factor[1], first);
+  out.derivatives[2] = scaled(ray.factor[1] * ray.factor[1], numbers::product(ray.matrix, first));
+  if (!ray.factor[2].is_zero())
+    out.derivatives[2] = numbers::sum(out.derivatives[2], scaled(ray.factor[2], first));
+  return out;
+}
+
+/// The first row of blocks of exp([X, X', X''/2; 0, X, X'; 0, 0, X]) is e^X with its derivatives,
+/// the second halved.
+Jet exponential(const Jet& x) {
+  const Eigen::Index n = x.value().rows();
+  Enclosed<double> big = exactly<double>(Matrix::Zero(3 * n, 3 * n));
+  const auto put = [&](Eigen::Index row, Eigen::Index column, const Enclosed<double>& block) {
+    big.mid.block(row * n, column * n, n, n) = block.mid;
+    big.rad.block(row * n, column * n, n, n) = block.rad;
+  };
+  for (Eigen::Index k = 0; k < 3; ++k) put(k, k, x.value());
+  for (Eigen::Index k = 0; k < 2; ++k) put(k, k + 1, x.derivatives[1]);
+  if (x.order == 2) put(0, 2, scaled(Ball<double>{0.5, 0}, x.derivatives[2]));
+  const Enclosed<double> whole = enclosed::exponential(big);
+  Jet out;
+  out.order = 2;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    auto& part = out.derivatives[static_cast<std::size_t>(k)];
+    part = {whole.mid.block(0, k * n, n, n), whole.rad.block(0, k * n, n, n)};
+    if (k == 2) part = scaled(Ball<double>{2, 0}, part);
+  }
+  return out;
+}
+
+}  // namespace jets
+
+void JetAlgebra::apply(const expr::Instruction& instruction, expr::Operands<Jet> operands,
+                       Jet& out) const {
+  JetRules rules;
+  out = Jet{};
+  expr::dispatch(rules, instruction, operands, out);
+  for (std::size_t k = 0; k <= static_cast<std::size_t>(out.order); ++k) {
+    Enclosed<double>& part = out.derivatives[k];
+    if (part.mid.allFinite()) continue;
+    if (k == 0) expr::fault::not_finite(instruction.op);
+    part = nothing_known<double>(Matrix::Zero(part.rows(), part.cols()));
+  }
+}
+
+}  // namespace gainsmith::numbers

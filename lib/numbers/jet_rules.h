@@ -1,0 +1,349 @@
+// Internal to numbers: the rules of JetAlgebra.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "numbers/ball_functions.h"
+#include "numbers/enclosed_functions.h"
+#include "numbers/enclosure.h"
+#include "numbers/foundation.h"
+#include "numbers/jet.h"
+
+namespace gainsmith::numbers {
+
+namespace jets {
+
+using Product = std::function<Enclosed<double>(const Enclosed<double>&, const Enclosed<double>&)>;
+
+/// (x y)^(k) by Leibniz' rule.
+Jet product(const Jet& x, const Jet& y, const Product& multiply);
+Jet matrix_product(const Jet& x, const Jet& y);
+Jet scaled_jet(const Jet& factor, const Jet& x);
+Jet transposed_jet(const Jet& x);
+/// Of the inverse whose value is given.
+Jet inverse(const Jet& x, Enclosed<double> value);
+Jet exponential_of(const Jet::Ray& ray);
+Jet exponential(const Jet& x);
+
+using Number = Ball<double>;
+
+/// Value and derivatives of a function of one number over a ball.
+struct Taylor {
+  Number value, first, second;
+};
+constexpr Number kUnknown{0, kNothingKnown};
+
+}  // namespace jets
+
+struct JetRules {
+  using At = expr::Step<Jet>;
+  using Op = expr::Op;
+  using Number = jets::Number;
+  using Taylor = jets::Taylor;
+  template <Op op>
+  using Is = expr::Is<op>;
+
+  /// Linear in all operands together.
+  template <Op op>
+  requires expr::OneOf<op, Op::fill, Op::identity, Op::add, Op::subtract, Op::negate, Op::transpose,
+                       Op::blocks, Op::index, Op::trace, Op::diagonal_matrix, Op::diagonal_of>
+  void operator()(Is<op>, const At& at, Jet& out) const {
+    for (const Jet* operand : at.operands) out.order = std::max(out.order, operand->order);
+    for (int k = 0; k <= out.order; ++k) coefficient(at, k, out);
+    if ((op == Op::negate || op == Op::transpose) && at[0].ray != nullptr) {
+      const Jet::Ray& ray = *at[0].ray;
+      out.ray = std::make_shared<Jet::Ray>(
+          Jet::Ray{ray.factor, op == Op::negate ? negative(ray.matrix) : transposed(ray.matrix)});
+    }
+  }
+
+  template <Op op>
+  requires expr::OneOf<op, Op::constant, Op::zeros>
+  void operator()(Is<op>, const At& at, Jet& out) const { coefficient(at, 0, out); }
+
+  void operator()(Is<Op::multiply>, const At& at, Jet& out) const {
+    out = jets::matrix_product(at[0], at[1]);
+  }
+  void operator()(Is<Op::scale>, const At& at, Jet& out) const {
+    out = jets::scaled_jet(at[0], at[1]);
+    with_ray(at[0], at[1], out);
+  }
+  void operator()(Is<Op::divide>, const At& at, Jet& out) const {
+    const Number by = at[1].value().ball(0);
+    if (by.is_zero()) expr::fault::division_by_zero();
+    if (at[1].order == 0) {
+      out.order = at[0].order;
+      for (std::size_t k = 0; k <= static_cast<std::size_t>(out.order); ++k)
+        out.derivatives[k] = quotient(at[0].derivatives[k], by);
+      if (at[0].ray != nullptr) with_ray(reciprocal(at[1]), at[0], out);
+      return;
+    }
+    out = jets::scaled_jet(reciprocal(at[1]), at[0]);
+    with_ray(reciprocal(at[1]), at[0], out);
+  }
+  void operator()(Is<Op::power>, const At& at, Jet& out) const {
+    const int exponent = at.attribute(0);
+    out = constant_jet(exact_identity<double>(at.shape().rows));
+    Jet square = at[0];
+    for (int rest = exponent; rest > 0; rest /= 2) {
+      if (rest % 2 == 1) out = jets::matrix_product(out, square);
+      if (rest > 1) square = jets::matrix_product(square, square);
+    }
+    // An even power of a number that changes its sign is a power of its size.
+    if (at.shape().is_scalar() && exponent % 2 == 0 && exponent > 0) {
+      const Number size = ball::whole_power(ball::abs(at[0].value().ball(0)), exponent);
+      out.derivatives[0].set(0, size);
+    }
+  }
+  void operator()(Is<Op::scalar_power>, const At& at, Jet& out) const {
+    const Number y = at[1].value().ball(0);
+    const auto known = ball::power(at[0].value().ball(0), y);
+    if (!known) expr::fault::not_finite(Op::scalar_power);
+    if (at[1].order == 0) {
+      const auto or_unknown = [](const Number& x, const Number& exponent) {
+        return ball::power(x, exponent).value_or(jets::kUnknown);
+      };
+      const Number one{1, 0}, two{2, 0};
+      chain(at[0], out, [&](const Number& x) {
+        return Taylor{*known, y * or_unknown(x, y - one), y * (y - one) * or_unknown(x, y - two)};
+      });
+      return;
+    }
+    Jet logarithm, exponent;
+    chain(at[0], logarithm, [](const Number& x) { return log_of(x).value_or(Taylor{}); });
+    exponent = jets::scaled_jet(at[1], logarithm);
+    chain(exponent, out, [](const Number& x) { return exp_of(x); });
+    out.derivatives[0].set(0, *known);
+  }
+
+  void operator()(Is<Op::inverse>, const At& at, Jet& out) const {
+    coefficient(at, 0, out);
+    out = jets::inverse(at[0], std::move(out.derivatives[0]));
+  }
+  void operator()(Is<Op::pseudo_inverse>, const At& at, Jet& out) const {
+    if (at[0].order == 0 || at[0].value().mid.size() == 0) return coefficient(at, 0, out);
+    const Jet turned = jets::transposed_jet(at[0]);
+    const bool tall = at[0].value().rows() >= at[0].value().cols();
+    const Jet gram =
+        tall ? jets::matrix_product(turned, at[0]) : jets::matrix_product(at[0], turned);
+    const Jet inverse = jets::inverse(
+        gram, enclosed::inverse_around<double>(Foundation<double>::inverse(gram.value().mid).matrix,
+                                               gram.value()));
+    out = tall ? jets::matrix_product(inverse, turned) : jets::matrix_product(turned, inverse);
+  }
+  void operator()(Is<Op::matrix_exponential>, const At& at, Jet& out) const {
+    if (at[0].value().mid.size() == 0) return coefficient(at, 0, out);
+    if (at[0].ray != nullptr) {
+      out = jets::exponential_of(*at[0].ray);
+    } else if (at[0].order == 0) {
+      coefficient(at, 0, out);
+    } else {
+      out = jets::exponential(at[0]);
+    }
+  }
+
+  void operator()(Is<Op::exp>, const At& at, Jet& out) const { chain(at[0], out, exp_of); }
+  void operator()(Is<Op::log>, const At& at, Jet& out) const {
+    chain(at[0], out, [&](const Number& x) {
+      const auto found = log_of(x);
+      if (!found) expr::fault::outside_domain(Op::log, x.mid);
+      return *found;
+    });
+  }
+  void operator()(Is<Op::sqrt>, const At& at, Jet& out) const {
+    chain(at[0], out, [&](const Number& x) {
+      const auto root = ball::sqrt(x);
+      if (!root) expr::fault::outside_domain(Op::sqrt, x.mid);
+      const Number half{0.5, 0};
+      const Number first = half / *root;
+      return Taylor{*root, first, -(half * first) / x};
+    });
+  }
+  void operator()(Is<Op::sin>, const At& at, Jet& out) const {
+    chain(at[0], out, [](const Number& x) {
+      return Taylor{ball::sin(x), ball::cos(x), -ball::sin(x)};
+    });
+  }
+  void operator()(Is<Op::cos>, const At& at, Jet& out) const {
+    chain(at[0], out, [](const Number& x) {
+      return Taylor{ball::cos(x), -ball::sin(x), -ball::cos(x)};
+    });
+  }
+  void operator()(Is<Op::tanh>, const At& at, Jet& out) const {
+    chain(at[0], out, [](const Number& x) {
+      const Number t = ball::tanh(x), slope = Number{1, 0} - t * t;
+      return Taylor{t, slope, Number{-2, 0} * t * slope};
+    });
+  }
+
+  void operator()(Is<Op::abs>, const At& at, Jet& out) const {
+    each(out, {&at[0]}, at.shape(), [](const std::vector<Taylor>& x) {
+      if (is_not_negative(x[0].value)) return x[0];
+      if (is_not_negative(-x[0].value)) return Taylor{-x[0].value, -x[0].first, -x[0].second};
+      return Taylor{ball::abs(x[0].value), ball::either(x[0].first, -x[0].first), jets::kUnknown};
+    });
+  }
+  void operator()(Is<Op::sign>, const At& at, Jet& out) const {
+    each(out, {&at[0]}, at.shape(), [](const std::vector<Taylor>& x) {
+      const Number sign = ball::sign(x[0].value);
+      if (sign.is_exact()) return Taylor{sign, {}, {}};
+      return Taylor{sign, jets::kUnknown, jets::kUnknown};
+    });
+  }
+  template <Op op>
+  requires expr::OneOf<op, Op::minimum, Op::maximum>
+  void operator()(Is<op>, const At& at, Jet& out) const {
+    each(out, {&at[0], &at[1]}, at.shape(), [](const std::vector<Taylor>& x) {
+      const auto& [larger, smaller] =
+          op == Op::maximum ? std::pair(x[0], x[1]) : std::pair(x[1], x[0]);
+      if (is_at_least(larger.value, smaller.value)) return x[0];
+      if (is_at_least(smaller.value, larger.value)) return x[1];
+      const Number value = op == Op::maximum ? ball::maximum(x[0].value, x[1].value)
+                                             : ball::minimum(x[0].value, x[1].value);
+      return Taylor{value, ball::either(x[0].first, x[1].first), jets::kUnknown};
+    });
+  }
+  void operator()(Is<Op::where>, const At& at, Jet& out) const {
+    const bool strict = at.attribute(0) != 0;
+    each(out, {&at[0], &at[1], &at[2]}, at.shape(), [&](const std::vector<Taylor>& x) {
+      const auto holds = ball::holds(x[0].value, strict);
+      if (holds) return x[*holds ? 1 : 2];
+      return Taylor{ball::either(x[1].value, x[2].value), jets::kUnknown, jets::kUnknown};
+    });
+  }
+
+  void operator()(Is<Op::norm>, const At& at, Jet& out) const {
+    coefficient(at, 0, out);
+    if (at[0].order == 0) return;
+    const Enclosed<double> slope = at[0].derivative(1);
+    const double steepest = enclosed::norm_upward(magnitudes<double>(slope));
+    lipschitz(steepest, out);
+    const Number size = out.value().ball(0);
+    const bool is_vector = at[0].value().rows() == 1 || at[0].value().cols() == 1;
+    if (!is_vector || !is_positive(size)) return;
+    const Enclosed<double> bend = at[0].derivative(2);
+    Number along, bent;
+    for (Eigen::Index i = 0; i < slope.mid.size(); ++i) {
+      along = along + at[0].value().ball(i) * slope.ball(i);
+      bent = bent + slope.ball(i) * slope.ball(i) + at[0].value().ball(i) * bend.ball(i);
+    }
+    const Number first = along / size;
+    out.derivatives[1].set(0, first);
+    out.derivatives[2].set(0, (bent - first * first) / size);
+  }
+  void operator()(Is<Op::singular_values>, const At& at, Jet& out) const {
+    coefficient(at, 0, out);
+    if (at[0].order == 0) return;
+    lipschitz(enclosed::norm_upward(magnitudes<double>(at[0].derivative(1))), out);
+  }
+  template <Op op>
+  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis>
+  void operator()(Is<op>, const At& at, Jet& out) const {
+    coefficient(at, 0, out);
+    if (at[0].order > 0) lipschitz(kNothingKnown, out);
+  }
+
+ private:
+  /// The instruction applied to the k-th derivatives.
+  static void coefficient(const At& at, int k, Jet& out) {
+    std::vector<Enclosed<double>> zeros;
+    zeros.reserve(at.operands.size());
+    std::vector<const Enclosed<double>*> operands;
+    for (const Jet* operand : at.operands) {
+      if (k <= operand->order) {
+        operands.push_back(&operand->derivatives[static_cast<std::size_t>(k)]);
+      } else {
+        operands.push_back(&zeros.emplace_back(operand->derivative(k)));
+      }
+    }
+    Enclosure<double>{}.apply(at.instruction, operands,
+                              out.derivatives[static_cast<std::size_t>(k)]);
+  }
+
+  /// The derivatives of a value that moves at most so fast, in any direction.
+  static void lipschitz(double steepest, Jet& out) {
+    const Matrix zero = Matrix::Zero(out.value().rows(), out.value().cols());
+    out.order = 2;
+    out.derivatives[1] = {zero, Matrix::Constant(zero.rows(), zero.cols(), steepest)};
+    out.derivatives[2] = nothing_known<double>(zero);
+  }
+
+  /// A function of the elements of several operands, each with its derivatives.
+  template <class Function>
+  static void each(Jet& out, const std::vector<const Jet*>& operands, expr::Shape shape,
+                   const Function& function) {
+    bool moves = false;
+    for (const Jet* operand : operands) moves = moves || operand->order > 0;
+    out.order = moves ? 2 : 0;
+    for (std::size_t k = 0; k <= static_cast<std::size_t>(out.order); ++k)
+      out.derivatives[k].resize(shape.rows, shape.cols);
+    std::vector<Taylor> at(operands.size());
+    for (Eigen::Index i = 0; i < shape.size(); ++i) {
+      for (std::size_t k = 0; k < operands.size(); ++k) at[k] = element(*operands[k], i);
+      const Taylor result = function(at);
+      out.derivatives[0].set(i, result.value);
+      if (!moves) continue;
+      out.derivatives[1].set(i, result.first);
+      out.derivatives[2].set(i, result.second);
+    }
+  }
+
+  static Taylor element(const Jet& x, Eigen::Index i) {
+    Taylor result{x.derivatives[0].ball(i), {}, {}};
+    if (x.order >= 1) result.first = x.derivatives[1].ball(i);
+    if (x.order >= 2) result.second = x.derivatives[2].ball(i);
+    return result;
+  }
+
+  /// f(x): f' x', f'' x'^2 + f' x''.
+  template <class Function>
+  static void chain(const Jet& x, Jet& out, const Function& function) {
+    each(
+        out, {&x}, {static_cast<int>(x.value().rows()), static_cast<int>(x.value().cols())},
+        [&](const std::vector<Taylor>& at) {
+          const Taylor f = function(at[0].value);
+          const Number square = at[0].first * at[0].first;
+          return Taylor{f.value, f.first * at[0].first, f.second * square + f.first * at[0].second};
+        });
+  }
+
+  static Taylor exp_of(const Number& x) {
+    const Number value = ball::exp(x);
+    return {value, value, value};
+  }
+  static std::optional<Taylor> log_of(const Number& x) {
+    const auto value = ball::log(x);
+    if (!value) return std::nullopt;
+    const Number first = Number{1, 0} / x;
+    return Taylor{*value, first, -(first * first)};
+  }
+
+  static Jet reciprocal(const Jet& x) {
+    Jet out;
+    chain(x, out, [](const Number& at) {
+      const Number value = Number{1, 0} / at;
+      return Taylor{value, -(value * value), Number{2, 0} * value * value * value};
+    });
+    return out;
+  }
+
+  /// What `factor` times `x` is a ray of: x a constant, or a ray times a constant.
+  static void with_ray(const Jet& factor, const Jet& x, Jet& out) {
+    const auto number = [](const Jet& jet) {
+      const Taylor at = element(jet, 0);
+      return std::array<Number, 3>{at.value, at.first, at.second};
+    };
+    if (x.order == 0 && x.ray == nullptr) {
+      out.ray = std::make_shared<Jet::Ray>(Jet::Ray{number(factor), x.value()});
+    } else if (x.ray != nullptr && factor.order == 0) {
+      Jet::Ray ray = *x.ray;
+      for (Number& part : ray.factor) part = part * factor.value().ball(0);
+      out.ray = std::make_shared<Jet::Ray>(std::move(ray));
+    }
+  }
+};
+
+}  // namespace gainsmith::numbers
