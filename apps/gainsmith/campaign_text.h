@@ -4,9 +4,13 @@
 #include <string>
 
 #include "io/json_text.h"
+#include "base/error.h"
 #include "verify/campaign.h"
 
 namespace gainsmith::app {
+
+/// yes of a campaign that held, no of a violated one.
+ExitCode campaign_exit(model::CampaignVerdict verdict);
 
 io::Json campaign_json(const verify::Report& report);
 

@@ -70,7 +70,7 @@ TEST(Campaign, PublishedRowThreeIsCaughtAtTheLongestInterval) {
   EXPECT_EQ(report.violations, 15U);
   EXPECT_EQ(report.worst_run % 2, 1U);
   const Replay again = replay(problem.instance(), problem.gains, report.seed, report.worst_run);
-  EXPECT_TRUE(again.claims[0].finding.violated);
+  EXPECT_TRUE(again.claims[0].finding.violated());
   EXPECT_EQ(again.claims[0].finding.value, report.checks[0].worst.value);
   EXPECT_EQ(again.claims[0].finding.score, report.checks[0].worst.score);
 }
