@@ -135,7 +135,10 @@ BoundedSimulator<Scalar>::BoundedSimulator(const System& system, const Scenario&
   next_.resize(n);
   r_.resize(n);
   delta_.resize(n);
-  Y_.resize(n, n);
+  G_.resize(n, n);
+  Z_.resize(n, n);
+  norm_.resize(n);
+  root_.resize(n);
   product_.resize(n, n);
   J_.resize(n, n);
 }
@@ -178,56 +181,150 @@ void BoundedSimulator<Scalar>::start(std::uint64_t run, RandomStream& random) {
       delta_(slot.offset + e) = value.rad(e);
     }
   }
-  Y_.setZero();
+  G_.setZero();
+  Z_.setZero();
+  norm_.setZero();
   scale_ = 1;
   steps_ = 0;
-  propagate(Y_, Y_, 0);
+  propagate(G_, G_, 0);
+}
+
+template <class Scalar>
+void BoundedSimulator<Scalar>::rescale(double largest) {
+  if (!(largest > 0) || (largest <= kMostScale && largest >= kLeastScale)) return;
+  G_ /= largest;
+  Z_ /= largest * largest;
+  scale_ *= largest;
 }
 
 template <class Scalar>
 void BoundedSimulator<Scalar>::propagate(const Matrix& E, const Matrix& sizes, double slack) {
-  const Index n = Y_.rows();
-  if (n == 0) return;
-  const bool known = Y_.diagonal().maxCoeff() > 0;
-  const double inject = delta_.maxCoeff();
-  if (known) {
-    const double eps = 4 * (static_cast<double>(n) + 2) * unit_roundoff<double>() + slack;
-    spread_.noalias() = sizes.lazyProduct(Y_.diagonal().cwiseSqrt());
-    product_.noalias() = E.lazyProduct(Y_);
-    Y_.noalias() = product_.lazyProduct(E.transpose());
-    Y_.diagonal().array() += static_cast<double>(n) * eps * spread_.array().square();
+  const Index n = x_.rows();
+  const double eps = 4 * (static_cast<double>(n) + 2) * unit_roundoff<double>() + slack;
+  const double* const e = E.data();
+  const double* const s = sizes.data();
+  double* const p = product_.data();
+  double* const g = G_.data();
+  double* const z = Z_.data();
+  bool known = false;
+  for (Index i = 0; i < n; ++i) {
+    root_(i) = std::sqrt(z[i * n + i]);
+    known = known || norm_(i) > 0 || root_(i) > 0;
   }
-  if (inject > 0) {
-    if (!known) scale_ = inject;
-    Y_.diagonal().array() += static_cast<double>(n) * (delta_.array() / scale_).square();
+  if (known) {
+    // G <- E G;  Z <- E Z E';  what the rounding of both adds to the diagonal of Z.
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i) {
+        double sum = 0;
+        for (Index k = 0; k < n; ++k) sum += e[k * n + i] * g[j * n + k];
+        p[j * n + i] = sum;
+      }
+    G_.swap(product_);
+    double* const q = product_.data();
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i) {
+        double sum = 0;
+        for (Index k = 0; k < n; ++k) sum += e[k * n + i] * z[j * n + k];
+        q[j * n + i] = sum;
+      }
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i <= j; ++i) {
+        double sum = 0;
+        for (Index k = 0; k < n; ++k) sum += q[k * n + i] * e[k * n + j];
+        z[j * n + i] = z[i * n + j] = sum;
+      }
+    for (Index i = 0; i < n; ++i) {
+      double from_G = 0;
+      double from_Z = 0;
+      for (Index k = 0; k < n; ++k) {
+        from_G += s[k * n + i] * norm_(k);
+        from_Z += s[k * n + i] * root_(k);
+      }
+      z[i * n + i] += static_cast<double>(n) *
+                      (eps * eps * from_G * from_G + eps * from_Z * from_Z);
+    }
     steps_ += 1;
   }
-  if (known || inject > 0) {
-    const double largest = std::sqrt(Y_.diagonal().maxCoeff());
-    if (largest > kMostScale || (largest < kLeastScale && largest > 0)) {
-      Y_ /= largest * largest;
-      scale_ *= largest;
+  const double inject = n > 0 ? delta_.maxCoeff() : 0;
+  if (inject > 0) {
+    if (!known) scale_ = inject;
+    for (Index i = 0; i < n; ++i) {
+      const double d = delta_(i) / scale_;
+      z[i * n + i] += static_cast<double>(n) * d * d;
     }
+    steps_ += 1;
   }
-  r_ = Y_.diagonal().cwiseMax(0).cwiseSqrt() * (std::sqrt(steps_) * scale_ * kBoundSlack);
+  set_bounds();
+}
+
+template <class Scalar>
+void BoundedSimulator<Scalar>::set_bounds() {
+  const Index n = x_.rows();
+  const double factor = std::sqrt(steps_) * scale_ * kBoundSlack;
+  const double* const g = G_.data();
+  double largest = 0;
+  for (Index i = 0; i < n; ++i) {
+    double square = 0;
+    for (Index k = 0; k < n; ++k) square += g[k * n + i] * g[k * n + i];
+    norm_(i) = std::sqrt(square);
+    const double sum = std::sqrt(square + std::max(Z_(i, i), 0.0));
+    r_(i) = factor * sum;
+    largest = std::max(largest, sum);
+  }
+  if (largest > kMostScale || (largest < kLeastScale && largest > 0)) {
+    rescale(largest);
+    set_bounds();
+  }
+}
+
+template <class Scalar>
+void BoundedSimulator<Scalar>::gather() {
+  // [G, sqrt(n diag Z)] = (Q R)' has the same c' Y c as R'.
+  const Index n = x_.rows();
+  if (n == 0) return;
+  stacked_.resize(2 * n, n);
+  stacked_.topRows(n) = G_.transpose();
+  stacked_.bottomRows(n).setZero();
+  for (Index i = 0; i < n; ++i)
+    stacked_(n + i, i) = std::sqrt(static_cast<double>(n) * std::max(Z_(i, i), 0.0));
+  factored_.compute(stacked_);
+  G_.setZero();
+  for (Index j = 0; j < n; ++j)
+    for (Index i = 0; i <= j; ++i) G_(j, i) = factored_.matrixQR()(i, j);
+  Z_.setZero();
+  for (Index i = 0; i < n; ++i) {
+    const double norm = G_.row(i).norm();
+    const double rounding = 100 * static_cast<double>(n * n) * unit_roundoff<double>() * norm;
+    Z_(i, i) = static_cast<double>(n) * rounding * rounding;
+  }
+  steps_ += 1;
+  set_bounds();
 }
 
 template <class Scalar>
 void BoundedSimulator<Scalar>::step(const BoundedMap<Scalar>& map) {
   const Index n = x_.rows();
-  next_ = map.constant;
-  next_.noalias() += map.linear.lazyProduct(x_);
   const double gamma = (static_cast<double>(n) + 4) * unit_roundoff<Scalar>();
+  const Scalar* const e = map.linear.data();
+  const double* const s = map.sizes.data();
   double sum = 1;
-  for (Index i = 0; i < n; ++i) sum += size_of(x_(i));
+  for (Index k = 0; k < n; ++k) {
+    root_(k) = size_of(x_(k));
+    sum += root_(k);
+  }
   for (Index i = 0; i < n; ++i) {
     if (map.unchanged[static_cast<std::size_t>(i)]) {
       next_(i) = x_(i);
       delta_(i) = 0;
       continue;
     }
+    Scalar value = map.constant(i);
     double absolute = map.constant_sizes(i);
-    for (Index k = 0; k < n; ++k) absolute += map.sizes(i, k) * size_of(x_(k));
+    for (Index k = 0; k < n; ++k) {
+      value += e[k * n + i] * x_(k);
+      absolute += s[k * n + i] * root_(k);
+    }
+    next_(i) = value;
     delta_(i) = absolute > 0 ? gamma * absolute + map.error * sum : 0;
   }
   x_.swap(next_);
@@ -272,9 +369,7 @@ void BoundedSimulator<Scalar>::rest(double length) {
     delta_(i) = still || sizes(i) == 0 ? 0 : gamma * sizes(i) + tail;
   }
   x_.swap(next_);
-  product_ = E.cwiseAbs();
-  const Matrix magnitudes = product_;
-  propagate(E, magnitudes, 100 * unit_roundoff<double>());
+  propagate(E, E.cwiseAbs(), 100 * unit_roundoff<double>());
 }
 
 template <class Scalar>
@@ -394,6 +489,7 @@ void BoundedSimulator<Scalar>::jump(double reset_value) {
     J_sizes_ = J_rounded_.cwiseAbs();
     propagate(J_rounded_, J_sizes_, 0);
   }
+  gather();
   track_.moves.push_back({true, {}});
   append(track_.t.back(), track_.j.back() + 1, Scalar(reset_value), 0);
 }
@@ -402,7 +498,7 @@ template <class Scalar>
 const Track<Scalar>& BoundedSimulator<Scalar>::run(std::uint64_t seed, std::uint64_t run) {
   RandomStream random(seed, run);
   const Law& law = scenario_->laws[run % scenario_->laws.size()];
-  track_ = {};
+  track_.clear();
   track_.size = x_.rows();
   start(run, random);
   const double first = scenario_->first.value_or(system_->first_low);

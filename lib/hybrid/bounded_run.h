@@ -7,12 +7,14 @@
 //
 // Bounds element by element would grow with the powers of |E|, which says nothing of E. Instead
 //
-//   Y+ = E Y E' + n diag(delta)^2,  m the number of steps with delta != 0:
+//   Y+ = E Y E' + n diag(delta)^2,  m the number of deltas:
 //   |c' e|^2 <= (sum of |c' Phi_i| delta_i)^2 <= m c' Y c   for every c (Cauchy and Schwarz)
 //
-// so errors turn and die down as the run itself does, and |e_i| <= sqrt(m Y_ii). Y is computed in
-// double; its own rounding, at most eps g_i g_j with g = |E| sqrt(diag Y), is covered by n eps g^2
-// on the diagonal. A row of the identity adds nothing, so what stays as it is has no error of its
+// so errors turn and die down as the run itself does, and |e_i| <= sqrt(m Y_ii). Y is kept as
+// G G' + Z: Z is what came since the last jump, and each jump takes it into G, by the factorisation
+// [G, sqrt(n diag Z)]' = Q R. Both are computed in double. The rounding of E G is a delta like the
+// others, eps |E| |G|, so G may fall over hundreds of decades; that of E Z E', at most eps g_i g_j
+// with g = |E| sqrt(diag Z), is covered by n eps g^2 on the diagonal. A row of the identity adds nothing, so what stays as it is has no error of its
 // own, and 0 that is exact stays so.
 //
 // A jump that is affine in the states with coefficients that depend on clocks (F(s)) is a step whose
@@ -20,6 +22,7 @@
 // E is 0 and delta is the radius.
 #pragma once
 
+#include <Eigen/QR>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -69,6 +72,15 @@ struct Track {
   Termination termination = Termination::horizon;
   std::string message;
 
+  void clear() {
+    for (auto* list : {&t, &timer_bound, &bounds}) list->clear();
+    timer.clear();
+    j.clear();
+    moves.clear();
+    stacked.clear();
+    termination = Termination::horizon;
+    message.clear();
+  }
   std::size_t samples() const { return t.size(); }
   Eigen::Map<const ColumnOf<Scalar>> state(std::size_t sample) const {
     return {stacked.data() + static_cast<Eigen::Index>(sample) * size, size};
@@ -110,8 +122,12 @@ class BoundedSimulator {
   void ball_entry(std::size_t coordinate);
   void rest(double length);
   void step(const BoundedMap<Scalar>& map);
-  /// Y+ of the steps' delta_, E and |E|; `slack`: relative errors of E besides its rounding.
+  /// G and Z after a step with the errors delta_, E and |E|; `slack`: relative errors of E besides its rounding.
   void propagate(const numbers::Matrix& E, const numbers::Matrix& sizes, double slack);
+  void set_bounds();
+  void rescale(double largest);
+  /// Takes Z into G.
+  void gather();
   void append(double t, std::int64_t j, const Scalar& timer, double timer_bound);
 
   const System* system_;
@@ -126,10 +142,13 @@ class BoundedSimulator {
   std::vector<FlowStep> cuts_;
   Track<Scalar> track_;
   ColumnOf<Scalar> x_, next_;
-  Eigen::VectorXd r_, delta_, spread_;
-  numbers::Matrix Y_, product_;
-  double scale_ = 1;  ///< Y is scale^2 Y_
+  Eigen::VectorXd r_, delta_;
+  numbers::Matrix G_, Z_, product_;
+  Eigen::VectorXd norm_, root_;  ///< of the rows of G_; of the diagonal of Z_
+  double scale_ = 1;             ///< G is scale G_, Z is scale^2 Z_
   double steps_ = 0;
+  numbers::Matrix stacked_;
+  Eigen::HouseholderQR<numbers::Matrix> factored_;
   numbers::MatrixOf<Scalar> J_;
   numbers::Matrix J_rounded_, J_sizes_;
 };

@@ -146,6 +146,9 @@ class Builder {
       const Pair* pair = found == pair_of.end() ? nullptr : found->second;
       result_.list[i].flow = map_of(slot, pair, flows_, false);
       result_.list[i].jump = map_of(slot, pair, jumps_, true);
+      if (const auto& jump = result_.list[i].jump)
+        if (const Slot* same = slot_of(*jump); same != nullptr && same->name == slot.name)
+          result_.list[i].jump.reset();
     }
   }
 

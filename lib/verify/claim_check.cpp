@@ -122,7 +122,7 @@ template <class Scalar>
 std::vector<Bounded<Scalar>> ClaimCheck<Scalar>::values(const Track& track) {
   std::vector<Bounded> values;
   for (std::size_t k = 0; k < track.samples(); ++k)
-    values.push_back(k > 0 && !claim_->value.varies_in_flow && !track.moves[k - 1].jump
+    values.push_back(k > 0 && !claim_->value.varies(track.moves[k - 1].jump)
                          ? values.back()
                          : value_(track, k));
   return values;
@@ -138,7 +138,7 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
   std::optional<Finding> worst;
   double noise = 0;
   for (std::size_t k = 1; k < v.size(); ++k) {
-    if (!claim_->value.varies_in_flow && !track.moves[k - 1].jump) continue;
+    if (!claim_->value.varies(track.moves[k - 1].jump)) continue;
     Judgement judgement = compare(v[k], high);
     if (judgement != Judgement::violated) {
       judgement = compare(v[k], low);

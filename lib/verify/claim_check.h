@@ -15,7 +15,7 @@
 //   undecided   neither
 //
 // A value that cannot have changed since the sample before (all that it depends on is constant along
-// flows) is not compared with itself. A value that has no number violates in 31 digits and is
+// flows, or unchanged by jumps) is not compared with itself. A value that has no number violates in 31 digits and is
 // undecided in double. Of a value that falls by more than the digits can show, the rest is noise:
 // what is below kFloor of v(0) is not compared, and Finding::floor says so. kFloor is 1e-24 in 31
 // digits, of which the last are rounding, and the range of the numbers, 1e-200, in double.

@@ -131,9 +131,12 @@ JudgedFunction make_function(const expr::Program& program, const Coordinates& co
   }
   if (!function.quadratic) function.parts.clear();
   function.varies_in_flow = program.uses(coordinates.layout.timer);
-  for (std::size_t i = 0; i < coordinates.list.size(); ++i)
-    if (program.uses(coordinates.layout.slots[i].name) && !coordinates.is_still(i))
-      function.varies_in_flow = true;
+  function.varies_in_jump = function.varies_in_flow;
+  for (std::size_t i = 0; i < coordinates.list.size(); ++i) {
+    if (!program.uses(coordinates.layout.slots[i].name)) continue;
+    if (!coordinates.is_still(i)) function.varies_in_flow = true;
+    if (coordinates.list[i].jump) function.varies_in_jump = true;
+  }
   return function;
 }
 

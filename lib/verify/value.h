@@ -27,7 +27,11 @@ struct JudgedFunction {
   expr::Program program;
   std::vector<QuadraticPart> parts;
   bool quadratic = false;
-  bool varies_in_flow = true;  ///< false: it keeps its value along flows, to the last bit
+  /// False: it keeps its value along flows, or over jumps, to the last bit.
+  bool varies_in_flow = true;
+  bool varies_in_jump = true;
+
+  bool varies(bool jump) const { return jump ? varies_in_jump : varies_in_flow; }
 
   /// Quadratic with constant coefficients: its integral over a flow is a quadratic form too.
   bool is_form() const {

@@ -157,7 +157,7 @@ TEST(Campaign, NoClaimToCheckIsAnError) {
 
 TEST(Campaign, RunThatDivergesViolates) {
   TextProblem problem = growing();
-  problem.horizon("400").runs(3).shrinks("nothing", "0*x", "1");
+  problem.horizon("400").runs(3).shrinks("little", "min(x, 1)", "2");
   const Report report = run(problem);
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
   EXPECT_EQ(report.unfinished, 3U);
