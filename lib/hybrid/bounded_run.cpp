@@ -307,11 +307,7 @@ void BoundedSimulator<Scalar>::step(const BoundedMap<Scalar>& map) {
   const double gamma = (static_cast<double>(n) + 4) * unit_roundoff<Scalar>();
   const Scalar* const e = map.linear.data();
   const double* const s = map.sizes.data();
-  double sum = 1;
-  for (Index k = 0; k < n; ++k) {
-    root_(k) = size_of(x_(k));
-    sum += root_(k);
-  }
+  for (Index k = 0; k < n; ++k) root_(k) = size_of(x_(k));
   for (Index i = 0; i < n; ++i) {
     if (map.unchanged[static_cast<std::size_t>(i)]) {
       next_(i) = x_(i);
@@ -320,12 +316,14 @@ void BoundedSimulator<Scalar>::step(const BoundedMap<Scalar>& map) {
     }
     Scalar value = map.constant(i);
     double absolute = map.constant_sizes(i);
+    double reach = absolute > 0 ? 1 : 0;  // the error of E keeps its pattern
     for (Index k = 0; k < n; ++k) {
       value += e[k * n + i] * x_(k);
       absolute += s[k * n + i] * root_(k);
+      if (s[k * n + i] > 0) reach += root_(k);
     }
     next_(i) = value;
-    delta_(i) = absolute > 0 ? gamma * absolute + map.error * sum : 0;
+    delta_(i) = gamma * absolute + map.error * reach;
   }
   x_.swap(next_);
   propagate(map.rounded, map.sizes, 0);
@@ -360,13 +358,15 @@ void BoundedSimulator<Scalar>::rest(double length) {
     weight *= q / degree;
   }
   const double gamma = (static_cast<double>(n + degree) + 4) * unit_roundoff<Scalar>();
-  const double tail = 2 * weight * (before.size() > 0 ? before.maxCoeff() + 1 : 0);
   Matrix E = Matrix::Identity(n, n);
   for (int k = std::min(degree, 24); k >= 1; --k)
     E = (Matrix::Identity(n, n) + flow.rounded.lazyProduct(E) * (length / k)).eval();
   for (Index i = 0; i < n; ++i) {
     const bool still = flow.sizes.row(i).isZero(0) && flow.constant_sizes(i) == 0;
-    delta_(i) = still || sizes(i) == 0 ? 0 : gamma * sizes(i) + tail;
+    double reach = flow.constant_sizes(i) > 0 ? length : 0;
+    for (Index k = 0; k < n; ++k)
+      if (E(i, k) != 0) reach += before(k) + flow.constant_sizes(k) * length;
+    delta_(i) = still ? 0 : gamma * sizes(i) + 2 * weight * reach;
   }
   x_.swap(next_);
   propagate(E, E.cwiseAbs(), 100 * unit_roundoff<double>());
