@@ -140,6 +140,10 @@ BoundedSimulator<Scalar>::BoundedSimulator(const System& system, const Scenario&
   norm_.resize(n);
   root_.resize(n);
   product_.resize(n, n);
+  E_.resize(n, n);
+  E_sizes_.resize(n, n);
+  for (ColumnOf<Scalar>* column : {&term_, &other_term_}) column->resize(n);
+  for (Eigen::VectorXd* column : {&size_, &other_size_}) column->resize(n);
   J_.resize(n, n);
 }
 
@@ -330,46 +334,81 @@ void BoundedSimulator<Scalar>::step(const BoundedMap<Scalar>& map) {
 }
 
 template <class Scalar>
+int BoundedSimulator<Scalar>::taylor_sum(double length) {
+  // next_ = sum of (M length)^k x / k!; root_ = the same of the sizes.
+  const StepMaps<Scalar>& flow = bounded_->steps;
+  const Index n = x_.rows();
+  const double least = unit_roundoff<Scalar>() * 1e-4;
+  const Scalar* const m = flow.linear.data();
+  const double* const s = flow.sizes.data();
+  term_ = next_ = x_;
+  for (Index i = 0; i < n; ++i) size_(i) = root_(i) = size_of(x_(i));
+  int degree = 0;
+  for (tail_ = 1; degree < 2 || (tail_ > least && degree < 60); ++degree) {
+    const double share = length / (degree + 1);
+    const Scalar factor = Scalar(length) / Scalar(degree + 1);
+    for (Index i = 0; i < n; ++i) {
+      Scalar value = degree == 0 ? flow.constant(i) : Scalar(0);
+      double size = degree == 0 ? flow.constant_sizes(i) : 0;
+      for (Index k = 0; k < n; ++k) {
+        value += m[k * n + i] * term_(k);
+        size += s[k * n + i] * size_(k);
+      }
+      other_term_(i) = value * factor;
+      other_size_(i) = size * share;
+    }
+    term_.swap(other_term_);
+    size_.swap(other_size_);
+    for (Index i = 0; i < n; ++i) {
+      next_(i) += term_(i);
+      root_(i) += size_(i);
+    }
+    tail_ *= flow.norm * share;
+  }
+  return degree;
+}
+
+template <class Scalar>
+double BoundedSimulator<Scalar>::taylor_map(double length) {
+  // E = I + M length (I + M length/2 (I + ...)), in double.
+  constexpr int kDegree = 10;
+  const Index n = x_.rows();
+  const double* const m = bounded_->steps.rounded.data();
+  E_.setIdentity();
+  double left = 1;
+  for (int k = kDegree; k >= 1; --k) {
+    const double share = length / k;
+    for (Index j = 0; j < n; ++j)
+      for (Index i = 0; i < n; ++i) {
+        double sum = 0;
+        for (Index l = 0; l < n; ++l) sum += m[l * n + i] * E_(l, j);
+        product_(i, j) = sum * share + (i == j ? 1 : 0);
+      }
+    E_.swap(product_);
+    left *= bounded_->steps.norm * length / k;
+  }
+  E_sizes_ = E_.cwiseAbs();
+  return left * bounded_->steps.norm * length + 100 * unit_roundoff<double>();
+}
+
+template <class Scalar>
 void BoundedSimulator<Scalar>::rest(double length) {
   const StepMaps<Scalar>& flow = bounded_->steps;
   const Index n = x_.rows();
-  const double q = flow.norm * length;
-  ColumnOf<Scalar> term = x_;
-  Eigen::VectorXd sizes = sizes_of(x_).col(0);
-  const Eigen::VectorXd before = sizes;
-  Eigen::VectorXd size = sizes;
-  next_ = x_;
-  double weight = 1;
-  int degree = 0;
-  const double least = unit_roundoff<Scalar>() * 1e-10;
-  while (n > 0 && (degree < 2 || weight > least) && degree < 60) {
-    ++degree;
-    const double share = length / degree;
-    term = (flow.linear.lazyProduct(term)).eval();
-    size = flow.sizes.lazyProduct(size).eval();
-    if (degree == 1) {
-      term += flow.constant;
-      size += flow.constant_sizes;
-    }
-    term *= Scalar(length) / Scalar(degree);
-    size *= share;
-    next_ += term;
-    sizes += size;
-    weight *= q / degree;
-  }
+  const int degree = taylor_sum(length);
+  const double slack = taylor_map(length);
   const double gamma = (static_cast<double>(n + degree) + 4) * unit_roundoff<Scalar>();
-  Matrix E = Matrix::Identity(n, n);
-  for (int k = std::min(degree, 24); k >= 1; --k)
-    E = (Matrix::Identity(n, n) + flow.rounded.lazyProduct(E) * (length / k)).eval();
   for (Index i = 0; i < n; ++i) {
-    const bool still = flow.sizes.row(i).isZero(0) && flow.constant_sizes(i) == 0;
-    double reach = flow.constant_sizes(i) > 0 ? length : 0;
-    for (Index k = 0; k < n; ++k)
-      if (E(i, k) != 0) reach += before(k) + flow.constant_sizes(k) * length;
-    delta_(i) = still ? 0 : gamma * sizes(i) + 2 * weight * reach;
+    bool still = flow.constant_sizes(i) == 0;
+    double reach = still ? 0 : length;
+    for (Index k = 0; k < n; ++k) {
+      if (flow.sizes(i, k) != 0) still = false;
+      if (E_(i, k) != 0) reach += size_of(x_(k)) + flow.constant_sizes(k) * length;
+    }
+    delta_(i) = still ? 0 : gamma * root_(i) + 2 * tail_ * reach;
   }
   x_.swap(next_);
-  propagate(E, E.cwiseAbs(), 100 * unit_roundoff<double>());
+  propagate(E_, E_sizes_, slack);
 }
 
 template <class Scalar>

@@ -121,6 +121,8 @@ class BoundedSimulator {
   void linear_entry(std::size_t coordinate);
   void ball_entry(std::size_t coordinate);
   void rest(double length);
+  int taylor_sum(double length);
+  double taylor_map(double length);
   void step(const BoundedMap<Scalar>& map);
   /// G and Z after a step with the errors delta_, E and |E|; `slack`: relative errors of E besides its rounding.
   void propagate(const numbers::Matrix& E, const numbers::Matrix& sizes, double slack);
@@ -141,7 +143,10 @@ class BoundedSimulator {
   std::vector<StartRule> const* rules_;
   std::vector<FlowStep> cuts_;
   Track<Scalar> track_;
-  ColumnOf<Scalar> x_, next_;
+  ColumnOf<Scalar> x_, next_, term_, other_term_;
+  Eigen::VectorXd size_, other_size_;
+  numbers::Matrix E_, E_sizes_;  ///< of a rest
+  double tail_ = 0;              ///< what the Taylor sum leaves, relative
   Eigen::VectorXd r_, delta_;
   numbers::Matrix G_, Z_, product_;
   Eigen::VectorXd norm_, root_;  ///< of the rows of G_; of the diagonal of Z_
