@@ -51,14 +51,14 @@ std::string check_text(const verify::CheckReport& check) {
       check.violations > 0  ? fmt::format("violated in {} runs", check.violations)
       : check.undecided > 0 ? fmt::format("undecided in {} runs", check.undecided)
                             : "held";
-  std::string text = fmt::format("  {:<12} {:<17} {:<8}  {} run {}: {} against {} at (t, j) = ({}, {})\n",
-                                 check.name, kind_text(check.kind), verdict,
-                                 held ? "nearest" : "worst", check.worst_run, brief(worst.value),
-                                 brief(worst.bound), brief(worst.t), worst.j);
+  std::string text =
+      fmt::format("  {:<12} {:<17} {:<8}  {} run {}: {} against {} at (t, j) = ({}, {})\n",
+                  check.name, kind_text(check.kind), verdict, held ? "nearest" : "worst",
+                  check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
   if (worst.undecided())
-    text += fmt::format("               known to {} in {} digits: nothing is certain of {} <= {}\n",
-                        brief(worst.rounding, 2), worst.digits, brief(worst.value),
-                        brief(worst.bound));
+    text +=
+        fmt::format("               known to {} in {} digits: nothing is certain of {} <= {}\n",
+                    brief(worst.rounding, 2), worst.digits, brief(worst.value), brief(worst.bound));
   if (check.floor > 0)
     text += fmt::format(
         "               checked down to {} of the start: the digits show no larger drop\n",
@@ -70,9 +70,11 @@ std::string check_text(const verify::CheckReport& check) {
 std::string undecided_text(const verify::Report& report, const std::string& gains_file) {
   if (report.undecided == 0) return "";
   return fmt::format(
-      "  {} of {} runs are undecided: what they compare lies closer together than the rounding of {} "
+      "  {} of {} runs are undecided: what they compare lies closer together than the rounding of "
+      "{} "
       "digits\n"
-      "  try         a shorter campaign.horizon, a claim that asks for a little less, or claims written "
+      "  try         a shorter campaign.horizon, a claim that asks for a little less, or claims "
+      "written "
       "in differences of states (z - zh); see\n"
       "              gainsmith simulate {} --run {} --seed {}\n",
       report.undecided, report.runs, kQuadDigits, gains_file, report.worst_run, report.seed);

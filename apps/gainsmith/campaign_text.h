@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "io/json_text.h"
 #include "base/error.h"
+#include "io/json_text.h"
 #include "verify/campaign.h"
 
 namespace gainsmith::app {

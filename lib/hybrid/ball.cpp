@@ -45,8 +45,7 @@ void multiply(const Ball<Scalar>& a, const Ball<Scalar>& b, Ball<Scalar>& out) {
         bound += x * b.rad(k, j) + a.rad(i, k) * (y + b.rad(k, j));
       }
       out.mid(i, j) = sum;
-      out.rad(i, j) =
-          bound + (static_cast<double>(inner) + 1) * unit_roundoff<Scalar>() * sizes;
+      out.rad(i, j) = bound + (static_cast<double>(inner) + 1) * unit_roundoff<Scalar>() * sizes;
     }
 }
 
@@ -187,8 +186,8 @@ struct BallRules {
         for (const double dy : {-ry, ry})
           if (positive) {
             const Scalar corner = value(dx, dy);
-            rad = std::max(rad, size_of(corner - out.mid(0)) +
-                                    2 * kFunction * kUnit * size_of(corner));
+            rad = std::max(rad,
+                           size_of(corner - out.mid(0)) + 2 * kFunction * kUnit * size_of(corner));
           }
       if (!positive) rad = kInfinity;
     }
@@ -325,8 +324,7 @@ struct BallRules {
     const Index n = at[0].mid.rows();
     out.mid = MatrixOf<Scalar>::Constant(1, 1, at[0].mid.trace());
     const double sizes = sizes_of(at[0].mid.diagonal()).sum();
-    out.rad = Matrix::Constant(1, 1,
-                               at[0].rad.trace() + static_cast<double>(n) * kUnit * sizes);
+    out.rad = Matrix::Constant(1, 1, at[0].rad.trace() + static_cast<double>(n) * kUnit * sizes);
   }
   void operator()(Is<Op::norm>, const At& at, Value& out) const {
     const MatrixOf<Scalar>* operands[] = {&at[0].mid};
@@ -350,8 +348,7 @@ struct BallRules {
         sizes_of(product.mid - MatrixOf<Scalar>::Identity(n, n)) * (1 + 4 * kUnit) + product.rad;
     const double norm = n == 0 ? 0 : R.rowwise().sum().maxCoeff();
     out.rad = Matrix::Constant(n, n, kInfinity);
-    if (norm < 1)
-      out.rad = R.rowwise().sum() * sizes_of(X).colwise().maxCoeff() / (1 - norm);
+    if (norm < 1) out.rad = R.rowwise().sum() * sizes_of(X).colwise().maxCoeff() / (1 - norm);
     out.mid = X;
   }
   void operator()(Is<Op::matrix_exponential>, const At& at, Value& out) const {

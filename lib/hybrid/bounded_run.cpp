@@ -75,9 +75,9 @@ BallFunction<Scalar>::BallFunction(const expr::Program& program, const StateLayo
 }
 
 template <class Scalar>
-const Ball<Scalar>& BallFunction<Scalar>::operator()(
-    const Eigen::Ref<const ColumnOf<Scalar>>& x, const Eigen::Ref<const Eigen::VectorXd>& r,
-    const Scalar& tau, double tau_bound) {
+const Ball<Scalar>& BallFunction<Scalar>::operator()(const Eigen::Ref<const ColumnOf<Scalar>>& x,
+                                                     const Eigen::Ref<const Eigen::VectorXd>& r,
+                                                     const Scalar& tau, double tau_bound) {
   for (std::size_t i = 0; i < slots_.size(); ++i) {
     const Slot& slot = slots_[i];
     for (Index e = 0; e < slot.shape.size(); ++e) {
@@ -125,10 +125,10 @@ BoundedSimulator<Scalar>::BoundedSimulator(const System& system, const Scenario&
       first_.emplace_back(rule.program, system.layout, bounded.constants);
   for (const Coordinate& coordinate : bounded.coordinates->list) {
     begin_.emplace_back(coordinate.start, system.layout, bounded.constants);
-    after_.push_back(coordinate.jump ? std::make_unique<BallFunction<Scalar>>(
-                                           *coordinate.jump, bounded.coordinates->layout,
-                                           bounded.constants)
-                                     : nullptr);
+    after_.push_back(coordinate.jump
+                         ? std::make_unique<BallFunction<Scalar>>(
+                               *coordinate.jump, bounded.coordinates->layout, bounded.constants)
+                         : nullptr);
   }
   const Index n = bounded.coordinates->layout.size;
   x_.resize(n);
@@ -244,8 +244,8 @@ void BoundedSimulator<Scalar>::propagate(const Matrix& E, const Matrix& sizes, d
         from_G += s[k * n + i] * norm_(k);
         from_Z += s[k * n + i] * root_(k);
       }
-      z[i * n + i] += static_cast<double>(n) *
-                      (eps * eps * from_G * from_G + eps * from_Z * from_Z);
+      z[i * n + i] +=
+          static_cast<double>(n) * (eps * eps * from_G * from_G + eps * from_Z * from_Z);
     }
     steps_ += 1;
   }
@@ -431,9 +431,9 @@ void BoundedSimulator<Scalar>::flow(double interval) {
     passed = last ? Scalar(interval) : passed + Scalar(cuts_[i].length);
     track_.moves.push_back({false, cuts_[i]});
     const Scalar left = timer - passed;
-    const double bound = left == Scalar(0) ? 0
-                                           : (static_cast<double>(i) + 2) *
-                                                 unit_roundoff<Scalar>() * size_of(timer);
+    const double bound =
+        left == Scalar(0) ? 0
+                          : (static_cast<double>(i) + 2) * unit_roundoff<Scalar>() * size_of(timer);
     append(start + elapsed, jumps, left, bound);
     if (track_.termination != Termination::horizon) return;
   }
@@ -455,8 +455,7 @@ void BoundedSimulator<Scalar>::linear_entry(std::size_t coordinate) {
       }
   const Ball<Scalar> zero = value(at, spread, Scalar(0), 0);
   const Index rows = slot.shape.size();
-  const double gamma =
-      (static_cast<double>(x_.rows()) + 4) * unit_roundoff<Scalar>();
+  const double gamma = (static_cast<double>(x_.rows()) + 4) * unit_roundoff<Scalar>();
   Eigen::VectorXd sizes(rows);
   for (Index i = 0; i < rows; ++i) {
     next_(slot.offset + i) = zero.mid(i);

@@ -14,12 +14,12 @@
 // G G' + Z: Z is what came since the last jump, and each jump takes it into G, by the factorisation
 // [G, sqrt(n diag Z)]' = Q R. Both are computed in double. The rounding of E G is a delta like the
 // others, eps |E| |G|, so G may fall over hundreds of decades; that of E Z E', at most eps g_i g_j
-// with g = |E| sqrt(diag Z), is covered by n eps g^2 on the diagonal. A row of the identity adds nothing, so what stays as it is has no error of its
-// own, and 0 that is exact stays so.
+// with g = |E| sqrt(diag Z), is covered by n eps g^2 on the diagonal. A row of the identity adds
+// nothing, so what stays as it is has no error of its own, and 0 that is exact stays so.
 //
-// A jump that is affine in the states with coefficients that depend on clocks (F(s)) is a step whose
-// E has a bound of its own. An entry of any other kind is evaluated over balls (ball.h): its row of
-// E is 0 and delta is the radius.
+// A jump that is affine in the states with coefficients that depend on clocks (F(s)) is a step
+// whose E has a bound of its own. An entry of any other kind is evaluated over balls (ball.h): its
+// row of E is 0 and delta is the radius.
 #pragma once
 
 #include <Eigen/QR>
@@ -124,7 +124,8 @@ class BoundedSimulator {
   int taylor_sum(double length);
   double taylor_map(double length);
   void step(const BoundedMap<Scalar>& map);
-  /// G and Z after a step with the errors delta_, E and |E|; `slack`: relative errors of E besides its rounding.
+  /// G and Z after a step with the errors delta_, E and |E|; `slack`: relative errors of E besides
+  /// its rounding.
   void propagate(const numbers::Matrix& E, const numbers::Matrix& sizes, double slack);
   void set_bounds();
   void rescale(double largest);
@@ -137,8 +138,8 @@ class BoundedSimulator {
   const FlowSteps* cutting_;
   const BoundedSystem<Scalar>* bounded_;
   Starts starts_;
-  std::vector<BallFunction<Scalar>> first_;   ///< of the expressions, over the system's states
-  std::vector<BallFunction<Scalar>> begin_;   ///< of the coordinates, over the system's states
+  std::vector<BallFunction<Scalar>> first_;  ///< of the expressions, over the system's states
+  std::vector<BallFunction<Scalar>> begin_;  ///< of the coordinates, over the system's states
   std::vector<std::unique_ptr<BallFunction<Scalar>>> after_;
   std::vector<StartRule> const* rules_;
   std::vector<FlowStep> cuts_;

@@ -348,8 +348,7 @@ class Builder {
       const Slot& slot = result_.layout.slots[at];
       for (std::size_t other = 0; other < count; ++other) {
         const Slot& from = result_.layout.slots[other];
-        if (!result_.linear
-                 .block(slot.offset, from.offset, slot.shape.size(), from.shape.size())
+        if (!result_.linear.block(slot.offset, from.offset, slot.shape.size(), from.shape.size())
                  .isZero(0))
           need(other);
       }

@@ -4,13 +4,14 @@
 // Here what a claim is about becomes a coordinate of its own:
 //
 //   d = a - b       for states a, b whose difference stands in a claim; d takes the place of b
-//   w = expm(K) x   for x' = M x and K = s N, s a scalar with s' = r, when r N + M = 0: then w' = 0,
+//   w = expm(K) x   for x' = M x and K = s N, s a scalar with s' = r, when r N + M = 0: then w' =
+//   0,
 //                   w is constant along flows and a claim of w cannot see the rounding of expm
 //
 // and the maps of the others are rewritten with b = a - d. Coefficients are formed as polynomials
-// (polynomial.h), so that equal terms cancel exactly, and evaluated in 100 digits from the decimals;
-// what is left below 1e-80 of the largest coefficient is nothing. Coordinates that no claim depends
-// on are dropped: a diverging plant is not a part of what is judged of its observer.
+// (polynomial.h), so that equal terms cancel exactly, and evaluated in 100 digits from the
+// decimals; what is left below 1e-80 of the largest coefficient is nothing. Coordinates that no
+// claim depends on are dropped: a diverging plant is not a part of what is judged of its observer.
 #pragma once
 
 #include <Eigen/Core>

@@ -32,7 +32,8 @@ std::optional<Wide> from_text(const model::Design::Datum& datum, const numbers::
   if (!datum.value || !is_determined(datum.value->program)) return std::nullopt;
   try {
     Wide wide = numbers::evaluate<Decimal100>(datum.value->program, values);
-    const numbers::Matrix rounded = wide.unaryExpr([](const Decimal100& v) { return as<double>(v); });
+    const numbers::Matrix rounded =
+        wide.unaryExpr([](const Decimal100& v) { return as<double>(v); });
     const double size = used.size() > 0 ? used.cwiseAbs().maxCoeff() : 0;
     if (rounded.rows() != used.rows() || rounded.cols() != used.cols()) return std::nullopt;
     if (used.size() > 0 && !((rounded - used).cwiseAbs().maxCoeff() <= kSameNumber * size))

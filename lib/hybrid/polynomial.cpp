@@ -159,8 +159,8 @@ Polynomial Polynomials::of_instruction(const Program& program, std::size_t at,
     Instruction same = instruction;
     if (same.op == Op::input) {
       const expr::Input& input = program.inputs[static_cast<std::size_t>(same.attributes[0])];
-      return of_atom(atom_of(
-          assembly.extract(assembly.add_input(input.name, input.shape, instruction))));
+      return of_atom(
+          atom_of(assembly.extract(assembly.add_input(input.name, input.shape, instruction))));
     }
     for (std::size_t i = 0; i < same.operands.size(); ++i)
       same.operands[i] = add_program(assembly, this->program(value(i)), nullptr);
@@ -179,8 +179,7 @@ Polynomial Polynomials::of_instruction(const Program& program, std::size_t at,
       return as_atom();
     }
     case Op::identity:
-      for (const auto& [word, coefficient] : value(0).terms)
-        add_term(result, word, coefficient);
+      for (const auto& [word, coefficient] : value(0).terms) add_term(result, word, coefficient);
       return result;
     case Op::add:
     case Op::subtract:
@@ -245,9 +244,8 @@ Program Polynomials::program(const Polynomial& polynomial) const {
     int term = product(word.chain);
     if (term < 0) {
       if (factor < 0) factor = compose.number("1");
-      term = polynomial.shape.is_scalar()
-                 ? factor
-                 : compose.apply(Op::identity, {factor}, polynomial.shape);
+      term = polynomial.shape.is_scalar() ? factor
+                                          : compose.apply(Op::identity, {factor}, polynomial.shape);
     } else if (factor >= 0) {
       term = compose.apply(Op::scale, {factor, term}, polynomial.shape);
     }

@@ -61,8 +61,7 @@ Form<Scalar> form_of(const Wide& Q) {
 }
 
 template <class Scalar>
-Bounded<Scalar> value_of(const Form<Scalar>& form,
-                         const Eigen::Ref<const ColumnOf<Scalar>>& x,
+Bounded<Scalar> value_of(const Form<Scalar>& form, const Eigen::Ref<const ColumnOf<Scalar>>& x,
                          const Eigen::Ref<const Eigen::VectorXd>& r) {
   const Index n = x.rows();
   Bounded<Scalar> result;
@@ -99,9 +98,8 @@ ExactSteps exact_steps(const Coordinates& coordinates, const FlowSteps& steps,
   const Decimal100 length(steps.shortest());
   const Wide I = Wide::Identity(n + 1, n + 1);
   ExactSteps exact;
-  exact.maps.push_back(series(I, [&](const Wide& term, int k) {
-    return Wide(term * G * (length / Decimal100(k)));
-  }));
+  exact.maps.push_back(series(
+      I, [&](const Wide& term, int k) { return Wide(term * G * (length / Decimal100(k))); }));
   const double unit = kWideUnit * static_cast<double>(n + 2);
   exact.errors.push_back(unit * std::exp(std::min(row_norm(G) * steps.shortest(), 100.0)));
   for (const Wide& Q : forms)
@@ -142,12 +140,12 @@ StepMaps<Scalar>::StepMaps(const Coordinates& coordinates, const ExactSteps& exa
   }
 }
 
-#define GAINSMITH_STEP_MAPS(Scalar)                                                             \
-  template BoundedMap<Scalar> bounded_map<Scalar>(const Wide&, const Wide&, double);            \
-  template Form<Scalar> form_of<Scalar>(const Wide&);                                           \
-  template Bounded<Scalar> value_of<Scalar>(const Form<Scalar>&,                                \
+#define GAINSMITH_STEP_MAPS(Scalar)                                                    \
+  template BoundedMap<Scalar> bounded_map<Scalar>(const Wide&, const Wide&, double);   \
+  template Form<Scalar> form_of<Scalar>(const Wide&);                                  \
+  template Bounded<Scalar> value_of<Scalar>(const Form<Scalar>&,                       \
                                             const Eigen::Ref<const ColumnOf<Scalar>>&, \
-                                            const Eigen::Ref<const Eigen::VectorXd>&);          \
+                                            const Eigen::Ref<const Eigen::VectorXd>&); \
   template struct StepMaps<Scalar>;
 GAINSMITH_STEP_MAPS(double)
 GAINSMITH_STEP_MAPS(DoubleDouble)

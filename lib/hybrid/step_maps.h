@@ -27,11 +27,11 @@ template <class Scalar>
 struct BoundedMap {
   numbers::MatrixOf<Scalar> linear;
   ColumnOf<Scalar> constant;
-  numbers::Matrix rounded;       ///< linear in double
-  numbers::Matrix sizes;         ///< |linear|
+  numbers::Matrix rounded;  ///< linear in double
+  numbers::Matrix sizes;    ///< |linear|
   Eigen::VectorXd constant_sizes;
-  double error = 0;              ///< besides that rounding, in the norm of the largest row sum
-  std::vector<bool> unchanged;   ///< the rows that are those of the identity
+  double error = 0;             ///< besides that rounding, in the norm of the largest row sum
+  std::vector<bool> unchanged;  ///< the rows that are those of the identity
 };
 
 template <class Scalar>
@@ -56,8 +56,7 @@ struct Bounded {
 
 /// The form at x with |true x - x| <= r.
 template <class Scalar>
-Bounded<Scalar> value_of(const Form<Scalar>& form,
-                         const Eigen::Ref<const ColumnOf<Scalar>>& x,
+Bounded<Scalar> value_of(const Form<Scalar>& form, const Eigen::Ref<const ColumnOf<Scalar>>& x,
                          const Eigen::Ref<const Eigen::VectorXd>& r);
 
 /// All in 100 digits.
@@ -75,7 +74,7 @@ struct StepMaps {
            const std::vector<numbers::MatrixOf<Decimal100>>& forms);
 
   std::vector<BoundedMap<Scalar>> maps;
-  numbers::MatrixOf<Scalar> linear;    ///< of the flow itself
+  numbers::MatrixOf<Scalar> linear;  ///< of the flow itself
   ColumnOf<Scalar> constant;
   numbers::Matrix rounded;
   numbers::Matrix sizes;

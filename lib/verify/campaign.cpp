@@ -99,8 +99,8 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
   if (verdict.confirmed) tally.confirmed.push_back(run);
   tally.score = -std::numeric_limits<double>::infinity();
   for (const Finding& finding : verdict.findings) {
-    tally.claims.push_back({finding.violated() ? 1U : 0U, finding.undecided() ? 1U : 0U, run,
-                            finding, finding.floor});
+    tally.claims.push_back(
+        {finding.violated() ? 1U : 0U, finding.undecided() ? 1U : 0U, run, finding, finding.floor});
     if (finding.violated() || verdict.judgement != Judgement::violated)
       tally.score = std::max(tally.score, finding.score);
   }
@@ -205,8 +205,8 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
   report.worst_termination = tally.termination;
   report.worst_message = tally.message;
   report.horizon = setup.scenario.horizon;
-  report.violation_probability =
-      violation_probability_bound(report.violations + report.undecided, report.runs, report.confidence);
+  report.violation_probability = violation_probability_bound(report.violations + report.undecided,
+                                                             report.runs, report.confidence);
   report.checks = report_checks(setup, tally);
   if (report.violations > 0) {
     report.verdict = confirm_worst(setup, report.seed, report) ? model::CampaignVerdict::violated

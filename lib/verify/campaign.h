@@ -51,8 +51,8 @@ struct Report {
   /// among them. In order.
   std::vector<std::uint64_t> confirmed;
   /// The run that violates worst; of a campaign that held, the run nearest to it. Runs that do not
-  /// reach the horizon come first, then violating runs, then undecided ones, then by the largest score
-  /// of a claim, among those that it violates if any; ties to the lowest.
+  /// reach the horizon come first, then violating runs, then undecided ones, then by the largest
+  /// score of a claim, among those that it violates if any; ties to the lowest.
   std::uint64_t worst_run = 0;
   hybrid::Termination worst_termination = hybrid::Termination::horizon;
   std::string worst_message;  ///< why it ended, when a jump map had no value
@@ -65,9 +65,9 @@ struct Report {
 };
 
 /// Simulates all runs and checks every claim that the gain file states (judge.h). The verdict is
-/// `violated` when a run violates and the worst one does so in 31 digits, `held` when every run holds,
-/// and `undecided` otherwise. InputError for input that does not fit, for 0 runs, and when no claim is
-/// stated: then there is nothing to hold.
+/// `violated` when a run violates and the worst one does so in 31 digits, `held` when every run
+/// holds, and `undecided` otherwise. InputError for input that does not fit, for 0 runs, and when
+/// no claim is stated: then there is nothing to hold.
 Report run_campaign(const model::Instance& instance, const model::Gains& gains,
                     const CampaignOptions& options = {});
 

@@ -122,9 +122,8 @@ template <class Scalar>
 std::vector<Bounded<Scalar>> ClaimCheck<Scalar>::values(const Track& track) {
   std::vector<Bounded> values;
   for (std::size_t k = 0; k < track.samples(); ++k)
-    values.push_back(k > 0 && !claim_->value.varies(track.moves[k - 1].jump)
-                         ? values.back()
-                         : value_(track, k));
+    values.push_back(k > 0 && !claim_->value.varies(track.moves[k - 1].jump) ? values.back()
+                                                                             : value_(track, k));
   return values;
 }
 
@@ -149,9 +148,7 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
       noise = std::max(noise, top / std::abs(scale));
     } else if (judgement != Judgement::held) {
       const Finding found = finding_at(track, k, v[k], high, scale, judgement);
-      const auto rank = [](const Finding& one) {
-        return std::pair(one.violated(), one.score);
-      };
+      const auto rank = [](const Finding& one) { return std::pair(one.violated(), one.score); };
       if (!worst || rank(found) > rank(*worst)) worst = found;
     }
     if (v[k].value - low.value < Scalar(v[k].bound - low.bound)) low = v[k];
@@ -159,8 +156,7 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
   }
   if (!worst && !is_number(v[0]))
     worst = finding_at(track, 0, v[0], v[0], scale, compare(v[0], v[0]));
-  if (!worst)
-    worst = finding_at(track, v.size() - 1, v.back(), v.front(), scale, Judgement::held);
+  if (!worst) worst = finding_at(track, v.size() - 1, v.back(), v.front(), scale, Judgement::held);
   worst->floor = noise;
   return *worst;
 }
@@ -208,8 +204,8 @@ Bounded<Scalar> ClaimCheck<Scalar>::rest_cost(const Track& track, std::size_t mo
       sum_spread += spread;
       weight *= flow.norm * s / degree;
     }
-    sum_spread += (static_cast<double>(n + degree) + 4) * hybrid::unit_roundoff<Scalar>() *
-                  sum_sizes;
+    sum_spread +=
+        (static_cast<double>(n + degree) + 4) * hybrid::unit_roundoff<Scalar>() * sum_sizes;
     const Bounded value = hybrid::value_of<Scalar>(form, node, sum_spread);
     const Scalar share = Scalar(length) * Scalar(weights[i]);
     total.value += share * value.value;

@@ -14,11 +14,12 @@
 //   held        value + its bound <= what it must not exceed - its bound, at every sample
 //   undecided   neither
 //
-// A value that cannot have changed since the sample before (all that it depends on is constant along
-// flows, or unchanged by jumps) is not compared with itself. A value that has no number violates in 31 digits and is
-// undecided in double. Of a value that falls by more than the digits can show, the rest is noise:
-// what is below kFloor of v(0) is not compared, and Finding::floor says so. kFloor is 1e-24 in 31
-// digits, of which the last are rounding, and the range of the numbers, 1e-200, in double.
+// A value that cannot have changed since the sample before (all that it depends on is constant
+// along flows, or unchanged by jumps) is not compared with itself. A value that has no number
+// violates in 31 digits and is undecided in double. Of a value that falls by more than the digits
+// can show, the rest is noise: what is below kFloor of v(0) is not compared, and Finding::floor
+// says so. kFloor is 1e-24 in 31 digits, of which the last are rounding, and the range of the
+// numbers, 1e-200, in double.
 //
 // The integral of a quadratic form over a flow is a quadratic form of its start (step_maps.h). Any
 // other flow cost makes its claim undecided, unless it is 0.
@@ -50,7 +51,8 @@ struct Finding {
   double rounding = 0;  ///< how far value - bound may be from the true one
   double t = 0;         ///< where that is, in hybrid time
   std::int64_t j = 0;
-  /// The largest value, relative to v(0), that was not compared because no digits are left; 0: none.
+  /// The largest value, relative to v(0), that was not compared because no digits are left; 0:
+  /// none.
   double floor = 0;
   int digits = kDoubleDigits;  ///< of the arithmetic that says so
 

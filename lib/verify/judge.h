@@ -14,9 +14,9 @@ struct RunVerdict {
   Judgement judgement = Judgement::held;
   std::vector<Finding> findings;  ///< of the claims that are stated, in order
   hybrid::Termination termination = hybrid::Termination::horizon;
-  std::string message;    ///< why it ended, when a jump map had no value
-  bool repeated = false;  ///< in 31 digits
-  bool confirmed = false; ///< violated in 31 digits
+  std::string message;     ///< why it ended, when a jump map had no value
+  bool repeated = false;   ///< in 31 digits
+  bool confirmed = false;  ///< violated in 31 digits
 
   bool unfinished() const { return termination != hybrid::Termination::horizon; }
 };
@@ -27,8 +27,8 @@ class Judge {
   explicit Judge(const Setup& setup);
 
   /// What double decides is decided; a run with a claim that it does not decide, or that does not
-  /// reach the horizon, is repeated in 31 digits. Of a run that does not end in 31 digits with half of
-  /// its last state certain, the end is undecided.
+  /// reach the horizon, is repeated in 31 digits. Of a run that does not end in 31 digits with half
+  /// of its last state certain, the end is undecided.
   RunVerdict operator()(std::uint64_t seed, std::uint64_t run);
 
   /// The run in 31 digits.

@@ -62,8 +62,7 @@ Eigen::VectorXd column_of(const std::vector<hybrid::Bounded<double>>& values, In
   return column;
 }
 
-void add_claims(Judge& judge, std::uint64_t seed, std::uint64_t run, Replay& replay,
-                Table& table) {
+void add_claims(Judge& judge, std::uint64_t seed, std::uint64_t run, Replay& replay, Table& table) {
   const std::vector<Finding> findings = judge(seed, run).findings;
   const hybrid::Track<double>& track = judge.track(seed, run);
   const Index rows = replay.table.rows();

@@ -60,16 +60,14 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
   hybrid::Scenario scenario = hybrid::make_scenario(design, system);
   hybrid::FlowSteps steps = hybrid::make_steps(system);
   std::vector<LinkedClaim> claims = link_claims(design, system);
-  auto setup = std::make_unique<Setup>(Setup{std::move(system), std::move(scenario),
-                                             std::move(steps), std::move(claims), {}, {}, {}, {}});
-  setup->coordinates =
-      hybrid::make_coordinates(setup->system, hybrid::exact_values(instance, setup->system, gains),
-                               functions_of(*setup));
+  auto setup = std::make_unique<Setup>(Setup{
+      std::move(system), std::move(scenario), std::move(steps), std::move(claims), {}, {}, {}, {}});
+  setup->coordinates = hybrid::make_coordinates(
+      setup->system, hybrid::exact_values(instance, setup->system, gains), functions_of(*setup));
   std::vector<Wide> forms;
   add_judged_claims(*setup, forms);
   const hybrid::ExactSteps exact = hybrid::exact_steps(setup->coordinates, setup->steps, forms);
-  setup->narrow =
-      std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, exact, forms);
+  setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, exact, forms);
   setup->wide =
       std::make_unique<hybrid::BoundedSystem<DoubleDouble>>(setup->coordinates, exact, forms);
   return setup;

@@ -110,8 +110,7 @@ bool split(const expr::Program& program, const Coordinates& coordinates,
   }
   for (const auto& [factors, polynomial] : groups) {
     QuadraticPart part{std::nullopt, sampled(polynomials.program(polynomial), coordinates)};
-    if (!factors.empty())
-      part.factor = polynomials.program({{1, 1}, {{Word{factors, {}, {}}, 1}}});
+    if (!factors.empty()) part.factor = polynomials.program({{1, 1}, {{Word{factors, {}, {}}, 1}}});
     parts.push_back(std::move(part));
   }
   return true;
@@ -184,8 +183,7 @@ Bounded<Scalar> Value<Scalar>::quadratic(const hybrid::Track<Scalar>& track, std
       const hybrid::Ball<Scalar>& g =
           (*part.factor)(x, r, track.timer[sample], track.timer_bound[sample]);
       const double size = hybrid::size_of(g.mid(0));
-      term.bound = size * term.bound +
-                   g.rad(0) * (hybrid::size_of(term.value) + term.bound);
+      term.bound = size * term.bound + g.rad(0) * (hybrid::size_of(term.value) + term.bound);
       term.value = g.mid(0) * term.value;
       term.bound += kUnit * hybrid::size_of(term.value);
     }
@@ -202,9 +200,8 @@ Bounded<Scalar> Value<Scalar>::operator()(const hybrid::Track<Scalar>& track, st
   Bounded<Scalar> result;
   try {
     if (whole_) {
-      const hybrid::Ball<Scalar>& value =
-          (*whole_)(track.state(sample), track.bound(sample), track.timer[sample],
-                    track.timer_bound[sample]);
+      const hybrid::Ball<Scalar>& value = (*whole_)(track.state(sample), track.bound(sample),
+                                                    track.timer[sample], track.timer_bound[sample]);
       result = {value.mid(0), value.rad(0)};
     } else {
       result = quadratic(track, sample);

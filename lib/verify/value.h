@@ -18,8 +18,8 @@ namespace gainsmith::verify {
 
 /// One term of a function that is quadratic in the coordinates.
 struct QuadraticPart {
-  std::optional<expr::Program> factor;      ///< of the timer and clocks; none: 1
-  numbers::MatrixOf<Decimal100> matrix;     ///< symmetric, of [x; 1]
+  std::optional<expr::Program> factor;   ///< of the timer and clocks; none: 1
+  numbers::MatrixOf<Decimal100> matrix;  ///< symmetric, of [x; 1]
 };
 
 /// A function in the coordinates; `parts` is empty when it is not quadratic.

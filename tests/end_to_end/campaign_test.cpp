@@ -92,7 +92,8 @@ TEST(CampaignTest, AConstantStateOfAnySizeExcusesNothing) {
 }
 
 TEST(CampaignTest, ADivergingPlantIsJudgedOnItsError) {
-  // z grows by exp(120) while e dies down by exp(-180): nothing of e is left of z - zh in any digits.
+  // z grows by exp(120) while e dies down by exp(-180): nothing of e is left of z - zh in any
+  // digits.
   EXPECT_EQ(verified(scalar_observer("2", "5", "60"), 0)["verdict"], "held");
   // z leaves the range of double altogether.
   EXPECT_EQ(verified(scalar_observer("5", "5.5", "200"), 0)["verdict"], "held");
@@ -137,7 +138,8 @@ TEST(CampaignTest, WhatIsNotCertainIsUndecided) {
   // e' = (0.5 - 0.5) e is exactly 0: the claim that e^2 does not rise holds, bound 0.
   const Json still = verified(scalar_observer("0.5", "0.5", "10"), 3);
   EXPECT_EQ(still["checks"][0]["undecided"], 0);
-  // That the error at the end is at most 1 times that at the start is an equation of rounded numbers.
+  // That the error at the end is at most 1 times that at the start is an equation of rounded
+  // numbers.
   EXPECT_EQ(still["checks"][1]["undecided"], 20);
   // A rotation keeps |z|, which no digits show.
   const Json report = verified(
