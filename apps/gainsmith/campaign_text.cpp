@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "base/number.h"
+#include "base/scalars.h"
 
 namespace gainsmith::app {
 
@@ -28,12 +29,15 @@ io::Json check_json(const verify::CheckReport& check) {
     return result;
   }
   result["violations"] = check.violations;
+  result["undecided"] = check.undecided;
   result["worst_run"] = check.worst_run;
   result["worst"] = {{"score", io::finite_or_null(check.worst.score)},
                      {"value", io::finite_or_null(check.worst.value)},
                      {"bound", io::finite_or_null(check.worst.bound)},
+                     {"rounding", io::finite_or_null(check.worst.rounding)},
                      {"t", check.worst.t},
                      {"j", check.worst.j}};
+  if (check.floor > 0) result["checked_down_to"] = check.floor;
   return result;
 }
 
@@ -42,15 +46,53 @@ std::string check_text(const verify::CheckReport& check) {
     return fmt::format("  {:<12} not stated: no value for {}\n", check.name,
                        fmt::join(check.missing, ", "));
   const verify::Finding& worst = check.worst;
+  const bool held = check.violations == 0 && check.undecided == 0;
+  const std::string verdict =
+      check.violations > 0  ? fmt::format("violated in {} runs", check.violations)
+      : check.undecided > 0 ? fmt::format("undecided in {} runs", check.undecided)
+                            : "held";
+  std::string text =
+      fmt::format("  {:<12} {:<17} {:<8}  {} run {}: {} against {} at (t, j) = ({}, {})\n",
+                  check.name, kind_text(check.kind), verdict, held ? "nearest" : "worst",
+                  check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
+  if (worst.undecided())
+    text +=
+        fmt::format("               known to {} in {} digits: nothing is certain of {} <= {}\n",
+                    brief(worst.rounding, 2), worst.digits, brief(worst.value), brief(worst.bound));
+  if (check.floor > 0)
+    text += fmt::format(
+        "               checked down to {} of the start: the digits show no larger drop\n",
+        brief(check.floor, 2));
+  return text;
+}
+
+/// What stopped an undecided campaign, and what to try.
+std::string undecided_text(const verify::Report& report, const std::string& gains_file) {
+  if (report.undecided == 0) return "";
   return fmt::format(
-      "  {:<12} {:<17} {:<8}  {} run {}: {} against {} at (t, j) = ({}, {})\n", check.name,
-      kind_text(check.kind),
-      check.violations == 0 ? "held" : fmt::format("violated in {} runs", check.violations),
-      check.violations == 0 ? "nearest" : "worst", check.worst_run, brief(worst.value),
-      brief(worst.bound), brief(worst.t), worst.j);
+      "  {} of {} runs are undecided: what they compare lies closer together than the rounding of "
+      "{} "
+      "digits\n"
+      "  try         a shorter campaign.horizon, a claim that asks for a little less, or claims "
+      "written "
+      "in differences of states (z - zh); see\n"
+      "              gainsmith simulate {} --run {} --seed {}\n",
+      report.undecided, report.runs, kQuadDigits, gains_file, report.worst_run, report.seed);
 }
 
 }  // namespace
+
+ExitCode campaign_exit(model::CampaignVerdict verdict) {
+  switch (verdict) {
+    case model::CampaignVerdict::held:
+      return ExitCode::yes;
+    case model::CampaignVerdict::violated:
+      return ExitCode::no;
+    case model::CampaignVerdict::undecided:
+      return ExitCode::undecided;
+  }
+  return ExitCode::fault;
+}
 
 io::Json campaign_json(const verify::Report& report) {
   io::Json checks = io::Json::array();
@@ -59,9 +101,13 @@ io::Json campaign_json(const verify::Report& report) {
           {"runs", report.runs},
           {"seed", report.seed},
           {"horizon", report.horizon},
+          {"status", to_string(report.verdict)},
           {"violations", report.violations},
+          {"undecided", report.undecided},
           {"unfinished", report.unfinished},
           {"worst_run", report.worst_run},
+          {"repeated_in_31_digits", report.repeated},
+          {"confirmed_in_31_digits", report.confirmed},
           {"confidence", report.confidence},
           {"violation_probability_at_most", report.violation_probability},
           {"checks", checks}};
@@ -70,8 +116,11 @@ io::Json campaign_json(const verify::Report& report) {
 std::string campaign_line(const verify::Report& report) {
   if (report.verdict == model::CampaignVerdict::held)
     return fmt::format("held in {} runs", report.runs);
-  return fmt::format("violated in {} of {} runs, worst {}", report.violations, report.runs,
-                     report.worst_run);
+  if (report.verdict == model::CampaignVerdict::violated)
+    return fmt::format("violated in {} of {} runs, worst {}, confirmed in {} digits",
+                       report.violations, report.runs, report.worst_run, kQuadDigits);
+  return fmt::format("undecided in {} of {} runs", report.undecided + report.violations,
+                     report.runs);
 }
 
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file) {
@@ -82,6 +131,7 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
     text += fmt::format("  {} runs did not reach the horizon; run {}: {}{}\n", report.unfinished,
                         report.worst_run, to_string(report.worst_termination),
                         report.worst_message.empty() ? "" : ", " + report.worst_message);
+  text += undecided_text(report, gains_file);
   text += fmt::format("  with {} % confidence at most {} of such runs violate\n",
                       brief(100 * report.confidence), brief(report.violation_probability, 3));
   return text + fmt::format("  replay      gainsmith simulate {} --run {} --seed {}\n", gains_file,

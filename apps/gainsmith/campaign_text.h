@@ -3,10 +3,14 @@
 
 #include <string>
 
+#include "base/error.h"
 #include "io/json_text.h"
 #include "verify/campaign.h"
 
 namespace gainsmith::app {
+
+/// yes of a campaign that held, no of a violated one.
+ExitCode campaign_exit(model::CampaignVerdict verdict);
 
 io::Json campaign_json(const verify::Report& report);
 

@@ -31,7 +31,9 @@ ExitCode judge(const model::Design& design, const model::Gains& gains,
     if (gains.verdict == model::Verdict::no) return ExitCode::no;
   }
   const bool violated = campaign && campaign->verdict == model::CampaignVerdict::violated;
-  return violated && !(expect && expect->campaign) ? ExitCode::no : ExitCode::yes;
+  if (violated && !(expect && expect->campaign)) return ExitCode::no;
+  const bool open = campaign && campaign->verdict == model::CampaignVerdict::undecided;
+  return open ? ExitCode::undecided : ExitCode::yes;
 }
 
 class Job {
@@ -76,7 +78,7 @@ class Job {
     const verify::Report report = verify::run_campaign(
         instance_, gains, {options_.runs, options_.seed, options_.threads, {}});
     write_atomically(folder_ / "campaign.json", io::to_text(campaign_json(report)));
-    if (report.verdict == model::CampaignVerdict::violated) {
+    if (report.verdict != model::CampaignVerdict::held) {
       const verify::Replay replay = verify::replay(instance_, gains, report.seed, report.worst_run);
       write_atomically(folder_ / "worst-run.csv", io::to_csv(replay.columns, replay.table));
     }

@@ -55,7 +55,7 @@ ExitCode simulate(const SimulateOptions& options) {
              replay.arc.samples(), replay.arc.j.back(), to_string(replay.arc.termination));
   for (const verify::ReplayedClaim& claim : replay.claims)
     fmt::print(stderr, "  {:<12} {}: {} against {} at (t, j) = ({}, {})\n", claim.name,
-               claim.finding.violated ? "violated" : "held", brief(claim.finding.value),
+               to_string(claim.finding.judgement), brief(claim.finding.value),
                brief(claim.finding.bound), brief(claim.finding.t), claim.finding.j);
   return ExitCode::yes;
 }

@@ -33,7 +33,7 @@ ExitCode verify_gains(const VerifyOptions& options) {
   const verify::Report report = verify::run_campaign(loaded.stated, loaded.gains, campaign);
   fmt::print("{}", options.json ? io::to_text(campaign_json(report))
                                 : campaign_summary(report, options.gains));
-  return report.verdict == model::CampaignVerdict::held ? ExitCode::yes : ExitCode::no;
+  return campaign_exit(report.verdict);
 }
 
 }  // namespace
@@ -50,7 +50,7 @@ Command verify_command() {
                   "threads, 0: one a core; the report does not depend on it")
                .within(0, 1024),
            Option("--json", options->json, "print the report as JSON")},
-          "Exit code: 0 held, 1 violated, 2 wrong input.\n"
+          "Exit code: 0 held, 1 violated, 2 wrong input, 3 undecided.\n"
           "Examples:\n"
           "  gainsmith verify gains.json --runs 10000\n"
           "  gainsmith verify gains.json --json | jq .worst_run",

@@ -20,11 +20,12 @@ bool within_range(const Eigen::VectorXd& x) {
 
 double read_first(const model::Formula& formula, const System& system) {
   const double first = system.scalar(formula);
-  if (!(first >= system.first_low && first <= system.first_high))
+  const double slack = 1e-12 * system.first_high;
+  if (!(first >= system.first_low - slack && first <= system.first_high + slack))
     throw InputError(formula.place,
                      fmt::format("the first value {} of the timer is outside its range [{}, {}]",
                                  brief(first), brief(system.first_low), brief(system.first_high)));
-  return first;
+  return std::clamp(first, system.first_low, system.first_high);
 }
 
 }  // namespace

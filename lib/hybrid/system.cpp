@@ -63,6 +63,7 @@ void make_flow(const std::vector<model::Design::MapEntry>& entries, System& syst
   system.flow = sample_affine(
       [&](const Eigen::VectorXd& x) { return values_at(system, map, x, Eigen::VectorXd::Zero(n)); },
       n);
+  system.flow_entries = map;
   double fastest = 0;
   for (const model::Design::MapEntry& entry : entries) {
     const Slot& slot = system.layout.slots[entry.state];

@@ -29,6 +29,7 @@ struct System {
   numbers::Values constants;  ///< data, parameters, gains and unknowns that have a value
   model::Bodies bodies;       ///< of unknown functions and of gains that are functions
   AffineMap flow;
+  std::vector<MapEntry> flow_entries;    ///< what it was made of
   Place flow_place;                      ///< where the fastest part of the flow stands
   std::vector<MapEntry> jump;            ///< states that change; the others keep their value
   std::optional<AffineMap> affine_jump;  ///< when every entry of `jump` is affine

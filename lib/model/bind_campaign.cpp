@@ -1,5 +1,6 @@
 // How to simulate.
 #include <algorithm>
+#include <cmath>
 
 #include "base/nearest.h"
 #include "base/number.h"
@@ -21,13 +22,16 @@ std::optional<double> Binding::known_scalar(const Formula& formula) const {
   return value ? std::optional((*value)(0, 0)) : std::nullopt;
 }
 
-/// InputError when the value is known and outside [low, high].
+/// InputError when the value is known and outside [low, high] by more than the rounding that the
+/// simulation forgives, 1e-12 of high.
 void Binding::check_within(const Formula& formula, const Formula& low, const Formula& high,
                            const std::string& what) const {
   const auto value = known_scalar(formula);
   const auto least = known_scalar(low);
   const auto most = known_scalar(high);
-  if (!value || !least || !most || (*value >= *least && *value <= *most)) return;
+  if (!value || !least || !most) return;
+  const double slack = 1e-12 * std::abs(*most);
+  if (*value >= *least - slack && *value <= *most + slack) return;
   throw InputError(formula.place, what + " " + brief(*value) + " is outside [" + brief(*least) +
                                       ", " + brief(*most) + "]");
 }

@@ -15,7 +15,15 @@ std::string to_string(Verdict verdict) {
 }
 
 std::string to_string(CampaignVerdict verdict) {
-  return verdict == CampaignVerdict::held ? "held" : "violated";
+  switch (verdict) {
+    case CampaignVerdict::held:
+      return "held";
+    case CampaignVerdict::violated:
+      return "violated";
+    case CampaignVerdict::undecided:
+      return "undecided";
+  }
+  return "?";
 }
 
 std::string to_string(Way way) {

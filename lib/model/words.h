@@ -12,7 +12,7 @@ enum class Verdict { yes, no, undecided };
 std::string to_string(Verdict verdict);
 
 /// The answer of a campaign.
-enum class CampaignVerdict { held, violated };
+enum class CampaignVerdict { held, violated, undecided };
 std::string to_string(CampaignVerdict verdict);
 
 enum class Structure { full, symmetric, diagonal, scalar };

@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <optional>
 #include <tuple>
+#include <utility>
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "verify/judge.h"
 #include "verify/setup.h"
 #include "verify/statistics.h"
 
@@ -20,31 +23,49 @@ using hybrid::Termination;
 /// The worst of some runs for one claim.
 struct ClaimTally {
   std::uint64_t violations = 0;
+  std::uint64_t undecided = 0;
   std::optional<std::uint64_t> run;
   Finding worst;
+  double floor = 0;
 };
 
 /// The outcome of some consecutive runs.
 struct Tally {
   std::uint64_t violations = 0;
+  std::uint64_t undecided = 0;
   std::uint64_t unfinished = 0;
+  std::uint64_t repeated = 0;
+  std::vector<std::uint64_t> confirmed;
   std::optional<std::uint64_t> run;  ///< the worst
-  bool violated = false;             ///< of that run
+  Judgement judgement = Judgement::held;
   double score = 0;
   Termination termination = Termination::horizon;
   std::string message;
   std::vector<ClaimTally> claims;
 };
 
+int rank_of(Judgement judgement) {
+  return judgement == Judgement::violated ? 2 : judgement == Judgement::undecided ? 1 : 0;
+}
+
 bool is_worse(const Tally& a, const Tally& b) {
   const auto key = [](const Tally& tally) {
-    return std::tuple(tally.termination != Termination::horizon, tally.violated, tally.score);
+    return std::tuple(tally.termination != Termination::horizon, rank_of(tally.judgement),
+                      tally.score);
   };
   return key(a) > key(b);
 }
 
 bool is_worse(const Finding& a, const Finding& b) {
-  return std::tuple(a.violated, a.score) > std::tuple(b.violated, b.score);
+  return std::tuple(rank_of(a.judgement), a.score) > std::tuple(rank_of(b.judgement), b.score);
+}
+
+void add(const ClaimTally& later, ClaimTally& sum) {
+  const ClaimTally before = sum;
+  if (is_worse(later.worst, sum.worst)) sum = later;
+  sum.violations = before.violations + later.violations;
+  sum.undecided = before.undecided + later.undecided;
+  sum.floor = std::max(before.floor, later.floor);
 }
 
 /// Adds the outcome of later runs: of equals the earlier run stays.
@@ -53,46 +74,44 @@ void add(const Tally& later, Tally& sum) {
     sum = later;
     return;
   }
-  const Tally before = sum;
+  Tally before = sum;
   if (is_worse(later, sum)) sum = later;
   sum.violations = before.violations + later.violations;
+  sum.undecided = before.undecided + later.undecided;
   sum.unfinished = before.unfinished + later.unfinished;
-  sum.claims = before.claims;
-  for (std::size_t i = 0; i < sum.claims.size(); ++i) {
-    ClaimTally& claim = sum.claims[i];
-    const std::uint64_t violations = claim.violations + later.claims[i].violations;
-    if (is_worse(later.claims[i].worst, claim.worst)) claim = later.claims[i];
-    claim.violations = violations;
-  }
+  sum.repeated = before.repeated + later.repeated;
+  for (std::size_t i = 0; i < before.claims.size(); ++i) add(later.claims[i], before.claims[i]);
+  sum.claims = std::move(before.claims);
+  before.confirmed.insert(before.confirmed.end(), later.confirmed.begin(), later.confirmed.end());
+  sum.confirmed = std::move(before.confirmed);
 }
 
-Tally judge(std::uint64_t run, const hybrid::Arc& arc, std::vector<ClaimCheck>& checks) {
+Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
   Tally tally;
   tally.run = run;
-  tally.termination = arc.termination;
-  tally.message = arc.message;
-  tally.unfinished = arc.termination == Termination::horizon ? 0 : 1;
-  tally.violated = tally.unfinished > 0;
+  tally.judgement = verdict.judgement;
+  tally.termination = verdict.termination;
+  tally.message = verdict.message;
+  tally.violations = verdict.judgement == Judgement::violated ? 1 : 0;
+  tally.undecided = verdict.judgement == Judgement::undecided ? 1 : 0;
+  tally.unfinished = verdict.unfinished() ? 1 : 0;
+  tally.repeated = verdict.repeated ? 1 : 0;
+  if (verdict.confirmed) tally.confirmed.push_back(run);
   tally.score = -std::numeric_limits<double>::infinity();
-  for (ClaimCheck& check : checks) {
-    const Finding finding = check(arc);
-    tally.violated = tally.violated || finding.violated;
-    tally.claims.push_back({finding.violated ? 1U : 0U, run, finding});
+  for (const Finding& finding : verdict.findings) {
+    tally.claims.push_back(
+        {finding.violated() ? 1U : 0U, finding.undecided() ? 1U : 0U, run, finding, finding.floor});
+    if (finding.violated() || verdict.judgement != Judgement::violated)
+      tally.score = std::max(tally.score, finding.score);
   }
-  for (const ClaimTally& claim : tally.claims)
-    if (claim.worst.violated || !tally.violated)
-      tally.score = std::max(tally.score, claim.worst.score);
-  tally.violations = tally.violated ? 1 : 0;
   return tally;
 }
 
 /// Runs first, first + 1, ..., last - 1.
 Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
-  hybrid::Simulator simulator(setup.system, setup.scenario, setup.steps);
-  std::vector<ClaimCheck> checks = make_checks(setup);
+  Judge judge(setup);
   Tally sum;
-  for (std::uint64_t run = first; run < last; ++run)
-    add(judge(run, simulator.run(seed, run), checks), sum);
+  for (std::uint64_t run = first; run < last; ++run) add(tally_of(run, judge(seed, run)), sum);
   return sum;
 }
 
@@ -121,16 +140,34 @@ std::vector<CheckReport> report_checks(const Setup& setup, const Tally& tally) {
   std::vector<CheckReport> reports;
   std::size_t next = 0;
   for (const LinkedClaim& claim : setup.claims) {
-    CheckReport report{claim.name, claim.kind, claim.stated(), claim.missing, 0, 0, {}};
+    CheckReport report{claim.name, claim.kind, claim.stated(), claim.missing, 0, 0, 0, {}, 0};
     if (claim.stated()) {
       const ClaimTally& found = tally.claims[next++];
       report.violations = found.violations;
+      report.undecided = found.undecided;
+      report.floor = found.floor;
       report.worst_run = *found.run;
       report.worst = found.worst;
     }
     reports.push_back(std::move(report));
   }
   return reports;
+}
+
+/// Repeats the worst runs in 31 digits and adds those that violate there too. Whether the worst one
+/// does.
+bool confirm_worst(const Setup& setup, std::uint64_t seed, Report& report) {
+  std::vector<std::uint64_t> runs{report.worst_run};
+  for (const CheckReport& check : report.checks)
+    if (check.violations > 0) runs.push_back(check.worst_run);
+  Judge judge(setup);
+  for (const std::uint64_t run : runs) {
+    const auto at = std::lower_bound(report.confirmed.begin(), report.confirmed.end(), run);
+    if (at != report.confirmed.end() && *at == run) continue;
+    ++report.repeated;
+    if (judge.confirm(seed, run).confirmed) report.confirmed.insert(at, run);
+  }
+  return std::binary_search(report.confirmed.begin(), report.confirmed.end(), report.worst_run);
 }
 
 void require_a_claim(const model::Design& design, const std::vector<LinkedClaim>& claims) {
@@ -149,7 +186,8 @@ void require_a_claim(const model::Design& design, const std::vector<LinkedClaim>
 Report run_campaign(const model::Instance& instance, const model::Gains& gains,
                     const CampaignOptions& options) {
   const model::Design& design = *instance.design;
-  const Setup setup = make_setup(instance, gains);
+  const std::unique_ptr<const Setup> made = make_setup(instance, gains);
+  const Setup& setup = *made;
   require_a_claim(design, setup.claims);
   Report report;
   report.runs = options.runs.value_or(design.campaign.runs);
@@ -158,17 +196,24 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
     throw InputError(design.campaign.place, "a campaign needs at least one run");
 
   const Tally tally = judge_all(setup, report.seed, report.runs, options);
-  report.verdict =
-      tally.violations > 0 ? model::CampaignVerdict::violated : model::CampaignVerdict::held;
   report.violations = tally.violations;
+  report.undecided = tally.undecided;
   report.unfinished = tally.unfinished;
+  report.repeated = tally.repeated;
+  report.confirmed = tally.confirmed;
   report.worst_run = *tally.run;
   report.worst_termination = tally.termination;
   report.worst_message = tally.message;
   report.horizon = setup.scenario.horizon;
-  report.violation_probability =
-      violation_probability_bound(report.violations, report.runs, report.confidence);
+  report.violation_probability = violation_probability_bound(report.violations + report.undecided,
+                                                             report.runs, report.confidence);
   report.checks = report_checks(setup, tally);
+  if (report.violations > 0) {
+    report.verdict = confirm_worst(setup, report.seed, report) ? model::CampaignVerdict::violated
+                                                               : model::CampaignVerdict::undecided;
+  } else if (report.undecided > 0) {
+    report.verdict = model::CampaignVerdict::undecided;
+  }
   return report;
 }
 

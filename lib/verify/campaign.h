@@ -32,8 +32,11 @@ struct CheckReport {
   bool stated = true;  ///< false: not checked, because `missing` have no value
   std::vector<std::string> missing;
   std::uint64_t violations = 0;
-  std::uint64_t worst_run = 0;  ///< violating runs first, then by score; ties to the lowest
-  Finding worst;                ///< in that run
+  std::uint64_t undecided = 0;
+  /// Violating runs first, then undecided ones, then by score; ties to the lowest.
+  std::uint64_t worst_run = 0;
+  Finding worst;     ///< in that run
+  double floor = 0;  ///< the largest Finding::floor
 };
 
 struct Report {
@@ -41,23 +44,30 @@ struct Report {
   std::uint64_t runs = 0;
   std::uint64_t seed = 0;
   std::uint64_t violations = 0;  ///< runs that violate a claim or do not reach the horizon
+  std::uint64_t undecided = 0;   ///< runs of which neither is certain, in 31 digits
   std::uint64_t unfinished = 0;  ///< runs that do not reach the horizon
+  std::uint64_t repeated = 0;    ///< runs that were repeated in 31 digits
+  /// The violating runs that were, and violate there too; the worst run and that of each claim are
+  /// among them. In order.
+  std::vector<std::uint64_t> confirmed;
   /// The run that violates worst; of a campaign that held, the run nearest to it. Runs that do not
-  /// reach the horizon come first, then violating runs, then by the largest score of a claim, among
-  /// those that it violates if any; ties to the lowest.
+  /// reach the horizon come first, then violating runs, then undecided ones, then by the largest
+  /// score of a claim, among those that it violates if any; ties to the lowest.
   std::uint64_t worst_run = 0;
   hybrid::Termination worst_termination = hybrid::Termination::horizon;
   std::string worst_message;  ///< why it ended, when a jump map had no value
   double horizon = 0;
   double confidence = 0.95;
-  /// With that confidence the probability that a run of this campaign violates is at most this.
+  /// With that confidence the probability that a run of this campaign violates is at most this;
+  /// undecided runs count as violating.
   double violation_probability = 1;
   std::vector<CheckReport> checks;  ///< in the method's order
 };
 
-/// Simulates all runs and checks every claim that the gain file states. The verdict is `held` when
-/// no run violates. InputError for input that does not fit, for 0 runs, and when no claim is
-/// stated: then there is nothing to hold.
+/// Simulates all runs and checks every claim that the gain file states (judge.h). The verdict is
+/// `violated` when a run violates and the worst one does so in 31 digits, `held` when every run
+/// holds, and `undecided` otherwise. InputError for input that does not fit, for 0 runs, and when
+/// no claim is stated: then there is nothing to hold.
 Report run_campaign(const model::Instance& instance, const model::Gains& gains,
                     const CampaignOptions& options = {});
 

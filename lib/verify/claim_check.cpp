@@ -3,195 +3,279 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
+#include <utility>
 
 namespace gainsmith::verify {
 
 namespace {
 
 using Eigen::Index;
-using hybrid::Arc;
+using hybrid::Bounded;
+using hybrid::Track;
 
-constexpr double kRelativeTolerance = 1e-9;
-constexpr double kStateRounding = 1e-12;
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-std::optional<AlongFunction> make_function(const std::optional<expr::Program>& program,
-                                           const hybrid::System& system) {
-  if (!program) return std::nullopt;
-  return AlongFunction(*program, system);
+template <class Scalar>
+constexpr double kFloor = 1e-200;
+template <>
+constexpr double kFloor<DoubleDouble> = 1e-24;
+
+template <class Scalar>
+constexpr int kDigits = kDoubleDigits;
+template <>
+constexpr int kDigits<DoubleDouble> = kQuadDigits;
+
+template <class Scalar>
+bool is_number(const Bounded<Scalar>& value) {
+  using std::isnan;
+  return !isnan(value.value);
 }
 
-Eigen::Map<const Eigen::VectorXd> timers(const Arc& arc) {
-  return {arc.timer.data(), static_cast<Index>(arc.timer.size())};
+/// What is certain of value <= bound.
+template <class Scalar>
+Judgement compare(const Bounded<Scalar>& value, const Bounded<Scalar>& bound) {
+  if (!is_number(value) || !is_number(bound))
+    return kDigits<Scalar> > kDoubleDigits ? Judgement::violated : Judgement::undecided;
+  const double excess = static_cast<double>(value.value - bound.value);
+  const double rounding = (value.bound + bound.bound) * hybrid::kBoundSlack +
+                          2 * hybrid::unit_roundoff<Scalar>() * std::abs(excess);
+  if (excess > rounding) return Judgement::violated;
+  if (excess <= -rounding || (excess <= 0 && value.bound + bound.bound == 0))
+    return Judgement::held;
+  return Judgement::undecided;
 }
 
-Finding finding_at(const Arc& arc, std::size_t sample, double value, double bound) {
+template <class Scalar>
+Finding finding_at(const Track<Scalar>& track, std::size_t sample, const Bounded<Scalar>& value,
+                   const Bounded<Scalar>& bound, double scale, Judgement judgement) {
   Finding finding;
-  finding.value = value;
-  finding.bound = bound;
-  finding.t = arc.t[sample];
-  finding.j = arc.j[sample];
+  finding.judgement = judgement;
+  finding.value = static_cast<double>(value.value);
+  finding.bound = static_cast<double>(bound.value);
+  finding.rounding = value.bound + bound.bound;
+  finding.t = track.t[sample];
+  finding.j = track.j[sample];
+  finding.digits = kDigits<Scalar>;
+  const double excess = static_cast<double>(value.value - bound.value);
+  const bool violated = judgement == Judgement::violated;
+  if (std::isnan(excess) || (violated && scale == 0)) {
+    finding.score = kInfinity;
+  } else {
+    finding.score = scale == 0 ? -1 : excess / std::abs(scale);
+  }
   return finding;
 }
 
-/// The score of an excess; see Finding.
-double score_of(double excess, double scale, bool violated) {
-  if (std::isnan(excess) || (violated && scale == 0)) return kInfinity;
-  return scale == 0 ? -1 : excess / std::abs(scale);
+template <class Scalar>
+Bounded<Scalar> sum(const Bounded<Scalar>& a, const Bounded<Scalar>& b) {
+  Bounded<Scalar> result{a.value + b.value, a.bound + b.bound};
+  if (a.value != Scalar(0) && b.value != Scalar(0))
+    result.bound += hybrid::unit_roundoff<Scalar>() * hybrid::size_of(result.value);
+  return result;
 }
 
-/// Whether value <= bound fails by more than the relative tolerance; a NaN fails.
-bool exceeds(double value, double bound, double scale, double floor = 0) {
-  return !(value <= bound + kRelativeTolerance * std::abs(scale) + floor);
-}
-
-/// max |x| over the samples up to `last`.
-double largest_state(const Arc& arc, std::size_t last) {
-  return arc.states().leftCols(static_cast<Index>(last) + 1).cwiseAbs().maxCoeff();
-}
-
-/// Rounding excuses no value larger than the one at the start: then nothing of the claim is left to
-/// see. A start at exactly 0 has no size of its own.
-double forgiven(double floor, double start) {
-  return start == 0 ? floor : std::min(floor, std::abs(start));
+template <class Scalar>
+std::optional<Value<Scalar>> make_value(const std::optional<JudgedFunction>& function,
+                                        const hybrid::BoundedSystem<Scalar>& system) {
+  if (!function) return std::nullopt;
+  return Value<Scalar>(*function, system);
 }
 
 }  // namespace
 
-ClaimCheck::ClaimCheck(const LinkedClaim& claim, const hybrid::System& system,
-                       const hybrid::FlowSteps& steps)
-    : claim_(&claim),
-      steps_(&steps),
-      value_(claim.value, system),
-      flow_cost_(make_function(claim.flow_cost, system)),
-      jump_cost_(make_function(claim.jump_cost, system)),
-      factor_(make_function(claim.factor, system)) {}
+std::string to_string(Judgement judgement) {
+  switch (judgement) {
+    case Judgement::held:
+      return "held";
+    case Judgement::violated:
+      return "violated";
+    case Judgement::undecided:
+      return "undecided";
+  }
+  return "?";
+}
 
-Finding ClaimCheck::operator()(const Arc& arc) {
+template <class Scalar>
+ClaimCheck<Scalar>::ClaimCheck(const JudgedClaim& claim,
+                               const hybrid::BoundedSystem<Scalar>& system)
+    : claim_(&claim),
+      system_(&system),
+      value_(claim.value, system),
+      jump_cost_(make_value(claim.jump_cost, system)),
+      factor_(make_value(claim.factor, system)) {}
+
+template <class Scalar>
+Finding ClaimCheck<Scalar>::operator()(const Track& track) {
   switch (claim_->kind) {
     case model::ClaimKind::nonincreasing:
-      return nonincreasing(arc);
+      return nonincreasing(track);
     case model::ClaimKind::cost:
-      return cost(arc);
+      return cost(track);
     case model::ClaimKind::shrinks:
-      return shrinks(arc);
+      return shrinks(track);
   }
   return {};
 }
 
-Eigen::VectorXd ClaimCheck::values(const Arc& arc) {
-  return value_(arc.states(), timers(arc)).row(0).transpose();
+template <class Scalar>
+std::vector<Bounded<Scalar>> ClaimCheck<Scalar>::values(const Track& track) {
+  std::vector<Bounded> values;
+  for (std::size_t k = 0; k < track.samples(); ++k)
+    values.push_back(k > 0 && !claim_->value.varies(track.moves[k - 1].jump) ? values.back()
+                                                                             : value_(track, k));
+  return values;
 }
 
-Eigen::VectorXd ClaimCheck::running_cost(const Arc& arc) {
-  const auto moves = static_cast<Index>(arc.moves.size());
-  Eigen::VectorXd flows = Eigen::VectorXd::Zero(moves);
-  if (flow_cost_) flows = integrate_steps(arc, *steps_, *flow_cost_);
+template <class Scalar>
+Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
+  const std::vector<Bounded> v = values(track);
+  const double scale = static_cast<double>(v[0].value);
+  const double floor = kFloor<Scalar> * std::abs(scale);
+  Bounded low = v[0];   // with the smallest value - bound
+  Bounded high = v[0];  // with the smallest value + bound
+  std::optional<Finding> worst;
+  double noise = 0;
+  for (std::size_t k = 1; k < v.size(); ++k) {
+    if (!claim_->value.varies(track.moves[k - 1].jump)) continue;
+    Judgement judgement = compare(v[k], high);
+    if (judgement != Judgement::violated) {
+      judgement = compare(v[k], low);
+      if (judgement == Judgement::violated) judgement = Judgement::undecided;
+    }
+    const double top = hybrid::size_of(v[k].value) + v[k].bound;
+    if (judgement == Judgement::undecided && scale != 0 && top <= floor) {
+      noise = std::max(noise, top / std::abs(scale));
+    } else if (judgement != Judgement::held) {
+      const Finding found = finding_at(track, k, v[k], high, scale, judgement);
+      const auto rank = [](const Finding& one) { return std::pair(one.violated(), one.score); };
+      if (!worst || rank(found) > rank(*worst)) worst = found;
+    }
+    if (v[k].value - low.value < Scalar(v[k].bound - low.bound)) low = v[k];
+    if (v[k].value - high.value < Scalar(high.bound - v[k].bound)) high = v[k];
+  }
+  if (!worst && !is_number(v[0]))
+    worst = finding_at(track, 0, v[0], v[0], scale, compare(v[0], v[0]));
+  if (!worst) worst = finding_at(track, v.size() - 1, v.back(), v.front(), scale, Judgement::held);
+  worst->floor = noise;
+  return *worst;
+}
 
-  Eigen::VectorXd jumps = Eigen::VectorXd::Zero(moves);
-  std::vector<Index> before;
-  for (Index k = 0; k < moves; ++k)
-    if (arc.moves[static_cast<std::size_t>(k)].jump) before.push_back(k);
-  if (jump_cost_ && !before.empty())
-    jumps(before) = (*jump_cost_)(arc.states()(Eigen::all, before), timers(arc)(before)).row(0);
+template <class Scalar>
+Bounded<Scalar> ClaimCheck<Scalar>::rest_cost(const Track& track, std::size_t move) {
+  // The Taylor polynomial of the flow at the nodes; ||M|| length is at most about 1, so the
+  // quadrature of the form leaves less than 1e-22 of it.
+  constexpr double kQuadrature = 1e-22;
+  const hybrid::StepMaps<Scalar>& flow = system_->steps;
+  const hybrid::Form<Scalar>& form = flow.forms[*claim_->integral];
+  const double length = track.moves[move].step.length;
+  const auto& positions = hybrid::FlowSteps::node_positions();
+  const auto& weights = hybrid::FlowSteps::node_weights();
+  const Index n = track.size;
+  const hybrid::ColumnOf<Scalar> x = track.state(move);
+  const Eigen::VectorXd r = track.bound(move);
+  Bounded total;
+  double sizes = 0;
+  for (std::size_t i = 0; i < positions.size(); ++i) {
+    const double s = length * positions[i];
+    hybrid::ColumnOf<Scalar> term = x;
+    hybrid::ColumnOf<Scalar> node = x;
+    Eigen::VectorXd size = hybrid::sizes_of(x).col(0);
+    Eigen::VectorXd spread = r;
+    Eigen::VectorXd sum_sizes = size;
+    Eigen::VectorXd sum_spread = r;
+    double weight = 1;
+    int degree = 0;
+    while (n > 0 && (degree < 2 || weight > hybrid::unit_roundoff<Scalar>() * 1e-6) &&
+           degree < 60) {
+      ++degree;
+      term = (flow.linear.lazyProduct(term)).eval();
+      size = flow.sizes.lazyProduct(size).eval();
+      spread = flow.sizes.lazyProduct(spread).eval();
+      if (degree == 1) {
+        term += flow.constant;
+        size += flow.constant_sizes;
+      }
+      term *= Scalar(s) / Scalar(degree);
+      size *= s / degree;
+      spread *= s / degree;
+      node += term;
+      sum_sizes += size;
+      sum_spread += spread;
+      weight *= flow.norm * s / degree;
+    }
+    sum_spread +=
+        (static_cast<double>(n + degree) + 4) * hybrid::unit_roundoff<Scalar>() * sum_sizes;
+    const Bounded value = hybrid::value_of<Scalar>(form, node, sum_spread);
+    const Scalar share = Scalar(length) * Scalar(weights[i]);
+    total.value += share * value.value;
+    total.bound += length * weights[i] * value.bound;
+    sizes += length * weights[i] * hybrid::size_of(value.value);
+  }
+  // Nodes and weights are doubles.
+  total.bound += (kQuadrature + 0x1p-50) * sizes;
+  return total;
+}
 
-  Eigen::VectorXd cost = Eigen::VectorXd::Zero(moves + 1);
-  for (Index k = 0; k < moves; ++k) cost(k + 1) = cost(k) + flows(k) + jumps(k);
+template <class Scalar>
+Bounded<Scalar> ClaimCheck<Scalar>::step_cost(const Track& track, std::size_t move) {
+  if (!claim_->flow_cost) return {};
+  if (!claim_->integral) return {Scalar(0), kInfinity};
+  const hybrid::FlowStep& step = track.moves[move].step;
+  if (step.level == hybrid::FlowStep::kRest) return rest_cost(track, move);
+  const auto& integrals = system_->steps.integrals[*claim_->integral];
+  return hybrid::value_of<Scalar>(integrals[static_cast<std::size_t>(step.level)],
+                                  track.state(move), track.bound(move));
+}
+
+template <class Scalar>
+std::vector<Bounded<Scalar>> ClaimCheck<Scalar>::running_cost(const Track& track) {
+  std::vector<Bounded> cost(track.samples());
+  for (std::size_t k = 0; k + 1 < track.samples(); ++k) {
+    Bounded more;
+    if (!track.moves[k].jump) {
+      more = step_cost(track, k);
+    } else if (jump_cost_) {
+      more = (*jump_cost_)(track, k);
+    }
+    cost[k + 1] = sum(cost[k], more);
+  }
   return cost;
 }
 
-Finding ClaimCheck::nonincreasing(const Arc& arc) {
-  const Eigen::VectorXd v = values(arc);
-  const std::size_t last = arc.samples() - 1;
-  std::vector<std::size_t> rising;  // by more than the relative tolerance
-  std::vector<double> bounds;
-  std::vector<double> scales;  // largest |x| so far
-  double least = v(0);
-  double largest = 0;
-  for (std::size_t k = 0; k <= last; ++k) {
-    const double value = v(static_cast<Index>(k));
-    largest = std::max(largest, arc.state(k).cwiseAbs().maxCoeff());
-    if (exceeds(value, least, v(0))) {
-      rising.push_back(k);
-      bounds.push_back(least);
-      scales.push_back(largest);
-    }
-    if (value < least) least = value;
+template <class Scalar>
+Finding ClaimCheck<Scalar>::cost(const Track& track) {
+  const std::vector<Bounded> c = running_cost(track);
+  const Bounded bound = value_(track, 0);
+  const double scale = static_cast<double>(bound.value);
+  std::optional<Finding> worst;
+  const auto rank = [](const Finding& one) {
+    return std::tuple(one.violated(), one.undecided(), one.score);
+  };
+  for (std::size_t k = 0; k < c.size(); ++k) {
+    const Finding found = finding_at(track, k, c[k], bound, scale, compare(c[k], bound));
+    if (!worst || rank(found) > rank(*worst)) worst = found;
   }
-
-  Finding worst = finding_at(arc, last, v(v.size() - 1), v(0));
-  worst.score = score_of(worst.value - worst.bound, v(0), false);
-  const Eigen::VectorXd floors = rounding_floors(
-      arc, rising,
-      Eigen::Map<const Eigen::VectorXd>(scales.data(), static_cast<Index>(scales.size())));
-  for (std::size_t i = 0; i < rising.size(); ++i) {
-    const double value = v(static_cast<Index>(rising[i]));
-    if (!exceeds(value, bounds[i], v(0), forgiven(floors(static_cast<Index>(i)), v(0)))) continue;
-    const double score = score_of(value - bounds[i], v(0), true);
-    if (worst.violated && !(score > worst.score)) continue;
-    worst = finding_at(arc, rising[i], value, bounds[i]);
-    worst.violated = true;
-    worst.score = score;
-  }
-  return worst;
+  return *worst;
 }
 
-Finding ClaimCheck::cost(const Arc& arc) {
-  const Eigen::VectorXd c = running_cost(arc);
-  const double bound = value_at(arc, 0);
-  Index worst = 0;  // the largest cost; a NaN counts as the largest
-  for (Index k = 1; k < c.size() && !std::isnan(c(worst)); ++k)
-    if (!(c(k) <= c(worst))) worst = k;
-  const auto sample = static_cast<std::size_t>(worst);
-  Finding finding = finding_at(arc, sample, c(worst), bound);
-  finding.violated =
-      exceeds(c(worst), bound, bound) &&
-      exceeds(c(worst), bound, bound, forgiven(rounding_floor(arc, 0, sample), bound));
-  finding.score = score_of(c(worst) - bound, bound, finding.violated);
-  return finding;
+template <class Scalar>
+Finding ClaimCheck<Scalar>::shrinks(const Track& track) {
+  const std::size_t last = track.samples() - 1;
+  const Bounded start = value_(track, 0);
+  const Bounded end = value_(track, last);
+  const Bounded factor = (*factor_)(track, 0);
+  Bounded bound{factor.value * start.value, 0};
+  const double size = hybrid::size_of(start.value);
+  bound.bound = hybrid::size_of(factor.value) * start.bound + factor.bound * (size + start.bound) +
+                hybrid::unit_roundoff<Scalar>() * hybrid::size_of(bound.value);
+  const double scale = static_cast<double>(bound.value);
+  const bool nothing = start.value == Scalar(0) && start.bound == 0;
+  const Judgement judgement = nothing ? Judgement::held : compare(end, bound);
+  return finding_at(track, last, end, bound, nothing ? 0 : scale, judgement);
 }
 
-Finding ClaimCheck::shrinks(const Arc& arc) {
-  const std::size_t last = arc.samples() - 1;
-  const double start = value_at(arc, 0);
-  const double factor = (*factor_)(arc.states().leftCols(1), timers(arc).head(1))(0, 0);
-  Finding finding = finding_at(arc, last, value_at(arc, last), factor * start);
-  if (start == 0) return finding;
-  const double bound = finding.bound;
-  finding.violated =
-      exceeds(finding.value, bound, bound) &&
-      exceeds(finding.value, bound, bound, forgiven(rounding_floor(arc, last, last), start));
-  finding.score = score_of(finding.value - bound, bound, finding.violated);
-  return finding;
-}
-
-double ClaimCheck::value_at(const Arc& arc, std::size_t sample) {
-  const auto at = static_cast<Index>(sample);
-  return value_(arc.states().col(at), timers(arc).segment(at, 1))(0, 0);
-}
-
-double ClaimCheck::rounding_floor(const Arc& arc, std::size_t sample, std::size_t last) {
-  return rounding_floors(arc, {sample}, Eigen::VectorXd::Constant(1, largest_state(arc, last)))(0);
-}
-
-Eigen::VectorXd ClaimCheck::rounding_floors(const Arc& arc, const std::vector<std::size_t>& samples,
-                                            const Eigen::VectorXd& largest) {
-  const Index points = arc.size + 1;  // the sample itself, then one element moved at a time
-  const auto count = static_cast<Index>(samples.size());
-  numbers::Matrix states(arc.size, count * points);
-  Eigen::VectorXd taus(count * points);
-  for (Index i = 0; i < count; ++i) {
-    const std::size_t sample = samples[static_cast<std::size_t>(i)];
-    auto around = states.middleCols(i * points, points);
-    around = arc.state(sample).replicate(1, points);
-    around.rightCols(arc.size).diagonal().array() += kStateRounding * largest(i);
-    taus.segment(i * points, points).setConstant(arc.timer[sample]);
-  }
-  const Eigen::VectorXd v = value_(states, taus).row(0).transpose();
-  Eigen::VectorXd floors(count);
-  for (Index i = 0; i < count; ++i)
-    floors(i) = (v.segment(i * points + 1, arc.size).array() - v(i * points)).abs().sum();
-  return floors;
-}
+template class ClaimCheck<double>;
+template class ClaimCheck<DoubleDouble>;
 
 }  // namespace gainsmith::verify

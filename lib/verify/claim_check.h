@@ -7,77 +7,101 @@
 //                   int flow_cost dt + sum of jump_cost at the samples before jumps
 //   shrinks         v(end) <= factor v(0)            held at once when v(0) = 0
 //
-// The comparison is that of real numbers; what is forgiven is rounding only, 1e-9 of |v(0)| (of
-// |factor v(0)| for shrinks) plus the rounding floor
+// The comparison is that of real numbers. Each value comes with a bound of its error
+// (hybrid/bounded_run.h), which says what of it is certain; nothing else is forgiven:
 //
-//   sum over the elements i of x of  |v(x + d e_i) - v(x)|,  d = 1e-12 max |x| up to that sample,
+//   violated    value - its bound > what it must not exceed + its bound
+//   held        value + its bound <= what it must not exceed - its bound, at every sample
+//   undecided   neither
 //
-// taken at that sample or, for a cost, whose bound is v(0), at the start. That is how far the value
-// moves when every element of the state is wrong in its twelfth digit: an error z - zh of two large
-// numbers cannot be known better. It is never more than |v(0)| (unless that is 0): a horizon so
-// long that rounding outgrows the start counts as violated, not as held.
+// A value that cannot have changed since the sample before (all that it depends on is constant
+// along flows, or unchanged by jumps) is not compared with itself. A value that has no number
+// violates in 31 digits and is undecided in double. Of a value that falls by more than the digits
+// can show, the rest is noise: what is below kFloor of v(0) is not compared, and Finding::floor
+// says so. kFloor is 1e-24 in 31 digits, of which the last are rounding, and the range of the
+// numbers, 1e-200, in double.
+//
+// The integral of a quadratic form over a flow is a quadratic form of its start (step_maps.h). Any
+// other flow cost makes its claim undecided, unless it is 0.
 #pragma once
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "hybrid/arc.h"
-#include "hybrid/steps.h"
-#include "hybrid/system.h"
-#include "verify/along.h"
 #include "verify/claims.h"
+#include "verify/value.h"
 
 namespace gainsmith::verify {
 
+enum class Judgement { held, violated, undecided };
+std::string to_string(Judgement judgement);
+
 /// How near a run came to violating a claim.
 struct Finding {
-  bool violated = false;
+  Judgement judgement = Judgement::held;
   /// (value - bound) / |scale|, the scale being v(0) or, for `shrinks`, factor v(0). While
   /// `nonincreasing` holds, value and bound are v(end) and v(0): what is left at the end. Infinite
   /// when a value is no number or the scale of a violation is 0; -1 when the scale is 0 and the
   /// claim holds.
   double score = -1;
-  double value = 0;  ///< at the worst sample
-  double bound = 0;  ///< what it must not exceed there
-  double t = 0;      ///< where that is, in hybrid time
+  double value = 0;     ///< at the worst sample
+  double bound = 0;     ///< what it must not exceed there
+  double rounding = 0;  ///< how far value - bound may be from the true one
+  double t = 0;         ///< where that is, in hybrid time
   std::int64_t j = 0;
+  /// The largest value, relative to v(0), that was not compared because no digits are left; 0:
+  /// none.
+  double floor = 0;
+  int digits = kDoubleDigits;  ///< of the arithmetic that says so
+
+  bool violated() const { return judgement == Judgement::violated; }
+  bool undecided() const { return judgement == Judgement::undecided; }
+};
+
+/// A claim whose functions are in the coordinates of the judgement.
+struct JudgedClaim {
+  std::string name;
+  model::ClaimKind kind = model::ClaimKind::nonincreasing;
+  JudgedFunction value;
+  std::optional<JudgedFunction> flow_cost;
+  std::optional<JudgedFunction> jump_cost;
+  std::optional<JudgedFunction> factor;
+  /// Which integrals of the step maps are those of the flow cost.
+  std::optional<std::size_t> integral;
 };
 
 /// Checks one claim, run after run; one for each thread. All arguments must outlive it.
+template <class Scalar>
 class ClaimCheck {
  public:
-  /// The claim must be stated.
-  ClaimCheck(const LinkedClaim& claim, const hybrid::System& system,
-             const hybrid::FlowSteps& steps);
+  using Track = hybrid::Track<Scalar>;
+  using Bounded = hybrid::Bounded<Scalar>;
 
-  const LinkedClaim& claim() const { return *claim_; }
+  ClaimCheck(const JudgedClaim& claim, const hybrid::BoundedSystem<Scalar>& system);
 
-  Finding operator()(const hybrid::Arc& arc);
+  const JudgedClaim& claim() const { return *claim_; }
+
+  Finding operator()(const Track& track);
 
   /// The claim's value at every sample.
-  Eigen::VectorXd values(const hybrid::Arc& arc);
+  std::vector<Bounded> values(const Track& track);
   /// cost: c at every sample.
-  Eigen::VectorXd running_cost(const hybrid::Arc& arc);
+  std::vector<Bounded> running_cost(const Track& track);
 
  private:
-  Finding nonincreasing(const hybrid::Arc& arc);
-  Finding cost(const hybrid::Arc& arc);
-  Finding shrinks(const hybrid::Arc& arc);
-  /// The value at one sample, alone.
-  double value_at(const hybrid::Arc& arc, std::size_t sample);
-  /// The rounding floor of the value at `sample`, with the largest |x| up to the sample `last`.
-  double rounding_floor(const hybrid::Arc& arc, std::size_t sample, std::size_t last);
-  /// The same at each of the samples; `largest` is max |x| for each.
-  Eigen::VectorXd rounding_floors(const hybrid::Arc& arc, const std::vector<std::size_t>& samples,
-                                  const Eigen::VectorXd& largest);
+  Finding nonincreasing(const Track& track);
+  Finding cost(const Track& track);
+  Finding shrinks(const Track& track);
+  Bounded step_cost(const Track& track, std::size_t move);
+  Bounded rest_cost(const Track& track, std::size_t move);
 
-  const LinkedClaim* claim_;
-  const hybrid::FlowSteps* steps_;
-  AlongFunction value_;
-  std::optional<AlongFunction> flow_cost_;
-  std::optional<AlongFunction> jump_cost_;
-  std::optional<AlongFunction> factor_;
+  const JudgedClaim* claim_;
+  const hybrid::BoundedSystem<Scalar>* system_;
+  Value<Scalar> value_;
+  std::optional<Value<Scalar>> jump_cost_;
+  std::optional<Value<Scalar>> factor_;
 };
 
 }  // namespace gainsmith::verify

@@ -1,7 +1,12 @@
 #include "verify/replay.h"
 
-#include "verify/along.h"
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+#include "verify/judge.h"
 #include "verify/setup.h"
+#include "verify/signals.h"
 
 namespace gainsmith::verify {
 
@@ -48,13 +53,26 @@ void add_signals(const model::Design& design, const hybrid::System& system, cons
   }
 }
 
-void add_claims(const Setup& setup, Replay& replay, Table& table) {
-  for (ClaimCheck& check : make_checks(setup)) {
-    const LinkedClaim& claim = check.claim();
-    replay.claims.push_back({claim.name, check(replay.arc)});
-    table.add(claim.name, check.values(replay.arc));
+/// As a column of the table; a run that is judged further than the states go is cut off there.
+Eigen::VectorXd column_of(const std::vector<hybrid::Bounded<double>>& values, Index rows) {
+  Eigen::VectorXd column =
+      Eigen::VectorXd::Constant(rows, std::numeric_limits<double>::quiet_NaN());
+  for (Index k = 0; k < std::min(rows, static_cast<Index>(values.size())); ++k)
+    column(k) = values[static_cast<std::size_t>(k)].value;
+  return column;
+}
+
+void add_claims(Judge& judge, std::uint64_t seed, std::uint64_t run, Replay& replay, Table& table) {
+  const std::vector<Finding> findings = judge(seed, run).findings;
+  const hybrid::Track<double>& track = judge.track(seed, run);
+  const Index rows = replay.table.rows();
+  std::size_t next = 0;
+  for (ClaimCheck<double>& check : judge.checks()) {
+    const JudgedClaim& claim = check.claim();
+    replay.claims.push_back({claim.name, findings[next++]});
+    table.add(claim.name, column_of(check.values(track), rows));
     if (claim.kind == model::ClaimKind::cost)
-      table.add(claim.name + "_cost", check.running_cost(replay.arc));
+      table.add(claim.name + "_cost", column_of(check.running_cost(track), rows));
   }
 }
 
@@ -62,7 +80,8 @@ void add_claims(const Setup& setup, Replay& replay, Table& table) {
 
 Replay replay(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
               std::uint64_t run) {
-  const Setup setup = make_setup(instance, gains);
+  const std::unique_ptr<const Setup> made = make_setup(instance, gains);
+  const Setup& setup = *made;
   Replay result;
   result.arc = hybrid::Simulator(setup.system, setup.scenario, setup.steps).run(seed, run);
   const hybrid::Arc& arc = result.arc;
@@ -78,7 +97,8 @@ Replay replay(const model::Instance& instance, const model::Gains& gains, std::u
     table.add_elements(slot.name, slot.shape,
                        arc.states().middleRows(slot.offset, slot.shape.size()));
   add_signals(*instance.design, setup.system, arc, table);
-  add_claims(setup, result, table);
+  Judge judge(setup);
+  add_claims(judge, seed, run, result, table);
   return result;
 }
 

@@ -2,22 +2,75 @@
 
 #include <utility>
 
+#include "hybrid/exact_values.h"
+
 namespace gainsmith::verify {
 
-Setup make_setup(const model::Instance& instance, const model::Gains& gains) {
+namespace {
+
+using Wide = numbers::MatrixOf<Decimal100>;
+
+std::vector<const LinkedClaim*> stated_claims(const Setup& setup) {
+  std::vector<const LinkedClaim*> stated;
+  for (const LinkedClaim& claim : setup.claims)
+    if (claim.stated()) stated.push_back(&claim);
+  return stated;
+}
+
+/// The functions of the claims, in the order in which judged_claims takes them back.
+std::vector<expr::Program> functions_of(const Setup& setup) {
+  std::vector<expr::Program> functions;
+  for (const LinkedClaim* claim : stated_claims(setup)) {
+    functions.push_back(claim->value);
+    for (const auto* part : {&claim->flow_cost, &claim->jump_cost, &claim->factor})
+      if (*part) functions.push_back(**part);
+  }
+  return functions;
+}
+
+void add_judged_claims(Setup& setup, std::vector<Wide>& forms) {
+  std::size_t next = 0;
+  const auto take = [&] {
+    return make_function(setup.coordinates.functions[next++], setup.coordinates);
+  };
+  for (const LinkedClaim* claim : stated_claims(setup)) {
+    JudgedClaim judged;
+    judged.name = claim->name;
+    judged.kind = claim->kind;
+    judged.value = take();
+    if (claim->flow_cost) judged.flow_cost = take();
+    if (claim->jump_cost) judged.jump_cost = take();
+    if (claim->factor) judged.factor = take();
+    const Eigen::Index n = setup.coordinates.layout.size;
+    if (judged.flow_cost && judged.flow_cost->is_form()) {
+      judged.integral = forms.size();
+      forms.push_back(judged.flow_cost->parts.empty() ? Wide(Wide::Zero(n + 1, n + 1))
+                                                      : judged.flow_cost->parts.front().matrix);
+    }
+    setup.judged.push_back(std::move(judged));
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
+                                        const model::Gains& gains) {
   const model::Design& design = *instance.design;
   hybrid::System system = hybrid::make_system(instance, gains);
   hybrid::Scenario scenario = hybrid::make_scenario(design, system);
   hybrid::FlowSteps steps = hybrid::make_steps(system);
   std::vector<LinkedClaim> claims = link_claims(design, system);
-  return {std::move(system), std::move(scenario), std::move(steps), std::move(claims)};
-}
-
-std::vector<ClaimCheck> make_checks(const Setup& setup) {
-  std::vector<ClaimCheck> checks;
-  for (const LinkedClaim& claim : setup.claims)
-    if (claim.stated()) checks.emplace_back(claim, setup.system, setup.steps);
-  return checks;
+  auto setup = std::make_unique<Setup>(Setup{
+      std::move(system), std::move(scenario), std::move(steps), std::move(claims), {}, {}, {}, {}});
+  setup->coordinates = hybrid::make_coordinates(
+      setup->system, hybrid::exact_values(instance, setup->system, gains), functions_of(*setup));
+  std::vector<Wide> forms;
+  add_judged_claims(*setup, forms);
+  const hybrid::ExactSteps exact = hybrid::exact_steps(setup->coordinates, setup->steps, forms);
+  setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, exact, forms);
+  setup->wide =
+      std::make_unique<hybrid::BoundedSystem<DoubleDouble>>(setup->coordinates, exact, forms);
+  return setup;
 }
 
 }  // namespace gainsmith::verify

@@ -1,8 +1,10 @@
 // Everything that the runs of a campaign share, made once and then only read.
 #pragma once
 
+#include <memory>
 #include <vector>
 
+#include "hybrid/bounded_run.h"
 #include "hybrid/simulate.h"
 #include "hybrid/system.h"
 #include "verify/claim_check.h"
@@ -15,12 +17,22 @@ struct Setup {
   hybrid::Scenario scenario;
   hybrid::FlowSteps steps;
   std::vector<LinkedClaim> claims;
+  hybrid::Coordinates coordinates;  ///< those of the claims that are stated
+  std::vector<JudgedClaim> judged;  ///< the claims that are stated, in order
+  std::unique_ptr<hybrid::BoundedSystem<double>> narrow;
+  std::unique_ptr<hybrid::BoundedSystem<DoubleDouble>> wide;
 };
 
-Setup make_setup(const model::Instance& instance, const model::Gains& gains);
+/// At an address of its own: its parts point to each other.
+std::unique_ptr<const Setup> make_setup(const model::Instance& instance, const model::Gains& gains);
 
-/// A check for each claim that is stated, in order: what campaigns and replays look at. The setup
-/// must outlive them.
-std::vector<ClaimCheck> make_checks(const Setup& setup);
+/// A check for each claim that is stated, in order. The setup must outlive them.
+template <class Scalar>
+std::vector<ClaimCheck<Scalar>> make_checks(const Setup& setup,
+                                            const hybrid::BoundedSystem<Scalar>& system) {
+  std::vector<ClaimCheck<Scalar>> checks;
+  for (const JudgedClaim& claim : setup.judged) checks.emplace_back(claim, system);
+  return checks;
+}
 
 }  // namespace gainsmith::verify

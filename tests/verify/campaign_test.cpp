@@ -70,7 +70,7 @@ TEST(Campaign, PublishedRowThreeIsCaughtAtTheLongestInterval) {
   EXPECT_EQ(report.violations, 15U);
   EXPECT_EQ(report.worst_run % 2, 1U);
   const Replay again = replay(problem.instance(), problem.gains, report.seed, report.worst_run);
-  EXPECT_TRUE(again.claims[0].finding.violated);
+  EXPECT_TRUE(again.claims[0].finding.violated());
   EXPECT_EQ(again.claims[0].finding.value, report.checks[0].worst.value);
   EXPECT_EQ(again.claims[0].finding.score, report.checks[0].worst.score);
 }
@@ -157,7 +157,7 @@ TEST(Campaign, NoClaimToCheckIsAnError) {
 
 TEST(Campaign, RunThatDivergesViolates) {
   TextProblem problem = growing();
-  problem.horizon("400").runs(3).shrinks("nothing", "0*x", "1");
+  problem.horizon("400").runs(3).shrinks("little", "min(x, 1)", "2");
   const Report report = run(problem);
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
   EXPECT_EQ(report.unfinished, 3U);

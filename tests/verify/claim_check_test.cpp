@@ -5,9 +5,8 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "hybrid/simulate.h"
 #include "hybrid/text_problem.h"
-#include "verify/setup.h"
+#include "verify/judge.h"
 
 namespace gainsmith::verify {
 namespace {
@@ -17,20 +16,24 @@ using Law = model::LawKind;
 using Start = model::StartKind;
 using tests::TextProblem;
 
-/// A run of a problem, and its claims checked one by one.
+/// A run of a problem, its claims judged one by one, and the costs in double.
 struct Checked {
-  hybrid::Arc arc;
   std::vector<Finding> findings;
   std::vector<Eigen::VectorXd> costs;
 };
 
 Checked check(TextProblem& problem, std::uint64_t run = 0) {
-  const Setup setup = make_setup(problem.instance(), problem.gains);
+  const auto setup = make_setup(problem.instance(), problem.gains);
+  Judge judge(*setup);
   Checked result;
-  result.arc = hybrid::Simulator(setup.system, setup.scenario, setup.steps).run(1, run);
-  for (ClaimCheck& one : make_checks(setup)) {
-    result.findings.push_back(one(result.arc));
-    result.costs.push_back(one.running_cost(result.arc));
+  result.findings = judge(1, run).findings;
+  const hybrid::Track<double>& track = judge.track(1, run);
+  for (ClaimCheck<double>& one : judge.checks()) {
+    const auto costs = one.running_cost(track);
+    Eigen::VectorXd column(static_cast<Eigen::Index>(costs.size()));
+    for (std::size_t k = 0; k < costs.size(); ++k)
+      column(static_cast<Eigen::Index>(k)) = costs[k].value;
+    result.costs.push_back(column);
   }
   return result;
 }
@@ -80,7 +83,8 @@ TEST(Cost, StableLoopCostsWhatLyapunovSays) {
   const Checked result = check(problem);
   const double expected = 1 - 2 * 2 * 0.5 / 3 + 4 * 0.25;
   EXPECT_NEAR(result.costs[0].tail(1)(0), expected, 1e-12);
-  EXPECT_FALSE(result.findings[0].violated);  // the bound is attained: rounding must not count
+  // The bound is attained but for exp(-80) of it, which no 31 digits show.
+  EXPECT_TRUE(result.findings[0].undecided());
   EXPECT_NEAR(result.findings[0].score, 0, 1e-12);
 }
 
@@ -92,7 +96,7 @@ TEST(Cost, JumpCostsAreTakenBeforeTheJump) {
       .cost("J", "6", "0", "x(1)^2 + x(2)^2");
   const Checked result = check(problem);
   EXPECT_DOUBLE_EQ(result.costs[0].tail(1)(0), 5 + 5.0 / 4);
-  EXPECT_TRUE(result.findings[0].violated);
+  EXPECT_TRUE(result.findings[0].violated());
   EXPECT_DOUBLE_EQ(result.findings[0].value, 6.25);
   EXPECT_EQ(result.findings[0].j, 2);
   EXPECT_DOUBLE_EQ(result.findings[0].score, 0.25 / 6);
@@ -105,15 +109,19 @@ TEST(Cost, BoundMustHoldAtEveryInstant) {
   problem.cost("J", "4", "0", "where(abs(x(1)) > 0.9, 5, -5)");
   const Checked result = check(problem);
   EXPECT_DOUBLE_EQ(result.costs[0].tail(1)(0), 0);
-  EXPECT_TRUE(result.findings[0].violated);
+  EXPECT_TRUE(result.findings[0].violated());
   EXPECT_EQ(result.findings[0].j, 1);
   EXPECT_EQ(result.findings[0].value, 5);
 }
 
-TEST(Nonincreasing, RotationKeepsItsNormWithinRounding) {
+TEST(Nonincreasing, RotationKeepsItsNormWhichIsNotCertain) {
   TextProblem problem = linear_plant("[0, -7; 7, 0]");
   problem.jump({}).horizon("100").nonincreasing("V", "x'*x");
-  EXPECT_FALSE(check(problem).findings[0].violated);
+  const Finding finding = check(problem).findings[0];
+  EXPECT_TRUE(finding.undecided());
+  EXPECT_EQ(finding.digits, kQuadDigits);
+  EXPECT_GT(finding.rounding, 0);
+  EXPECT_LT(finding.rounding, 1e-24);
 }
 
 TEST(Nonincreasing, SlowCreepIsSeen) {
@@ -121,7 +129,7 @@ TEST(Nonincreasing, SlowCreepIsSeen) {
   TextProblem problem = linear_plant("[1e-8, 0; 0, 1e-8]");
   problem.jump({}).horizon("100").nonincreasing("V", "x'*x");
   const Finding finding = check(problem).findings[0];
-  EXPECT_TRUE(finding.violated);
+  EXPECT_TRUE(finding.violated());
   EXPECT_EQ(finding.t, 100);
   EXPECT_NEAR(finding.score, 2e-6, 1e-9);
 }
@@ -130,7 +138,7 @@ TEST(Nonincreasing, RiseOverAJumpIsFoundAtTheJump) {
   TextProblem problem = linear_plant("[-0.1, 0; 0, -0.1]");
   problem.jump({{"x", "3*x"}}).first("0.7").horizon("0.8").nonincreasing("V", "x'*x");
   const Finding finding = check(problem).findings[0];
-  EXPECT_TRUE(finding.violated);
+  EXPECT_TRUE(finding.violated());
   EXPECT_EQ(finding.t, 0.7);
   EXPECT_EQ(finding.j, 1);
   EXPECT_NEAR(finding.value, 45 * std::exp(-0.14), 1e-12);
@@ -141,7 +149,7 @@ TEST(Nonincreasing, HeldRunSaysWhatIsLeft) {
   TextProblem problem = linear_plant("[-0.1, 0; 0, -0.1]");
   problem.jump({}).horizon("5").nonincreasing("V", "x'*x");
   const Finding finding = check(problem).findings[0];
-  EXPECT_FALSE(finding.violated);
+  EXPECT_FALSE(finding.violated());
   EXPECT_NEAR(finding.score, std::exp(-1) - 1, 1e-13);
 }
 
@@ -150,8 +158,8 @@ TEST(Shrinks, ComparesTheEndWithTheStart) {
   problem.jump({}).horizon("5").shrinks("most", "norm(x)", "exp(-0.5)");
   problem.shrinks("more", "norm(x)", "exp(-0.5001)");
   const auto findings = check(problem).findings;
-  EXPECT_FALSE(findings[0].violated);
-  EXPECT_TRUE(findings[1].violated);
+  EXPECT_FALSE(findings[0].violated());
+  EXPECT_TRUE(findings[1].violated());
   EXPECT_NEAR(findings[1].score, std::expm1(1e-4), 1e-12);
   EXPECT_EQ(findings[1].t, 5);
 }
@@ -160,8 +168,28 @@ TEST(Shrinks, StartAtZeroHolds) {
   TextProblem problem = linear_plant("[0, 1; 0, 0]");
   problem.horizon("40").shrinks("grows", "abs(x(1) - 1)", "0.1");
   const Finding finding = check(problem).findings[0];
-  EXPECT_FALSE(finding.violated);
+  EXPECT_FALSE(finding.violated());
   EXPECT_EQ(finding.score, -1);
+}
+
+TEST(Nonincreasing, DropBelowTheDigitsIsSaid) {
+  // x' = 1 - x: V = (x - 1)^2 falls to exp(-200) of its start, far below what 31 digits show of x.
+  TextProblem problem = linear_plant("[-1, 0; 0, -1]");
+  problem.flow({{"x", "A*x + [1; 1]"}}).jump({}).horizon("100");
+  problem.nonincreasing("V", "(x - [1; 1])'*(x - [1; 1])");
+  const Finding finding = check(problem).findings[0];
+  EXPECT_EQ(finding.judgement, Judgement::held);
+  EXPECT_GT(finding.floor, 0);
+  EXPECT_LE(finding.floor, 1e-24);
+}
+
+TEST(Nonincreasing, DropOverHundredsOfDecadesIsSeenInTheErrorItself) {
+  TextProblem problem = linear_plant("[-6, 0; 0, -6]");
+  problem.jump({}).horizon("30").nonincreasing("V", "x'*x");  // exp(-360) = 5e-157
+  const Finding finding = check(problem).findings[0];
+  EXPECT_EQ(finding.judgement, Judgement::held);
+  EXPECT_EQ(finding.floor, 0);
+  EXPECT_EQ(finding.digits, kDoubleDigits);
 }
 
 }  // namespace

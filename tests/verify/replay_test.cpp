@@ -54,7 +54,7 @@ TEST(Replay, FindsWhatTheCampaignFound) {
     const Replay again = replay(problem.instance(), problem.gains, report.seed, check.worst_run);
     const Finding& finding = again.claims[i].finding;
     EXPECT_EQ(again.claims[i].name, check.name);
-    EXPECT_EQ(finding.violated, check.worst.violated);
+    EXPECT_EQ(finding.judgement, check.worst.judgement);
     EXPECT_EQ(finding.score, check.worst.score);
     EXPECT_EQ(finding.value, check.worst.value);
     EXPECT_EQ(finding.bound, check.worst.bound);

@@ -1,4 +1,4 @@
-#include "verify/along.h"
+#include "verify/signals.h"
 
 #include <algorithm>
 
@@ -61,41 +61,6 @@ numbers::Matrix AlongFunction::operator()(const Eigen::Ref<const numbers::Matrix
     }
   }
   return values;
-}
-
-Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::FlowSteps& steps,
-                                AlongFunction& integrand) {
-  constexpr Index kNodes = hybrid::FlowSteps::kNodes;
-  constexpr Index kBatch = numbers::Pack::kLanes / kNodes;
-  const auto& positions = hybrid::FlowSteps::node_positions();
-  const Eigen::Map<const Eigen::VectorXd> weights(hybrid::FlowSteps::node_weights().data(), kNodes);
-
-  Eigen::VectorXd integrals = Eigen::VectorXd::Zero(static_cast<Index>(arc.moves.size()));
-  numbers::Matrix states(arc.size, numbers::Pack::kLanes);
-  Eigen::VectorXd timers(numbers::Pack::kLanes);
-  std::vector<std::size_t> batch;  // the moves whose nodes wait in `states`
-  const auto finish = [&] {
-    const auto count = static_cast<Index>(batch.size()) * kNodes;
-    if (count == 0) return;
-    const numbers::Matrix values = integrand(states.leftCols(count), timers.head(count));
-    for (std::size_t i = 0; i < batch.size(); ++i)
-      integrals(static_cast<Index>(batch[i])) =
-          arc.moves[batch[i]].step.length *
-          values.row(0).segment(static_cast<Index>(i) * kNodes, kNodes).dot(weights);
-    batch.clear();
-  };
-  for (std::size_t k = 0; k < arc.moves.size(); ++k) {
-    if (arc.moves[k].jump) continue;
-    const hybrid::FlowStep& step = arc.moves[k].step;
-    const Index at = static_cast<Index>(batch.size()) * kNodes;
-    steps.nodes(step, arc.state(k), states.middleCols(at, kNodes));
-    for (Index i = 0; i < kNodes; ++i)
-      timers(at + i) = arc.timer[k] - positions[static_cast<std::size_t>(i)] * step.length;
-    batch.push_back(k);
-    if (static_cast<Index>(batch.size()) == kBatch) finish();
-  }
-  finish();
-  return integrals;
 }
 
 }  // namespace gainsmith::verify

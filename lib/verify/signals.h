@@ -1,12 +1,10 @@
-// Expressions along an arc: at many points at once, and integrated over the flow.
+// Expressions along an arc, at many points at once and in double: what a person looks at.
 #pragma once
 
 #include <Eigen/Core>
 #include <vector>
 
 #include "expr/evaluate.h"
-#include "hybrid/arc.h"
-#include "hybrid/steps.h"
 #include "hybrid/system.h"
 #include "numbers/pack.h"
 
@@ -34,10 +32,5 @@ class AlongFunction {
   expr::Evaluator<numbers::PackAlgebra> evaluator_;
   Eigen::Index elements_;
 };
-
-/// For each flow step of an arc, in order, the integral of a scalar over it, by Gauss-Legendre
-/// quadrature with FlowSteps::kNodes nodes on the exact flow; one element a move, 0 for jumps.
-Eigen::VectorXd integrate_steps(const hybrid::Arc& arc, const hybrid::FlowSteps& steps,
-                                AlongFunction& integrand);
 
 }  // namespace gainsmith::verify

@@ -1,0 +1,454 @@
+#include "hybrid/coordinates.h"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+#include <set>
+#include <stdexcept>
+#include <utility>
+
+#include "expr/rewrite.h"
+#include "hybrid/polynomial.h"
+#include "numbers/degree.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+using Eigen::Index;
+using expr::Op;
+using expr::Program;
+using expr::Shape;
+using Wide = numbers::MatrixOf<Decimal100>;
+
+constexpr double kNoise = 1e-80;
+
+struct Pair {
+  std::string name, plus, minus;
+};
+
+Program zero_program(Shape shape) {
+  expr::Composer compose({});
+  return compose.take(compose.apply(Op::zeros, {}, shape));
+}
+
+Program product(const Program& a, const Program& b) {
+  expr::Composer compose({});
+  const int first = compose.program(a);
+  const int second = compose.program(b);
+  return compose.take(
+      compose.apply(Op::multiply, {first, second}, {a.shape().rows, b.shape().cols}));
+}
+
+/// The differences of states of one shape that stand in the functions, none of which uses what
+/// another one replaces.
+std::vector<Pair> find_differences(const std::vector<Program>& functions,
+                                   const StateLayout& layout) {
+  std::vector<Pair> pairs;
+  std::set<std::string> kept;
+  std::set<std::string> replaced;
+  const auto is_state = [&](const std::string& name) {
+    return name != layout.timer && layout.moves(name);
+  };
+  for (const Program& program : functions)
+    for (const expr::Instruction& instruction : program.code) {
+      if (instruction.op != Op::subtract) continue;
+      const auto& a = program.code[static_cast<std::size_t>(instruction.operands[0])];
+      const auto& b = program.code[static_cast<std::size_t>(instruction.operands[1])];
+      if (a.op != Op::input || b.op != Op::input) continue;
+      const std::string& plus = program.inputs[static_cast<std::size_t>(a.attributes[0])].name;
+      const std::string& minus = program.inputs[static_cast<std::size_t>(b.attributes[0])].name;
+      if (plus == minus || !is_state(plus) || !is_state(minus)) continue;
+      if (replaced.contains(plus) || replaced.contains(minus) || kept.contains(minus)) continue;
+      kept.insert(plus);
+      replaced.insert(minus);
+      pairs.push_back({plus + " - " + minus, plus, minus});
+    }
+  return pairs;
+}
+
+/// How many of the layout's names a program uses.
+std::size_t count_moving(const Program& program, const std::set<std::string>& names) {
+  return static_cast<std::size_t>(
+      std::count_if(program.inputs.begin(), program.inputs.end(),
+                    [&](const expr::Input& input) { return names.contains(input.name); }));
+}
+
+class Builder {
+ public:
+  Builder(const System& system, numbers::ValuesOf<Decimal100> constants,
+          const std::vector<Program>& functions)
+      : system_(system), functions_(functions) {
+    result_.constants = std::move(constants);
+    pairs_ = find_differences(functions, system.layout);
+    for (const Pair& pair : pairs_)
+      by_[pair.minus] = difference(input_program(pair.plus, shape_of(pair.plus)),
+                                   input_program(pair.name, shape_of(pair.minus)));
+    for (const MapEntry& entry : system.flow_entries)
+      flows_.emplace(system.layout.slots[entry.slot].name, entry.program);
+    for (const MapEntry& entry : system.jump)
+      jumps_.emplace(system.layout.slots[entry.slot].name, entry.program);
+  }
+
+  Coordinates build() {
+    add_coordinates();
+    for (Program& function : functions_) function = simplified(expr_in_coordinates(function));
+    find_flow();
+    add_images();
+    keep_needed();
+    mark_clocks();
+    return std::move(result_);
+  }
+
+ private:
+  Shape shape_of(const std::string& name) const {
+    for (const Slot& slot : system_.layout.slots)
+      if (slot.name == name) return slot.shape;
+    throw std::logic_error("no state " + name);
+  }
+
+  Program expr_in_coordinates(const Program& program) const { return replace_inputs(program, by_); }
+
+  /// As a polynomial, when that uses less of the state.
+  Program simplified(const Program& program) {
+    try {
+      Program other = polynomials_.program(polynomials_.of(program));
+      if (count_moving(other, names_) < count_moving(program, names_)) return other;
+    } catch (const std::length_error&) {
+    }
+    return program;
+  }
+
+  void add(const std::string& name, Coordinate coordinate) {
+    const Shape shape = coordinate.start.shape();
+    result_.layout.slots.push_back({name, shape, result_.layout.size});
+    result_.layout.size += shape.size();
+    result_.list.push_back(std::move(coordinate));
+    names_.insert(name);
+  }
+
+  void add_coordinates() {
+    result_.layout.timer = system_.layout.timer;
+    for (const Slot& slot : system_.layout.slots)
+      if (!by_.contains(slot.name))
+        add(slot.name, {input_program(slot.name, slot.shape), {}, {}, false});
+    for (const Pair& pair : pairs_)
+      add(pair.name, {difference(input_program(pair.plus, shape_of(pair.plus)),
+                                 input_program(pair.minus, shape_of(pair.minus))),
+                      {},
+                      {},
+                      false});
+    std::map<std::string, const Pair*> pair_of;
+    for (const Pair& pair : pairs_) pair_of[pair.name] = &pair;
+    for (std::size_t i = 0; i < result_.list.size(); ++i) {
+      const Slot& slot = result_.layout.slots[i];
+      const auto found = pair_of.find(slot.name);
+      const Pair* pair = found == pair_of.end() ? nullptr : found->second;
+      result_.list[i].flow = map_of(slot, pair, flows_, false);
+      result_.list[i].jump = map_of(slot, pair, jumps_, true);
+      if (const auto& jump = result_.list[i].jump)
+        if (const Slot* same = slot_of(*jump); same != nullptr && same->name == slot.name)
+          result_.list[i].jump.reset();
+    }
+  }
+
+  /// A coordinate's entry of the flow or the jump.
+  std::optional<Program> map_of(const Slot& slot, const Pair* pair,
+                                const std::map<std::string, Program>& entries, bool keeps) {
+    const auto entry = [&](const std::string& name) -> Program {
+      const auto found = entries.find(name);
+      if (found != entries.end()) return found->second;
+      return keeps ? input_program(name, slot.shape) : zero_program(slot.shape);
+    };
+    if (pair == nullptr) {
+      if (!entries.contains(slot.name)) return std::nullopt;
+      return simplified(expr_in_coordinates(entry(slot.name)));
+    }
+    if (!entries.contains(pair->plus) && !entries.contains(pair->minus)) return std::nullopt;
+    return simplified(expr_in_coordinates(difference(entry(pair->plus), entry(pair->minus))));
+  }
+
+  void find_flow() {
+    const Index n = result_.layout.size;
+    result_.linear = Wide::Zero(n, n);
+    result_.constant = Wide::Zero(n, 1);
+    Wide x = Wide::Zero(n, 1);
+    for (std::size_t i = 0; i < result_.list.size(); ++i) {
+      if (!result_.list[i].flow) continue;
+      const Slot& slot = result_.layout.slots[i];
+      WideFunction value(*result_.list[i].flow, result_.layout, result_.constants);
+      const Index rows = slot.shape.size();
+      result_.constant.middleRows(slot.offset, rows) = value(x).reshaped();
+      for (Index j = 0; j < n; ++j) {
+        x(j) = Decimal100(1);
+        result_.linear.block(slot.offset, j, rows, 1) =
+            value(x).reshaped() - result_.constant.middleRows(slot.offset, rows);
+        x(j) = Decimal100(0);
+      }
+    }
+    remove_noise(result_.linear, largest_of(result_.linear));
+    remove_noise(result_.constant,
+                 std::max(largest_of(result_.constant), largest_of(result_.linear)));
+  }
+
+  std::size_t coordinate(const std::string& name) const {
+    std::size_t at = 0;
+    while (at < result_.layout.slots.size() && result_.layout.slots[at].name != name) ++at;
+    return at;
+  }
+
+  /// Whether the 1 x 1 coordinate has a constant derivative; then `rate` is it.
+  bool has_rate(const Slot& slot, Decimal100& rate) const {
+    if (!slot.shape.is_scalar() || !result_.linear.row(slot.offset).isZero(0)) return false;
+    rate = result_.constant(slot.offset, 0);
+    return true;
+  }
+
+  /// Whether expm(argument) x has the derivative 0.
+  bool is_constant(const Program& argument, const Slot& x, const Slot& s) const {
+    Decimal100 rate;
+    if (x.shape.cols != 1 || !has_rate(s, rate)) return false;
+    const auto moves = [&](const std::string& name) { return name == s.name; };
+    const auto degrees = numbers::degrees(argument, moves);
+    if (degrees[static_cast<std::size_t>(argument.result)] != 1) return false;
+    Wide at = Wide::Zero(result_.layout.size, 1);
+    WideFunction value(argument, result_.layout, result_.constants);
+    Wide sum = -value(at);
+    if (!sum.isZero(0)) return false;
+    at(s.offset) = Decimal100(1);
+    const Index n = x.shape.rows;
+    sum = value(at) * rate;
+    Wide rows = result_.linear.middleRows(x.offset, n);
+    const Wide M = rows.middleCols(x.offset, n);
+    rows.middleCols(x.offset, n).setZero();
+    if (!rows.isZero(0) || !result_.constant.middleRows(x.offset, n).isZero(0)) return false;
+    sum += M;
+    remove_noise(sum, largest_of(M));
+    return sum.isZero(0);
+  }
+
+  /// The clock that the exponential depends on, when nothing else moves in it.
+  const Slot* clock_of(const Program& exponential) const {
+    const Slot* clock = nullptr;
+    for (const expr::Input& input : exponential.inputs) {
+      if (input.name == result_.layout.timer) return nullptr;
+      if (!names_.contains(input.name)) continue;
+      if (clock != nullptr) return nullptr;
+      clock = &result_.layout.slots[coordinate(input.name)];
+    }
+    return clock;
+  }
+
+  static bool is_exponential(const Program& program) {
+    return program.code[static_cast<std::size_t>(program.result)].op == Op::matrix_exponential;
+  }
+
+  const Slot* slot_of(const Program& program) const {
+    if (program.code.size() != 1 || program.code[0].op != Op::input) return nullptr;
+    if (!names_.contains(program.inputs[0].name)) return nullptr;
+    return &result_.layout.slots[coordinate(program.inputs[0].name)];
+  }
+
+  /// The coordinate expm(..) x, made when it is constant along flows; none otherwise.
+  std::optional<std::string> image(int exponential, int x) {
+    const auto known = images_.find({exponential, x});
+    if (known != images_.end()) return known->second;
+    std::optional<std::string>& name = images_[{exponential, x}];
+    const Program& map = polynomials_.atom(exponential);
+    const Slot* argument = slot_of(polynomials_.atom(x));
+    if (!is_exponential(map) || argument == nullptr) return name;
+    const Slot* clock = clock_of(map);
+    if (clock == nullptr) return name;
+    Program inside = map;
+    inside.result = map.code[static_cast<std::size_t>(map.result)].operands[0];
+    if (!is_constant(replace_inputs(inside, {}), *argument, *clock)) return name;
+    name = "constant " + std::to_string(images_.size());
+    const Slot slot = *argument;
+    const Slot time = *clock;
+    const Coordinate& from = result_.list[coordinate(slot.name)];
+    const Coordinate& ticks = result_.list[coordinate(time.name)];
+    Coordinate made;
+    made.start = product(replace_inputs(map, {{time.name, ticks.start}}), from.start);
+    const auto after = [](const Coordinate& one, const Slot& of) {
+      return one.jump ? *one.jump : input_program(of.name, of.shape);
+    };
+    made.jump = product(replace_inputs(map, {{time.name, after(ticks, time)}}), after(from, slot));
+    add(*name, std::move(made));
+    return name;
+  }
+
+  /// The chain with expm(..) x and x' expm(..)' replaced.
+  bool replace_images(Chain& chain) {
+    bool changed = false;
+    for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+      const bool turned = chain[i].transposed;
+      if (turned != chain[i + 1].transposed) continue;
+      const int exponential = chain[turned ? i + 1 : i].atom;
+      const int x = chain[turned ? i : i + 1].atom;
+      const auto name = image(exponential, x);
+      if (!name) continue;
+      const Slot& slot = result_.layout.slots[coordinate(*name)];
+      const Polynomial whole = polynomials_.of(input_program(*name, slot.shape));
+      const Word& word = whole.terms.begin()->first;
+      chain[i] = {word.chain.empty() ? word.scalars.front() : word.chain.front().atom, turned};
+      chain.erase(chain.begin() + static_cast<std::ptrdiff_t>(i) + 1);
+      changed = true;
+    }
+    return changed;
+  }
+
+  void add_images() {
+    for (Program& function : functions_) {
+      if (std::none_of(function.code.begin(), function.code.end(),
+                       [](const auto& one) { return one.op == Op::matrix_exponential; }))
+        continue;
+      try {
+        const Polynomial whole = polynomials_.of(function);
+        Polynomial other{whole.shape, {}};
+        bool changed = false;
+        for (const auto& [original, coefficient] : whole.terms) {
+          Word word = original;
+          for (Chain& chain : word.inner)
+            if (replace_images(chain)) changed = true;
+          if (replace_images(word.chain)) changed = true;
+          std::sort(word.inner.begin(), word.inner.end());
+          other.terms[word] += coefficient;
+        }
+        if (changed) function = polynomials_.program(other);
+      } catch (const std::length_error&) {
+      }
+    }
+    const Index n = result_.layout.size;
+    const Index before = result_.linear.rows();
+    result_.linear.conservativeResize(n, n);
+    result_.linear.bottomRows(n - before).setConstant(Decimal100(0));
+    result_.linear.rightCols(n - before).setConstant(Decimal100(0));
+    result_.constant.conservativeResize(n, 1);
+    result_.constant.bottomRows(n - before).setConstant(Decimal100(0));
+  }
+
+  /// Drops the coordinates on which no function depends.
+  void keep_needed() {
+    const std::size_t count = result_.list.size();
+    std::vector<bool> needed(count, false);
+    std::vector<std::size_t> open;
+    const auto need = [&](std::size_t at) {
+      if (at >= count || needed[at]) return;
+      needed[at] = true;
+      open.push_back(at);
+    };
+    const auto need_inputs = [&](const Program& program) {
+      for (const expr::Input& input : program.inputs) need(coordinate(input.name));
+    };
+    for (const Program& function : functions_) need_inputs(function);
+    while (!open.empty()) {
+      const std::size_t at = open.back();
+      open.pop_back();
+      if (result_.list[at].jump) need_inputs(*result_.list[at].jump);
+      const Slot& slot = result_.layout.slots[at];
+      for (std::size_t other = 0; other < count; ++other) {
+        const Slot& from = result_.layout.slots[other];
+        if (!result_.linear.block(slot.offset, from.offset, slot.shape.size(), from.shape.size())
+                 .isZero(0))
+          need(other);
+      }
+    }
+    Coordinates kept;
+    kept.layout.timer = result_.layout.timer;
+    std::vector<Index> elements;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!needed[i]) continue;
+      const Slot& slot = result_.layout.slots[i];
+      kept.layout.slots.push_back({slot.name, slot.shape, kept.layout.size});
+      kept.layout.size += slot.shape.size();
+      kept.list.push_back(std::move(result_.list[i]));
+      for (Index e = 0; e < slot.shape.size(); ++e) elements.push_back(slot.offset + e);
+    }
+    kept.linear = result_.linear(elements, elements);
+    kept.constant = result_.constant(elements, Eigen::all);
+    kept.constants = std::move(result_.constants);
+    kept.functions = std::move(functions_);
+    result_ = std::move(kept);
+  }
+
+  void mark_clocks() {
+    std::set<std::string> clocks;
+    for (std::size_t i = 0; i < result_.list.size(); ++i) {
+      const Slot& slot = result_.layout.slots[i];
+      if (result_.linear.middleRows(slot.offset, slot.shape.size()).isZero(0))
+        clocks.insert(slot.name);
+    }
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (std::size_t i = 0; i < result_.list.size(); ++i) {
+        const std::string& name = result_.layout.slots[i].name;
+        const auto& jump = result_.list[i].jump;
+        if (!clocks.contains(name) || !jump) continue;
+        for (const expr::Input& input : jump->inputs)
+          if (result_.layout.moves(input.name) && !clocks.contains(input.name)) changed = true;
+        if (changed) {
+          clocks.erase(name);
+          break;
+        }
+      }
+    }
+    for (std::size_t i = 0; i < result_.list.size(); ++i)
+      result_.list[i].clock = clocks.contains(result_.layout.slots[i].name);
+  }
+
+  const System& system_;
+  std::vector<Program> functions_;
+  std::vector<Pair> pairs_;
+  std::map<std::string, Program> by_;
+  std::map<std::string, Program> flows_;
+  std::map<std::string, Program> jumps_;
+  std::set<std::string> names_;
+  std::map<std::pair<int, int>, std::optional<std::string>> images_;
+  Polynomials polynomials_;
+  Coordinates result_;
+};
+
+}  // namespace
+
+bool Coordinates::is_still(std::size_t coordinate) const {
+  const Slot& slot = layout.slots[coordinate];
+  return linear.middleRows(slot.offset, slot.shape.size()).isZero(0) &&
+         constant.middleRows(slot.offset, slot.shape.size()).isZero(0);
+}
+
+WideFunction::WideFunction(const Program& program, const StateLayout& layout,
+                           const numbers::ValuesOf<Decimal100>& constants)
+    : slots_(layout.slots), evaluator_(program) {
+  for (const Slot& slot : slots_) moving_.push_back(Wide::Zero(slot.shape.rows, slot.shape.cols));
+  moving_.push_back(Wide::Zero(1, 1));
+  for (const expr::Input& input : program.inputs)
+    if (const auto known = constants.find(input.name); known != constants.end())
+      evaluator_.fix(input.name, known->second);
+  for (std::size_t i = 0; i < slots_.size(); ++i) evaluator_.set(slots_[i].name, moving_[i]);
+  evaluator_.set(layout.timer, moving_.back());
+}
+
+const Wide& WideFunction::operator()(const Wide& x) {
+  for (std::size_t i = 0; i < slots_.size(); ++i)
+    moving_[i].reshaped() = x.col(0).segment(slots_[i].offset, slots_[i].shape.size());
+  return evaluator_.run();
+}
+
+Decimal100 largest_of(const Wide& matrix) {
+  Decimal100 largest(0);
+  for (Index e = 0; e < matrix.size(); ++e) largest = std::max<Decimal100>(largest, abs(matrix(e)));
+  return largest;
+}
+
+void remove_noise(Wide& matrix, const Decimal100& largest) {
+  const Decimal100 least = largest * Decimal100(kNoise);
+  for (Index e = 0; e < matrix.size(); ++e)
+    if (abs(matrix(e)) <= least) matrix(e) = Decimal100(0);
+}
+
+Coordinates make_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants,
+                             const std::vector<Program>& functions) {
+  return Builder(system, std::move(constants), functions).build();
+}
+
+}  // namespace gainsmith::hybrid

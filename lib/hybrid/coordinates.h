@@ -1,0 +1,74 @@
+// The coordinates in which a run is judged: those of the claims, not those of the plant.
+//
+// A claim of z - zh that is computed from z and zh drowns in their rounding when they are large.
+// Here what a claim is about becomes a coordinate of its own:
+//
+//   d = a - b       for states a, b whose difference stands in a claim; d takes the place of b
+//   w = expm(K) x   for x' = M x and K = s N, s a scalar with s' = r, when r N + M = 0: then w' =
+//   0,
+//                   w is constant along flows and a claim of w cannot see the rounding of expm
+//
+// and the maps of the others are rewritten with b = a - d. Coefficients are formed as polynomials
+// (polynomial.h), so that equal terms cancel exactly, and evaluated in 100 digits from the
+// decimals; what is left below 1e-80 of the largest coefficient is nothing. Coordinates that no
+// claim depends on are dropped: a diverging plant is not a part of what is judged of its observer.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/eigen_scalars.h"
+#include "base/scalars.h"
+#include "hybrid/system.h"
+#include "numbers/real.h"
+
+namespace gainsmith::hybrid {
+
+/// A coordinate; its slot is that of the same number in the layout.
+struct Coordinate {
+  expr::Program start;                ///< from the states of the system
+  std::optional<expr::Program> flow;  ///< its derivative; none: 0
+  std::optional<expr::Program> jump;  ///< its value after a jump; none: unchanged
+  bool clock = false;                 ///< constant derivative, and jumps depend on clocks alone
+};
+
+struct Coordinates {
+  StateLayout layout;
+  std::vector<Coordinate> list;
+  numbers::ValuesOf<Decimal100> constants;
+  /// The flow, x' = linear x + constant; what is 0 is exactly 0.
+  numbers::MatrixOf<Decimal100> linear;
+  numbers::MatrixOf<Decimal100> constant;
+  /// The functions in these coordinates.
+  std::vector<expr::Program> functions;
+
+  /// Whether the elements of a coordinate stay as they are along flows.
+  bool is_still(std::size_t coordinate) const;
+};
+
+/// Coordinates for functions of the states, the timer and constants.
+Coordinates make_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants,
+                             const std::vector<expr::Program>& functions);
+
+/// A program of constants and coordinates in 100 digits; every coordinate that is not set is 0.
+class WideFunction {
+ public:
+  WideFunction(const expr::Program& program, const StateLayout& layout,
+               const numbers::ValuesOf<Decimal100>& constants);
+  WideFunction(WideFunction&&) = default;
+  WideFunction& operator=(WideFunction&&) = default;
+  const numbers::MatrixOf<Decimal100>& operator()(const numbers::MatrixOf<Decimal100>& x);
+
+ private:
+  std::vector<Slot> slots_;
+  std::vector<numbers::MatrixOf<Decimal100>> moving_;
+  expr::Evaluator<numbers::Real<Decimal100>> evaluator_;
+};
+
+/// Sets what is below 1e-80 of the largest element to 0.
+void remove_noise(numbers::MatrixOf<Decimal100>& matrix, const Decimal100& largest);
+Decimal100 largest_of(const numbers::MatrixOf<Decimal100>& matrix);
+
+}  // namespace gainsmith::hybrid

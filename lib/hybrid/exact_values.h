@@ -1,0 +1,24 @@
+// What a gain file and its problem say, in 100 digits.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "base/eigen_scalars.h"
+#include "base/scalars.h"
+#include "hybrid/system.h"
+#include "numbers/real.h"
+
+namespace gainsmith::hybrid {
+
+/// Every constant of the system from the decimals as written. A datum is evaluated from its text in
+/// 100 digits; a number of the gain file, and one that replaced the problem's, is the shortest
+/// decimal that reads as its double, which is the number that a person wrote. A datum that is
+/// chosen and not determined (orth, null, whose columns have no sign of their own) keeps its
+/// double, and so does what a datum's text does not give to 1e-9.
+numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance, const System& system,
+                                           const model::Gains& gains);
+
+/// The shortest decimal that reads as this double, in 100 digits.
+Decimal100 shortest_decimal(double value);
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,158 @@
+// Campaigns whose truth is known by hand, from a problem's text to the exit code.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "base/file.h"
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// The report of `verify`, after `synth` of the problem; its exit code is checked.
+Json verified(const std::string& problem, int exit) {
+  const Folder folder;
+  const std::string gains = folder.path("gains.json");
+  const Outcome made = gainsmith({"synth", folder.file("problem.yaml", problem), "-o", gains});
+  EXPECT_EQ(made.exit, 0) << made.out << made.err;
+  const Outcome outcome = gainsmith({"verify", gains, "--json", "--threads", "2"});
+  EXPECT_EQ(outcome.exit, exit) << outcome.out << outcome.err;
+  const Outcome one = gainsmith({"verify", gains, "--json", "--threads", "1"});
+  EXPECT_EQ(outcome.out, one.out);
+  return outcome.json();
+}
+
+/// A plant z' = a z with the observer zh' = a zh + b (z - zh): the error has e' = (a - b) e.
+std::string scalar_observer(const std::string& a, const std::string& b, const std::string& horizon,
+                            const std::string& size = "1") {
+  return "problem: scalar-observer\n"
+         "method:\n"
+         "  method: scalar-observer\n"
+         "  data: {a: scalar, b: scalar}\n"
+         "  unknowns: {x: scalar}\n"
+         "  require: {some: x > 1}\n"
+         "  gains: {L: x}\n"
+         "  plant: {state: {z: scalar}, flow: {z: a*z}}\n"
+         "  observer: {state: {zh: scalar}, flow: {zh: (a - b)*zh + b*z}}\n"
+         "  timer: {tau: {reset: [0.3, 0.7]}}\n"
+         "  signals: {e: z - zh}\n"
+         "  claims: {lyapunov: {nonincreasing: e^2}, error: {shrinks: norm(e), to: 1}}\n"
+         "data: {a: " +
+         a + ", b: " + b +
+         "}\n"
+         "campaign:\n"
+         "  runs: 20\n"
+         "  horizon: " +
+         horizon + "\n  initial: {z: {box: [" + size + ", 2*" + size + "]}, zh: 0.5*z}\n";
+}
+
+std::string reset_observer(const std::string& A, const std::string& more) {
+  return "problem: reset\nmethod: reset-observer\ndata:\n  A: " + A +
+         "\n  C: [1, 0]\n  T1: 0.5\n  T2: 1\nsynthesis: {forall: exchange}\ncampaign: {runs: 30, " +
+         more + "}\n";
+}
+
+TEST(CampaignTest, AFastPoleThatExpmMagnifiesIsHeld) {
+  // Poles -60 and 0.1: expm(-A*s) magnifies the rounding of e by exp(60 s), the claim does not.
+  const Json report = verified(reset_observer("[[0, 1], [6, -59.9]]", "horizon: 100"), 0);
+  EXPECT_EQ(report["verdict"], "held");
+  EXPECT_EQ(report["status"], "held");
+  EXPECT_EQ(report["undecided"], 0);
+}
+
+TEST(CampaignTest, APoleWhoseExponentialOverflowsIsHeld) {
+  // Poles -1000 and 0.1: expm(-A) is beyond the range of double.
+  EXPECT_EQ(verified(reset_observer("[[0, 1], [100, -999.9]]", "horizon: 50"), 0)["verdict"],
+            "held");
+}
+
+TEST(CampaignTest, SlowPolesAreHeld) {
+  EXPECT_EQ(verified(reset_observer("[[0, 1], [-0.01, 0.1]]", "horizon: 100"), 0)["verdict"],
+            "held");
+}
+
+TEST(CampaignTest, AConstantStateOfAnySizeExcusesNothing) {
+  // e' = 0.003 e: e(100) = exp(0.3) e(0). w is constant and in no claim.
+  const Json report = verified(
+      "problem: held-diverging\nmethod:\n  method: grows\n  unknowns: {x: scalar}\n"
+      "  require: {some: x > 1}\n  gains: {L: x}\n"
+      "  plant: {state: {e: scalar, w: scalar}, flow: {e: 0.003*e}, jump: {e: e}}\n"
+      "  timer: {tau: {reset: [1, 1]}}\n"
+      "  claims: {lyapunov: {nonincreasing: e^2}, error: {shrinks: norm(e), to: 1}}\n"
+      "campaign: {runs: 20, horizon: 100, initial: {e: {box: [0.5, 1]}, w: 1e13}}\n",
+      1);
+  EXPECT_EQ(report["verdict"], "violated");
+  EXPECT_EQ(report["violations"], 20);
+  const Json& worst = report["checks"][1]["worst"];
+  EXPECT_NEAR(worst["value"].get<double>() / worst["bound"].get<double>(), std::exp(0.3), 1e-12);
+  EXPECT_FALSE(report["confirmed_in_31_digits"].empty());
+}
+
+TEST(CampaignTest, ADivergingPlantIsJudgedOnItsError) {
+  // z grows by exp(120) while e dies down by exp(-180): nothing of e is left of z - zh in any
+  // digits.
+  EXPECT_EQ(verified(scalar_observer("2", "5", "60"), 0)["verdict"], "held");
+  // z leaves the range of double altogether.
+  EXPECT_EQ(verified(scalar_observer("5", "5.5", "200"), 0)["verdict"], "held");
+}
+
+TEST(CampaignTest, DecimalsThatAreNoDoublesLeaveNoRest) {
+  // a - b is 0.1 - 0.3; with doubles the error would be driven by 1e-17 z, z = exp(0.1 t) 1e8.
+  EXPECT_EQ(verified(scalar_observer("0.1", "0.3", "300", "1e8"), 0)["verdict"], "held");
+}
+
+TEST(CampaignTest, SlowErrorsAreToldApart) {
+  for (const char* horizon : {"1", "60", "3000"}) {
+    EXPECT_EQ(verified(scalar_observer("0.5", "0.501", horizon), 0)["verdict"], "held") << horizon;
+    const Json report = verified(scalar_observer("0.5", "0.499", horizon), 1);
+    EXPECT_EQ(report["verdict"], "violated") << horizon;
+    EXPECT_EQ(report["violations"], 20);
+  }
+  EXPECT_EQ(verified(scalar_observer("0.5", "0.499999999", "10"), 1)["verdict"], "violated");
+  EXPECT_EQ(verified(scalar_observer("0.5", "0.500000001", "10"), 0)["verdict"], "held");
+}
+
+TEST(CampaignTest, UnitsOfTheStatesDoNotMatter) {
+  // A rotation that shrinks by exp(-0.01 t), its states in units 1e6 apart; P is that of the
+  // rotation. With +0.001 it grows.
+  const auto problem = [](const std::string& rate) {
+    return "problem: units\nmethod:\n  method: units\n  data: {A: n x n, P: symmetric n}\n"
+           "  unknowns: {x: scalar}\n  require: {some: x > 1}\n  gains: {L: x}\n"
+           "  plant: {state: {z: n}, flow: {z: A*z}}\n"
+           "  observer: {state: {zh: n}, flow: {zh: A*zh}}\n"
+           "  timer: {tau: {reset: [0.5, 1]}}\n"
+           "  claims: {lyapunov: {nonincreasing: (z - zh)'*P*(z - zh)}}\n"
+           "data: {A: [[" +
+           rate + ", 1e-6], [-1e6, " + rate +
+           "]], P: [[1, 0], [0, 1e-12]]}\n"
+           "campaign: {runs: 20, horizon: 50, initial: {z: {box: [[1, 1e6], [2, 2e6]]}, zh: 0}}\n";
+  };
+  EXPECT_EQ(verified(problem("-0.01"), 0)["verdict"], "held");
+  EXPECT_EQ(verified(problem("0.001"), 1)["verdict"], "violated");
+}
+
+TEST(CampaignTest, WhatIsNotCertainIsUndecided) {
+  // e' = (0.5 - 0.5) e is exactly 0: the claim that e^2 does not rise holds, bound 0.
+  const Json still = verified(scalar_observer("0.5", "0.5", "10"), 3);
+  EXPECT_EQ(still["checks"][0]["undecided"], 0);
+  // That the error at the end is at most 1 times that at the start is an equation of rounded
+  // numbers.
+  EXPECT_EQ(still["checks"][1]["undecided"], 20);
+  // A rotation keeps |z|, which no digits show.
+  const Json report = verified(
+      "problem: rotation\nmethod:\n  method: rotation\n  unknowns: {x: scalar}\n"
+      "  require: {some: x > 1}\n  gains: {L: x}\n"
+      "  plant: {state: {z: 2}, flow: {z: '[0, 1; -1, 0]*z'}}\n"
+      "  timer: {tau: {reset: [1, 1]}}\n  claims: {norm: {nonincreasing: z'*z}}\n"
+      "campaign: {runs: 5, horizon: 10}\n",
+      3);
+  EXPECT_EQ(report["status"], "undecided");
+  EXPECT_EQ(report["undecided"], 5);
+  EXPECT_EQ(report["repeated_in_31_digits"], 5);
+}
+
+}  // namespace
+}  // namespace gainsmith::tests
