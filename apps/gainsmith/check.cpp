@@ -6,6 +6,7 @@
 
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
+#include "gainsmith/terminal.h"
 #include "io/json_text.h"
 #include "lmi/compile.h"
 
@@ -45,7 +46,7 @@ ExitCode check(const CheckOptions& options) {
       results.push_back(std::move(found));
     } catch (const InputError& error) {
       exit = ExitCode::bad_input;
-      fmt::print(stderr, "gainsmith: {}\n", error.what());
+      say(fmt::format("gainsmith: {}\n", error.what()));
       results.push_back({{"valid", false},
                          {"file", error.place().file},
                          {"line", error.place().line},

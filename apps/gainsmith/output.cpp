@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "base/file.h"
+#include "gainsmith/terminal.h"
 #include "io/gains_json.h"
 
 namespace gainsmith::app {
@@ -26,8 +27,13 @@ void write_result(const model::Gains& gains, const std::string& output, const st
   } else if (!output.empty()) {
     write_atomically(output, io::gains_text(gains));
   }
-  fmt::print(to_stdout ? stderr : stdout, "{}", report);
-  if (!output.empty() && !to_stdout && !quiet) fmt::print(stderr, "wrote {}\n", output);
+  print_report(report, to_stdout);
+  if (!output.empty() && !to_stdout && !quiet) say("wrote " + output + "\n");
+}
+
+void print_report(const std::string& text, bool results_on_stdout) {
+  if (results_on_stdout) return say(text);
+  fmt::print("{}", text);
 }
 
 io::Json json_without_statement(const model::Gains& gains) {

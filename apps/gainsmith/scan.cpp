@@ -159,7 +159,7 @@ ExitCode exit_of(const std::vector<design::ScanRow>& rows) {
   const auto unfinished =
       std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.interrupted; });
   if (unfinished > 0) {
-    fmt::print(stderr, "interrupted: {} of {} points have no answer\n", unfinished, rows.size());
+    say(fmt::format("interrupted: {} of {} points have no answer\n", unfinished, rows.size()));
     return ExitCode::undecided;
   }
   const auto has = [&](model::Verdict verdict) {

@@ -23,7 +23,7 @@ struct VerifyOptions {
 };
 
 void print_progress(std::uint64_t done, std::uint64_t all) {
-  fmt::print(stderr, "\r{}/{} runs{}", done, all, done == all ? "\n" : "");
+  say(fmt::format("\r{}/{} runs{}", done, all, done == all ? "\n" : ""));
 }
 
 ExitCode verify_gains(const VerifyOptions& options) {
