@@ -104,6 +104,56 @@ TEST(BadInputTest, GainFilesThatAreTruncatedOrEdited) {
   EXPECT_NE(changed.err.find("sha256"), std::string::npos) << changed.err;
 }
 
+/// Edits of the document that a reader could take for something that it does not say.
+TEST(BadInputTest, GainFilesThatSayWhatNoProgramWrote) {
+  const Folder folder;
+  const std::string path = folder.path("gains.json");
+  ASSERT_EQ(gainsmith({"synth", problem(kGood), "-o", path}).exit, 0);
+  const std::string text = text_of(path);
+  const auto refusal = [&](const std::string& edited) {
+    EXPECT_NE(edited, text);
+    const Outcome outcome = gainsmith({"verify", folder.file("edited.json", edited), "--json"});
+    EXPECT_EQ(outcome.exit, 2) << outcome.out;
+    return outcome.err;
+  };
+  const auto with = [&](const std::string& key) {
+    return refusal("{" + key + "," + text.substr(1));
+  };
+  EXPECT_NE(with("\"verdict\": \"no\"").find("edited.json:4:3: the key 'verdict' stands twice"),
+            std::string::npos);
+  EXPECT_NE(with("\"comment\": 1").find("edited.json:1:2: unknown key 'comment'"),
+            std::string::npos);
+  EXPECT_NE(with("\"searched\": {\"T2\": 0.1}").find("searched.T2: no search set it"),
+            std::string::npos);
+  for (const char* key : {"gains", "unknowns"}) {
+    auto document = nlohmann::ordered_json::parse(text);
+    document[key]["Q"] = 1;
+    EXPECT_NE(refusal(document.dump()).find("unknown name 'Q'"), std::string::npos);
+  }
+  auto document = nlohmann::ordered_json::parse(text);
+  document["gainsmith"] = "99";
+  EXPECT_NE(refusal(document.dump()).find("expected the version"), std::string::npos);
+}
+
+TEST(BadInputTest, ASearchedValueThatIsNotWhatTheSearchFound) {
+  const Folder folder;
+  const std::string path = folder.path("gains.json");
+  ASSERT_EQ(gainsmith({"bisect", problem(kGood), "--largest", "T2", "--in", "0.5", "0.8",
+                       "--tolerance", "0.05", "-o", path})
+                .exit,
+            0);
+  auto document = nlohmann::ordered_json::parse(text_of(path));
+  ASSERT_EQ(gainsmith({"verify", path, "--runs", "2"}).exit, 0);
+  document["searched"]["T2"] = document["searched"]["T2"].get<double>() - 0.1;
+  const Outcome outcome = gainsmith({"verify", folder.file("edited.json", document.dump())});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.err.find("is not what the search found"), std::string::npos) << outcome.err;
+  document["searched"] = {{"T1", 0.4}};
+  const Outcome other = gainsmith({"verify", folder.file("edited.json", document.dump())});
+  EXPECT_EQ(other.exit, 2);
+  EXPECT_NE(other.err.find("did not set it"), std::string::npos) << other.err;
+}
+
 /// Found only when the gains are simulated, and shown in the method all the same.
 TEST(BadInputTest, AFlowThatIsTooFastToBeStepped) {
   const Folder folder;
