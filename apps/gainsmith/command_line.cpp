@@ -110,8 +110,8 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
   const std::string name = program.get_name() + (used.empty() ? "" : " " + command.get_name());
   return (used.empty() ? "" : command.get_name() + ": ") +
-         (unknown ? unknown_argument(command) : std::string(error.what())) + "; see '" + name +
-         " --help'";
+         (unknown ? unknown_argument(command) : std::string(error.what())) + " (see '" + name +
+         " --help')";
 }
 
 }  // namespace

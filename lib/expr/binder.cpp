@@ -52,11 +52,12 @@ bool Binder::is_zero(Bound value) const {
 }
 
 Bound Binder::bind(const Expression& expression, const Node& node) {
-  // Definitions may stand on each other in towers that no formula needs.
+  // Definitions may stand on each other in towers that no formula needs. Outside of them an
+  // operation stands in the text.
   constexpr int kDeepest = 1000;
   constexpr int kMostSteps = 250'000;
   if (depth_ >= kDeepest) fail(expression, node, "the definitions are nested too deeply");
-  if (++steps_ > kMostSteps)
+  if (!open_definitions_.empty() && ++steps_ > kMostSteps)
     fail(expression, node, "the definitions expand to too many operations");
   ++depth_;
   const Bound value = bind_kind(expression, node);
@@ -267,6 +268,9 @@ Bound Binder::power(const Expression& expression, const Node& node) {
     fail(expression, node,
          "cannot take a power of " + describe(expression, base_node, base) + ": it is not square");
   if (const auto exponent = whole_number(expression, exponent_node)) {
+    constexpr int kLargest = 1'000'000'000;
+    if (*exponent < -kLargest || *exponent > kLargest)
+      fail(expression, exponent_node, "a whole power is at most 1e9 in size");
     int value = base.at;
     if (*exponent < 0) value = emit(expression, node, Op::inverse, {value}, base_shape);
     return {emit(expression, node, Op::power, {value}, base_shape, {std::abs(*exponent)}),

@@ -1,8 +1,12 @@
 #include "lmi/compile.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
+#include "base/number.h"
 #include "forall/hull.h"
 #include "lmi/vertex_gains.h"
 
@@ -98,6 +102,11 @@ void set_objective(const Inequalities& of, Lmi& lmi) {
   forall::MonomialTable none;
   const AffineForm form =
       evaluate_affine(of.bodies.link(objective->program), of.unknowns, none, of.instance.values);
+  for (const auto& [key, matrix] : form.terms)
+    if (!std::isfinite(matrix.coeff(0, 0)))
+      throw InputError(objective->place,
+                       "the objective has a coefficient that is not finite: its data are too large "
+                       "for double");
   lmi.has_objective = true;
   lmi.objective.assign(static_cast<std::size_t>(lmi.unknowns), 0.0);
   for (const auto& [key, matrix] : form.terms) {
@@ -105,6 +114,31 @@ void set_objective(const Inequalities& of, Lmi& lmi) {
     (key.second == 0 ? lmi.objective_constant
                      : lmi.objective[static_cast<std::size_t>(key.second) - 1]) = value;
   }
+}
+
+/// kappa = min b/c over the blocks with a constant part b and coefficients c is the size that the
+/// data give to the unknowns. InputError when the constant part of a block is no number in double
+/// in these units. `places`: of the blocks.
+void check_sizes(const std::vector<Block>& blocks, const std::vector<Place>& places) {
+  const auto kappa_of = [](const Block& block) {
+    return block.constant_size > 0 && block.coefficient_size > 0
+               ? block.constant_size / block.coefficient_size
+               : std::numeric_limits<double>::infinity();
+  };
+  const auto smallest =
+      std::min_element(blocks.begin(), blocks.end(),
+                       [&](const Block& a, const Block& b) { return kappa_of(a) < kappa_of(b); });
+  if (smallest == blocks.end() || kappa_of(*smallest) == std::numeric_limits<double>::infinity())
+    return;
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    if (!std::isfinite(blocks[k].constant_size / kappa_of(*smallest)))
+      throw InputError(places[k], "the inequalities '" + blocks[k].name + "' and '" +
+                                      smallest->name +
+                                      "' have data too far apart for double: constants of " +
+                                      brief(blocks[k].constant_size) + ", and of " +
+                                      brief(smallest->constant_size) + " beside coefficients of " +
+                                      brief(smallest->coefficient_size) +
+                                      "; choose other units for the unknowns");
 }
 
 }  // namespace
@@ -118,6 +152,7 @@ double Lmi::objective_at(const std::vector<double>& x) const {
 Lmi compile(const Inequalities& inequalities, forall::Plan& plan) {
   Lmi lmi;
   lmi.unknowns = inequalities.unknowns.size();
+  std::vector<Place> places;  ///< of the blocks
   for (std::size_t k = 0; k < inequalities.statements.size(); ++k) {
     const Statement& statement = inequalities.statements[k];
     Imposed& imposed = plan.inequalities[k];
@@ -126,7 +161,9 @@ Lmi compile(const Inequalities& inequalities, forall::Plan& plan) {
             ? vertex_blocks(inequalities, statement)
             : Compiler(inequalities, statement, plan.slices).blocks(imposed);
     for (Block& block : blocks) lmi.blocks.push_back(std::move(block));
+    places.resize(lmi.blocks.size(), statement.stated->that_place);
   }
+  check_sizes(lmi.blocks, places);
   set_objective(inequalities, lmi);
   return lmi;
 }

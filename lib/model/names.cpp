@@ -93,6 +93,17 @@ void check_maps(const Component& component, const std::vector<Named>& map,
 
 }  // namespace
 
+void check_scalar_name(const std::string& method, const std::vector<std::string>& scalars,
+                       const std::map<std::string, std::string>& shapes, const std::string& name,
+                       const Place& place) {
+  if (std::find(scalars.begin(), scalars.end(), name) != scalars.end()) return;
+  if (const auto matrix = shapes.find(name); matrix != shapes.end())
+    throw InputError(place, "'" + name + "' is a matrix (" + matrix->second +
+                                "); expected a scalar datum or parameter");
+  throw InputError(place, "the method " + method + " has no scalar datum or parameter '" + name +
+                              "'" + suggestion(name, scalars));
+}
+
 void check_names(const Method& method) {
   Names names;
   for (const auto* list : {&method.data, &method.plant.states, &method.observer.states})
