@@ -102,7 +102,9 @@ model::Instance load_problem(const std::filesystem::path& path,
                              const std::function<void(model::Problem&)>& add) {
   model::Problem problem = io::parse_problem(read_text(path), path.string(), built_in_methods());
   if (add) add(problem);
-  return model::bind(problem);
+  model::Instance instance = model::bind(problem);
+  model::refuse_free_unknowns(*instance.design);
+  return instance;
 }
 
 LoadedGains load_gains(const std::filesystem::path& path) {

@@ -61,26 +61,26 @@ void Binding::bind_inequalities() {
     design_->inequalities.push_back(std::move(bound));
   }
   if (method().minimize) design_->objective = scalar(*method().minimize, names_->design);
-  refuse_free_unknowns();
 }
 
-void Binding::refuse_free_unknowns() const {
+void refuse_free_unknowns(const Design& design) {
   const auto is_bound = [&](const Design::Unknown& unknown) {
-    for (const Design::Inequality& inequality : design_->inequalities)
+    for (const Design::Inequality& inequality : design.inequalities)
       for (const Design::Comparison& comparison : inequality.comparisons)
         if (uses(comparison.difference, unknown)) return true;
     return unknown.shape.size() == 0;
   };
-  for (const Design::Unknown& unknown : design_->unknowns) {
+  for (const Design::Unknown& unknown : design.unknowns) {
     if (is_bound(unknown)) continue;
-    std::string user;
-    for (const Gain& gain : method().gains)
-      if (user.empty() && names_in(gain.value).contains(unknown.name))
-        user = "; the gain " + gain.name + " would be any matrix";
-    throw InputError(unknown.place, "the unknown " + unknown.name +
-                                        " stands in no inequality under 'require', so nothing "
-                                        "determines it" +
-                                        user + ". Require something of it, or remove it");
+    const auto user =
+        std::find_if(design.gains.begin(), design.gains.end(),
+                     [&](const Design::Gain& gain) { return uses(gain.formula.program, unknown); });
+    throw InputError(
+        unknown.place,
+        "the unknown " + unknown.name +
+            " stands in no inequality under 'require', so nothing determines it" +
+            (user == design.gains.end() ? "" : "; the gain " + user->name + " needs it") +
+            ": require something of it, or remove it");
   }
 }
 

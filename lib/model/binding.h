@@ -65,8 +65,6 @@ class Binding {
 
   // bind_inequalities.cpp
   void bind_inequalities();
-  /// InputError for an unknown that no inequality reads.
-  void refuse_free_unknowns() const;
   Design::Variable variable(const Forall& forall) const;
 
   // bind_gains.cpp
