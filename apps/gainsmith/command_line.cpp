@@ -107,7 +107,8 @@ std::string unknown_argument(const CLI::App& command) {
 std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   const auto used = program.get_subcommands();
   const CLI::App& command = used.empty() ? program : *used.front();
-  const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr;
+  const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                       (used.empty() && !program.remaining().empty());
   const std::string name = program.get_name() + (used.empty() ? "" : " " + command.get_name());
   return (used.empty() ? "" : command.get_name() + ": ") +
          (unknown ? unknown_argument(command) : std::string(error.what())) + " (see '" + name +

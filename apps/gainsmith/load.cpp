@@ -16,12 +16,16 @@ namespace gainsmith::app {
 
 namespace {
 
-/// InputError for the first matrix whose name is none of the method's.
+/// InputError when the name of a matrix is none of the method's.
+void refuse_unknown(const std::string& name, const std::vector<std::string>& known,
+                    const std::string& key, const std::string& file) {
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw InputError({file}, key + ": unknown name '" + name + "'" + suggestion(name, known));
+}
+
 void refuse_unknown(const model::NamedMatrices& matrices, const std::vector<std::string>& known,
                     const std::string& key, const std::string& file) {
-  for (const auto& [name, value] : matrices)
-    if (std::find(known.begin(), known.end(), name) == known.end())
-      throw InputError({file}, key + ": unknown name '" + name + "'" + suggestion(name, known));
+  for (const auto& [name, value] : matrices) refuse_unknown(name, known, key, file);
 }
 
 /// InputError when a file has a matrix that is none of the method's, or when one that says yes
@@ -41,9 +45,14 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
   std::vector<std::string> known;
   for (const auto& wanted : instance.design->gains) known.push_back(wanted.name);
   refuse_unknown(gains.gains, known, "gains", file);
+  for (const model::GainFunction& function : gains.gain_functions)
+    refuse_unknown(function.name, known, "gain_functions", file);
   known.clear();
   for (const auto& unknown : stated.unknowns) known.push_back(unknown.name);
   refuse_unknown(gains.unknowns, known, "unknowns", file);
+  known.clear();
+  for (const auto& shown : instance.design->report) known.push_back(shown.name);
+  refuse_unknown(gains.report, known, "report", file);
   if (gains.verdict == model::Verdict::yes) {
     for (const auto& unknown : stated.unknowns) require(unknown.name, unknown.shape);
     for (const auto& wanted : instance.design->gains) {
@@ -108,7 +117,12 @@ model::Instance load_problem(const std::filesystem::path& path,
 }
 
 LoadedGains load_gains(const std::filesystem::path& path) {
-  model::Gains gains = io::parse_gains(read_text(path), path.string());
+  const std::string text = read_text(path);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (begin != std::string::npos && text[begin] != '{')
+    throw InputError({path.string()},
+                     "this is no gain file; expected the JSON that 'gainsmith synth -o' writes");
+  model::Gains gains = io::parse_gains(text, path.string());
   check_searched(gains, path.string());
   model::Instance stated = model::bind(io::stated_problem(gains, path.string()), gains.searched);
   check_complete(gains, stated, path.string());

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
@@ -17,6 +18,9 @@ void refuse_overwriting(const std::string& input, const std::vector<std::string>
   for (const std::string& path : outputs)
     if (!path.empty() && std::filesystem::equivalent(path, input, ignored))
       throw InputError({path}, "this is the input file; choose another output");
+  for (auto path = outputs.begin(); path != outputs.end(); ++path)
+    if (!path->empty() && std::find(outputs.begin(), path, *path) != path)
+      throw InputError({*path}, "two outputs cannot go here; choose another for one");
 }
 
 void write_result(const model::Gains& gains, const std::string& output, const std::string& report,

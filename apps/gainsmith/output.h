@@ -10,7 +10,7 @@
 
 namespace gainsmith::app {
 
-/// InputError when an output would replace the input file.
+/// InputError when an output would replace the input file or another output.
 void refuse_overwriting(const std::string& input, const std::vector<std::string>& outputs);
 
 /// Writes the gain file to `output` (nowhere when empty, standard output for "-") and the report to

@@ -268,9 +268,6 @@ Bound Binder::power(const Expression& expression, const Node& node) {
     fail(expression, node,
          "cannot take a power of " + describe(expression, base_node, base) + ": it is not square");
   if (const auto exponent = whole_number(expression, exponent_node)) {
-    constexpr int kLargest = 1'000'000'000;
-    if (*exponent < -kLargest || *exponent > kLargest)
-      fail(expression, exponent_node, "a whole power is at most 1e9 in size");
     int value = base.at;
     if (*exponent < 0) value = emit(expression, node, Op::inverse, {value}, base_shape);
     return {emit(expression, node, Op::power, {value}, base_shape, {std::abs(*exponent)}),

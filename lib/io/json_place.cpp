@@ -41,14 +41,15 @@ class Locator : public nlohmann::json_sax<Json> {
 
   bool key(std::string& key) override {
     const Level& level = levels_.back();
-    here_ = level.path + (level.path.empty() ? "" : ".") + key;
-    return arrive();
+    if (level.leads) here_ = level.path + (level.path.empty() ? "" : ".") + key;
+    return arrive(level.leads);
   }
 
  private:
   struct Level {
     std::string path;
     bool object;
+    bool leads;            ///< to what is wanted; only then the path is kept
     std::size_t next = 0;  ///< element
   };
 
@@ -56,8 +57,8 @@ class Locator : public nlohmann::json_sax<Json> {
   bool enter() {
     if (levels_.empty() || levels_.back().object) return true;
     Level& level = levels_.back();
-    here_ = level.path + "[" + std::to_string(level.next++) + "]";
-    return arrive();
+    if (level.leads) here_ = level.path + "[" + std::to_string(level.next++) + "]";
+    return arrive(level.leads);
   }
 
   bool value() {
@@ -68,7 +69,8 @@ class Locator : public nlohmann::json_sax<Json> {
 
   bool open(bool object) {
     if (!enter()) return false;
-    levels_.push_back({here_, object});
+    const bool leads = (levels_.empty() || levels_.back().leads) && path_.starts_with(here_);
+    levels_.push_back({leads ? here_ : "", object, leads});
     before_ = read_;
     return true;
   }
@@ -80,8 +82,8 @@ class Locator : public nlohmann::json_sax<Json> {
   }
 
   /// False, which ends the reading, at the path that is wanted.
-  bool arrive() {
-    if (here_ == path_)
+  bool arrive(bool leads) {
+    if (leads && here_ == path_)
       found_ = std::min(text_.find_first_not_of(" \t\r\n,:", before_), text_.size());
     before_ = read_;
     return !found_;
@@ -109,6 +111,7 @@ Place place_of(const std::string& text, const std::string& file, std::size_t byt
 }
 
 Place place_in(const std::string& text, const std::string& file, const std::string& path) {
+  if (path.empty()) return {file};
   const auto byte = Locator(text, path).find();
   return byte ? place_of(text, file, *byte) : Place{file};
 }

@@ -1,5 +1,6 @@
 #include "io/yaml.h"
 
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
@@ -157,6 +158,8 @@ YamlFile::YamlFile(std::string text, std::string file)
     while (starts.marks.size() < 2 && parser.HandleNextDocument(starts)) {
     }
     root_ = YAML::Load(text_);
+  } catch (const YAML::DeepRecursion& error) {
+    throw InputError(place(error.mark), "YAML: lists or mappings are nested too deeply");
   } catch (const YAML::Exception& error) {
     if (error.mark.line < 0) throw InputError({file_}, "YAML: " + error.msg);
     const auto line = static_cast<std::size_t>(error.mark.line);
@@ -277,6 +280,8 @@ expr::Expression YamlFile::expression(const YAML::Node& node, const std::string&
     throw InputError(
         place(node),
         what + ": expected an expression, found a list; quote a matrix: \"[a, b; c, d]\"");
+  if (node.IsMap())
+    throw InputError(place(node), what + ": expected an expression, found a mapping");
   return expr::parse(scalar(node, what));
 }
 

@@ -55,6 +55,15 @@ std::optional<std::size_t> find_second_colon(std::string_view line) {
   return second == std::string_view::npos ? std::nullopt : std::optional(second);
 }
 
+/// Whether a line is a single word, as a key is that lacks its colon.
+bool is_bare(std::string_view line) {
+  const std::size_t begin = line.find_first_not_of(kBlank);
+  return begin != std::string_view::npos &&
+         line.substr(begin).find_first_not_of(
+             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
+             std::string_view::npos;
+}
+
 bool is_formula(std::string_view text) {
   return text.find_first_of("<>;*+/^") != std::string_view::npos;
 }
@@ -77,15 +86,23 @@ YamlError explained(const std::string& text, YamlError error) {
               "a formula that begins with '" + std::string(1, line[*alias]) +
                   "' must be quoted: YAML takes it for the name of a node"};
     const auto list = find_value(line, "[{");
-    if (list && is_formula(line.substr(*list)))
+    if (list && line[*list] == '[' && is_formula(line.substr(*list)))
+      return {
+          at, *list,
+          said + "; a formula that begins with '[' must be quoted, such as \"[P, Y; *, I] > 0\""};
+    if (list && line[*list] == '{' && line.find('[', *list) != std::string_view::npos)
       return {at, *list,
-              said + "; a formula that begins with '" + std::string(1, line[*list]) +
-                  "' must be quoted, such as \"[P, Y; *, I] > 0\""};
+              said +
+                  "; in { } a text with a comma or a bracket must be quoted, such as {forall: "
+                  "\"tau in [0, T]\"}"};
     if (const auto colon = find_second_colon(line); colon && at == last)
       return {at, *colon, said + "; a text that holds ': ' must be quoted"};
-    if (line.find_first_not_of(kBlank) != std::string_view::npos && at != last) break;
+    if (at == last || line.find_first_not_of(kBlank) == std::string_view::npos) continue;
+    if (is_bare(line)) return {at, line.size(), said + "; a ':' is missing behind a key"};
+    break;
   }
-  error.message = said;
+  const bool map = error.message.find("map") != std::string::npos;
+  error.message = said + (map ? "; the keys of a mapping begin in one column" : "");
   return error;
 }
 

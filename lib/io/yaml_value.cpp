@@ -72,7 +72,8 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
     }
     if (i > 0) composer.punctuation(";", file.place(row));
     if (i == 0) width = row.size();
-    if (row.size() != width || width == 0)
+    if (width == 0) throw InputError(file.place(row), item.key + ": this row is empty");
+    if (row.size() != width)
       throw InputError(file.place(row), item.key + ": this row has " + std::to_string(row.size()) +
                                             " elements, the first row has " +
                                             std::to_string(width));

@@ -116,29 +116,39 @@ void set_objective(const Inequalities& of, Lmi& lmi) {
   }
 }
 
-/// kappa = min b/c over the blocks with a constant part b and coefficients c is the size that the
-/// data give to the unknowns. InputError when the constant part of a block is no number in double
-/// in these units. `places`: of the blocks.
+/// Beyond it there is no room for scales, limits and margins.
+constexpr double kLargest = 1e290;
+
+/// b/c: what a block says of the size of the unknowns, with its constant part b and coefficients c.
+double ratio_of(const Block& block) {
+  if (block.constant_size == 0 || block.coefficient_size == 0)
+    return std::numeric_limits<double>::infinity();
+  return block.constant_size / block.coefficient_size;
+}
+
+/// InputError for sizes, or for constant parts in units of the smallest ratio, that double has no
+/// room for. `places`: of the blocks.
 void check_sizes(const std::vector<Block>& blocks, const std::vector<Place>& places) {
-  const auto kappa_of = [](const Block& block) {
-    return block.constant_size > 0 && block.coefficient_size > 0
-               ? block.constant_size / block.coefficient_size
-               : std::numeric_limits<double>::infinity();
-  };
   const auto smallest =
       std::min_element(blocks.begin(), blocks.end(),
-                       [&](const Block& a, const Block& b) { return kappa_of(a) < kappa_of(b); });
-  if (smallest == blocks.end() || kappa_of(*smallest) == std::numeric_limits<double>::infinity())
-    return;
-  for (std::size_t k = 0; k < blocks.size(); ++k)
-    if (!std::isfinite(blocks[k].constant_size / kappa_of(*smallest)))
-      throw InputError(places[k], "the inequalities '" + blocks[k].name + "' and '" +
-                                      smallest->name +
+                       [](const Block& a, const Block& b) { return ratio_of(a) < ratio_of(b); });
+  if (smallest == blocks.end()) return;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const Block& block = blocks[k];
+    const bool both = block.constant_size > 0 && block.coefficient_size > 0;
+    if (std::max({block.constant_size, block.coefficient_size, both ? ratio_of(block) : 0.0}) >
+        kLargest)
+      throw InputError(places[k], "the inequality '" + block.name + "' has a constant part of " +
+                                      brief(block.constant_size) + " and coefficients of " +
+                                      brief(block.coefficient_size) +
+                                      ", too large for double; choose other units");
+    if (block.constant_size / ratio_of(*smallest) > kLargest)
+      throw InputError(places[k], "the inequalities '" + block.name + "' and '" + smallest->name +
                                       "' have data too far apart for double: constants of " +
-                                      brief(blocks[k].constant_size) + ", and of " +
+                                      brief(block.constant_size) + ", and of " +
                                       brief(smallest->constant_size) + " beside coefficients of " +
-                                      brief(smallest->coefficient_size) +
-                                      "; choose other units for the unknowns");
+                                      brief(smallest->coefficient_size) + "; choose other units");
+  }
 }
 
 }  // namespace

@@ -33,6 +33,8 @@ std::vector<Word> words_of(const std::string& text) {
   return words;
 }
 
+constexpr const char* kShapes = "; a shape is n x p, n, scalar, symmetric n or diagonal n";
+
 /// "nxn", "2x1", "n1xm2": letters and numbers of the usual sizes, with x between.
 bool is_glued_product(const std::string& word) {
   const std::size_t cross = word.find_first_of("xX", 1);
@@ -82,7 +84,11 @@ ShapeText parse_shape(const expr::Text& text) {
   const auto words = words_of(text.str());
   const std::size_t length = text.str().size();
   const auto size = [&](std::size_t begin, std::size_t end) {
-    return expr::parse(text.part(begin, end));
+    try {
+      return expr::parse(text.part(begin, end));
+    } catch (const InputError& error) {
+      throw InputError(error.place(), error.message() + kShapes);
+    }
   };
   if (words.size() == 1 && words[0].text == "scalar") return shape;
   if (words.size() >= 2 && (words[0].text == "symmetric" || words[0].text == "diagonal")) {

@@ -72,8 +72,31 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"law_outside", "  horizon: 100", "  horizon: 100\n  sampling: [{constant: 5}]",
                "outside [0.5, 0.7]", 16, 25},
         Broken{"reversed_box", "box: \\[-10, 10\\]", "box: [10, -10]", "low end above", 17, 20},
+        Broken{"decimal_comma", "T1: 0.5", "T1: 0,5", "a decimal is written with a point: 0.5", 8,
+               8},
+        Broken{"unit", "T1: 0.5", "T1: 500ms", "for 500 ms write 500e-3", 8, 10},
+        Broken{"no_comma", "C: \\[\\[0.5, -1\\]\\]", "C: \"[0.5 1]\"", "a comma is missing", 7, 12},
+        Broken{"null", "T1: 0.5", "T1: null", "YAML reads null and ~ as nothing", 8, 7},
+        Broken{"tab", "  T1: 0.5", "\tT1: 0.5", "no tab in the indentation", 8, 1},
+        Broken{"alias", "QJ: 0.01\\*I", "QJ: *I", "begins with '*' must be quoted", 11, 7},
         Broken{"no_state", "zh: 0", "zz: 0", "is no state", 18, 5}),
     [](const ::testing::TestParamInfo<Broken>& broken) { return std::string(broken.param.name); });
+
+TEST(BadInputTest, AnUnknownThatNothingDeterminesIsRefused) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "free.yaml",
+      "problem: free\nmethod:\n  method: free\n  unknowns:\n    x: scalar\n    y: scalar\n"
+      "  require: {above: x > 1}\n  gains: {L: y}\n");
+  for (const char* command : {"check", "synth", "run"}) {
+    const Outcome outcome = gainsmith({command, file});
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_NE(
+        (outcome.out + outcome.err).find("free.yaml:6:5: the unknown y stands in no inequality"),
+        std::string::npos)
+        << outcome.out << outcome.err;
+  }
+}
 
 TEST(BadInputTest, MissingEmptyAndUnreadableFiles) {
   const Folder folder;

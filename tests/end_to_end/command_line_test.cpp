@@ -24,7 +24,9 @@ TEST(CommandLineTest, WrongCommandLinesExitWithTwo) {
        std::vector<std::vector<std::string>>{{},
                                              {"synt"},
                                              {"synth"},
+                                             {"--bogus"},
                                              {"synth", good, "--bogus"},
+                                             {"synth", good, "-o", "x", "--sdpa", "x"},
                                              {"verify", "x", "--runs", "0"},
                                              {"verify", "x", "--runs", "many"},
                                              {"methods", "sampled-data-hibrid"}}) {

@@ -22,6 +22,10 @@ TEST(JsonPlace, IsWhereTheKeyOrTheElementBegins) {
   EXPECT_EQ(place("a[3][1][0]"), (Place{"f", 2, 50}));
   EXPECT_EQ(place("b.c.d"), (Place{"f", 3, 15}));
   EXPECT_EQ(place("b.x"), Place{"f"});
+  EXPECT_EQ(place(""), Place{"f"});
+  const std::string deep =
+      "{\"a\": " + std::string(100'000, '[') + std::string(100'000, ']') + ", \"b\": 1}";
+  EXPECT_EQ(place_in(deep, "f", "b"), (Place{"f", 1, 200'009}));
   EXPECT_EQ(place_in("", "f", "a"), Place{"f"});
 }
 
