@@ -117,7 +117,7 @@ void set_objective(const Inequalities& of, Lmi& lmi) {
 }
 
 /// Beyond it there is no room for scales, limits and margins.
-constexpr double kLargest = 1e290;
+constexpr double kLargest = 1e300;
 
 /// b/c: what a block says of the size of the unknowns, with its constant part b and coefficients c.
 double ratio_of(const Block& block) {
