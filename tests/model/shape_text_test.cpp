@@ -75,8 +75,7 @@ TEST(ShapeText, AMatrixInOneWordIsNoSize) {
     EXPECT_NE(error.message().find("is written " + meant), std::string::npos) << error.what();
   }
   // Names of dimensions that hold an x.
-  for (const char* name : {"nx", "xn", "max", "n_x_n", "boxes"})
-    EXPECT_EQ(shape(name).text, name);
+  for (const char* name : {"nx", "xn", "max", "n_x_n", "boxes"}) EXPECT_EQ(shape(name).text, name);
 }
 
 TEST(Learn, FindsDimensionsInAnActualShape) {
