@@ -6,6 +6,8 @@
 
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
+#include "gainsmith/problem_files.h"
+#include "gainsmith/terminal.h"
 #include "io/json_text.h"
 #include "lmi/compile.h"
 
@@ -34,7 +36,8 @@ io::Json description(const model::Instance& instance) {
 ExitCode check(const CheckOptions& options) {
   ExitCode exit = ExitCode::yes;
   io::Json results = io::Json::array();
-  for (const std::string& path : options.problems) {
+  for (const ProblemFile& problem : problem_files(options.problems)) {
+    const std::string path = problem.path.string();
     try {
       io::Json found = description(load_problem(path));
       if (!options.json)
@@ -45,7 +48,7 @@ ExitCode check(const CheckOptions& options) {
       results.push_back(std::move(found));
     } catch (const InputError& error) {
       exit = ExitCode::bad_input;
-      fmt::print(stderr, "gainsmith: {}\n", error.what());
+      say(fmt::format("gainsmith: {}\n", error.what()));
       results.push_back({{"valid", false},
                          {"file", error.place().file},
                          {"line", error.place().line},
@@ -63,11 +66,13 @@ Command check_command() {
   auto options = std::make_shared<CheckOptions>();
   return {"check",
           "Validate problem files without solving",
-          {Option("problems", options->problems, "problem files (YAML)").required(),
+          {Option("problems", options->problems,
+                  "problem files (YAML), or folders of them; - for standard input")
+               .required(),
            Option("--json", options->json, "print the result as JSON")},
           "Exit code: 0 all valid, 2 otherwise.\n"
           "Example:\n"
-          "  gainsmith check problems/ferrante-seuret-2021/*.yaml",
+          "  gainsmith check problems/ferrante-seuret-2021",
           [options] { return check(*options); }};
 }
 

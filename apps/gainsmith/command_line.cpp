@@ -2,10 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
+#include <sstream>
 #include <type_traits>
 
 #include "base/nearest.h"
+#include "gainsmith/terminal.h"
 
 namespace gainsmith::app {
 
@@ -14,10 +17,12 @@ namespace {
 template <typename Value, typename... Types>
 constexpr bool is_one_of = (std::is_same_v<Value, Types> || ...);
 
-/// Digits only: CLI11 itself would take -1 for the largest unsigned number.
+/// CLI11 itself would take -1, and all numbers that are too large, for the largest unsigned number.
 std::string whole_number_error(const std::string& text) {
-  const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return digits ? std::string() : "expected a whole number, at least 0, not '" + text + "'";
+  std::uint64_t value = 0;
+  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (end.ec == std::errc() && end.ptr == text.data() + text.size()) return {};
+  return "expected a whole number from 0 to 18446744073709551615 (2^64 - 1), not '" + text + "'";
 }
 
 CLI::Range validator(const Option::Range<double>& range) {
@@ -83,6 +88,33 @@ void refuse_unknown_word(const Program& program, int argc, char** argv) {
       {}, "unknown subcommand '" + std::string(argv[1]) + "'" + suggestion(argv[1], names));
 }
 
+/// The first argument that nothing takes: an option rather than a value, which may belong to it.
+std::string unknown_argument(const CLI::App& command) {
+  const std::vector<std::string> left = command.remaining(true);
+  const auto option = std::find_if(left.begin(), left.end(), [](const std::string& word) {
+    return word.size() > 1 && word.starts_with('-');
+  });
+  if (option == left.end())
+    return left.empty() ? "an argument too many" : "unexpected argument '" + left.front() + "'";
+  std::vector<std::string> known;
+  for (const CLI::Option* each : command.get_options())
+    for (const std::string& name : each->get_lnames()) known.push_back("--" + name);
+  const std::string word = option->substr(0, option->find('='));
+  return "unknown option '" + word + "'" + suggestion(word, known);
+}
+
+/// What is wrong with the command line, and where help is.
+std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
+  const auto used = program.get_subcommands();
+  const CLI::App& command = used.empty() ? program : *used.front();
+  const bool unknown = dynamic_cast<const CLI::ExtrasError*>(&error) != nullptr ||
+                       (used.empty() && !program.remaining().empty());
+  const std::string name = program.get_name() + (used.empty() ? "" : " " + command.get_name());
+  return (used.empty() ? "" : command.get_name() + ": ") +
+         (unknown ? unknown_argument(command) : std::string(error.what())) + " (see '" + name +
+         " --help')";
+}
+
 }  // namespace
 
 ExitCode run(const Program& program, int argc, char** argv) {
@@ -97,10 +129,12 @@ ExitCode run(const Program& program, int argc, char** argv) {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {
     // Help and version are such stops too, with the code 0.
-    return parser.exit(stop) == 0 ? ExitCode::yes : ExitCode::bad_input;
+    if (stop.get_exit_code() != 0) throw InputError({}, complaint(parser, stop));
+    std::ostringstream text;
+    parser.exit(stop, text, text);
+    std::fputs(text.str().c_str(), stdout);
   }
-  if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
-    throw InputError({}, "cannot write to standard output");
+  finish_output();
   return exit;
 }
 

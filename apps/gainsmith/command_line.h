@@ -74,9 +74,9 @@ struct Program {
   std::vector<Command> commands;
 };
 
-/// Reads the command line and does the work of its subcommand, or prints help, the version or what
-/// is wrong; the exit code. InputError for an unknown subcommand and where the results could not be
-/// printed; the rest is what the work throws.
+/// Reads the command line and does the work of its subcommand, or prints help or the version; the
+/// exit code. InputError for a wrong command line, with what was meant, and where the results could
+/// not be printed; the rest is what the work throws.
 ExitCode run(const Program& program, int argc, char** argv);
 
 }  // namespace gainsmith::app

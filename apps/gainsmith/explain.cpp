@@ -29,7 +29,7 @@ ExitCode explain(const ExplainOptions& options) {
   fmt::print("{}", options.json ? io::to_text(explanation_json(explanation))
                                 : explanation_text(explanation));
   if (interrupted()) {
-    fmt::print(stderr, "interrupted: what is called undecided was not finished\n");
+    say("interrupted: what is called undecided was not finished\n");
     return ExitCode::undecided;
   }
   return exit_of(explanation.gains.verdict);

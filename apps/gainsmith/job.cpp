@@ -8,9 +8,11 @@
 #include "design/expectations.h"
 #include "design/optimize.h"
 #include "gainsmith/campaign_text.h"
+#include "gainsmith/interruptible.h"
 #include "gainsmith/load.h"
 #include "gainsmith/optimizers.h"
 #include "gainsmith/summary.h"
+#include "gainsmith/terminal.h"
 #include "io/csv.h"
 #include "io/gains_json.h"
 #include "verify/campaign.h"
@@ -44,12 +46,13 @@ class Job {
   void run(JobResult& result) {
     const design::SearchRequest request = design::request_of(instance_);
     const search::Optimizers* optimizers = optimizers_for(request, *instance_.design);
+    sdp::Options solver;
+    solver.interrupted = interrupted;
     const model::Gains gains =
-        design::synthesize_searched(instance_, request, optimizers, options_.threads, {});
+        design::synthesize_searched(instance_, request, optimizers, options_.threads, solver);
+    if (interrupted()) throw Interrupted("interrupted while gains were searched");
     instance_ = model::evaluate(instance_.design, gains.searched);
-    prepare_folder();
-    write_atomically(folder_ / "gains.json", io::gains_text(gains));
-    const auto campaign = verify_gains(gains);
+    const auto campaign = verify_and_write(gains);
     result.differences = design::differences(
         instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
     result.exit = judge(*instance_.design, gains, campaign, result.differences);
@@ -69,20 +72,40 @@ class Job {
       std::filesystem::remove(folder_ / name, error);
   }
 
+  /// The gains are written when the campaign is over, or cannot be run: not when it is interrupted.
+  std::optional<verify::Report> verify_and_write(const model::Gains& gains) {
+    const auto write = [&] {
+      prepare_folder();
+      write_atomically(folder_ / "gains.json", io::gains_text(gains));
+    };
+    std::optional<verify::Report> campaign;
+    try {
+      campaign = verify_gains(gains);
+    } catch (const InputError&) {
+      write();
+      throw;
+    }
+    write();
+    if (campaign) write_campaign(gains, *campaign);
+    return campaign;
+  }
+
   /// A campaign when the method can be simulated and every gain has a value.
   std::optional<verify::Report> verify_gains(const model::Gains& gains) {
     const model::Design& design = *instance_.design;
     const bool simulated = design.timer && !design.claims.empty() && !design.gains.empty();
     if (!simulated || gains.gains.size() + gains.gain_functions.size() < design.gains.size())
       return std::nullopt;
-    const verify::Report report = verify::run_campaign(
-        instance_, gains, {options_.runs, options_.seed, options_.threads, {}});
+    return interruptible_campaign(instance_, gains,
+                                  {options_.runs, options_.seed, options_.threads, {}});
+  }
+
+  void write_campaign(const model::Gains& gains, const verify::Report& report) const {
     write_atomically(folder_ / "campaign.json", io::to_text(campaign_json(report)));
     if (report.verdict != model::CampaignVerdict::held) {
       const verify::Replay replay = verify::replay(instance_, gains, report.seed, report.worst_run);
       write_atomically(folder_ / "worst-run.csv", io::to_csv(replay.columns, replay.table));
     }
-    return report;
   }
 
   io::Json report(const model::Gains& gains, const std::optional<verify::Report>& campaign,
@@ -138,7 +161,14 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
   JobResult result;
   result.name = name;
   try {
+    if (interrupted()) throw Interrupted("interrupted before it began");
     Job(problem, folder, options).run(result);
+  } catch (const Interrupted& stop) {
+    result.exit = ExitCode::undecided;
+    result.line = stop.what();
+    result.interrupted = true;
+    result.report = {
+        {"folder", name}, {"exit", static_cast<int>(result.exit)}, {"interrupted", result.line}};
   } catch (const InputError& error) {
     result.exit = ExitCode::bad_input;
     result.line = error.what();

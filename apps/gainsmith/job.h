@@ -25,6 +25,7 @@ struct JobResult {
   std::vector<std::string> differences;  ///< from `expect:`
   io::Json report;                       ///< without timings
   double seconds = 0;
+  bool interrupted = false;  ///< by Ctrl-C, before it was decided; then nothing was written
 };
 
 /// Synthesizes, verifies when there are gains, compares with `expect:` and writes gains.json,

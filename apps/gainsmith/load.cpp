@@ -1,9 +1,12 @@
 #include "gainsmith/load.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/file.h"
+#include "base/nearest.h"
+#include "base/number.h"
 #include "io/gains_json.h"
 #include "methods/methods.h"
 #include "model/bind.h"
@@ -13,8 +16,20 @@ namespace gainsmith::app {
 
 namespace {
 
-/// InputError when a file that says yes lacks a matrix of the method, or has another shape or
-/// parameter.
+/// InputError when the name of a matrix is none of the method's.
+void refuse_unknown(const std::string& name, const std::vector<std::string>& known,
+                    const std::string& key, const std::string& file) {
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    throw InputError({file}, key + ": unknown name '" + name + "'" + suggestion(name, known));
+}
+
+void refuse_unknown(const model::NamedMatrices& matrices, const std::vector<std::string>& known,
+                    const std::string& key, const std::string& file) {
+  for (const auto& [name, value] : matrices) refuse_unknown(name, known, key, file);
+}
+
+/// InputError when a file has a matrix that is none of the method's, or when one that says yes
+/// lacks a matrix of the method, or has another shape or parameter.
 void check_complete(const model::Gains& gains, const model::Instance& instance,
                     const std::string& file) {
   const auto require = [&](const std::string& name, expr::Shape shape) {
@@ -27,6 +42,17 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
                        name + " is " + to_string(actual) + "; expected " + to_string(shape));
   };
   const model::Stated stated = model::state(instance, gains);
+  std::vector<std::string> known;
+  for (const auto& wanted : instance.design->gains) known.push_back(wanted.name);
+  refuse_unknown(gains.gains, known, "gains", file);
+  for (const model::GainFunction& function : gains.gain_functions)
+    refuse_unknown(function.name, known, "gain_functions", file);
+  known.clear();
+  for (const auto& unknown : stated.unknowns) known.push_back(unknown.name);
+  refuse_unknown(gains.unknowns, known, "unknowns", file);
+  known.clear();
+  for (const auto& shown : instance.design->report) known.push_back(shown.name);
+  refuse_unknown(gains.report, known, "report", file);
   if (gains.verdict == model::Verdict::yes) {
     for (const auto& unknown : stated.unknowns) require(unknown.name, unknown.shape);
     for (const auto& wanted : instance.design->gains) {
@@ -37,10 +63,41 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
     }
   }
   for (const auto& [name, value] : gains.parameters) {
-    const auto known = instance.values.find(name);
-    if (known == instance.values.end() || known->second != value)
+    const auto stated_value = instance.values.find(name);
+    if (stated_value == instance.values.end() || stated_value->second != value)
       throw InputError({file},
                        "parameters." + name + " differs from the problem that the file states");
+  }
+}
+
+/// The scalars that the search of a file set.
+std::vector<std::string> scalars_of(const model::SearchRecord& search) {
+  std::vector<std::string> scalars = search.over;
+  for (const std::string goal : {"largest ", "smallest "})
+    if (search.figure.starts_with(goal)) scalars.push_back(search.figure.substr(goal.size()));
+  return scalars;
+}
+
+/// InputError for values under `searched` that no search of the file set.
+void check_searched(const model::Gains& gains, const std::string& file) {
+  constexpr double kDigits = 1e-6;
+  for (const auto& [name, value] : gains.searched) {
+    if (!gains.search)
+      throw InputError({file}, "searched." + name +
+                                   ": no search set it, the file has no 'search'; a value that is "
+                                   "chosen belongs into the problem");
+    const model::SearchRecord& search = *gains.search;
+    const std::vector<std::string> scalars = scalars_of(search);
+    const auto found = std::find(scalars.begin(), scalars.end(), name);
+    if (found == scalars.end())
+      throw InputError({file}, "searched." + name + ": the search of this file did not set it" +
+                                   suggestion(name, scalars));
+    const bool is_figure = static_cast<std::size_t>(found - scalars.begin()) >= search.over.size();
+    if (is_figure && search.value &&
+        !(std::abs(value - *search.value) <= kDigits * std::abs(*search.value)))
+      throw InputError({file},
+                       "searched." + name + " = " + brief(value) +
+                           " is not what the search found: search.value = " + brief(*search.value));
   }
 }
 
@@ -54,11 +111,19 @@ model::Instance load_problem(const std::filesystem::path& path,
                              const std::function<void(model::Problem&)>& add) {
   model::Problem problem = io::parse_problem(read_text(path), path.string(), built_in_methods());
   if (add) add(problem);
-  return model::bind(problem);
+  model::Instance instance = model::bind(problem);
+  model::refuse_free_unknowns(*instance.design);
+  return instance;
 }
 
 LoadedGains load_gains(const std::filesystem::path& path) {
-  model::Gains gains = io::parse_gains(read_text(path), path.string());
+  const std::string text = read_text(path);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (begin != std::string::npos && text[begin] != '{')
+    throw InputError({path.string()},
+                     "this is no gain file; expected the JSON that 'gainsmith synth -o' writes");
+  model::Gains gains = io::parse_gains(text, path.string());
+  check_searched(gains, path.string());
   model::Instance stated = model::bind(io::stated_problem(gains, path.string()), gains.searched);
   check_complete(gains, stated, path.string());
   return {std::move(gains), std::move(stated)};

@@ -1,7 +1,4 @@
 // The program: runs the command line and turns what happens into exit codes.
-#include <fmt/format.h>
-
-#include <cstdio>
 #include <exception>
 #include <new>
 #include <string>
@@ -10,14 +7,15 @@
 #include "base/error.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/optimizers.h"
+#include "gainsmith/terminal.h"
 
 namespace {
 
 namespace app = gainsmith::app;
 using gainsmith::ExitCode;
 
-int report(ExitCode code, const char* message) {
-  fmt::print(stderr, "gainsmith: {}\n", message);
+int report(ExitCode code, const std::string& message) {
+  app::say("gainsmith: " + message + "\n");
   return static_cast<int>(code);
 }
 
@@ -32,13 +30,14 @@ int run(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     return report(ExitCode::fault, "out of memory");
   } catch (const std::exception& error) {
-    return report(ExitCode::fault, (std::string("internal error: ") + error.what()).c_str());
+    return report(ExitCode::fault, std::string("internal error: ") + error.what());
   }
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+  app::open_standard_files();
   try {
     return run(argc, argv);
   } catch (const app::OptimizersNeeded& need) {

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <system_error>
 
 #include "base/file.h"
+#include "gainsmith/terminal.h"
 #include "io/gains_json.h"
 
 namespace gainsmith::app {
@@ -16,6 +18,9 @@ void refuse_overwriting(const std::string& input, const std::vector<std::string>
   for (const std::string& path : outputs)
     if (!path.empty() && std::filesystem::equivalent(path, input, ignored))
       throw InputError({path}, "this is the input file; choose another output");
+  for (auto path = outputs.begin(); path != outputs.end(); ++path)
+    if (!path->empty() && std::find(outputs.begin(), path, *path) != path)
+      throw InputError({*path}, "two outputs cannot go here; choose another for one");
 }
 
 void write_result(const model::Gains& gains, const std::string& output, const std::string& report,
@@ -26,8 +31,13 @@ void write_result(const model::Gains& gains, const std::string& output, const st
   } else if (!output.empty()) {
     write_atomically(output, io::gains_text(gains));
   }
-  fmt::print(to_stdout ? stderr : stdout, "{}", report);
-  if (!output.empty() && !to_stdout && !quiet) fmt::print(stderr, "wrote {}\n", output);
+  print_report(report, to_stdout);
+  if (!output.empty() && !to_stdout && !quiet) say("wrote " + output + "\n");
+}
+
+void print_report(const std::string& text, bool results_on_stdout) {
+  if (results_on_stdout) return say(text);
+  fmt::print("{}", text);
 }
 
 io::Json json_without_statement(const model::Gains& gains) {

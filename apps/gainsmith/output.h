@@ -10,7 +10,7 @@
 
 namespace gainsmith::app {
 
-/// InputError when an output would replace the input file.
+/// InputError when an output would replace the input file or another output.
 void refuse_overwriting(const std::string& input, const std::vector<std::string>& outputs);
 
 /// Writes the gain file to `output` (nowhere when empty, standard output for "-") and the report to
@@ -18,6 +18,9 @@ void refuse_overwriting(const std::string& input, const std::vector<std::string>
 /// the file went.
 void write_result(const model::Gains& gains, const std::string& output, const std::string& report,
                   bool quiet);
+
+/// Prints to standard output, or to standard error when the results go there.
+void print_report(const std::string& text, bool results_on_stdout);
 
 /// The gain file's document without the long texts of the statement.
 io::Json json_without_statement(const model::Gains& gains);

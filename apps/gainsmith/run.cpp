@@ -14,6 +14,8 @@
 #include "gainsmith/job.h"
 #include "gainsmith/junit.h"
 #include "gainsmith/output.h"
+#include "gainsmith/problem_files.h"
+#include "gainsmith/terminal.h"
 
 namespace gainsmith::app {
 
@@ -30,46 +32,15 @@ struct RunOptions {
   JobOptions job;
 };
 
-/// A problem file and the name of its folder in the output.
-struct Item {
-  fs::path file;
-  std::string name;
-};
-
-bool is_yaml(const fs::path& path) {
-  return path.extension() == ".yaml" || path.extension() == ".yml";
-}
-
-/// All problem files below a folder, sorted; named by their path below it.
-std::vector<Item> items_below(const fs::path& folder) {
-  std::vector<Item> items;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (!entry.is_regular_file() || !is_yaml(entry.path())) continue;
-    fs::path relative = entry.path().lexically_relative(folder);
-    items.push_back({entry.path(), relative.replace_extension().string()});
-  }
-  std::sort(items.begin(), items.end(),
-            [](const Item& a, const Item& b) { return a.file < b.file; });
-  if (items.empty()) throw InputError({folder.string()}, "this folder holds no .yaml file");
-  return items;
-}
-
-std::vector<Item> items_of(const std::vector<std::string>& paths) {
-  std::vector<Item> items;
-  for (const fs::path path : paths) {
-    if (fs::is_directory(path)) {
-      const auto below = items_below(path);
-      items.insert(items.end(), below.begin(), below.end());
-    } else {
-      items.push_back({path, path.stem().string()});
-    }
-  }
+/// The problem files; each name is that of a folder in the output.
+std::vector<ProblemFile> items_of(const std::vector<std::string>& paths) {
+  std::vector<ProblemFile> items = problem_files(paths);
   for (std::size_t i = 0; i < items.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
       if (items[i].name == items[j].name)
-        throw InputError({items[i].file.string()}, "would write into the same folder '" +
+        throw InputError({items[i].path.string()}, "would write into the same folder '" +
                                                        items[i].name + "' as " +
-                                                       items[j].file.string() + "; run them apart");
+                                                       items[j].path.string() + "; run them apart");
   return items;
 }
 
@@ -88,8 +59,8 @@ std::string json_text(const std::vector<JobResult>& results, ExitCode worst) {
 /// on paper when the program is stopped.
 class Lines {
  public:
-  explicit Lines(const std::vector<Item>& items) : results_(items.size()) {
-    for (const Item& item : items) width_ = std::max(width_, item.name.size());
+  explicit Lines(const std::vector<ProblemFile>& items) : results_(items.size()) {
+    for (const ProblemFile& item : items) width_ = std::max(width_, item.name.size());
   }
 
   void add(std::size_t index, const JobResult& result) {
@@ -113,21 +84,26 @@ class Lines {
 };
 
 ExitCode run(const RunOptions& options) {
-  const std::vector<Item> items = items_of(options.problems);
-  for (const Item& item : items) refuse_overwriting(item.file.string(), {options.junit});
+  const std::vector<ProblemFile> items = items_of(options.problems);
+  for (const ProblemFile& item : items) refuse_overwriting(item.path.string(), {options.junit});
   JobOptions job = options.job;
   job.threads = options.threads;
   std::vector<JobResult> results(items.size());
   Lines lines(items);
+  catch_interrupts();
   parallel_for(items.size(), options.threads, [&](std::size_t i) {
     results[i] =
-        run_job(items[i].file, items[i].name, fs::path(options.output) / items[i].name, job);
+        run_job(items[i].path, items[i].name, fs::path(options.output) / items[i].name, job);
     if (!options.json) lines.add(i, results[i]);
   });
   ExitCode worst = ExitCode::yes;
   for (const JobResult& result : results) worst = std::max(worst, result.exit);
   if (options.json) fmt::print("{}", json_text(results, worst));
   if (!options.junit.empty()) write_atomically(options.junit, junit_text(results));
+  const auto open = std::count_if(results.begin(), results.end(),
+                                  [](const JobResult& result) { return result.interrupted; });
+  if (open > 0)
+    say(fmt::format("interrupted: {} of {} problems have no answer\n", open, results.size()));
   return worst;
 }
 
@@ -138,7 +114,9 @@ Command run_command() {
   return {
       "run",
       "Synthesize, verify and compare with what is expected: for batch scripts and CI",
-      {Option("problems", options->problems, "problem files, or folders of them").required(),
+      {Option("problems", options->problems,
+              "problem files, or folders of them; - for standard input")
+           .required(),
        Option("-o,--output", options->output, "folder for the results, one folder a problem in it"),
        Option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
            .within<std::uint64_t>(1, 1000000000),

@@ -15,6 +15,7 @@
 #include "gainsmith/output.h"
 #include "gainsmith/range_option.h"
 #include "gainsmith/terminal.h"
+#include "io/csv.h"
 #include "io/json_text.h"
 
 namespace gainsmith::app {
@@ -103,19 +104,9 @@ Table table_of(const std::vector<design::ScanRow>& rows, const std::vector<std::
 }
 
 std::string csv(const Table& table) {
-  const auto quoted = [](const std::string& cell) {
-    if (cell.find_first_of(",\"\n") == std::string::npos) return cell;
-    std::string text = "\"";
-    for (const char c : cell) text += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return text + "\"";
-  };
   std::string text;
-  const auto line = [&](const std::vector<std::string>& cells) {
-    for (std::size_t i = 0; i < cells.size(); ++i) text += (i > 0 ? "," : "") + quoted(cells[i]);
-    text += "\n";
-  };
-  line(table.columns);
-  for (const auto& row : table.rows) line(row);
+  io::add_csv_line(table.columns, text);
+  for (const auto& row : table.rows) io::add_csv_line(row, text);
   return text;
 }
 
@@ -159,7 +150,7 @@ ExitCode exit_of_all(const std::vector<design::ScanRow>& rows) {
   const auto unfinished =
       std::count_if(rows.begin(), rows.end(), [](const auto& row) { return row.interrupted; });
   if (unfinished > 0) {
-    fmt::print(stderr, "interrupted: {} of {} points have no answer\n", unfinished, rows.size());
+    say(fmt::format("interrupted: {} of {} points have no answer\n", unfinished, rows.size()));
     return ExitCode::undecided;
   }
   const auto has = [&](model::Verdict verdict) {

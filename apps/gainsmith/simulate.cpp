@@ -10,6 +10,7 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
+#include "gainsmith/terminal.h"
 #include "io/csv.h"
 #include "io/json_text.h"
 #include "verify/replay.h"
@@ -51,12 +52,12 @@ ExitCode simulate(const SimulateOptions& options) {
   } else {
     write_atomically(options.output, text);
   }
-  fmt::print(stderr, "run {} of seed {}: {} samples, {} jumps, ended by: {}\n", options.run, seed,
-             replay.arc.samples(), replay.arc.j.back(), to_string(replay.arc.termination));
+  say(fmt::format("run {} of seed {}: {} samples, {} jumps, ended by: {}\n", options.run, seed,
+                  replay.arc.samples(), replay.arc.j.back(), to_string(replay.arc.termination)));
   for (const verify::ReplayedClaim& claim : replay.claims)
-    fmt::print(stderr, "  {:<12} {}: {} against {} at (t, j) = ({}, {})\n", claim.name,
-               to_string(claim.finding.judgement), brief(claim.finding.value),
-               brief(claim.finding.bound), brief(claim.finding.t), claim.finding.j);
+    say(fmt::format("  {:<12} {}: {} against {} at (t, j) = ({}, {})\n", claim.name,
+                    to_string(claim.finding.judgement), brief(claim.finding.value),
+                    brief(claim.finding.bound), brief(claim.finding.t), claim.finding.j));
   return ExitCode::yes;
 }
 

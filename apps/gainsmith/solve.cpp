@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/number.h"
 #include "gainsmith/commands.h"
+#include "gainsmith/output.h"
 #include "gainsmith/terminal.h"
 #include "io/json_text.h"
 #include "sdp/sdpa_file.h"
@@ -44,13 +45,12 @@ ExitCode exit_of_solution(sdp::Status status) {
 
 void print_iteration(const sdp::Progress& line) {
   if (line.iteration == 0)
-    fmt::print(stderr, "{:>4} {:>18} {:>18} {:>9} {:>9} {:>9} {:>6} {:>6}  {}\n", "iter", "primal",
-               "dual", "gap", "p.infeas", "d.infeas", "p.step", "d.step", "arithmetic");
-  fmt::print(stderr,
-             "{:>4} {:>18.10e} {:>18.10e} {:>9.2e} {:>9.2e} {:>9.2e} {:>6.3f} {:>6.3f}  {}\n",
-             line.iteration, line.primal_objective, line.dual_objective, line.relative_gap,
-             line.primal_infeasibility, line.dual_infeasibility, line.step_primal, line.step_dual,
-             line.precision);
+    say(fmt::format("{:>4} {:>18} {:>18} {:>9} {:>9} {:>9} {:>6} {:>6}  {}\n", "iter", "primal",
+                    "dual", "gap", "p.infeas", "d.infeas", "p.step", "d.step", "arithmetic"));
+  say(fmt::format("{:>4} {:>18.10e} {:>18.10e} {:>9.2e} {:>9.2e} {:>9.2e} {:>6.3f} {:>6.3f}  {}\n",
+                  line.iteration, line.primal_objective, line.dual_objective, line.relative_gap,
+                  line.primal_infeasibility, line.dual_infeasibility, line.step_primal,
+                  line.step_dual, line.precision));
 }
 
 io::Json certificate_json(const sdp::Certificate& certificate) {
@@ -166,8 +166,7 @@ ExitCode solve(SolveOptions options) {
       write_atomically(options.output, text);
     }
   }
-  fmt::print(to_stdout ? stderr : stdout, "{}",
-             options.json ? json_text(solution) : summary(solution));
+  print_report(options.json ? json_text(solution) : summary(solution), to_stdout);
   return exit_of_solution(solution.status);
 }
 

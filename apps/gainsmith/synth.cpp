@@ -52,8 +52,7 @@ ExitCode synth(const SynthOptions& options) {
                options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),
                options.json);
   if (gains.verdict == model::Verdict::no && !options.json && !interrupted())
-    fmt::print(options.output == "-" ? stderr : stdout, "why         {}\n",
-               reason(instance, gains, solver));
+    print_report("why         " + reason(instance, gains, solver) + "\n", options.output == "-");
   return exit_of(gains.verdict);
 }
 

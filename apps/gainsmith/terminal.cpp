@@ -1,8 +1,14 @@
 #include "gainsmith/terminal.h"
 
+#include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <system_error>
+
+#include "base/error.h"
 
 namespace gainsmith::app {
 
@@ -16,6 +22,23 @@ void on_interrupt(int) {
 }
 
 }  // namespace
+
+void open_standard_files() {
+  constexpr const char* kNothing = "/dev/null";
+  // open() takes the lowest number that is free, so each is the one that was found closed.
+  for (const int file : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(file, F_GETFD) < 0 && errno == EBADF)
+      static_cast<void>(::open(kNothing, file == STDOUT_FILENO ? O_RDONLY : O_WRONLY));
+}
+
+void say(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+
+void finish_output() {
+  if (std::fflush(stdout) != 0)
+    throw InputError({"standard output"},
+                     "cannot write: " + std::generic_category().message(errno));
+  if (std::ferror(stdout) != 0) throw InputError({"standard output"}, "cannot write");
+}
 
 bool progress_wanted() { return isatty(STDERR_FILENO) != 0; }
 

@@ -7,6 +7,7 @@
 
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
+#include "gainsmith/interruptible.h"
 #include "gainsmith/load.h"
 #include "gainsmith/terminal.h"
 
@@ -23,17 +24,27 @@ struct VerifyOptions {
 };
 
 void print_progress(std::uint64_t done, std::uint64_t all) {
-  fmt::print(stderr, "\r{}/{} runs{}", done, all, done == all ? "\n" : "");
+  say(fmt::format("\r{}/{} runs{}", done, all, done == all ? "\n" : ""));
 }
 
-ExitCode verify_gains(const VerifyOptions& options) {
+/// What is left of a campaign without all its runs.
+ExitCode report_interruption(const Interrupted& stop, bool json) {
+  fmt::print("{}", json ? io::to_text({{"verdict", "undecided"}, {"message", stop.what()}})
+                        : fmt::format("campaign    undecided: {}\n", stop.what()));
+  return ExitCode::undecided;
+}
+
+ExitCode verify_gains(const VerifyOptions& options) try {
   const LoadedGains loaded = load_gains(options.gains);
+  catch_interrupts();
   verify::CampaignOptions campaign{options.runs, options.seed, options.threads, {}};
   if (!options.json && progress_wanted()) campaign.progress = print_progress;
-  const verify::Report report = verify::run_campaign(loaded.stated, loaded.gains, campaign);
+  const verify::Report report = interruptible_campaign(loaded.stated, loaded.gains, campaign);
   fmt::print("{}", options.json ? io::to_text(campaign_json(report))
                                 : campaign_summary(report, options.gains));
   return campaign_exit(report.verdict);
+} catch (const Interrupted& stop) {
+  return report_interruption(stop, options.json);
 }
 
 }  // namespace
@@ -50,7 +61,7 @@ Command verify_command() {
                   "threads, 0: one a core; the report does not depend on it")
                .within(0, 1024),
            Option("--json", options->json, "print the report as JSON")},
-          "Exit code: 0 held, 1 violated, 2 wrong input, 3 undecided.\n"
+          "Exit code: 0 held, 1 violated, 2 wrong input, 3 undecided or interrupted.\n"
           "Examples:\n"
           "  gainsmith verify gains.json --runs 10000\n"
           "  gainsmith verify gains.json --json | jq .worst_run",

@@ -77,6 +77,8 @@ std::string read_text(const std::filesystem::path& path) {
   for (;;) {
     const ssize_t count = ::read(file.get(), chunk.data(), chunk.size());
     if (count < 0 && errno == EINTR) continue;
+    if (count < 0 && errno == EISDIR)
+      throw InputError({path.string()}, "this is a folder; expected a file");
     if (count < 0) refuse(path, "cannot read this file", errno);
     if (count == 0) return text;
     text.append(chunk, 0, static_cast<std::size_t>(count));

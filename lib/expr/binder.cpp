@@ -52,11 +52,12 @@ bool Binder::is_zero(Bound value) const {
 }
 
 Bound Binder::bind(const Expression& expression, const Node& node) {
-  // Definitions may stand on each other in towers that no formula needs.
+  // Definitions may stand on each other in towers that no formula needs. Outside of them an
+  // operation stands in the text.
   constexpr int kDeepest = 1000;
   constexpr int kMostSteps = 250'000;
   if (depth_ >= kDeepest) fail(expression, node, "the definitions are nested too deeply");
-  if (++steps_ > kMostSteps)
+  if (!open_definitions_.empty() && ++steps_ > kMostSteps)
     fail(expression, node, "the definitions expand to too many operations");
   ++depth_;
   const Bound value = bind_kind(expression, node);

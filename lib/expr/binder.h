@@ -103,7 +103,7 @@ class Binder {
   std::map<std::string, Bound> defined_;       ///< definitions without parameters, once bound
   std::vector<std::string> open_definitions_;  ///< being bound now, to find cycles
   int depth_ = 0;                              ///< of calls of bind()
-  int steps_ = 0;                              ///< calls of bind()
+  int steps_ = 0;                              ///< calls of bind() within definitions
   Environment environment_;                    ///< parameters of the definition being bound
 };
 

@@ -41,7 +41,10 @@ constexpr std::array kSymbols = {
 };
 
 /// Spellings of other languages, with what to write here.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kForeign = {{
+using Foreign = std::pair<std::string_view, std::string_view>;
+constexpr auto kForeign = std::to_array<Foreign>({
+    {"=>", "did you mean >=?"},
+    {"=<", "did you mean <=?"},
     {"==", "equations are not part of the language; use two inequalities or a definition"},
     {"=", "equations are not part of the language; definitions go into 'let'"},
     {".nan", "a number must be finite"},
@@ -51,13 +54,31 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 15> kForeign
     {".Inf", "a number must be finite"},
     {".INF", "a number must be finite"},
     {".*", "the elementwise product is not part of the language; use diag(a)*b"},
+    {"./", "only a number divides; write inv(diag(a))*b"},
+    {".^", "the elementwise power is not part of the language"},
+    {".'", "write ' for the transpose"},
+    {"\\", "write inv(A)*B"},
     {"**", "write ^ for a power"},
+    {"|", "write abs(x) for a number, norm(M) for a matrix"},
+    {"%", "a remark begins with #, outside of quotation marks"},
+    {"\"", "the quotation mark that begins the formula is missing"},
+    {"\xC2\xA0", "this is a non-breaking space; type a plain one"},
+    {"{", "matrices stand in [ ], arguments in ( )"},
+    {"\xC3\x97", "write * for a product"},
+    {"\xC2\xB7", "write * for a product"},
+    {"\xC2\xB2", "write ^2"},
+    {"\xC2\xB3", "write ^3"},
+    {"\xC2\xB5", "numbers have no units; for 5 \xC2\xB5s write 5e-6, with seconds everywhere"},
+    {"\xCE\xBC", "names are letters of a to z, digits and _; write mu. Numbers have no units"},
     {"&", "write two inequalities, or a chain such as 0 < a <= b"},
     {"\xE2\x88\x92", "this is a typographic minus; write -"},
     {"\xE2\x89\xA4", "write <="},
     {"\xE2\x89\xA5", "write >="},
+    {"\xE2\x89\xA0", "an inequality has one of < <= > >="},
     {"\xE2\x80\x99", "this is a typographic quote; write '"},
-}};
+    {"\xE2\x80\x9C", "this is a typographic quote; write \" around the whole formula"},
+    {"\xE2\x80\x9D", "this is a typographic quote; write \" around the whole formula"},
+});
 
 [[noreturn]] void refuse(const Text& text, std::size_t at) {
   const std::string_view rest = std::string_view(text.str()).substr(at);

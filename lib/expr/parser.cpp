@@ -1,7 +1,9 @@
 #include "expr/parser.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "expr/lexer.h"
@@ -33,6 +35,7 @@ class Parser {
   NodePtr whole() {
     if (peek() == TokenKind::end) fail("expected an expression, found nothing");
     NodePtr root = comparison();
+    refuse_decimal_comma();
     expect(TokenKind::end, "the end of the expression or an operator");
     return root;
   }
@@ -81,12 +84,52 @@ class Parser {
   }
 
   const Token& expect(TokenKind kind, const std::string& what) {
-    if (peek() != kind) fail("expected " + what + ", found " + found());
+    if (peek() != kind) fail("expected " + what + ", found " + found() + cure());
     return kind == TokenKind::end ? tokens_[at_] : next();
   }
 
   std::string found() const {
     return peek() == TokenKind::end ? "the end of the text" : "'" + tokens_[at_].text + "'";
+  }
+
+  /// What is missing between two values that stand side by side.
+  std::string cure() const {
+    if (at_ == 0) return {};
+    const Token& left = tokens_[at_ - 1];
+    const Token& right = tokens_[at_];
+    const bool value = right.kind == TokenKind::number || right.kind == TokenKind::name ||
+                       right.kind == TokenKind::open_bracket;
+    const bool complete = left.kind == TokenKind::number || left.kind == TokenKind::name ||
+                          left.kind == TokenKind::close || left.kind == TokenKind::close_bracket;
+    if (!value || !complete) return {};
+    const bool unit = left.kind == TokenKind::number && right.kind == TokenKind::name;
+    if (unit && left.end == right.begin) return in_base_units(left.text, right.text);
+    return "; a comma is missing between elements, or * in a product";
+  }
+
+  /// "5ms", with what to write for it.
+  static std::string in_base_units(const std::string& number, const std::string& unit) {
+    static constexpr auto kPowers = std::to_array<std::pair<std::string_view, std::string_view>>(
+        {{"ms", "e-3"}, {"us", "e-6"}, {"ns", "e-9"}, {"mm", "e-3"}, {"cm", "e-2"}, {"km", "e3"},
+         {"kHz", "e3"}, {"MHz", "e6"}, {"mV", "e-3"}, {"mA", "e-3"}, {"mH", "e-3"}, {"mF", "e-3"},
+         {"uF", "e-6"}, {"nF", "e-9"}, {"kg", ""},    {"g", "e-3"},  {"s", ""},     {"m", ""},
+         {"Hz", ""},    {"rad", ""},   {"V", ""},     {"A", ""},     {"N", ""}});
+    const bool plain = number.find_first_of("eE") == std::string::npos;
+    for (const auto& [name, power] : kPowers)
+      if (plain && name == unit)
+        return "; numbers have no units: for " + number + " " + unit + " write " + number +
+               std::string(power) + ", or " + number + "*" + unit + " for a product";
+    return "; numbers have no units, and a product is written " + number + "*" + unit;
+  }
+
+  /// "0,005"
+  void refuse_decimal_comma() const {
+    if (peek() != TokenKind::comma || at_ == 0 || at_ + 1 >= tokens_.size()) return;
+    const Token& left = tokens_[at_ - 1];
+    const Token& right = tokens_[at_ + 1];
+    if (left.kind == TokenKind::number && right.kind == TokenKind::number &&
+        left.end + 1 == right.begin)
+      fail("unexpected ',': a decimal is written with a point: " + left.text + "." + right.text);
   }
 
   [[noreturn]] void fail(const std::string& message) const {
@@ -266,7 +309,7 @@ class Parser {
              std::to_string(columns));
       if (accept(TokenKind::close_bracket)) break;
       if (!accept(TokenKind::semicolon))
-        fail("expected ',' ';' or ']' in the block, found " + found());
+        fail("expected ',' ';' or ']' in the block, found " + found() + cure());
     }
     auto node = make(NodeKind::block, begin, std::move(entries));
     node->columns = columns;

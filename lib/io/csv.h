@@ -1,4 +1,4 @@
-// Tables of numbers as CSV (RFC 4180, lines ended by a line feed).
+// Tables as CSV (RFC 4180, lines ended by a line feed).
 #pragma once
 
 #include <span>
@@ -7,6 +7,9 @@
 #include "numbers/matrix.h"
 
 namespace gainsmith::io {
+
+/// Adds a line. Cells with a comma, a quotation mark or the end of a line are quoted.
+void add_csv_line(std::span<const std::string> cells, std::string& text);
 
 /// A line of column names, then a line for each row of the table; numbers by decimal17, so that
 /// reading them gives the same doubles. One name for each column.

@@ -1,7 +1,10 @@
 #include "io/gains_json.h"
 
+#include <array>
+#include <charconv>
 #include <utility>
 
+#include "base/version.h"
 #include "io/json_reader.h"
 
 namespace gainsmith::io {
@@ -113,6 +116,32 @@ Json statement_json(const model::Statement& statement) {
           {"problem_file", statement.problem_file},
           {"problem_text", statement.problem_text},
           {"sha256", statement.hash}};
+}
+
+/// Three numbers of "0.1.0".
+std::array<int, 3> parts_of(const std::string& version, const JsonReader& reader) {
+  std::array<int, 3> parts{};
+  const char* at = version.data();
+  const char* const end = at + version.size();
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto number = std::from_chars(at, end, parts[k]);
+    const bool last = k + 1 == parts.size();
+    if (number.ec != std::errc() ||
+        (last ? number.ptr != end : number.ptr == end || *number.ptr != '.'))
+      reader.fail("expected the version of gainsmith that wrote this file, such as " +
+                  std::string(kVersion) + ", not '" + version + "'");
+    at = number.ptr + (last ? 0 : 1);
+  }
+  return parts;
+}
+
+/// A later version may say things that this one would not understand.
+std::string version_of(const JsonReader& reader) {
+  const std::string version = reader.text();
+  if (parts_of(version, reader) > parts_of(kVersion, reader))
+    reader.fail("gainsmith " + version + " wrote this file, this is " + kVersion +
+                ": take that version, or synthesize again");
+  return version;
 }
 
 model::Verdict verdict_of(const JsonReader& reader) {
@@ -275,10 +304,10 @@ std::string gains_text(const model::Gains& gains) { return to_text(to_json(gains
 
 model::Gains parse_gains(const std::string& text, const std::string& file) {
   const Json document = parse_json(text, file);
-  const JsonReader reader(document, file);
+  const JsonReader reader(document, file, text);
   model::Gains gains;
   gains.file = file;
-  gains.version = reader.at("gainsmith").text();
+  gains.version = version_of(reader.at("gainsmith"));
   gains.problem_name = reader.at("problem").text();
   gains.verdict = verdict_of(reader.at("verdict"));
   if (reader.has("objective")) gains.objective = reader.at("objective").number();

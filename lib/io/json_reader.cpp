@@ -5,17 +5,29 @@
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "io/json_place.h"
 
 namespace gainsmith::io {
 
-JsonReader::JsonReader(const Json& document, std::string file)
-    : value_(document), file_(std::move(file)), asked_(std::make_shared<Asked>()) {}
+JsonReader::JsonReader(const Json& document, std::string file, std::string text)
+    : value_(document),
+      file_(std::move(file)),
+      text_(std::make_shared<const std::string>(std::move(text))),
+      asked_(std::make_shared<Asked>()) {}
 
 JsonReader::JsonReader(const Json& value, const JsonReader& parent, std::string path)
-    : value_(value), file_(parent.file_), path_(std::move(path)), asked_(parent.asked_) {}
+    : value_(value),
+      file_(parent.file_),
+      text_(parent.text_),
+      path_(std::move(path)),
+      asked_(parent.asked_) {}
+
+std::string JsonReader::path_to(const std::string& key) const {
+  return path_.empty() ? key : path_ + "." + key;
+}
 
 JsonReader JsonReader::below(const std::string& key, const Json& value) const {
-  return {value, *this, path_.empty() ? key : path_ + "." + key};
+  return {value, *this, path_to(key)};
 }
 
 JsonReader JsonReader::at(const std::string& key) const {
@@ -25,7 +37,7 @@ JsonReader JsonReader::at(const std::string& key) const {
   if (const auto found = value_.find(key); found != value_.end()) return below(key, *found);
   for (const auto& item : value_.items())
     if (!asked.contains(item.key()) && nearest(item.key(), {key}))
-      fail("unknown key '" + item.key() + "'; did you mean '" + key + "'?");
+      fail_at(item.key(), "unknown key '" + item.key() + "'; did you mean '" + key + "'?");
   fail("the key '" + key + "' is missing");
 }
 
@@ -108,14 +120,20 @@ void JsonReader::finish() const {
   if (!value_.is_object() || asked == asked_->end()) return;
   for (const auto& item : value_.items()) {
     if (!asked->second.contains(item.key()))
-      fail("unknown key '" + item.key() + "'" +
-           suggestion(item.key(), {asked->second.begin(), asked->second.end()}));
+      fail_at(item.key(), "unknown key '" + item.key() + "'" +
+                              suggestion(item.key(), {asked->second.begin(), asked->second.end()}));
     below(item.key(), item.value()).finish();
   }
 }
 
-void JsonReader::fail(const std::string& message) const {
-  throw InputError({file_}, (path_.empty() ? "" : path_ + ": ") + message);
+void JsonReader::fail(const std::string& message) const { fail_with(path_, message); }
+
+void JsonReader::fail_at(const std::string& key, const std::string& message) const {
+  fail_with(path_to(key), message);
+}
+
+void JsonReader::fail_with(const std::string& place, const std::string& message) const {
+  throw InputError(place_in(*text_, file_, place), (path_.empty() ? "" : path_ + ": ") + message);
 }
 
 }  // namespace gainsmith::io

@@ -14,11 +14,12 @@
 namespace gainsmith::io {
 
 /// A value of a document, with its path: "solver.iterations", "margins[2].name". All members throw
-/// InputError with the file and the path for a value of another kind. The document must outlive its
-/// readers, which note together which keys were asked for.
+/// InputError with the place and the path for a value of another kind. The document must outlive
+/// its readers, which note together which keys were asked for.
 class JsonReader {
  public:
-  JsonReader(const Json& document, std::string file);
+  /// `text`: what the document was read from; errors then name line and column too.
+  JsonReader(const Json& document, std::string file, std::string text = {});
 
   /// The value of a key that must be there. Of a missing key the message names a misspelling.
   JsonReader at(const std::string& key) const;
@@ -46,6 +47,8 @@ class JsonReader {
   void finish() const;
 
   [[noreturn]] void fail(const std::string& message) const;
+  /// The same at a key below here.
+  [[noreturn]] void fail_at(const std::string& key, const std::string& message) const;
 
  private:
   /// The keys that were asked for, by the object that was asked.
@@ -53,9 +56,12 @@ class JsonReader {
 
   JsonReader(const Json& value, const JsonReader& parent, std::string path);
   JsonReader below(const std::string& key, const Json& value) const;
+  std::string path_to(const std::string& key) const;
+  [[noreturn]] void fail_with(const std::string& place, const std::string& message) const;
 
   const Json& value_;
   std::string file_;
+  std::shared_ptr<const std::string> text_;
   std::string path_;
   std::shared_ptr<Asked> asked_;
 };

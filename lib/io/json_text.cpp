@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <map>
 #include <stdexcept>
-#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "base/error.h"
 #include "base/number.h"
+#include "io/json_place.h"
 #include "model/gains.h"
 
 namespace gainsmith::io {
@@ -53,22 +54,16 @@ void write(const Json& value, std::size_t indent, std::string& out) {
   }
 }
 
-Place place_of(const std::string& text, const std::string& file, std::size_t byte) {
-  const std::string_view before = std::string_view(text).substr(0, std::min(byte, text.size()));
-  const std::size_t start = before.rfind('\n') + 1;  // npos + 1 is 0
-  const auto is_first_byte = [](char c) {
-    return (static_cast<unsigned char>(c) & 0xC0U) != 0x80U;
-  };
-  return {file, 1 + static_cast<int>(std::ranges::count(before, '\n')),
-          1 + static_cast<int>(std::ranges::count_if(before.substr(start), is_first_byte))};
-}
-
-/// Builds a document and keeps decimals.
+/// Builds a document, keeps decimals and refuses keys that stand twice.
 class Builder : public nlohmann::json_sax<Json> {
  public:
   Builder(const std::string& text, const std::string& file) : text_(text), file_(file) {}
 
-  Json take() { return std::move(root_); }
+  Json parse() {
+    Json::sax_parse(CountingIterator(text_.data(), read_),
+                    CountingIterator(text_.data() + text_.size(), read_), this);
+    return std::move(root_);
+  }
 
   bool null() override { return add(Json()); }
   bool boolean(bool value) override { return add(value); }
@@ -84,6 +79,12 @@ class Builder : public nlohmann::json_sax<Json> {
   bool end_object() override { return close(); }
   bool end_array() override { return close(); }
   bool key(std::string& key) override {
+    // The key has just been read, to its closing quotation mark.
+    const auto [known, fresh] = keys_.back().emplace(key, read_);
+    if (!fresh)
+      throw InputError(place_of(text_, file_, begin_of_key(read_)),
+                       "the key '" + key + "' stands twice; first in line " +
+                           std::to_string(place_of(text_, file_, known->second).line));
     key_ = std::move(key);
     return true;
   }
@@ -108,13 +109,23 @@ class Builder : public nlohmann::json_sax<Json> {
     return true;
   }
 
+  /// `end`: behind its closing quotation mark.
+  std::size_t begin_of_key(std::size_t end) const {
+    std::size_t at = end - 1;
+    do at = text_.rfind('"', at - 1);
+    while (at > 0 && text_[at - 1] == '\\');
+    return at;
+  }
+
   bool open(Json empty) {
+    keys_.emplace_back();
     open_.push_back(&place(std::move(empty)));
     return true;
   }
 
   bool close() {
     open_.pop_back();
+    keys_.pop_back();
     return true;
   }
 
@@ -122,7 +133,11 @@ class Builder : public nlohmann::json_sax<Json> {
   Json& place(Json value) {
     if (open_.empty()) return root_ = std::move(value);
     Json& parent = *open_.back();
-    if (parent.is_object()) return parent[key_] = std::move(value);
+    if (parent.is_object()) {
+      // No search for the key: it is a new one.
+      auto& items = static_cast<Json::object_t::Container&>(parent.get_ref<Json::object_t&>());
+      return items.emplace_back(key_, std::move(value)).second;
+    }
     parent.push_back(std::move(value));
     return parent.back();
   }
@@ -131,7 +146,9 @@ class Builder : public nlohmann::json_sax<Json> {
   const std::string& file_;
   Json root_;
   std::vector<Json*> open_;
+  std::vector<std::map<std::string, std::size_t>> keys_;  ///< of open_, with their ends
   std::string key_;
+  std::size_t read_ = 0;  ///< bytes
 };
 
 }  // namespace
@@ -168,9 +185,7 @@ std::string decimal_of(const Json& number) {
 }
 
 Json parse_json(const std::string& text, const std::string& file) {
-  Builder builder(text, file);
-  Json::sax_parse(text, &builder);
-  return builder.take();
+  return Builder(text, file).parse();
 }
 
 }  // namespace gainsmith::io

@@ -31,7 +31,7 @@ double number_of(const Json& number);
 std::string decimal_of(const Json& number);
 
 /// Parses. Numbers with a point or an exponent that to_text would write otherwise keep their
-/// decimal. InputError with file:line:column when the text is no JSON.
+/// decimal. InputError with file:line:column when the text is no JSON or a key stands twice.
 Json parse_json(const std::string& text, const std::string& file);
 
 }  // namespace gainsmith::io

@@ -41,8 +41,9 @@ std::uint64_t whole(const YamlFile& file, const YamlItem& item, double least) {
   const double value = file.number(item.value, item.key);
   if (!(value >= least && value <= kMost) ||
       value != static_cast<double>(static_cast<std::uint64_t>(value)))
-    throw InputError(file.place(item.value), item.key + ": expected a whole number, at least " +
-                                                 std::to_string(static_cast<int>(least)));
+    throw InputError(file.place(item.value), item.key + ": expected a whole number from " +
+                                                 std::to_string(static_cast<int>(least)) +
+                                                 " to 1e15");
   return static_cast<std::uint64_t>(value);
 }
 

@@ -1,5 +1,6 @@
 #include "io/yaml.h"
 
+#include <yaml-cpp/depthguard.h>
 #include <yaml-cpp/eventhandler.h>
 
 #include <algorithm>
@@ -12,6 +13,7 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "expr/parser.h"
+#include "io/yaml_error.h"
 
 namespace gainsmith::io {
 
@@ -142,6 +144,12 @@ YamlFile::YamlFile(std::string text, std::string file)
       file_(std::move(file)),
       line_starts_(starts_of_lines(text_)) {
   refuse_non_text(text_, file_);
+  for (std::size_t at = 0; at <= text_.size(); at += kStep) {
+    const auto before =
+        std::string_view(text_).substr(at < kStep ? 0 : at - kStep, std::min(at, kStep));
+    characters_.push_back(count_characters(before) +
+                          (characters_.empty() ? 0 : characters_.back()));
+  }
   // YAML::LoadAll never ends on some broken files, so at most two documents are looked at.
   DocumentStarts starts;
   try {
@@ -150,8 +158,14 @@ YamlFile::YamlFile(std::string text, std::string file)
     while (starts.marks.size() < 2 && parser.HandleNextDocument(starts)) {
     }
     root_ = YAML::Load(text_);
+  } catch (const YAML::DeepRecursion& error) {
+    throw InputError(place(error.mark), "YAML: lists or mappings are nested too deeply");
   } catch (const YAML::Exception& error) {
-    throw InputError(place(error.mark), "YAML: " + error.msg);
+    if (error.mark.line < 0) throw InputError({file_}, "YAML: " + error.msg);
+    const auto line = static_cast<std::size_t>(error.mark.line);
+    const YamlError cause =
+        explained(text_, {line, static_cast<std::size_t>(error.mark.column), error.msg});
+    throw InputError(place(offset(cause.line, cause.column)), cause.message);
   }
   if (starts.marks.size() > 1)
     throw InputError(place(starts.marks[1]), "expected one YAML document, found a second one");
@@ -159,10 +173,14 @@ YamlFile::YamlFile(std::string text, std::string file)
     throw InputError({file_}, "the file is empty; expected a mapping such as 'problem: NAME'");
 }
 
+std::size_t YamlFile::offset(std::size_t line, std::size_t column) const {
+  if (line >= line_starts_.size()) return text_.size();
+  return std::min(line_starts_[line] + column, text_.size());
+}
+
 std::size_t YamlFile::offset(const YAML::Mark& mark) const {
-  const auto line = static_cast<std::size_t>(mark.line);
-  if (mark.line < 0 || line >= line_starts_.size()) return text_.size();
-  return std::min(line_starts_[line] + static_cast<std::size_t>(mark.column), text_.size());
+  if (mark.line < 0) return text_.size();
+  return offset(static_cast<std::size_t>(mark.line), static_cast<std::size_t>(mark.column));
 }
 
 Place YamlFile::place(const YAML::Mark& mark) const {
@@ -170,11 +188,17 @@ Place YamlFile::place(const YAML::Mark& mark) const {
   return place(offset(mark));
 }
 
+int YamlFile::characters_to(std::size_t offset) const {
+  const std::size_t step = offset / kStep;
+  return characters_[step] +
+         count_characters(std::string_view(text_).substr(step * kStep, offset - step * kStep));
+}
+
 Place YamlFile::place(std::size_t offset) const {
   const auto next = std::ranges::upper_bound(line_starts_, offset);
   const std::size_t start = *std::prev(next);
-  const auto before = std::string_view(text_).substr(start, offset - start);
-  return {file_, static_cast<int>(next - line_starts_.begin()), 1 + count_characters(before)};
+  return {file_, static_cast<int>(next - line_starts_.begin()),
+          1 + characters_to(offset) - characters_to(start)};
 }
 
 Place YamlFile::place(const YAML::Node& node) const {
@@ -182,15 +206,23 @@ Place YamlFile::place(const YAML::Node& node) const {
   if (!node.IsNull() || mark.line < 0) return place(mark);
   // The mark of a value that is left out stands at what comes next; show where it is missing.
   std::size_t at = offset(mark);
-  if (at < text_.size() && (text_[at] == '~' || text_[at] == 'n' || text_[at] == 'N'))
-    return place(at);
+  if (is_written(node)) return place(at);
   while (at > 0 && is_space(text_[at - 1])) --at;
   return place(at);
 }
 
+bool YamlFile::is_written(const YAML::Node& null) const {
+  if (null.Mark().line < 0) return false;
+  const std::size_t at = offset(null.Mark());
+  return at < text_.size() && (text_[at] == '~' || text_[at] == 'n' || text_[at] == 'N');
+}
+
 std::string YamlFile::string(const YAML::Node& node, const std::string& what) const {
   if (!node.IsScalar()) {
-    std::string found = node.IsMap() ? "a mapping" : node.IsSequence() ? "a list" : "nothing";
+    const std::string found = node.IsMap()        ? "a mapping"
+                              : node.IsSequence() ? "a list"
+                              : is_written(node)  ? "nothing, as YAML reads null and ~"
+                                                  : "nothing";
     throw InputError(place(node), what + ": expected a text, found " + found);
   }
   return node.Scalar();
@@ -240,10 +272,16 @@ expr::Text YamlFile::scalar(const YAML::Node& node, const std::string& what) con
 }
 
 expr::Expression YamlFile::expression(const YAML::Node& node, const std::string& what) const {
+  if (node.IsNull())
+    throw InputError(place(node),
+                     what + ": the formula is missing" +
+                         (is_written(node) ? "; YAML reads null and ~ as nothing" : ""));
   if (node.IsSequence())
     throw InputError(
         place(node),
         what + ": expected an expression, found a list; quote a matrix: \"[a, b; c, d]\"");
+  if (node.IsMap())
+    throw InputError(place(node), what + ": expected an expression, found a mapping");
   return expr::parse(scalar(node, what));
 }
 
@@ -307,83 +345,6 @@ std::vector<YamlItem> items_of(const YamlFile& file, const std::optional<YamlIte
                                const std::string& what) {
   if (!item || item->value.IsNull()) return {};
   return YamlMap(file, item->value, what).items();
-}
-
-namespace {
-
-/// Text put together from scalars and punctuation, each character with its place.
-class Composer {
- public:
-  explicit Composer(const YamlFile& file) : file_(file) {}
-
-  void punctuation(const std::string& mark, const Place& place) {
-    text_ += mark;
-    positions_.insert(positions_.end(), mark.size(), {place.line, place.column});
-  }
-
-  void scalar(const YAML::Node& node, const std::string& what) {
-    if (node.IsSequence() || node.IsMap())
-      throw InputError(file_.place(node), what +
-                                              ": expected a number or an expression here, found " +
-                                              (node.IsMap() ? "a mapping" : "a list"));
-    const expr::Text part = file_.scalar(node, what);
-    if (part.str().find(';') != std::string::npos)
-      throw InputError(file_.place(node),
-                       what + ": a matrix with ';' must be quoted: \"[a, b; c, d]\"");
-    expr::parse(part);
-    // In brackets of its own an element cannot be torn apart by what stands around it.
-    punctuation("(", part.place(0));
-    text_ += part.str();
-    for (std::size_t at = 0; at < part.str().size(); ++at) {
-      const Place place = part.place(at);
-      positions_.push_back({place.line, place.column});
-    }
-    punctuation(")", part.place(part.str().size()));
-  }
-
-  expr::Expression parse(const Place& end) {
-    positions_.push_back({end.line, end.column});
-    return expr::parse({text_, file_.file(), std::move(positions_)});
-  }
-
- private:
-  const YamlFile& file_;
-  std::string text_;
-  std::vector<expr::Position> positions_;
-};
-
-}  // namespace
-
-model::Value value_of(const YamlFile& file, const YamlItem& item) {
-  const YAML::Node& node = item.value;
-  if (!node.IsSequence())
-    return {item.key, file.expression(node, item.key), false, file.place(node)};
-  if (node.size() == 0) throw InputError(file.place(node), item.key + ": the list is empty");
-  const bool flat = !node[0].IsSequence();
-  Composer composer(file);
-  composer.punctuation("[", file.place(node));
-  std::size_t width = 0;
-  for (std::size_t i = 0; i < node.size(); ++i) {
-    const YAML::Node row = node[i];
-    if (flat || !row.IsSequence()) {
-      if (!flat) throw InputError(file.place(row), item.key + ": expected a row [a, b, ...] here");
-      if (i > 0) composer.punctuation(",", file.place(row));
-      composer.scalar(row, item.key);
-      continue;
-    }
-    if (i > 0) composer.punctuation(";", file.place(row));
-    if (i == 0) width = row.size();
-    if (row.size() != width || width == 0)
-      throw InputError(file.place(row), item.key + ": this row has " + std::to_string(row.size()) +
-                                            " elements, the first row has " +
-                                            std::to_string(width));
-    for (std::size_t j = 0; j < row.size(); ++j) {
-      if (j > 0) composer.punctuation(",", file.place(row[j]));
-      composer.scalar(row[j], item.key);
-    }
-  }
-  composer.punctuation("]", file.place(node));
-  return {item.key, composer.parse(file.place(node)), flat, file.place(node)};
 }
 
 }  // namespace gainsmith::io

@@ -38,12 +38,20 @@ class YamlFile {
  private:
   /// yaml-cpp counts lines and columns from 0, and columns in bytes.
   std::size_t offset(const YAML::Mark& mark) const;
+  std::size_t offset(std::size_t line, std::size_t column) const;
   Place place(const YAML::Mark& mark) const;
   Place place(std::size_t offset) const;
+  /// Characters before a byte. The table of them keeps places on long lines cheap.
+  int characters_to(std::size_t offset) const;
+  /// Whether a node that is null stands there as a word, and is not just left out.
+  bool is_written(const YAML::Node& null) const;
+
+  static constexpr std::size_t kStep = 256;
 
   std::string text_;
   std::string file_;
   std::vector<std::size_t> line_starts_;
+  std::vector<int> characters_;  ///< before each kStep-th byte
   YAML::Node root_;
 };
 

@@ -105,6 +105,9 @@ class Rules {
   AffineForm product(const AffineForm& a, const AffineForm& b, expr::Shape shape,
                      bool scaling) const {
     refuse_two_unknowns(a, b);
+    if (largest_power(a) + largest_power(b) > kLargestPower)
+      throw expr::EvaluationError("a 'forall' variable has a power above " +
+                                  std::to_string(kLargestPower));
     AffineForm result{shape, {}};
     for (const auto& [left_key, left] : a.terms) {
       for (const auto& [right_key, right] : b.terms) {
@@ -116,16 +119,29 @@ class Rules {
     return result;
   }
 
+  /// By squaring, so that a large power of one function costs nothing; that of a sum is a sum of as
+  /// many functions as its exponent says.
   AffineForm power(const AffineForm& form, int exponent) const {
+    const auto times = [&](const AffineForm& a, const AffineForm& b) {
+      AffineForm both = product(a, b, form.shape, false);
+      if (both.terms.size() <= kMostFunctions) return both;
+      throw expr::EvaluationError("the power expands to more than " +
+                                  std::to_string(kMostFunctions) +
+                                  " functions of the 'forall' variables; use the way exchange");
+    };
     AffineForm result = constant_form(numbers::Matrix::Identity(form.shape.rows, form.shape.rows));
-    for (int i = 0; i < exponent; ++i) result = product(result, form, form.shape, false);
+    AffineForm square = form;
+    for (int left = exponent; left > 0; left /= 2) {
+      if (left % 2 == 1) result = times(result, square);
+      if (left > 1) square = times(square, square);
+    }
     return result;
   }
 
   AffineForm quotient(const AffineForm& a, const AffineForm& b) const {
     if (!b.is_constant()) refuse(expr::Op::divide, b);
     const double divisor = dense_constant(b)(0, 0);
-    if (divisor == 0) throw expr::EvaluationError("division by zero");
+    if (divisor == 0) expr::fault::division_by_zero();
     return map_terms(a, a.shape, [&](const Sparse& matrix) { return Sparse(matrix / divisor); });
   }
 
@@ -183,6 +199,17 @@ class Rules {
   }
 
  private:
+  static constexpr int kLargestPower = 1'000'000;
+  static constexpr std::size_t kMostFunctions = 100;
+
+  int largest_power(const AffineForm& form) const {
+    int largest = 0;
+    for (const auto& [key, matrix] : form.terms)
+      for (const forall::Factor& factor : monomials_[key.first])
+        largest = std::max(largest, factor.atom.power);
+    return largest;
+  }
+
   /// constant + slope * (one interval variable).
   struct Linear {
     numbers::Matrix constant;

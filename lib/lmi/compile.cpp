@@ -1,8 +1,12 @@
 #include "lmi/compile.h"
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <set>
 #include <utility>
 
+#include "base/number.h"
 #include "forall/hull.h"
 #include "lmi/vertex_gains.h"
 
@@ -103,12 +107,30 @@ void set_objective(const Inequalities& of, Lmi& lmi) {
   forall::MonomialTable none;
   const AffineForm form =
       evaluate_affine(of.bodies.link(objective->program), of.unknowns, none, of.instance.values);
+  for (const auto& [key, matrix] : form.terms)
+    if (!std::isfinite(matrix.coeff(0, 0)))
+      throw InputError(objective->place,
+                       "the objective has a coefficient that is not finite: its data are too large "
+                       "for double");
   lmi.has_objective = true;
   lmi.objective.assign(static_cast<std::size_t>(lmi.unknowns), 0.0);
   for (const auto& [key, matrix] : form.terms) {
     const double value = matrix.coeff(0, 0);
     (key.second == 0 ? lmi.objective_constant
                      : lmi.objective[static_cast<std::size_t>(key.second) - 1]) = value;
+  }
+}
+
+/// InputError for sizes that leave double no room for powers of two and sums. `places`: of the blocks.
+void check_sizes(const std::vector<Block>& blocks, const std::vector<Place>& places) {
+  constexpr double kLargest = 1e300;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const Block& block = blocks[k];
+    if (std::max(block.constant_size, block.coefficient_size) > kLargest)
+      throw InputError(places[k], "the inequality '" + block.name + "' has a constant part of " +
+                                      brief(block.constant_size) + " and coefficients of " +
+                                      brief(block.coefficient_size) +
+                                      ", too large for double; choose other units");
   }
 }
 
@@ -123,6 +145,7 @@ double Lmi::objective_at(const std::vector<double>& x) const {
 Lmi compile(const Inequalities& inequalities, forall::Plan& plan) {
   Lmi lmi;
   lmi.unknowns = inequalities.unknowns.size();
+  std::vector<Place> places;  ///< of the blocks
   for (std::size_t k = 0; k < inequalities.statements.size(); ++k) {
     const Statement& statement = inequalities.statements[k];
     Imposed& imposed = plan.inequalities[k];
@@ -134,7 +157,9 @@ Lmi compile(const Inequalities& inequalities, forall::Plan& plan) {
       block.inequality = k;
       lmi.blocks.push_back(std::move(block));
     }
+    places.resize(lmi.blocks.size(), statement.stated->that_place);
   }
+  check_sizes(lmi.blocks, places);
   set_objective(inequalities, lmi);
   return lmi;
 }

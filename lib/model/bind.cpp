@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <utility>
 
-#include "base/nearest.h"
 #include "expr/work.h"
 #include "model/binding.h"
 #include "model/gains.h"
+#include "model/names.h"
 
 namespace gainsmith::model {
 
@@ -112,14 +113,9 @@ std::vector<std::string> scalar_names(const Method& method) {
 }
 
 void check_scalar_name(const Method& method, const std::string& name, const Place& place) {
-  const std::vector<std::string> known = scalar_names(method);
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  for (const Declaration& datum : method.data)
-    if (datum.name == name)
-      throw InputError(place, "'" + name + "' is a matrix (" + datum.shape.text +
-                                  "); expected a scalar datum or parameter");
-  throw InputError(place, "the method " + method.name + " has no scalar datum or parameter '" +
-                              name + "'" + suggestion(name, known));
+  std::map<std::string, std::string> shapes;
+  for (const Declaration& datum : method.data) shapes[datum.name] = datum.shape.text;
+  check_scalar_name(method.name, scalar_names(method), shapes, name, place);
 }
 
 }  // namespace gainsmith::model

@@ -17,4 +17,8 @@ namespace gainsmith::model {
 Instance bind(std::shared_ptr<const Problem> problem, const Overrides& overrides = {});
 Instance bind(const Problem& problem, const Overrides& overrides = {});
 
+/// InputError, with its place, for an unknown that no inequality reads: any value would do. Binding
+/// itself takes it, so that designs may be changed.
+void refuse_free_unknowns(const Design& design);
+
 }  // namespace gainsmith::model

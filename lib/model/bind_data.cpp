@@ -251,9 +251,11 @@ void Binding::add_states() {
 
 expr::Shape Binding::known_shape(const Declaration& declaration, const char* what) const {
   if (const auto shape = resolve(declaration.shape, design_->dimensions)) return *shape;
-  throw InputError(declaration.place, "the size of the " + std::string(what) + " " +
-                                          declaration.name + " (" + declaration.shape.text +
-                                          ") does not follow from the data");
+  throw InputError(declaration.place,
+                   "the size of the " + std::string(what) + " " + declaration.name + " (" +
+                       declaration.shape.text +
+                       ") does not follow from the data; a shape is n x p, n, scalar, symmetric n "
+                       "or diagonal n, with sizes that the data have");
 }
 
 }  // namespace gainsmith::model

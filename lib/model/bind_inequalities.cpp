@@ -1,7 +1,26 @@
 // The inequalities and the objective.
+#include <algorithm>
+
 #include "model/binding.h"
 
 namespace gainsmith::model {
+
+namespace {
+
+/// Whether a program reads the unknown: the matrix, a coefficient of the function or the function.
+bool uses(const expr::Program& program, const Design::Unknown& unknown) {
+  const auto is_named = [&](const expr::Input& input) {
+    if (input.name == unknown.name) return true;
+    if (unknown.variable.empty()) return false;
+    for (int k = 0; k <= unknown.degree; ++k)
+      if (input.name == coefficient_name(unknown.name, static_cast<std::size_t>(k))) return true;
+    return false;
+  };
+  return std::any_of(program.inputs.begin(), program.inputs.end(), is_named) ||
+         std::any_of(program.functions.begin(), program.functions.end(), is_named);
+}
+
+}  // namespace
 
 Design::Variable Binding::variable(const Forall& forall) const {
   Design::Variable bound{forall.variable, forall.over, {}, {}, forall.place};
@@ -42,6 +61,27 @@ void Binding::bind_inequalities() {
     design_->inequalities.push_back(std::move(bound));
   }
   if (method().minimize) design_->objective = scalar(*method().minimize, names_->design);
+}
+
+void refuse_free_unknowns(const Design& design) {
+  const auto is_bound = [&](const Design::Unknown& unknown) {
+    for (const Design::Inequality& inequality : design.inequalities)
+      for (const Design::Comparison& comparison : inequality.comparisons)
+        if (uses(comparison.difference, unknown)) return true;
+    return unknown.shape.size() == 0;
+  };
+  for (const Design::Unknown& unknown : design.unknowns) {
+    if (is_bound(unknown)) continue;
+    const auto user =
+        std::find_if(design.gains.begin(), design.gains.end(),
+                     [&](const Design::Gain& gain) { return uses(gain.formula.program, unknown); });
+    throw InputError(
+        unknown.place,
+        "the unknown " + unknown.name +
+            " stands in no inequality under 'require', so nothing determines it" +
+            (user == design.gains.end() ? "" : "; the gain " + user->name + " needs it") +
+            ": require something of it, or remove it");
+  }
 }
 
 }  // namespace gainsmith::model

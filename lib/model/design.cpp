@@ -1,8 +1,9 @@
 #include "model/design.h"
 
 #include <algorithm>
+#include <map>
 
-#include "base/nearest.h"
+#include "model/names.h"
 
 namespace gainsmith::model {
 
@@ -27,14 +28,9 @@ std::vector<std::string> scalar_names(const Design& design) {
 }
 
 void check_scalar_name(const Design& design, const std::string& name, const Place& place) {
-  const std::vector<std::string> known = scalar_names(design);
-  if (std::find(known.begin(), known.end(), name) != known.end()) return;
-  for (const Design::Datum& datum : design.data)
-    if (datum.name == name)
-      throw InputError(place, "'" + name + "' is a matrix (" + datum.declared +
-                                  "); expected a scalar datum or parameter");
-  throw InputError(place, "the method " + design.method + " has no scalar datum or parameter '" +
-                              name + "'" + suggestion(name, known));
+  std::map<std::string, std::string> shapes;
+  for (const Design::Datum& datum : design.data) shapes[datum.name] = datum.declared;
+  check_scalar_name(design.method, scalar_names(design), shapes, name, place);
 }
 
 }  // namespace gainsmith::model

@@ -4,6 +4,7 @@
 #include <cctype>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/nearest.h"
@@ -20,13 +21,24 @@ bool is_name(const std::string& text) {
          std::all_of(text.begin(), text.end(), is_part);
 }
 
+std::string with_article(const std::string& noun) {
+  const bool vowel = std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
+  return (vowel ? "an " : "a ") + noun;
+}
+
 class NameCheck {
  public:
   /// A dimension may stand in several shapes.
   void add_dimensions(const ShapeText& shape) {
     for (const auto& size : {shape.rows, shape.cols})
       if (size)
-        for (const std::string& name : names_in(*size)) known_.emplace(name, "dimension");
+        for (const std::string& name : names_in(*size)) {
+          if (expr::is_reserved(name))
+            throw InputError(
+                shape.place,
+                "'" + name + "' is a word of the language and cannot name a " + "dimension");
+          known_.emplace(name, "dimension");
+        }
   }
 
   /// The variable of a `forall` may be the timer's name or one of another `forall`, nothing else.
@@ -36,19 +48,20 @@ class NameCheck {
       throw InputError(forall.place, "'" + forall.variable + "' is a word of the language");
     if (found != known_.end() && found->second != "timer")
       throw InputError(forall.place, "'" + forall.variable +
-                                         "' is a variable here, but it already " + "names a " +
-                                         found->second);
+                                         "' is a variable here, but it already names " +
+                                         with_article(found->second));
   }
 
   void add(const std::string& name, const std::string& what, const Place& place) {
     if (!is_name(name))
       throw InputError(place, "'" + name + "' is no name: expected letters, digits and _");
     if (expr::is_reserved(name))
-      throw InputError(place, "'" + name + "' is a word of the language and cannot name a " + what);
+      throw InputError(
+          place, "'" + name + "' is a word of the language and cannot name " + with_article(what));
     const auto [found, fresh] = known_.emplace(name, what);
     if (!fresh)
-      throw InputError(place, "'" + name + "' names a " + what + " here, but it already names a " +
-                                  found->second);
+      throw InputError(place, "'" + name + "' names " + with_article(what) +
+                                  " here, but it already names " + with_article(found->second));
     places_.emplace(name, place);
   }
 
@@ -92,6 +105,17 @@ void check_maps(const Component& component, const std::vector<Named>& map,
 }
 
 }  // namespace
+
+void check_scalar_name(const std::string& method, const std::vector<std::string>& scalars,
+                       const std::map<std::string, std::string>& shapes, const std::string& name,
+                       const Place& place) {
+  if (std::find(scalars.begin(), scalars.end(), name) != scalars.end()) return;
+  if (const auto matrix = shapes.find(name); matrix != shapes.end())
+    throw InputError(place, "'" + name + "' is a matrix (" + matrix->second +
+                                "); expected a scalar datum or parameter");
+  throw InputError(place, "the method " + method + " has no scalar datum or parameter '" + name +
+                              "'" + suggestion(name, scalars));
+}
 
 void check_names(const Method& method) {
   NameCheck names;

@@ -1,6 +1,10 @@
 // One name, one meaning: the names of a method do not clash.
 #pragma once
 
+#include <map>
+#include <string>
+#include <vector>
+
 #include "model/method.h"
 
 namespace gainsmith::model {
@@ -8,5 +12,11 @@ namespace gainsmith::model {
 /// InputError when two things of the method share a name, when a name is reserved (a function, I,
 /// pi, a dimension), is none, or when flow or jump maps name no state.
 void check_names(const Method& method);
+
+/// InputError at `place` when `name` is none of the method's scalars, with the nearest that is.
+/// `shapes`: of all data, as they are declared.
+void check_scalar_name(const std::string& method, const std::vector<std::string>& scalars,
+                       const std::map<std::string, std::string>& shapes, const std::string& name,
+                       const Place& place);
 
 }  // namespace gainsmith::model

@@ -1,7 +1,9 @@
 #include "model/shape_text.h"
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <string_view>
 #include <vector>
 
 #include "base/nearest.h"
@@ -29,6 +31,27 @@ std::vector<Word> words_of(const std::string& text) {
     at = end;
   }
   return words;
+}
+
+constexpr const char* kShapes = "; a shape is n x p, n, scalar, symmetric n or diagonal n";
+
+/// "nxn", "2x1", "n1xm2": letters and numbers of the usual sizes, with x between.
+bool is_glued_product(const std::string& word) {
+  const std::size_t cross = word.find_first_of("xX", 1);
+  if (cross == std::string::npos || cross + 1 == word.size()) return false;
+  const auto is_size = [](std::string_view text) {
+    const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+    const bool letter = std::isalpha(static_cast<unsigned char>(text.front())) != 0;
+    return (letter || is_digit(text.front())) &&
+           std::all_of(text.begin() + 1, text.end(), is_digit);
+  };
+  const std::string_view all = word;
+  return is_size(all.substr(0, cross)) && is_size(all.substr(cross + 1));
+}
+
+std::string spaced_product(const std::string& word) {
+  const std::size_t cross = word.find_first_of("xX", 1);
+  return word.substr(0, cross) + " x " + word.substr(cross + 1);
 }
 
 /// A size that depends on dimension names alone; none while one of them is unknown.
@@ -61,7 +84,11 @@ ShapeText parse_shape(const expr::Text& text) {
   const auto words = words_of(text.str());
   const std::size_t length = text.str().size();
   const auto size = [&](std::size_t begin, std::size_t end) {
-    return expr::parse(text.part(begin, end));
+    try {
+      return expr::parse(text.part(begin, end));
+    } catch (const InputError& error) {
+      throw InputError(error.place(), error.message() + kShapes);
+    }
   };
   if (words.size() == 1 && words[0].text == "scalar") return shape;
   if (words.size() >= 2 && (words[0].text == "symmetric" || words[0].text == "diagonal")) {
@@ -69,6 +96,9 @@ ShapeText parse_shape(const expr::Text& text) {
     shape.rows = size(words[1].offset, length);
     return shape;
   }
+  if (words.size() == 1 && is_glued_product(words[0].text))
+    throw InputError(shape.place, "'" + shape.text + "' is one word; a matrix is written " +
+                                      spaced_product(words[0].text));
   static const std::vector<std::string> kStructures = {"scalar", "symmetric", "diagonal"};
   if (!words.empty() && words.size() <= 2)
     if (const auto near = nearest(words[0].text, kStructures))

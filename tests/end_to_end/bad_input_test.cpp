@@ -72,8 +72,31 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"law_outside", "  horizon: 100", "  horizon: 100\n  sampling: [{constant: 5}]",
                "outside [0.5, 0.7]", 16, 25},
         Broken{"reversed_box", "box: \\[-10, 10\\]", "box: [10, -10]", "low end above", 17, 20},
+        Broken{"decimal_comma", "T1: 0.5", "T1: 0,5", "a decimal is written with a point: 0.5", 8,
+               8},
+        Broken{"unit", "T1: 0.5", "T1: 500ms", "for 500 ms write 500e-3", 8, 10},
+        Broken{"no_comma", "C: \\[\\[0.5, -1\\]\\]", "C: \"[0.5 1]\"", "a comma is missing", 7, 12},
+        Broken{"null", "T1: 0.5", "T1: null", "YAML reads null and ~ as nothing", 8, 7},
+        Broken{"tab", "  T1: 0.5", "\tT1: 0.5", "no tab in the indentation", 8, 1},
+        Broken{"alias", "QJ: 0.01\\*I", "QJ: *I", "begins with '*' must be quoted", 11, 7},
         Broken{"no_state", "zh: 0", "zz: 0", "is no state", 18, 5}),
     [](const ::testing::TestParamInfo<Broken>& broken) { return std::string(broken.param.name); });
+
+TEST(BadInputTest, AnUnknownThatNothingDeterminesIsRefused) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "free.yaml",
+      "problem: free\nmethod:\n  method: free\n  unknowns:\n    x: scalar\n    y: scalar\n"
+      "  require: {above: x > 1}\n  gains: {L: y}\n");
+  for (const char* command : {"check", "synth", "run"}) {
+    const Outcome outcome = gainsmith({command, file});
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_NE(
+        (outcome.out + outcome.err).find("free.yaml:6:5: the unknown y stands in no inequality"),
+        std::string::npos)
+        << outcome.out << outcome.err;
+  }
+}
 
 TEST(BadInputTest, MissingEmptyAndUnreadableFiles) {
   const Folder folder;
@@ -102,6 +125,56 @@ TEST(BadInputTest, GainFilesThatAreTruncatedOrEdited) {
   const Outcome changed = gainsmith({"verify", edited});
   EXPECT_EQ(changed.exit, 2);
   EXPECT_NE(changed.err.find("sha256"), std::string::npos) << changed.err;
+}
+
+/// Edits of the document that a reader could take for something that it does not say.
+TEST(BadInputTest, GainFilesThatSayWhatNoProgramWrote) {
+  const Folder folder;
+  const std::string path = folder.path("gains.json");
+  ASSERT_EQ(gainsmith({"synth", problem(kGood), "-o", path}).exit, 0);
+  const std::string text = text_of(path);
+  const auto refusal = [&](const std::string& edited) {
+    EXPECT_NE(edited, text);
+    const Outcome outcome = gainsmith({"verify", folder.file("edited.json", edited), "--json"});
+    EXPECT_EQ(outcome.exit, 2) << outcome.out;
+    return outcome.err;
+  };
+  const auto with = [&](const std::string& key) {
+    return refusal("{" + key + "," + text.substr(1));
+  };
+  EXPECT_NE(with("\"verdict\": \"no\"").find("edited.json:4:3: the key 'verdict' stands twice"),
+            std::string::npos);
+  EXPECT_NE(with("\"comment\": 1").find("edited.json:1:2: unknown key 'comment'"),
+            std::string::npos);
+  EXPECT_NE(with("\"searched\": {\"T2\": 0.1}").find("searched.T2: no search set it"),
+            std::string::npos);
+  for (const char* key : {"gains", "unknowns"}) {
+    auto document = nlohmann::ordered_json::parse(text);
+    document[key]["Q"] = 1;
+    EXPECT_NE(refusal(document.dump()).find("unknown name 'Q'"), std::string::npos);
+  }
+  auto document = nlohmann::ordered_json::parse(text);
+  document["gainsmith"] = "99";
+  EXPECT_NE(refusal(document.dump()).find("expected the version"), std::string::npos);
+}
+
+TEST(BadInputTest, ASearchedValueThatIsNotWhatTheSearchFound) {
+  const Folder folder;
+  const std::string path = folder.path("gains.json");
+  ASSERT_EQ(gainsmith({"bisect", problem(kGood), "--largest", "T2", "--in", "0.5", "0.8",
+                       "--tolerance", "0.05", "-o", path})
+                .exit,
+            0);
+  auto document = nlohmann::ordered_json::parse(text_of(path));
+  ASSERT_EQ(gainsmith({"verify", path, "--runs", "2"}).exit, 0);
+  document["searched"]["T2"] = document["searched"]["T2"].get<double>() - 0.1;
+  const Outcome outcome = gainsmith({"verify", folder.file("edited.json", document.dump())});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.err.find("is not what the search found"), std::string::npos) << outcome.err;
+  document["searched"] = {{"T1", 0.4}};
+  const Outcome other = gainsmith({"verify", folder.file("edited.json", document.dump())});
+  EXPECT_EQ(other.exit, 2);
+  EXPECT_NE(other.err.find("did not set it"), std::string::npos) << other.err;
 }
 
 /// Found only when the gains are simulated, and shown in the method all the same.

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdint>
+
 #include "end_to_end/program.h"
 
 namespace gainsmith::tests {
@@ -21,7 +24,9 @@ TEST(CommandLineTest, WrongCommandLinesExitWithTwo) {
        std::vector<std::vector<std::string>>{{},
                                              {"synt"},
                                              {"synth"},
+                                             {"--bogus"},
                                              {"synth", good, "--bogus"},
+                                             {"synth", good, "-o", "x", "--sdpa", "x"},
                                              {"verify", "x", "--runs", "0"},
                                              {"verify", "x", "--runs", "many"},
                                              {"methods", "sampled-data-hibrid"}}) {
@@ -29,6 +34,42 @@ TEST(CommandLineTest, WrongCommandLinesExitWithTwo) {
     EXPECT_EQ(outcome.exit, 2) << outcome.err;
     EXPECT_NE(outcome.err, "");
   }
+}
+
+TEST(CommandLineTest, WhatIsWrongIsSaidInOneLineWithTheCure) {
+  const std::string good = problem("ferrante-seuret-2021/t2-0.70.yaml");
+  struct Case {
+    std::vector<std::string> arguments;
+    const char* message;
+  };
+  for (const Case& wrong : std::vector<Case>{
+           {{"synth", good, "--thread", "3"},
+            "unknown option '--thread'; did you mean '--threads'?"},
+           {{"synth", good, "--thread=3"}, "unknown option '--thread'; did you mean '--threads'?"},
+           {{"synth", good, "more"}, "unexpected argument 'more'"},
+           {{"synth"}, "problem is required"},
+           {{"verify", "x", "--seed", "18446744073709551616"}, "2^64 - 1"},
+           {{"verify", "x", "--seed", "-1"}, "whole number"},
+           {{"simulate", "x", "--run", "18446744073709551616"}, "2^64 - 1"}}) {
+    const Outcome outcome = gainsmith(wrong.arguments);
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_NE(outcome.err.find(wrong.message), std::string::npos) << outcome.err;
+    EXPECT_NE(outcome.err.find("see 'gainsmith " + wrong.arguments[0] + " --help'"),
+              std::string::npos)
+        << outcome.err;
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+  }
+}
+
+TEST(CommandLineTest, TheLargestSeedIsTaken) {
+  const Folder folder;
+  const std::string gains = folder.path("gains.json");
+  ASSERT_EQ(gainsmith({"synth", problem("ferrante-seuret-2021/t2-0.70.yaml"), "-o", gains}).exit,
+            0);
+  const Outcome outcome =
+      gainsmith({"verify", gains, "--runs", "2", "--seed", "18446744073709551615", "--json"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.json()["seed"].get<std::uint64_t>(), 18446744073709551615U);
 }
 
 TEST(CommandLineTest, MethodsAreListedAndPrintedAsText) {

@@ -39,6 +39,44 @@ TEST_F(Messages, UnknownNamesComeWithTheNearest) {
   expect("exp", 1, {"'exp' is a function: write exp(x)"});
 }
 
+TEST_F(Messages, WhatOtherLanguagesWriteComesWithWhatToWriteHere) {
+  expect("A => 0", 3, {"'=>'", "did you mean >=?"});
+  expect("A =< 0", 3, {"'=<'", "did you mean <=?"});
+  expect("A ./ 2", 3, {"'./'", "divides"});
+  expect("A\\B", 2, {"inv(A)*B"});
+  expect("A |", 3, {"norm(M)"});
+  expect("A\"", 2, {"quotation mark that begins"});
+  expect("A\xC2\xA0+ 1", 2, {"non-breaking space"});
+  expect("A % remark", 3, {"remark", "#"});
+  expect(
+      "2\xC3\x97"
+      "3",
+      2, {"write *"});
+  expect("A\xC2\xB2", 2, {"write ^2"});
+}
+
+TEST_F(Messages, ACommaThatIsMissingIsNamed) {
+  expect("[1 2]", 4, {"',' ';' or ']'", "a comma is missing"});
+  expect("[A B]", 4, {"a comma is missing"});
+  expect("[(1) [2]]", 6, {"a comma is missing"});
+  expect("1 2", 3, {"a comma is missing"});
+  expect("2 A", 3, {"* in a product"});
+}
+
+TEST_F(Messages, ADecimalHasAPoint) {
+  expect("0,005", 2, {"decimal", "0.005"});
+  expect("1 + 0,5", 6, {"decimal", "0.5"});
+  EXPECT_EQ(of("1, 5").message().find("decimal"), std::string::npos);
+}
+
+TEST_F(Messages, NumbersHaveNoUnits) {
+  expect("5ms", 2, {"no units", "for 5 ms write 5e-3", "5*ms"});
+  expect("2.5kHz", 4, {"for 2.5 kHz write 2.5e3"});
+  expect("1e2us", 4, {"no units", "1e2*us"});
+  expect("2A", 2, {"2*A"});
+  expect("5\xC2\xB5s", 2, {"5e-6"});
+}
+
 TEST_F(Messages, BothShapesAreShown) {
   expect("1 + A*B'", 5, {"multiply A (2 x 2) by B' (3 x 2)", "2 columns meet 3 rows"});
   expect("delta*(A + B)", 8, {"cannot add A (2 x 2) and B (2 x 3)"});

@@ -30,6 +30,13 @@ TEST(Csv, NumbersReadBackToTheSameDoubles) {
   }
 }
 
+TEST(Csv, CellsThatNeedItAreQuoted) {
+  const std::vector<std::string> cells = {"a", "Y(1, 2)", "say \"x\"", "two\nlines", ""};
+  std::string text;
+  add_csv_line(cells, text);
+  EXPECT_EQ(text, "a,\"Y(1, 2)\",\"say \"\"x\"\"\",\"two\nlines\",\n");
+}
+
 TEST(Csv, TableWithoutRowsIsItsNames) {
   const std::vector<std::string> names = {"t", "j"};
   EXPECT_EQ(to_csv(names, numbers::Matrix(0, 2)), "t,j\n");

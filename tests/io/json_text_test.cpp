@@ -44,6 +44,25 @@ TEST(JsonText, AnyFiniteNumberIsReadBackToTheSameBits) {
     check(value);
 }
 
+TEST(JsonText, AKeyThatStandsTwiceIsRefusedAtItsPlace) {
+  const auto refusal = [](const std::string& text) {
+    return input_error([&] { parse_json(text, "f"); });
+  };
+  const InputError outer = refusal("{\"a\": 1,\n \"b\": 2,\n  \"a\": 3}");
+  EXPECT_EQ(outer.place(), (Place{"f", 3, 3}));
+  EXPECT_EQ(outer.message(), "the key 'a' stands twice; first in line 1");
+  EXPECT_EQ(refusal(R"([{"x": {"\"q": 1, "\"q": 2}}])").place(), (Place{"f", 1, 19}));
+  // The same key in two objects is none.
+  EXPECT_EQ(parse_json(R"({"a": {"k": 1}, "b": {"k": 2}, "k": [{"k": 3}, {"k": 4}]})", "f").size(),
+            3U);
+}
+
+TEST(JsonText, ManyKeysTakeNoLonger) {
+  std::string text = "{\"k\": 0";
+  for (int i = 0; i < 200'000; ++i) text += ", \"k" + std::to_string(i) + "\": 1";
+  EXPECT_EQ(parse_json(text + "}", "f").size(), 200'001U);
+}
+
 TEST(JsonText, DecimalsAreWrittenAsTheyWereRead) {
   for (const std::string decimal :
        {"0.1", "1e-1", "1E5", "1.50", "-0.0", "-2.5e+0300", "123456789012345678901234567890", "0",

@@ -35,6 +35,28 @@ TEST(Scalar, PlainTextKnowsItsPlaces) {
   EXPECT_EQ(places("k: a\r\n  b\r\n"), "a1:4 b2:3");
 }
 
+/// Places count characters, in blocks of bytes that may end within one.
+TEST(Scalar, KnowsItsPlaceOnALongLineOfCharactersOfManyBytes) {
+  std::string line = "k: \"";
+  for (int i = 0; i < 1000; ++i)
+    line += i % 3 == 0 ? "\xC3\xA4" : i % 3 == 1 ? "\xE2\x89\xA4" : "a";
+  const YamlFile file("first: 1\n" + line + "\"\n", "f");
+  const expr::Text text = file.scalar(file.root()["k"], "value");
+  EXPECT_EQ(text.place(text.str().size() - 1), (Place{"f", 2, 4 + 1000}));
+  const YamlFile list("k: [" + line.substr(3) + "\", 7]\n", "f");
+  EXPECT_EQ(list.place(list.root()["k"][1]), (Place{"f", 1, 4 + 1 + 1000 + 1 + 3}));
+}
+
+TEST(Scalar, NothingIsToldFromAWordForIt) {
+  const auto message = [](const std::string& text) {
+    const YamlFile file(text, "f");
+    return input_error([&] { file.expression(file.root()["L"], "L"); }).message();
+  };
+  EXPECT_EQ(message("L:\nM: 1\n"), "L: the formula is missing");
+  EXPECT_EQ(message("L: null\n"), "L: the formula is missing; YAML reads null and ~ as nothing");
+  EXPECT_EQ(message("L: ~\n"), "L: the formula is missing; YAML reads null and ~ as nothing");
+}
+
 TEST(Scalar, QuotedTextKnowsItsPlaces) {
   EXPECT_EQ(places("k: \"a b\""), "a1:5 b1:7");
   EXPECT_EQ(places("k: \"a,\n     b\""), "a1:5 ,1:6 b2:6");
@@ -227,10 +249,10 @@ TEST(Values, MistakesAreShownAtTheElement) {
   expect("A: [1, 2) + (3]", 1, 9, "found ')'");
   expect("A: [\"1; 2\", 3]", 1, 5, "must be quoted");
   expect("A: []", 1, 4, "empty");
-  expect("A: [[]]", 1, 5, "0 elements");
+  expect("A: [[]]", 1, 5, "this row is empty");
   expect("A: [1, ~]", 1, 8, "found nothing");
   expect("A: {a: 1}", 1, 4, "found a mapping");
-  expect("A:\n", 1, 3, "found nothing");
+  expect("A:\n", 1, 3, "the formula is missing");
   expect("A: '1 + 2\n", 1, 4, "not closed");
   expect("A: \"\"", 1, 5, "found nothing");
 }

@@ -81,6 +81,29 @@ class AffineTest : public ::testing::Test {
   std::mt19937 generator_{7};
 };
 
+/// [tau, c; 0, tau]^k = [tau^k, k c tau^(k-1); 0, tau^k].
+TEST_F(AffineTest, LargePowersOfFewFunctionsAreThose) {
+  const AffineForm large = form("[tau, 2; 0, tau]^1000*C(1, 1)");
+  ASSERT_EQ(large.terms.size(), 2U);
+  numbers::Matrix expected(2, 2);
+  const double tau = 0.999;
+  expected << std::pow(tau, 1000), 2000 * std::pow(tau, 999), 0, std::pow(tau, 1000);
+  EXPECT_LT((at(large, {}, tau) - expected).norm(), 1e-10 * expected.norm());
+  EXPECT_EQ(form("(tau*eye(2))^1000000").terms.size(), 1U);
+}
+
+TEST_F(AffineTest, PowersThatExplodeAreRefused) {
+  for (const char* text : {"(A + tau*eye(3))^100000", "(1 + tau)^101", "(cos(tau) + 2)^1000"}) {
+    const InputError error = tests::input_error([&] { form(text); });
+    EXPECT_NE(error.message().find("expands to more than 100 functions"), std::string::npos)
+        << text << ": " << error.what();
+    EXPECT_EQ(error.place(), (Place{"test", 1, 1}));
+  }
+  EXPECT_NE(tests::input_error([&] { form("tau^2000000"); }).message().find("above 1000000"),
+            std::string::npos);
+  EXPECT_EQ(form("(1 + tau)^99").terms.size(), 100U);
+}
+
 TEST_F(AffineTest, AgreesWithTheTextOverDouble) {
   for (const char* text :
        {"P", "He(P*A - Y*C)", "[P, Y; *, g*I]", "-P/2 + 3*A'*P*A", "trace(P) + 2*g",

@@ -33,6 +33,26 @@ TEST(CompileTest, AnIntervalBecomesTheVerticesOfItsAtoms) {
   EXPECT_LT((lmi.blocks[1].value(x) - expected).norm(), 1e-14);
 }
 
+TEST(CompileTest, WhatDoubleCannotHoldIsRefusedAtItsPlace) {
+  const auto refusal = [](const std::string& require) {
+    const tests::YamlProblem yaml("problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar}\n" +
+                                  require);
+    return tests::input_error([&] { compile(Inequalities(yaml.instance)); });
+  };
+  const InputError cost = refusal("  require: {a: x > 1}\n  minimize: 1e200*(1e200*x)\n");
+  EXPECT_EQ(cost.place().line, 6) << cost.what();
+  EXPECT_NE(cost.message().find("objective"), std::string::npos) << cost.what();
+  const InputError sizes = refusal("  require:\n    a: x > 1e295\n    b: 1e10*x > 1e-10\n");
+  EXPECT_EQ(sizes.place().line, 6) << sizes.what();
+  EXPECT_NE(sizes.message().find("'a' and 'b'"), std::string::npos) << sizes.what();
+  for (const char* large :
+       {"x > 1e308", "1e-308*x > 1e308", "1e301*x > 1", "[x, 1e308; 1e308, x] > 0"}) {
+    const InputError error = refusal("  require:\n    a: \"" + std::string(large) + "\"\n");
+    EXPECT_EQ(error.place().line, 6) << error.what();
+    EXPECT_NE(error.message().find("too large for double"), std::string::npos) << error.what();
+  }
+}
+
 /// "(Y_0 + (t)*Y_1 + (t)^2*Y_2)", for degree 2.
 std::string polynomial(const std::string& name, const std::string& t, int degree) {
   std::string sum = "(" + name + "_0";

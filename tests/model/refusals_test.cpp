@@ -44,6 +44,27 @@ TEST(Refusal, MissingAndMisspeltParameters) {
   expect_refused({"campaign", "parameters: {rate: [1, 2]}\ncampaign", at(7, 20), "expected 1 x 1"});
 }
 
+TEST(Refusal, AnUnknownThatNothingDetermines) {
+  const auto refusal = [](const std::string& unknowns, const std::string& gains) {
+    std::string method =
+        changed(kSmallMethod, "unknowns: {P: symmetric n, X: n x m, g: scalar}", unknowns);
+    method = changed(method, "K: b'*P, A: A", gains);
+    const Small small(kSmallProblem, method);
+    return input_error([&] { refuse_free_unknowns(*small.instance.design); });
+  };
+  const InputError unused =
+      refusal("unknowns: {P: symmetric n, X: n x m, g: scalar}", "K: b'*P, A: A");
+  EXPECT_EQ(unused.place().line, 13) << unused.what();
+  EXPECT_NE(unused.message().find("unknown X stands in no inequality"), std::string::npos);
+  const InputError gain =
+      refusal("unknowns: {P: symmetric n, X: n x m, g: scalar}", "K: b'*P, A: A, F: X");
+  EXPECT_NE(gain.message().find("the gain F needs it"), std::string::npos) << gain.what();
+  const InputError function =
+      refusal("unknowns: {P: symmetric n, X: {shape: n x m, of: t, degree: 1}, g: scalar}",
+              "K: b'*P, A: A");
+  EXPECT_NE(function.message().find("unknown X"), std::string::npos) << function.what();
+}
+
 TEST(Refusal, OverridesOfWhatIsNoScalar) {
   const Small small;
   const auto message = [&](const Overrides& overrides) {

@@ -67,6 +67,17 @@ TEST(ShapeText, MistakesAreShownWhereTheyAre) {
   }
 }
 
+TEST(ShapeText, AMatrixInOneWordIsNoSize) {
+  for (const auto& [text, meant] : std::vector<std::pair<std::string, std::string>>{
+           {"nxn", "n x n"}, {"2x1", "2 x 1"}, {"n1Xm2", "n1 x m2"}, {"12xp", "12 x p"}}) {
+    const InputError error = input_error([&, word = text] { shape(word); });
+    EXPECT_EQ(error.place(), (Place{"f", 1, 1}));
+    EXPECT_NE(error.message().find("is written " + meant), std::string::npos) << error.what();
+  }
+  // Names of dimensions that hold an x.
+  for (const char* name : {"nx", "xn", "max", "n_x_n", "boxes"}) EXPECT_EQ(shape(name).text, name);
+}
+
 TEST(Learn, FindsDimensionsInAnActualShape) {
   Dimensions known;
   EXPECT_TRUE(learn(shape("n x p"), {2, 1}, known));

@@ -1,0 +1,109 @@
+#include "io/yaml_error.h"
+
+#include <algorithm>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace gainsmith::io {
+
+namespace {
+
+constexpr std::string_view kBlank = " \t\r";
+
+std::vector<std::string_view> lines_of(std::string_view text, std::size_t last) {
+  std::vector<std::string_view> lines;
+  while (lines.size() <= last) {
+    const std::size_t end = text.find('\n');
+    lines.push_back(text.substr(0, end));
+    if (end == std::string_view::npos) break;
+    text.remove_prefix(end + 1);
+  }
+  return lines;
+}
+
+/// The column of a tab in front of a line.
+std::optional<std::size_t> find_tab(std::string_view line) {
+  const std::size_t begin = std::min(line.find_first_not_of(kBlank), line.size());
+  const std::size_t tab = line.substr(0, begin).find('\t');
+  return tab == std::string_view::npos ? std::nullopt : std::optional(tab);
+}
+
+/// The column of the last value on a line that begins with one of `marks`: behind "key: ", "- " or
+/// at the line's beginning.
+std::optional<std::size_t> find_value(std::string_view line, std::string_view marks) {
+  const std::size_t remark = line.find(" #");
+  if (remark != std::string_view::npos) line = line.substr(0, remark);
+  for (std::size_t at = line.size(); at-- > 0;) {
+    if (marks.find(line[at]) == std::string_view::npos) continue;
+    const std::size_t before =
+        at == 0 ? std::string_view::npos : line.find_last_not_of(kBlank, at - 1);
+    const bool first = before == std::string_view::npos;
+    if (first || (before + 1 < at && (line[before] == ':' || line[before] == '-')) ||
+        line[before] == '{' || line[before] == ',')
+      return at;
+  }
+  return std::nullopt;
+}
+
+/// Whether the text has "key: value" in a value: "a: b: c".
+std::optional<std::size_t> find_second_colon(std::string_view line) {
+  const std::size_t first = line.find(": ");
+  if (first == std::string_view::npos || line.find_first_of("{['\"") != std::string_view::npos)
+    return std::nullopt;
+  const std::size_t second = line.find(": ", first + 1);
+  return second == std::string_view::npos ? std::nullopt : std::optional(second);
+}
+
+/// Whether a line is a single word, as a key is that lacks its colon.
+bool is_bare(std::string_view line) {
+  const std::size_t begin = line.find_first_not_of(kBlank);
+  return begin != std::string_view::npos &&
+         line.substr(begin).find_first_not_of(
+             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
+             std::string_view::npos;
+}
+
+bool is_formula(std::string_view text) {
+  return text.find_first_of("<>;*+/^") != std::string_view::npos;
+}
+
+}  // namespace
+
+YamlError explained(const std::string& text, YamlError error) {
+  const auto lines = lines_of(text, error.line);
+  const std::string said = "YAML: " + error.message;
+  // The reader may come to its error only behind the lines that are its cause.
+  constexpr std::size_t kBack = 2;
+  const std::size_t last = lines.size() - 1;
+  const std::size_t least = last < kBack ? 0 : last - kBack;
+  for (std::size_t at = last + 1; at-- > least;) {
+    const std::string_view line = lines[at];
+    if (const auto tab = find_tab(line))
+      return {at, *tab, "YAML takes no tab in the indentation: use spaces"};
+    if (const auto alias = find_value(line, "*&"); alias && at == last)
+      return {at, *alias,
+              "a formula that begins with '" + std::string(1, line[*alias]) +
+                  "' must be quoted: YAML takes it for the name of a node"};
+    const auto list = find_value(line, "[{");
+    if (list && line[*list] == '[' && is_formula(line.substr(*list)))
+      return {
+          at, *list,
+          said + "; a formula that begins with '[' must be quoted, such as \"[P, Y; *, I] > 0\""};
+    if (list && line[*list] == '{' && line.find('[', *list) != std::string_view::npos)
+      return {at, *list,
+              said +
+                  "; in { } a text with a comma or a bracket must be quoted, such as {forall: "
+                  "\"tau in [0, T]\"}"};
+    if (const auto colon = find_second_colon(line); colon && at == last)
+      return {at, *colon, said + "; a text that holds ': ' must be quoted"};
+    if (at == last || line.find_first_not_of(kBlank) == std::string_view::npos) continue;
+    if (is_bare(line)) return {at, line.size(), said + "; a ':' is missing behind a key"};
+    break;
+  }
+  const bool map = error.message.find("map") != std::string::npos;
+  error.message = said + (map ? "; the keys of a mapping begin in one column" : "");
+  return error;
+}
+
+}  // namespace gainsmith::io

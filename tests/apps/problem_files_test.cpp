@@ -1,0 +1,68 @@
+#include "gainsmith/problem_files.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace gainsmith::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ProblemFiles : public testing::Test {
+ protected:
+  void SetUp() override {
+    fs::remove_all(root_);
+    fs::create_directories(root_ / "below");
+    for (const char* name : {"b.yaml", "a.yml", "below/c.yaml", "notes.txt"})
+      std::ofstream(root_ / name) << "x";
+  }
+  void TearDown() override { fs::remove_all(root_); }
+
+  std::string path(const std::string& name) const { return (root_ / name).string(); }
+
+  static std::vector<std::string> names(const std::vector<std::string>& paths) {
+    std::vector<std::string> result;
+    for (const ProblemFile& file : problem_files(paths)) result.push_back(file.name);
+    return result;
+  }
+
+  const fs::path root_ = fs::path(testing::TempDir()) / "gainsmith-problem-files-test";
+};
+
+using Names = std::vector<std::string>;
+
+TEST_F(ProblemFiles, OfAFolderAreSortedAndNamedByTheirPathBelowIt) {
+  EXPECT_EQ(names({root_.string()}), (Names{"a", "b", "below/c"}));
+  EXPECT_EQ(names({root_.string() + "/"}), (Names{"a", "b", "below/c"}));
+}
+
+TEST_F(ProblemFiles, StandOnceWhateverLeadsToThem) {
+  fs::create_symlink("b.yaml", root_ / "link.yaml");
+  EXPECT_EQ(names({path("b.yaml"), path("below/../b.yaml"), path("link.yaml"), root_.string()}),
+            (Names{"b", "a", "below/c"}));
+  EXPECT_EQ(names({"no.yaml", "./no.yaml", "-", "-"}), (Names{"no", "standard-input"}));
+}
+
+TEST_F(ProblemFiles, LinksThatLeadNowhereStopNothing) {
+  fs::create_symlink("loop-2", root_ / "loop-1");
+  fs::create_symlink("loop-1", root_ / "loop-2");
+  fs::create_symlink(".", root_ / "self");
+  EXPECT_EQ(names({root_.string()}), (Names{"a", "b", "below/c"}));
+  // One that looks like a problem is said to be broken, when it is read.
+  fs::create_symlink("nothing", root_ / "lost.yaml");
+  EXPECT_EQ(names({root_.string()}), (Names{"a", "b", "below/c", "lost"}));
+}
+
+TEST_F(ProblemFiles, AFolderWithoutThemIsRefused) {
+  fs::create_directories(root_ / "empty");
+  EXPECT_THROW(problem_files({path("empty")}), InputError);
+}
+
+}  // namespace
+}  // namespace gainsmith::app

@@ -1,0 +1,51 @@
+#include "io/yaml_error.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "io/yaml.h"
+#include "support/input_error.h"
+
+namespace gainsmith::io {
+namespace {
+
+using tests::input_error;
+
+void expect(const std::string& text, int line, int column, const std::string& cure) {
+  const InputError error = input_error([&] { YamlFile(text, "f"); });
+  EXPECT_EQ(error.place(), (Place{"f", line, column})) << error.what();
+  EXPECT_NE(error.message().find(cure), std::string::npos) << error.what();
+}
+
+TEST(YamlErrors, ATabInTheIndentation) {
+  expect("a:\n\tb: 1\n", 2, 1, "no tab");
+  expect("a:\n  b: 1\n  \tc: 2\n", 3, 3, "no tab");
+  expect("a:\n\t- 1\n", 2, 1, "no tab");
+}
+
+TEST(YamlErrors, AFormulaThatMustBeQuoted) {
+  expect("a:\n  b: *x\n", 2, 6, "begins with '*' must be quoted");
+  expect("a: *\n", 1, 4, "begins with '*' must be quoted");
+  expect("a: {b: 1, c: *x}\n", 1, 14, "begins with '*' must be quoted");
+  expect("a: &\nb: &\n", 1, 4, "begins with '&' must be quoted");
+  expect("a: [P, Y; *, I] > 0\n", 1, 4, "begins with '[' must be quoted");
+  expect("a: [P, Y] + 2\nb: 1\n", 1, 4, "begins with '[' must be quoted");
+  expect("a: b: c\n", 1, 5, "holds ': ' must be quoted");
+}
+
+TEST(YamlErrors, AMappingThatIsTornApart) {
+  expect("a:\n  b: 1\n   c: 2\n", 3, 5, "begin in one column");
+  expect("a:\n  b: 1\n c: 2\n", 3, 2, "begin in one column");
+  expect("data\n  A: 1\n", 1, 5, "':' is missing");
+  expect("a: {forall: t in [0, T], that: x}\n", 1, 4, "in { } a text with a comma");
+}
+
+TEST(YamlErrors, OthersKeepWhatTheReaderSays) {
+  const InputError error = input_error([] { YamlFile("a: [1, 2\n", "f"); });
+  EXPECT_EQ(error.message().find("quoted"), std::string::npos) << error.what();
+  EXPECT_EQ(error.message().substr(0, 5), "YAML:");
+}
+
+}  // namespace
+}  // namespace gainsmith::io
