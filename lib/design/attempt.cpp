@@ -25,8 +25,8 @@ bool is_positive(const Posed& posed, const std::vector<double>& x) {
 }
 
 lmi::Margins margins_at(const Posed& posed, const Attempt& attempt, const std::vector<double>& x) {
-  return lmi::compute_margins(posed.inequalities, posed.lmi, posed.plan,
-                              attempt.formulation.balance, posed.choices().margin, x);
+  return lmi::compute_margins(posed.inequalities, posed.lmi, attempt.formulation.balance,
+                              posed.choices().margin, x);
 }
 
 /// Sets the point when x is one.

@@ -47,12 +47,11 @@ void add_message(model::Gains& gains, const std::string& text) {
 }
 
 /// What the verdict rests on where an inequality holds for all values of a variable.
-void report_ways(const forall::Plan& plan, int rounds, bool searched, model::Gains& gains) {
+void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
   if (plan.uses_exchange()) {
     std::string text = "exchange: " + std::to_string(plan.points()) + " points in " +
                        std::to_string(rounds) + (rounds == 1 ? " round" : " rounds");
-    if (gains.verdict == model::Verdict::yes)
-      text += !searched ? ", bounded between them" : ", searched between them";
+    if (gains.verdict == model::Verdict::yes) text += ", checked between them";
     add_message(gains, text);
   }
   if (!gains.certificate || gains.certificate->is_about_problem()) return;
@@ -128,8 +127,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
       continue;
     }
     conclude(climb, gains);
-    const Attempt* point = climb.point();
-    report_ways(plan, round, point != nullptr && point->margins.searched, gains);
+    report_ways(plan, round, gains);
     break;
   }
   add_gains(inequalities, gains);

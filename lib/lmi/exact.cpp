@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/scalars.h"
-#include "model/gains.h"
+#include "lmi/printed_check.h"
 
 namespace gainsmith::lmi {
 
@@ -12,36 +12,6 @@ namespace {
 
 using numbers::Enclosed;
 using numbers::EnclosedValues;
-
-/// The decimal that is printed for a searched scalar.
-template <class S>
-Enclosed<S> enclosed_decimal(double value) {
-  const std::string text = model::printed(value);
-  Enclosed<S> result = numbers::exact_number<S>(*parse_as<S>(text));
-  if (!numbers::is_exact_decimal(text))
-    result.rad(0, 0) = numbers::magnitude(result.mid(0, 0)) * numbers::unit_roundoff<S>();
-  return result;
-}
-
-template <class S>
-EnclosedValues<S> values_of(const model::Instance& instance) {
-  EnclosedValues<S> values;
-  const model::Design& design = *instance.design;
-  for (const auto* list : {&design.data, &design.parameters})
-    for (const model::Design::Datum& datum : *list) {
-      const auto overridden = instance.overrides.find(datum.name);
-      if (overridden != instance.overrides.end()) {
-        values[datum.name] = enclosed_decimal<S>(overridden->second);
-        continue;
-      }
-      if (!datum.value) continue;
-      const Enclosed<S> value = numbers::enclose(datum.value->program, values);
-      const bool symmetric = datum.structure == model::Structure::symmetric ||
-                             datum.structure == model::Structure::diagonal;
-      values[datum.name] = symmetric ? numbers::symmetric_part(value) : value;
-    }
-  return values;
-}
 
 /// Element (i, j) times the exact power of two `factor(i, j)`.
 template <class S, class Factor>
@@ -58,7 +28,7 @@ void scale(Enclosed<S>& matrix, Factor factor) {
 
 template <class S>
 ExactBlocks<S>::ExactBlocks(const Inequalities& of, const Balance& balance)
-    : of_(of), balance_(balance), values_(values_of<S>(of.instance)) {}
+    : of_(of), balance_(balance), values_(enclosed_values<S>(of.instance)) {}
 
 template <class S>
 EnclosedValues<S> ExactBlocks<S>::values_at(const Block& block) const {

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "forall/between.h"
 #include "forall/worst.h"
 #include "lmi/correlation.h"
+#include "lmi/printed_check.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::lmi {
@@ -60,9 +60,9 @@ namespace {
 /// The margins of one instance, inequality by inequality.
 class Checker {
  public:
-  Checker(const Inequalities& of, const Lmi& lmi, const forall::Plan& plan, const Balance& balance,
+  Checker(const Inequalities& of, const Lmi& lmi, const Balance& balance,
           const std::vector<double>& x)
-      : of_(of), lmi_(lmi), plan_(plan), balance_(balance), x_(x), values_(of.instance.values) {
+      : of_(of), lmi_(lmi), balance_(balance), x_(x), values_(of.instance.values), printed_(of, x) {
     for (auto& [name, matrix] : of.unknowns.values(x)) values_[name] = matrix;
   }
 
@@ -70,20 +70,21 @@ class Checker {
     for (std::size_t k = 0; k < of_.statements.size(); ++k) {
       const Statement& statement = of_.statements[k];
       for (std::size_t c = 0; c < statement.differences.size(); ++c)
-        add(k, statement.differences[c], statement.stated->comparisons[c],
-            statement.stated->comparisons[c].strict ? wished : 0.0);
+        add(k, statement.differences[c], c, statement.stated->comparisons[c].strict ? wished : 0.0);
     }
     return std::move(result_);
   }
 
  private:
   /// The next inequality: its blocks are the next ones of the same name.
-  void add(std::size_t inequality, const expr::Program& difference,
-           const model::Design::Comparison& comparison, double wished) {
+  void add(std::size_t inequality, const expr::Program& difference, std::size_t comparison,
+           double wished) {
+    const model::Design::Comparison& stated =
+        of_.statements[inequality].stated->comparisons[comparison];
     const forall::Domain& domain = of_.statements[inequality].domain;
     model::Margin margin;
-    margin.name = comparison.name;
-    margin.strict = comparison.strict;
+    margin.name = stated.name;
+    margin.strict = stated.strict;
     margin.required = wished;
     Worst worst;
     double rounding = 0;
@@ -92,7 +93,7 @@ class Checker {
       const double reached = correlation_margin(value);
       if (worst.meet(reached, label))
         margin.smallest_eigenvalue = numbers::smallest_eigenvalue(value);
-      return reached > rounding;
+      return reached > -rounding;
     };
     for (; at_ < lmi_.blocks.size() && lmi_.blocks[at_].name == margin.name; ++at_) {
       const numbers::Matrix value = lmi_.blocks[at_].value(x_);
@@ -107,14 +108,10 @@ class Checker {
     };
     const forall::Minima minima = forall::local_minima(difference, domain, values_, rows);
     for (const forall::Minimum& minimum : minima.list) meet_point(minimum);
-    if (result_.violations.size() == violations &&
-        plan_.inequalities[inequality].way == model::Way::exchange)
-      for (const forall::Minimum& violation :
-           look_between(domain, difference, comparison, minima.resolved))
-        meet_point(violation);
     margin.reached = worst.value;
     margin.worst_point = worst.point;
-    margin.holds = worst.value > rounding;
+    margin.holds = result_.violations.size() == violations && worst.value > -rounding &&
+                   check(inequality, comparison, margin.name);
     result_.margins.push_back(std::move(margin));
   }
 
@@ -126,35 +123,16 @@ class Checker {
     return rows;
   }
 
-  /// The points that show that the inequality does not hold. What has no known derivatives must
-  /// at least have been resolved by the search.
-  std::vector<forall::Minimum> look_between(const forall::Domain& domain,
-                                            const expr::Program& difference,
-                                            const model::Design::Comparison& comparison,
-                                            bool resolved) {
-    using Status = forall::DomainBound::Status;
-    if (forall::intervals(domain).empty()) return {};
-    const auto expand = [&](const forall::Point& fixed, forall::MonomialTable& monomials) {
-      return expansion(difference, fixed, monomials);
-    };
-    forall::DomainBound bound = forall::bound_on_domain(expand, domain, 0);
-    if (bound.status == Status::unknown) {
-      result_.searched = true;
-      if (!resolved) leave_open(comparison.name, "it grows without end within the interval");
-    }
-    if (bound.status == Status::open) leave_open(comparison.name, "not settled for " + bound.where);
-    return std::move(bound.violations);
-  }
-
-  /// The difference as a combination of functions of its variables; none when it is no such.
-  std::optional<forall::Expansion> expansion(const expr::Program& difference,
-                                             const forall::Point& fixed,
-                                             forall::MonomialTable& monomials) const {
-    try {
-      return expansion_of(evaluate_at(difference, Unknowns{}, monomials, values_, fixed));
-    } catch (const InputError&) {
-      return std::nullopt;
-    }
+  /// Whether it holds at the printed decimals for all values of its variables.
+  bool check(std::size_t inequality, std::size_t comparison, const std::string& name) {
+    using Status = forall::DomainProof::Status;
+    const forall::DomainProof proof = printed_.check(inequality, comparison);
+    if (proof.status == Status::fails && !of_.statements[inequality].domain.empty())
+      result_.violations.push_back({inequality, *proof.point});
+    if (proof.status == Status::open)
+      leave_open(name, (proof.where.empty() ? "" : "not settled for " + proof.where + ": ") +
+                           proof.reason);
+    return proof.status == Status::holds;
   }
 
   void leave_open(const std::string& name, const std::string& what) {
@@ -163,19 +141,19 @@ class Checker {
 
   const Inequalities& of_;
   const Lmi& lmi_;
-  const forall::Plan& plan_;
   const Balance& balance_;
   const std::vector<double>& x_;
   numbers::Values values_;
+  PrintedCheck printed_;
   std::size_t at_ = 0;
   Margins result_;
 };
 
 }  // namespace
 
-Margins compute_margins(const Inequalities& of, const Lmi& lmi, const forall::Plan& plan,
-                        const Balance& balance, double wished, const std::vector<double>& x) {
-  return Checker(of, lmi, plan, balance, x).run(wished);
+Margins compute_margins(const Inequalities& of, const Lmi& lmi, const Balance& balance,
+                        double wished, const std::vector<double>& x) {
+  return Checker(of, lmi, balance, x).run(wished);
 }
 
 }  // namespace gainsmith::lmi

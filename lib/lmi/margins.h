@@ -23,9 +23,6 @@ struct Margins {
   /// What is not settled of inequalities that hold wherever they were looked at: "contraction:
   /// too many pieces near tau in [0.2, 0.25]". Empty when there is nothing.
   std::string open;
-  /// Whether an inequality imposed by exchange was only searched between its points, because its
-  /// functions have no known derivatives.
-  bool searched = false;
 };
 
 /// How far every inequality holds at x, as its unit-free margin (correlation.h), taken over
@@ -33,12 +30,11 @@ struct Margins {
 ///  - the local minima over the whole domain of `forall`, from the text itself evaluated over
 ///  double
 ///    (forall/worst.h, in the rows' units of `balance`),
-/// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where the
-/// plan imposed points, what holds at all of them is then bounded between them (forall/between.h).
-/// An inequality, strict or not, holds when its margin is above what rounding explains: the largest
-/// row sum of D^-1/2 E D^-1/2 with E = (terms + n) 2^-52 sum_i |x_i| |B_i|, B_0 included.
-Margins compute_margins(const Inequalities& inequalities, const Lmi& lmi, const forall::Plan& plan,
-                        const Balance& balance, double wished, const std::vector<double>& x);
+/// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where none of
+/// these is certainly negative, the inequality is checked at the printed decimals of x
+/// (printed_check.h): it holds when that shows it.
+Margins compute_margins(const Inequalities& inequalities, const Lmi& lmi, const Balance& balance,
+                        double wished, const std::vector<double>& x);
 
 /// Whether all of them hold, and nothing is open.
 bool all_hold(const Margins& margins);
