@@ -33,6 +33,9 @@ struct Rungs {
   static bool free_inside_is_due(const Climb& climb) {
     return is_bounded(climb) && nothing_holds(climb);
   }
+  static bool digits_are_due(const Climb& climb) {
+    return climb.posed_.lmi.stands_for_points() && nothing_holds(climb);
+  }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
     if (point == nullptr || !point->holds() || !has_minimum(climb) || climb.is_free(*point))
@@ -92,8 +95,8 @@ constexpr std::array<Row, 8> kLadder = {{
     {Rung::blended, Rungs::blended_is_due, Rungs::blended},
     {Rung::free_minimum, Rungs::free_minimum_is_due, Rungs::free_minimum},
     {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside},
-    {Rung::in_31_digits, Rungs::nothing_holds, Rungs::in_31_digits},
-    {Rung::in_100_digits, Rungs::nothing_holds, Rungs::in_100_digits},
+    {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits},
+    {Rung::in_100_digits, Rungs::digits_are_due, Rungs::in_100_digits},
     {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter},
 }};
 

@@ -136,6 +136,11 @@ void check_sizes(const std::vector<Block>& blocks, const std::vector<Place>& pla
 
 }  // namespace
 
+bool Lmi::stands_for_points() const {
+  return std::all_of(blocks.begin(), blocks.end(),
+                     [](const Block& block) { return block.where.has_value(); });
+}
+
 double Lmi::objective_at(const std::vector<double>& x) const {
   double value = objective_constant;
   for (std::size_t i = 0; i < objective.size(); ++i) value += objective[i] * x[i];

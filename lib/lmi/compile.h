@@ -25,6 +25,9 @@ struct Lmi {
   std::vector<double> objective;  ///< c, m scalars, when has_objective
   double objective_constant = 0;
 
+  /// Whether every block stands for a point of its domain (Block::where), so that what excludes the
+  /// blocks excludes the inequalities.
+  bool stands_for_points() const;
   /// c'x + c_0, when has_objective.
   double objective_at(const std::vector<double>& x) const;
 };

@@ -150,7 +150,6 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
     r[0] = S(0);
   }
   const auto L = cholesky(H);
-  if (!L && getenv("DBG")) fprintf(stderr, "H not definite\n");
   if (!L) return false;
   const MatrixOf<S> R = lower_inverse(*L);  // R H R' = I
   const MatrixOf<S> rest = MatrixOf<S>::Identity(m, m) - R * H * R.transpose();
@@ -173,7 +172,6 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
       size += upper(R(a, b)) * sums.error[used[static_cast<std::size_t>(b)]];
     norm += size * size;
   }
-  if (getenv("DBG")) fprintf(stderr, "defect %g norm %g\n", defect, norm);
   // The rounding of these lines is far below the half that is left.
   return defect < 0.01 && norm * (1 + 1e-9) < 0.5;
 }
@@ -217,9 +215,7 @@ Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& for
   constexpr double kCounts = 1e-6;  // what strict blocks, or v, must have of all multipliers
   Refutation result;
   result.digits = std::is_same_v<S, DoubleDouble> ? kQuadDigits : kWideDigits;
-  const bool known = std::all_of(lmi.blocks.begin(), lmi.blocks.end(),
-                                 [](const Block& block) { return block.where.has_value(); });
-  if (!known) return result;
+  if (!lmi.stands_for_points()) return result;
   const auto m = static_cast<Eigen::Index>(lmi.unknowns) + 1;
   Sums<S> sums{VectorOf<S>::Zero(m), Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m),
                MatrixOf<S>::Zero(m, m), numbers::Matrix::Zero(m, m)};
@@ -229,7 +225,6 @@ Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& for
     const MatrixOf<S> given = Y[k].unaryExpr([](const DoubleDouble& y) { return as<S>(y); });
     definite &= cholesky(given).has_value();
     const auto lifted = positive<S>(given);
-    if (!lifted && getenv("DBG")) fprintf(stderr, "not positive %zu\n", k);
     if (!lifted) return result;
     add_block(exact.block(lmi.blocks[k], k, formulation.releases.kept[k]), *lifted,
               lmi.blocks[k].strict, sums);
@@ -237,18 +232,12 @@ Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& for
   const bool homogeneous = sums.W[0] == 0;
   const double v = static_cast<double>(as<double>(S(-sums.r[0])));
   if (definite && (homogeneous || v > sums.error[0])) result.exact = is_exact(sums, homogeneous);
-  if (getenv("DBG"))
-    fprintf(stderr, "S %d definite %d exact %d strict %g whole %g v %g\n", result.digits, definite,
-            result.exact, sums.strict, sums.whole, v);
   if (sums.strict < kCounts * sums.whole && v < kCounts * sums.whole) return result;
   double omega = 0;
   for (Eigen::Index i = 0; i < m; ++i) {
     if (sums.W[i] == 0 || (i == 0 && v >= 0)) continue;
     omega = std::max(omega, (upper(sums.r[i]) + sums.error[i]) / sums.W[i]);
-    if (getenv("DBG"))
-      fprintf(stderr, "i %d r %g err %g W %g\n", (int)i, upper(sums.r[i]), sums.error[i],
-              sums.W[i]);
-  }
+    }
   result.omega = std::isfinite(omega) ? std::min(1.0, omega * (1 + 1e-12)) : 1;
   return result;
 }
