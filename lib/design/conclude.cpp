@@ -168,6 +168,21 @@ void note_undecided(const Climb& climb, model::Gains& gains) {
                               : ""));
 }
 
+/// A no without multipliers (lmi/refutation.h).
+bool refute_by_zero_diagonal(const Climb& climb, model::Gains& gains) {
+  const auto found = lmi::find_zero_diagonal(climb.posed().inequalities, climb.posed().lmi,
+                                             climb.last().formulation.balance);
+  if (!found) return false;
+  gains.verdict = model::Verdict::no;
+  gains.solver.status = "infeasible";
+  gains.certificate = model::CertificateRecord{true, 0, kQuadDigits, {}};
+  add_message(gains, found->inequality + ": element (" + std::to_string(found->row) + ", " +
+                         std::to_string(found->row) + ") is 0 for all unknowns, and element (" +
+                         std::to_string(found->row) + ", " + std::to_string(found->column) +
+                         ") of its row is a constant other than 0");
+  return true;
+}
+
 }  // namespace
 
 void conclude(const Climb& climb, model::Gains& gains) {
@@ -183,6 +198,7 @@ void conclude(const Climb& climb, model::Gains& gains) {
     return accept_refutation(climb, *refuted, gains);
   }
   gains.solver = record_of(climb.last());
+  if (refute_by_zero_diagonal(climb, gains)) return;
   if (climb.last().relaxation_refuted()) {
     // What it is about is said by the plan (synthesize.cpp).
     gains.certificate = model::CertificateRecord{false, climb.last().relaxed_omega, kDoubleDigits,

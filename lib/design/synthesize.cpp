@@ -119,6 +119,11 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
       climb.to_end();
       again = grown();
     }
+    const Attempt* point = climb.point();
+    const bool undecided =
+        climb.refutation() == nullptr && (point == nullptr || !point->holds());
+    // What the hull's own expansion of the functions rounded away shows at points.
+    if (!again && undecided) again = plan.leave_hulls(inequalities.design());
     solve_seconds += climb.seconds();
     if (again) {
       const auto compiling = Clock::now();
