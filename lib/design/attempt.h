@@ -27,6 +27,7 @@ struct Posed {
   const lmi::Inequalities& inequalities;
   const forall::Plan& plan;
   const lmi::Lmi& lmi;
+  bool wide = true;  ///< whether 31 and 100 digits may be tried where double does not decide
 
   const model::SynthesisOptions& choices() const { return inequalities.design().synthesis; }
 };

@@ -34,7 +34,7 @@ struct Rungs {
     return is_bounded(climb) && nothing_holds(climb);
   }
   static bool digits_are_due(const Climb& climb) {
-    return climb.posed_.lmi.stands_for_points() && nothing_holds(climb);
+    return climb.posed_.wide && climb.posed_.lmi.stands_for_points() && nothing_holds(climb);
   }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
