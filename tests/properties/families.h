@@ -1,0 +1,45 @@
+// Families of problems whose answer is known by construction. Each maker's file begins with the
+// proof.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "properties/draw.h"
+
+namespace gainsmith::tests::properties {
+
+struct Case {
+  std::string family;
+  std::string text;  ///< the problem file
+  bool yes = true;
+  bool easy = false;  ///< balanced and well conditioned, far from the threshold: must be decided
+};
+
+struct Family {
+  std::string name;
+  int weight;  ///< its part of all cases
+  std::function<Case(Draw& draw)> make;
+};
+
+const std::vector<Family>& families();
+
+/// The family of case `index`: `only`, or one drawn by weight when that is empty.
+const Family& family_of(std::uint64_t seed, std::uint64_t index, const std::string& only = {});
+
+/// Case `index` of a seed.
+Case make_case(std::uint64_t seed, std::uint64_t index, const std::string& only = {},
+               std::optional<OtherUnits> others = {});
+
+// By theme.
+std::vector<Family> stability_families();
+std::vector<Family> bounded_real_families();
+std::vector<Family> observer_families();
+std::vector<Family> sampled_families();
+std::vector<Family> switched_families();
+std::vector<Family> kink_families();
+std::vector<Family> interval_families();
+std::vector<Family> singular_families();
+
+}  // namespace gainsmith::tests::properties
