@@ -56,6 +56,8 @@ struct Attempt {
   /// Of an interior question without a point: what its multipliers leave for the blocks as they
   /// were solved, gain bounds and corners of boxes included (lmi::relaxed_omega).
   double relaxed_omega = 1;
+  /// Of a point that was found without the gain bounds of the problem: its largest gain.
+  double largest_gain = 0;
 
   bool is_optimal() const { return solution.status == sdp::Status::optimal; }
   /// Every inequality holds at the decimals of x: a yes.

@@ -4,9 +4,7 @@
 
 #include "base/number.h"
 #include "base/scalars.h"
-#include "design/gain_values.h"
 #include "design/ladder.h"
-#include "numbers/dense.h"
 
 namespace gainsmith::design {
 
@@ -75,6 +73,13 @@ void mark_free_gains(const Attempt& tighter, const lmi::Lmi& lmi, model::Gains& 
 void note_objective(const Climb& climb, const Attempt& point, model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
   if (!lmi.has_objective) return;
+  if (!lmi::has_minimum(lmi, climb.bounds())) {
+    // Its value at a point that may be scaled says nothing.
+    add_message(gains,
+                "the objective has no minimum: without constant parts every solution may be scaled, "
+                "so its infimum is 0 or there is none");
+    return;
+  }
   gains.objective = lmi.objective_at(point.x);
   if (point.question.goal == lmi::Goal::objective) {
     // The dual solution is feasible to the solver's tolerance only.
@@ -96,15 +101,6 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
                 "not found");
 }
 
-/// The largest singular value of the gains of a point; of functions at 65 points of their
-/// variable's intervals.
-double gain_size(const Climb& climb, const Attempt& point) {
-  const lmi::Inequalities& of = climb.posed().inequalities;
-  numbers::Values values = of.instance.values;
-  for (auto& [name, matrix] : of.unknowns.values(point.x)) values[name] = matrix;
-  return largest_gain(of, values);
-}
-
 void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
   const lmi::Unknowns& unknowns = climb.posed().inequalities.unknowns;
@@ -118,7 +114,7 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
   if (!point.holds()) return note_failures(point, gains);
   gains.verdict = model::Verdict::yes;
   if (climb.is_free(point)) {
-    const double largest = gain_size(climb, point);
+    const double largest = point.largest_gain;
     for (model::GainBound& bound : gains.bounds) bound.active = false;
     if (!(largest <= bounds.beta)) {
       gains.verdict = model::Verdict::undecided;

@@ -206,6 +206,9 @@ class OuterSearch {
     }
     model::SearchRecord record = gains.search.value_or(model::SearchRecord{});
     record.figure = figure_name(request_, *own_.design);
+    // An objective without a minimum is no figure: the margin is.
+    if (best && !request_.extreme && !request_.minimize && !gains.objective)
+      record.figure = "margin";
     record.value = record.figure == "margin" && best ? std::optional(-*best) : best;
     record.polish = std::move(polished);
     for (const SearchedScalar& scalar : request_.over) {
