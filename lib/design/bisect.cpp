@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/number.h"
+#include "design/hautus.h"
 #include "design/synthesize.h"
 
 namespace gainsmith::design {
@@ -71,6 +72,11 @@ std::string weakest_limits(const std::map<double, model::Gains>& tried) {
   return "";
 }
 
+std::string hidden_mode_note(const model::Instance& instance) {
+  const std::string hidden = hidden_mode_text(instance);
+  return hidden.empty() ? "" : "; " + hidden;
+}
+
 /// A result that is not feasible as that of a whole search.
 void set_undecided(model::Gains& gains, const std::string& message) {
   gains.verdict = model::Verdict::undecided;
@@ -113,7 +119,8 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
   result.gains = tried.at(result.found.yes.value_or(easiest));
   result.gains.search = record_of(result.found, choices);
   if (!result.found.yes)
-    set_undecided(result.gains, nothing_found(result.found, choices, weakest_limits(tried)));
+    set_undecided(result.gains, nothing_found(result.found, choices, weakest_limits(tried)) +
+                                    hidden_mode_note(own));
   if (result.found.no) result.gains.search->certificate = tried.at(*result.found.no).certificate;
   return result;
 }

@@ -75,9 +75,10 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
   if (!lmi.has_objective) return;
   if (!lmi::has_minimum(lmi, climb.bounds())) {
     // Its value at a point that may be scaled says nothing.
-    add_message(gains,
-                "the objective has no minimum: without constant parts every solution may be scaled, "
-                "so its infimum is 0 or there is none");
+    add_message(
+        gains,
+        "the objective has no minimum: without constant parts every solution may be scaled, "
+        "so its infimum is 0 or there is none");
     return;
   }
   gains.objective = lmi.objective_at(point.x);

@@ -8,6 +8,7 @@
 
 #include "base/number.h"
 #include "design/elastic.h"
+#include "design/hautus.h"
 #include "design/polish.h"
 #include "design/results.h"
 #include "design/synthesize.h"
@@ -235,6 +236,8 @@ class OuterSearch {
       ranges += (ranges.empty() ? "" : ", ") + scalar.name + " in [" + brief(scalar.axis.low) +
                 ", " + brief(scalar.axis.high) + "]";
     gains.solver.message = "no feasible point was found for " + ranges;
+    if (const std::string hidden = hidden_mode_text(own_); !hidden.empty())
+      gains.solver.message += "; " + hidden;
     return gains;
   }
 

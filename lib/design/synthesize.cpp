@@ -7,6 +7,7 @@
 #include "base/version.h"
 #include "design/exchange.h"
 #include "design/gain_values.h"
+#include "design/hautus.h"
 #include "design/ladder.h"
 
 namespace gainsmith::design {
@@ -83,8 +84,18 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
     for (const auto& [name, matrix] : gains.unknowns) values[name] = matrix;
   for (const model::Function& function : inequalities.functions)
     gains.functions.push_back({function.signature(), function.text(), function.body().program});
-  add_gain_values(inequalities, values, gains);
-  add_report(inequalities.instance, gains);
+  try {
+    add_gain_values(inequalities, values, gains);
+    add_report(inequalities.instance, gains);
+  } catch (const expr::EvaluationError& error) {
+    // A point that holds and whose gains have no value in double is of no use.
+    if (gains.verdict != model::Verdict::yes) throw;
+    gains.verdict = model::Verdict::undecided;
+    gains.gains.clear();
+    gains.gain_functions.clear();
+    gains.report.clear();
+    add_message(gains, "every inequality holds, but " + std::string(error.what()));
+  }
 }
 
 }  // namespace
@@ -120,8 +131,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
       again = grown();
     }
     const Attempt* point = climb.point();
-    const bool undecided =
-        climb.refutation() == nullptr && (point == nullptr || !point->holds());
+    const bool undecided = climb.refutation() == nullptr && (point == nullptr || !point->holds());
     // What the hull's own expansion of the functions rounded away shows at points.
     if (!again && undecided) again = plan.leave_hulls(inequalities.design());
     solve_seconds += climb.seconds();
@@ -136,6 +146,9 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
     break;
   }
   add_gains(inequalities, gains);
+  if (gains.verdict != model::Verdict::yes)
+    if (const std::string hidden = hidden_mode_text(instance); !hidden.empty())
+      add_message(gains, hidden);
   gains.timings = {
       {"compile", compile_seconds}, {"solve", solve_seconds}, {"total", seconds_since(start)}};
   return gains;

@@ -49,9 +49,26 @@ Svd full_svd(const Matrix& M) {
   return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
 }
 
+namespace {
+
+/// Powers of two d with d_i^2 M_ii from 1 to 4, of a symmetric M with a diagonal > 0; ones otherwise.
+/// In them neither the pivots nor the condition of a positive definite matrix depend on its units.
+Vector symmetric_units(const Matrix& M) {
+  Vector d = Vector::Ones(M.rows());
+  if (!(M.diagonal().array() > 0).all() || M != M.transpose()) return d;
+  for (Eigen::Index i = 0; i < d.size(); ++i) {
+    if (!std::isfinite(M(i, i))) return Vector::Ones(M.rows());
+    d[i] = std::ldexp(1.0, -static_cast<int>(std::floor(std::ilogb(M(i, i)) / 2.0)));
+  }
+  return d;
+}
+
+}  // namespace
+
 Inverse inverse(const Matrix& M) {
-  const Eigen::PartialPivLU<Matrix> lu(M);
-  return {lu.inverse(), lu.rcond()};
+  const Vector d = symmetric_units(M);
+  const Eigen::PartialPivLU<Matrix> lu(d.asDiagonal() * M * d.asDiagonal());
+  return {d.asDiagonal() * lu.inverse() * d.asDiagonal(), lu.rcond()};
 }
 
 ComplexMatrix complex_inverse(const ComplexMatrix& M) { return M.inverse(); }

@@ -1,0 +1,93 @@
+#include "design/hautus.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/number.h"
+#include "numbers/dense.h"
+
+namespace gainsmith::design {
+
+namespace {
+
+/// 2n x 2n or 2(n+p) x 2n: the complex matrix X + iY as [X, -Y; Y, X].
+numbers::Matrix real_form(const numbers::Matrix& X, const numbers::Matrix& Y) {
+  numbers::Matrix whole(2 * X.rows(), 2 * X.cols());
+  whole << X, -Y, Y, X;
+  return whole;
+}
+
+numbers::Matrix hautus_matrix(const numbers::Matrix& A, const numbers::Matrix& C,
+                              std::complex<double> lambda) {
+  const Eigen::Index n = A.rows();
+  numbers::Matrix X(n + C.rows(), n);
+  X << A - lambda.real() * numbers::Matrix::Identity(n, n), C;
+  numbers::Matrix Y = numbers::Matrix::Zero(n + C.rows(), n);
+  Y.topRows(n) = -lambda.imag() * numbers::Matrix::Identity(n, n);
+  return real_form(X, Y);
+}
+
+bool is_declared(const model::Design& design, const std::string& name, bool square) {
+  return std::any_of(design.data.begin(), design.data.end(), [&](const auto& datum) {
+    return datum.name == name && (!square || datum.shape.rows == datum.shape.cols);
+  });
+}
+
+}  // namespace
+
+std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C) {
+  constexpr double kRank = 1e-11;    // relative, of [A - lambda I; C] with rows of size 1
+  constexpr double kStable = 1e-12;  // of |A|: an eigenvalue on the axis is known to that
+  const Eigen::Index n = A.rows();
+  const double size = A.cwiseAbs().rowwise().sum().maxCoeff();
+  if (n == 0 || !A.allFinite() || !C.allFinite() || size == 0) return std::nullopt;
+  numbers::Matrix rows = C;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const double largest = rows.row(i).cwiseAbs().maxCoeff();
+    if (largest > 0) rows.row(i) /= largest;
+  }
+  std::optional<HiddenMode> found;
+  const numbers::ComplexVector eigenvalues = numbers::eigenvalues(A / size);
+  for (const std::complex<double>& lambda : eigenvalues) {
+    if (lambda.real() < -kStable || lambda.imag() < 0) continue;
+    const numbers::Svd svd = numbers::full_svd(hautus_matrix(A / size, rows, lambda));
+    const double residual = svd.s.tail(1)(0) / svd.s(0);
+    if (!(residual <= kRank)) continue;
+    if (found && found->eigenvalue.real() >= lambda.real() * size) continue;
+    numbers::Vector v = svd.V.col(2 * n - 1).head(n);
+    const numbers::Vector imaginary = svd.V.col(2 * n - 1).tail(n);
+    if (imaginary.norm() > v.norm()) v = imaginary;
+    Eigen::Index at = 0;
+    v.cwiseAbs().maxCoeff(&at);
+    found = HiddenMode{lambda * size, v / v(at), residual};
+  }
+  return found;
+}
+
+std::string hidden_mode_text(const model::Instance& instance) {
+  const model::Design& design = *instance.design;
+  if (!is_declared(design, "A", true) || !is_declared(design, "C", false)) return "";
+  const auto A = instance.values.find("A");
+  const auto C = instance.values.find("C");
+  if (A == instance.values.end() || C == instance.values.end() ||
+      A->second.cols() != C->second.cols() || design.states.empty())
+    return "";
+  const auto mode = hidden_mode(A->second, C->second);
+  if (!mode) return "";
+  std::string direction;
+  for (const double element : mode->direction)
+    direction += (direction.empty() ? "" : "; ") + brief(std::abs(element) < 1e-9 ? 0 : element, 4);
+  const double imaginary = mode->eigenvalue.imag();
+  return "the output does not show a mode of the plant that does not decay: eigenvalue " +
+         brief(std::abs(mode->eigenvalue.real()) < 1e-9 * std::abs(mode->eigenvalue)
+                   ? 0
+                   : mode->eigenvalue.real(),
+               4) +
+         (imaginary > 0 ? " +- " + brief(imaginary, 4) + "i" : "") + " in the direction [" +
+         direction +
+         "], where [A - lambda*I; C] loses rank (Hautus); no gain changes it, so another "
+         "output is needed";
+}
+
+}  // namespace gainsmith::design

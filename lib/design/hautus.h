@@ -1,0 +1,29 @@
+// Why no observer can be found: a mode of the plant that its output does not show.
+#pragma once
+
+#include <complex>
+#include <optional>
+#include <string>
+
+#include "model/instance.h"
+#include "numbers/matrix.h"
+
+namespace gainsmith::design {
+
+/// An eigenvalue lambda of A, Re lambda >= 0, at which [A - lambda I; C] loses rank (Hautus): v is
+/// the direction, (A - lambda I) v = 0 and C v = 0 up to rounding.
+struct HiddenMode {
+  std::complex<double> eigenvalue;
+  numbers::Vector direction;  ///< real part of v, or its imaginary part where that is larger
+  double residual = 0;        ///< the smallest singular value over the largest
+};
+
+/// The hidden mode that is farthest right, in balanced units; none when (A, C) is detectable as far
+/// as double tells.
+std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C);
+
+/// The same for the data A (n x n) and C (p x n) of a design that declares them so, as a sentence;
+/// empty without one.
+std::string hidden_mode_text(const model::Instance& instance);
+
+}  // namespace gainsmith::design
