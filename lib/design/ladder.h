@@ -3,7 +3,7 @@
 //   rung            asks                                    is tried after
 //   minimum         the objective, within the gain bounds   -  (where it can have a minimum)
 //   inside          the largest margin, within the bounds   no minimum that holds
-//   blended         a point between the two                 both, the minimum not holding
+//   blended         a point between the two                 both, the minimum found but not holding
 //   free minimum    the objective, gains of any size        nothing that holds within the bounds
 //   free inside     the largest margin, gains of any size   the same
 //   31 digits       the same in these digits                nothing that holds, nothing refuted
