@@ -41,8 +41,7 @@ void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   result.formulation = lmi::formulate_objective(posed.lmi, asked.bounds, asked.shift);
   result.solution = solve(result.formulation.problem, asked.effort);
   // Far from the minimum a point serves no one: one inside comes from the other goal.
-  constexpr double kNear = 1e-6;
-  if (!result.is_optimal() && !(std::abs(result.solution.relative_gap) <= kNear)) return;
+  if (!result.is_near_optimal()) return;
   take_point(posed, lmi::read_back(posed.lmi, result.formulation, result.solution), result);
 }
 
@@ -86,6 +85,11 @@ void refute(const Posed& posed, Attempt& result) {
 }
 
 }  // namespace
+
+bool Attempt::is_near_optimal() const {
+  constexpr double kNear = 1e-6;
+  return is_optimal() || std::abs(solution.relative_gap) <= kNear;
+}
 
 bool Attempt::refuted() const {
   return refutation && (refutation->exact || refutation->omega <= kNothing);

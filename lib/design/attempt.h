@@ -60,6 +60,8 @@ struct Attempt {
   double largest_gain = 0;
 
   bool is_optimal() const { return solution.status == sdp::Status::optimal; }
+  /// Optimal, or with objectives that nearly agree.
+  bool is_near_optimal() const;
   /// Every inequality holds at the decimals of x: a yes.
   bool holds() const { return point && lmi::all_hold(margins); }
   /// No x satisfies the inequalities.

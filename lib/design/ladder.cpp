@@ -34,7 +34,8 @@ struct Rungs {
   static bool blended_is_due(const Climb& climb) {
     const Attempt* minimum = climb.find(Rung::minimum);
     const Attempt* inside = climb.find(Rung::inside);
-    return minimum != nullptr && !minimum->holds() && inside != nullptr && inside->holds();
+    return minimum != nullptr && minimum->is_near_optimal() && !minimum->holds() &&
+           inside != nullptr && inside->holds();
   }
   static bool free_minimum_is_due(const Climb& climb) {
     return is_bounded(climb) && has_minimum(climb) && nothing_holds(climb);

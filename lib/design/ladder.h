@@ -5,7 +5,7 @@
 //   free inside     the largest margin, gains of any size   -  (where it cannot), or nothing that holds:
 //                                                           bounds on gains depend on units
 //   inside          the largest margin, within the bounds   nothing that holds within them
-//   blended         a point between minimum and inside      both, the minimum not holding
+//   blended         a point between minimum and inside      both, the minimum found but not holding
 //   free minimum    the objective, gains of any size        nothing that holds within the bounds
 //   31 digits       the largest margin in these digits      nothing that holds, nothing refuted
 //   100 digits      the same                                the same

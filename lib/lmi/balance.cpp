@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -57,8 +59,79 @@ void add_elements(const Block& block, int first, double weight, std::vector<Elem
                          std::log2(std::abs(it.value())), weight});
 }
 
-/// The least-squares solution. The unknowns are eliminated: given the rows, log2 d_i is minus the
-/// mean of its elements.
+/// The rows that nothing else determines. A change of all units that leaves every element as it is
+/// satisfies  s_r + s_c = s_p + s_q  for the elements (r, c), (p, q) of one unknown and
+/// s_r + s_c = 0 for those of the constant part. Each equation gives one row as a sum of whole
+/// multiples of others wherever one of its factors is +-1, so that whole changes of the rows that
+/// are left are whole changes of all. Equations without such a factor come last.
+class FreeRows {
+ public:
+  FreeRows(const std::vector<Element>& elements, int rows, std::size_t unknowns) {
+    std::vector<Sum> first(unknowns);
+    std::set<Sum> equations;
+    for (const Element& e : elements) {
+      Sum sum;
+      add({{e.first, 1}, {e.second, 1}}, 1, sum);
+      const auto i = static_cast<std::size_t>(e.unknown);
+      if (i > 0 && first[i].empty())
+        first[i] = sum;
+      else if (add(first[i], -1, sum); !sum.empty())
+        equations.insert(std::move(sum));
+    }
+    std::vector<Sum> later;
+    for (const Sum& equation : equations)
+      if (!solve(equation, true)) later.push_back(equation);
+    for (const Sum& equation : later) solve(equation, false);
+    for (int row = 0; row < rows; ++row)
+      if (!solved_.contains(row)) list.push_back(row);
+  }
+
+  std::vector<int> list;
+
+ private:
+  using Sum = std::map<int, long>;  ///< row -> factor
+
+  static void add(const Sum& other, long factor, Sum& sum) {
+    for (const auto& [row, value] : other)
+      if ((sum[row] += factor * value) == 0) sum.erase(row);
+  }
+
+  /// Solves the equation for one of its rows; false when none has a factor +-1 and one is asked
+  /// for.
+  bool solve(const Sum& equation, bool whole) {
+    Sum sum;
+    for (const auto& [row, factor] : equation) {
+      const auto known = solved_.find(row);
+      add(known == solved_.end() ? Sum{{row, 1}} : known->second, factor, sum);
+    }
+    if (sum.empty()) return true;
+    long common = 0;
+    for (const auto& [row, factor] : sum) common = std::gcd(common, factor);
+    for (auto& [row, factor] : sum) factor /= common;
+    auto pivot = std::find_if(sum.begin(), sum.end(),
+                              [](const auto& term) { return std::abs(term.second) == 1; });
+    if (pivot == sum.end() && whole) return false;
+    if (pivot == sum.end()) pivot = sum.begin();
+    const int row = pivot->first;
+    const long sign = pivot->second > 0 ? -1 : 1;
+    sum.erase(pivot);
+    for (auto& [other, factor] : sum) factor *= sign;
+    for (auto& [other, known] : solved_) {
+      const auto place = known.find(row);
+      if (place == known.end()) continue;
+      const long factor = place->second;
+      known.erase(place);
+      add(sum, factor, known);
+    }
+    solved_.emplace(row, std::move(sum));
+    return true;
+  }
+
+  std::map<int, Sum> solved_;
+};
+
+/// The normal equations over the rows; the unknowns are eliminated: given the rows, log2 d_i is
+/// minus the mean of its elements.
 Units fit(const std::vector<Element>& elements, int rows, int unknowns) {
   numbers::Matrix normal = numbers::Matrix::Zero(rows, rows);
   numbers::Vector right = numbers::Vector::Zero(rows);
@@ -81,28 +154,25 @@ Units fit(const std::vector<Element>& elements, int rows, int unknowns) {
       for (const auto& [b, wb] : mean[i]) normal(a, b) -= wa * wb / weight[i];
       right[a] += wa * logs[i] / weight[i];
     }
-  // Gaussian elimination in order; a direction that is not determined stays where it is.
-  constexpr double kDetermined = 1e-9;
-  const numbers::Vector diagonal = normal.diagonal();
-  std::vector<char> free(static_cast<std::size_t>(rows), 0);
-  for (int p = 0; p < rows; ++p) {
-    if (!(normal(p, p) > kDetermined * std::max(1.0, diagonal[p]))) {
-      free[static_cast<std::size_t>(p)] = 1;
-      continue;
-    }
+  for (const int row : FreeRows(elements, rows, count).list) {
+    normal.row(row).setZero();
+    normal.col(row).setZero();
+    normal(row, row) = 1;
+    right[row] = 0;
+  }
+  // Gaussian elimination in order: what is left is positive definite.
+  for (int p = 0; p < rows; ++p)
     for (int q = p + 1; q < rows; ++q) {
       const double factor = normal(q, p) / normal(p, p);
       if (factor == 0) continue;
       normal.row(q).tail(rows - p) -= factor * normal.row(p).tail(rows - p);
       right[q] -= factor * right[p];
     }
-  }
   Units units{numbers::Vector::Zero(rows), std::vector<double>(count, 0.0)};
   for (int p = rows - 1; p >= 0; --p)
-    if (!free[static_cast<std::size_t>(p)])
-      units.rows[p] =
-          (right[p] - normal.row(p).tail(rows - p - 1).dot(units.rows.tail(rows - p - 1))) /
-          normal(p, p);
+    units.rows[p] =
+        (right[p] - normal.row(p).tail(rows - p - 1).dot(units.rows.tail(rows - p - 1))) /
+        normal(p, p);
   for (std::size_t i = 1; i < count; ++i) {
     if (weight[i] == 0) continue;
     double sum = logs[i];

@@ -30,6 +30,17 @@ struct Case {
         bounds(lmi::gain_bounds(inequalities, inequalities.design().synthesis.gain_bound)) {}
 
   Posed posed() const { return {inequalities, plan, lmi}; }
+
+  /// The first round of a question, with the bounds that a program has by its blocks.
+  lmi::Formulation formulation(lmi::Goal goal, const sdp::Problem& problem) const {
+    const bool interior = goal == lmi::Goal::interior;
+    const std::size_t others =
+        lmi.blocks.size() +
+        (interior ? 1U + (lmi::formulate_interior(lmi, {}, {}).homogenised ? 1U : 0U) : 0U);
+    const lmi::GainBounds of = problem.blocks.size() > others ? bounds : lmi::GainBounds{};
+    return interior ? lmi::formulate_interior(lmi, of, {})
+                    : lmi::formulate_objective(lmi, of, posed().choices().margin);
+  }
 };
 
 /// Answers one program.
@@ -41,6 +52,7 @@ inline sdp::Solution ended(sdp::Status status, const sdp::Problem& problem) {
   solution.cause = status == sdp::Status::optimal     ? sdp::Cause::converged
                    : status == sdp::Status::undecided ? sdp::Cause::stalled
                                                       : sdp::Cause::certificate;
+  solution.relative_gap = status == sdp::Status::optimal ? 0 : 1;
   solution.x.assign(static_cast<std::size_t>(problem.m()), 0.0);
   // Y = 1 I, 2 I, ...: each block is recognised.
   for (const sdp::Block& block : problem.blocks) {
@@ -53,34 +65,59 @@ inline sdp::Solution ended(sdp::Status status, const sdp::Problem& problem) {
   return solution;
 }
 
-inline Answer optimal(const std::vector<double>& x) {
-  return [x](const sdp::Problem& problem) {
-    sdp::Solution solution = ended(sdp::Status::optimal, problem);
-    EXPECT_EQ(x.size(), solution.x.size()) << "the script does not fit the program";
-    solution.x = x;
-    return solution;
-  };
-}
-
-inline Answer infeasible(bool checked = true) {
-  return [checked](const sdp::Problem& problem) {
-    sdp::Solution solution = ended(sdp::Status::primal_infeasible, problem);
-    solution.certificate = {1, 1e-14, 0.25, 1e14, checked};
-    return solution;
-  };
-}
-
 inline Answer ending(sdp::Status status) {
   return [status](const sdp::Problem& problem) { return ended(status, problem); };
 }
 inline Answer undecided() { return ending(sdp::Status::undecided); }
 inline Answer unbounded() { return ending(sdp::Status::dual_infeasible); }
+inline Answer infeasible() { return ending(sdp::Status::primal_infeasible); }
 
-inline constexpr Rung kRungs[] = {Rung::own, Rung::margin, Rung::free, Rung::backed_off,
-                                  Rung::tighter};
+/// The minimum, at these unknowns.
+inline Answer minimum(const Case& of, const std::vector<double>& x) {
+  return [&of, x](const sdp::Problem& problem) {
+    sdp::Solution solution = ended(sdp::Status::optimal, problem);
+    EXPECT_EQ(x.size(), solution.x.size()) << "the script does not fit the program";
+    const lmi::Balance units = of.formulation(lmi::Goal::objective, problem).balance;
+    solution.x = x;
+    for (std::size_t i = 0; i < x.size(); ++i) solution.x[i] /= units.unit(static_cast<int>(i) + 1);
+    return solution;
+  };
+}
 
-/// One climb over a script, with what holds for every climb: the programs asked are those of the
-/// rungs in their order, each tried once, and a record stays as it was.
+/// A point inside, at these unknowns with x_0 = 1/2 where constants stand.
+inline Answer inside(const Case& of, const std::vector<double>& x, double margin = 0.25) {
+  return [&of, x, margin](const sdp::Problem& problem) {
+    sdp::Solution solution = ended(sdp::Status::optimal, problem);
+    const lmi::Formulation asked = of.formulation(lmi::Goal::interior, problem);
+    const double one = asked.homogenised ? 0.5 : 1;
+    solution.x.clear();
+    for (std::size_t i = 0; i < x.size(); ++i)
+      solution.x.push_back(one * x[i] / asked.balance.unit(static_cast<int>(i) + 1));
+    if (asked.homogenised) solution.x.push_back(one);
+    solution.x.push_back(margin);
+    EXPECT_EQ(static_cast<int>(solution.x.size()), problem.m())
+        << "the script does not fit the program";
+    return solution;
+  };
+}
+
+/// The largest margin is 0, with these multipliers of 1 x 1 blocks (in the units of the data).
+inline Answer refuting(const Case& of, const std::vector<double>& Y) {
+  return [&of, Y](const sdp::Problem& problem) {
+    sdp::Solution solution = ended(sdp::Status::optimal, problem);
+    const lmi::Balance units = of.formulation(lmi::Goal::interior, problem).balance;
+    for (std::size_t k = 0; k < Y.size(); ++k)
+      solution.Y.values[k] = {Y[k] / (units.row(k, 0) * units.row(k, 0))};
+    return solution;
+  };
+}
+
+inline constexpr Rung kRungs[] = {Rung::minimum,       Rung::inside,      Rung::blended,
+                                  Rung::free_minimum,  Rung::free_inside, Rung::in_31_digits,
+                                  Rung::in_100_digits, Rung::tighter};
+
+/// One climb over a script, with what holds for every climb: each rung is tried once, in their
+/// order, and a record stays as it was.
 class Scripted {
  public:
   Scripted(const Case& of, const std::vector<Answer>& script)
@@ -90,41 +127,51 @@ class Scripted {
               return at == script.size() ? ended(sdp::Status::undecided, problem)
                                          : script[at++](problem);
             },
-            of) {}
+            of) {
+    EXPECT_EQ(asked.size(), script.size()) << "less is asked than the script has";
+  }
 
   Scripted(const Answer& answer, const Case& of)
-      : climb(of.posed(), of.bounds, [this, answer](const sdp::Problem& problem) {
-          asked.push_back(problem);
-          return answer(problem);
-        }) {
-    climb.to_answer();
+      : climb(of.posed(), of.bounds,
+              [this, answer](const sdp::Problem& problem, const Effort& effort) {
+                asked.push_back(problem);
+                efforts.push_back(effort);
+                return answer(problem);
+              }) {
+    climb.to_point();
     const auto before = records();
-    climb.from_point();
+    climb.to_end();
     const auto after = records();
-    EXPECT_TRUE(std::equal(before.begin(), before.end(), after.begin())) << "a record has changed";
+    for (const Record& record : before)
+      EXPECT_NE(std::find(after.begin(), after.end(), record), after.end())
+          << "a record has changed";
     conclude(climb, gains);
-    climb.to_answer();
-    climb.from_point();
+    const std::size_t programs = asked.size();
+    climb.to_point();
+    climb.to_end();
     EXPECT_TRUE(records() == after);
-    EXPECT_EQ(asked.size(), tried.size()) << "a rung was tried twice";
-    for (std::size_t i = 0; i < tried.size(); ++i) {
-      const sdp::Problem& posed = climb.find(tried[i])->formulation.problem;
-      EXPECT_TRUE(posed.blocks == asked[i].blocks && posed.c == asked[i].c &&
-                  posed.f == asked[i].f);
+    EXPECT_EQ(asked.size(), programs) << "a rung was tried twice";
+    for (const Rung rung : tried) {
+      const sdp::Problem& posed = climb.find(rung)->formulation.problem;
+      EXPECT_TRUE(std::any_of(asked.begin(), asked.end(), [&](const sdp::Problem& problem) {
+        return posed.blocks == problem.blocks && posed.c == problem.c && posed.f == problem.f;
+      }));
     }
   }
 
   const Attempt& at(Rung rung) const { return *climb.find(rung); }
   const std::string& message() const { return gains.solver.message; }
   bool says(const std::string& text) const { return message().find(text) != std::string::npos; }
+  double unknown(const std::string& name) const { return (*gains.find(name))(0, 0); }
 
   std::vector<sdp::Problem> asked;
+  std::vector<Effort> efforts;
   std::vector<Rung> tried;
   model::Gains gains;
   Climb climb;
 
  private:
-  using Record = std::tuple<lmi::Goal, double, double, sdp::Status, bool, std::vector<double>,
+  using Record = std::tuple<Rung, lmi::Goal, double, sdp::Status, bool, std::vector<double>,
                             std::vector<double>, std::vector<double>>;
 
   std::vector<Record> records() {
@@ -137,9 +184,9 @@ class Scripted {
       std::vector<double> reached;
       for (const model::Margin& margin : attempt->margins.margins)
         reached.push_back(margin.reached);
-      list.emplace_back(attempt->question.goal, attempt->question.backoff,
-                        attempt->question.bounds.beta, attempt->solution.status, attempt->point,
-                        attempt->solution.x, attempt->x, reached);
+      list.emplace_back(rung, attempt->question.goal, attempt->question.bounds.beta,
+                        attempt->solution.status, attempt->point, attempt->solution.x, attempt->x,
+                        reached);
     }
     return list;
   }

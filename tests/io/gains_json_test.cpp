@@ -50,12 +50,11 @@ class RandomGains {
     }
     if (random_() % 2 == 0) gains.searched = {{"T2", number()}, {"delta", number()}};
     for (int i = 0; i < 2; ++i)
-      gains.margins.push_back(
-          {"flow", i == 0, number(), number(), number(), number(), "tau = 0", i == 1});
+      gains.margins.push_back({"flow", i == 0, number(), number(), number(), "tau = 0", i == 1});
     gains.bounds.push_back({"inv(P1)*Y", number(), number(), true});
     if (random_() % 2 == 0)
       gains.certificate = model::CertificateRecord{
-          number(), number(), number(), number(), true, {{"flow", matrix(2, 2)}}, "hull"};
+          random_() % 2 == 0, number(), 31, {{"flow", matrix(2, 2)}}, "hull"};
     if (random_() % 2 == 0) gains.search = search();
     gains.statement = statement();
     gains.timings = {{"solve", number()}, {"total", 0.25}};
@@ -70,7 +69,7 @@ class RandomGains {
       record.value = number();
       record.beyond = number();
       record.certificate =
-          model::CertificateRecord{number(), number(), number(), number(), true, {}, "vertices"};
+          model::CertificateRecord{random_() % 2 == 0, number(), 100, {}, "vertices"};
     }
     record.polish = {number(), number(), true, "converged"};
     record.open = {number(), number()};

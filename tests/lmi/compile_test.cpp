@@ -42,9 +42,6 @@ TEST(CompileTest, WhatDoubleCannotHoldIsRefusedAtItsPlace) {
   const InputError cost = refusal("  require: {a: x > 1}\n  minimize: 1e200*(1e200*x)\n");
   EXPECT_EQ(cost.place().line, 6) << cost.what();
   EXPECT_NE(cost.message().find("objective"), std::string::npos) << cost.what();
-  const InputError sizes = refusal("  require:\n    a: x > 1e295\n    b: 1e10*x > 1e-10\n");
-  EXPECT_EQ(sizes.place().line, 6) << sizes.what();
-  EXPECT_NE(sizes.message().find("'a' and 'b'"), std::string::npos) << sizes.what();
   for (const char* large :
        {"x > 1e308", "1e-308*x > 1e308", "1e301*x > 1", "[x, 1e308; 1e308, x] > 0"}) {
     const InputError error = refusal("  require:\n    a: \"" + std::string(large) + "\"\n");

@@ -143,12 +143,12 @@ TEST(FormulationTest, UnitsThatArePowersOfTwoGiveTheSameProgram) {
 
 /// x = x_f / x_0 in the units of the problem; the next round measures by the diagonals there.
 TEST(FormulationTest, APointInsideIsReadBackAndMeasured) {
-  const tests::YamlProblem yaml(problem_with("    a: P > 0\n    b: 1e5*P - 3e5*s*I > A*A'\n") +
+  const tests::YamlProblem yaml(problem_with("    a: P > 0\n    b: He(P*A) + 1e5*s*I < 0\n") +
                                 kData);
   const Lmi lmi = compile(Inequalities(yaml.instance));
   const Formulation formulation = interior_of(lmi);
   const double constant = 0.5;
-  const std::vector<double> x = {40, 3, 50};
+  const std::vector<double> x = {5e6, 1e6, 1e6};
   sdp::Solution solution;
   solution.x = in_units(formulation.balance, x);
   for (double& value : solution.x) value *= constant;
