@@ -27,6 +27,7 @@ struct Posed {
   const lmi::Inequalities& inequalities;
   const forall::Plan& plan;
   const lmi::Lmi& lmi;
+  bool wide = true;  ///< whether 31 and 100 digits may be tried where double does not decide
 
   const model::SynthesisOptions& choices() const { return inequalities.design().synthesis; }
 };
@@ -55,6 +56,8 @@ struct Attempt {
   /// Of an interior question without a point: what its multipliers leave for the blocks as they
   /// were solved, gain bounds and corners of boxes included (lmi::relaxed_omega).
   double relaxed_omega = 1;
+  /// Of a point that was found without the gain bounds of the problem: its largest gain.
+  double largest_gain = 0;
 
   bool is_optimal() const { return solution.status == sdp::Status::optimal; }
   /// Every inequality holds at the decimals of x: a yes.

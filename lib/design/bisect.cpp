@@ -90,7 +90,7 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
     overrides.insert(fixed.begin(), fixed.end());
     overrides.insert(own.overrides.begin(), own.overrides.end());
     try {
-      model::Gains gains = synthesize_at(own.design, overrides, solver);
+      model::Gains gains = synthesize_at(own.design, overrides, solver, choices.depth);
       const search::Answer answer = answer_of(gains);
       tried.insert_or_assign(value, std::move(gains));
       return answer;

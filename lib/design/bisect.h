@@ -6,6 +6,7 @@
 #include "design/search_request.h"
 #include "model/gains.h"
 #include "sdp/solver.h"
+#include "design/synthesize.h"
 #include "search/bisect.h"
 
 namespace gainsmith::design {
@@ -15,6 +16,7 @@ struct BisectChoices {
   bool largest = true;
   search::Tolerance tolerance;
   std::optional<double> guess;  ///< see search::BisectOptions
+  Depth depth = Depth::thorough;
 };
 
 /// Both ends of a bracket with what they rest on.

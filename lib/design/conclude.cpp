@@ -4,9 +4,7 @@
 
 #include "base/number.h"
 #include "base/scalars.h"
-#include "design/gain_values.h"
 #include "design/ladder.h"
-#include "numbers/dense.h"
 
 namespace gainsmith::design {
 
@@ -75,6 +73,13 @@ void mark_free_gains(const Attempt& tighter, const lmi::Lmi& lmi, model::Gains& 
 void note_objective(const Climb& climb, const Attempt& point, model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
   if (!lmi.has_objective) return;
+  if (!lmi::has_minimum(lmi, climb.bounds())) {
+    // Its value at a point that may be scaled says nothing.
+    add_message(gains,
+                "the objective has no minimum: without constant parts every solution may be scaled, "
+                "so its infimum is 0 or there is none");
+    return;
+  }
   gains.objective = lmi.objective_at(point.x);
   if (point.question.goal == lmi::Goal::objective) {
     // The dual solution is feasible to the solver's tolerance only.
@@ -96,15 +101,6 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
                 "not found");
 }
 
-/// The largest singular value of the gains of a point; of functions at 65 points of their
-/// variable's intervals.
-double gain_size(const Climb& climb, const Attempt& point) {
-  const lmi::Inequalities& of = climb.posed().inequalities;
-  numbers::Values values = of.instance.values;
-  for (auto& [name, matrix] : of.unknowns.values(point.x)) values[name] = matrix;
-  return largest_gain(of, values);
-}
-
 void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
   const lmi::Unknowns& unknowns = climb.posed().inequalities.unknowns;
@@ -118,7 +114,7 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
   if (!point.holds()) return note_failures(point, gains);
   gains.verdict = model::Verdict::yes;
   if (climb.is_free(point)) {
-    const double largest = gain_size(climb, point);
+    const double largest = point.largest_gain;
     for (model::GainBound& bound : gains.bounds) bound.active = false;
     if (!(largest <= bounds.beta)) {
       gains.verdict = model::Verdict::undecided;
@@ -168,6 +164,21 @@ void note_undecided(const Climb& climb, model::Gains& gains) {
                               : ""));
 }
 
+/// A no without multipliers (lmi/refutation.h).
+bool refute_by_zero_diagonal(const Climb& climb, model::Gains& gains) {
+  const auto found = lmi::find_zero_diagonal(climb.posed().inequalities, climb.posed().lmi,
+                                             climb.last().formulation.balance);
+  if (!found) return false;
+  gains.verdict = model::Verdict::no;
+  gains.solver.status = "infeasible";
+  gains.certificate = model::CertificateRecord{true, 0, kQuadDigits, {}};
+  add_message(gains, found->inequality + ": element (" + std::to_string(found->row) + ", " +
+                         std::to_string(found->row) + ") is 0 for all unknowns, and element (" +
+                         std::to_string(found->row) + ", " + std::to_string(found->column) +
+                         ") of its row is a constant other than 0");
+  return true;
+}
+
 }  // namespace
 
 void conclude(const Climb& climb, model::Gains& gains) {
@@ -183,6 +194,7 @@ void conclude(const Climb& climb, model::Gains& gains) {
     return accept_refutation(climb, *refuted, gains);
   }
   gains.solver = record_of(climb.last());
+  if (refute_by_zero_diagonal(climb, gains)) return;
   if (climb.last().relaxation_refuted()) {
     // What it is about is said by the plan (synthesize.cpp).
     gains.certificate = model::CertificateRecord{false, climb.last().relaxed_omega, kDoubleDigits,

@@ -16,6 +16,11 @@ bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::
         fresh[violation.inequality].size() < kMostAtOnce)
       fresh[violation.inequality].push_back(violation.point);
   bool grown = false;
+  for (const lmi::Violation& violation : attempt.margins.violations)
+    if (violation.certain && plan.inequalities[violation.inequality].way == model::Way::exchange)
+      grown |= forall::add_point(plan.inequalities[violation.inequality],
+                                 inequalities.statements[violation.inequality].domain,
+                                 violation.point, 0);
   for (auto& [k, points] : fresh) {
     const lmi::Statement& statement = inequalities.statements[k];
     forall::Imposed& imposed = plan.inequalities[k];

@@ -5,6 +5,8 @@
 #include <chrono>
 #include <utility>
 
+#include "design/gain_values.h"
+
 namespace gainsmith::design {
 
 /// When each rung is due, and what it asks.
@@ -17,10 +19,17 @@ struct Rungs {
   }
   static bool nothing_holds(const Climb& climb) {
     const Attempt* point = climb.point();
-    return (point == nullptr || !point->holds()) && climb.refutation() == nullptr;
+    return (point == nullptr || !climb.is_yes(*point)) && climb.refutation() == nullptr;
   }
   static bool is_bounded(const Climb& climb) { return !climb.bounds_.list.empty(); }
 
+  /// Without an objective it comes first; after one only where the bounds leave nothing.
+  static bool free_inside_is_due(const Climb& climb) {
+    return is_bounded(climb) && !has_minimum(climb);
+  }
+  static bool bounds_leave_nothing(const Climb& climb) {
+    return is_bounded(climb) && climb.find(Rung::free_inside) == nullptr && nothing_holds(climb);
+  }
   static bool minimum_is_due(const Climb& climb) { return has_minimum(climb); }
   static bool blended_is_due(const Climb& climb) {
     const Attempt* minimum = climb.find(Rung::minimum);
@@ -30,15 +39,12 @@ struct Rungs {
   static bool free_minimum_is_due(const Climb& climb) {
     return is_bounded(climb) && has_minimum(climb) && nothing_holds(climb);
   }
-  static bool free_inside_is_due(const Climb& climb) {
-    return is_bounded(climb) && nothing_holds(climb);
-  }
   static bool digits_are_due(const Climb& climb) {
-    return climb.posed_.lmi.stands_for_points() && nothing_holds(climb);
+    return climb.posed_.wide && climb.posed_.lmi.stands_for_points() && nothing_holds(climb);
   }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
-    if (point == nullptr || !point->holds() || !has_minimum(climb) || climb.is_free(*point))
+    if (point == nullptr || !climb.is_yes(*point) || !has_minimum(climb) || climb.is_free(*point))
       return false;
     const auto bounds = lmi::reached_bounds(climb.bounds_, point->x);
     return std::any_of(bounds.begin(), bounds.end(), [](const model::GainBound& bound) {
@@ -47,7 +53,14 @@ struct Rungs {
   }
 
   static Attempt ask(const Climb& climb, Question question) {
-    return attempt(climb.posed_, std::move(question), climb.solve_);
+    Attempt result = attempt(climb.posed_, std::move(question), climb.solve_);
+    if (result.point && climb.is_free(result)) {
+      const lmi::Inequalities& of = climb.posed_.inequalities;
+      numbers::Values values = of.instance.values;
+      for (auto& [name, matrix] : of.unknowns.values(result.x)) values[name] = matrix;
+      result.largest_gain = largest_gain(of, values);
+    }
+    return result;
   }
   static Question objective(const Climb& climb, lmi::GainBounds bounds) {
     return {lmi::Goal::objective, std::move(bounds), {"auto", 1e-8}, climb.posed_.choices().margin};
@@ -89,12 +102,13 @@ struct Row {
   std::optional<Attempt> (*tries)(const Climb&);
 };
 
-constexpr std::array<Row, 8> kLadder = {{
+constexpr std::array<Row, 9> kLadder = {{
     {Rung::minimum, Rungs::minimum_is_due, Rungs::minimum},
+    {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside},
     {Rung::inside, Rungs::nothing_holds, Rungs::inside},
     {Rung::blended, Rungs::blended_is_due, Rungs::blended},
     {Rung::free_minimum, Rungs::free_minimum_is_due, Rungs::free_minimum},
-    {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside},
+    {Rung::free_inside, Rungs::bounds_leave_nothing, Rungs::free_inside},
     {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits},
     {Rung::in_100_digits, Rungs::digits_are_due, Rungs::in_100_digits},
     {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter},
@@ -130,14 +144,16 @@ const Attempt* Climb::point() const {
   constexpr Rung kWorth[] = {Rung::minimum,      Rung::blended,     Rung::inside,
                              Rung::free_minimum, Rung::free_inside, Rung::in_31_digits,
                              Rung::in_100_digits};
+  const Attempt* holding = nullptr;
   const Attempt* first = nullptr;
   for (const Rung rung : kWorth) {
     const Attempt* attempt = find(rung);
     if (attempt == nullptr || !attempt->point) continue;
-    if (attempt->holds()) return attempt;
+    if (is_yes(*attempt)) return attempt;
+    if (holding == nullptr && attempt->holds()) holding = attempt;
     if (first == nullptr) first = attempt;
   }
-  return first;
+  return holding != nullptr ? holding : first;
 }
 
 const Attempt* Climb::refutation() const {
@@ -150,6 +166,10 @@ const Attempt& Climb::last() const {
   for (const Rung rung : {Rung::in_100_digits, Rung::in_31_digits, Rung::free_inside, Rung::inside})
     if (const Attempt* attempt = find(rung)) return *attempt;
   return tried_.begin()->second;
+}
+
+bool Climb::is_yes(const Attempt& attempt) const {
+  return attempt.holds() && (!is_free(attempt) || attempt.largest_gain <= bounds_.beta);
 }
 
 bool Climb::is_free(const Attempt& attempt) const {

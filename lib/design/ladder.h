@@ -2,14 +2,14 @@
 //
 //   rung            asks                                    is tried after
 //   minimum         the objective, within the gain bounds   -  (where it can have a minimum)
-//   inside          the largest margin, within the bounds   no minimum that holds
-//   blended         a point between the two                 both, the minimum not holding
+//   free inside     the largest margin, gains of any size   -  (where it cannot), or nothing that holds:
+//                                                           bounds on gains depend on units
+//   inside          the largest margin, within the bounds   nothing that holds within them
+//   blended         a point between minimum and inside      both, the minimum not holding
 //   free minimum    the objective, gains of any size        nothing that holds within the bounds
-//   free inside     the largest margin, gains of any size   the same
-//   31 digits       the same in these digits                nothing that holds, nothing refuted
+//   31 digits       the largest margin in these digits      nothing that holds, nothing refuted
 //   100 digits      the same                                the same
-//   tighter         bounds ten times smaller                a yes with gains near their bounds:
-//   those
+//   tighter         bounds ten times smaller                a yes with gains near their bounds: those
 //                                                           that shrink are limited by them alone
 //
 // (An exchange grows by the points at which a solution fails, and begins again.) Each rung is tried
@@ -26,10 +26,10 @@ namespace gainsmith::design {
 
 enum class Rung {
   minimum,
+  free_inside,
   inside,
   blended,
   free_minimum,
-  free_inside,
   in_31_digits,
   in_100_digits,
   tighter
@@ -48,7 +48,8 @@ class Climb {
 
   /// nullptr: not tried.
   const Attempt* find(Rung rung) const;
-  /// The attempt whose point counts: the first that holds, otherwise the first with a point;
+  /// The attempt whose point counts: the first that is a yes, otherwise the first that
+  /// holds, or has one;
   /// nullptr without one.
   const Attempt* point() const;
   /// The attempt that refutes the inequalities; nullptr without one.
@@ -57,6 +58,8 @@ class Climb {
   const Attempt& last() const;
   /// Whether the point was found without the bounds of the problem.
   bool is_free(const Attempt& attempt) const;
+  /// Whether the attempt is a yes, with gains within the bound of the problem.
+  bool is_yes(const Attempt& attempt) const;
 
   const Posed& posed() const { return posed_; }
   const lmi::GainBounds& bounds() const { return bounds_; }

@@ -80,12 +80,12 @@ class OuterSearch {
     const model::Overrides values = overrides(point);
     try {
       if (request_.extreme) {
-        const auto found = bracket(values, kSharper, guess, solver_).found.yes;
+        const auto found = bracket(values, kSharper, guess, solver_, Depth::quick).found.yes;
         if (!found) return std::nullopt;
         return request_.largest ? -*found : *found;
       }
       const model::Instance instance = model::evaluate(own_.design, values);
-      const model::Gains gains = synthesize(instance, solver_);
+      const model::Gains gains = synthesize(instance, solver_, Depth::quick);
       if (gains.verdict != model::Verdict::yes) return std::nullopt;
       return value(instance, gains);
     } catch (const InputError&) {
@@ -136,17 +136,18 @@ class OuterSearch {
   }
 
   BisectResult bracket(const model::Overrides& values, double sharper, std::optional<double> guess,
-                       const sdp::Options& solver) const {
+                       const sdp::Options& solver, Depth depth = Depth::thorough) const {
     return bisect(own_, values,
-                  {*request_.extreme, request_.largest, request_.tolerance * sharper, guess},
+                  {*request_.extreme, request_.largest, request_.tolerance * sharper, guess, depth},
                   solver);
   }
 
   /// The gains at values of the outer scalars, with the figure's value; for an extreme its bracket
   /// is in their record. An interrupt does not end it: what was found is worth having.
-  std::pair<model::Gains, std::optional<double>> design_at(const model::Overrides& values) const {
+  std::pair<model::Gains, std::optional<double>> design_at(
+      const model::Overrides& values, std::optional<double> guess = std::nullopt) const {
     if (request_.extreme) {
-      BisectResult result = bracket(values, 1, std::nullopt, last_);
+      BisectResult result = bracket(values, 1, guess, last_);
       return {std::move(result.gains), result.found.yes};
     }
     const model::Instance instance = model::evaluate(own_.design, values);
@@ -185,19 +186,29 @@ class OuterSearch {
     return std::min(fraction, 1 - fraction) < kNear;
   }
 
+  /// The extreme that the search saw at its best point: there is something feasible there, which a
+  /// bisection that begins anew may miss.
+  std::optional<double> extreme_of(const search::Minimum& minimum) const {
+    if (!request_.extreme) return std::nullopt;
+    return request_.largest ? -minimum.value : minimum.value;
+  }
+
   /// The gains at the best point, with the record of the search.
   model::Gains result(const search::Minimum& minimum) const {
     model::Gains gains;
     std::optional<double> best;
     std::optional<model::PolishRecord> polished;
     if (minimum.point) {
-      std::tie(gains, best) = design_at(overrides(*minimum.point));
+      std::tie(gains, best) = design_at(overrides(*minimum.point), extreme_of(minimum));
       if (request_.polish && best && minimum.finished) polished = polish_design(gains, best);
     } else {
       gains = nothing_found();
     }
     model::SearchRecord record = gains.search.value_or(model::SearchRecord{});
     record.figure = figure_name(request_, *own_.design);
+    // An objective without a minimum is no figure: the margin is.
+    if (best && !request_.extreme && !request_.minimize && !gains.objective)
+      record.figure = "margin";
     record.value = record.figure == "margin" && best ? std::optional(-*best) : best;
     record.polish = std::move(polished);
     for (const SearchedScalar& scalar : request_.over) {

@@ -89,7 +89,7 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
 
 }  // namespace
 
-model::Gains synthesize(const model::Instance& instance, const sdp::Options& options) {
+model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth) {
   constexpr int kMostRounds = 60;
   const auto start = Clock::now();
   const lmi::Inequalities inequalities(instance);
@@ -107,7 +107,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   double compile_seconds = seconds_since(start);
   double solve_seconds = 0;
   for (int round = 1;; ++round) {
-    Climb climb({inequalities, plan, lmi}, bounds, solve);
+    Climb climb({inequalities, plan, lmi, depth == Depth::thorough}, bounds, solve);
     climb.to_point();
     const auto grown = [&] {
       const Attempt* point = climb.point();
@@ -119,6 +119,11 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
       climb.to_end();
       again = grown();
     }
+    const Attempt* point = climb.point();
+    const bool undecided =
+        climb.refutation() == nullptr && (point == nullptr || !point->holds());
+    // What the hull's own expansion of the functions rounded away shows at points.
+    if (!again && undecided) again = plan.leave_hulls(inequalities.design());
     solve_seconds += climb.seconds();
     if (again) {
       const auto compiling = Clock::now();
@@ -137,8 +142,8 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
 }
 
 model::Gains synthesize_at(const model::DesignPtr& design, const model::Overrides& overrides,
-                           const sdp::Options& options) {
-  return synthesize(model::evaluate(design, overrides), options);
+                           const sdp::Options& options, Depth depth) {
+  return synthesize(model::evaluate(design, overrides), options, depth);
 }
 
 sdp::Problem semidefinite_program(const model::Instance& instance) {

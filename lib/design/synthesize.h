@@ -18,11 +18,15 @@ namespace gainsmith::design {
 /// formulas use nothing but data are given.
 ///
 /// InputError for what cannot be posed.
-model::Gains synthesize(const model::Instance& instance, const sdp::Options& options);
+/// `depth`: a quick answer leaves undecided what double does not decide, for the many questions of an
+/// outer search.
+enum class Depth { thorough, quick };
+model::Gains synthesize(const model::Instance& instance, const sdp::Options& options,
+                        Depth depth = Depth::thorough);
 
 /// synthesize() with other values for some scalars.
 model::Gains synthesize_at(const model::DesignPtr& design, const model::Overrides& overrides,
-                           const sdp::Options& options);
+                           const sdp::Options& options, Depth depth = Depth::thorough);
 
 /// The semidefinite program that synthesize() solves first (see lmi/formulation.h).
 sdp::Problem semidefinite_program(const model::Instance& instance);

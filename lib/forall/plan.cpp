@@ -6,6 +6,21 @@
 
 namespace gainsmith::forall {
 
+bool Plan::leave_hulls(const model::Design& design) {
+  if (design.synthesis.way != model::Way::automatic) return false;
+  bool left = false;
+  for (std::size_t k = 0; k < inequalities.size(); ++k) {
+    const auto& domain = design.inequalities[k].domain;
+    const bool interval = std::any_of(domain.begin(), domain.end(), [](const auto& variable) {
+      return variable.over == model::Over::interval;
+    });
+    if (inequalities[k].way != model::Way::hull || !interval) continue;
+    inequalities[k] = {model::Way::exchange, true, {}};
+    left = true;
+  }
+  return left;
+}
+
 bool Plan::uses_exchange() const {
   return std::any_of(inequalities.begin(), inequalities.end(),
                      [](const Imposed& imposed) { return !imposed.points.empty(); });
@@ -74,8 +89,7 @@ std::vector<Point> first_points(const Domain& domain) {
   return points;
 }
 
-bool add_point(Imposed& imposed, const Domain& domain, const Point& point) {
-  constexpr double kSame = 1e-9;
+bool add_point(Imposed& imposed, const Domain& domain, const Point& point, double same) {
   const auto is_near = [&](const Point& other) {
     return std::all_of(domain.begin(), domain.end(), [&](const Variable& variable) {
       const auto mine = point.values.find(variable.name);
@@ -83,7 +97,7 @@ bool add_point(Imposed& imposed, const Domain& domain, const Point& point) {
       if (mine == point.values.end() || theirs == other.values.end()) return true;
       if (!variable.is_interval()) return mine->second == theirs->second;
       return std::abs(mine->second(0, 0) - theirs->second(0, 0)) <=
-             kSame * (variable.high - variable.low);
+             same * (variable.high - variable.low);
     });
   };
   if (std::any_of(imposed.points.begin(), imposed.points.end(), is_near)) return false;

@@ -17,6 +17,10 @@ struct Plan {
   int slices = 1;                     ///< hull
   std::vector<Imposed> inequalities;  ///< in the order of the method
 
+  /// Inequalities whose hull was chosen because nothing is lost by it go over to an exchange. False
+  /// when there is none, or the hull was asked for.
+  bool leave_hulls(const model::Design& design);
+
   bool uses_exchange() const;
   bool uses_vertex_gains() const;
   std::size_t points() const;  ///< of all exchanges
@@ -29,7 +33,8 @@ Plan make_plan(const model::Design& design);
 /// box of the intervals. InputError for more than ten intervals.
 std::vector<Point> first_points(const Domain& domain);
 
-/// Adds a point to an exchange. False when one is there already, up to 1e-9 of each interval.
-bool add_point(Imposed& imposed, const Domain& domain, const Point& point);
+/// Adds a point to an exchange. False when one is there already, up to `same` of each interval: points
+/// that a search found draw together without end.
+bool add_point(Imposed& imposed, const Domain& domain, const Point& point, double same = 1e-9);
 
 }  // namespace gainsmith::forall

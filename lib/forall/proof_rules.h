@@ -249,23 +249,27 @@ class Search {
     return numbers::is_positive_definite(B, error);
   }
 
-  /// The variable whose error weighs most against the first corner.
+  /// The variable whose error weighs most against the first corner, among those that can be halved.
   std::size_t steepest(const Piece& piece, const typename Function<S>::Spread& spread,
                        const std::vector<const Corner*>& corners) const {
     std::size_t along = 0;
     double most = -1;
+    const auto& B = corners.front()->value;
+    numbers::Vector size(B.rows());
+    for (Eigen::Index k = 0; k < B.rows(); ++k)
+      size[k] = std::sqrt(std::abs(static_cast<double>(B.mid(k, k))));
     for (std::size_t i = 0; i < spread.errors.size(); ++i) {
+      if (!(piece.low[i] < piece.high[i])) continue;
       double weight = 0;
-      const auto& B = corners.front()->value;
       for (Eigen::Index k = 0; k < std::min(B.rows(), spread.errors[i].rows()); ++k)
-        weight += spread.errors[i](k, k) / std::abs(static_cast<double>(B.mid(k, k)));
+        weight += (spread.errors[i].col(k).array() / (size.array() * size[k])).sum();
       if (!std::isfinite(weight)) return widest(piece);
       if (weight > most) {
         along = i;
         most = weight;
       }
     }
-    return along;
+    return most < 0 ? widest(piece) : along;
   }
 
   /// Against the whole domain.

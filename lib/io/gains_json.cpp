@@ -67,7 +67,7 @@ Json margin_json(const model::Margin& margin) {
 Json bound_json(const model::GainBound& bound) {
   return {{"gain", bound.what},
           {"bound", bound.bound},
-          {"reached", bound.reached},
+          {"reached", finite_or_null(bound.reached)},
           {"active", bound.active}};
 }
 
@@ -333,7 +333,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
     gains.margins.push_back(margin_of(item));
   for (const JsonReader& item : reader.at("bounds").items())
     gains.bounds.push_back({item.at("gain").text(), item.at("bound").number(),
-                            item.at("reached").number(), item.at("active").truth()});
+                            item.at("reached").number_or_infinity(), item.at("active").truth()});
   if (reader.has("certificate"))
     gains.certificate = certificate_of(reader.at("certificate"), gains);
   gains.solver = solver_of(reader.at("solver"));

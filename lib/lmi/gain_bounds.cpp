@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <utility>
 
@@ -238,11 +239,14 @@ std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
   for (const BoundedProduct& bound : bounds.list) {
     const numbers::Matrix s = value_of(bound.s, x);
     const numbers::Matrix e = value_of(bound.e, x);
-    const double largest =
-        numbers::symmetric_eigenvalues(e.transpose() * numbers::Cholesky(s).solve(e)).maxCoeff();
-    model::GainBound record{bound.what, bounds.beta, 0, false};
-    record.reached =
-        std::sqrt(std::max(0.0, largest) / numbers::symmetric_eigenvalues(s).minCoeff());
+    model::GainBound record{bound.what, bounds.beta, std::numeric_limits<double>::infinity(), false};
+    // A coefficient of a function need not be definite: then the measure says nothing.
+    if (const numbers::Cholesky factor(s); factor) {
+      const double largest =
+          numbers::symmetric_eigenvalues(e.transpose() * factor.solve(e)).maxCoeff();
+      record.reached =
+          std::sqrt(std::max(0.0, largest) / numbers::symmetric_eigenvalues(s).minCoeff());
+    }
     record.active = record.reached > kActive * bounds.beta;
     result.push_back(std::move(record));
   }

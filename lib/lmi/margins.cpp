@@ -104,7 +104,7 @@ class Checker {
     const auto meet_point = [&](const forall::Minimum& minimum) {
       const bool holds =
           meet(forall::matrix_at(difference, minimum.point, values_), minimum.point.label);
-      if (!domain.empty() && !holds) result_.violations.push_back({inequality, minimum.point});
+      if (!domain.empty() && !holds) result_.violations.push_back({inequality, minimum.point, false});
     };
     const forall::Minima minima = forall::local_minima(difference, domain, values_, rows);
     for (const forall::Minimum& minimum : minima.list) meet_point(minimum);
@@ -128,7 +128,7 @@ class Checker {
     using Status = forall::DomainProof::Status;
     const forall::DomainProof proof = printed_.check(inequality, comparison);
     if (proof.status == Status::fails && !of_.statements[inequality].domain.empty())
-      result_.violations.push_back({inequality, *proof.point});
+      result_.violations.push_back({inequality, *proof.point, true});
     if (proof.status == Status::open)
       leave_open(name, (proof.where.empty() ? "" : "not settled for " + proof.where + ": ") +
                            proof.reason);

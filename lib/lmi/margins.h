@@ -15,6 +15,7 @@ namespace gainsmith::lmi {
 struct Violation {
   std::size_t inequality = 0;  ///< its index in the method
   forall::Point point;
+  bool certain = false;  ///< shown by the check of the printed decimals, not by the search
 };
 
 struct Margins {

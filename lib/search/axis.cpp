@@ -6,20 +6,19 @@
 
 namespace gainsmith::search {
 
+// Both ways only know of ratios to `low`: in units that are powers of two apart the same bits.
 double Axis::at(double fraction) const {
   if (fraction <= 0) return low;
   if (fraction >= 1) return high;
-  const double value = logarithmic
-                           ? std::exp(std::log(low) + (std::log(high) - std::log(low)) * fraction)
-                           : low + (high - low) * fraction;
+  const double value =
+      logarithmic ? low * std::exp(std::log(high / low) * fraction) : low + (high - low) * fraction;
   return std::clamp(value, low, high);
 }
 
 double Axis::fraction(double value) const {
   if (!(high > low) || !(value > low)) return 0;
-  const double part = logarithmic
-                          ? (std::log(value) - std::log(low)) / (std::log(high) - std::log(low))
-                          : (value - low) / (high - low);
+  const double part =
+      logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
   return std::clamp(part, 0.0, 1.0);
 }
 

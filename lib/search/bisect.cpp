@@ -80,7 +80,7 @@ class Halving {
       return std::nullopt;
     const double a = sign() * inner;
     const double b = sign() * outer;
-    const double value = axis_.logarithmic ? std::sqrt(a) * std::sqrt(b) : a + 0.5 * (b - a);
+    const double value = axis_.logarithmic ? a * std::sqrt(b / a) : a + 0.5 * (b - a);
     if (value == a || value == b) return std::nullopt;
     return value;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "lmi/correlation.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::lmi {
@@ -32,66 +33,176 @@ numbers::Matrix slack(const sdp::Problem& problem, int block, const std::vector<
   return result;
 }
 
-Formulation formulation_of(const Lmi& lmi) { return formulate(lmi, {}, {}, goal_of(lmi, {})); }
+Formulation interior_of(const Lmi& lmi) { return formulate_interior(lmi, {}, {}); }
 
-TEST(FormulationTest, TheGoalFollowsFromObjectiveAndConstants) {
-  const auto goal = [](const std::string& require) {
-    const tests::YamlProblem yaml(problem_with(require) + kData);
-    return goal_of(compile(Inequalities(yaml.instance)), {});
-  };
-  EXPECT_EQ(goal("    a: P > 0\n"), Goal::homogeneous_feasibility);
-  EXPECT_EQ(goal("    a: P > I\n"), Goal::feasibility);
-  EXPECT_EQ(goal("    a: P > 0\n  minimize: trace(P)\n"), Goal::normalised_objective);
-  EXPECT_EQ(goal("    a: P > I\n  minimize: trace(P)\n"), Goal::bounded_objective);
+/// S_k B_k(x) S_k, with rows and units of the balance.
+numbers::Matrix in_units(const Lmi& lmi, const Balance& balance, std::size_t k,
+                         const std::vector<double>& x) {
+  numbers::Vector rows(lmi.blocks[k].size);
+  for (int r = 0; r < rows.size(); ++r) rows[r] = balance.row(k, r);
+  return rows.asDiagonal() * lmi.blocks[k].value(x) * rows.asDiagonal();
 }
 
-TEST(FormulationTest, StrictBlocksKeepTheirMarginAndOthersDoNot) {
+/// x_i / d_i.
+std::vector<double> in_units(const Balance& balance, std::vector<double> x) {
+  for (std::size_t i = 0; i < x.size(); ++i) x[i] /= balance.unit(static_cast<int>(i) + 1);
+  return x;
+}
+
+TEST(FormulationTest, AnObjectiveHasAMinimumOnlyBesideConstants) {
+  const auto minimum = [](const std::string& require) {
+    const tests::YamlProblem yaml(problem_with(require) + kData);
+    return has_minimum(compile(Inequalities(yaml.instance)), {});
+  };
+  EXPECT_FALSE(minimum("    a: P > 0\n"));
+  EXPECT_FALSE(minimum("    a: P > I\n"));
+  EXPECT_FALSE(minimum("    a: P > 0\n  minimize: trace(P)\n"));
+  EXPECT_TRUE(minimum("    a: P > I\n  minimize: trace(P)\n"));
+}
+
+TEST(FormulationTest, TheObjectiveIsSolvedInBalancedUnitsWithItsShift) {
   const tests::YamlProblem yaml(
-      problem_with("    strict: He(P*A) + s*I < 0\n    loose: P >= s*I\n  minimize: trace(P)\n") +
+      problem_with("    strict: He(P*A) + 1e6*s*I < 0\n    loose: 1e-3*P >= s*I\n  minimize: "
+                   "trace(P)\n") +
       kData);
   const Lmi lmi = compile(Inequalities(yaml.instance));
-  const Formulation formulation = formulation_of(lmi);
-  const std::vector<double> x = {1.5, 0.25, 2.5};
-  for (int k = 0; k < 2; ++k) {
-    const Block& block = lmi.blocks[static_cast<std::size_t>(k)];
-    const double margin =
-        block.strict ? formulation.margin * formulation.scales[static_cast<std::size_t>(k)] : 0;
-    const numbers::Matrix expected = block.value(x) - margin * numbers::Matrix::Identity(2, 2);
-    std::vector<double> scaled = x;
-    for (double& value : scaled) value /= formulation.unit;
-    EXPECT_LT((formulation.unit * slack(formulation.problem, k, scaled) - expected).norm(), 1e-13);
+  const double shift = 1e-3;
+  const Formulation formulation = formulate_objective(lmi, {}, shift);
+  const std::vector<double> x = {1.5e4, 0.25e4, 2.5e4};
+  const std::vector<double> y = in_units(formulation.balance, x);
+  double cost = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) cost += formulation.problem.c[i] * y[i];
+  EXPECT_DOUBLE_EQ(cost, lmi.objective_at(x));
+  for (std::size_t k = 0; k < 2; ++k) {
+    const numbers::Matrix expected =
+        in_units(lmi, formulation.balance, k, x) - shift * numbers::Matrix::Identity(2, 2);
+    EXPECT_LT((slack(formulation.problem, static_cast<int>(k), y) - expected).norm(),
+              1e-13 * expected.norm());
   }
-  EXPECT_GT(formulation.scales[0], 0);
 }
 
-TEST(FormulationTest, ScalesFollowTheData) {
-  const auto scales = [](double s) {
-    const tests::YamlProblem yaml(problem_with("    a: P > 0\n    b: He(P*A) + s*I < 0\n") +
-                                  "data: {A: [[0, 1], [-2, -3]], s: " + std::to_string(s) + "}\n");
-    return formulation_of(compile(Inequalities(yaml.instance))).scales;
-  };
-  const auto one = scales(1);
-  const auto thousand = scales(1000);
-  for (std::size_t k = 0; k < one.size(); ++k)
-    EXPECT_NEAR(thousand[k], 1000 * one[k], 1e-9 * thousand[k]);
-}
-
-TEST(FormulationTest, HomogeneousFeasibilityAddsTheSizeOfX) {
-  const tests::YamlProblem yaml(problem_with("    a: P > 0\n    b: He(P*A) < 0\n") + kData);
+/// In a round with t and D_k a block is B - t diag(B) - s D_k and the sizes of all, measured by
+/// D_k, are at most the number of rows; x_0 stands where the constants stood.
+TEST(FormulationTest, ARoundAsksForALargerMarginInItsOwnDiagonals) {
+  const tests::YamlProblem yaml(problem_with("    a: P > 0\n    b: He(P*A) + s*I < 0\n") + kData);
   const Lmi lmi = compile(Inequalities(yaml.instance));
-  const Formulation formulation = formulation_of(lmi);
-  ASSERT_EQ(formulation.problem.m(), 4);
-  EXPECT_EQ(formulation.problem.c, (std::vector<double>{0, 0, 0, 1}));
-  const std::vector<double> x = {1, -3, 2, 5};
-  const numbers::Matrix limits = slack(formulation.problem, 2, x);
-  ASSERT_EQ(limits.rows(), 6);
-  const numbers::Matrix expected = (Eigen::VectorXd(6) << 6, 4, 2, 8, 7, 3).finished().asDiagonal();
-  EXPECT_EQ(limits, expected);
+  Round round;
+  round.margin = 0.25;
+  round.diagonals = {numbers::Vector::Constant(2, 3), (numbers::Vector(2) << 5, 0.5).finished()};
+  round.constant = 4;
+  const Formulation formulation = formulate_interior(lmi, {}, round);
+  ASSERT_TRUE(formulation.homogenised);
+  ASSERT_EQ(formulation.problem.m(), 5);
+  EXPECT_EQ(formulation.rows, 5);
+  EXPECT_EQ(formulation.problem.c, (std::vector<double>{0, 0, 0, 0, -1}));
+  const double constant = 2;
+  const double s = 0.125;
+  const std::vector<double> x = {1, -3, 2};
+  std::vector<double> y = in_units(formulation.balance, x);
+  y.push_back(constant);
+  y.push_back(s);
+  double sizes = constant / round.constant;
+  std::vector<double> scaled = x;
+  for (double& value : scaled) value /= constant;
+  for (std::size_t k = 0; k < 2; ++k) {
+    const numbers::Matrix B = constant * in_units(lmi, formulation.balance, k, scaled);
+    numbers::Matrix expected = B;
+    expected.diagonal() -= round.margin * B.diagonal() + s * round.diagonals[k];
+    EXPECT_LT((slack(formulation.problem, static_cast<int>(k), y) - expected).norm(), 1e-12);
+    sizes += B.diagonal().cwiseQuotient(round.diagonals[k]).sum();
+  }
+  EXPECT_DOUBLE_EQ(slack(formulation.problem, 2, y)(0, 0),
+                   constant * (1 - round.margin) - s * round.constant);
+  EXPECT_NEAR(slack(formulation.problem, 3, y)(0, 0), 5 - sizes, 1e-12);
+}
+
+TEST(FormulationTest, WithoutConstantsNothingIsHomogenised) {
+  const tests::YamlProblem yaml(problem_with("    a: P > 0\n    b: He(P*A) < 0\n") + kData);
+  const Formulation formulation = interior_of(compile(Inequalities(yaml.instance)));
+  EXPECT_FALSE(formulation.homogenised);
+  EXPECT_EQ(formulation.problem.m(), 4);
+  EXPECT_EQ(formulation.problem.blocks.size(), 3U);
+}
+
+/// Time and states in units that are powers of two: the very same program.
+TEST(FormulationTest, UnitsThatArePowersOfTwoGiveTheSameProgram) {
+  const auto program = [](const std::string& A) {
+    const tests::YamlProblem yaml(
+        "problem: p\nmethod: {method: m, data: {A: n x n}, unknowns: {P: symmetric n}, require: "
+        "{a: P > 0, b: He(P*A) < 0}}\ndata: {A: " +
+        A + "}\n");
+    return interior_of(compile(Inequalities(yaml.instance))).problem;
+  };
+  const sdp::Problem one = program("[[0.1, 0.7, 0], [-2, -3, 5], [1, 0.3, -0.9]]");
+  // z_1 = 1024 x_1, z_3 = x_3 / 8, t -> 4 t.
+  const sdp::Problem other = program(
+      "[[0.025, 179.2, 0], [-0.00048828125, -0.75, 10], [0.000030517578125, 0.009375, -0.225]]");
+  EXPECT_EQ(one.f, other.f);
+  EXPECT_EQ(one.c, other.c);
+}
+
+/// x = x_f / x_0 in the units of the problem; the next round measures by the diagonals there.
+TEST(FormulationTest, APointInsideIsReadBackAndMeasured) {
+  const tests::YamlProblem yaml(problem_with("    a: P > 0\n    b: 1e5*P - 3e5*s*I > A*A'\n") +
+                                kData);
+  const Lmi lmi = compile(Inequalities(yaml.instance));
+  const Formulation formulation = interior_of(lmi);
+  const double constant = 0.5;
+  const std::vector<double> x = {40, 3, 50};
+  sdp::Solution solution;
+  solution.x = in_units(formulation.balance, x);
+  for (double& value : solution.x) value *= constant;
+  solution.x.push_back(constant);
+  solution.x.push_back(0.01);
+  EXPECT_EQ(interior_margin(solution), 0.01);
+  const std::vector<double> back = read_back(lmi, formulation, solution);
+  ASSERT_EQ(back.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(back[i], x[i]);
+  const auto next = next_round(formulation, solution);
+  ASSERT_TRUE(next);
+  EXPECT_EQ(next->constant, constant);
+  double least = 1;
+  for (std::size_t k = 0; k < 2; ++k) {
+    least = std::min(least, correlation_margin(lmi.blocks[k].value(x)));
+    const numbers::Vector expected = constant * in_units(lmi, formulation.balance, k, x).diagonal();
+    EXPECT_LT((next->diagonals[k] - expected).norm(), 1e-12 * expected.norm());
+  }
+  EXPECT_NEAR(next->margin, least, 1e-12);
+  solution.x[0] = -1;
+  EXPECT_FALSE(next_round(formulation, solution));
+  solution.x = {1, 0, 1, -0.5, 0.01};
+  EXPECT_FALSE(next_round(formulation, solution));
+}
+
+/// <B_ki, Y_k> is the same number whatever the units.
+TEST(FormulationTest, MultipliersAreInTheUnitsOfTheData) {
+  const tests::YamlProblem yaml(problem_with("    a: 1e4*P > 0\n    b: He(P*A) + 1e-3*s*I < 0\n") +
+                                kData);
+  const Lmi lmi = compile(Inequalities(yaml.instance));
+  const Formulation formulation = interior_of(lmi);
+  sdp::Solution solution;
+  solution.Y.values = {{2, 0.5, 0.5, 1}, {3, -1, -1, 4}, {1}, {1}};
+  const auto Y = multipliers(lmi, {}, formulation, solution);
+  ASSERT_EQ(Y.size(), 2U);
+  for (std::size_t k = 0; k < 2; ++k) {
+    const Eigen::Map<const numbers::Matrix> balanced(solution.Y.values[k].data(), 2, 2);
+    for (int i = 1; i <= 3; ++i) {
+      std::vector<double> unit(3, 0.0);
+      unit[static_cast<std::size_t>(i) - 1] = 1;
+      const numbers::Matrix B = lmi.blocks[k].value(unit) - lmi.blocks[k].value({0, 0, 0});
+      std::vector<double> y(5, 0.0);
+      y[static_cast<std::size_t>(i) - 1] = 1;
+      const numbers::Matrix F = slack(formulation.problem, static_cast<int>(k), y) -
+                                slack(formulation.problem, static_cast<int>(k), {0, 0, 0, 0, 0});
+      EXPECT_NEAR(B.cwiseProduct(Y[k]).sum() * formulation.balance.unit(i),
+                  F.cwiseProduct(balanced).sum(), 1e-12);
+    }
+  }
 }
 
 TEST(FormulationTest, EntriesAreMergedSortedAndInTheUpperTriangle) {
   const tests::YamlProblem yaml(problem_with("    a: He(P*A) + A + A' < P\n") + kData);
-  const Formulation formulation = formulation_of(compile(Inequalities(yaml.instance)));
+  const Formulation formulation = interior_of(compile(Inequalities(yaml.instance)));
   for (const auto& entries : formulation.problem.f) {
     for (const sdp::Entry& entry : entries) EXPECT_LE(entry.row, entry.column);
     const auto same = [](const sdp::Entry& a, const sdp::Entry& b) {

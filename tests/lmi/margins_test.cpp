@@ -26,9 +26,10 @@ class MarginsTest : public ::testing::Test {
     lmi_ = compile(*of_, plan_);
   }
 
-  Margins at(double x, double required = 1e-7) const {
-    return compute_margins(*of_, lmi_, plan_, std::vector<double>(lmi_.blocks.size(), 2.0), false,
-                           required, {x});
+  Margins at(double x, double wished = 1e-9) const {
+    std::vector<const Block*> blocks;
+    for (const Block& block : lmi_.blocks) blocks.push_back(&block);
+    return compute_margins(*of_, lmi_, balance(blocks, lmi_.unknowns, {}), wished, {x});
   }
 
   std::unique_ptr<tests::YamlProblem> yaml_;
@@ -37,17 +38,48 @@ class MarginsTest : public ::testing::Test {
   Lmi lmi_;
 };
 
-TEST_F(MarginsTest, AreTheSmallestEigenvalueInUnitsOfTheScale) {
-  const Margins found = at(1.5);
+/// [x, 1; 1, 1] has the correlation 1/sqrt(x).
+TEST_F(MarginsTest, AreTheSmallestEigenvalueMeasuredByTheDiagonal) {
+  pose("\"[x, 1; 1, 1] > 0\"");
+  const Margins found = at(4);
   ASSERT_EQ(found.margins.size(), 1U);
-  EXPECT_DOUBLE_EQ(found.margins[0].smallest_eigenvalue, 0.5);
-  EXPECT_DOUBLE_EQ(found.margins[0].reached, 0.25);
+  EXPECT_NEAR(found.margins[0].reached, 0.5, 1e-15);
+  EXPECT_NEAR(found.margins[0].smallest_eigenvalue, 2.5 - std::sqrt(3.25), 1e-15);
+  EXPECT_EQ(found.margins[0].required, 1e-9);
+  EXPECT_TRUE(all_hold(found));
   EXPECT_TRUE(is_kept(found.margins[0]));
   EXPECT_TRUE(found.open.empty());
-  EXPECT_FALSE(found.searched);
-  EXPECT_FALSE(is_kept(at(1.5, 0.3).margins[0]));
-  EXPECT_TRUE(is_kept(at(1.5, 0.2525).margins[0]));  // 1 % less is enough
-  EXPECT_FALSE(is_kept(at(0.5).margins[0]));
+  // Less than was wished for holds all the same, but is not kept.
+  EXPECT_TRUE(all_hold(at(4, 0.6)));
+  EXPECT_FALSE(is_kept(at(4, 0.6).margins[0]));
+  EXPECT_TRUE(is_kept(at(4, 0.5025).margins[0]));  // 1 % less is enough
+  EXPECT_FALSE(all_hold(at(0.5)));
+  EXPECT_LT(at(0.5).margins[0].reached, 0);
+}
+
+TEST_F(MarginsTest, DoNotDependOnUnits) {
+  pose("\"[x, 1; 1, 1] > 0\"");
+  const double reached = at(3).margins[0].reached;
+  pose("\"[1e-30*x, 1e-3; 1e-3, 1e24] > 0\"");
+  EXPECT_NEAR(at(3).margins[0].reached, reached, 1e-14);
+  EXPECT_TRUE(all_hold(at(3)));
+}
+
+/// What doubles cannot tell apart is decided at the decimals.
+TEST_F(MarginsTest, AYesIsDecidedAtTheDecimals) {
+  pose("\"[x, 0.1; 0.1, 0.1] > 0\"");  // x > 0.1
+  EXPECT_TRUE(all_hold(at(std::nextafter(0.1, 1))));
+  EXPECT_FALSE(all_hold(at(0.1)));
+  pose("\"[x, 0.1; 0.1, 0.1] >= 0\"");
+  EXPECT_FALSE(all_hold(at(std::nextafter(0.1, 0))));
+}
+
+TEST_F(MarginsTest, AScalarHasTheMarginOne) {
+  for (const double x : {1 + 1e-15, 1.5, 1e300}) {
+    EXPECT_EQ(at(x).margins[0].reached, 1) << x;
+    EXPECT_TRUE(is_kept(at(x).margins[0])) << x;
+  }
+  EXPECT_FALSE(all_hold(at(1)));
 }
 
 /// The text counts whatever the blocks say, and the blocks whatever the text says.
@@ -55,8 +87,10 @@ TEST_F(MarginsTest, AMistakeInTheBlocksShowsUp) {
   ASSERT_EQ(lmi_.blocks[0].terms[0].first, 0);
   lmi_.blocks[0].terms[0].second *= -1;  // x + 1 > 0
   EXPECT_DOUBLE_EQ(at(0.5).margins[0].smallest_eigenvalue, -0.5);
+  EXPECT_FALSE(all_hold(at(0.5)));
   lmi_.blocks[0].terms[0].second *= -3;  // x - 3 > 0
   EXPECT_DOUBLE_EQ(at(2).margins[0].smallest_eigenvalue, -1);
+  EXPECT_FALSE(all_hold(at(2)));
 }
 
 TEST_F(MarginsTest, WhatIsNoNumberIsNotKept) {
@@ -71,14 +105,16 @@ TEST_F(MarginsTest, WhatIsNoNumberIsNotKept) {
   }
 }
 
-TEST_F(MarginsTest, WithoutDerivativesItIsSearchedBetweenThePoints) {
-  pose("{forall: \"t in [0.1, 4]\", that: \"x > sqrt(t)\"}", "synthesis: {forall: exchange}\n");
-  const Margins found = at(2.5);
-  EXPECT_TRUE(found.searched);
-  EXPECT_TRUE(found.open.empty());
+TEST_F(MarginsTest, TheWorstPointIsOnTheWholeInterval) {
+  pose("{forall: \"t in [0.1, 4]\", that: \"[x, sqrt(t); *, 1] > 0\"}",
+       "synthesis: {forall: exchange}\n");
+  const Margins found = at(6);
+  EXPECT_TRUE(all_hold(found));
   EXPECT_EQ(found.margins[0].worst_point, "t = 4");
+  EXPECT_NEAR(found.margins[0].reached, 1 - std::sqrt(4. / 6), 1e-12);
   EXPECT_TRUE(found.violations.empty());
-  const Margins failed = at(1.5);
+  const Margins failed = at(3);
+  EXPECT_FALSE(all_hold(failed));
   ASSERT_EQ(failed.violations.size(), 1U);
   EXPECT_EQ(failed.violations[0].point.label, "t = 4");
 }
@@ -87,9 +123,10 @@ TEST_F(MarginsTest, WhatIsNotSettledBetweenThePointsIsOpen) {
   pose("{forall: \"t in [0, 1]\", that: \"x + cos(1e7*t) > 0\"}",
        "synthesis: {forall: exchange}\n");
   const Margins found = at(1.0001);
-  EXPECT_TRUE(is_kept(found.margins[0]));
+  EXPECT_FALSE(all_hold(found));
   EXPECT_EQ(found.open.rfind("all: not settled for t in [", 0), 0U) << found.open;
   pose("{forall: \"t in [0, 1]\", that: \"x + cos(70*t) > 0\"}", "synthesis: {forall: exchange}\n");
+  EXPECT_TRUE(all_hold(at(1.0001)));
   EXPECT_TRUE(at(1.0001).open.empty());
 }
 

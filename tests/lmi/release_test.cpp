@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-
+#include "lmi/correlation.h"
 #include "lmi/formulation.h"
 #include "support/yaml_problem.h"
 
@@ -21,7 +20,7 @@ std::string problem_with(const std::string& minimize, const std::string& extra =
 TEST(ReleaseTest, ScalarsWithoutAPriceAreReleasedWithTheirRows) {
   const tests::YamlProblem yaml(problem_with("trace(P)"));
   const Lmi lmi = compile(Inequalities(yaml.instance));
-  const Releases releases = find_releases(lmi, {});
+  const Releases releases = find_releases(lmi, {}, true);
   ASSERT_EQ(releases.list.size(), 2U);
   EXPECT_TRUE(releases.released(4));
   EXPECT_EQ(releases.list[0].sign, 1);
@@ -32,9 +31,9 @@ TEST(ReleaseTest, ScalarsWithoutAPriceAreReleasedWithTheirRows) {
 
 TEST(ReleaseTest, APriceOrAnotherUseKeepsThem) {
   const tests::YamlProblem priced(problem_with("trace(P) + g - h"));
-  EXPECT_TRUE(find_releases(compile(Inequalities(priced.instance)), {}).list.empty());
+  EXPECT_TRUE(find_releases(compile(Inequalities(priced.instance)), {}, true).list.empty());
   const tests::YamlProblem capped(problem_with("trace(P) - h", "    cap: g <= 100\n"));
-  EXPECT_TRUE(find_releases(compile(Inequalities(capped.instance)), {}).list.empty());
+  EXPECT_TRUE(find_releases(compile(Inequalities(capped.instance)), {}, true).list.empty());
 }
 
 /// g1 and g2 have no price and would take both rows of one block.
@@ -42,24 +41,53 @@ TEST(ReleaseTest, NoBlockLosesAllItsRowsToSeveralScalars) {
   const tests::YamlProblem yaml(
       "problem: p\nmethod:\n  method: m\n  unknowns: {g1: scalar, g2: scalar, t: scalar}\n"
       "  require:\n    both: \"[g1, 1; *, g2] > 0\"\n    price: t > 1\n  minimize: t\n");
-  const Releases releases = find_releases(compile(Inequalities(yaml.instance)), {});
+  const Releases releases = find_releases(compile(Inequalities(yaml.instance)), {}, true);
   EXPECT_EQ(releases.list.size(), 1U);
   for (const std::vector<int>& rows : releases.kept) EXPECT_EQ(rows.size(), 1U);
+}
+
+/// A price is none where the objective does not count.
+TEST(ReleaseTest, WithoutTheObjectiveAPricedScalarIsFreeToo) {
+  const tests::YamlProblem priced(problem_with("trace(P) + g - h"));
+  const Lmi lmi = compile(Inequalities(priced.instance));
+  EXPECT_EQ(find_releases(lmi, {}, false).list.size(), 2U);
+  // Another block that needs the scalar finite keeps it.
+  const std::vector<Block> others = {lmi.blocks[1]};
+  EXPECT_EQ(find_releases(lmi, others, false).list.size(), 1U);
 }
 
 TEST(ReleaseTest, RestoredScalarsSatisfyTheWholeBlocks) {
   const tests::YamlProblem yaml(problem_with("trace(P)"));
   const Lmi lmi = compile(Inequalities(yaml.instance));
-  const Releases releases = find_releases(lmi, {});
-  std::vector<double> x = {2, 0, 2, 0, 0};
-  const std::vector<double> required = {0.5, 0.5, 0.5};
-  restore(lmi, releases, required, x);
+  const Releases releases = find_releases(lmi, {}, true);
+  std::vector<const Block*> blocks;
+  for (const Block& block : lmi.blocks) blocks.push_back(&block);
+  const Balance units = balance(blocks, lmi.unknowns, lmi.objective);
+  std::vector<double> x = {2, 0.5, 3, 0, 0};
+  const numbers::Matrix P = (numbers::Matrix(2, 2) << 2, 0.5, 0.5, 3).finished();
+  restore(lmi, releases, units, x);
   EXPECT_GT(x[3], 0);
   EXPECT_LT(x[4], 0);
-  for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_GE(
-        Eigen::SelfAdjointEigenSolver<numbers::Matrix>(lmi.blocks[k].value(x)).eigenvalues()(0),
-        0.995 * required[k]);
+  // At least half of what the rows without g and h have.
+  for (std::size_t k = 1; k < 3; ++k)
+    EXPECT_GE(correlation_margin(lmi.blocks[k].value(x)), 0.5 * correlation_margin(P) - 1e-12);
+}
+
+/// The size that a scalar is given follows its unit.
+TEST(ReleaseTest, RestoringDoesNotDependOnUnits) {
+  const auto restored = [](const std::string& unit) {
+    const tests::YamlProblem yaml(
+        "problem: p\nmethod:\n  method: m\n  unknowns: {P: symmetric 2, g: scalar}\n  require:\n"
+        "    bound: \"[P, [1; 3]; *, " +
+        unit + "*g] > 0\"\n    size: P > I\n  minimize: trace(P)\n");
+    const Lmi lmi = compile(Inequalities(yaml.instance));
+    std::vector<const Block*> blocks;
+    for (const Block& block : lmi.blocks) blocks.push_back(&block);
+    std::vector<double> x = {2, 0.5, 3, 0};
+    restore(lmi, find_releases(lmi, {}, true), balance(blocks, lmi.unknowns, lmi.objective), x);
+    return x[3];
+  };
+  EXPECT_EQ(restored("1"), 1048576 * restored("1048576"));
 }
 
 }  // namespace
