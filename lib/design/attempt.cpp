@@ -45,43 +45,91 @@ void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   take_point(posed, lmi::read_back(posed.lmi, result.formulation, result.solution), result);
 }
 
-void solve_interior(const Posed& posed, const Solve& solve, Attempt& result) {
+/// Programs for the largest margin, of the data as the effort sees them, and their solutions.
+class Interior {
+ public:
+  struct Solved {
+    lmi::Formulation formulation;
+    sdp::Solution solution;
+  };
+
+  Interior(const Posed& posed, const Question& asked, const Solve& solve)
+      : posed_(posed), asked_(asked), solve_(solve) {}
+
+  /// More digits are worth having only for data that have them.
+  bool is_wide() const { return asked_.effort.precision != "auto"; }
+
+  Solved operator()(const lmi::Round& round, const std::vector<std::vector<int>>& rows = {}) {
+    const lmi::Exactly exactly = [this](std::size_t k, const lmi::Balance& balance,
+                                        const std::vector<int>& kept) {
+      if (!exact_) exact_.emplace(posed_.inequalities, balance);
+      return lmi::rounded(exact_->block(posed_.lmi.blocks[k], k, kept),
+                          static_cast<int>(kept.size()));
+    };
+    Solved result;
+    result.formulation = lmi::formulate_interior(posed_.lmi, asked_.bounds, round,
+                                                 is_wide() ? exactly : lmi::Exactly{}, rows);
+    result.solution = solve_(result.formulation.problem, asked_.effort);
+    return result;
+  }
+
+ private:
+  const Posed& posed_;
+  const Question& asked_;
+  const Solve& solve_;
+  std::optional<lmi::ExactBlocks<Decimal100>> exact_;
+};
+
+/// The first round, whose multipliers are a certificate where there is no point.
+Interior::Solved solve_interior(const Posed& posed, Interior& interior, Attempt& result) {
   constexpr int kMostRounds = 8;
   constexpr double kRises = 1e-3;
-  const Question& asked = result.question;
-  // More digits are worth having only for data that have them.
-  const bool wide = asked.effort.precision != "auto";
-  std::optional<lmi::ExactBlocks<Decimal100>> exact;
-  const lmi::Exactly exactly = [&](std::size_t k, const lmi::Balance& balance,
-                                   const std::vector<int>& kept) {
-    if (!exact) exact.emplace(posed.inequalities, balance);
-    return lmi::rounded(exact->block(posed.lmi.blocks[k], k, kept), static_cast<int>(kept.size()));
-  };
   lmi::Round round;
+  Interior::Solved first;
   for (int k = 0; k < kMostRounds; ++k) {
-    lmi::Formulation formulation =
-        lmi::formulate_interior(posed.lmi, asked.bounds, round, wide ? exactly : lmi::Exactly{});
-    sdp::Solution solution = solve(formulation.problem, asked.effort);
-    const auto next = lmi::next_round(formulation, solution);
-    const std::vector<double> x = lmi::read_back(posed.lmi, formulation, solution);
+    Interior::Solved solved = interior(round);
+    if (k == 0) first = solved;
+    const auto next = lmi::next_round(solved.formulation, solved.solution);
+    const std::vector<double> x = lmi::read_back(posed.lmi, solved.formulation, solved.solution);
     if (k == 0 || (next && next->margin > round.margin)) {
-      result.formulation = std::move(formulation);
-      result.solution = std::move(solution);
+      result.formulation = std::move(solved.formulation);
+      result.solution = std::move(solved.solution);
       take_point(posed, x, result);
     }
-    if (!next || next->margin >= posed.choices().margin) return;
-    if (next->margin <= round.margin * (1 + kRises)) return;
+    if (!next || next->margin >= posed.choices().margin) break;
+    if (next->margin <= round.margin * (1 + kRises)) break;
     round = *next;
   }
+  return first;
 }
 
-void refute(const Posed& posed, Attempt& result) {
-  const lmi::Formulation& formulation = result.formulation;
-  const auto Y = lmi::multipliers_of(formulation, posed.lmi.blocks.size(), result.solution);
-  result.refutation = lmi::refute<DoubleDouble>(posed.inequalities, posed.lmi, formulation, Y);
+lmi::Refutation refutation_of(const Posed& posed, const Question& asked,
+                              const Interior::Solved& solved) {
+  const lmi::Formulation& formulation = solved.formulation;
+  const auto Y = lmi::multipliers_of(formulation, posed.lmi.blocks.size(), solved.solution);
+  const auto found = lmi::refute<DoubleDouble>(posed.inequalities, posed.lmi, formulation, Y);
   // What 31 digits see is not of the data's making when 100 are asked for.
-  if (result.refutation->exact || result.question.effort.precision == "auto") return;
-  result.refutation = lmi::refute<Decimal100>(posed.inequalities, posed.lmi, formulation, Y);
+  if (found.exact || asked.effort.precision == "auto") return found;
+  return lmi::refute<Decimal100>(posed.inequalities, posed.lmi, formulation, Y);
+}
+
+/// The multipliers of the first round, and in more digits also those of the rows that they live on.
+void refute(const Posed& posed, Interior& interior, Interior::Solved solved, Attempt& result) {
+  constexpr int kMostRestrictions = 3;
+  for (int k = 0;; ++k) {
+    const lmi::Refutation found = refutation_of(posed, result.question, solved);
+    const bool better = !result.refutation || found.exact || found.omega < result.refutation->omega;
+    if (better) result.refutation = found;
+    if (result.refuted()) {
+      result.formulation = std::move(solved.formulation);
+      result.solution = std::move(solved.solution);
+      return;
+    }
+    if (!interior.is_wide() || k == kMostRestrictions) return;
+    const auto rows = lmi::rows_of_multipliers(solved.formulation, solved.solution);
+    if (rows.empty()) return;
+    solved = interior({}, rows);
+  }
 }
 
 }  // namespace
@@ -103,18 +151,19 @@ bool Attempt::relaxation_refuted() const {
 Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
   Attempt result;
   result.question = std::move(question);
-  const bool interior = result.question.goal == lmi::Goal::interior;
-  if (interior)
-    solve_interior(posed, solve, result);
-  else
+  if (result.question.goal == lmi::Goal::objective) {
     solve_objective(posed, solve, result);
-  if (result.point) {
-    result.margins = margins_at(posed, result, result.x);
-  } else if (interior && !result.solution.x.empty()) {
-    result.relaxed_omega =
-        lmi::relaxed_omega(posed.lmi, result.question.bounds, result.formulation, result.solution);
-    if (result.question.bounds.list.empty()) refute(posed, result);
+    if (result.point) result.margins = margins_at(posed, result, result.x);
+    return result;
   }
+  Interior interior(posed, result.question, solve);
+  Interior::Solved first = solve_interior(posed, interior, result);
+  if (result.point) result.margins = margins_at(posed, result, result.x);
+  if (result.holds() || first.solution.x.empty()) return result;
+  if (!result.point)
+    result.relaxed_omega =
+        lmi::relaxed_omega(posed.lmi, result.question.bounds, first.formulation, first.solution);
+  if (result.question.bounds.list.empty()) refute(posed, interior, std::move(first), result);
   return result;
 }
 

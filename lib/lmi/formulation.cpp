@@ -71,7 +71,8 @@ Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double
 }
 
 Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round,
-                               const Exactly& exactly) {
+                               const Exactly& exactly,
+                               const std::vector<std::vector<int>>& rows_that_stay) {
   Formulation result;
   result.goal = Goal::interior;
   result.homogenised = !is_homogeneous(lmi, bounds);
@@ -81,12 +82,16 @@ Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const R
   const int margin = own + (result.homogenised ? 2 : 1);
   result.balance = balance(blocks, own, {});
   result.releases = find_releases(lmi, bounds.blocks, false);
+  if (!rows_that_stay.empty()) result.releases.kept = rows_that_stay;
   const auto rows = rows_of(result.releases, bounds);
   Assembler assembler(margin);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     result.blocks.push_back(exactly ? exactly(k, result.balance, rows[k])
                                     : balanced(*blocks[k], result.balance, k, rows[k]));
-    const int added = assembler.add(result.blocks[k], constant, 1 - round.margin);
+    // A block without rows keeps its place.
+    const int added = result.blocks[k].size == 0
+                          ? assembler.add_block(1, true)
+                          : assembler.add(result.blocks[k], constant, 1 - round.margin);
     for (int r = 0; r < result.blocks[k].size; ++r)
       assembler.add_entry(margin, added, r, r,
                           round.diagonals.empty() ? -1 : -round.diagonals[k][r]);
@@ -102,6 +107,34 @@ Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const R
   assembler.set_cost(margin, -1);
   result.problem = assembler.take();
   return result;
+}
+
+std::vector<std::vector<int>> rows_of_multipliers(const Formulation& formulation,
+                                                  const sdp::Solution& solution) {
+  constexpr double kGap = 1e6;
+  const auto& kept = formulation.releases.kept;
+  const auto diagonal = [&](std::size_t k, std::size_t i) {
+    return solution.Y.values[k][i * (kept[k].size() + 1)];
+  };
+  std::vector<double> sizes;
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    for (std::size_t i = 0; i < kept[k].size(); ++i) sizes.push_back(std::max(0.0, diagonal(k, i)));
+  std::sort(sizes.rbegin(), sizes.rend());
+  double widest = kGap;
+  double least = 0;
+  for (std::size_t i = 0; i + 1 < sizes.size() && sizes[i] > 0; ++i) {
+    // Nothing of a row is as far below as double reaches.
+    const double gap = sizes[i] / std::max(sizes[i + 1], 1e-300);
+    if (gap < widest) continue;
+    widest = gap;
+    least = sizes[i];
+  }
+  if (least == 0) return {};
+  std::vector<std::vector<int>> rows(kept.size());
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    for (std::size_t i = 0; i < kept[k].size(); ++i)
+      if (diagonal(k, i) >= least) rows[k].push_back(kept[k][i]);
+  return rows;
 }
 
 double interior_margin(const sdp::Solution& solution) { return solution.x.back(); }

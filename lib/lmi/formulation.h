@@ -59,9 +59,18 @@ bool has_minimum(const Lmi& lmi, const GainBounds& bounds);
 
 Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double shift);
 /// With `exactly` the coefficients of the Lmi's blocks are those, in 31 digits; there must be no
-/// bounds then.
+/// bounds then. `rows`, unless empty: the rows of each block of the Lmi that stay, of those that
+/// releases leave. With fewer rows less is asked, so what refutes it refutes the whole.
 Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round,
-                               const Exactly& exactly = {});
+                               const Exactly& exactly = {},
+                               const std::vector<std::vector<int>>& rows = {});
+
+/// The rows on which the multipliers of an interior solution without bounds live, where the others
+/// are noise beside them: their diagonal elements are smaller by a gap of at least 1e6. Empty when
+/// there is no such gap. A certificate on few coordinates is exact on them, as a rule, where in
+/// all coordinates it is only a limit.
+std::vector<std::vector<int>> rows_of_multipliers(const Formulation& formulation,
+                                                  const sdp::Solution& solution);
 
 /// s of an interior solution.
 double interior_margin(const sdp::Solution& solution);

@@ -69,6 +69,7 @@ struct Sums {
 template <class S>
 double upper(const S& value) {
   using std::abs;
+  if (value == S(0)) return 0;
   return static_cast<double>(as<double>(S(abs(value)))) * (1 + 1e-15) +
          std::numeric_limits<double>::denorm_min();
 }
@@ -237,7 +238,7 @@ Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& for
   for (Eigen::Index i = 0; i < m; ++i) {
     if (sums.W[i] == 0 || (i == 0 && v >= 0)) continue;
     omega = std::max(omega, (upper(sums.r[i]) + sums.error[i]) / sums.W[i]);
-    }
+  }
   result.omega = std::isfinite(omega) ? std::min(1.0, omega * (1 + 1e-12)) : 1;
   return result;
 }
