@@ -41,7 +41,7 @@ struct Slacks {
   ByInequality by_inequality;
 };
 
-/// The slacks of the elastic problem with the smallest sum. One below the margin counts as 0.
+/// The slacks of the elastic problem with the smallest sum. One below 1e-7 counts as 0.
 Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scales,
                        const sdp::Options& solver);
 

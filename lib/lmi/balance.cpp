@@ -71,7 +71,8 @@ class FreeRows {
     std::set<Sum> equations;
     for (const Element& e : elements) {
       Sum sum;
-      add({{e.first, 1}, {e.second, 1}}, 1, sum);
+      ++sum[e.first];
+      ++sum[e.second];
       const auto i = static_cast<std::size_t>(e.unknown);
       if (i > 0 && first[i].empty())
         first[i] = sum;
