@@ -25,7 +25,7 @@ model::Instance with_inequalities(const model::Instance& instance,
 /// A number for each inequality named.
 using ByInequality = std::map<std::string, double>;
 
-/// The scale of each inequality, as its margins are measured (docs/conventions.md).
+/// The largest size of a row of each inequality: s_kr^-2 of the balance (lmi/balance.h).
 ByInequality scales_of(const model::Instance& instance);
 
 /// Every inequality k of `scales` relaxed by an unknown slack t_k >= 0,
