@@ -253,7 +253,7 @@ TEST(RefutationTest, CoordinatesDoNotMatter) {
     const Posed posed(lyapunov(A));
     const Formulation asked = posed.formulation();
     const auto Y = lyapunov_certificate(A, root * root.transpose());
-    const Refutation found = refute<DoubleDouble>(posed.of, posed.lmi, asked, in_units(asked, Y));
+    const Refutation found = refute<Decimal100>(posed.of, posed.lmi, asked, in_units(asked, Y));
     EXPECT_TRUE(found.exact) << trial;
     EXPECT_LT(found.omega, 1e-25) << trial;
   }
