@@ -29,9 +29,18 @@ lmi::Margins margins_at(const Posed& posed, const Attempt& attempt, const std::v
                               posed.choices().margin, x);
 }
 
+/// Whether the gains at x are as small as was asked for.
+bool is_within(const lmi::GainBounds& bounds, const std::vector<double>& x) {
+  constexpr double kRounding = 1e-9;
+  const auto reached = lmi::reached_bounds(bounds, x);
+  return std::all_of(reached.begin(), reached.end(), [](const model::GainBound& bound) {
+    return bound.reached <= bound.bound * (1 + kRounding);
+  });
+}
+
 /// Sets the point when x is one.
 void take_point(const Posed& posed, const std::vector<double>& x, Attempt& result) {
-  if (!is_positive(posed, x)) return;
+  if (!is_positive(posed, x) || !is_within(result.question.bounds, x)) return;
   result.point = true;
   result.x = x;
 }
@@ -174,7 +183,7 @@ std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const
   for (double e = 1e-12; e < 1; e *= 10) {
     std::vector<double> x = least;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += e * (inside.x[i] - least[i]);
-    if (!is_positive(posed, x)) continue;
+    if (!is_positive(posed, x) || !is_within(minimum.question.bounds, x)) continue;
     lmi::Margins margins = margins_at(posed, minimum, x);
     if (!lmi::all_hold(margins)) continue;
     Attempt result = minimum;

@@ -47,7 +47,7 @@ struct Attempt {
   Question question;
   lmi::Formulation formulation;
   sdp::Solution solution;
-  /// Every block is positive definite at x, as evaluated in double.
+  /// Every block is positive definite at x, as evaluated in double, and the bounds asked are kept.
   bool point = false;
   std::vector<double> x;  ///< the unknowns
   lmi::Margins margins;   ///< at x, of a point

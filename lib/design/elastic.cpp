@@ -117,13 +117,14 @@ model::Instance elastic(const model::Instance& instance, const ByInequality& sca
 
 Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scales,
                        const sdp::Options& solver) {
+  constexpr double kNone = 1e-7;  // what the shift of a minimum and its tolerance leave
   std::map<std::string, std::string> names;
   const model::Gains gains = synthesize(elastic(instance, scales, names), solver);
   Slacks slacks{gains.verdict, {}};
   if (gains.verdict != model::Verdict::yes) return slacks;
   for (const auto& [inequality, slack] : names) {
     const double value = (*gains.find(slack))(0, 0);
-    slacks.by_inequality[inequality] = value > instance.design->synthesis.margin ? value : 0;
+    slacks.by_inequality[inequality] = value > kNone ? value : 0;
   }
   return slacks;
 }

@@ -25,7 +25,7 @@ model::Instance with_inequalities(const model::Instance& instance,
 /// A number for each inequality named.
 using ByInequality = std::map<std::string, double>;
 
-/// The scale of each inequality, as its margins are measured (docs/conventions.md).
+/// The largest size of a row of each inequality: s_kr^-2 of the balance (lmi/balance.h).
 ByInequality scales_of(const model::Instance& instance);
 
 /// Every inequality k of `scales` relaxed by an unknown slack t_k >= 0,
@@ -41,7 +41,7 @@ struct Slacks {
   ByInequality by_inequality;
 };
 
-/// The slacks of the elastic problem with the smallest sum. One below the margin counts as 0.
+/// The slacks of the elastic problem with the smallest sum. One below 1e-7 counts as 0.
 Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scales,
                        const sdp::Options& solver);
 

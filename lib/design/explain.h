@@ -29,7 +29,7 @@ struct Conflict {
 /// How much a requirement would have to give, as the identity times `scale` times these numbers.
 struct Relaxation {
   std::string name;
-  double scale = 0;                ///< of the inequality, see docs/conventions.md
+  double scale = 0;                ///< of the inequality (elastic.h)
   std::optional<double> alone;     ///< when all others hold; none: it alone does not help
   bool alone_undecided = false;    ///< or whether it does is not decided
   std::optional<double> together;  ///< in the solution with the smallest sum

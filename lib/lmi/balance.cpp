@@ -66,12 +66,14 @@ void add_elements(const Block& block, int first, double weight, std::vector<Elem
 /// are left are whole changes of all. Equations without such a factor come last.
 class FreeRows {
  public:
-  FreeRows(const std::vector<Element>& elements, int rows, std::size_t unknowns) {
+  /// Of the row `objective` (-1: none) it is twice the unit that may change by a whole number.
+  FreeRows(const std::vector<Element>& elements, int rows, std::size_t unknowns, int objective) {
     std::vector<Sum> first(unknowns);
     std::set<Sum> equations;
     for (const Element& e : elements) {
       Sum sum;
-      add({{e.first, 1}, {e.second, 1}}, 1, sum);
+      ++sum[e.first];
+      if (e.second != objective) ++sum[e.second];
       const auto i = static_cast<std::size_t>(e.unknown);
       if (i > 0 && first[i].empty())
         first[i] = sum;
@@ -132,7 +134,7 @@ class FreeRows {
 
 /// The normal equations over the rows; the unknowns are eliminated: given the rows, log2 d_i is
 /// minus the mean of its elements.
-Units fit(const std::vector<Element>& elements, int rows, int unknowns) {
+Units fit(const std::vector<Element>& elements, int rows, int unknowns, int objective) {
   numbers::Matrix normal = numbers::Matrix::Zero(rows, rows);
   numbers::Vector right = numbers::Vector::Zero(rows);
   const auto count = static_cast<std::size_t>(unknowns) + 1;
@@ -154,7 +156,7 @@ Units fit(const std::vector<Element>& elements, int rows, int unknowns) {
       for (const auto& [b, wb] : mean[i]) normal(a, b) -= wa * wb / weight[i];
       right[a] += wa * logs[i] / weight[i];
     }
-  for (const int row : FreeRows(elements, rows, count).list) {
+  for (const int row : FreeRows(elements, rows, count, objective).list) {
     normal.row(row).setZero();
     normal.col(row).setZero();
     normal(row, row) = 1;
@@ -241,8 +243,9 @@ Balance balance(const std::vector<const Block*>& blocks, int unknowns,
             {static_cast<int>(i) + 1, rows, rows, std::log2(std::abs(objective[i])), 1});
     ++rows;
   }
-  Units units = fit(elements, rows, unknowns);
-  units = fit(without_small(elements, units), rows, unknowns);
+  const int last = objective.empty() ? -1 : rows - 1;
+  Units units = fit(elements, rows, unknowns, last);
+  units = fit(without_small(elements, units), rows, unknowns, last);
   Balance result;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     std::vector<int>& of_block = result.rows.emplace_back();

@@ -36,7 +36,11 @@ double rounding_of(const Block& block, const numbers::Matrix& value, const std::
       for (Sparse::InnerIterator it(matrix, k); it; ++it)
         terms(it.row(), it.col()) += factor * std::abs(it.value());
   }
-  const numbers::Vector scale = value.diagonal().cwiseMax(0.0).cwiseSqrt().cwiseInverse();
+  numbers::Vector scale(block.size);
+  for (int r = 0; r < block.size; ++r) {
+    const double size = value(r, r) > 0 ? value(r, r) : value.row(r).cwiseAbs().maxCoeff();
+    scale[r] = size > 0 ? 1 / std::sqrt(size) : 0;
+  }
   const numbers::Matrix relative = scale.asDiagonal() * terms * scale.asDiagonal();
   const double count = static_cast<double>(block.terms.size()) + block.size;
   return count * std::numeric_limits<double>::epsilon() * relative.rowwise().sum().maxCoeff();
@@ -93,7 +97,7 @@ class Checker {
       const double reached = correlation_margin(value);
       if (worst.meet(reached, label))
         margin.smallest_eigenvalue = numbers::smallest_eigenvalue(value);
-      return reached > -rounding;
+      return reached >= -rounding;
     };
     for (; at_ < lmi_.blocks.size() && lmi_.blocks[at_].name == margin.name; ++at_) {
       const numbers::Matrix value = lmi_.blocks[at_].value(x_);
@@ -110,7 +114,7 @@ class Checker {
     for (const forall::Minimum& minimum : minima.list) meet_point(minimum);
     margin.reached = worst.value;
     margin.worst_point = worst.point;
-    margin.holds = result_.violations.size() == violations && worst.value > -rounding &&
+    margin.holds = result_.violations.size() == violations && worst.value >= -rounding &&
                    check(inequality, comparison, margin.name);
     result_.margins.push_back(std::move(margin));
   }

@@ -210,30 +210,38 @@ Multipliers multipliers_of(const Formulation& formulation, std::size_t blocks,
   return result;
 }
 
+namespace {
+
+/// One block with its multiplier.
 template <class S>
-Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
-                  const Multipliers& Y) {
+struct Weighed {
+  ExactBlock<S> block;
+  MatrixOf<S> Y;
+  double trace = 0;
+  bool strict = true;
+};
+
+/// What the blocks with tr(Y_k) >= least say; the others have the multiplier 0.
+template <class S>
+Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen::Index m) {
   constexpr double kCounts = 1e-6;  // what strict blocks, or v, must have of all multipliers
   Refutation result;
-  result.digits = std::is_same_v<S, DoubleDouble> ? kQuadDigits : kWideDigits;
-  if (!lmi.stands_for_points()) return result;
-  const auto m = static_cast<Eigen::Index>(lmi.unknowns) + 1;
   Sums<S> sums{VectorOf<S>::Zero(m), Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m),
                MatrixOf<S>::Zero(m, m), numbers::Matrix::Zero(m, m)};
-  const ExactBlocks<S> exact(of, formulation.balance);
   bool definite = true;
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
-    const MatrixOf<S> given = Y[k].unaryExpr([](const DoubleDouble& y) { return as<S>(y); });
-    definite &= cholesky(given).has_value();
-    const auto lifted = positive<S>(given);
+  for (const Weighed<S>& weighed : blocks) {
+    if (!(weighed.trace > 0 && weighed.trace >= least)) continue;
+    definite &= cholesky(weighed.Y).has_value();
+    const auto lifted = positive<S>(weighed.Y);
     if (!lifted) return result;
-    add_block(exact.block(lmi.blocks[k], k, formulation.releases.kept[k]), *lifted,
-              lmi.blocks[k].strict, sums);
+    add_block(weighed.block, *lifted, weighed.strict, sums);
   }
   const bool homogeneous = sums.W[0] == 0;
   const double v = static_cast<double>(as<double>(S(-sums.r[0])));
-  if (definite && (homogeneous || v > sums.error[0])) result.exact = is_exact(sums, homogeneous);
-  if (sums.strict < kCounts * sums.whole && v < kCounts * sums.whole) return result;
+  if (definite && sums.whole > 0 && (homogeneous || v > sums.error[0]))
+    result.exact = is_exact(sums, homogeneous) && (sums.strict > 0 || v > sums.error[0]);
+  if (!(sums.strict >= kCounts * sums.whole || v >= kCounts * sums.whole) || sums.whole == 0)
+    return result;
   double omega = 0;
   for (Eigen::Index i = 0; i < m; ++i) {
     if (sums.W[i] == 0 || (i == 0 && v >= 0)) continue;
@@ -243,6 +251,53 @@ Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& for
   return result;
 }
 
+}  // namespace
+
+template <class S>
+Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
+                  const Multipliers& Y) {
+  // Blocks that a certificate does not need have multipliers that tend to 0 but are not.
+  constexpr double kShares[] = {0, 1e-24, 1e-16, 1e-12, 1e-8, 1e-4};
+  Refutation best;
+  best.digits = std::is_same_v<S, DoubleDouble> ? kQuadDigits : kWideDigits;
+  if (!lmi.stands_for_points()) return best;
+  const ExactBlocks<S> exact(of, formulation.balance);
+  std::vector<Weighed<S>> blocks;
+  double whole = 0;
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+    Weighed<S> weighed{exact.block(lmi.blocks[k], k, formulation.releases.kept[k]),
+                       Y[k].unaryExpr([](const DoubleDouble& y) { return as<S>(y); }), 0,
+                       lmi.blocks[k].strict};
+    weighed.trace = static_cast<double>(as<double>(S(weighed.Y.trace())));
+    whole += weighed.trace;
+    blocks.push_back(std::move(weighed));
+  }
+  std::size_t looked_at = 0;
+  for (const double share : kShares) {
+    const auto count = static_cast<std::size_t>(std::count_if(
+        blocks.begin(), blocks.end(),
+        [&](const auto& weighed) { return weighed.trace > 0 && weighed.trace >= share * whole; }));
+    if (share > 0 && count == looked_at) continue;
+    looked_at = count;
+    const auto m = static_cast<Eigen::Index>(lmi.unknowns) + 1;
+    const Refutation found = refute_by(blocks, share * whole, m);
+    best.exact |= found.exact;
+    best.omega = std::min(best.omega, found.omega);
+    if (best.exact) break;
+  }
+  return best;
+}
+
+namespace {
+
+/// tr(Y_k) in balanced units.
+double solution_trace(const sdp::Solution& solution, std::size_t k) {
+  const auto n = static_cast<Eigen::Index>(std::lround(std::sqrt(solution.Y.values[k].size())));
+  return Eigen::Map<const numbers::Matrix>(solution.Y.values[k].data(), n, n).trace();
+}
+
+}  // namespace
+
 template Refutation refute<DoubleDouble>(const Inequalities&, const Lmi&, const Formulation&,
                                          const Multipliers&);
 template Refutation refute<Decimal100>(const Inequalities&, const Lmi&, const Formulation&,
@@ -250,29 +305,40 @@ template Refutation refute<Decimal100>(const Inequalities&, const Lmi&, const Fo
 
 double relaxed_omega(const Lmi& lmi, const GainBounds& bounds, const Formulation& formulation,
                      const sdp::Solution& solution) {
-  const auto Y = multipliers(lmi, bounds, formulation, solution);
-  std::vector<double> r(static_cast<std::size_t>(lmi.unknowns + bounds.scalars) + 1, 0.0);
-  std::vector<double> W = r;
-  double trace = 0;
-  for (std::size_t k = 0; k < Y.size(); ++k) {
-    const Block& block =
-        k < lmi.blocks.size() ? lmi.blocks[k] : bounds.blocks[k - lmi.blocks.size()];
+  // As in refute(), multipliers that only tend to 0 are left out.
+  constexpr double kShares[] = {0, 1e-10, 1e-8, 1e-6, 1e-4};
+  std::vector<numbers::Matrix> Y = multipliers(lmi, bounds, formulation, solution);
+  double whole = 0;
+  for (numbers::Matrix& y : Y) {
     // Y_k is >= 0 up to what the solver leaves: made so, at the price of the residuals.
-    numbers::SymmetricEigen eigen(Y[k]);
-    const numbers::Matrix y =
-        eigen.vectors() * eigen.values().cwiseMax(0).asDiagonal() * eigen.vectors().transpose();
-    trace += y.trace();
-    for (const auto& [i, matrix] : block.terms)
-      for (int c = 0; c < matrix.outerSize(); ++c)
-        for (Sparse::InnerIterator it(matrix, c); it; ++it) {
-          r[static_cast<std::size_t>(i)] += it.value() * y(it.row(), it.col());
-          W[static_cast<std::size_t>(i)] += std::abs(it.value() * y(it.row(), it.col()));
-        }
+    numbers::SymmetricEigen eigen(y);
+    y = eigen.vectors() * eigen.values().cwiseMax(0).asDiagonal() * eigen.vectors().transpose();
   }
-  double omega = trace > 0 ? 0 : 1;
-  for (std::size_t i = 0; i < r.size(); ++i)
-    if (W[i] > 0 && !(i == 0 && r[0] <= 0)) omega = std::max(omega, std::abs(r[i]) / W[i]);
-  return std::min(1.0, omega + 1e-14);
+  for (std::size_t k = 0; k < Y.size(); ++k) whole += solution_trace(solution, k);
+  double best = 1;
+  for (const double share : kShares) {
+    std::vector<double> r(static_cast<std::size_t>(lmi.unknowns + bounds.scalars) + 1, 0.0);
+    std::vector<double> W = r;
+    double kept = 0;
+    for (std::size_t k = 0; k < Y.size(); ++k) {
+      if (!(solution_trace(solution, k) >= share * whole)) continue;
+      kept += Y[k].trace();
+      const Block& block =
+          k < lmi.blocks.size() ? lmi.blocks[k] : bounds.blocks[k - lmi.blocks.size()];
+      for (const auto& [i, matrix] : block.terms)
+        for (int c = 0; c < matrix.outerSize(); ++c)
+          for (Sparse::InnerIterator it(matrix, c); it; ++it) {
+            const double term = it.value() * Y[k](it.row(), it.col());
+            r[static_cast<std::size_t>(i)] += term;
+            W[static_cast<std::size_t>(i)] += std::abs(term);
+          }
+    }
+    double omega = kept > 0 ? 0 : 1;
+    for (std::size_t i = 0; i < r.size(); ++i)
+      if (W[i] > 0 && !(i == 0 && r[0] <= 0)) omega = std::max(omega, std::abs(r[i]) / W[i]);
+    best = std::min(best, omega + 1e-14);
+  }
+  return best;
 }
 
 std::optional<ZeroDiagonal> find_zero_diagonal(const Inequalities& of, const Lmi& lmi,
@@ -295,7 +361,8 @@ std::optional<ZeroDiagonal> find_zero_diagonal(const Inequalities& of, const Lmi
         for (const auto& [i, B] : known.terms) {
           vanishes &= B.ball(row, row).is_zero();
           if (i == 0)
-            constant = upper(B.mid(row, column)) * (1 - 1e-12) > B.rad(row, column);
+            constant = std::abs(static_cast<double>(as<double>(B.mid(row, column)))) * (1 - 1e-12) >
+                       B.rad(row, column);
           else
             vanishes &= B.ball(row, column).is_zero();
         }

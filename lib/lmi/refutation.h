@@ -38,8 +38,10 @@ using Multipliers = std::vector<numbers::MatrixOf<DoubleDouble>>;
 Multipliers multipliers_of(const Formulation& formulation, std::size_t blocks,
                            const sdp::Solution& solution);
 
-/// What Y says over S. Nothing (omega = 1) when a block stands for no point of its domain, when the
-/// Y_k are not positive semidefinite, or when only blocks with >= have multipliers and v is 0.
+/// What Y says over S, or those of its Y_k that are not small: those of blocks that a certificate
+/// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (omega = 1) when a block
+/// stands for no point of its domain, when the Y_k are not positive semidefinite, or when only
+/// blocks with >= have multipliers and v is 0.
 template <class S>
 Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
                   const Multipliers& Y);

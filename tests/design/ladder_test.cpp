@@ -162,18 +162,19 @@ TEST(Ladder, MultipliersThatExcludeEverythingAreANo) {
   }
 }
 
-/// The solver's own word counts for nothing, nor do multipliers that do not add up.
+/// Multipliers that do not add up and are near none that do.
 TEST(Ladder, WhatIsNoCertificateIsNoNo) {
   const Case of(window("2", "1"));
   const Case feasible(window("1", "2"));
-  for (const Answer& wrong : {infeasible(), refuting(of, {3, 2}), refuting(of, {0, 3})}) {
+  for (const Answer& wrong :
+       {refuting(of, {1, 100}), refuting(of, {100, 1}), refuting(of, {0, 3})}) {
     const Scripted run(of, {wrong, wrong, wrong});
     EXPECT_EQ(run.tried, (Rungs{Rung::inside, Rung::in_31_digits, Rung::in_100_digits}));
     EXPECT_EQ(run.gains.verdict, Verdict::undecided);
     EXPECT_FALSE(run.gains.certificate);
     EXPECT_TRUE(run.says("the largest margin found is 0")) << run.message();
   }
-  for (const double y : {1e-6, 1., 1e6}) {
+  for (const double y : {1e-6, 1., 2., 1e6}) {
     const Answer any = refuting(feasible, {1, y});
     const Scripted run(feasible, {any, any, any});
     EXPECT_EQ(run.gains.verdict, Verdict::undecided) << y;

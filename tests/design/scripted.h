@@ -38,8 +38,11 @@ struct Case {
         lmi.blocks.size() +
         (interior ? 1U + (lmi::formulate_interior(lmi, {}, {}).homogenised ? 1U : 0U) : 0U);
     const lmi::GainBounds of = problem.blocks.size() > others ? bounds : lmi::GainBounds{};
-    return interior ? lmi::formulate_interior(lmi, of, {})
-                    : lmi::formulate_objective(lmi, of, posed().choices().margin);
+    if (interior) return lmi::formulate_interior(lmi, of, {});
+    const double shift = posed().choices().margin;
+    const lmi::Formulation found = lmi::formulate_objective(lmi, of, shift);
+    if (found.problem.f == problem.f) return found;
+    return lmi::formulate_objective(lmi, lmi::gain_bounds(inequalities, bounds.beta / 10), shift);
   }
 };
 

@@ -34,7 +34,7 @@ model::Gains plain_gains() {
   gains.parameters = {{"delta", numbers::Matrix{{0.03}}}};
   gains.searched = {{"T2", 1.1}, {"delta", 0.03}};
   gains.certificate = model::CertificateRecord{
-      1, 0, 0, 9, true, {{"flow", numbers::Matrix{{1, 0}, {0, 1}}}}, "problem"};
+      true, 0.5, 31, {{"flow", numbers::Matrix{{1, 0}, {0, 1}}}}, "problem"};
   gains.statement = model::bind(read_problem(kProblem)).design->statement;
   return gains;
 }

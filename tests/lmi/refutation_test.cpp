@@ -225,28 +225,48 @@ TEST(RefutationTest, APerturbedCertificateIsJudgedByItsResidual) {
   }
 }
 
-/// Certificates that are known by construction, in coordinates of condition 1e8: Y_2 = T T' with
-/// T^-1 A T antistable, so that Y_2 and A Y_2 + Y_2 A' are positive definite.
+/// A lower triangular matrix of whole numbers with the inverse of one.
+std::pair<Matrix, Matrix> whole_triangular(int n, int k, std::mt19937& generator) {
+  Matrix L = Matrix::Identity(n, n);
+  for (int i = 1; i < n; ++i) L(i, i - 1) = generator() % 2 == 0 ? k : -k;
+  return {L, L.inverse().array().round().matrix()};
+}
+
+/// Certificates that are known by construction, in coordinates of condition 1e8 and more: Y_2 = T
+/// T' with T^-1 A T antistable, so that Y_2 and A Y_2 + Y_2 A' are positive definite. All numbers
+/// are whole.
 TEST(RefutationTest, CoordinatesDoNotMatter) {
   std::mt19937 generator(6);
   for (int trial = 0; trial < 12; ++trial) {
-    const int n = 2 + trial % 4;
-    const Matrix Q1 = random_matrix(n, generator).householderQr().householderQ();
-    const Matrix Q2 = random_matrix(n, generator).householderQr().householderQ();
-    numbers::Vector sizes(n);
-    for (int i = 0; i < n; ++i) sizes[i] = std::pow(10.0, 8.0 * i / (n - 1) - 4);
-    const Matrix T = Q1 * sizes.asDiagonal() * Q2;
-    const Matrix inverse = Q2.transpose() * sizes.cwiseInverse().asDiagonal() * Q1.transpose();
-    const Matrix skew = random_matrix(n, generator);
+    const int n = 2 + trial % 3;
+    const int k = n == 2 ? 100 : n == 3 ? 20 : 8;
+    const auto [lower, lower_inverse] = whole_triangular(n, k, generator);
+    const auto [other, other_inverse] = whole_triangular(n, k, generator);
+    const Matrix T = lower * other.transpose();
+    const Matrix inverse = other_inverse.transpose() * lower_inverse;
+    ASSERT_EQ(T * inverse, Matrix::Identity(n, n));
+    Eigen::JacobiSVD<Matrix> svd(T);
+    EXPECT_GT(svd.singularValues()(0) / svd.singularValues()(n - 1), 1e7);
+    Matrix skew = random_matrix(n, generator).array().round();
     const Matrix A = T * (Matrix::Identity(n, n) + skew - skew.transpose()) * inverse;
     const Wide root = T.cast<DoubleDouble>();
     const Posed posed(lyapunov(A));
     const Formulation asked = posed.formulation();
     const auto Y = lyapunov_certificate(A, root * root.transpose());
-    const Refutation found = refute<DoubleDouble>(posed.of, posed.lmi, asked, in_units(asked, Y));
+    const Refutation found = refute<Decimal100>(posed.of, posed.lmi, asked, in_units(asked, Y));
     EXPECT_TRUE(found.exact) << trial;
     EXPECT_LT(found.omega, 1e-25) << trial;
   }
+}
+
+/// Blocks that the certificate does not need have multipliers that are only nearly 0.
+TEST(RefutationTest, WhatIsNotNeededDoesNotHinder) {
+  const Posed posed(
+      "  data: {A: n x n}\n  unknowns: {x: scalar, P: symmetric n}\n  require: {low: x > 3, high: "
+      "x "
+      "< 1, positive: P > 0, stable: He(P*A) < 0, size: P > I}\ndata: {A: [[-1, 5], [-2, -3]]}\n");
+  const Refutation found = posed.refuted("quad", 1e-22);
+  EXPECT_TRUE(found.exact || found.omega <= 1e-30) << found.omega;
 }
 
 TEST(RefutationTest, WithConstantsTheValueCounts) {
