@@ -177,17 +177,22 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
   return defect < 0.01 && norm * (1 + 1e-9) < 0.5;
 }
 
-/// Y, lifted where rounding left it indefinite; none when it is further from being >= 0.
+/// Y, lifted where rounding left it indefinite; none when it is further from being >= 0. A lift in
+/// proportion to the diagonal changes no W_i by more than its share; rows of nothing but rounding
+/// need one in proportion to the whole.
 template <class S>
-std::optional<MatrixOf<S>> positive(MatrixOf<S> Y) {
+std::optional<MatrixOf<S>> positive(const MatrixOf<S>& Y) {
+  constexpr double kLeastLift = 1e-33;
   constexpr double kMostLift = 1e-27;
   const double size = upper(S(Y.trace()));
   if (size == 0 && Y.isZero()) return Y;
-  for (double lift = 0; lift <= kMostLift; lift = std::max(1e-33, 10 * lift)) {
-    MatrixOf<S> lifted = Y;
-    lifted.diagonal().array() += S(lift * size);
-    if (cholesky(lifted)) return lifted;
-  }
+  for (const bool in_proportion : {true, false})
+    for (double lift = 0; lift <= kMostLift; lift = std::max(kLeastLift, 10 * lift)) {
+      MatrixOf<S> lifted = Y;
+      for (Eigen::Index i = 0; i < Y.rows(); ++i)
+        lifted(i, i) += S(lift) * (in_proportion ? Y(i, i) : S(size));
+      if (cholesky(lifted)) return lifted;
+    }
   return std::nullopt;
 }
 
