@@ -16,7 +16,9 @@ TEST(VerdictsTest, AreNeverWrong) {
     const Case known = make_case(kSeed, index);
     const Answer answer = judge(known);
     EXPECT_NE(answer.outcome, Outcome::wrong) << record(known, answer);
-    if (known.easy) EXPECT_EQ(answer.outcome, Outcome::right) << record(known, answer);
+    if (known.easy) {
+      EXPECT_EQ(answer.outcome, Outcome::right) << record(known, answer);
+    }
     undecided += answer.outcome == Outcome::undecided;
   }
   EXPECT_LE(undecided, static_cast<int>(kCases / 100));
