@@ -237,7 +237,9 @@ Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& for
   }
   const bool homogeneous = sums.W[0] == 0;
   const double v = static_cast<double>(as<double>(S(-sums.r[0])));
-  if (definite && (homogeneous || v > sums.error[0])) result.exact = is_exact(sums, homogeneous);
+  // Blocks may have lost all their rows: zero is no certificate against blocks with >= alone.
+  if (definite && (homogeneous ? sums.strict > 0 : v > sums.error[0]))
+    result.exact = is_exact(sums, homogeneous);
   if (sums.strict < kCounts * sums.whole && v < kCounts * sums.whole) return result;
   double omega = 0;
   for (Eigen::Index i = 0; i < m; ++i) {

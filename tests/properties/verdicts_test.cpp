@@ -43,5 +43,14 @@ TEST(VerdictsTest, ACertificateOnFewCoordinatesIsExact) {
   }
 }
 
+/// P = diag(10000, 1) solves it. The multipliers of the two blocks with >= cancel; none of P > 0.
+TEST(VerdictsTest, MultipliersOfBlocksThatMayBeZeroExcludeNothing) {
+  const YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
+      "  require: {positive: P > 0, least: He(P*A) >= 0, most: He(P*A) <= 0}\ndata:\n"
+      "  A: [[0, 0.4], [-4000, 0]]\n");
+  EXPECT_NE(design::synthesize(yaml.instance, {}).verdict, model::Verdict::no);
+}
+
 }  // namespace
 }  // namespace gainsmith::tests::properties
