@@ -6,19 +6,34 @@
 
 namespace gainsmith::search {
 
-// Both ways only know of ratios to `low`: in units that are powers of two apart the same bits.
+namespace {
+
+/// log(a / b), in units that are powers of two apart the same bits.
+double log_ratio(double a, double b) {
+  const double ratio = a / b;
+  return std::isfinite(ratio) && ratio > 0 ? std::log(ratio) : std::log(a) - std::log(b);
+}
+
+/// low e^x.
+double grown(double low, double x) {
+  const double factor = std::exp(x);
+  return std::isfinite(factor) ? low * factor : std::exp(std::log(low) + x);
+}
+
+}  // namespace
+
 double Axis::at(double fraction) const {
   if (fraction <= 0) return low;
   if (fraction >= 1) return high;
   const double value =
-      logarithmic ? low * std::exp(std::log(high / low) * fraction) : low + (high - low) * fraction;
+      logarithmic ? grown(low, log_ratio(high, low) * fraction) : low + (high - low) * fraction;
   return std::clamp(value, low, high);
 }
 
 double Axis::fraction(double value) const {
   if (!(high > low) || !(value > low)) return 0;
   const double part =
-      logarithmic ? std::log(value / low) / std::log(high / low) : (value - low) / (high - low);
+      logarithmic ? log_ratio(value, low) / log_ratio(high, low) : (value - low) / (high - low);
   return std::clamp(part, 0.0, 1.0);
 }
 

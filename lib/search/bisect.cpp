@@ -73,6 +73,12 @@ class Halving {
                         [](const auto& item) { return item.second == Answer::no; });
   }
 
+  /// In units that are powers of two apart the same bits.
+  static double geometric_mean(double a, double b) {
+    const double ratio = b / a;
+    return std::isfinite(ratio) && ratio > 0 ? a * std::sqrt(ratio) : std::sqrt(a) * std::sqrt(b);
+  }
+
   /// The middle of a gap on the axis's scale; none when it is within the tolerance, or too small
   /// for double.
   std::optional<double> middle(double inner, double outer) const {
@@ -80,7 +86,7 @@ class Halving {
       return std::nullopt;
     const double a = sign() * inner;
     const double b = sign() * outer;
-    const double value = axis_.logarithmic ? a * std::sqrt(b / a) : a + 0.5 * (b - a);
+    const double value = axis_.logarithmic ? geometric_mean(a, b) : a + 0.5 * (b - a);
     if (value == a || value == b) return std::nullopt;
     return value;
   }

@@ -84,7 +84,7 @@ Case corner(Draw& draw) {
 }
 
 Case bracket(Draw& draw) {
-  const int l = draw.between(-9, 9);
+  const int l = draw.between(1, 9);
   const int h = draw.is_yes() ? l + (draw.chance(0.5) ? 0 : 1) : l - 1;
   const Exact unit = two_to(draw.between(-8, 8));
   return {"bracket",
