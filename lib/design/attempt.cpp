@@ -18,9 +18,11 @@ bool is_finite(const std::vector<double>& x) {
 }
 
 bool is_positive(const Posed& posed, const std::vector<double>& x) {
+  constexpr double kTells = 1e-15;  // what double tells from 0
+
   return is_finite(x) && std::all_of(posed.lmi.blocks.begin(), posed.lmi.blocks.end(),
                                      [&](const lmi::Block& block) {
-                                       return lmi::correlation_margin(block.value(x)) > 0;
+                                       return lmi::correlation_margin(block.value(x)) > kTells;
                                      });
 }
 
@@ -31,7 +33,8 @@ lmi::Margins margins_at(const Posed& posed, const Attempt& attempt, const std::v
 
 /// Whether the gains at x are as small as was asked for.
 bool is_within(const lmi::GainBounds& bounds, const std::vector<double>& x) {
-  constexpr double kRounding = 1e-9;
+  // What the solver leaves at its own tolerance; a message rests on it, no verdict.
+  constexpr double kRounding = 1e-7;
   const auto reached = lmi::reached_bounds(bounds, x);
   return std::all_of(reached.begin(), reached.end(), [](const model::GainBound& bound) {
     return bound.reached <= bound.bound * (1 + kRounding);
@@ -153,7 +156,8 @@ bool Attempt::refuted() const {
 }
 
 bool Attempt::relaxation_refuted() const {
-  constexpr double kRounding = 1e-9;
+  // What the solver leaves at its own tolerance; a message rests on it, no verdict.
+  constexpr double kRounding = 1e-7;
   return !point && relaxed_omega <= kRounding;
 }
 

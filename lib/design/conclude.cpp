@@ -159,7 +159,7 @@ void note_undecided(const Climb& climb, model::Gains& gains) {
                             ? lmi::interior_margin(last.solution)
                             : 0;
   add_message(gains, "the largest margin found is " + brief(margin, 2) +
-                         (refutation && refutation->omega < 1
+                         (refutation && refutation->omega < 0.1
                               ? ", and solutions, if any, do not survive a relative change of " +
                                     brief(refutation->omega, 2) + " of the coefficients"
                               : ""));

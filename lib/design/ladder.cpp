@@ -21,6 +21,11 @@ struct Rungs {
     const Attempt* point = climb.point();
     return (point == nullptr || !climb.is_yes(*point)) && climb.refutation() == nullptr;
   }
+  /// Not even with gains beyond the bound.
+  static bool nothing_holds_at_all(const Climb& climb) {
+    const Attempt* point = climb.point();
+    return (point == nullptr || !point->holds()) && climb.refutation() == nullptr;
+  }
   static bool is_bounded(const Climb& climb) { return !climb.bounds_.list.empty(); }
 
   /// Without an objective it comes first; after one only where the bounds leave nothing.
@@ -28,7 +33,8 @@ struct Rungs {
     return is_bounded(climb) && !has_minimum(climb);
   }
   static bool bounds_leave_nothing(const Climb& climb) {
-    return is_bounded(climb) && climb.find(Rung::free_inside) == nullptr && nothing_holds(climb);
+    return is_bounded(climb) && climb.find(Rung::free_inside) == nullptr &&
+           nothing_holds_at_all(climb);
   }
   static bool minimum_is_due(const Climb& climb) { return has_minimum(climb); }
   static bool blended_is_due(const Climb& climb) {
@@ -41,7 +47,8 @@ struct Rungs {
     return is_bounded(climb) && has_minimum(climb) && nothing_holds(climb);
   }
   static bool digits_are_due(const Climb& climb) {
-    return climb.posed_.wide && climb.posed_.lmi.stands_for_points() && nothing_holds(climb);
+    return climb.posed_.wide && climb.posed_.lmi.stands_for_points() &&
+           nothing_holds_at_all(climb);
   }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
