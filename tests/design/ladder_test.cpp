@@ -168,8 +168,7 @@ TEST(Ladder, WhatIsNoCertificateIsNoNo) {
   const Case feasible(window("1", "2"));
   for (const Answer& wrong :
        {refuting(of, {1, 100}), refuting(of, {100, 1}), refuting(of, {0, 3})}) {
-    // One of them is asked once more, on the rows that its multipliers live on.
-    const Scripted run(of, {wrong, wrong, wrong, wrong});
+    const Scripted run(wrong, of);
     EXPECT_EQ(run.tried, (Rungs{Rung::inside, Rung::in_31_digits, Rung::in_100_digits}));
     EXPECT_EQ(run.gains.verdict, Verdict::undecided);
     EXPECT_FALSE(run.gains.certificate);
@@ -177,7 +176,7 @@ TEST(Ladder, WhatIsNoCertificateIsNoNo) {
   }
   for (const double y : {1e-6, 1., 2., 1e6}) {
     const Answer any = refuting(feasible, {1, y});
-    const Scripted run(feasible, {any, any, any});
+    const Scripted run(any, feasible);
     EXPECT_EQ(run.gains.verdict, Verdict::undecided) << y;
   }
 }
