@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "base/error.h"
-#include "numbers/degree.h"
 
 namespace gainsmith::hybrid {
 
@@ -14,101 +12,10 @@ namespace {
 using Eigen::Index;
 using numbers::Matrix;
 using numbers::MatrixOf;
-using Wide = numbers::MatrixOf<Decimal100>;
 
 constexpr double kLargest = 1e150;
-/// Y_ is kept between its square roots' limits.
-constexpr double kLeastScale = 1e-80;
-constexpr double kMostScale = 1e80;
-
-bool uses_any(const expr::Program& program, const std::set<std::string>& names) {
-  return std::any_of(program.inputs.begin(), program.inputs.end(),
-                     [&](const expr::Input& input) { return names.contains(input.name); });
-}
-
-/// The jump as an affine map; none when a coefficient depends on clocks or an entry is not affine.
-std::optional<std::pair<Wide, Wide>> affine_jump(const Coordinates& coordinates) {
-  const Index n = coordinates.layout.size;
-  std::pair<Wide, Wide> map{Wide::Identity(n, n), Wide::Zero(n, 1)};
-  const auto moves = [&](const std::string& name) { return coordinates.layout.moves(name); };
-  for (std::size_t i = 0; i < coordinates.list.size(); ++i) {
-    const auto& jump = coordinates.list[i].jump;
-    if (!jump) continue;
-    const auto degrees = numbers::degrees(*jump, moves);
-    if (degrees[static_cast<std::size_t>(jump->result)] == numbers::kNotAffine ||
-        jump->uses(coordinates.layout.timer))
-      return std::nullopt;
-    const Slot& slot = coordinates.layout.slots[i];
-    const Index rows = slot.shape.size();
-    WideFunction value(*jump, coordinates.layout, coordinates.constants);
-    Wide x = Wide::Zero(n, 1);
-    map.second.middleRows(slot.offset, rows) = value(x).reshaped();
-    for (Index j = 0; j < n; ++j) {
-      x(j) = Decimal100(1);
-      map.first.block(slot.offset, j, rows, 1) =
-          value(x).reshaped() - map.second.middleRows(slot.offset, rows);
-      x(j) = Decimal100(0);
-    }
-  }
-  remove_noise(map.first, largest_of(map.first));
-  remove_noise(map.second, std::max(largest_of(map.first), largest_of(map.second)));
-  return map;
-}
 
 }  // namespace
-
-template <class Scalar>
-BallFunction<Scalar>::BallFunction(const expr::Program& program, const StateLayout& layout,
-                                   const BallsOf<Scalar>& constants)
-    : evaluator_(program) {
-  for (const Slot& slot : layout.slots)
-    if (program.uses(slot.name)) slots_.push_back(slot);
-  for (const Slot& slot : slots_)
-    moving_.push_back(exact_ball<Scalar>(Matrix::Zero(slot.shape.rows, slot.shape.cols)));
-  moving_.push_back(exact_ball<Scalar>(Matrix::Zero(1, 1)));
-  for (const expr::Input& input : program.inputs)
-    if (const auto known = constants.find(input.name);
-        known != constants.end() && !layout.moves(input.name))
-      evaluator_.fix(input.name, known->second);
-  for (std::size_t i = 0; i < slots_.size(); ++i) evaluator_.set(slots_[i].name, moving_[i]);
-  evaluator_.set(layout.timer, moving_.back());
-}
-
-template <class Scalar>
-const Ball<Scalar>& BallFunction<Scalar>::operator()(const Eigen::Ref<const ColumnOf<Scalar>>& x,
-                                                     const Eigen::Ref<const Eigen::VectorXd>& r,
-                                                     const Scalar& tau, double tau_bound) {
-  for (std::size_t i = 0; i < slots_.size(); ++i) {
-    const Slot& slot = slots_[i];
-    for (Index e = 0; e < slot.shape.size(); ++e) {
-      moving_[i].mid(e) = x(slot.offset + e);
-      moving_[i].rad(e) = r(slot.offset + e);
-    }
-  }
-  moving_.back().mid(0) = tau;
-  moving_.back().rad(0) = tau_bound;
-  return evaluator_.run();
-}
-
-template <class Scalar>
-BoundedSystem<Scalar>::BoundedSystem(const Coordinates& all, const ExactSteps& exact,
-                                     const std::vector<Wide>& forms)
-    : coordinates(&all), steps(all, exact, forms) {
-  for (const auto& [name, value] : all.constants) constants.emplace(name, ball_of<Scalar>(value));
-  if (const auto map = affine_jump(all)) jump = bounded_map<Scalar>(map->first, map->second, 0);
-  std::set<std::string> turning;
-  for (std::size_t i = 0; i < all.list.size(); ++i)
-    if (!all.list[i].clock) turning.insert(all.layout.slots[i].name);
-  const auto moves = [&](const std::string& name) { return turning.contains(name); };
-  for (const Coordinate& coordinate : all.list) {
-    bool linear = true;
-    if (coordinate.jump && uses_any(*coordinate.jump, turning)) {
-      const auto degrees = numbers::degrees(*coordinate.jump, moves);
-      linear = degrees[static_cast<std::size_t>(coordinate.jump->result)] != numbers::kNotAffine;
-    }
-    linear_jump.push_back(linear);
-  }
-}
 
 template <class Scalar>
 BoundedSimulator<Scalar>::BoundedSimulator(const System& system, const Scenario& scenario,
@@ -135,9 +42,6 @@ BoundedSimulator<Scalar>::BoundedSimulator(const System& system, const Scenario&
   next_.resize(n);
   r_.resize(n);
   delta_.resize(n);
-  G_.resize(n, n);
-  Z_.resize(n, n);
-  norm_.resize(n);
   root_.resize(n);
   product_.resize(n, n);
   E_.resize(n, n);
@@ -185,124 +89,15 @@ void BoundedSimulator<Scalar>::start(std::uint64_t run, RandomStream& random) {
       delta_(slot.offset + e) = value.rad(e);
     }
   }
-  G_.setZero();
-  Z_.setZero();
-  norm_.setZero();
-  scale_ = 1;
-  steps_ = 0;
-  propagate(G_, G_, 0);
+  errors_.start(delta_);
+  r_ = errors_.bounds();
 }
 
 template <class Scalar>
-void BoundedSimulator<Scalar>::rescale(double largest) {
-  if (!(largest > 0) || (largest <= kMostScale && largest >= kLeastScale)) return;
-  G_ /= largest;
-  Z_ /= largest * largest;
-  scale_ *= largest;
-}
-
-template <class Scalar>
-void BoundedSimulator<Scalar>::propagate(const Matrix& E, const Matrix& sizes, double slack) {
-  const Index n = x_.rows();
-  const double eps = 4 * (static_cast<double>(n) + 2) * unit_roundoff<double>() + slack;
-  const double* const e = E.data();
-  const double* const s = sizes.data();
-  double* const p = product_.data();
-  double* const g = G_.data();
-  double* const z = Z_.data();
-  bool known = false;
-  for (Index i = 0; i < n; ++i) {
-    root_(i) = std::sqrt(z[i * n + i]);
-    known = known || norm_(i) > 0 || root_(i) > 0;
-  }
-  if (known) {
-    // G <- E G;  Z <- E Z E';  what the rounding of both adds to the diagonal of Z.
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < n; ++i) {
-        double sum = 0;
-        for (Index k = 0; k < n; ++k) sum += e[k * n + i] * g[j * n + k];
-        p[j * n + i] = sum;
-      }
-    G_.swap(product_);
-    double* const q = product_.data();
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < n; ++i) {
-        double sum = 0;
-        for (Index k = 0; k < n; ++k) sum += e[k * n + i] * z[j * n + k];
-        q[j * n + i] = sum;
-      }
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i <= j; ++i) {
-        double sum = 0;
-        for (Index k = 0; k < n; ++k) sum += q[k * n + i] * e[k * n + j];
-        z[j * n + i] = z[i * n + j] = sum;
-      }
-    for (Index i = 0; i < n; ++i) {
-      double from_G = 0;
-      double from_Z = 0;
-      for (Index k = 0; k < n; ++k) {
-        from_G += s[k * n + i] * norm_(k);
-        from_Z += s[k * n + i] * root_(k);
-      }
-      z[i * n + i] +=
-          static_cast<double>(n) * (eps * eps * from_G * from_G + eps * from_Z * from_Z);
-    }
-    steps_ += 1;
-  }
-  const double inject = n > 0 ? delta_.maxCoeff() : 0;
-  if (inject > 0) {
-    if (!known) scale_ = inject;
-    for (Index i = 0; i < n; ++i) {
-      const double d = delta_(i) / scale_;
-      z[i * n + i] += static_cast<double>(n) * d * d;
-    }
-    steps_ += 1;
-  }
-  set_bounds();
-}
-
-template <class Scalar>
-void BoundedSimulator<Scalar>::set_bounds() {
-  const Index n = x_.rows();
-  const double factor = std::sqrt(steps_) * scale_ * kBoundSlack;
-  const double* const g = G_.data();
-  double largest = 0;
-  for (Index i = 0; i < n; ++i) {
-    double square = 0;
-    for (Index k = 0; k < n; ++k) square += g[k * n + i] * g[k * n + i];
-    norm_(i) = std::sqrt(square);
-    const double sum = std::sqrt(square + std::max(Z_(i, i), 0.0));
-    r_(i) = factor * sum;
-    largest = std::max(largest, sum);
-  }
-  if (largest > kMostScale || (largest < kLeastScale && largest > 0)) {
-    rescale(largest);
-    set_bounds();
-  }
-}
-
-template <class Scalar>
-void BoundedSimulator<Scalar>::gather() {
-  // [G, sqrt(n diag Z)] = (Q R)' has the same c' Y c as R'.
-  const Index n = x_.rows();
-  if (n == 0) return;
-  stacked_.resize(2 * n, n);
-  stacked_.topRows(n) = G_.transpose();
-  stacked_.bottomRows(n).setZero();
-  for (Index i = 0; i < n; ++i)
-    stacked_(n + i, i) = std::sqrt(static_cast<double>(n) * std::max(Z_(i, i), 0.0));
-  factored_.compute(stacked_);
-  G_.setZero();
-  for (Index j = 0; j < n; ++j)
-    for (Index i = 0; i <= j; ++i) G_(j, i) = factored_.matrixQR()(i, j);
-  Z_.setZero();
-  for (Index i = 0; i < n; ++i) {
-    const double norm = G_.row(i).norm();
-    const double rounding = 100 * static_cast<double>(n * n) * unit_roundoff<double>() * norm;
-    Z_(i, i) = static_cast<double>(n) * rounding * rounding;
-  }
-  steps_ += 1;
-  set_bounds();
+void BoundedSimulator<Scalar>::take_step(const Matrix& E, const Matrix& sizes, double slack) {
+  x_.swap(next_);
+  errors_.step(E, sizes, slack, delta_);
+  r_ = errors_.bounds();
 }
 
 template <class Scalar>
@@ -329,8 +124,7 @@ void BoundedSimulator<Scalar>::step(const BoundedMap<Scalar>& map) {
     next_(i) = value;
     delta_(i) = gamma * absolute + map.error * reach;
   }
-  x_.swap(next_);
-  propagate(map.rounded, map.sizes, 0);
+  take_step(map.rounded, map.sizes, 0);
 }
 
 template <class Scalar>
@@ -407,8 +201,7 @@ void BoundedSimulator<Scalar>::rest(double length) {
     }
     delta_(i) = still ? 0 : gamma * root_(i) + 2 * tail_ * reach;
   }
-  x_.swap(next_);
-  propagate(E_, E_sizes_, slack);
+  take_step(E_, E_sizes_, slack);
 }
 
 template <class Scalar>
@@ -522,12 +315,12 @@ void BoundedSimulator<Scalar>::jump(double reset_value) {
       track_.message = error.what();
       return;
     }
-    x_.swap(next_);
     J_rounded_ = J_.unaryExpr([](const Scalar& value) { return static_cast<double>(value); });
     J_sizes_ = J_rounded_.cwiseAbs();
-    propagate(J_rounded_, J_sizes_, 0);
+    take_step(J_rounded_, J_sizes_, 0);
   }
-  gather();
+  errors_.gather();
+  r_ = errors_.bounds();
   track_.moves.push_back({true, {}});
   append(track_.t.back(), track_.j.back() + 1, Scalar(reset_value), 0);
 }
@@ -558,10 +351,6 @@ const Track<Scalar>& BoundedSimulator<Scalar>::run(std::uint64_t seed, std::uint
   }
 }
 
-template class BallFunction<double>;
-template class BallFunction<DoubleDouble>;
-template struct BoundedSystem<double>;
-template struct BoundedSystem<DoubleDouble>;
 template class BoundedSimulator<double>;
 template class BoundedSimulator<DoubleDouble>;
 

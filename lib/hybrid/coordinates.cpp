@@ -21,8 +21,6 @@ using expr::Program;
 using expr::Shape;
 using Wide = numbers::MatrixOf<Decimal100>;
 
-constexpr double kNoise = 1e-80;
-
 struct Pair {
   std::string name, plus, minus;
 };
@@ -170,25 +168,15 @@ class Builder {
 
   void find_flow() {
     const Index n = result_.layout.size;
-    result_.linear = Wide::Zero(n, n);
-    result_.constant = Wide::Zero(n, 1);
-    Wide x = Wide::Zero(n, 1);
+    WideMap map{Wide::Zero(n, n), Wide::Zero(n, 1)};
     for (std::size_t i = 0; i < result_.list.size(); ++i) {
       if (!result_.list[i].flow) continue;
-      const Slot& slot = result_.layout.slots[i];
-      WideFunction value(*result_.list[i].flow, result_.layout, result_.constants);
-      const Index rows = slot.shape.size();
-      result_.constant.middleRows(slot.offset, rows) = value(x).reshaped();
-      for (Index j = 0; j < n; ++j) {
-        x(j) = Decimal100(1);
-        result_.linear.block(slot.offset, j, rows, 1) =
-            value(x).reshaped() - result_.constant.middleRows(slot.offset, rows);
-        x(j) = Decimal100(0);
-      }
+      WideFunction entry(*result_.list[i].flow, result_.layout, result_.constants);
+      map.set_rows(result_.layout.slots[i], entry);
     }
-    remove_noise(result_.linear, largest_of(result_.linear));
-    remove_noise(result_.constant,
-                 std::max(largest_of(result_.constant), largest_of(result_.linear)));
+    map.remove_noise();
+    result_.linear = std::move(map.linear);
+    result_.constant = std::move(map.constant);
   }
 
   std::size_t coordinate(const std::string& name) const {
@@ -414,36 +402,6 @@ bool Coordinates::is_still(std::size_t coordinate) const {
   const Slot& slot = layout.slots[coordinate];
   return linear.middleRows(slot.offset, slot.shape.size()).isZero(0) &&
          constant.middleRows(slot.offset, slot.shape.size()).isZero(0);
-}
-
-WideFunction::WideFunction(const Program& program, const StateLayout& layout,
-                           const numbers::ValuesOf<Decimal100>& constants)
-    : slots_(layout.slots), evaluator_(program) {
-  for (const Slot& slot : slots_) moving_.push_back(Wide::Zero(slot.shape.rows, slot.shape.cols));
-  moving_.push_back(Wide::Zero(1, 1));
-  for (const expr::Input& input : program.inputs)
-    if (const auto known = constants.find(input.name); known != constants.end())
-      evaluator_.fix(input.name, known->second);
-  for (std::size_t i = 0; i < slots_.size(); ++i) evaluator_.set(slots_[i].name, moving_[i]);
-  evaluator_.set(layout.timer, moving_.back());
-}
-
-const Wide& WideFunction::operator()(const Wide& x) {
-  for (std::size_t i = 0; i < slots_.size(); ++i)
-    moving_[i].reshaped() = x.col(0).segment(slots_[i].offset, slots_[i].shape.size());
-  return evaluator_.run();
-}
-
-Decimal100 largest_of(const Wide& matrix) {
-  Decimal100 largest(0);
-  for (Index e = 0; e < matrix.size(); ++e) largest = std::max<Decimal100>(largest, abs(matrix(e)));
-  return largest;
-}
-
-void remove_noise(Wide& matrix, const Decimal100& largest) {
-  const Decimal100 least = largest * Decimal100(kNoise);
-  for (Index e = 0; e < matrix.size(); ++e)
-    if (abs(matrix(e)) <= least) matrix(e) = Decimal100(0);
 }
 
 Coordinates make_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants,

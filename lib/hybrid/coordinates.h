@@ -19,10 +19,8 @@
 #include <string>
 #include <vector>
 
-#include "base/eigen_scalars.h"
-#include "base/scalars.h"
 #include "hybrid/system.h"
-#include "numbers/real.h"
+#include "hybrid/wide_function.h"
 
 namespace gainsmith::hybrid {
 
@@ -51,24 +49,5 @@ struct Coordinates {
 /// Coordinates for functions of the states, the timer and constants.
 Coordinates make_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants,
                              const std::vector<expr::Program>& functions);
-
-/// A program of constants and coordinates in 100 digits; every coordinate that is not set is 0.
-class WideFunction {
- public:
-  WideFunction(const expr::Program& program, const StateLayout& layout,
-               const numbers::ValuesOf<Decimal100>& constants);
-  WideFunction(WideFunction&&) = default;
-  WideFunction& operator=(WideFunction&&) = default;
-  const numbers::MatrixOf<Decimal100>& operator()(const numbers::MatrixOf<Decimal100>& x);
-
- private:
-  std::vector<Slot> slots_;
-  std::vector<numbers::MatrixOf<Decimal100>> moving_;
-  expr::Evaluator<numbers::Real<Decimal100>> evaluator_;
-};
-
-/// Sets what is below 1e-80 of the largest element to 0.
-void remove_noise(numbers::MatrixOf<Decimal100>& matrix, const Decimal100& largest);
-Decimal100 largest_of(const numbers::MatrixOf<Decimal100>& matrix);
 
 }  // namespace gainsmith::hybrid
