@@ -33,8 +33,7 @@ lmi::Margins margins_at(const Posed& posed, const Attempt& attempt, const std::v
 
 /// Whether the gains at x are as small as was asked for.
 bool is_within(const lmi::GainBounds& bounds, const std::vector<double>& x) {
-  // What the solver leaves at its own tolerance; a message rests on it, no verdict.
-  constexpr double kRounding = 1e-7;
+  constexpr double kRounding = 1e-9;
   const auto reached = lmi::reached_bounds(bounds, x);
   return std::all_of(reached.begin(), reached.end(), [](const model::GainBound& bound) {
     return bound.reached <= bound.bound * (1 + kRounding);

@@ -10,11 +10,6 @@ namespace gainsmith::design {
 
 namespace {
 
-void add_message(model::Gains& gains, const std::string& text) {
-  std::string& message = gains.solver.message;
-  message += (message.empty() ? "" : "; ") + text;
-}
-
 model::SolverRecord record_of(const Attempt& attempt) {
   const sdp::Solution& solution = attempt.solution;
   model::SolverRecord record;
@@ -34,8 +29,8 @@ void note_wishes(const Attempt& point, model::Gains& gains) {
   constexpr double kSame = 1e-3;
   for (const model::Margin& margin : point.margins.margins)
     if (margin.strict && margin.reached < kSame * margin.required)
-      add_message(gains, margin.name + " holds with the margin " + brief(margin.reached, 2) +
-                             ", less than the " + brief(margin.required, 2) + " asked for");
+      gains.solver.add_message(margin.name + " holds with the margin " + brief(margin.reached, 2) +
+                               ", less than the " + brief(margin.required, 2) + " asked for");
 }
 
 /// What a point that does not hold falls short of.
@@ -47,9 +42,9 @@ void note_failures(const Attempt& point, model::Gains& gains) {
                 brief(margin.reached, 2) +
                 (margin.worst_point.empty() ? "" : " at " + margin.worst_point) + ")";
   if (!failed.empty())
-    add_message(gains,
-                "the best point found does not hold for certain at its decimals in " + failed);
-  if (!point.margins.open.empty()) add_message(gains, "for all values " + point.margins.open);
+    gains.solver.add_message("the best point found does not hold for certain at its decimals in " +
+                             failed);
+  if (!point.margins.open.empty()) gains.solver.add_message("for all values " + point.margins.open);
 }
 
 /// A gain that the objective does not determine is limited by its bound alone, wherever between
@@ -75,8 +70,7 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
   if (!lmi.has_objective) return;
   if (!lmi::has_minimum(lmi, climb.bounds())) {
     // Its value at a point that may be scaled says nothing.
-    add_message(
-        gains,
+    gains.solver.add_message(
         "the objective has no minimum: without constant parts every solution may be scaled, "
         "so its infimum is 0 or there is none");
     return;
@@ -89,17 +83,12 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
     return;
   }
   const Attempt* minimum = climb.find(Rung::minimum);
-  if (!lmi::has_minimum(lmi, climb.bounds()))
-    add_message(
-        gains,
-        "the objective has no minimum: without constant parts every solution may be scaled, "
-        "so its infimum is 0 or there is none");
-  else if (minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible)
-    add_message(gains, "the objective has no minimum: it is unbounded below");
+  if (minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible)
+    gains.solver.add_message("the objective has no minimum: it is unbounded below");
   else
-    add_message(gains,
-                "the objective is that of a point inside, not its minimum: the minimum was "
-                "not found");
+    gains.solver.add_message(
+        "the objective is that of a point inside, not its minimum: the minimum was "
+        "not found");
 }
 
 void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains) {
@@ -120,9 +109,9 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
     if (!(largest <= bounds.beta)) {
       gains.verdict = model::Verdict::undecided;
       gains.bound_only = largest;
-      add_message(gains, "no gains within the gain bound " + brief(bounds.beta) +
-                             " were found, but gains of " + brief(largest, 2) +
-                             " exist: raise synthesis.gain_bound");
+      gains.solver.add_message("no gains within the gain bound " + brief(bounds.beta) +
+                               " were found, but gains of " + brief(largest, 2) +
+                               " exist: raise synthesis.gain_bound");
       return;
     }
   }
@@ -158,11 +147,11 @@ void note_undecided(const Climb& climb, model::Gains& gains) {
   const double margin = last.question.goal == lmi::Goal::interior && !last.solution.x.empty()
                             ? lmi::interior_margin(last.solution)
                             : 0;
-  add_message(gains, "the largest margin found is " + brief(margin, 2) +
-                         (refutation && refutation->omega < 0.1
-                              ? ", and solutions, if any, do not survive a relative change of " +
-                                    brief(refutation->omega, 2) + " of the coefficients"
-                              : ""));
+  gains.solver.add_message("the largest margin found is " + brief(margin, 2) +
+                           (refutation && refutation->omega < 0.1
+                                ? ", and solutions, if any, do not survive a relative change of " +
+                                      brief(refutation->omega, 2) + " of the coefficients"
+                                : ""));
 }
 
 /// A no without multipliers (lmi/refutation.h).
@@ -173,10 +162,10 @@ bool refute_by_zero_diagonal(const Climb& climb, model::Gains& gains) {
   gains.verdict = model::Verdict::no;
   gains.solver.status = "infeasible";
   gains.certificate = model::CertificateRecord{true, 0, kQuadDigits, {}};
-  add_message(gains, found->inequality + ": element (" + std::to_string(found->row) + ", " +
-                         std::to_string(found->row) + ") is 0 for all unknowns, and element (" +
-                         std::to_string(found->row) + ", " + std::to_string(found->column) +
-                         ") of its row is a constant other than 0");
+  gains.solver.add_message(found->inequality + ": element (" + std::to_string(found->row) + ", " +
+                           std::to_string(found->row) + ") is 0 for all unknowns, and element (" +
+                           std::to_string(found->row) + ", " + std::to_string(found->column) +
+                           ") of its row is a constant other than 0");
   return true;
 }
 

@@ -42,38 +42,33 @@ model::Gains stated(const model::Instance& instance) {
   return gains;
 }
 
-void add_message(model::Gains& gains, const std::string& text) {
-  std::string& message = gains.solver.message;
-  message += (message.empty() ? "" : "; ") + text;
-}
-
 /// What the verdict rests on where an inequality holds for all values of a variable.
 void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
   if (plan.uses_exchange()) {
     std::string text = "exchange: " + std::to_string(plan.points()) + " points in " +
                        std::to_string(rounds) + (rounds == 1 ? " round" : " rounds");
     if (gains.verdict == model::Verdict::yes) text += ", checked between them";
-    add_message(gains, text);
+    gains.solver.add_message(text);
   }
   if (!gains.certificate || gains.certificate->is_about_problem()) return;
   const bool exact = std::all_of(plan.inequalities.begin(), plan.inequalities.end(),
                                  [](const forall::Imposed& imposed) { return imposed.exact; });
   if (exact) {
     // A certificate of the very inequalities that is not sharp enough to say no.
-    add_message(gains,
-                "a certificate in double speaks against any solution, but more digits do not "
-                "confirm it: solutions, if any, do not survive a relative change of " +
-                    brief(gains.certificate->omega, 2) + " of the coefficients");
+    gains.solver.add_message(
+        "a certificate in double speaks against any solution, but more digits do not "
+        "confirm it: solutions, if any, do not survive a relative change of " +
+        brief(gains.certificate->omega, 2) + " of the coefficients");
     gains.certificate.reset();
     return;
   }
   gains.certificate->about = plan.uses_vertex_gains() ? "vertices" : "hull";
-  add_message(gains,
-              plan.uses_vertex_gains()
-                  ? "no solution of the test at the vertices of the box, which is only "
-                    "sufficient; synthesis.forall: exchange with a polynomial may find one"
-                  : "no solution for the hull, which is larger than what the variables reach; "
-                    "synthesis.forall: exchange, or more synthesis.slices, may find one");
+  gains.solver.add_message(
+      plan.uses_vertex_gains()
+          ? "no solution of the test at the vertices of the box, which is only "
+            "sufficient; synthesis.forall: exchange with a polynomial may find one"
+          : "no solution for the hull, which is larger than what the variables reach; "
+            "synthesis.forall: exchange, or more synthesis.slices, may find one");
 }
 
 /// Gains whose formulas use nothing but data are known in any case, the others when the verdict is
@@ -94,7 +89,7 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
     gains.gains.clear();
     gains.gain_functions.clear();
     gains.report.clear();
-    add_message(gains, "every inequality holds, but " + std::string(error.what()));
+    gains.solver.add_message("every inequality holds, but " + std::string(error.what()));
   }
 }
 
@@ -148,7 +143,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   add_gains(inequalities, gains);
   if (gains.verdict != model::Verdict::yes)
     if (const std::string hidden = hidden_mode_text(instance); !hidden.empty())
-      add_message(gains, hidden);
+      gains.solver.add_message(hidden);
   gains.timings = {
       {"compile", compile_seconds}, {"solve", solve_seconds}, {"total", seconds_since(start)}};
   return gains;

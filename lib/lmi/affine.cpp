@@ -120,15 +120,6 @@ AffineForm at_vertex(const AffineForm& form, const std::vector<double>& values) 
   return result;
 }
 
-forall::Expansion expansion_of(const AffineForm& form) {
-  forall::Expansion expansion;
-  for (const auto& [key, matrix] : form.terms)
-    expansion.emplace_back(key.first, numbers::Matrix(matrix));
-  if (expansion.empty())
-    expansion.emplace_back(0, numbers::Matrix::Zero(form.shape.rows, form.shape.cols));
-  return expansion;
-}
-
 numbers::Matrix value_of(const AffineForm& form, const std::vector<double>& x) {
   numbers::Matrix result = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
   for (const auto& [key, matrix] : form.terms)

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "forall/between.h"
 #include "forall/monomials.h"
 #include "lmi/sparse.h"
 #include "lmi/unknowns.h"
@@ -61,9 +60,6 @@ void remove_noise(AffineForm& form, const forall::MonomialTable& monomials);
 
 /// The form with numbers for its monomials.
 AffineForm at_vertex(const AffineForm& form, const std::vector<double>& values);
-
-/// A form without unknowns as its coefficients by monomial; the constant 0 when it has none.
-forall::Expansion expansion_of(const AffineForm& form);
 
 /// The matrix of a form without monomials at x.
 numbers::Matrix value_of(const AffineForm& form, const std::vector<double>& x);

@@ -121,7 +121,8 @@ void set_objective(const Inequalities& of, Lmi& lmi) {
   }
 }
 
-/// InputError for sizes that leave double no room for powers of two and sums. `places`: of the blocks.
+/// InputError for sizes that leave double no room for powers of two and sums. `places`: of the
+/// blocks.
 void check_sizes(const std::vector<Block>& blocks, const std::vector<Place>& places) {
   constexpr double kLargest = 1e200;
   for (std::size_t k = 0; k < blocks.size(); ++k) {

@@ -41,8 +41,14 @@ EnclosedValues<S> ExactBlocks<S>::values_at(const Block& block) const {
     // A point of the domain that the file states is meant as it is written there.
     const expr::Program* program = nullptr;
     if (variable.is_interval()) {
-      if (at(0, 0) == variable.low) program = &stated[0].program;
-      if (at(0, 0) == variable.high) program = &stated[1].program;
+      // An end stands for that of the file, and so does what rounding put outside of it.
+      const S t(at(0, 0));
+      const Enclosed<S> low = numbers::enclose(stated[0].program, values_);
+      const Enclosed<S> high = numbers::enclose(stated[1].program, values_);
+      if (at(0, 0) == variable.low || !(t > low.mid(0, 0) + S(low.rad(0, 0))))
+        program = &stated[0].program;
+      if (at(0, 0) == variable.high || !(t < high.mid(0, 0) - S(high.rad(0, 0))))
+        program = &stated[1].program;
     } else {
       for (std::size_t e = 0; e < variable.elements.size() && program == nullptr; ++e)
         if (variable.elements[e] == at) program = &stated[e].program;

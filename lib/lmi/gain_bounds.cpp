@@ -239,7 +239,8 @@ std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
   for (const BoundedProduct& bound : bounds.list) {
     const numbers::Matrix s = value_of(bound.s, x);
     const numbers::Matrix e = value_of(bound.e, x);
-    model::GainBound record{bound.what, bounds.beta, std::numeric_limits<double>::infinity(), false};
+    model::GainBound record{bound.what, bounds.beta, std::numeric_limits<double>::infinity(),
+                            false};
     // A coefficient of a function need not be definite: then the measure says nothing.
     if (const numbers::Cholesky factor(s); factor) {
       const double largest =

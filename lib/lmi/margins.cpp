@@ -48,11 +48,6 @@ double rounding_of(const Block& block, const numbers::Matrix& value, const std::
 
 }  // namespace
 
-bool is_kept(const model::Margin& margin) {
-  constexpr double kSlack = 0.99;
-  return margin.holds && (!margin.strict || margin.reached >= kSlack * margin.required);
-}
-
 bool all_hold(const Margins& margins) {
   return margins.open.empty() &&
          std::all_of(margins.margins.begin(), margins.margins.end(),
@@ -108,7 +103,8 @@ class Checker {
     const auto meet_point = [&](const forall::Minimum& minimum) {
       const bool holds =
           meet(forall::matrix_at(difference, minimum.point, values_), minimum.point.label);
-      if (!domain.empty() && !holds) result_.violations.push_back({inequality, minimum.point, false});
+      if (!domain.empty() && !holds)
+        result_.violations.push_back({inequality, minimum.point, false});
     };
     const forall::Minima minima = forall::local_minima(difference, domain, values_, rows);
     for (const forall::Minimum& minimum : minima.list) meet_point(minimum);
@@ -134,10 +130,9 @@ class Checker {
     if (proof.status == Status::fails) {
       // Points at which it fails by less than double tells would be added without end.
       constexpr double kTells = 1e-13;
-      const bool tells =
-          !proof.point ||
-          correlation_margin(forall::matrix_at(
-              of_.statements[inequality].differences[comparison], *proof.point, values_)) < -kTells;
+      const bool tells = !proof.point || correlation_margin(forall::matrix_at(
+                                             of_.statements[inequality].differences[comparison],
+                                             *proof.point, values_)) < -kTells;
       if (tells && !of_.statements[inequality].domain.empty())
         result_.violations.push_back({inequality, *proof.point, true});
       if (!tells) leave_open(name, "it fails by less than double tells at " + proof.point->label);

@@ -40,7 +40,4 @@ Margins compute_margins(const Inequalities& inequalities, const Lmi& lmi, const 
 /// Whether all of them hold, and nothing is open.
 bool all_hold(const Margins& margins);
 
-/// Whether an inequality holds with the margin that was wished for, up to 1 % of it.
-bool is_kept(const model::Margin& margin);
-
 }  // namespace gainsmith::lmi

@@ -74,35 +74,29 @@ double upper(const S& value) {
          std::numeric_limits<double>::denorm_min();
 }
 
+/// A factorisation of Y that succeeds shows Y + n (n + 2) u diag(Y) >= 0: `error` and `H_error` are
+/// for that matrix, and cover the rounding of the sums and what the B_ki are known to.
 template <class S>
 void add_block(const ExactBlock<S>& block, const MatrixOf<S>& Y, bool strict, Sums<S>& sums) {
   const Eigen::Index n = Y.rows();
-  const double rounding = static_cast<double>(n * n + 2) * numbers::unit_roundoff<S>();
+  // sin(pi) is 0 up to the rounding of terms of a size that this understates.
+  constexpr double kTerms = 1e10;
+  const double rounding = 2 * static_cast<double>(n * n + 2 * n + 4) * numbers::unit_roundoff<S>();
   const numbers::Matrix sizes = Y.unaryExpr([](const S& y) { return upper(y); });
-  const double products = 4 * static_cast<double>(n + 2) * numbers::unit_roundoff<S>();
-  std::vector<MatrixOf<S>> moved;        // Y B_j Y
-  std::vector<numbers::Matrix> largest;  // |Y| |B_j| |Y|
-  std::vector<numbers::Matrix> of_B;     // |B_j|
-  std::vector<numbers::Matrix>
-      error_of_B;  // what B_j is known to, and the rounding of the products
+  std::vector<MatrixOf<S>> moved;           // Y B_j Y
+  std::vector<numbers::Matrix> largest;     // |Y| |B_j| |Y|
+  std::vector<numbers::Matrix> error_of_B;  // what B_j is known to, and the rounding
   for (const auto& [i, B] : block.terms) {
     moved.push_back(Y * B.mid * Y);
-    of_B.push_back(B.mid.unaryExpr([](const S& b) { return upper(b); }) + B.rad);
-    error_of_B.push_back(products * of_B.back() + B.rad);
-    largest.push_back(sizes * of_B.back() * sizes);
+    const numbers::Matrix of_B = B.mid.unaryExpr([](const S& b) { return upper(b); });
+    error_of_B.push_back(rounding * of_B + B.rad);
+    largest.push_back(sizes * (of_B + B.rad) * sizes);
     S r(0);
-    double size = 0;
-    double error = 0;
-    for (Eigen::Index a = 0; a < n; ++a)
-      for (Eigen::Index b = 0; b < n; ++b) {
-        r += B.mid(a, b) * Y(a, b);
-        const double y = upper(Y(a, b));
-        size += upper(B.mid(a, b)) * y;
-        error += B.rad(a, b) * y;
-      }
+    for (Eigen::Index e = 0; e < Y.size(); ++e) r += B.mid(e) * Y(e);
     sums.r[i] += r;
-    sums.W[i] += size;
-    sums.error[i] += (error + rounding * size) * (1 + 1e-12);
+    sums.W[i] +=
+        of_B.cwiseMax(B.rad / (kTerms * numbers::unit_roundoff<S>())).cwiseProduct(sizes).sum();
+    sums.error[i] += error_of_B.back().cwiseProduct(sizes).sum() * (1 + 1e-12);
   }
   for (std::size_t a = 0; a < moved.size(); ++a)
     for (std::size_t b = a; b < moved.size(); ++b) {
@@ -131,7 +125,7 @@ template <class S>
 bool is_exact(const Sums<S>& sums, bool homogeneous) {
   std::vector<Eigen::Index> used;
   for (Eigen::Index i = homogeneous ? 1 : 0; i < sums.r.size(); ++i)
-    if (sums.W[i] > 0 || i == 0) used.push_back(i);
+    if (sums.W[i] > 0 || sums.error[i] > 0 || i == 0) used.push_back(i);
   const auto m = static_cast<Eigen::Index>(used.size());
   MatrixOf<S> H(m, m);
   VectorOf<S> r(m);
@@ -241,7 +235,7 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
     if (!lifted) return result;
     add_block(weighed.block, *lifted, weighed.strict, sums);
   }
-  const bool homogeneous = sums.W[0] == 0;
+  const bool homogeneous = sums.W[0] == 0 && sums.error[0] == 0;
   const double v = static_cast<double>(as<double>(S(-sums.r[0])));
   if (definite && sums.whole > 0 && (homogeneous || v > sums.error[0]))
     result.exact = is_exact(sums, homogeneous) && (sums.strict > 0 || v > sums.error[0]);
@@ -249,8 +243,8 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
     return result;
   double omega = 0;
   for (Eigen::Index i = 0; i < m; ++i) {
-    if (sums.W[i] == 0 || (i == 0 && v >= 0)) continue;
-    omega = std::max(omega, (upper(sums.r[i]) + sums.error[i]) / sums.W[i]);
+    if ((sums.W[i] == 0 && sums.error[i] == 0) || (i == 0 && v >= 0)) continue;
+    omega = std::max(omega, sums.W[i] > 0 ? (upper(sums.r[i]) + sums.error[i]) / sums.W[i] : 1);
   }
   result.omega = std::isfinite(omega) ? std::min(1.0, omega * (1 + 1e-12)) : 1;
   return result;

@@ -11,6 +11,7 @@
 //   omega   max over i >= 1 of |r_i| / W_i, W_i = sum_k <|B_ki|, |Y_k|>: no x satisfies the
 //           inequalities when their coefficients change by more than omega, relatively; and within
 //           such changes Y is exact for some coefficients (Oettli & Prager).
+//           Where B_ki cancels to nothing but rounding, the size of what cancelled stands for it.
 #pragma once
 
 #include <optional>

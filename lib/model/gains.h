@@ -19,12 +19,12 @@ using NamedMatrices = std::vector<std::pair<std::string, numbers::Matrix>>;
 struct Margin {
   std::string name;  ///< of the requirement; "jump", or "bounds.1" in a chain
   bool strict = true;
-  /// The smallest eigenvalue of D^-1/2 M D^-1/2 with D = diag(M), over all points of `forall`: from 0
-  /// to 1 where M > 0, the same in all units.
+  /// The smallest eigenvalue of D^-1/2 M D^-1/2 with D = diag(M), over all points of `forall`: from
+  /// 0 to 1 where M > 0, the same in all units.
   double reached = 0;
   double required = 0;             ///< wished for
   double smallest_eigenvalue = 0;  ///< of M, in the data's units
-  std::string worst_point;  ///< "tau = 0"; empty without forall
+  std::string worst_point;         ///< "tau = 0"; empty without forall
   bool holds = false;
 };
 
@@ -42,8 +42,8 @@ struct CertificateRecord {
   bool exact = false;  ///< no solution, shown; otherwise none survives a relative change omega
   double omega = 1;    ///< rounded upward
   int digits = 0;      ///< of the arithmetic that it was checked in
-  /// One multiplier matrix for each inequality and point, and for the bounds on gains that it needs:
-  /// its name and the matrix.
+  /// One multiplier matrix for each inequality and point, and for the bounds on gains that it
+  /// needs: its name and the matrix.
   NamedMatrices multipliers;
   /// What it excludes: the "problem", or a condition that is only sufficient for its inequalities:
   /// their "hull", or the test at the "vertices" (docs/gain-file.md).
@@ -58,12 +58,14 @@ std::string limits_of(const CertificateRecord& certificate);
 struct SolverRecord {
   std::string status;  ///< optimal, infeasible, undecided
   std::string cause;
-  std::string message;
+  std::string message;  ///< notes, with "; " between them
   int iterations = 0;
   double relative_gap = 0;
   double primal_infeasibility = 0;
   double dual_infeasibility = 0;
   std::string precision;
+
+  void add_message(const std::string& text) { message += (message.empty() ? "" : "; ") + text; }
 };
 
 /// What moving scalars and unknowns together at the end of a search did (design/polish.h).
@@ -76,11 +78,12 @@ struct PolishRecord {
 
 /// How a search over scalars ended (docs/search.md). The gains are those of the best value.
 struct SearchRecord {
-  std::string figure;            ///< "largest T2", "objective", "trace(P1)", "margin"
-  std::optional<double> value;   ///< of the figure; none when nothing feasible was found
-  std::optional<double> beyond;  ///< the nearest value beyond it that a checked certificate excludes
-  std::vector<double> open;      ///< undecided or refused ones next to `value` and `beyond`, or empty
-  std::vector<double> breaks;    ///< excluded on the inner side of `value`
+  std::string figure;           ///< "largest T2", "objective", "trace(P1)", "margin"
+  std::optional<double> value;  ///< of the figure; none when nothing feasible was found
+  std::optional<double>
+      beyond;                  ///< the nearest value beyond it that a checked certificate excludes
+  std::vector<double> open;    ///< undecided or refused ones next to `value` and `beyond`, or empty
+  std::vector<double> breaks;  ///< excluded on the inner side of `value`
   std::optional<CertificateRecord> certificate;  ///< at `beyond`
   std::vector<std::string> over;                 ///< the scalars that were optimised outside
   std::vector<std::string> at_end;               ///< those of `over` found at an end of their range
