@@ -15,7 +15,7 @@ function(gainsmith_precompiled target set)
     add_library(${headers} OBJECT "${source}")
     target_link_libraries(${headers} PRIVATE Eigen3::Eigen third_party::fmt)
     target_precompile_headers(${headers} PRIVATE
-      <Eigen/Core> <algorithm> <functional> <map> <memory> <optional> <set> <string> <vector>)
+      <Eigen/Core> <boost/multiprecision/mpfr.hpp> <algorithm> <functional> <map> <memory> <optional> <set> <string> <vector>)
     if(set STREQUAL "all")
       target_link_libraries(${headers} PRIVATE nlohmann_json::nlohmann_json)
       target_precompile_headers(${headers} PRIVATE <nlohmann/json.hpp> <fmt/format.h>)

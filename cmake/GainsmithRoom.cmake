@@ -10,6 +10,14 @@ function(gainsmith_compiled_together target)
   endif()
 endfunction()
 
+# gainsmith_group(TARGET NAME a.cpp ...)
+#   Instead of groups of eight: these sources of TARGET are one group, and those of no group stay apart.
+function(gainsmith_group target name)
+  set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
+  set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${name})
+  gainsmith_compiled_together(${target})
+endfunction()
+
 # gainsmith_room(NAME SOURCES a.cpp ... ROOMS base expr PUBLIC lib ... PRIVATE lib ...)
 #   The library gainsmith_NAME from lib/NAME. ROOMS are the rooms it may include (scripts/check_layers
 #   holds the includes to its table); PUBLIC and PRIVATE are third-party targets.

@@ -7,15 +7,9 @@
 
 namespace gainsmith::hybrid {
 
-namespace {
-
 using Eigen::Index;
 using numbers::Matrix;
 using numbers::MatrixOf;
-
-constexpr double kLargest = 1e150;
-
-}  // namespace
 
 template <class Scalar>
 BoundedSimulator<Scalar>::BoundedSimulator(const System& system, const Scenario& scenario,
@@ -61,7 +55,7 @@ void BoundedSimulator<Scalar>::append(double t, std::int64_t j, const Scalar& ti
   track_.stacked.insert(track_.stacked.end(), x_.data(), x_.data() + x_.size());
   track_.bounds.insert(track_.bounds.end(), r_.data(), r_.data() + r_.size());
   for (Index i = 0; i < x_.size(); ++i)
-    if (!(size_of(x_(i)) <= kLargest)) track_.termination = Termination::diverged;
+    if (!(size_of(x_(i)) <= kLargestState)) track_.termination = Termination::diverged;
 }
 
 template <class Scalar>

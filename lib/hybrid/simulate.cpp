@@ -11,11 +11,10 @@ namespace gainsmith::hybrid {
 
 namespace {
 
-constexpr double kLargest = 1e150;
 constexpr double kDefaultIntervals = 40;
 
 bool within_range(const Eigen::VectorXd& x) {
-  return (x.array().abs() <= kLargest).all();  // false for a NaN
+  return (x.array().abs() <= kLargestState).all();  // false for a NaN
 }
 
 double read_first(const model::Formula& formula, const System& system) {

@@ -18,6 +18,9 @@
 
 namespace gainsmith::hybrid {
 
+/// A run of which a state leaves [-this, this] has diverged.
+constexpr double kLargestState = 1e150;
+
 /// What the runs of a campaign have in common.
 struct Scenario {
   std::vector<Law> laws;

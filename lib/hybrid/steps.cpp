@@ -16,26 +16,26 @@ namespace {
 
 // Squaring k times multiplies the rounding error of the first map by 2^k; the wider type pays for
 // it.
-using Wide = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using Extended = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 constexpr int kFewestLevels = 3;
 constexpr int kMostLevels = 40;
 constexpr double kFirstNorm = 0.25;
 constexpr double kStepsPerInterval = 8;
 
-Wide augmented(const AffineMap& flow) {
+Extended augmented(const AffineMap& flow) {
   const Eigen::Index n = flow.linear.rows();
-  Wide generator = Wide::Zero(n + 1, n + 1);
+  Extended generator = Extended::Zero(n + 1, n + 1);
   generator.topLeftCorner(n, n) = flow.linear.cast<long double>();
   generator.topRightCorner(n, 1) = flow.constant.cast<long double>();
   return generator;
 }
 
 /// expm(length * generator) for a linear part of norm at most 1/4; 20 terms leave less than 1e-31.
-Wide short_exponential(const Wide& generator, long double length) {
+Extended short_exponential(const Extended& generator, long double length) {
   constexpr int kTerms = 20;
-  Wide term = Wide::Identity(generator.rows(), generator.cols());
-  Wide sum = term;
+  Extended term = Extended::Identity(generator.rows(), generator.cols());
+  Extended sum = term;
   for (int k = 1; k <= kTerms; ++k) {
     term = (term * generator * (length / k)).eval();
     sum += term;
@@ -102,8 +102,8 @@ FlowSteps::FlowSteps(const AffineMap& flow, double longest, const Place& place) 
   while (norm * std::ldexp(top, -last) > kFirstNorm) ++last;
   shortest_ = std::ldexp(top, -last);
 
-  const Wide generator = augmented(flow);
-  std::array<Wide, kNodes + 1> maps;
+  const Extended generator = augmented(flow);
+  std::array<Extended, kNodes + 1> maps;
   maps[kNodes] = short_exponential(generator, shortest_);
   for (std::size_t i = 0; i < kNodes; ++i)
     maps[i] =
@@ -118,7 +118,7 @@ FlowSteps::FlowSteps(const AffineMap& flow, double longest, const Place& place) 
       nodes.constant.segment(row, n) = rounded(i).topRightCorner(n, 1);
     }
     to_nodes_.push_back(std::move(nodes));
-    for (Wide& map : maps) map = (map * map).eval();
+    for (Extended& map : maps) map = (map * map).eval();
   }
 }
 

@@ -74,8 +74,8 @@ struct Svd {
 Svd full_svd(const Matrix& M);
 
 /// The inverse by LU with pivots, and an estimate of the reciprocal condition in the 1-norm: not
-/// above rounding, or NaN, when M is singular. Of a symmetric M with a diagonal > 0 both in units in
-/// which the diagonal is near 1. M must not be empty.
+/// above rounding, or NaN, when M is singular. Of a symmetric M with a diagonal > 0 both in units
+/// in which the diagonal is near 1. M must not be empty.
 struct Inverse {
   Matrix matrix;
   double condition = 0;

@@ -2,7 +2,9 @@
 // scalar.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "numbers/balance.h"
@@ -65,6 +67,7 @@ struct Decomposition {
 };
 
 /// A must not be empty. Only min(rows, cols) columns of U and V are of use to the residual.
+/// The s stand in the order of double, which may not be theirs where double takes them as equal.
 template <class S>
 Decomposition<S> decomposed(const Enclosed<S>& A) {
   const auto svd = Foundation<S>::full_svd(A.mid);
@@ -90,6 +93,7 @@ Enclosed<S> singular_values(const Enclosed<S>& A) {
   if (A.mid.size() == 0) return exactly<S>(MatrixOf<S>::Zero(0, 1));
   const auto parts = decomposed(A);
   Enclosed<S> out = parts.s;
+  std::sort(out.mid.data(), out.mid.data() + out.mid.size(), std::greater<>());
   for (Eigen::Index i = 0; i < out.rows(); ++i) out.rad(i) = parts.radius(magnitude(out.mid(i)));
   return out;
 }
@@ -131,7 +135,7 @@ Enclosed<S> kernel_basis(const Enclosed<S>& A, Eigen::Index k) {
   const Eigen::Index rank = A.cols() - k;
   double off = 0;
   if (rank > 0) {
-    const double s = below(parts.s.mid(rank - 1));
+    const double s = below(S(parts.s.mid.topRows(rank).minCoeff()));
     const double least = s - parts.radius(s);
     if (!(least > 0)) return nothing_known<S>(N);
     off = up(norm_upward(magnitudes<S>(product(A, exactly<S>(N)))) / (least * (1 - 0x1p-50)));

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "expr/number_type.h"
@@ -69,15 +70,7 @@ struct RealRules {
   void operator()(Is<Op::add>, const At& at, Value& out) const { out = at[0] + at[1]; }
   void operator()(Is<Op::subtract>, const At& at, Value& out) const { out = at[0] - at[1]; }
   void operator()(Is<Op::negate>, const At& at, Value& out) const { out = -at[0]; }
-  void operator()(Is<Op::multiply>, const At& at, Value& out) const {
-    // Small products, by far the most frequent here, are faster without the blocking of large ones.
-    constexpr Eigen::Index kSmall = 16;
-    if (std::max({at[0].rows(), at[0].cols(), at[1].cols()}) <= kSmall) {
-      out.noalias() = at[0].lazyProduct(at[1]);
-    } else {
-      out.noalias() = at[0] * at[1];
-    }
-  }
+  void operator()(Is<Op::multiply>, const At& at, Value& out) const { multiply(at[0], at[1], out); }
   void operator()(Is<Op::scale>, const At& at, Value& out) const { out = at[0](0, 0) * at[1]; }
   void operator()(Is<Op::divide>, const At& at, Value& out) const {
     const Scalar& by = at[1](0, 0);
@@ -85,11 +78,17 @@ struct RealRules {
     out = at[0] / by;
   }
   void operator()(Is<Op::power>, const At& at, Value& out) const {
-    Value square = at[0];
+    Value square = at[0], next;
     out = Value::Identity(square.rows(), square.cols());
     for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
-      if (exponent % 2 == 1) out = out * square;
-      if (exponent > 1) square = square * square;
+      if (exponent % 2 == 1) {
+        multiply(out, square, next);
+        out.swap(next);
+      }
+      if (exponent > 1) {
+        multiply(square, square, next);
+        square.swap(next);
+      }
     }
   }
   void operator()(Is<Op::scalar_power>, const At& at, Value& out) const {
@@ -189,6 +188,18 @@ struct RealRules {
   }
 
  private:
+  /// Small products, by far the most frequent here, and those of other scalars than double are
+  /// faster without the blocking of large ones.
+  static void multiply(const Value& a, const Value& b, Value& out) {
+    constexpr Eigen::Index kSmall = 16;
+    if constexpr (std::is_same_v<Scalar, double>)
+      if (std::max({a.rows(), a.cols(), b.cols()}) > kSmall) {
+        out.noalias() = a * b;
+        return;
+      }
+    out.noalias() = a.lazyProduct(b);
+  }
+
   [[noreturn]] static void outside(Op op, const Value& value) {
     expr::fault::outside_domain(op, static_cast<double>(value.minCoeff()));
   }

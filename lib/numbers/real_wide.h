@@ -2,8 +2,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/LU>
-#include <Eigen/SVD>
+#include <algorithm>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -14,21 +14,9 @@
 #include "numbers/balance.h"
 #include "numbers/ball.h"
 #include "numbers/real_rules.h"
+#include "numbers/wide_dense.h"
 
 namespace gainsmith::numbers {
-
-template <class Scalar>
-struct WideInverse {
-  MatrixOf<Scalar> matrix;
-  Scalar condition;
-};
-
-template <class Scalar>
-struct WideSvd {
-  MatrixOf<Scalar> U;
-  Eigen::Matrix<Scalar, Eigen::Dynamic, 1> s;
-  MatrixOf<Scalar> V;
-};
 
 /// e^M = (e^X)^(2^k) with X = M / 2^k, |X| <= 1/2 in the 1-norm, and e^X by its series, of which
 /// the first term left out is below epsilon / 8.
@@ -49,8 +37,8 @@ MatrixOf<Scalar> balanced_exponential(const MatrixOf<Scalar>& M) {
   const MatrixOf<Scalar> X = M * scale;
   const MatrixOf<Scalar> I = MatrixOf<Scalar>::Identity(M.rows(), M.cols());
   MatrixOf<Scalar> result = I;
-  for (int k = terms; k >= 1; --k) result = (I + X * result / Scalar(k)).eval();
-  for (int k = 0; k < squarings; ++k) result = (result * result).eval();
+  for (int k = terms; k >= 1; --k) result = I + times<Scalar>(X, result) / Scalar(k);
+  for (int k = 0; k < squarings; ++k) result = times<Scalar>(result, result);
   return result;
 }
 
@@ -79,18 +67,15 @@ struct WideFoundation {
     return std::numeric_limits<Scalar>::epsilon() * Scalar(1e-15) /
            Scalar(std::numeric_limits<double>::epsilon());
   }
-  static WideInverse<Scalar> inverse(const Wide& M) {
-    const Eigen::PartialPivLU<Wide> lu(M);
-    return {lu.inverse(), lu.rcond()};
-  }
+  static WideInverse<Scalar> inverse(const Wide& M) { return wide_inverse<Scalar>(M); }
+  /// Largest first.
   static Column singular_values(const Wide& M) {
     if (M.size() == 0) return Column::Zero(0);
-    return Eigen::JacobiSVD<Wide>(M).singularValues();
+    Column values = wide_svd<Scalar>(M).s;
+    std::sort(values.begin(), values.end(), std::greater<>());
+    return values;
   }
-  static WideSvd<Scalar> full_svd(const Wide& M) {
-    const Eigen::JacobiSVD<Wide> svd(M, Eigen::ComputeFullU | Eigen::ComputeFullV);
-    return {svd.matrixU(), svd.singularValues(), svd.matrixV()};
-  }
+  static WideSvd<Scalar> full_svd(const Wide& M) { return wide_svd<Scalar>(M); }
   static Wide exponential(const Wide& M) { return wide_exponential<Scalar>(M); }
 };
 
