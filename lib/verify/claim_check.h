@@ -102,6 +102,7 @@ class ClaimCheck {
   Value<Scalar> value_;
   std::optional<Value<Scalar>> jump_cost_;
   std::optional<Value<Scalar>> factor_;
+  hybrid::Form<Scalar> rest_form_;  ///< the integral over a rest
 };
 
 }  // namespace gainsmith::verify
