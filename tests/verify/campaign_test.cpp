@@ -80,11 +80,14 @@ TEST(Campaign, ReportDoesNotDependOnTheNumberOfThreads) {
   problem.runs(150).horizon("6").shrinks("shrinks", "norm(e)", "0.001");
   problem.nonincreasing("V", "e'*" + std::string(kShape) + "*e + q'*q");
   problem.cost("J", "100*e'*e", "e'*e", "0.01*e'*e");
-  const Report one = run(problem, {.runs = {}, .seed = 5, .threads = 1, .progress = {}});
-  const Report two = run(problem, {.runs = {}, .seed = 5, .threads = 2, .progress = {}});
+  const Report one =
+      run(problem, {.runs = {}, .seed = 5, .threads = 1, .progress = {}, .stopped = {}});
+  const Report two =
+      run(problem, {.runs = {}, .seed = 5, .threads = 2, .progress = {}, .stopped = {}});
   EXPECT_TRUE(same(one, two));
   EXPECT_GT(one.violations, 0U);  // e'Q e is no Lyapunov function between samples
-  const Report other = run(problem, {.runs = {}, .seed = 6, .threads = 2, .progress = {}});
+  const Report other =
+      run(problem, {.runs = {}, .seed = 6, .threads = 2, .progress = {}, .stopped = {}});
   EXPECT_FALSE(same(one, other));
 }
 
@@ -96,7 +99,7 @@ TEST(Campaign, ProgressReachesTheNumberOfRuns) {
     EXPECT_EQ(all, 100U);
     seen.push_back(done);
   };
-  run(problem, {.runs = 100, .seed = {}, .threads = 2, .progress = note});
+  run(problem, {.runs = 100, .seed = {}, .threads = 2, .progress = note, .stopped = {}});
   ASSERT_FALSE(seen.empty());
   EXPECT_EQ(seen.back(), 100U);
 }
@@ -177,7 +180,8 @@ TEST(Campaign, ClaimThatIsNoNumberIsViolated) {
 TEST(Campaign, RefusesZeroRuns) {
   TextProblem problem = growing();
   problem.shrinks("bounded", "x", "10");
-  EXPECT_THROW(run(problem, {.runs = 0, .seed = {}, .threads = 1, .progress = {}}), InputError);
+  EXPECT_THROW(run(problem, {.runs = 0, .seed = {}, .threads = 1, .progress = {}, .stopped = {}}),
+               InputError);
 }
 
 TEST(Campaign, HowFarAnErrorShrinksNeedsAHorizon) {
