@@ -103,7 +103,9 @@ ClaimCheck<Scalar>::ClaimCheck(const JudgedClaim& claim,
       system_(&system),
       value_(claim.value, system),
       jump_cost_(make_value(claim.jump_cost, system)),
-      factor_(make_value(claim.factor, system)) {}
+      factor_(make_value(claim.factor, system)) {
+  if (claim.flow_cost && !claim.integral) flow_cost_.emplace(*claim.flow_cost, system);
+}
 
 template <class Scalar>
 Finding ClaimCheck<Scalar>::operator()(const Track& track) {
@@ -177,7 +179,7 @@ Bounded<Scalar> ClaimCheck<Scalar>::rest_cost(const Track& track, std::size_t mo
 template <class Scalar>
 Bounded<Scalar> ClaimCheck<Scalar>::step_cost(const Track& track, std::size_t move) {
   if (!claim_->flow_cost) return {};
-  if (!claim_->integral) return {Scalar(0), kInfinity};
+  if (flow_cost_) return (*flow_cost_)(track, move);
   const hybrid::FlowStep& step = track.moves[move].step;
   if (step.level == hybrid::FlowStep::kRest) return rest_cost(track, move);
   const auto& integrals = system_->steps.integrals[*claim_->integral];
