@@ -58,6 +58,8 @@ void ErrorEllipsoid::start(const Eigen::VectorXd& delta) {
   terms_ = 0;
   z_ = delta;
   set_bounds();
+  gather();
+  bounds_ = delta * kBoundSlack;
 }
 
 void ErrorEllipsoid::rescale(double largest) {
