@@ -15,7 +15,7 @@ using numbers::Enclosed;
 using numbers::Jet;
 using numbers::Matrix;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNoBound = std::numeric_limits<double>::infinity();
 
 /// A step is cut into 2^kCuts pieces.
 template <class Scalar>
@@ -36,7 +36,7 @@ Matrix in_double(const numbers::MatrixOf<Decimal100>& matrix) {
 /// Not below e^(A d) v.
 VectorXd grown(const Matrix& A, double d, VectorXd v) {
   const double norm = A.size() == 0 ? 0 : A.rowwise().sum().maxCoeff() * d;
-  if (!(norm <= kLongest)) return VectorXd::Constant(v.size(), kInfinity);
+  if (!(norm <= kLongest)) return VectorXd::Constant(v.size(), kNoBound);
   VectorXd sum = v;
   for (int k = 1; k <= 40; ++k) {
     v = (A.lazyProduct(v) * (d / k)).eval();
@@ -171,10 +171,10 @@ Bounded<Scalar> FlowIntegral<Scalar>::operator()(const hybrid::Track<Scalar>& tr
     total.bound += h * (error + middle.rad(0)) + 4 * kPieces * hybrid::unit_roundoff<Scalar>() * h *
                                                      hybrid::size_of(middle.mid(0));
   }
-  total.bound = std::isnan(total.bound) ? kInfinity : total.bound * hybrid::kBoundSlack;
+  total.bound = std::isnan(total.bound) ? kNoBound : total.bound * hybrid::kBoundSlack;
   return total;
 } catch (const expr::EvaluationError&) {
-  return {Scalar(0), kInfinity};
+  return {Scalar(0), kNoBound};
 }
 
 template class FlowIntegral<double>;
