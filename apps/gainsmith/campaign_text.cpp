@@ -97,23 +97,38 @@ ExitCode campaign_exit(model::CampaignVerdict verdict) {
 io::Json campaign_json(const verify::Report& report) {
   io::Json checks = io::Json::array();
   for (const verify::CheckReport& check : report.checks) checks.push_back(check_json(check));
-  return {{"verdict", to_string(report.verdict)},
-          {"runs", report.runs},
-          {"seed", report.seed},
-          {"horizon", report.horizon},
-          {"status", to_string(report.verdict)},
-          {"violations", report.violations},
-          {"undecided", report.undecided},
-          {"unfinished", report.unfinished},
-          {"worst_run", report.worst_run},
-          {"repeated_in_31_digits", report.repeated},
-          {"confirmed_in_31_digits", report.confirmed},
-          {"confidence", report.confidence},
-          {"violation_probability_at_most", report.violation_probability},
-          {"checks", checks}};
+  io::Json document = {{"verdict", to_string(report.verdict)},
+                       {"runs", report.runs},
+                       {"seed", report.seed},
+                       {"horizon", report.horizon},
+                       {"status", to_string(report.verdict)},
+                       {"violations", report.violations},
+                       {"undecided", report.undecided},
+                       {"unfinished", report.unfinished},
+                       {"worst_run", report.worst_run},
+                       {"repeated_in_31_digits", report.repeated},
+                       {"confirmed_in_31_digits", report.confirmed},
+                       {"confidence", report.confidence},
+                       {"violation_probability_at_most", report.violation_probability},
+                       {"checks", checks}};
+  if (report.interrupted()) {
+    document["runs_asked"] = report.asked;
+    document["message"] = interruption_text(report);
+  }
+  return document;
+}
+
+std::string interruption_text(const verify::Report& report) {
+  std::string text = fmt::format("interrupted after {} of {} runs", report.runs, report.asked);
+  if (report.runs == 0) return text;
+  text += fmt::format(": {} held", report.runs - report.violations - report.undecided);
+  if (report.violations > 0) text += fmt::format(", {} violated", report.violations);
+  if (report.undecided > 0) text += fmt::format(", {} undecided", report.undecided);
+  return text + fmt::format("; --runs {} gives a verdict in the time that was spent", report.runs);
 }
 
 std::string campaign_line(const verify::Report& report) {
+  if (report.interrupted()) return "undecided: " + interruption_text(report);
   if (report.verdict == model::CampaignVerdict::held)
     return fmt::format("held in {} runs", report.runs);
   if (report.verdict == model::CampaignVerdict::violated)
@@ -126,6 +141,7 @@ std::string campaign_line(const verify::Report& report) {
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file) {
   std::string text = fmt::format("campaign    {} (seed {}, horizon {})\n", campaign_line(report),
                                  report.seed, brief(report.horizon));
+  if (report.runs == 0) return text;
   for (const verify::CheckReport& check : report.checks) text += check_text(check);
   if (report.unfinished > 0)
     text += fmt::format("  {} runs did not reach the horizon; run {}: {}{}\n", report.unfinished,

@@ -17,6 +17,9 @@ io::Json campaign_json(const verify::Report& report);
 /// Verdict, checks and how to replay the worst run; `gains_file` is named in the command.
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file);
 
+/// "interrupted after 1234 of 10000 runs: 1230 held, 4 violated; ...".
+std::string interruption_text(const verify::Report& report);
+
 /// One line: "held in 1000 runs".
 std::string campaign_line(const verify::Report& report);
 

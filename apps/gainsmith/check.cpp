@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,23 @@ struct CheckOptions {
   bool json = false;
 };
 
+/// What of a campaign the problem leaves to the defaults.
+std::vector<std::string> campaign_defaults(const model::Design& design) {
+  std::vector<std::string> words;
+  if (!design.timer || design.claims.empty()) return words;
+  if (!design.campaign.horizon)
+    words.emplace_back("campaign.horizon: 40 of the timer's longest intervals");
+  for (std::size_t i = 0; i < design.states.size(); ++i) {
+    const auto& starts = design.campaign.starts;
+    const bool given = std::any_of(starts.begin(), starts.end(),
+                                   [&](const auto& start) { return start.state == i; });
+    if (!given && !design.states[i].start)
+      words.push_back("campaign.initial." + design.states[i].name +
+                      ": the box [-1, 1], in the units of the file");
+  }
+  return words;
+}
+
 /// What a valid problem asks for.
 io::Json description(const model::Instance& instance) {
   const lmi::Lmi lmi = lmi::compile(lmi::Inequalities(instance));
@@ -30,7 +48,8 @@ io::Json description(const model::Instance& instance) {
           {"method", instance.design->method},
           {"dimensions", sizes},
           {"unknown_scalars", lmi.unknowns},
-          {"blocks", lmi.blocks.size()}};
+          {"blocks", lmi.blocks.size()},
+          {"campaign_defaults", campaign_defaults(*instance.design)}};
 }
 
 ExitCode check(const CheckOptions& options) {
@@ -44,6 +63,9 @@ ExitCode check(const CheckOptions& options) {
         fmt::print("{}: valid: method {}, {} unknown scalars, {} inequality blocks\n", path,
                    found["method"].get<std::string>(), found["unknown_scalars"].get<int>(),
                    found["blocks"].get<int>());
+      if (!options.json)
+        for (const auto& word : found["campaign_defaults"])
+          fmt::print("  by default  {}\n", word.get<std::string>());
       found["file"] = path;
       results.push_back(std::move(found));
     } catch (const InputError& error) {

@@ -7,7 +7,6 @@
 
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
-#include "gainsmith/interruptible.h"
 #include "gainsmith/load.h"
 #include "gainsmith/terminal.h"
 
@@ -27,24 +26,15 @@ void print_progress(std::uint64_t done, std::uint64_t all) {
   say(fmt::format("\r{}/{} runs{}", done, all, done == all ? "\n" : ""));
 }
 
-/// What is left of a campaign without all its runs.
-ExitCode report_interruption(const Interrupted& stop, bool json) {
-  fmt::print("{}", json ? io::to_text({{"verdict", "undecided"}, {"message", stop.what()}})
-                        : fmt::format("campaign    undecided: {}\n", stop.what()));
-  return ExitCode::undecided;
-}
-
-ExitCode verify_gains(const VerifyOptions& options) try {
+ExitCode verify_gains(const VerifyOptions& options) {
   const LoadedGains loaded = load_gains(options.gains);
   catch_interrupts();
-  verify::CampaignOptions campaign{options.runs, options.seed, options.threads, {}};
+  verify::CampaignOptions campaign{options.runs, options.seed, options.threads, {}, interrupted};
   if (!options.json && progress_wanted()) campaign.progress = print_progress;
-  const verify::Report report = interruptible_campaign(loaded.stated, loaded.gains, campaign);
+  const verify::Report report = verify::run_campaign(loaded.stated, loaded.gains, campaign);
   fmt::print("{}", options.json ? io::to_text(campaign_json(report))
                                 : campaign_summary(report, options.gains));
   return campaign_exit(report.verdict);
-} catch (const Interrupted& stop) {
-  return report_interruption(stop, options.json);
 }
 
 }  // namespace

@@ -4,12 +4,20 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "hybrid/small_size.h"
 
 namespace gainsmith::hybrid {
 
 using Eigen::Index;
 using numbers::Matrix;
 using numbers::MatrixOf;
+
+namespace {
+
+/// After so many steps of a flow its errors are gathered.
+constexpr std::size_t kGather = 8;
+
+}  // namespace
 
 template <class Scalar>
 BoundedSimulator<Scalar>::BoundedSimulator(const System& system, const Scenario& scenario,
@@ -36,12 +44,9 @@ BoundedSimulator<Scalar>::BoundedSimulator(const System& system, const Scenario&
   next_.resize(n);
   r_.resize(n);
   delta_.resize(n);
-  root_.resize(n);
-  product_.resize(n, n);
+  size_.resize(n);
   E_.resize(n, n);
   E_sizes_.resize(n, n);
-  for (ColumnOf<Scalar>* column : {&term_, &other_term_}) column->resize(n);
-  for (Eigen::VectorXd* column : {&size_, &other_size_}) column->resize(n);
   J_.resize(n, n);
 }
 
@@ -88,114 +93,85 @@ void BoundedSimulator<Scalar>::start(std::uint64_t run, RandomStream& random) {
 }
 
 template <class Scalar>
-void BoundedSimulator<Scalar>::take_step(const Matrix& E, const Matrix& sizes, double slack) {
+void BoundedSimulator<Scalar>::take_step(const Matrix& E, const Matrix& sizes) {
   x_.swap(next_);
-  errors_.step(E, sizes, slack, delta_);
+  errors_.step(E, sizes, delta_);
   r_ = errors_.bounds();
 }
 
 template <class Scalar>
+void BoundedSimulator<Scalar>::add_coarse_errors(const BoundedMap<Scalar>& map) {
+  for (Index i = 0; i < x_.rows(); ++i) {
+    if (map.unchanged[static_cast<std::size_t>(i)]) continue;
+    double reach = map.constant_sizes(i) > 0 ? 1 : 0;  // the error of E keeps its pattern
+    for (Index k = 0; k < x_.rows(); ++k)
+      if (map.sizes(i, k) > 0) reach += size_(k) + r_(k);
+    delta_(i) += map.error * reach;
+  }
+}
+
+template <class Scalar>
 void BoundedSimulator<Scalar>::step(const BoundedMap<Scalar>& map) {
-  const Index n = x_.rows();
-  const double gamma = (static_cast<double>(n) + 4) * unit_roundoff<Scalar>();
-  const Scalar* const e = map.linear.data();
-  const double* const s = map.sizes.data();
-  for (Index k = 0; k < n; ++k) root_(k) = size_of(x_(k));
-  for (Index i = 0; i < n; ++i) {
-    if (map.unchanged[static_cast<std::size_t>(i)]) {
-      next_(i) = x_(i);
-      delta_(i) = 0;
-      continue;
-    }
-    Scalar value = map.constant(i);
-    double absolute = map.constant_sizes(i);
-    double reach = absolute > 0 ? 1 : 0;  // the error of E keeps its pattern
-    for (Index k = 0; k < n; ++k) {
-      value += e[k * n + i] * x_(k);
-      absolute += s[k * n + i] * root_(k);
-      if (s[k * n + i] > 0) reach += root_(k);
-    }
-    next_(i) = value;
-    delta_(i) = gamma * absolute + map.error * reach;
-  }
-  take_step(map.rounded, map.sizes, 0);
-}
-
-template <class Scalar>
-int BoundedSimulator<Scalar>::taylor_sum(double length) {
-  // next_ = sum of (M length)^k x / k!; root_ = the same of the sizes.
-  const StepMaps<Scalar>& flow = bounded_->steps;
-  const Index n = x_.rows();
-  const double least = unit_roundoff<Scalar>() * 1e-4;
-  const Scalar* const m = flow.linear.data();
-  const double* const s = flow.sizes.data();
-  term_ = next_ = x_;
-  for (Index i = 0; i < n; ++i) size_(i) = root_(i) = size_of(x_(i));
-  int degree = 0;
-  for (tail_ = 1; degree < 2 || (tail_ > least && degree < 60); ++degree) {
-    const double share = length / (degree + 1);
-    const Scalar factor = Scalar(length) / Scalar(degree + 1);
+  const Index size = x_.rows();
+  with_size(size, [&](auto N) {
+    const Index n = decltype(N)::value > 0 ? decltype(N)::value : size;
+    const Scalar* e = map.linear.data();
+    const double* s = map.sizes.data();
+    Scalar* const next = next_.data();
+    double* const delta = delta_.data();
     for (Index i = 0; i < n; ++i) {
-      Scalar value = degree == 0 ? flow.constant(i) : Scalar(0);
-      double size = degree == 0 ? flow.constant_sizes(i) : 0;
-      for (Index k = 0; k < n; ++k) {
-        value += m[k * n + i] * term_(k);
-        size += s[k * n + i] * size_(k);
-      }
-      other_term_(i) = value * factor;
-      other_size_(i) = size * share;
+      next[i] = map.constant.data()[i];
+      delta[i] = map.constant_sizes.data()[i];
     }
-    term_.swap(other_term_);
-    size_.swap(other_size_);
-    for (Index i = 0; i < n; ++i) {
-      next_(i) += term_(i);
-      root_(i) += size_(i);
-    }
-    tail_ *= flow.norm * share;
-  }
-  return degree;
-}
-
-template <class Scalar>
-double BoundedSimulator<Scalar>::taylor_map(double length) {
-  // E = I + M length (I + M length/2 (I + ...)), in double.
-  constexpr int kDegree = 10;
-  const Index n = x_.rows();
-  const double* const m = bounded_->steps.rounded.data();
-  E_.setIdentity();
-  double left = 1;
-  for (int k = kDegree; k >= 1; --k) {
-    const double share = length / k;
-    for (Index j = 0; j < n; ++j)
+    for (Index k = 0; k < n; ++k, e += n, s += n) {
+      const Scalar x = x_.data()[k];
+      size_.data()[k] = size_of(x);
       for (Index i = 0; i < n; ++i) {
-        double sum = 0;
-        for (Index l = 0; l < n; ++l) sum += m[l * n + i] * E_(l, j);
-        product_(i, j) = sum * share + (i == j ? 1 : 0);
+        next[i] += e[i] * x;
+        delta[i] += s[i] * size_of(x);
       }
-    E_.swap(product_);
-    left *= bounded_->steps.norm * length / k;
-  }
-  E_sizes_ = E_.cwiseAbs();
-  return left * bounded_->steps.norm * length + 100 * unit_roundoff<double>();
+    }
+    for (Index i = 0; i < n; ++i) delta[i] *= map.gamma.data()[i];
+  });
+  if (map.coarse) add_coarse_errors(map);
+  take_step(map.rounded, map.sizes);
 }
 
 template <class Scalar>
 void BoundedSimulator<Scalar>::rest(double length) {
-  const StepMaps<Scalar>& flow = bounded_->steps;
-  const Index n = x_.rows();
-  const int degree = taylor_sum(length);
-  const double slack = taylor_map(length);
-  const double gamma = (static_cast<double>(n + degree) + 4) * unit_roundoff<Scalar>();
-  for (Index i = 0; i < n; ++i) {
-    bool still = flow.constant_sizes(i) == 0;
-    double reach = still ? 0 : length;
-    for (Index k = 0; k < n; ++k) {
-      if (flow.sizes(i, k) != 0) still = false;
-      if (E_(i, k) != 0) reach += size_of(x_(k)) + flow.constant_sizes(k) * length;
+  const Series<Scalar>& series = bounded_->steps.rest;
+  const double sigma = series.share(length);
+  series.sum(sigma, added_);
+  const Index size = x_.rows();
+  with_size(size, [&](auto N) {
+    const Index n = decltype(N)::value > 0 ? decltype(N)::value : size;
+    const Scalar* const d = added_.data();
+    const double* const error = series.errors.data();
+    const double* const spread = series.errors_in_double.data();
+    Scalar* const next = next_.data();
+    double* const delta = delta_.data();
+    double* const e = E_.data();
+    for (Index i = 0; i < n; ++i) {
+      next[i] = d[n * n + i];
+      delta[i] = error[n * n + i];
     }
-    delta_(i) = still ? 0 : gamma * root_(i) + 2 * tail_ * reach;
-  }
-  take_step(E_, E_sizes_, slack);
+    for (Index k = 0; k < n; ++k)
+      for (Index i = 0; i < n; ++i) {
+        next[i] += d[k * n + i] * x_.data()[k];
+        // Of x, and of the D in double that its error is stepped with.
+        delta[i] += error[k * n + i] * size_of(x_.data()[k]) + spread[k * n + i] * r_.data()[k];
+        e[k * n + i] = static_cast<double>(d[k * n + i]);
+      }
+    for (Index i = 0; i < n; ++i) {
+      const bool still = !series.moves[static_cast<std::size_t>(i)];
+      const double rounding = still ? 0 : 2 * unit_roundoff<Scalar>() * size_of(x_.data()[i]);
+      delta[i] = sigma * delta[i] + rounding;
+      next[i] += x_.data()[i];
+      e[i * n + i] += 1;
+    }
+    for (Index k = 0; k < n * n; ++k) E_sizes_.data()[k] = std::abs(e[k]);
+  });
+  take_step(E_, E_sizes_);
 }
 
 template <class Scalar>
@@ -217,6 +193,10 @@ void BoundedSimulator<Scalar>::flow(double interval) {
     elapsed = last ? interval : elapsed + cuts_[i].length;
     passed = last ? Scalar(interval) : passed + Scalar(cuts_[i].length);
     track_.moves.push_back({false, cuts_[i]});
+    if (i % kGather == kGather - 1) {
+      errors_.gather();
+      r_ = errors_.bounds();
+    }
     const Scalar left = timer - passed;
     const double bound =
         left == Scalar(0) ? 0
@@ -311,7 +291,7 @@ void BoundedSimulator<Scalar>::jump(double reset_value) {
     }
     J_rounded_ = J_.unaryExpr([](const Scalar& value) { return static_cast<double>(value); });
     J_sizes_ = J_rounded_.cwiseAbs();
-    take_step(J_rounded_, J_sizes_, 0);
+    take_step(J_rounded_, J_sizes_);
   }
   errors_.gather();
   r_ = errors_.bounds();

@@ -12,6 +12,8 @@
 // A jump that is affine in the states with coefficients that depend on clocks (F(s)) is a step
 // whose E has a bound of its own. An entry of any other kind is evaluated over balls (ball.h): its
 // row of E is 0 and delta is the radius.
+//
+// A rest is x + [D f] [x; 1] with [D f] a polynomial in its length (Series).
 #pragma once
 
 #include <Eigen/Core>
@@ -77,12 +79,10 @@ class BoundedSimulator {
   void linear_entry(std::size_t coordinate);
   void ball_entry(std::size_t coordinate);
   void rest(double length);
-  int taylor_sum(double length);
-  double taylor_map(double length);
   void step(const BoundedMap<Scalar>& map);
-  /// x_ becomes next_; its errors take the same step with delta_, E and |E|. `slack`: relative
-  /// errors of E besides its rounding.
-  void take_step(const numbers::Matrix& E, const numbers::Matrix& sizes, double slack);
+  void add_coarse_errors(const BoundedMap<Scalar>& map);
+  /// x_ becomes next_; its errors take the same step with delta_, E and |E|.
+  void take_step(const numbers::Matrix& E, const numbers::Matrix& sizes);
   void append(double t, std::int64_t j, const Scalar& timer, double timer_bound);
 
   const System* system_;
@@ -96,13 +96,12 @@ class BoundedSimulator {
   std::vector<StartRule> const* rules_;
   std::vector<FlowStep> cuts_;
   Track<Scalar> track_;
-  ColumnOf<Scalar> x_, next_, term_, other_term_;
-  Eigen::VectorXd size_, other_size_;
-  numbers::Matrix E_, E_sizes_;  ///< of a rest
-  double tail_ = 0;              ///< what the Taylor sum leaves, relative
+  ColumnOf<Scalar> x_, next_;
+  Eigen::VectorXd size_;             ///< |x_|
+  numbers::MatrixOf<Scalar> added_;  ///< of a rest: [D f]
+  numbers::Matrix E_, E_sizes_;      ///< of a rest: I + D
   ErrorEllipsoid errors_;
-  Eigen::VectorXd r_, delta_, root_;
-  numbers::Matrix product_;
+  Eigen::VectorXd r_, delta_;
   numbers::MatrixOf<Scalar> J_;
   numbers::Matrix J_rounded_, J_sizes_;
 };

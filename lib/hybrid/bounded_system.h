@@ -37,8 +37,7 @@ class BallFunction {
 /// What the runs of one Scalar share.
 template <class Scalar>
 struct BoundedSystem {
-  BoundedSystem(const Coordinates& coordinates, const ExactSteps& exact,
-                const std::vector<numbers::MatrixOf<Decimal100>>& forms);
+  BoundedSystem(const Coordinates& coordinates, const ExactSteps& exact);
 
   const Coordinates* coordinates;
   BallsOf<Scalar> constants;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hybrid/ball.h"
+#include "hybrid/small_size.h"
 
 namespace gainsmith::hybrid {
 
@@ -12,103 +13,90 @@ namespace {
 using Eigen::Index;
 using numbers::Matrix;
 
-/// The largest row of G_ and sqrt(Z_) is kept between these.
+/// The largest row of G_ is kept between these.
 constexpr double kLeastScale = 1e-80;
 constexpr double kMostScale = 1e80;
+
+/// Below this the sum of the squares of a row may have underflowed.
+constexpr double kLeastSquare = 1e-280;
+
+template <int N>
+void multiply(Index size, const double* e, const double* g, double* p) {
+  const Index n = N > 0 ? N : size;
+  for (Index j = 0; j < n; ++j) {
+    for (Index i = 0; i < n; ++i) p[j * n + i] = 0;
+    for (Index k = 0; k < n; ++k)
+      for (Index i = 0; i < n; ++i) p[j * n + i] += e[k * n + i] * g[j * n + k];
+  }
+}
+
+template <int N>
+void multiply_column(Index size, const double* e, const double* x, double* p) {
+  const Index n = N > 0 ? N : size;
+  for (Index k = 0; k < n; ++k)
+    for (Index i = 0; i < n; ++i) p[i] += e[k * n + i] * x[k];
+}
+
+template <int N>
+void row_squares(Index size, const double* g, double* p) {
+  const Index n = N > 0 ? N : size;
+  for (Index i = 0; i < n; ++i) p[i] = 0;
+  for (Index k = 0; k < n; ++k)
+    for (Index i = 0; i < n; ++i) p[i] += g[k * n + i] * g[k * n + i];
+}
 
 }  // namespace
 
 void ErrorEllipsoid::start(const Eigen::VectorXd& delta) {
   const Index n = delta.size();
   bounds_.resize(n);
-  root_.resize(n);
+  reach_.resize(n);
   product_.resize(n, n);
-  G_ = Z_ = Matrix::Zero(n, n);
+  G_ = Matrix::Zero(n, n);
   norm_ = Eigen::VectorXd::Zero(n);
   scale_ = 1;
-  steps_ = 0;
-  step(G_, G_, 0, delta);
+  terms_ = 0;
+  z_ = delta;
+  set_bounds();
+  gather();
+  bounds_ = delta * kBoundSlack;
 }
 
 void ErrorEllipsoid::rescale(double largest) {
-  if (!(largest > 0) || (largest <= kMostScale && largest >= kLeastScale)) return;
   G_ /= largest;
-  Z_ /= largest * largest;
   scale_ *= largest;
 }
 
-void ErrorEllipsoid::step(const Matrix& E, const Matrix& sizes, double slack,
-                          const Eigen::VectorXd& delta) {
+void ErrorEllipsoid::step(const Matrix& E, const Matrix& sizes, const Eigen::VectorXd& delta) {
   const Index n = bounds_.size();
-  const double eps = 4 * (static_cast<double>(n) + 2) * unit_roundoff<double>() + slack;
-  const double* const e = E.data();
-  const double* const s = sizes.data();
-  double* const p = product_.data();
-  double* const g = G_.data();
-  double* const z = Z_.data();
-  bool known = false;
-  for (Index i = 0; i < n; ++i) {
-    root_(i) = std::sqrt(z[i * n + i]);
-    known = known || norm_(i) > 0 || root_(i) > 0;
-  }
-  if (known) {
-    // G <- E G;  Z <- E Z E';  what the rounding of both adds to the diagonal of Z.
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < n; ++i) {
-        double sum = 0;
-        for (Index k = 0; k < n; ++k) sum += e[k * n + i] * g[j * n + k];
-        p[j * n + i] = sum;
-      }
-    G_.swap(product_);
-    double* const q = product_.data();
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i < n; ++i) {
-        double sum = 0;
-        for (Index k = 0; k < n; ++k) sum += e[k * n + i] * z[j * n + k];
-        q[j * n + i] = sum;
-      }
-    for (Index j = 0; j < n; ++j)
-      for (Index i = 0; i <= j; ++i) {
-        double sum = 0;
-        for (Index k = 0; k < n; ++k) sum += q[k * n + i] * e[k * n + j];
-        z[j * n + i] = z[i * n + j] = sum;
-      }
-    for (Index i = 0; i < n; ++i) {
-      double from_G = 0;
-      double from_Z = 0;
-      for (Index k = 0; k < n; ++k) {
-        from_G += s[k * n + i] * norm_(k);
-        from_Z += s[k * n + i] * root_(k);
-      }
-      z[i * n + i] +=
-          static_cast<double>(n) * (eps * eps * from_G * from_G + eps * from_Z * from_Z);
-    }
-    steps_ += 1;
-  }
-  const double inject = n > 0 ? delta.maxCoeff() : 0;
-  if (inject > 0) {
-    if (!known) scale_ = inject;
-    for (Index i = 0; i < n; ++i) {
-      const double d = delta(i) / scale_;
-      z[i * n + i] += static_cast<double>(n) * d * d;
-    }
-    steps_ += 1;
-  }
+  const double eps = 4 * (static_cast<double>(n) + 2) * unit_roundoff<double>();
+  const double factor = eps * std::sqrt(terms_) * scale_;
+  for (Index i = 0; i < n; ++i) reach_(i) = z_(i) * (1 + eps) + factor * norm_(i);
+  z_ = delta;
+  with_size(n, [&](auto N) {
+    multiply_column<decltype(N)::value>(n, sizes.data(), reach_.data(), z_.data());
+    if (terms_ == 0) return;
+    multiply<decltype(N)::value>(n, E.data(), G_.data(), product_.data());
+  });
+  if (terms_ > 0) G_.swap(product_);
   set_bounds();
 }
 
 void ErrorEllipsoid::set_bounds() {
   const Index n = bounds_.size();
-  const double factor = std::sqrt(steps_) * scale_ * kBoundSlack;
-  const double* const g = G_.data();
+  if (terms_ == 0) {
+    bounds_ = z_ * kBoundSlack;
+    return;
+  }
+  with_size(n, [&](auto N) { row_squares<decltype(N)::value>(n, G_.data(), norm_.data()); });
+  const double factor = std::sqrt(terms_) * scale_;
   double largest = 0;
   for (Index i = 0; i < n; ++i) {
-    double square = 0;
-    for (Index k = 0; k < n; ++k) square += g[k * n + i] * g[k * n + i];
-    norm_(i) = std::sqrt(square);
-    const double sum = std::sqrt(square + std::max(Z_(i, i), 0.0));
-    bounds_(i) = factor * sum;
-    largest = std::max(largest, sum);
+    norm_(i) = norm_(i) > kLeastSquare
+                   ? std::sqrt(norm_(i))
+                   : std::sqrt(static_cast<double>(n)) * G_.row(i).lpNorm<Eigen::Infinity>();
+    bounds_(i) = (factor * norm_(i) + z_(i)) * kBoundSlack;
+    largest = std::max(largest, norm_(i));
   }
   if (largest > kMostScale || (largest < kLeastScale && largest > 0)) {
     rescale(largest);
@@ -116,26 +104,48 @@ void ErrorEllipsoid::set_bounds() {
   }
 }
 
+void ErrorEllipsoid::triangulate() {
+  // Householder, in place; R is what remains above the diagonal.
+  const Index n = stacked_.cols();
+  const Index rows = stacked_.rows();
+  for (Index k = 0; k < n; ++k) {
+    auto column = stacked_.col(k).segment(k, rows - k);
+    const double norm = column.norm();
+    if (norm == 0) continue;
+    const double head = column(0);
+    const double alpha = head > 0 ? -norm : norm;
+    column(0) = head - alpha;
+    const double square = norm * (norm + std::abs(head));  // |v|^2 / 2
+    for (Index j = k + 1; j < n; ++j) {
+      auto other = stacked_.col(j).segment(k, rows - k);
+      other -= (column.dot(other) / square) * column;
+    }
+    column(0) = alpha;
+  }
+}
+
 void ErrorEllipsoid::gather() {
-  // [G, sqrt(n diag Z)] = (Q R)' has the same c' Y c as R'.
   const Index n = bounds_.size();
-  if (n == 0) return;
+  const double most = n == 0 ? 0 : z_.maxCoeff();
+  if (!(most > 0)) return;
+  const double largest = std::max(most, terms_ == 0 ? 0 : scale_ * norm_.maxCoeff());
+  if (!(largest <= 1e300)) return;
+  rescale(largest / scale_);
   stacked_.resize(2 * n, n);
   stacked_.topRows(n) = G_.transpose();
   stacked_.bottomRows(n).setZero();
   for (Index i = 0; i < n; ++i)
-    stacked_(n + i, i) = std::sqrt(static_cast<double>(n) * std::max(Z_(i, i), 0.0));
-  factored_.compute(stacked_);
+    stacked_(n + i, i) = std::sqrt(static_cast<double>(n)) * (z_(i) / scale_);
+  triangulate();
   G_.setZero();
   for (Index j = 0; j < n; ++j)
-    for (Index i = 0; i <= j; ++i) G_(j, i) = factored_.matrixQR()(i, j);
-  Z_.setZero();
-  for (Index i = 0; i < n; ++i) {
-    const double norm = G_.row(i).norm();
-    const double rounding = 100 * static_cast<double>(n * n) * unit_roundoff<double>() * norm;
-    Z_(i, i) = static_cast<double>(n) * rounding * rounding;
-  }
-  steps_ += 1;
+    for (Index i = 0; i <= j; ++i) G_(j, i) = stacked_(i, j);
+  terms_ += 1;
+  const double rounding =
+      100 * static_cast<double>(n * n) * unit_roundoff<double>() * std::sqrt(terms_) * scale_;
+  with_size(n, [&](auto N) { row_squares<decltype(N)::value>(n, G_.data(), norm_.data()); });
+  for (Index i = 0; i < n; ++i)
+    z_(i) = rounding * std::max(std::sqrt(norm_(i)), G_.row(i).lpNorm<Eigen::Infinity>());
   set_bounds();
 }
 

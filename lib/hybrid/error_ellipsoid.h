@@ -1,19 +1,22 @@
 // Bounds of errors that take many steps  e+ = E e + d,  |d_i| <= delta_i.
 //
 // Bounds element by element would grow with the powers of |E|, which says nothing of E. Instead
+// the error is e = a + b, |b_i| <= z_i, where a is the sum of m errors with
 //
-//   Y+ = E Y E' + n diag(delta)^2,  m the number of deltas:
-//   |c' e|^2 <= (sum of |c' Phi_i| delta_i)^2 <= m c' Y c   for every c (Cauchy and Schwarz)
+//   |c' a|^2 <= m |G' c|^2   for every c,   so that   |e_i| <= sqrt(m) |row i of G| + z_i
 //
-// so errors turn and die down as the steps do, and |e_i| <= sqrt(m Y_ii). Y is kept as G G' + Z: Z
-// is what came since the last gather(), which takes it into G by the factorisation
-// [G, sqrt(n diag Z)]' = Q R. Both are computed in double. The rounding of E G is a delta like the
-// others, eps |E| |G|, so G may fall over hundreds of decades; that of E Z E', at most eps g_i g_j
-// with g = |E| sqrt(diag Z), is covered by n eps g^2 on the diagonal.
+// and a step takes  G+ = E G,  z+ = |E| z + delta + what the rounding of E G adds: old errors turn
+// and die down as the steps do, and only what came since the last gather() grows with |E|. gather()
+// makes one more error of a of it,
+//
+//   [G, sqrt(n) diag(z)]' = Q R,   G+ = R',   m+ = m + 1,   z+ = 0
+//
+// because |c' b| <= sqrt(n) |diag(z) c|, and |c' a| + |c' b| <= sqrt(m + 1) times the root of the
+// sum of both squares (Cauchy and Schwarz). Computed in double; the rounding of E G is at most
+// eps |E| |row of G|, so G may fall over hundreds of decades.
 #pragma once
 
 #include <Eigen/Core>
-#include <Eigen/QR>
 
 #include "numbers/matrix.h"
 
@@ -23,10 +26,9 @@ class ErrorEllipsoid {
  public:
   /// Errors with |e_i| <= delta_i.
   void start(const Eigen::VectorXd& delta);
-  /// `E` in double, `sizes` = |E|; `slack`: relative errors of E besides its rounding.
-  void step(const numbers::Matrix& E, const numbers::Matrix& sizes, double slack,
-            const Eigen::VectorXd& delta);
-  /// Takes Z into G: cheaper and sharper steps follow.
+  /// `E` in double, `sizes` = |E|; E has no error but its rounding.
+  void step(const numbers::Matrix& E, const numbers::Matrix& sizes, const Eigen::VectorXd& delta);
+  /// Takes z into G: sharper steps follow.
   void gather();
 
   /// |e_i| is at most this.
@@ -35,14 +37,15 @@ class ErrorEllipsoid {
  private:
   void set_bounds();
   void rescale(double largest);
+  void triangulate();
 
   Eigen::VectorXd bounds_;
-  numbers::Matrix G_, Z_, product_;
-  Eigen::VectorXd norm_, root_;  ///< of the rows of G_; of the diagonal of Z_
-  double scale_ = 1;             ///< G is scale G_, Z is scale^2 Z_
-  double steps_ = 0;             ///< m
+  numbers::Matrix G_, product_;
+  Eigen::VectorXd norm_;  ///< of the rows of G_
+  Eigen::VectorXd z_, reach_;
+  double scale_ = 1;  ///< G is scale_ G_
+  double terms_ = 0;  ///< m
   numbers::Matrix stacked_;
-  Eigen::HouseholderQR<numbers::Matrix> factored_;
 };
 
 }  // namespace gainsmith::hybrid

@@ -31,7 +31,8 @@ struct Scenario {
 };
 
 /// InputError for laws and initial values that do not fit the system, a first timer value outside
-/// its range and a horizon that is not positive. Without a horizon: 40 of the longest intervals.
+/// its range and a horizon that is not positive. Without a horizon: 40 of the
+/// longest intervals, so that it has the units of the timer.
 Scenario make_scenario(const model::Design& design, const System& system);
 
 /// Simulates run after run; one for each thread. System, scenario and steps must outlive it.

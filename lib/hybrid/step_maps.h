@@ -7,10 +7,12 @@
 //   int_0^(s_k) [x; 1]' Q [x; 1] ds = [x0; 1]' W_k [x0; 1]
 //
 // X_0 and W_0 by their series. The error of the squarings, e <- 2 |X| e + e^2 + n u |X|^2 with
-// u = 1e-98, is carried along; what is rounded once is the result.
+// u = 1e-98, is carried along; what is rounded once is the result. Over a rest s <= s_0 both are
+// polynomials in s, sums of the same series (Series).
 #pragma once
 
 #include <Eigen/Core>
+#include <cmath>
 #include <vector>
 
 #include "hybrid/ball.h"
@@ -30,8 +32,10 @@ struct BoundedMap {
   numbers::Matrix rounded;  ///< linear in double
   numbers::Matrix sizes;    ///< |linear|
   Eigen::VectorXd constant_sizes;
-  double error = 0;             ///< besides that rounding, in the norm of the largest row sum
+  double error = 0;             ///< besides that rounding, of each element that is not 0
+  bool coarse = false;          ///< whether that is more than the rounding of an element
   std::vector<bool> unchanged;  ///< the rows that are those of the identity
+  Eigen::VectorXd gamma;        ///< relative rounding of linear x + constant; 0 of those rows
 };
 
 template <class Scalar>
@@ -42,8 +46,7 @@ BoundedMap<Scalar> bounded_map(const numbers::MatrixOf<Decimal100>& linear,
 template <class Scalar>
 struct Form {
   numbers::MatrixOf<Scalar> matrix;
-  numbers::Matrix rounded;
-  numbers::Matrix sizes;
+  numbers::Matrix sizes;  ///< |matrix|, and more where it is not rounded once
 };
 template <class Scalar>
 Form<Scalar> form_of(const numbers::MatrixOf<Decimal100>& Q);
@@ -59,29 +62,50 @@ template <class Scalar>
 Bounded<Scalar> value_of(const Form<Scalar>& form, const Eigen::Ref<const ColumnOf<Scalar>>& x,
                          const Eigen::Ref<const Eigen::VectorXd>& r);
 
+/// A matrix that is 0 at s = 0, as a polynomial in sigma = s 2^-exponent, 0 <= sigma <= 1:
+///
+///   sum_(k = 1)^K P_k sigma^k,   |that in Scalar - the whole series| <= sigma errors
+template <class Scalar>
+struct Series {
+  int exponent = 0;
+  std::vector<numbers::MatrixOf<Scalar>> powers;
+  numbers::Matrix errors;
+  numbers::Matrix errors_in_double;  ///< of the sum rounded to double
+  std::vector<bool> moves;           ///< the rows that are not 0
+
+  /// sigma of s, exactly.
+  double share(double s) const { return std::ldexp(s, -exponent); }
+  void sum(double sigma, numbers::MatrixOf<Scalar>& out) const;
+};
+
+/// The P_k in 100 digits and a bound of what all others add up to, for K = 0, 1, ....
+struct ExactSeries {
+  int exponent = 0;
+  std::vector<numbers::MatrixOf<Decimal100>> powers;
+  std::vector<numbers::Matrix> tails;
+};
+template <class Scalar>
+Series<Scalar> series_of(const ExactSeries& exact);
+
 /// All in 100 digits.
 struct ExactSteps {
   std::vector<numbers::MatrixOf<Decimal100>> maps;  ///< X_k
   std::vector<double> errors;
   std::vector<std::vector<numbers::MatrixOf<Decimal100>>> integrals;  ///< [form][k]: W_k
+  ExactSeries rest;                                                   ///< expm(s G) - I
+  std::vector<ExactSeries> rest_integrals;                            ///< of each form over a rest
 };
 ExactSteps exact_steps(const Coordinates& coordinates, const FlowSteps& steps,
                        const std::vector<numbers::MatrixOf<Decimal100>>& forms);
 
 template <class Scalar>
 struct StepMaps {
-  StepMaps(const Coordinates& coordinates, const ExactSteps& exact,
-           const std::vector<numbers::MatrixOf<Decimal100>>& forms);
+  explicit StepMaps(const ExactSteps& exact);
 
   std::vector<BoundedMap<Scalar>> maps;
-  numbers::MatrixOf<Scalar> linear;  ///< of the flow itself
-  ColumnOf<Scalar> constant;
-  numbers::Matrix rounded;
-  numbers::Matrix sizes;
-  Eigen::VectorXd constant_sizes;
-  double norm = 0;  ///< of linear, the largest row sum
-  std::vector<Form<Scalar>> forms;
   std::vector<std::vector<Form<Scalar>>> integrals;
+  Series<Scalar> rest;  ///< n x (n+1): what a rest adds to x, of [x; 1]
+  std::vector<Series<Scalar>> rest_integrals;
 };
 
 }  // namespace gainsmith::hybrid

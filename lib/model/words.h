@@ -49,7 +49,7 @@ enum class LawKind {
   constant,  ///< always the value
   uniform,   ///< independent, uniform in [low, high]
   extremes,  ///< independent, low or high with probability one half
-  sinusoid,  ///< (high - low)/2 sin(t) + (high + low)/2 at a jump at time t
+  sinusoid,  ///< (high - low)/2 sin(t/high) + (high + low)/2 at a jump at time t
   list       ///< the values in turn, again from the start when they are used up
 };
 std::string to_string(LawKind kind);

@@ -31,6 +31,7 @@ struct ClaimTally {
 
 /// The outcome of some consecutive runs.
 struct Tally {
+  std::uint64_t runs = 0;
   std::uint64_t violations = 0;
   std::uint64_t undecided = 0;
   std::uint64_t unfinished = 0;
@@ -70,12 +71,14 @@ void add(const ClaimTally& later, ClaimTally& sum) {
 
 /// Adds the outcome of later runs: of equals the earlier run stays.
 void add(const Tally& later, Tally& sum) {
+  if (!later.run) return;
   if (!sum.run) {
     sum = later;
     return;
   }
   Tally before = sum;
   if (is_worse(later, sum)) sum = later;
+  sum.runs = before.runs + later.runs;
   sum.violations = before.violations + later.violations;
   sum.undecided = before.undecided + later.undecided;
   sum.unfinished = before.unfinished + later.unfinished;
@@ -89,6 +92,7 @@ void add(const Tally& later, Tally& sum) {
 Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
   Tally tally;
   tally.run = run;
+  tally.runs = 1;
   tally.judgement = verdict.judgement;
   tally.termination = verdict.termination;
   tally.message = verdict.message;
@@ -115,7 +119,8 @@ Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, st
   return sum;
 }
 
-/// All runs, in blocks that are handed to the threads and added up in order.
+/// All runs, in blocks that are handed to the threads and added up in order; those blocks that
+/// were begun when the campaign is stopped.
 Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
                 const CampaignOptions& options) {
   constexpr std::uint64_t kBlock = 64;
@@ -123,6 +128,7 @@ Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
   std::mutex mutex;
   std::uint64_t done = 0;
   parallel_for(blocks.size(), options.threads, [&](std::size_t block) {
+    if (options.stopped && options.stopped()) return;
     const std::uint64_t first = block * kBlock;
     const std::uint64_t last = std::min(runs, first + kBlock);
     blocks[block] = judge_runs(setup, seed, first, last);
@@ -190,12 +196,16 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
   const Setup& setup = *made;
   require_a_claim(design, setup.claims);
   Report report;
-  report.runs = options.runs.value_or(design.campaign.runs);
+  report.asked = options.runs.value_or(design.campaign.runs);
   report.seed = options.seed.value_or(design.campaign.seed);
-  if (report.runs == 0)
+  if (report.asked == 0)
     throw InputError(design.campaign.place, "a campaign needs at least one run");
 
-  const Tally tally = judge_all(setup, report.seed, report.runs, options);
+  const Tally tally = judge_all(setup, report.seed, report.asked, options);
+  report.runs = tally.runs;
+  report.horizon = setup.scenario.horizon;
+  report.verdict = model::CampaignVerdict::undecided;
+  if (!tally.run) return report;
   report.violations = tally.violations;
   report.undecided = tally.undecided;
   report.unfinished = tally.unfinished;
@@ -204,16 +214,13 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
   report.worst_run = *tally.run;
   report.worst_termination = tally.termination;
   report.worst_message = tally.message;
-  report.horizon = setup.scenario.horizon;
   report.violation_probability = violation_probability_bound(report.violations + report.undecided,
                                                              report.runs, report.confidence);
   report.checks = report_checks(setup, tally);
-  if (report.violations > 0) {
-    report.verdict = confirm_worst(setup, report.seed, report) ? model::CampaignVerdict::violated
-                                                               : model::CampaignVerdict::undecided;
-  } else if (report.undecided > 0) {
-    report.verdict = model::CampaignVerdict::undecided;
-  }
+  const bool confirmed = report.violations > 0 && confirm_worst(setup, report.seed, report);
+  if (report.interrupted()) return report;
+  if (confirmed) report.verdict = model::CampaignVerdict::violated;
+  if (report.violations + report.undecided == 0) report.verdict = model::CampaignVerdict::held;
   return report;
 }
 

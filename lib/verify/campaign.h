@@ -23,6 +23,9 @@ struct CampaignOptions {
   unsigned threads = 0;               ///< 0: one a core; the report does not depend on it
   /// Called with (runs done, runs in all) from the threads of the campaign, one call at a time.
   std::function<void(std::uint64_t, std::uint64_t)> progress;
+  /// Asked from all threads before each block of runs: true ends the campaign with those that are
+  /// done, and its verdict is undecided.
+  std::function<bool()> stopped;
 };
 
 /// One claim over all runs.
@@ -41,7 +44,8 @@ struct CheckReport {
 
 struct Report {
   model::CampaignVerdict verdict = model::CampaignVerdict::held;
-  std::uint64_t runs = 0;
+  std::uint64_t runs = 0;   ///< that were made
+  std::uint64_t asked = 0;  ///< that were to be made
   std::uint64_t seed = 0;
   std::uint64_t violations = 0;  ///< runs that violate a claim or do not reach the horizon
   std::uint64_t undecided = 0;   ///< runs of which neither is certain, in 31 digits
@@ -61,7 +65,9 @@ struct Report {
   /// With that confidence the probability that a run of this campaign violates is at most this;
   /// undecided runs count as violating.
   double violation_probability = 1;
-  std::vector<CheckReport> checks;  ///< in the method's order
+  std::vector<CheckReport> checks;  ///< in the method's order; none when no run was made
+
+  bool interrupted() const { return runs < asked; }
 };
 
 /// Simulates all runs and checks every claim that the gain file states (judge.h). The verdict is

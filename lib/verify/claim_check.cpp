@@ -103,7 +103,9 @@ ClaimCheck<Scalar>::ClaimCheck(const JudgedClaim& claim,
       system_(&system),
       value_(claim.value, system),
       jump_cost_(make_value(claim.jump_cost, system)),
-      factor_(make_value(claim.factor, system)) {}
+      factor_(make_value(claim.factor, system)) {
+  if (claim.flow_cost && !claim.integral) flow_cost_.emplace(*claim.flow_cost, system);
+}
 
 template <class Scalar>
 Finding ClaimCheck<Scalar>::operator()(const Track& track) {
@@ -163,64 +165,21 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
 
 template <class Scalar>
 Bounded<Scalar> ClaimCheck<Scalar>::rest_cost(const Track& track, std::size_t move) {
-  // The Taylor polynomial of the flow at the nodes; ||M|| length is at most about 1, so the
-  // quadrature of the form leaves less than 1e-22 of it.
-  constexpr double kQuadrature = 1e-22;
-  const hybrid::StepMaps<Scalar>& flow = system_->steps;
-  const hybrid::Form<Scalar>& form = flow.forms[*claim_->integral];
-  const double length = track.moves[move].step.length;
-  const auto& positions = hybrid::FlowSteps::node_positions();
-  const auto& weights = hybrid::FlowSteps::node_weights();
-  const Index n = track.size;
-  const hybrid::ColumnOf<Scalar> x = track.state(move);
-  const Eigen::VectorXd r = track.bound(move);
-  Bounded total;
-  double sizes = 0;
-  for (std::size_t i = 0; i < positions.size(); ++i) {
-    const double s = length * positions[i];
-    hybrid::ColumnOf<Scalar> term = x;
-    hybrid::ColumnOf<Scalar> node = x;
-    Eigen::VectorXd size = hybrid::sizes_of(x).col(0);
-    Eigen::VectorXd spread = r;
-    Eigen::VectorXd sum_sizes = size;
-    Eigen::VectorXd sum_spread = r;
-    double weight = 1;
-    int degree = 0;
-    while (n > 0 && (degree < 2 || weight > hybrid::unit_roundoff<Scalar>() * 1e-6) &&
-           degree < 60) {
-      ++degree;
-      term = (flow.linear.lazyProduct(term)).eval();
-      size = flow.sizes.lazyProduct(size).eval();
-      spread = flow.sizes.lazyProduct(spread).eval();
-      if (degree == 1) {
-        term += flow.constant;
-        size += flow.constant_sizes;
-      }
-      term *= Scalar(s) / Scalar(degree);
-      size *= s / degree;
-      spread *= s / degree;
-      node += term;
-      sum_sizes += size;
-      sum_spread += spread;
-      weight *= flow.norm * s / degree;
-    }
-    sum_spread +=
-        (static_cast<double>(n + degree) + 4) * hybrid::unit_roundoff<Scalar>() * sum_sizes;
-    const Bounded value = hybrid::value_of<Scalar>(form, node, sum_spread);
-    const Scalar share = Scalar(length) * Scalar(weights[i]);
-    total.value += share * value.value;
-    total.bound += length * weights[i] * value.bound;
-    sizes += length * weights[i] * hybrid::size_of(value.value);
-  }
-  // Nodes and weights are doubles.
-  total.bound += (kQuadrature + 0x1p-50) * sizes;
-  return total;
+  const hybrid::Series<Scalar>& series = system_->steps.rest_integrals[*claim_->integral];
+  const double sigma = series.share(track.moves[move].step.length);
+  series.sum(sigma, rest_form_.matrix);
+  // As if all errors of the sum were rounding of its elements.
+  const double share = sigma / hybrid::unit_roundoff<Scalar>();
+  rest_form_.sizes.resize(series.errors.rows(), series.errors.cols());
+  for (Index e = 0; e < series.errors.size(); ++e)
+    rest_form_.sizes(e) = hybrid::size_of(rest_form_.matrix(e)) + share * series.errors(e);
+  return hybrid::value_of<Scalar>(rest_form_, track.state(move), track.bound(move));
 }
 
 template <class Scalar>
 Bounded<Scalar> ClaimCheck<Scalar>::step_cost(const Track& track, std::size_t move) {
   if (!claim_->flow_cost) return {};
-  if (!claim_->integral) return {Scalar(0), kInfinity};
+  if (flow_cost_) return (*flow_cost_)(track, move);
   const hybrid::FlowStep& step = track.moves[move].step;
   if (step.level == hybrid::FlowStep::kRest) return rest_cost(track, move);
   const auto& integrals = system_->steps.integrals[*claim_->integral];

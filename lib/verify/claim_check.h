@@ -21,8 +21,8 @@
 // says so. kFloor is 1e-24 in 31 digits, of which the last are rounding, and the range of the
 // numbers, 1e-200, in double.
 //
-// The integral of a quadratic form over a flow is a quadratic form of its start (step_maps.h). Any
-// other flow cost makes its claim undecided, unless it is 0.
+// The integral of a quadratic form over a flow is a quadratic form of its start (step_maps.h). That
+// of any other is bounded over pieces of the flow (flow_integral.h).
 #pragma once
 
 #include <cstdint>
@@ -31,6 +31,7 @@
 #include <vector>
 
 #include "verify/claims.h"
+#include "verify/flow_integral.h"
 #include "verify/value.h"
 
 namespace gainsmith::verify {
@@ -102,6 +103,8 @@ class ClaimCheck {
   Value<Scalar> value_;
   std::optional<Value<Scalar>> jump_cost_;
   std::optional<Value<Scalar>> factor_;
+  std::optional<FlowIntegral<Scalar>> flow_cost_;  ///< when it is no quadratic form
+  hybrid::Form<Scalar> rest_form_;                 ///< the integral over a rest
 };
 
 }  // namespace gainsmith::verify

@@ -67,9 +67,8 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
   std::vector<Wide> forms;
   add_judged_claims(*setup, forms);
   const hybrid::ExactSteps exact = hybrid::exact_steps(setup->coordinates, setup->steps, forms);
-  setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, exact, forms);
-  setup->wide =
-      std::make_unique<hybrid::BoundedSystem<DoubleDouble>>(setup->coordinates, exact, forms);
+  setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, exact);
+  setup->wide = std::make_unique<hybrid::BoundedSystem<DoubleDouble>>(setup->coordinates, exact);
   return setup;
 }
 

@@ -3,6 +3,7 @@
 #include <sys/wait.h>
 
 #include <cstdlib>
+#include <regex>
 
 #include "end_to_end/program.h"
 
@@ -27,6 +28,27 @@ TEST(InterruptTest, ACampaignSaysHowFarItCame) {
   const auto report = nlohmann::json::parse(text_of(out));
   EXPECT_EQ(report["verdict"], "undecided");
   EXPECT_NE(report["message"].get<std::string>().find("of 100000000 runs"), std::string::npos);
+  EXPECT_EQ(report["runs_asked"], 100000000);
+  EXPECT_GT(report["runs"], 0);
+  EXPECT_LT(report["runs"], 100000000);
+}
+
+/// The runs that the words count are those of a campaign of so many runs that was not interrupted.
+TEST(InterruptTest, ACampaignTalliesTheRunsThatAreDone) {
+  const Folder folder;
+  const std::string gains = folder.path("gains.json");
+  const std::string out = folder.path("out");
+  ASSERT_EQ(gainsmith({"synth", problem(kGood), "-o", gains}).exit, 0);
+  EXPECT_EQ(interrupted("verify '" + gains + "' --threads 1 --runs 100000000 > '" + out + "'"), 3);
+  const std::string text = text_of(out);
+  const std::regex tally("interrupted after ([0-9]+) of 100000000 runs: ([0-9]+) held;");
+  std::smatch found;
+  ASSERT_TRUE(std::regex_search(text, found, tally)) << text;
+  EXPECT_EQ(found[1], found[2]);
+  EXPECT_NE(text.find("lyapunov"), std::string::npos) << text;
+  const auto whole = gainsmith({"verify", gains, "--runs", found[1].str(), "--json"});
+  EXPECT_EQ(whole.exit, 0);
+  EXPECT_EQ(nlohmann::json::parse(whole.out)["violations"], 0);
 }
 
 TEST(InterruptTest, ARunKeepsWhatIsFinishedAndWritesNoHalves) {

@@ -43,7 +43,7 @@ TEST(ErrorEllipsoid, BoundsEveryErrorOfItsSteps) {
       for (Index i = 0; i < n; ++i)
         if (draw.in(0, 1) < 0.5) extreme(i) = -extreme(i);
       error = E * error + (run % 2 == 0 ? extreme : draw.within(delta));
-      ellipsoid.step(E, E.cwiseAbs(), 0, delta);
+      ellipsoid.step(E, E.cwiseAbs(), delta);
       if (step % 7 == 6) ellipsoid.gather();
       const double slack = 1e-13 * error.cwiseAbs().maxCoeff();  // of this test's own sums
       for (Index i = 0; i < n; ++i)
@@ -60,7 +60,7 @@ TEST(ErrorEllipsoid, ErrorsThatTurnDoNotGrow) {
   ErrorEllipsoid ellipsoid;
   ellipsoid.start(VectorXd::Constant(2, 1e-10));
   for (int step = 0; step < 400; ++step) {
-    ellipsoid.step(E, E.cwiseAbs(), 0, VectorXd::Zero(2));
+    ellipsoid.step(E, E.cwiseAbs(), VectorXd::Zero(2));
     if (step % 20 == 19) ellipsoid.gather();
   }
   EXPECT_GE(ellipsoid.bounds().maxCoeff(), 1e-10);
@@ -76,7 +76,7 @@ TEST(ErrorEllipsoid, FollowsErrorsOverManyDecades) {
   VectorXd error = VectorXd::Ones(2);
   for (int step = 0; step < 900; ++step) {
     error = E * error;
-    ellipsoid.step(E, E, 0, VectorXd::Zero(2));
+    ellipsoid.step(E, E, VectorXd::Zero(2));
     if (step % 10 == 9) ellipsoid.gather();
     ASSERT_GE(ellipsoid.bounds()(0), error(0) * (1 - 1e-12)) << step;
   }
@@ -87,7 +87,7 @@ TEST(ErrorEllipsoid, ZeroStaysExactlyZero) {
   ErrorEllipsoid ellipsoid;
   ellipsoid.start(VectorXd::Zero(3));
   for (int step = 0; step < 10; ++step) {
-    ellipsoid.step(MatrixXd::Random(3, 3), MatrixXd::Ones(3, 3), 0, VectorXd::Zero(3));
+    ellipsoid.step(MatrixXd::Random(3, 3), MatrixXd::Ones(3, 3), VectorXd::Zero(3));
     ellipsoid.gather();
   }
   EXPECT_EQ(ellipsoid.bounds().maxCoeff(), 0);

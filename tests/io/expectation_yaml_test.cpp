@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "base/error.h"
 #include "io/problem_text.h"
 
 namespace gainsmith::io {
@@ -21,6 +22,21 @@ TEST(Expectation, IsReadWhole) {
   EXPECT_FALSE(expect->values[0].absolute);
   EXPECT_EQ(expect->values[1].absolute, 0.1);
   EXPECT_EQ(expect->values[1].place, (Place{"p.yaml", 28, 5}));
+}
+
+TEST(Expectation, ACampaignMayBeExpectedToEndInEachOfItsVerdicts) {
+  for (const std::string word : {"held", "violated", "undecided"}) {
+    const auto read = read_problem(replaced(kProblem, "campaign: held", "campaign: " + word));
+    EXPECT_EQ(read.expect->campaign, word);
+  }
+  try {
+    read_problem(replaced(kProblem, "campaign: held", "campaign: undecidde"));
+    FAIL() << "accepted";
+  } catch (const InputError& error) {
+    EXPECT_NE(error.message().find("did you mean 'undecided'?"), std::string::npos)
+        << error.message();
+    EXPECT_GT(error.place().line, 0);
+  }
 }
 
 TEST(Expectation, AnEmptyListOfBoundsIsNotTheSameAsNone) {

@@ -80,11 +80,14 @@ TEST(Campaign, ReportDoesNotDependOnTheNumberOfThreads) {
   problem.runs(150).horizon("6").shrinks("shrinks", "norm(e)", "0.001");
   problem.nonincreasing("V", "e'*" + std::string(kShape) + "*e + q'*q");
   problem.cost("J", "100*e'*e", "e'*e", "0.01*e'*e");
-  const Report one = run(problem, {.runs = {}, .seed = 5, .threads = 1, .progress = {}});
-  const Report two = run(problem, {.runs = {}, .seed = 5, .threads = 2, .progress = {}});
+  const Report one =
+      run(problem, {.runs = {}, .seed = 5, .threads = 1, .progress = {}, .stopped = {}});
+  const Report two =
+      run(problem, {.runs = {}, .seed = 5, .threads = 2, .progress = {}, .stopped = {}});
   EXPECT_TRUE(same(one, two));
   EXPECT_GT(one.violations, 0U);  // e'Q e is no Lyapunov function between samples
-  const Report other = run(problem, {.runs = {}, .seed = 6, .threads = 2, .progress = {}});
+  const Report other =
+      run(problem, {.runs = {}, .seed = 6, .threads = 2, .progress = {}, .stopped = {}});
   EXPECT_FALSE(same(one, other));
 }
 
@@ -96,9 +99,77 @@ TEST(Campaign, ProgressReachesTheNumberOfRuns) {
     EXPECT_EQ(all, 100U);
     seen.push_back(done);
   };
-  run(problem, {.runs = 100, .seed = {}, .threads = 2, .progress = note});
+  run(problem, {.runs = 100, .seed = {}, .threads = 2, .progress = note, .stopped = {}});
   ASSERT_FALSE(seen.empty());
   EXPECT_EQ(seen.back(), 100U);
+}
+
+/// Row II with times in units `factor` times shorter, and all that the campaign leaves to defaults.
+TextProblem row_two_in_units(const std::string& factor) {
+  const double c = std::stod(factor);
+  TextProblem problem;
+  problem.data("c", "scalar", factor).data("w", "scalar", "1/c");
+  problem.data("A", "n x n", "[0.2, -1.01; 1, 0]/c").data("C", "p x n", "[0.5, -1]");
+  problem.data("T1", "scalar", "0.5*c").data("T2", "scalar", "1.1*c");
+  problem.gain("L", column({3.68, -24.47}) / c).gain("F", column({0.104, -0.948}));
+  problem.gain("H", scalar(-25.93) / c);
+  problem.state("z", "n").state("zh", "n").state("th", "p");
+  problem.flow({{"z", "A*z"}, {"zh", "A*zh + L*th"}, {"th", "H*th"}});
+  problem.jump({{"zh", "zh + F*(C*z - C*zh)"}, {"th", "(I - C*F)*(C*z - C*zh)"}});
+  problem.timer("T1", "T2", "0", "T2");
+  problem.nonincreasing("V", "(z - zh)'*(z - zh)");
+  problem.cost("J", "20*(z - zh)'*(z - zh) + 1", "w*(z - zh)'*(z - zh)", "0");
+  return problem;
+}
+
+TEST(Campaign, UnitsOfTimeChangeNoSampleAndNoVerdict) {
+  constexpr double kFactor = 1024;
+  TextProblem seconds = row_two_in_units("1");
+  TextProblem others = row_two_in_units("1024");
+  const Report a =
+      run(seconds, {.runs = 25, .seed = 3, .threads = 1, .progress = {}, .stopped = {}});
+  const Report b =
+      run(others, {.runs = 25, .seed = 3, .threads = 1, .progress = {}, .stopped = {}});
+  EXPECT_EQ(a.verdict, b.verdict);
+  EXPECT_EQ(a.violations, b.violations);
+  EXPECT_EQ(a.worst_run, b.worst_run);
+  EXPECT_EQ(kFactor * a.horizon, b.horizon);
+  for (std::size_t i = 0; i < a.checks.size(); ++i) {
+    EXPECT_EQ(a.checks[i].worst_run, b.checks[i].worst_run);
+    EXPECT_EQ(a.checks[i].worst.judgement, b.checks[i].worst.judgement);
+    EXPECT_EQ(a.checks[i].worst.value, b.checks[i].worst.value);
+    EXPECT_EQ(kFactor * a.checks[i].worst.t, b.checks[i].worst.t);
+  }
+  for (std::uint64_t law = 0; law < 5; ++law) {  // each law of the default
+    const Replay one = replay(seconds.instance(), seconds.gains, 3, law);
+    const Replay two = replay(others.instance(), others.gains, 3, law);
+    ASSERT_EQ(one.table.rows(), two.table.rows()) << law;
+    EXPECT_EQ(kFactor * one.table.col(0), two.table.col(0)) << law;
+    const Eigen::Index states = 3;  // after t, j and the timer
+    EXPECT_EQ(one.table.middleCols(states, 5), two.table.middleCols(states, 5)) << law;
+  }
+}
+
+TEST(Campaign, AStoppedCampaignReportsTheRunsThatWereMade) {
+  TextProblem problem = row_two();
+  problem.horizon("20").shrinks("shrinks", "norm(e)", "0.01");
+  int asked = 0;
+  const auto stopped = [&] { return ++asked > 2; };
+  const Report report =
+      run(problem, {.runs = 1000, .seed = 1, .threads = 1, .progress = {}, .stopped = stopped});
+  EXPECT_TRUE(report.interrupted());
+  EXPECT_EQ(report.verdict, CampaignVerdict::undecided);
+  EXPECT_EQ(report.asked, 1000U);
+  EXPECT_EQ(report.runs, 128U);
+  const Report whole =
+      run(problem, {.runs = report.runs, .seed = 1, .threads = 1, .progress = {}, .stopped = {}});
+  EXPECT_EQ(report.worst_run, whole.worst_run);
+  EXPECT_EQ(report.checks[0].worst.value, whole.checks[0].worst.value);
+  const Report none =
+      run(problem,
+          {.runs = 1000, .seed = 1, .threads = 1, .progress = {}, .stopped = [] { return true; }});
+  EXPECT_EQ(none.runs, 0U);
+  EXPECT_EQ(none.verdict, CampaignVerdict::undecided);
 }
 
 /// x' = x on runs that start at 1, 2 or 3 (run modulo 3): planted so that the worst run is known.
@@ -177,7 +248,8 @@ TEST(Campaign, ClaimThatIsNoNumberIsViolated) {
 TEST(Campaign, RefusesZeroRuns) {
   TextProblem problem = growing();
   problem.shrinks("bounded", "x", "10");
-  EXPECT_THROW(run(problem, {.runs = 0, .seed = {}, .threads = 1, .progress = {}}), InputError);
+  EXPECT_THROW(run(problem, {.runs = 0, .seed = {}, .threads = 1, .progress = {}, .stopped = {}}),
+               InputError);
 }
 
 TEST(Campaign, HowFarAnErrorShrinksNeedsAHorizon) {

@@ -102,6 +102,30 @@ TEST(Cost, JumpCostsAreTakenBeforeTheJump) {
   EXPECT_DOUBLE_EQ(result.findings[0].score, 0.25 / 6);
 }
 
+/// int |cos 7 t| dt has kinks, int sqrt(x'x) dt has none: both are known in closed form.
+TEST(Cost, AFlowCostThatIsNoQuadraticFormIsBounded) {
+  const double pi = std::acos(-1.0);
+  struct Case {
+    std::string matrix, cost;
+    double horizon, expected;
+  };
+  const std::vector<Case> cases = {
+      {"[-1, 0; 0, -1]", "norm(x)", 1.5, std::sqrt(5.0) * (1 - std::exp(-1.5))},
+      {"[0, 7; -7, 0]", "abs(x(1))", 4 * pi / 7, std::sqrt(5.0) * 8 / 7},
+      {"[0, 0; 0, -3]", "where(x(2) + 0.5 > 0, 0, 1)", 2, std::log(4.0) / 3}};
+  for (const Case& one : cases) {
+    for (const bool holds : {true, false}) {
+      TextProblem problem = linear_plant(one.matrix);
+      problem.first("1.1").jump({}).horizon(std::to_string(one.horizon));
+      problem.cost("J", std::to_string(one.expected * (holds ? 1.02 : 0.98)), one.cost, "0");
+      const Checked result = check(problem);
+      EXPECT_NEAR(result.costs[0].tail(1)(0), one.expected, 0.02 * one.expected) << one.cost;
+      EXPECT_EQ(result.findings[0].judgement, holds ? Judgement::held : Judgement::violated)
+          << one.cost << " " << result.findings[0].value << " +- " << result.findings[0].rounding;
+    }
+  }
+}
+
 TEST(Cost, BoundMustHoldAtEveryInstant) {
   // The cost rises to 5 at the first jump and a negative jump cost takes it back afterwards.
   TextProblem problem = linear_plant("[0, 0; 0, 0]");
