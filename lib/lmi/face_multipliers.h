@@ -9,6 +9,7 @@
 // was guessed on the way does not matter. v is like a strict block of its own where it is not 0.
 #pragma once
 
+#include <Eigen/Core>
 #include <vector>
 
 #include "base/eigen_scalars.h"
