@@ -78,10 +78,27 @@ class OnFaces {
       result_.chain = faces_.why();
     }
     if (!result_.point && !faces_.excluded()) return std::nullopt;
+    result_.solution = as_solution_of(result_.formulation);
     return std::move(result_);
   }
 
  private:
+  /// What the solver said of what was left, in the shape of the program of all blocks; the
+  /// multipliers are 0, as they are those of a face.
+  sdp::Solution as_solution_of(const lmi::Formulation& formulation) const {
+    sdp::Solution solution = solved_;
+    solution.rest = {};
+    solution.x.assign(formulation.problem.c.size(), 0);
+    solution.Y.values.clear();
+    for (const auto& rows : formulation.releases.kept)
+      solution.Y.values.emplace_back(rows.size() * rows.size(), 0);
+    if (result_.holds()) {
+      solution.status = sdp::Status::optimal;
+      solution.cause = sdp::Cause::converged;
+    }
+    return solution;
+  }
+
   void step() {
     faces_.find_plain();
     if (faces_.excluded()) return finish();
@@ -137,7 +154,7 @@ class OnFaces {
       if (next && next->margin > round.margin)
         inside = lmi::read_back(left.lmi, formulation, solution);
       if (k == 0) {
-        result_.solution = std::move(solution);
+        solved_ = std::move(solution);
         first = std::move(formulation);
       }
       if (!next || next->margin <= round.margin * kRises) break;
@@ -155,7 +172,7 @@ class OnFaces {
     std::vector<double> units;
     for (int i = 1; i <= posed_.lmi.unknowns; ++i)
       units.push_back(result_.formulation.balance.unit(i));
-    for (const int digits : {3, 6, 9, 12, 15}) {
+    for (const int digits : {3, 6, 9, 12, 15, 16}) {
       const auto x = lmi::printable_point(faces_, exact, units, digits);
       if (!x) continue;
       std::vector<Rational> printed;
@@ -180,8 +197,7 @@ class OnFaces {
           numbers::MatrixOf<DoubleDouble>::Constant(block.size, block.size, DoubleDouble(0)));
       found.rows.emplace_back(static_cast<std::size_t>(block.size), 0);
     }
-    const lmi::Multipliers Y =
-        lmi::multipliers_of(formulation, left.blocks.size(), result_.solution);
+    const lmi::Multipliers Y = lmi::multipliers_of(formulation, left.blocks.size(), solved_);
     for (std::size_t k = 0; k < Y.size(); ++k) {
       const std::size_t at = left.blocks[k];
       const auto& kept = formulation.releases.kept[k];
@@ -191,7 +207,7 @@ class OnFaces {
           found.Y[at](kept[i], kept[j]) =
               Y[k](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     }
-    if (formulation.homogenised) found.v = result_.solution.Y.values[Y.size()][0];
+    if (formulation.homogenised) found.v = solved_.Y.values[Y.size()][0];
     const lmi::ExactMultipliers exact = lmi::exact_multipliers(faces_, found);
     if (exact.say == lmi::ExactMultipliers::Say::nothing) return;
     std::string on;
@@ -224,6 +240,7 @@ class OnFaces {
   std::vector<RationalBlock> stated_;
   Faces faces_;
   Attempt result_;
+  sdp::Solution solved_;  ///< the first round of what was left last
   bool done_ = false;
 };
 

@@ -11,7 +11,7 @@
 
 namespace gainsmith::lmi {
 
-/// Unknowns near the point of `y` with `digits` digits, at most 15, each, whose decimals as printed
+/// Unknowns near the point of `y` with `digits` digits, at most 16, each, whose decimals as printed
 /// are exactly in the space of `faces`; none when there are no such decimals. `units`: an x_i far
 /// below its unit has as many decimals as one of a millionth of it.
 std::optional<std::vector<double>> printable_point(const Faces& faces,

@@ -44,8 +44,9 @@ std::string coefficient_key(const std::string& gain, std::size_t k) {
 
 std::string printed(double value) {
   if (value == 0 && std::signbit(value)) return "-0.0";
-  const std::string text = brief(value, kDoubleDigits);
-  return parse_decimal(text) == value ? text : decimal17(value);
+  for (const int digits : {kDoubleDigits, kDoubleDigits + 1})
+    if (std::string text = brief(value, digits); parse_decimal(text) == value) return text;
+  return decimal17(value);
 }
 
 Decimals decimals_at(const Gains& gains, const std::string& key, const numbers::Matrix& matrix) {
