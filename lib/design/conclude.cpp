@@ -200,6 +200,10 @@ void conclude(const Climb& climb, model::Gains& gains) {
     gains.solver = record_of(*refuted);
     return accept_refutation(climb, *refuted, gains);
   }
+  if (const Attempt* faces = climb.find(Rung::on_faces)) {
+    gains.solver.add_message(faces->left_open);
+    return;
+  }
   if (climb.last().relaxation_refuted()) {
     // What it is about is said by the plan (synthesize.cpp).
     gains.certificate = model::CertificateRecord{false, climb.last().relaxed_omega, kDoubleDigits,

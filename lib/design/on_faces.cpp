@@ -77,7 +77,11 @@ class OnFaces {
       result_.refutation = lmi::Refutation{true, 0, kWideDigits};
       result_.chain = faces_.why();
     }
-    if (!result_.point && !faces_.excluded()) return std::nullopt;
+    if (!result_.point && !faces_.excluded()) {
+      if (faces_.steps() == 0) return std::nullopt;
+      result_.left_open = "every solution has only equality somewhere (" + faces_.why() +
+                          "); no numbers of 16 digits were found that keep it";
+    }
     result_.solution = as_solution_of(result_.formulation);
     return std::move(result_);
   }

@@ -13,7 +13,7 @@
 
 namespace gainsmith::design {
 
-/// None when nothing came of it.
+/// None when nothing came of it; without a point and a no what it found is in left_open.
 std::optional<Attempt> attempt_on_faces(const Posed& posed, const Solve& solve);
 
 }  // namespace gainsmith::design

@@ -115,7 +115,7 @@ class Correction {
 
   ExactMultipliers::Say run() {
     using Say = ExactMultipliers::Say;
-    if (!correct()) return Say::nothing;
+    if (!is_near() || !correct()) return Say::nothing;
     for (const RationalMatrix& S : S_)
       if (!numbers::is_rational_definite(S)) return Say::nothing;
     if (v_ < 0) return Say::nothing;
@@ -130,6 +130,30 @@ class Correction {
     for (Eigen::Index e = 0; e < A.size(); ++e)
       if (A(e) != 0) sum += A(e) * B(e);
     return sum;
+  }
+
+  /// In double: whether the residuals are so small that a correction may do.
+  bool is_near() const {
+    constexpr double kFar = 0.01;
+    const double v = nearest_double(v_);
+    std::vector<double> r(static_cast<std::size_t>(unknowns_) + 1, 0.0);
+    std::vector<double> W = r;
+    r[0] = W[0] = v;
+    for (std::size_t k = 0; k < G_.size(); ++k) {
+      const numbers::Matrix S =
+          S_[k].unaryExpr([](const Rational& x) { return nearest_double(x); });
+      const numbers::Vector root = S.diagonal().cwiseSqrt();
+      const numbers::Matrix sizes = root * root.transpose();
+      for (const auto& [i, exact] : G_[k]) {
+        const numbers::Matrix G =
+            exact.unaryExpr([](const Rational& x) { return nearest_double(x); });
+        r[static_cast<std::size_t>(i)] += G.cwiseProduct(S).sum();
+        W[static_cast<std::size_t>(i)] += G.cwiseAbs().cwiseProduct(sizes).sum();
+      }
+    }
+    for (std::size_t i = 0; i < r.size(); ++i)
+      if (!(std::abs(r[i]) <= kFar * W[i])) return false;
+    return true;
   }
 
   bool correct() {

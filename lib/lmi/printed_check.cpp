@@ -113,9 +113,10 @@ DomainProof PrintedCheck::check(std::size_t inequality, std::size_t comparison) 
   if (proof.pieces >= forall::ProofOptions{}.most_pieces) return proof;
   if (proof.status == DomainProof::Status::open) proof = check_in(statement, comparison, in_31_);
   if (proof.status == DomainProof::Status::open) proof = check_in(statement, comparison, in_100_);
-  if (proof.status == DomainProof::Status::open &&
-      check_in_fractions(statement, comparison) == true)
-    proof = {};
+  if (proof.status != DomainProof::Status::open) return proof;
+  const std::optional<bool> holds = check_in_fractions(statement, comparison);
+  if (holds == true) return {};
+  if (holds == false && statement.domain.empty()) proof.status = DomainProof::Status::fails;
   return proof;
 }
 

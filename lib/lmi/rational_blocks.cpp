@@ -31,8 +31,13 @@ void add_point(const Statement& statement, const Block& block, RationalValues& v
     const numbers::Matrix& at = block.where->values.at(variable.name);
     const expr::Program* program = nullptr;
     if (variable.is_interval()) {
-      if (at(0, 0) == variable.low) program = &stated[0].program;
-      if (at(0, 0) == variable.high) program = &stated[1].program;
+      // An end stands for that of the file, and so does what rounding put outside of it.
+      const Rational t(at(0, 0));
+      if (at(0, 0) == variable.low || t <= numbers::rational_value(stated[0].program, known)(0))
+        program = &stated[0].program;
+      else if (at(0, 0) == variable.high ||
+               t >= numbers::rational_value(stated[1].program, known)(0))
+        program = &stated[1].program;
     }
     for (std::size_t e = 0; e < variable.elements.size() && program == nullptr; ++e)
       if (variable.elements[e] == at) program = &stated[e].program;
