@@ -81,21 +81,42 @@ DoubleDouble nearest_double_double(const Rational& x) {
   return {high, nearest_double(Rational(x - Rational(high)))};
 }
 
-std::optional<Rational> short_fraction(const Rational& x, double relative, double longest) {
-  const Rational allowed = abs(x) * Rational(relative);
-  const Rational most(longest);
+namespace {
+
+struct Fraction {
+  Rational value;
+  Rational length;  ///< |p q|
+};
+
+Fraction first_end_within(const Rational& x, const Rational& allowed) {
   Integer p0 = 0, q0 = 1, p1 = 1, q1 = 0;
   Rational rest = x;
   for (;;) {
     const Integer whole = floor_of(rest);
     const Integer p2 = whole * p1 + p0;
     const Integer q2 = whole * q1 + q0;
-    if (Rational(abs(p2) * q2) > most) return std::nullopt;
     const Rational found(p2, q2);
-    if (abs(Rational(found - x)) <= allowed) return found;
+    if (abs(Rational(found - x)) <= allowed) return {found, Rational(abs(p2) * q2)};
     p0 = p1, q0 = q1, p1 = p2, q1 = q2;
     rest = 1 / Rational(rest - Rational(whole));
   }
+}
+
+}  // namespace
+
+std::optional<Rational> short_fraction(const Rational& x, double relative, double longest) {
+  if (x == 0) return x;
+  const Rational within(relative);
+  const double size = std::abs(nearest_double(x));
+  Fraction best = first_end_within(x, Rational(abs(x) * within));
+  if (size > 0 && std::isfinite(size)) {
+    const Rational unit = power_of_ten(static_cast<int>(std::floor(std::log10(size))));
+    const Rational scaled = x / unit;
+    Fraction other = first_end_within(scaled, Rational(abs(scaled) * within));
+    if (other.length < best.length) best = {Rational(other.value * unit), other.length};
+  }
+  if (best.length > Rational(longest)) return std::nullopt;
+  return best.value;
 }
 
 }  // namespace gainsmith

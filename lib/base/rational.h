@@ -28,8 +28,9 @@ Integer nearest_integer(const Rational& x);
 double nearest_double(const Rational& x);
 DoubleDouble nearest_double_double(const Rational& x);
 
-/// The fraction p/q with the least q within `relative` |x| of x: the first such end of the
-/// continued fraction of x, which is at most a few times longer. None when |p q| exceeds `longest`.
+/// A short fraction p/q within `relative` |x| of x, or p/q times a power of ten: the first end of
+/// the continued fraction of x, or of x / 10^k between 1 and 10, that is so near, whichever has the
+/// smaller |p q|. None when that exceeds `longest`.
 std::optional<Rational> short_fraction(const Rational& x, double relative, double longest);
 
 }  // namespace gainsmith

@@ -40,6 +40,9 @@ TEST(RationalTest, FindsShortFractions) {
   EXPECT_EQ(short_fraction(Rational(Rational(-22, 7) + noise), 1e-12, 1e9), Rational(-22, 7));
   EXPECT_EQ(short_fraction(Rational(Rational(3, 1000) + noise / 1000), 1e-12, 1e9),
             Rational(3, 1000));
+  EXPECT_EQ(short_fraction(Rational((Rational(5, 2) + noise) * power_of_ten(-10)), 1e-12, 100),
+            Rational(Rational(5, 2) * power_of_ten(-10)));
+  EXPECT_EQ(short_fraction(Rational(Rational(1024) + noise), 1e-12, 2000), Rational(1024));
   EXPECT_EQ(short_fraction(Rational(0), 1e-12, 1e9), Rational(0));
   EXPECT_FALSE(short_fraction(Rational(std::sqrt(2.0)), 1e-12, 1e9));
 }
