@@ -50,6 +50,12 @@ struct Rungs {
   static bool digits_are_due(const Climb& climb) {
     return climb.posed_.wide && climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb);
   }
+  /// Not for one who does not want to wait.
+  static bool faces_are_due(const Climb& climb) {
+    const sdp::Cause cause = climb.last().solution.cause;
+    return digits_are_due(climb) && cause != sdp::Cause::interrupted &&
+           cause != sdp::Cause::time_limit;
+  }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
     if (point == nullptr || !climb.is_yes(*point) || !has_minimum(climb) || climb.is_free(*point))
@@ -126,7 +132,7 @@ constexpr std::array<Row, 10> kLadder = {{
     {Rung::free_minimum, Rungs::free_minimum_is_due, Rungs::free_minimum},
     {Rung::free_inside, Rungs::bounds_leave_nothing, Rungs::free_inside},
     {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits},
-    {Rung::on_faces, Rungs::digits_are_due, Rungs::on_faces},
+    {Rung::on_faces, Rungs::faces_are_due, Rungs::on_faces},
     {Rung::in_100_digits, Rungs::digits_are_due, Rungs::in_100_digits},
     {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter},
 }};

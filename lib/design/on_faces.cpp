@@ -161,11 +161,13 @@ class OnFaces {
         solved_ = std::move(solution);
         first = std::move(formulation);
       }
-      if (!next || next->margin <= round.margin * kRises) break;
+      // Points of the whole space are those of the other rungs.
+      if (faces_.steps() == 0 || !next || next->margin <= round.margin * kRises) break;
       round = *next;
     }
-    if (inside && std::all_of(inside->begin(), inside->end(),
-                              [](double value) { return std::isfinite(value); }))
+    if (faces_.steps() > 0 && inside &&
+        std::all_of(inside->begin(), inside->end(),
+                    [](double value) { return std::isfinite(value); }))
       try_point(*inside);
     if (!done_ && first) take_multipliers(left, *first);
   }
