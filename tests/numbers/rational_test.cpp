@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
 #include <random>
 
 #include "expr/compile.h"
@@ -11,6 +12,7 @@
 #include "expr/parser.h"
 #include "numbers/lattice.h"
 #include "numbers/rational_algebra.h"
+#include "numbers/real.h"
 
 namespace gainsmith::numbers {
 namespace {
@@ -33,7 +35,9 @@ class Draws {
 };
 
 expr::Program compiled(const std::string& text) {
-  return expr::compile(expr::parse({text, "test"}), expr::Scope{});
+  expr::Scope scope;
+  scope.known = std::make_shared<KnownDoubles>(Values{});  // the ranks of orth and null
+  return expr::compile(expr::parse({text, "test"}), scope);
 }
 
 /// The operations that are refused are those without fractions.
