@@ -94,6 +94,8 @@ std::string certificate_text(const model::Gains& gains) {
   const std::string of = c.is_about_problem() ? "the decimals of the file"
                          : c.about == "hull"  ? "the hull"
                                               : "the vertex test";
+  if (c.exact && c.multipliers.empty())
+    return fmt::format("certificate exact steps on {}, as above: no solution exists\n", of);
   if (c.exact)
     return fmt::format(
         "certificate multipliers Y > 0, checked in {} digits on {}: near them is an exact one, so no\n"

@@ -119,6 +119,10 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
   if (const Attempt* tighter = climb.find(Rung::tighter)) mark_free_gains(*tighter, lmi, gains);
 }
 
+std::string name_of(const lmi::Block& block) {
+  return block.name + (block.point.empty() ? "" : " at " + block.point);
+}
+
 /// The multipliers by the name and point of their block.
 model::NamedMatrices named_multipliers(const Climb& climb, const Attempt& attempt) {
   const lmi::Lmi& lmi = climb.posed().lmi;
@@ -128,13 +132,22 @@ model::NamedMatrices named_multipliers(const Climb& climb, const Attempt& attemp
   for (std::size_t k = 0; k < list.size(); ++k) {
     const lmi::Block& block =
         k < lmi.blocks.size() ? lmi.blocks[k] : bounds.blocks[k - lmi.blocks.size()];
-    result.emplace_back(block.name + (block.point.empty() ? "" : " at " + block.point), list[k]);
+    result.emplace_back(name_of(block), list[k]);
   }
   return result;
 }
 
 void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains& gains) {
   gains.verdict = model::Verdict::no;
+  if (!refuted.chain.empty()) {
+    model::NamedMatrices multipliers;
+    for (std::size_t k = 0; k < refuted.multipliers.size(); ++k)
+      multipliers.emplace_back(name_of(climb.posed().lmi.blocks[k]), refuted.multipliers[k]);
+    gains.certificate = model::CertificateRecord{true, 0, refuted.refutation->digits,
+                                                 std::move(multipliers), "problem"};
+    gains.solver.add_message(refuted.chain);
+    return;
+  }
   gains.certificate =
       model::CertificateRecord{refuted.refutation->exact, refuted.refutation->omega,
                                refuted.refutation->digits, named_multipliers(climb, refuted)};
@@ -175,6 +188,10 @@ void conclude(const Climb& climb, model::Gains& gains) {
   gains.verdict = model::Verdict::undecided;
   const Attempt* point = climb.point();
   const Attempt* refuted = climb.refutation();
+  if (point == nullptr || !point->holds()) {
+    gains.solver = record_of(climb.last());
+    if (refuted == nullptr && refute_by_zero_diagonal(climb, gains)) return;
+  }
   if (point != nullptr && (point->holds() || refuted == nullptr)) {
     gains.solver = record_of(*point);
     return accept_point(climb, *point, gains);
@@ -183,8 +200,10 @@ void conclude(const Climb& climb, model::Gains& gains) {
     gains.solver = record_of(*refuted);
     return accept_refutation(climb, *refuted, gains);
   }
-  gains.solver = record_of(climb.last());
-  if (refute_by_zero_diagonal(climb, gains)) return;
+  if (const Attempt* faces = climb.find(Rung::on_faces)) {
+    gains.solver.add_message(faces->left_open);
+    return;
+  }
   if (climb.last().relaxation_refuted()) {
     // What it is about is said by the plan (synthesize.cpp).
     gains.certificate = model::CertificateRecord{false, climb.last().relaxed_omega, kDoubleDigits,

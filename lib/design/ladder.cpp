@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "design/gain_values.h"
+#include "design/on_faces.h"
 
 namespace gainsmith::design {
 
@@ -47,8 +48,13 @@ struct Rungs {
     return is_bounded(climb) && has_minimum(climb) && nothing_holds(climb);
   }
   static bool digits_are_due(const Climb& climb) {
-    return climb.posed_.wide && climb.posed_.lmi.stands_for_points() &&
-           nothing_holds_at_all(climb);
+    return climb.posed_.wide && climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb);
+  }
+  /// Not for one who does not want to wait.
+  static bool faces_are_due(const Climb& climb) {
+    const sdp::Cause cause = climb.last().solution.cause;
+    return digits_are_due(climb) && cause != sdp::Cause::interrupted &&
+           cause != sdp::Cause::time_limit;
   }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
@@ -61,7 +67,10 @@ struct Rungs {
   }
 
   static Attempt ask(const Climb& climb, Question question) {
-    Attempt result = attempt(climb.posed_, std::move(question), climb.solve_);
+    return measured(climb, attempt(climb.posed_, std::move(question), climb.solve_));
+  }
+  /// With its largest gain, where no bound was asked for.
+  static Attempt measured(const Climb& climb, Attempt result) {
     if (result.point && climb.is_free(result)) {
       const lmi::Inequalities& of = climb.posed_.inequalities;
       numbers::Values values = of.instance.values;
@@ -93,6 +102,11 @@ struct Rungs {
   static std::optional<Attempt> in_31_digits(const Climb& climb) {
     return ask(climb, interior({}, {"quad", 1e-22}));
   }
+  static std::optional<Attempt> on_faces(const Climb& climb) {
+    auto found = attempt_on_faces(climb.posed_, climb.solve_);
+    if (found) found = measured(climb, std::move(*found));
+    return found;
+  }
   static std::optional<Attempt> in_100_digits(const Climb& climb) {
     return ask(climb, interior({}, {"100", 1e-40}));
   }
@@ -110,7 +124,7 @@ struct Row {
   std::optional<Attempt> (*tries)(const Climb&);
 };
 
-constexpr std::array<Row, 9> kLadder = {{
+constexpr std::array<Row, 10> kLadder = {{
     {Rung::minimum, Rungs::minimum_is_due, Rungs::minimum},
     {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside},
     {Rung::inside, Rungs::nothing_holds, Rungs::inside},
@@ -118,6 +132,7 @@ constexpr std::array<Row, 9> kLadder = {{
     {Rung::free_minimum, Rungs::free_minimum_is_due, Rungs::free_minimum},
     {Rung::free_inside, Rungs::bounds_leave_nothing, Rungs::free_inside},
     {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits},
+    {Rung::on_faces, Rungs::faces_are_due, Rungs::on_faces},
     {Rung::in_100_digits, Rungs::digits_are_due, Rungs::in_100_digits},
     {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter},
 }};
@@ -149,9 +164,9 @@ const Attempt* Climb::find(Rung rung) const {
 
 const Attempt* Climb::point() const {
   // A minimum is worth more than a point inside; within the bounds more than without.
-  constexpr Rung kWorth[] = {Rung::minimum,      Rung::blended,     Rung::inside,
-                             Rung::free_minimum, Rung::free_inside, Rung::in_31_digits,
-                             Rung::in_100_digits};
+  constexpr Rung kWorth[] = {Rung::minimum,      Rung::blended,      Rung::inside,
+                             Rung::free_minimum, Rung::free_inside,  Rung::in_31_digits,
+                             Rung::on_faces,     Rung::in_100_digits};
   const Attempt* holding = nullptr;
   const Attempt* first = nullptr;
   for (const Rung rung : kWorth) {

@@ -2,14 +2,18 @@
 //
 //   rung            asks                                    is tried after
 //   minimum         the objective, within the gain bounds   -  (where it can have a minimum)
-//   free inside     the largest margin, gains of any size   -  (where it cannot), or nothing that holds:
+//   free inside     the largest margin, gains of any size   -  (where it cannot), or nothing that
+//   holds:
 //                                                           bounds on gains depend on units
 //   inside          the largest margin, within the bounds   nothing that holds within them
 //   blended         a point between minimum and inside      both, the minimum found but not holding
 //   free minimum    the objective, gains of any size        nothing that holds within the bounds
 //   31 digits       the largest margin in these digits      nothing that holds, nothing refuted
-//   100 digits      the same                                the same
-//   tighter         bounds ten times smaller                a yes with gains near their bounds: those
+//   on faces        a point or a no on the face that all    the same
+//                   solutions share (on_faces.h)
+//   100 digits      the largest margin in these digits      the same
+//   tighter         bounds ten times smaller                a yes with gains near their bounds:
+//   those
 //                                                           that shrink are limited by them alone
 //
 // (An exchange grows by the points at which a solution fails, and begins again.) Each rung is tried
@@ -31,6 +35,7 @@ enum class Rung {
   blended,
   free_minimum,
   in_31_digits,
+  on_faces,
   in_100_digits,
   tighter
 };

@@ -1,4 +1,4 @@
-// JSON as text: numbers with 17 digits, matrices one row a line; reading with places.
+// JSON as text: numbers with up to 17 digits, matrices one row a line; reading with places.
 //
 // A number that was written with other digits keeps its decimal: it is then a binary value that
 // holds the text, the one kind of value that JSON itself has no spelling for.

@@ -1,10 +1,13 @@
 #include "lmi/printed_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "base/scalars.h"
+#include "lmi/rational_blocks.h"
 #include "model/gains.h"
+#include "numbers/rational_algebra.h"
 
 namespace gainsmith::lmi {
 
@@ -110,7 +113,43 @@ DomainProof PrintedCheck::check(std::size_t inequality, std::size_t comparison) 
   if (proof.pieces >= forall::ProofOptions{}.most_pieces) return proof;
   if (proof.status == DomainProof::Status::open) proof = check_in(statement, comparison, in_31_);
   if (proof.status == DomainProof::Status::open) proof = check_in(statement, comparison, in_100_);
+  if (proof.status != DomainProof::Status::open) return proof;
+  const std::optional<bool> holds = check_in_fractions(statement, comparison);
+  if (holds == true) return {};
+  if (holds == false && statement.domain.empty()) proof.status = DomainProof::Status::fails;
   return proof;
+}
+
+std::optional<bool> PrintedCheck::check_in_fractions(const Statement& statement,
+                                                     std::size_t comparison) const {
+  const auto& domain = statement.domain;
+  if (std::any_of(domain.begin(), domain.end(), [](const forall::Variable& variable) {
+        return variable.over != model::Over::set;
+      }))
+    return std::nullopt;
+  const bool strict = statement.stated->comparisons[comparison].strict;
+  try {
+    numbers::RationalValues values = rational_values(of_.instance);
+    const numbers::RationalValues data = values;
+    for (const auto& [name, matrix] : of_.unknowns.values(x_))
+      values[name] = matrix.unaryExpr([](double x) { return printed_fraction(x); });
+    const auto holds_at = [&](const auto& self, std::size_t v) -> bool {
+      if (v == domain.size()) {
+        const auto value = numbers::rational_symmetric_part(
+            numbers::rational_value(statement.differences[comparison], values));
+        return strict ? numbers::is_rational_definite(value)
+                      : numbers::is_rational_semidefinite(value);
+      }
+      for (const model::Formula& element : statement.stated->domain[v].points) {
+        values[domain[v].name] = numbers::rational_value(element.program, data);
+        if (!self(self, v + 1)) return false;
+      }
+      return true;
+    };
+    return holds_at(holds_at, 0);
+  } catch (const expr::EvaluationError&) {
+    return std::nullopt;
+  }
 }
 
 #define GAINSMITH_INSTANTIATE(S)                    \

@@ -4,6 +4,7 @@
 
 #include "base/hash.h"
 #include "base/number.h"
+#include "base/scalars.h"
 #include "model/function.h"
 #include "numbers/real.h"
 
@@ -42,7 +43,10 @@ std::string coefficient_key(const std::string& gain, std::size_t k) {
 }
 
 std::string printed(double value) {
-  return value == 0 && std::signbit(value) ? "-0.0" : decimal17(value);
+  if (value == 0 && std::signbit(value)) return "-0.0";
+  for (const int digits : {kDoubleDigits, kDoubleDigits + 1})
+    if (std::string text = brief(value, digits); parse_decimal(text) == value) return text;
+  return decimal17(value);
 }
 
 Decimals decimals_at(const Gains& gains, const std::string& key, const numbers::Matrix& matrix) {

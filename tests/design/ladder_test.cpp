@@ -164,8 +164,9 @@ TEST(Ladder, MultipliersThatExcludeEverythingAreANo) {
 
 /// Multipliers that do not add up and are near none that do.
 TEST(Ladder, WhatIsNoCertificateIsNoNo) {
-  const Case of(window("2", "1"));
-  const Case feasible(window("1", "2"));
+  // Roots have no fractions: nothing but the multipliers can decide.
+  const Case of(window("sqrt(4)", "sqrt(1)"));
+  const Case feasible(window("sqrt(1)", "sqrt(4)"));
   for (const Answer& wrong :
        {refuting(of, {1, 100}), refuting(of, {100, 1}), refuting(of, {0, 3})}) {
     const Scripted run(wrong, of);
@@ -181,8 +182,25 @@ TEST(Ladder, WhatIsNoCertificateIsNoNo) {
   }
 }
 
+/// What stands in the blocks themselves needs no solver, and nothing is solved where only one x is.
+TEST(Ladder, PlainStepsOnFacesDecideWhateverTheSolverSays) {
+  const Case none(window("2", "1"));
+  const Scripted no(undecided(), none);
+  EXPECT_EQ(no.gains.verdict, Verdict::no);
+  ASSERT_TRUE(no.gains.certificate);
+  EXPECT_TRUE(no.gains.certificate->exact);
+  EXPECT_TRUE(no.says("low and high leave no room for each other")) << no.message();
+  const Case one(
+      "  unknowns: {x: scalar, y: scalar}\n  require: {least: x + 2*y >= 0.3, most: x + 2*y <= "
+      "0.3, same: y >= 0.1, too: y <= 0.1}\n");
+  const Scripted yes(undecided(), one);
+  EXPECT_EQ(yes.gains.verdict, Verdict::yes) << yes.message();
+  EXPECT_EQ(yes.unknown("x"), 0.1);
+  EXPECT_EQ(yes.unknown("y"), 0.1);
+}
+
 TEST(Ladder, MoreDigitsAreAskedForWithoutBoundsWhereNothingIsDecided) {
-  const Case of(window("1", "2", true));
+  const Case of(window("sqrt(1)", "sqrt(4)", true));
   const Scripted run(of, {undecided(), undecided(), undecided(), inside(of, {1.5})});
   EXPECT_EQ(run.tried,
             (Rungs{Rung::inside, Rung::free_inside, Rung::in_31_digits, Rung::in_100_digits}));
@@ -311,7 +329,7 @@ TEST(Ladder, LessThanTheMarginAskedForIsAYesThatSaysSo) {
 
 TEST(Ladder, WhatIsOpenBetweenThePointsIsNoYes) {
   const Case of(
-      "  unknowns: {x: scalar}\n  require:\n    wave: {forall: \"t in [0, 1]\", that: \"x + "
+      "  unknowns: {x: scalar}\n  require:\n    wave: {forall: \"t in [0, 1]\", that: \"sqrt(1)*x + "
       "cos(1e7*t) > 0\"}\n  minimize: x\nsynthesis: {forall: exchange}\n");
   const Answer point = [&](const sdp::Problem& problem) {
     return problem.c.back() == -1 ? inside(of, {1.0001})(problem) : minimum(of, {1.0001})(problem);
@@ -325,8 +343,9 @@ TEST(Ladder, WhatIsOpenBetweenThePointsIsNoYes) {
 /// inequalities, looked at here.
 TEST(Ladder, TheSolversWordAloneIsNoYes) {
   const Case of(
-      "  unknowns: {P: symmetric 2, g: scalar}\n  require:\n    floor: P > I\n    cap: P < 3*I\n"
-      "    link: \"[P, g*[1; 1]; *, 4] > 0\"\n  minimize: trace(P) + g\n");
+      "  unknowns: {P: symmetric 2, g: scalar}\n  require:\n    floor: P > sqrt(1)*I\n    cap: P < "
+      "sqrt(9)*I\n"
+      "    link: \"[P, g*[1; 1]; *, sqrt(16)] > 0\"\n  minimize: trace(P) + g\n");
   std::mt19937 generator(3);
   std::normal_distribution<double> normal;
   int kept = 0;

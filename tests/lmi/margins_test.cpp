@@ -64,10 +64,11 @@ TEST_F(MarginsTest, DoNotDependOnUnits) {
 /// What doubles cannot tell apart is decided at the decimals.
 TEST_F(MarginsTest, AYesIsDecidedAtTheDecimals) {
   pose("\"[x, 0.1; 0.1, 0.1] > 0\"");  // x > 0.1
-  // 0.1 is printed as 0.10000000000000001.
-  EXPECT_TRUE(all_hold(at(0.1)));
+  EXPECT_FALSE(all_hold(at(0.1)));
+  EXPECT_TRUE(all_hold(at(std::nextafter(0.1, 1))));
   EXPECT_FALSE(all_hold(at(std::nextafter(0.1, 0))));
   pose("\"[x, 0.1; 0.1, 0.1] >= 0\"");
+  EXPECT_TRUE(all_hold(at(0.1)));
   EXPECT_FALSE(all_hold(at(std::nextafter(0.1, 0))));
 }
 

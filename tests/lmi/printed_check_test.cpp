@@ -27,22 +27,27 @@ forall::DomainProof checked(const std::string& require, double x, const std::str
 }
 
 TEST(PrintedCheckTest, ADoubleStandsForTheDecimalThatIsPrinted) {
-  const auto third = enclosed_decimal<DoubleDouble>(0.3);
-  EXPECT_EQ(model::printed(0.3), "0.29999999999999999");
-  const DoubleDouble error = third.mid(0, 0) - *parse_as<DoubleDouble>("0.29999999999999999");
-  EXPECT_LE(std::abs(error.hi()), third.rad(0, 0));
-  EXPECT_GT(std::abs((third.mid(0, 0) - DoubleDouble(0.3)).hi()), 1e-19);
+  const double sum = 0.1 + 0.2;
+  const auto known = enclosed_decimal<DoubleDouble>(sum);
+  EXPECT_EQ(model::printed(sum), "0.30000000000000004");
+  EXPECT_EQ(model::printed(0.3), "0.3");
+  const DoubleDouble error = known.mid(0, 0) - *parse_as<DoubleDouble>("0.30000000000000004");
+  EXPECT_LE(std::abs(error.hi()), known.rad(0, 0));
+  EXPECT_GT(std::abs((known.mid(0, 0) - DoubleDouble(sum)).hi()), 1e-19);
   EXPECT_EQ(enclosed_decimal<double>(0.375).rad(0, 0), 0);
   EXPECT_GT(enclosed_decimal<double>(0.3).rad(0, 0), 0);
 }
 
-/// 0.3 is printed as a decimal below the 0.3 of the file, though the doubles are equal.
+/// Decimals that are the same double are not the same.
 TEST(PrintedCheckTest, TheDecimalsOfTheFileCountAndNotTheirDoubles) {
-  EXPECT_EQ(checked("x > 0.3", 0.3).status, Status::fails);
-  EXPECT_EQ(checked("x >= a", 0.3).status, Status::fails);
-  EXPECT_EQ(checked("x < a", 0.3).status, Status::holds);
+  const double sum = 0.1 + 0.2;  // printed as 0.30000000000000004
+  EXPECT_EQ(checked("x < 0.300000000000000044", sum).status, Status::holds);
+  EXPECT_EQ(checked("x >= 0.300000000000000044", sum).status, Status::fails);
+  EXPECT_EQ(checked("x > 0.30000000000000004", sum).status, Status::fails);
+  EXPECT_EQ(checked("x >= 0.30000000000000004", sum).status, Status::holds);
+  EXPECT_EQ(checked("x >= a", 0.3).status, Status::holds);
+  EXPECT_EQ(checked("x > a", 0.3).status, Status::fails);
   EXPECT_EQ(checked("x > a", std::nextafter(0.3, 1)).status, Status::holds);
-  EXPECT_NE(checked("x > 0.29999999999999999", 0.3).status, Status::holds);
   EXPECT_EQ(checked("x >= 0.375", 0.375).status, Status::holds);
   EXPECT_EQ(checked("x > 0.375", 0.375).status, Status::fails);
 }
@@ -54,6 +59,19 @@ TEST(PrintedCheckTest, MoreDigitsDecideWhereDoubleDoesNot) {
   // In a plane that is nowhere an axis.
   EXPECT_EQ(checked("\"[2, 1, 3; 1, 5, 6; 3, 6, 9 + x] > 0\"", 1e-14).status, Status::holds);
   EXPECT_EQ(checked("\"[2, 1, 3; 1, 5, 6; 3, 6, 9 - x] > 0\"", 1e-14).status, Status::fails);
+}
+
+/// No number of digits shows that a singular matrix is not negative; fractions do.
+TEST(PrintedCheckTest, WhatIsExactlySingularHoldsWhereItMay) {
+  EXPECT_EQ(checked("\"[1, 3*x; *, 0.09] >= 0\"", 0.1).status, Status::holds);
+  EXPECT_EQ(checked("\"[1, 3*x; *, 0.09] > 0\"", 0.1).status, Status::fails);
+  EXPECT_EQ(checked("\"[1, 3*x; *, 0.09] >= 0\"", std::nextafter(0.1, 1)).status, Status::fails);
+  EXPECT_EQ(checked("{forall: \"k in {0.1, 0.2}\", that: \"[k, x; *, k] >= 0\"}", 0.1).status,
+            Status::holds);
+  EXPECT_NE(checked("{forall: \"k in {0.1, 0.2}\", that: \"[k, x; *, k] >= 0\"}", 0.2).status,
+            Status::holds);
+  EXPECT_NE(checked("{forall: \"k in {0.1, 0.2}\", that: \"[k, x; *, k] > 0\"}", 0.1).status,
+            Status::holds);
 }
 
 /// sqrt(2)^2 is 2, which no number of digits shows.

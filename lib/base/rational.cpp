@@ -1,0 +1,122 @@
+#include "base/rational.h"
+
+#include <charconv>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+#include "base/number.h"
+
+namespace gainsmith {
+
+namespace {
+
+constexpr int kMostExponent = 1000;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+Integer floor_of(const Rational& x) {
+  const Integer p = numerator(x);
+  const Integer q = denominator(x);
+  Integer whole = p / q;
+  if (whole * q > p) whole -= 1;
+  return whole;
+}
+
+}  // namespace
+
+Rational power_of_ten(int exponent) {
+  const Integer power = pow(Integer(10), static_cast<unsigned>(std::abs(exponent)));
+  return exponent < 0 ? Rational(Integer(1), power) : Rational(power);
+}
+
+std::optional<Rational> parse_rational(std::string_view text) {
+  if (!parse_decimal(text)) return std::nullopt;
+  std::string digits;
+  int exponent = 0;
+  bool behind_point = false;
+  bool negative = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (c == 'e' || c == 'E') {
+      int stated = 0;
+      const char* first = text.data() + i + (text[i + 1] == '+' ? 2 : 1);
+      if (std::from_chars(first, text.data() + text.size(), stated).ec != std::errc())
+        return std::nullopt;
+      if (std::abs(stated) > kMostExponent) return std::nullopt;
+      exponent += stated;
+      break;
+    }
+    if (c == '-') negative = true;
+    if (c == '.') behind_point = true;
+    if (c == '.' || c == '+' || c == '-') continue;
+    digits += c;
+    if (behind_point) --exponent;
+  }
+  // A zero in front would make it octal.
+  digits.erase(0, digits.find_first_not_of('0'));
+  if (digits.empty()) return Rational(0);
+  const Rational size = Rational(Integer(digits)) * power_of_ten(exponent);
+  return negative ? Rational(-size) : size;
+}
+
+Integer nearest_integer(const Rational& x) { return floor_of(Rational(x + Rational(1, 2))); }
+
+double nearest_double(const Rational& x) {
+  // What is below every double becomes 0.
+  const double towards_zero = x.convert_to<double>();
+  double best = towards_zero;
+  for (const double end : {-kInfinity, kInfinity}) {
+    const double other = std::nextafter(towards_zero, end);
+    if (std::isfinite(other) && std::isfinite(best) &&
+        abs(Rational(x - Rational(other))) < abs(Rational(x - Rational(best))))
+      best = other;
+  }
+  return best;
+}
+
+DoubleDouble nearest_double_double(const Rational& x) {
+  const double high = nearest_double(x);
+  if (!std::isfinite(high)) return {high, 0};
+  return {high, nearest_double(Rational(x - Rational(high)))};
+}
+
+namespace {
+
+struct Fraction {
+  Rational value;
+  Rational length;  ///< |p q|
+};
+
+Fraction first_end_within(const Rational& x, const Rational& allowed) {
+  Integer p0 = 0, q0 = 1, p1 = 1, q1 = 0;
+  Rational rest = x;
+  for (;;) {
+    const Integer whole = floor_of(rest);
+    const Integer p2 = whole * p1 + p0;
+    const Integer q2 = whole * q1 + q0;
+    const Rational found(p2, q2);
+    if (abs(Rational(found - x)) <= allowed) return {found, Rational(abs(p2) * q2)};
+    p0 = p1, q0 = q1, p1 = p2, q1 = q2;
+    rest = 1 / Rational(rest - Rational(whole));
+  }
+}
+
+}  // namespace
+
+std::optional<Rational> short_fraction(const Rational& x, double relative, double longest) {
+  if (x == 0) return x;
+  const Rational within(relative);
+  const double size = std::abs(nearest_double(x));
+  Fraction best = first_end_within(x, Rational(abs(x) * within));
+  if (size > 0 && std::isfinite(size)) {
+    const Rational unit = power_of_ten(static_cast<int>(std::floor(std::log10(size))));
+    const Rational scaled = x / unit;
+    Fraction other = first_end_within(scaled, Rational(abs(scaled) * within));
+    if (other.length < best.length) best = {Rational(other.value * unit), other.length};
+  }
+  if (best.length > Rational(longest)) return std::nullopt;
+  return best.value;
+}
+
+}  // namespace gainsmith

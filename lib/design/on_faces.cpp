@@ -1,0 +1,262 @@
+#include "design/on_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/rational.h"
+#include "lmi/face_multipliers.h"
+#include "lmi/faces.h"
+#include "lmi/printable.h"
+
+namespace gainsmith::design {
+
+namespace {
+
+using lmi::Faces;
+using lmi::RationalBlock;
+
+/// Beyond these sizes fractions take too long.
+constexpr int kMostUnknowns = 60;
+constexpr int kMostRows = 120;
+
+std::vector<std::string> names_of(const lmi::Lmi& lmi) {
+  std::vector<std::string> names;
+  for (const lmi::Block& block : lmi.blocks)
+    names.push_back(block.name + (block.point.empty() ? "" : " at " + block.point));
+  return names;
+}
+
+/// What is left, as blocks that a solver can be asked about.
+struct Left {
+  lmi::Lmi lmi;
+  std::vector<std::size_t> blocks;  ///< which of the faces' they are: those with rows
+};
+
+Left left_of(const Faces& faces) {
+  Left left;
+  left.lmi.unknowns = faces.unknowns();
+  for (std::size_t k = 0; k < faces.blocks().size(); ++k) {
+    const RationalBlock& of = faces.blocks()[k];
+    if (of.size == 0) continue;
+    lmi::Block block;
+    block.name = faces.names()[k];
+    block.strict = of.strict;
+    block.size = of.size;
+    for (const auto& [i, matrix] : of.terms) {
+      const numbers::Matrix rounded =
+          matrix.unaryExpr([](const Rational& x) { return nearest_double(x); });
+      double& size = i == 0 ? block.constant_size : block.coefficient_size;
+      size = std::max(size, rounded.cwiseAbs().maxCoeff());
+      block.terms.emplace_back(i, lmi::sparse(rounded));
+    }
+    left.lmi.blocks.push_back(std::move(block));
+    left.blocks.push_back(k);
+  }
+  return left;
+}
+
+class OnFaces {
+ public:
+  OnFaces(const Posed& posed, const Solve& solve)
+      : posed_(posed),
+        solve_(solve),
+        stated_(lmi::rational_blocks(posed.inequalities, posed.lmi.blocks)),
+        faces_(stated_, names_of(posed.lmi), posed.lmi.unknowns) {
+    result_.question = {lmi::Goal::interior, {}, {"quad", 1e-22}, 0};
+    result_.formulation = lmi::formulate_interior(posed.lmi, {}, {});
+  }
+
+  std::optional<Attempt> run() {
+    const bool any = std::any_of(stated_.begin(), stated_.end(),
+                                 [](const RationalBlock& block) { return block.exact; });
+    if (!any) return std::nullopt;
+    while (!done_) step();
+    if (faces_.excluded()) {
+      result_.point = false;
+      result_.refutation = lmi::Refutation{true, 0, kWideDigits};
+      result_.chain = faces_.why();
+    }
+    if (!result_.point && !faces_.excluded()) {
+      if (faces_.steps() == 0) return std::nullopt;
+      result_.left_open = "every solution has only equality somewhere (" + faces_.why() +
+                          "); no numbers of 16 digits were found that keep it";
+    }
+    result_.solution = as_solution_of(result_.formulation);
+    return std::move(result_);
+  }
+
+ private:
+  /// What the solver said of what was left, in the shape of the program of all blocks; the
+  /// multipliers are 0, as they are those of a face.
+  sdp::Solution as_solution_of(const lmi::Formulation& formulation) const {
+    sdp::Solution solution = solved_;
+    solution.rest = {};
+    solution.x.assign(formulation.problem.c.size(), 0);
+    solution.Y.values.clear();
+    for (const auto& rows : formulation.releases.kept)
+      solution.Y.values.emplace_back(rows.size() * rows.size(), 0);
+    if (result_.holds()) {
+      solution.status = sdp::Status::optimal;
+      solution.cause = sdp::Cause::converged;
+    }
+    return solution;
+  }
+
+  void step() {
+    faces_.find_plain();
+    if (faces_.excluded()) return finish();
+    faces_.drop_dependent();
+    if (faces_.unknowns() == 0) {
+      if (!lmi::satisfies(faces_.blocks(), {}))
+        faces_.exclude("what is left has no unknowns and does not hold");
+      else
+        try_point({});
+      return finish();
+    }
+    const Left left = left_of(faces_);
+    const std::size_t steps = faces_.steps();
+    for (const Effort& effort : {Effort{"quad", 1e-22}, Effort{"100", 1e-40}}) {
+      solve_left(left, effort);
+      if (done_ || faces_.steps() > steps) return;
+    }
+    finish();
+  }
+
+  void finish() { done_ = true; }
+
+  lmi::Formulation formulate(const Left& left, const lmi::Round& round) const {
+    return lmi::formulate_interior(
+        left.lmi, {}, round,
+        [&](std::size_t k, const lmi::Balance& balance, const std::vector<int>& kept) {
+          lmi::BalancedBlock block{static_cast<int>(kept.size()), {}};
+          for (const auto& [i, matrix] : faces_.blocks()[left.blocks[k]].terms)
+            for (int c = 0; c < block.size; ++c)
+              for (int r = 0; r <= c; ++r) {
+                const int row = kept[static_cast<std::size_t>(r)];
+                const int column = kept[static_cast<std::size_t>(c)];
+                if (matrix(row, column) == 0) continue;
+                const auto value = nearest_double_double(matrix(row, column));
+                const double unit = balance.factor(k, row, column, i);
+                block.elements.push_back({i, r, c, value.hi() * unit, value.lo() * unit});
+              }
+          return block;
+        });
+  }
+
+  void solve_left(const Left& left, const Effort& effort) {
+    constexpr int kMostRounds = 4;
+    constexpr double kRises = 1.5;
+    lmi::Round round;
+    std::optional<lmi::Formulation> first;
+    std::optional<std::vector<double>> inside;
+    for (int k = 0; k < kMostRounds; ++k) {
+      lmi::Formulation formulation = formulate(left, round);
+      sdp::Solution solution = solve_(formulation.problem, effort);
+      if (solution.x.empty()) break;
+      const auto next = lmi::next_round(formulation, solution);
+      if (next && next->margin > round.margin)
+        inside = lmi::read_back(left.lmi, formulation, solution);
+      if (k == 0) {
+        solved_ = std::move(solution);
+        first = std::move(formulation);
+      }
+      // Points of the whole space are those of the other rungs.
+      if (faces_.steps() == 0 || !next || next->margin <= round.margin * kRises) break;
+      round = *next;
+    }
+    if (faces_.steps() > 0 && inside &&
+        std::all_of(inside->begin(), inside->end(),
+                    [](double value) { return std::isfinite(value); }))
+      try_point(*inside);
+    if (!done_ && first) take_multipliers(left, *first);
+  }
+
+  /// A point is one where everything holds, or where it is to be seen what does not.
+  void try_point(const std::vector<double>& y) {
+    const std::vector<Rational> exact(y.begin(), y.end());
+    std::vector<double> units;
+    for (int i = 1; i <= posed_.lmi.unknowns; ++i)
+      units.push_back(result_.formulation.balance.unit(i));
+    for (const int digits : {3, 6, 9, 12, 15, 16}) {
+      const auto x = lmi::printable_point(faces_, exact, units, digits);
+      if (!x) continue;
+      std::vector<Rational> printed;
+      for (const double value : *x) printed.push_back(lmi::printed_fraction(value));
+      if (!lmi::satisfies(stated_, printed)) continue;
+      lmi::Margins margins =
+          lmi::compute_margins(posed_.inequalities, posed_.lmi, result_.formulation.balance,
+                               posed_.choices().margin, *x);
+      const bool holds = lmi::all_hold(margins);
+      if (!holds && result_.point) continue;
+      result_.point = true;
+      result_.x = *x;
+      result_.margins = std::move(margins);
+      if (holds || !result_.margins.violations.empty()) return finish();
+    }
+  }
+
+  void take_multipliers(const Left& left, const lmi::Formulation& formulation) {
+    lmi::FoundMultipliers found;
+    for (const RationalBlock& block : faces_.blocks()) {
+      found.Y.push_back(
+          numbers::MatrixOf<DoubleDouble>::Constant(block.size, block.size, DoubleDouble(0)));
+      found.rows.emplace_back(static_cast<std::size_t>(block.size), 0);
+    }
+    const lmi::Multipliers Y = lmi::multipliers_of(formulation, left.blocks.size(), solved_);
+    for (std::size_t k = 0; k < Y.size(); ++k) {
+      const std::size_t at = left.blocks[k];
+      const auto& kept = formulation.releases.kept[k];
+      found.rows[at] = formulation.balance.rows[k];
+      for (std::size_t i = 0; i < kept.size(); ++i)
+        for (std::size_t j = 0; j < kept.size(); ++j)
+          found.Y[at](kept[i], kept[j]) =
+              Y[k](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
+    }
+    if (formulation.homogenised) found.v = solved_.Y.values[Y.size()][0];
+    const lmi::ExactMultipliers exact = lmi::exact_multipliers(faces_, found);
+    if (exact.say == lmi::ExactMultipliers::Say::nothing) return;
+    std::string on;
+    for (const lmi::FaceOfBlock& face : exact.faces)
+      on += (on.empty() ? "" : ", ") + faces_.names()[face.block];
+    if (exact.say == lmi::ExactMultipliers::Say::excludes) {
+      if (faces_.steps() == 0) keep_multipliers(exact);
+      faces_.exclude("exact multipliers of " + on + " exclude every solution");
+      return finish();
+    }
+    faces_.note("exact multipliers of " + on + " leave equality on their range");
+    faces_.restrict_to(exact.faces);
+  }
+
+  /// Those of the blocks themselves, in the units of the data.
+  void keep_multipliers(const lmi::ExactMultipliers& exact) {
+    for (const RationalBlock& block : stated_)
+      result_.multipliers.push_back(numbers::Matrix::Zero(block.size, block.size));
+    for (std::size_t k = 0; k < exact.faces.size(); ++k) {
+      const lmi::FaceOfBlock& face = exact.faces[k];
+      const numbers::RationalMatrix half = face.V.lazyProduct(exact.S[k]);
+      const numbers::RationalMatrix Y = half.lazyProduct(face.V.transpose());
+      result_.multipliers[face.block] =
+          Y.unaryExpr([](const Rational& y) { return nearest_double(y); });
+    }
+  }
+
+  const Posed& posed_;
+  const Solve& solve_;
+  std::vector<RationalBlock> stated_;
+  Faces faces_;
+  Attempt result_;
+  sdp::Solution solved_;  ///< the first round of what was left last
+  bool done_ = false;
+};
+
+}  // namespace
+
+std::optional<Attempt> attempt_on_faces(const Posed& posed, const Solve& solve) {
+  int rows = 0;
+  for (const lmi::Block& block : posed.lmi.blocks) rows += block.size;
+  if (posed.lmi.unknowns > kMostUnknowns || rows > kMostRows) return std::nullopt;
+  return OnFaces(posed, solve).run();
+}
+
+}  // namespace gainsmith::design

@@ -1,0 +1,49 @@
+// The number type "rational": exact values of what is made of decimals by rational operations.
+//
+// What has no rational value in general - roots, exponentials, norms, pi - throws EvaluationError,
+// also where it has one, but for exp, expm, sin, cos and tanh of 0. An inverse that does not exist
+// throws as in every number type.
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <string>
+
+#include "base/rational.h"
+#include "expr/number_type.h"
+#include "expr/program.h"
+#include "numbers/matrix.h"
+
+template <>
+struct Eigen::NumTraits<gainsmith::Rational> : Eigen::GenericNumTraits<gainsmith::Rational> {
+  enum {
+    IsComplex = 0,
+    IsInteger = 0,
+    IsSigned = 1,
+    RequireInitialization = 1,
+    ReadCost = 10,
+    AddCost = 100,
+    MulCost = 200
+  };
+};
+
+namespace gainsmith::numbers {
+
+using RationalMatrix = Eigen::Matrix<Rational, Eigen::Dynamic, Eigen::Dynamic>;
+
+struct RationalNumbers {
+  using Value = RationalMatrix;
+
+  void apply(const expr::Instruction& instruction, expr::Operands<Value> operands,
+             Value& out) const;
+};
+
+using RationalValues = std::map<std::string, RationalMatrix, std::less<>>;
+
+/// Evaluates once. EvaluationError when an operation or an input has no value here.
+RationalMatrix rational_value(const expr::Program& program, const RationalValues& values);
+
+/// (X + X') / 2.
+RationalMatrix rational_symmetric_part(const RationalMatrix& x);
+
+}  // namespace gainsmith::numbers

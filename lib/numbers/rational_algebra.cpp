@@ -1,0 +1,85 @@
+#include "numbers/rational_algebra.h"
+
+namespace gainsmith::numbers {
+
+namespace {
+
+/// Row r times factor from row i, from column `first` on.
+void subtract_row(RationalMatrix& M, Eigen::Index i, Eigen::Index r, Eigen::Index first) {
+  const Rational factor = M(i, first);
+  for (Eigen::Index j = first; j < M.cols(); ++j)
+    if (M(r, j) != 0) M(i, j) -= factor * M(r, j);
+}
+
+}  // namespace
+
+Echelon reduced_echelon(RationalMatrix M) {
+  Echelon result;
+  Eigen::Index r = 0;
+  for (Eigen::Index c = 0; c < M.cols() && r < M.rows(); ++c) {
+    Eigen::Index found = r;
+    while (found < M.rows() && M(found, c) == 0) ++found;
+    if (found == M.rows()) continue;
+    if (found != r) M.row(found).swap(M.row(r));
+    const Rational pivot = M(r, c);
+    for (Eigen::Index j = c; j < M.cols(); ++j)
+      if (M(r, j) != 0) M(r, j) /= pivot;
+    for (Eigen::Index i = 0; i < M.rows(); ++i)
+      if (i != r && M(i, c) != 0) subtract_row(M, i, r, c);
+    result.pivots.push_back(c);
+    ++r;
+  }
+  result.rows = M.topRows(r);
+  return result;
+}
+
+std::optional<RationalMatrix> rational_solution(const RationalMatrix& M, const RationalMatrix& B) {
+  RationalMatrix whole(M.rows(), M.cols() + B.cols());
+  whole << M, B;
+  const Echelon echelon = reduced_echelon(std::move(whole));
+  RationalMatrix X = RationalMatrix::Constant(M.cols(), B.cols(), Rational(0));
+  for (std::size_t r = 0; r < echelon.pivots.size(); ++r) {
+    const Eigen::Index pivot = echelon.pivots[r];
+    if (pivot >= M.cols()) return std::nullopt;
+    X.row(pivot) = echelon.rows.row(static_cast<Eigen::Index>(r)).tail(B.cols());
+  }
+  return X;
+}
+
+std::optional<RationalMatrix> rational_inverse(const RationalMatrix& M) {
+  return rational_solution(M, RationalMatrix::Identity(M.rows(), M.rows()));
+}
+
+bool is_rational_definite(RationalMatrix M) {
+  const Eigen::Index n = M.rows();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (!(M(k, k) > 0)) return false;
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      if (M(i, k) == 0) continue;
+      const Rational factor = M(i, k) / M(k, k);
+      for (Eigen::Index j = k + 1; j < n; ++j) M(i, j) -= factor * M(k, j);
+    }
+  }
+  return true;
+}
+
+bool is_rational_semidefinite(RationalMatrix M) {
+  const Eigen::Index n = M.rows();
+  for (Eigen::Index k = 0; k < n; ++k) {
+    if (M(k, k) < 0) return false;
+    if (M(k, k) == 0) {
+      // A row whose diagonal element is 0 has to be 0; it changes nothing of the others.
+      for (Eigen::Index j = k + 1; j < n; ++j)
+        if (M(k, j) != 0) return false;
+      continue;
+    }
+    for (Eigen::Index i = k + 1; i < n; ++i) {
+      if (M(i, k) == 0) continue;
+      const Rational factor = M(i, k) / M(k, k);
+      for (Eigen::Index j = k + 1; j < n; ++j) M(i, j) -= factor * M(k, j);
+    }
+  }
+  return true;
+}
+
+}  // namespace gainsmith::numbers

@@ -1,0 +1,29 @@
+// Linear algebra over fractions: nothing is rounded.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "numbers/rational.h"
+
+namespace gainsmith::numbers {
+
+/// The reduced echelon form of M without its rows of zeros: row r has a 1 in column pivots[r],
+/// where the other rows have 0.
+struct Echelon {
+  RationalMatrix rows;
+  std::vector<Eigen::Index> pivots;
+};
+Echelon reduced_echelon(RationalMatrix M);
+
+/// Some X with M X = B; none when there is none.
+std::optional<RationalMatrix> rational_solution(const RationalMatrix& M, const RationalMatrix& B);
+
+/// None for a singular matrix.
+std::optional<RationalMatrix> rational_inverse(const RationalMatrix& M);
+
+/// Of a symmetric matrix, by elimination: v'Mv > 0 (>= 0) for all v != 0. Empty matrices are both.
+bool is_rational_definite(RationalMatrix M);
+bool is_rational_semidefinite(RationalMatrix M);
+
+}  // namespace gainsmith::numbers
