@@ -1,14 +1,11 @@
 #include "hybrid/steps.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
-#include <boost/math/quadrature/gauss.hpp>
 #include <cmath>
-#include <cstddef>
 
 #include "base/error.h"
 #include "base/number.h"
+#include "numbers/dense.h"
 
 namespace gainsmith::hybrid {
 
@@ -37,7 +34,7 @@ Extended short_exponential(const Extended& generator, long double length) {
   Extended term = Extended::Identity(generator.rows(), generator.cols());
   Extended sum = term;
   for (int k = 1; k <= kTerms; ++k) {
-    term = (term * generator * (length / k)).eval();
+    term = (term.lazyProduct(generator) * (length / k)).eval();
     sum += term;
   }
   return sum;
@@ -46,8 +43,7 @@ Extended short_exponential(const Extended& generator, long double length) {
 /// How fast the flow may swing or grow, per unit of time.
 double fastest_rate(const numbers::Matrix& matrix) {
   double rate = 0;
-  const Eigen::EigenSolver<numbers::Matrix> solver(matrix, false);
-  for (const auto& lambda : solver.eigenvalues())
+  for (const auto& lambda : numbers::eigenvalues(matrix))
     rate = std::max({rate, std::abs(lambda.imag()), lambda.real()});
   return rate;
 }
@@ -56,38 +52,7 @@ double one_norm(const numbers::Matrix& matrix) {
   return matrix.cwiseAbs().colwise().sum().maxCoeff();
 }
 
-struct Nodes {
-  std::array<double, FlowSteps::kNodes> positions;
-  std::array<double, FlowSteps::kNodes> weights;
-};
-
-/// The Gauss-Legendre rule on [0, 1].
-const Nodes& rule() {
-  static const Nodes kRule = [] {
-    // The right half of the rule on [-1, 1], from the middle. The wider type keeps the last digits
-    // of the nodes near 0.
-    using Half = boost::math::quadrature::gauss<long double, FlowSteps::kNodes>;
-    constexpr std::size_t kHalf = FlowSteps::kNodes / 2;
-    Nodes found{};
-    for (std::size_t i = 0; i < kHalf; ++i) {
-      const long double x = Half::abscissa()[i];
-      found.positions[kHalf + i] = static_cast<double>((1 + x) / 2);
-      found.positions[kHalf - 1 - i] = static_cast<double>((1 - x) / 2);
-      found.weights[kHalf + i] = static_cast<double>(Half::weights()[i] / 2);
-      found.weights[kHalf - 1 - i] = found.weights[kHalf + i];
-    }
-    return found;
-  }();
-  return kRule;
-}
-
 }  // namespace
-
-const std::array<double, FlowSteps::kNodes>& FlowSteps::node_positions() {
-  return rule().positions;
-}
-
-const std::array<double, FlowSteps::kNodes>& FlowSteps::node_weights() { return rule().weights; }
 
 FlowSteps::FlowSteps(const AffineMap& flow, double longest, const Place& place) : flow_(flow) {
   const Eigen::Index n = flow.linear.rows();
@@ -102,23 +67,11 @@ FlowSteps::FlowSteps(const AffineMap& flow, double longest, const Place& place) 
   while (norm * std::ldexp(top, -last) > kFirstNorm) ++last;
   shortest_ = std::ldexp(top, -last);
 
-  const Extended generator = augmented(flow);
-  std::array<Extended, kNodes + 1> maps;
-  maps[kNodes] = short_exponential(generator, shortest_);
-  for (std::size_t i = 0; i < kNodes; ++i)
-    maps[i] =
-        short_exponential(generator, shortest_ * static_cast<long double>(node_positions()[i]));
+  Extended map = short_exponential(augmented(flow), shortest_);
   for (int level = 0; level <= last; ++level) {
-    const auto rounded = [&](std::size_t i) -> numbers::Matrix { return maps[i].cast<double>(); };
-    maps_.push_back({rounded(kNodes).topLeftCorner(n, n), rounded(kNodes).topRightCorner(n, 1)});
-    AffineMap nodes{numbers::Matrix(kNodes * n, n), Eigen::VectorXd(kNodes * n)};
-    for (std::size_t i = 0; i < kNodes; ++i) {
-      const Eigen::Index row = static_cast<Eigen::Index>(i) * n;
-      nodes.linear.middleRows(row, n) = rounded(i).topLeftCorner(n, n);
-      nodes.constant.segment(row, n) = rounded(i).topRightCorner(n, 1);
-    }
-    to_nodes_.push_back(std::move(nodes));
-    for (Extended& map : maps) map = (map * map).eval();
+    const numbers::Matrix rounded = map.cast<double>();
+    maps_.push_back({rounded.topLeftCorner(n, n), rounded.topRightCorner(n, 1)});
+    map = map.lazyProduct(map).eval();
   }
 }
 
@@ -163,25 +116,6 @@ void FlowSteps::advance(const FlowStep& step, const Eigen::Ref<const Eigen::Vect
   const AffineMap& map = maps_[static_cast<std::size_t>(step.level)];
   out = map.constant;
   out.noalias() += map.linear.lazyProduct(x);
-}
-
-void FlowSteps::nodes(const FlowStep& step, const Eigen::Ref<const Eigen::VectorXd>& x,
-                      Eigen::Ref<numbers::Matrix> out) const {
-  if (step.level == FlowStep::kRest) {
-    static const numbers::Matrix kPowers = [] {
-      numbers::Matrix powers = numbers::Matrix::Ones(kDegree + 1, kNodes);
-      for (int k = 1; k <= kDegree; ++k)
-        for (int i = 0; i < kNodes; ++i)
-          powers(k, i) = powers(k - 1, i) * node_positions()[static_cast<std::size_t>(i)];
-      return powers;
-    }();
-    out.noalias() = taylor_terms(step.length, x).lazyProduct(kPowers);
-    return;
-  }
-  const AffineMap& map = to_nodes_[static_cast<std::size_t>(step.level)];
-  Eigen::VectorXd stacked = map.constant;
-  stacked.noalias() += map.linear.lazyProduct(x);
-  out = stacked.reshaped(x.size(), kNodes);
 }
 
 }  // namespace gainsmith::hybrid

@@ -15,7 +15,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <array>
 #include <vector>
 
 #include "hybrid/affine.h"
@@ -32,8 +31,6 @@ struct FlowStep {
 
 class FlowSteps {
  public:
-  /// Gauss-Legendre nodes a step, for integrals along the flow.
-  static constexpr int kNodes = 8;
   static constexpr int kDegree = 12;
 
   /// `longest`: the longest interval to be cut, > 0. InputError, at `place`, when M or b is not
@@ -47,14 +44,6 @@ class FlowSteps {
   void advance(const FlowStep& step, const Eigen::Ref<const Eigen::VectorXd>& x,
                Eigen::Ref<Eigen::VectorXd> out) const;
 
-  /// The states at the Gauss nodes of a step from x, one a column (size x kNodes).
-  void nodes(const FlowStep& step, const Eigen::Ref<const Eigen::VectorXd>& x,
-             Eigen::Ref<numbers::Matrix> out) const;
-
-  /// Nodes and weights on [0, 1]; the weights add up to 1.
-  static const std::array<double, kNodes>& node_positions();
-  static const std::array<double, kNodes>& node_weights();
-
   double shortest() const { return shortest_; }
   int levels() const { return static_cast<int>(maps_.size()); }
 
@@ -62,9 +51,8 @@ class FlowSteps {
   numbers::Matrix taylor_terms(double length, const Eigen::Ref<const Eigen::VectorXd>& x) const;
 
   AffineMap flow_;
-  double shortest_ = 0;              ///< s_0
-  std::vector<AffineMap> maps_;      ///< over s_k
-  std::vector<AffineMap> to_nodes_;  ///< from x to the nodes of a step s_k, stacked
+  double shortest_ = 0;          ///< s_0
+  std::vector<AffineMap> maps_;  ///< over s_k
 };
 
 }  // namespace gainsmith::hybrid

@@ -51,8 +51,9 @@ Svd full_svd(const Matrix& M) {
 
 namespace {
 
-/// Powers of two d with d_i^2 M_ii from 1 to 4, of a symmetric M with a diagonal > 0; ones otherwise.
-/// In them neither the pivots nor the condition of a positive definite matrix depend on its units.
+/// Powers of two d with d_i^2 M_ii from 1 to 4, of a symmetric M with a diagonal > 0; ones
+/// otherwise. In them neither the pivots nor the condition of a positive definite matrix depend on
+/// its units.
 Vector symmetric_units(const Matrix& M) {
   Vector d = Vector::Ones(M.rows());
   if (!(M.diagonal().array() > 0).all() || M != M.transpose()) return d;
@@ -71,6 +72,16 @@ Inverse inverse(const Matrix& M) {
   return {d.asDiagonal() * lu.inverse() * d.asDiagonal(), lu.rcond()};
 }
 
-ComplexMatrix complex_inverse(const ComplexMatrix& M) { return M.inverse(); }
+ComplexMatrix complex_inverse(const ComplexMatrix& M) {
+  // Of R + i I as the real [R, -I; I, R].
+  const Eigen::Index n = M.rows();
+  Matrix real(2 * n, 2 * n);
+  real << M.real(), -M.imag(), M.imag(), M.real();
+  const Matrix found = Eigen::PartialPivLU<Matrix>(real).inverse();
+  ComplexMatrix result(n, n);
+  result.real() = found.topLeftCorner(n, n);
+  result.imag() = found.bottomLeftCorner(n, n);
+  return result;
+}
 
 }  // namespace gainsmith::numbers

@@ -94,32 +94,6 @@ TEST(FlowSteps, NumberOfStepsGrowsWithTheLogarithmOfTheStiffness) {
   EXPECT_LE(count(1e6), count(1) + 45);
 }
 
-TEST(FlowSteps, NodesLieOnTheFlow) {
-  const AffineMap map{Matrix{{0.1, -3}, {3, -0.2}}, Eigen::Vector2d(1, -1)};
-  const FlowSteps steps(map, 2);
-  std::vector<FlowStep> cuts;
-  steps.cut(1.2345, cuts);
-  ASSERT_EQ(cuts.back().level, FlowStep::kRest);
-  const VectorXd x = Eigen::Vector2d(1, 2);
-  for (const FlowStep& step : cuts) {
-    Matrix nodes(2, FlowSteps::kNodes);
-    steps.nodes(step, x, nodes);
-    for (int i = 0; i < FlowSteps::kNodes; ++i) {
-      const double t = step.length * FlowSteps::node_positions()[static_cast<std::size_t>(i)];
-      EXPECT_LT((nodes.col(i) - flow(steps, t, x)).norm(), 1e-14);
-    }
-  }
-}
-
-TEST(FlowSteps, QuadratureIsExactForPolynomialsOfDegreeFifteen) {
-  for (int degree = 0; degree <= 15; ++degree) {
-    double sum = 0;
-    for (std::size_t i = 0; i < FlowSteps::kNodes; ++i)
-      sum += FlowSteps::node_weights()[i] * std::pow(FlowSteps::node_positions()[i], degree);
-    EXPECT_NEAR(sum, 1.0 / (degree + 1), 1e-15) << degree;
-  }
-}
-
 TEST(FlowSteps, RefusesFlowsThatAreNoNumbersOrTooFast) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(FlowSteps(linear(Matrix::Constant(1, 1, nan)), 1), InputError);

@@ -78,8 +78,8 @@ TEST(JsonText, DecimalsAreWrittenAsTheyWereRead) {
   EXPECT_EQ(decimal_of(parse_json("-0", "f")), "0") << "a whole number has no sign at zero";
 }
 
-TEST(JsonText, NumbersOf17DigitsStayDoubles) {
-  const Json document = parse_json("[0.10000000000000001, 1.5, 1e+100, 7]", "f");
+TEST(JsonText, NumbersAsTheyArePrintedStayDoubles) {
+  const Json document = parse_json("[0.1, 0.30000000000000004, 1e+100, 7]", "f");
   EXPECT_TRUE(document[0].is_number_float());
   EXPECT_TRUE(document[1].is_number_float());
   EXPECT_TRUE(document[2].is_number_float());
