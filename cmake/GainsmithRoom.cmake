@@ -6,12 +6,12 @@
 #   file to compile, keeps them apart and shows that each includes what it uses.
 function(gainsmith_compiled_together target)
   if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT GAINSMITH_TIDY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   endif()
 endfunction()
 
 # gainsmith_group(TARGET NAME a.cpp ...)
-#   Instead of groups of eight: these sources of TARGET are one group, and those of no group stay apart.
+#   Instead of groups of twelve: these sources of TARGET are one group, and those of no group stay apart.
 function(gainsmith_group target name)
   set_target_properties(${target} PROPERTIES UNITY_BUILD_MODE GROUP)
   set_source_files_properties(${ARGN} PROPERTIES UNITY_GROUP ${name})

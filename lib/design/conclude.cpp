@@ -10,10 +10,13 @@ namespace gainsmith::design {
 
 namespace {
 
-model::SolverRecord record_of(const Attempt& attempt) {
+model::SolverRecord record_of(const Attempt& attempt, bool has_objective) {
   const sdp::Solution& solution = attempt.solution;
   model::SolverRecord record;
   record.status = attempt.refuted() ? "infeasible" : attempt.is_optimal() ? "optimal" : "undecided";
+  // A point that came from inside is no minimum.
+  if (has_objective && record.status == "optimal" && attempt.question.goal != lmi::Goal::objective)
+    record.status = "feasible";
   record.cause = to_string(solution.cause);
   record.iterations = solution.iterations;
   record.relative_gap = solution.relative_gap;
@@ -26,7 +29,7 @@ model::SolverRecord record_of(const Attempt& attempt) {
 /// What a point that holds has less than was wished for.
 void note_wishes(const Attempt& point, model::Gains& gains) {
   // A minimum has its margin in the solver's units, within this of the margin in its own diagonal.
-  constexpr double kSame = 1e-3;
+  constexpr double kSame = 0.5;
   for (const model::Margin& margin : point.margins.margins)
     if (margin.strict && margin.reached < kSame * margin.required)
       gains.solver.add_message(margin.name + " holds with the margin " + brief(margin.reached, 2) +
@@ -188,16 +191,17 @@ void conclude(const Climb& climb, model::Gains& gains) {
   gains.verdict = model::Verdict::undecided;
   const Attempt* point = climb.point();
   const Attempt* refuted = climb.refutation();
+  const bool has_objective = climb.posed().lmi.has_objective;
   if (point == nullptr || !point->holds()) {
-    gains.solver = record_of(climb.last());
+    gains.solver = record_of(climb.last(), has_objective);
     if (refuted == nullptr && refute_by_zero_diagonal(climb, gains)) return;
   }
   if (point != nullptr && (point->holds() || refuted == nullptr)) {
-    gains.solver = record_of(*point);
+    gains.solver = record_of(*point, has_objective);
     return accept_point(climb, *point, gains);
   }
   if (refuted != nullptr) {
-    gains.solver = record_of(*refuted);
+    gains.solver = record_of(*refuted, has_objective);
     return accept_refutation(climb, *refuted, gains);
   }
   if (const Attempt* faces = climb.find(Rung::on_faces)) {

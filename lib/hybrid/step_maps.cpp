@@ -13,6 +13,7 @@ namespace {
 
 using Eigen::Index;
 using numbers::Matrix;
+using numbers::times;
 using Wide = numbers::MatrixOf<Decimal100>;
 
 constexpr double kWideUnit = 1e-98;
@@ -78,10 +79,11 @@ void add_rests(const Wide& G, double shortest, const std::vector<Wide>& forms, E
   Wide power = step;
   for (std::size_t k = 1; k <= kRestTerms; ++k) {
     exact.rest.powers.emplace_back(power.topRows(n));
-    power = (power * step / Decimal100(static_cast<int>(k) + 1)).eval();
+    power = times<Decimal100>(power, step) / Decimal100(static_cast<int>(k) + 1);
   }
-  exact.rest.tails = tails_of(
-      sizes, kRestTerms, [&](const Matrix& term, double k) { return Matrix(term * sizes / k); });
+  exact.rest.tails = tails_of(sizes, kRestTerms, [&](const Matrix& term, double k) {
+    return Matrix(times<double>(term, sizes) / k);
+  });
   for (Matrix& tail : exact.rest.tails) tail = tail.topRows(n).eval();
   for (const Wide& Q : forms) {
     ExactSeries series;
@@ -89,12 +91,14 @@ void add_rests(const Wide& G, double shortest, const std::vector<Wide>& forms, E
     Wide form = Q * unit;
     for (std::size_t k = 1; k <= kRestTerms; ++k) {
       series.powers.push_back(form);
-      form = ((step.transpose() * form + form * step) / Decimal100(static_cast<int>(k) + 1)).eval();
+      form = Wide(times<Decimal100>(step.transpose(), form) + times<Decimal100>(form, step)) /
+             Decimal100(static_cast<int>(k) + 1);
     }
-    series.tails = tails_of(sizes_of(rounded_to<double>(series.powers.front())), kRestTerms,
-                            [&](const Matrix& term, double k) {
-                              return Matrix((sizes.transpose() * term + term * sizes) / k);
-                            });
+    series.tails = tails_of(
+        sizes_of(rounded_to<double>(series.powers.front())), kRestTerms,
+        [&](const Matrix& term, double k) {
+          return Matrix((times<double>(sizes.transpose(), term) + times<double>(term, sizes)) / k);
+        });
     exact.rest_integrals.push_back(std::move(series));
   }
 }
@@ -228,23 +232,25 @@ ExactSteps exact_steps(const Coordinates& coordinates, const FlowSteps& steps,
   const Decimal100 length(steps.shortest());
   const Wide I = Wide::Identity(n + 1, n + 1);
   ExactSteps exact;
-  exact.maps.push_back(series(
-      I, [&](const Wide& term, int k) { return Wide(term * G * (length / Decimal100(k))); }));
+  exact.maps.push_back(series(I, [&](const Wide& term, int k) {
+    return Wide(times<Decimal100>(term, G) * (length / Decimal100(k)));
+  }));
   const double unit = kWideUnit * static_cast<double>(n + 2);
   exact.errors.push_back(unit * std::exp(std::min(row_norm(G) * steps.shortest(), 100.0)));
   for (const Wide& Q : forms)
     exact.integrals.push_back({series(Wide(Q * length), [&](const Wide& term, int k) {
-      return Wide((G.transpose() * term + term * G) * (length / Decimal100(k + 1)));
+      return Wide(Wide(times<Decimal100>(G.transpose(), term) + times<Decimal100>(term, G)) *
+                  (length / Decimal100(k + 1)));
     })});
   for (int level = 1; level < steps.levels(); ++level) {
     const Wide X = exact.maps.back();
     const double size = row_norm(X);
     const double e = exact.errors.back();
     exact.errors.push_back(2 * size * e + e * e + unit * size * size);
-    exact.maps.push_back(X * X);
+    exact.maps.push_back(times<Decimal100>(X, X));
     for (auto& integral : exact.integrals) {
       const Wide W = integral.back();
-      integral.push_back(W + X.transpose() * W * X);
+      integral.push_back(W + times<Decimal100>(times<Decimal100>(X.transpose(), W), X));
     }
   }
   add_rests(G, steps.shortest(), forms, exact);

@@ -18,12 +18,6 @@ const RationalMatrix* term_of(const RationalBlock& block, int i) {
   return nullptr;
 }
 
-bool is_zero(const RationalMatrix& M) {
-  for (Eigen::Index i = 0; i < M.size(); ++i)
-    if (M(i) != 0) return false;
-  return true;
-}
-
 std::string place_of(int row) {
   const std::string number = std::to_string(row + 1);
   return "element (" + number + ", " + number + ")";
@@ -189,7 +183,7 @@ void Faces::drop_rows(std::size_t block, const std::vector<int>& rows) {
   std::vector<std::pair<int, RationalMatrix>> terms;
   for (const auto& [i, matrix] : blocks_[block].terms) {
     RationalMatrix part = matrix(stay, stay);
-    if (!is_zero(part)) terms.emplace_back(i, std::move(part));
+    if (!numbers::is_rational_zero(part)) terms.emplace_back(i, std::move(part));
   }
   blocks_[block].terms = std::move(terms);
   blocks_[block].size = static_cast<int>(stay.size());
@@ -231,7 +225,7 @@ bool Faces::impose(const RationalMatrix& equations) {
       RationalMatrix sum = RationalMatrix::Constant(block.size, block.size, Rational(0));
       for (const auto& [i, matrix] : block.terms)
         if (M(i, z) != 0) sum += M(i, z) * matrix;
-      if (!is_zero(sum)) terms.emplace_back(static_cast<int>(z), std::move(sum));
+      if (!numbers::is_rational_zero(sum)) terms.emplace_back(static_cast<int>(z), std::move(sum));
     }
     block.terms = std::move(terms);
   }

@@ -112,6 +112,8 @@ class Checker {
     margin.worst_point = worst.point;
     margin.holds = result_.violations.size() == violations && worst.value >= -rounding &&
                    check(inequality, comparison, margin.name);
+    // What is below 0 is then rounding: the decimals hold.
+    if (margin.holds) margin.reached = std::max(margin.reached, 0.0);
     result_.margins.push_back(std::move(margin));
   }
 

@@ -95,6 +95,9 @@ std::optional<std::vector<double>> printable_point(const Faces& faces,
     Rational& value = x[static_cast<std::size_t>(i) - 1];
     value = rounded(value, decimals[static_cast<std::size_t>(i) - 1]);
   }
+  // Reduction of lattices of more unknowns takes minutes.
+  constexpr std::size_t kMostUnknowns = 20;
+  if (equations.unknowns.size() > kMostUnknowns) return std::nullopt;
   if (!equations.unknowns.empty()) {
     RationalMatrix A = equations.A;
     std::vector<Rational> near;

@@ -4,6 +4,7 @@
 
 #include "expr/evaluate.h"
 #include "model/gains.h"
+#include "numbers/rational_algebra.h"
 
 namespace gainsmith::lmi {
 
@@ -14,12 +15,6 @@ using numbers::RationalValues;
 
 RationalMatrix zeros(const expr::Shape& shape) {
   return RationalMatrix::Constant(shape.rows, shape.cols, Rational(0));
-}
-
-bool is_zero(const RationalMatrix& M) {
-  for (Eigen::Index i = 0; i < M.size(); ++i)
-    if (M(i) != 0) return false;
-  return true;
 }
 
 /// The values of a block's variables, those that the file states as it states them.
@@ -48,7 +43,7 @@ void add_point(const Statement& statement, const Block& block, RationalValues& v
 }
 
 void add_term(int i, RationalMatrix matrix, RationalBlock& result) {
-  if (!is_zero(matrix)) result.terms.emplace_back(i, std::move(matrix));
+  if (!numbers::is_rational_zero(matrix)) result.terms.emplace_back(i, std::move(matrix));
 }
 
 /// EvaluationError where something has no fraction.

@@ -14,6 +14,7 @@ namespace {
 
 using numbers::Enclosed;
 using numbers::MatrixOf;
+using numbers::times;
 
 template <class S>
 using VectorOf = Eigen::Matrix<S, Eigen::Dynamic, 1>;
@@ -59,6 +60,7 @@ template <class S>
 struct Sums {
   VectorOf<S> r;          ///< r_0 = sum <B_k0, Y_k> = -v
   Eigen::VectorXd error;  ///< of r
+  Eigen::VectorXd noise;  ///< of `error` and r, what comes of coefficients that are only rounding
   Eigen::VectorXd W;
   MatrixOf<S> H;
   numbers::Matrix H_error;  ///< of H: its rounding, and what the B_ki are known to
@@ -79,23 +81,29 @@ double upper(const S& value) {
 template <class S>
 void add_block(const ExactBlock<S>& block, const MatrixOf<S>& Y, bool strict, Sums<S>& sums) {
   const Eigen::Index n = Y.rows();
-  // sin(pi) is 0 up to the rounding of terms of a size that this understates.
-  constexpr double kTerms = 1e10;
+  constexpr double kNoEntry = 1e-60;
+  double scale = 0;
+  for (const auto& [i, B] : block.terms)
+    for (Eigen::Index e = 0; e < Y.size(); ++e)
+      if (upper(B.mid(e)) > 2 * B.rad(e)) scale = std::max(scale, upper(B.mid(e)));
   const double rounding = 2 * static_cast<double>(n * n + 2 * n + 4) * numbers::unit_roundoff<S>();
   const numbers::Matrix sizes = Y.unaryExpr([](const S& y) { return upper(y); });
   std::vector<MatrixOf<S>> moved;           // Y B_j Y
   std::vector<numbers::Matrix> largest;     // |Y| |B_j| |Y|
   std::vector<numbers::Matrix> error_of_B;  // what B_j is known to, and the rounding
   for (const auto& [i, B] : block.terms) {
-    moved.push_back(Y * B.mid * Y);
+    moved.push_back(times<S>(times<S>(Y, B.mid), Y));
     const numbers::Matrix of_B = B.mid.unaryExpr([](const S& b) { return upper(b); });
     error_of_B.push_back(rounding * of_B + B.rad);
-    largest.push_back(sizes * (of_B + B.rad) * sizes);
+    largest.push_back(times<double>(times<double>(sizes, of_B + B.rad), sizes));
     S r(0);
     for (Eigen::Index e = 0; e < Y.size(); ++e) r += B.mid(e) * Y(e);
     sums.r[i] += r;
-    sums.W[i] +=
-        of_B.cwiseMax(B.rad / (kTerms * numbers::unit_roundoff<S>())).cwiseProduct(sizes).sum();
+    sums.W[i] += of_B.cwiseProduct(sizes).sum();
+    // sin(pi) is no entry of the data, whatever the size of its rounding.
+    for (Eigen::Index e = 0; e < Y.size(); ++e)
+      if (B.rad(e) > 0 && of_B(e) <= B.rad(e) && B.rad(e) <= kNoEntry * scale)
+        sums.noise[i] += 2 * error_of_B.back()(e) * sizes(e);
     sums.error[i] += error_of_B.back().cwiseProduct(sizes).sum() * (1 + 1e-12);
   }
   for (std::size_t a = 0; a < moved.size(); ++a)
@@ -147,19 +155,19 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
   const auto L = cholesky(H);
   if (!L) return false;
   const MatrixOf<S> R = lower_inverse(*L);  // R H R' = I
-  const MatrixOf<S> rest = MatrixOf<S>::Identity(m, m) - R * H * R.transpose();
+  const MatrixOf<S> rest = MatrixOf<S>::Identity(m, m) - times<S>(times<S>(R, H), R.transpose());
   // What H is known to, and the rounding of R H R'.
   const numbers::Matrix size_R = R.unaryExpr([](const S& x) { return upper(x); });
   error += 4 * static_cast<double>(m + 2) * numbers::unit_roundoff<S>() *
            H.unaryExpr([](const S& x) { return upper(x); });
-  const numbers::Matrix unknown = size_R * error * size_R.transpose();
+  const numbers::Matrix unknown = times<double>(times<double>(size_R, error), size_R.transpose());
   double defect = 0;
   for (Eigen::Index a = 0; a < m; ++a) {
     double sum = unknown.row(a).sum();
     for (Eigen::Index b = 0; b < m; ++b) sum += upper(rest(a, b));
     defect = std::max(defect, sum);
   }
-  const VectorOf<S> e = R * r;
+  const VectorOf<S> e = R.lazyProduct(r);
   double norm = 0;
   for (Eigen::Index a = 0; a < m; ++a) {
     double size = upper(e[a]);
@@ -225,8 +233,9 @@ template <class S>
 Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen::Index m) {
   constexpr double kCounts = 1e-6;  // what strict blocks, or v, must have of all multipliers
   Refutation result;
-  Sums<S> sums{VectorOf<S>::Zero(m), Eigen::VectorXd::Zero(m), Eigen::VectorXd::Zero(m),
-               MatrixOf<S>::Zero(m, m), numbers::Matrix::Zero(m, m)};
+  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(m);
+  Sums<S> sums{VectorOf<S>::Zero(m),       zero, zero, zero, MatrixOf<S>::Zero(m, m),
+               numbers::Matrix::Zero(m, m)};
   bool definite = true;
   for (const Weighed<S>& weighed : blocks) {
     if (!(weighed.trace > 0 && weighed.trace >= least)) continue;
@@ -243,10 +252,13 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
     return result;
   double omega = 0;
   for (Eigen::Index i = 0; i < m; ++i) {
-    if ((sums.W[i] == 0 && sums.error[i] == 0) || (i == 0 && v >= 0)) continue;
-    omega = std::max(omega, sums.W[i] > 0 ? (upper(sums.r[i]) + sums.error[i]) / sums.W[i] : 1);
+    const double residual = i == 0 ? -v : upper(sums.r[i]);
+    const double missing = residual + sums.error[i] - sums.noise[i];
+    if (missing <= 0) continue;
+    const double share = missing / sums.W[i] * (1 + 1e-12);
+    omega = share < 1 ? std::max(omega, share) : 1;
   }
-  result.omega = std::isfinite(omega) ? std::min(1.0, omega * (1 + 1e-12)) : 1;
+  result.omega = omega;
   return result;
 }
 

@@ -7,6 +7,7 @@
 #include "numbers/ball_functions.h"
 #include "numbers/enclosed_functions.h"
 #include "numbers/enclosure.h"
+#include "numbers/shared_rules.h"
 
 namespace gainsmith::numbers {
 
@@ -81,17 +82,10 @@ struct EnclosureRules {
   void operator()(Is<Op::transpose>, const At& at, Value& out) const { out = transposed(at[0]); }
   void operator()(Is<Op::blocks>, const At& at, Value& out) const {
     out.resize(at.shape().rows, at.shape().cols);
-    const auto columns = static_cast<std::size_t>(at.attribute(0));
-    Eigen::Index row = 0;
-    for (std::size_t first = 0; first < at.operands.size(); first += columns) {
-      Eigen::Index column = 0;
-      for (std::size_t j = first; j < first + columns; ++j) {
-        out.mid.block(row, column, at[j].rows(), at[j].cols()) = at[j].mid;
-        out.rad.block(row, column, at[j].rows(), at[j].cols()) = at[j].rad;
-        column += at[j].cols();
-      }
-      row += at[first].rows();
-    }
+    for_each_block(at, [&](Eigen::Index row, Eigen::Index column, const Value& part) {
+      out.mid.block(row, column, part.rows(), part.cols()) = part.mid;
+      out.rad.block(row, column, part.rows(), part.cols()) = part.rad;
+    });
   }
   void operator()(Is<Op::index>, const At& at, Value& out) const {
     const Eigen::Index row = at.attribute(0), column = at.attribute(2);
@@ -237,12 +231,7 @@ void Enclosure<S>::apply(const expr::Instruction& instruction, expr::Operands<Va
 
 template <class S>
 Enclosed<S> enclose(const expr::Program& program, const EnclosedValues<S>& values) {
-  expr::Evaluator<Enclosure<S>> evaluator(program);
-  for (const expr::Input& input : program.inputs) {
-    const auto found = values.find(input.name);
-    if (found != values.end()) evaluator.set(input.name, found->second);
-  }
-  return evaluator.run();
+  return evaluate_once<Enclosure<S>>(program, values);
 }
 
 }  // namespace gainsmith::numbers

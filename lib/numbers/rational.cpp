@@ -2,6 +2,7 @@
 
 #include "expr/evaluate.h"
 #include "numbers/rational_algebra.h"
+#include "numbers/shared_rules.h"
 
 namespace gainsmith::numbers {
 
@@ -21,10 +22,13 @@ void map(const Function& function, const RationalMatrix& x, const RationalMatrix
   for (Eigen::Index i = 0; i < x.size(); ++i) out(i) = function(x(i), y(i));
 }
 
-bool is_zero(const RationalMatrix& x) {
-  for (Eigen::Index i = 0; i < x.size(); ++i)
-    if (x(i) != 0) return false;
-  return true;
+/// EvaluationError for fractions that are too long to compute with.
+void check_size(const RationalMatrix& x) {
+  constexpr std::size_t kMostBits = 20000;
+  for (const Rational& value : x.reshaped())
+    if (mpz_sizeinbase(mpq_numref(value.backend().data()), 2) > kMostBits ||
+        mpz_sizeinbase(mpq_denref(value.backend().data()), 2) > kMostBits)
+      throw expr::EvaluationError("the fraction has more than 6,000 digits");
 }
 
 struct Rules {
@@ -70,21 +74,15 @@ struct Rules {
     for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
       if (exponent % 2 == 1) out = Value(out.lazyProduct(square));
       if (exponent > 1) square = Value(square.lazyProduct(square));
+      check_size(square);
     }
   }
   void operator()(Is<Op::transpose>, const At& at, Value& out) const { out = at[0].transpose(); }
   void operator()(Is<Op::blocks>, const At& at, Value& out) const {
     out.resize(at.shape().rows, at.shape().cols);
-    const auto columns = static_cast<std::size_t>(at.attribute(0));
-    Eigen::Index row = 0;
-    for (std::size_t first = 0; first < at.operands.size(); first += columns) {
-      Eigen::Index column = 0;
-      for (std::size_t j = first; j < first + columns; ++j) {
-        out.block(row, column, at[j].rows(), at[j].cols()) = at[j];
-        column += at[j].cols();
-      }
-      row += at[first].rows();
-    }
+    for_each_block(at, [&](Eigen::Index row, Eigen::Index column, const Value& part) {
+      out.block(row, column, part.rows(), part.cols()) = part;
+    });
   }
   void operator()(Is<Op::index>, const At& at, Value& out) const {
     const Eigen::Index row = at.attribute(0), column = at.attribute(2);
@@ -128,17 +126,17 @@ struct Rules {
   template <Op op>
   requires expr::OneOf<op, Op::sin, Op::tanh>
   void operator()(Is<op>, const At& at, Value& out) const {
-    if (!is_zero(at[0])) not_rational(op);
+    if (!is_rational_zero(at[0])) not_rational(op);
     out = at[0];
   }
   template <Op op>
   requires expr::OneOf<op, Op::exp, Op::cos>
   void operator()(Is<op>, const At& at, Value& out) const {
-    if (!is_zero(at[0])) not_rational(op);
+    if (!is_rational_zero(at[0])) not_rational(op);
     out = Value::Constant(at[0].rows(), at[0].cols(), Rational(1));
   }
   void operator()(Is<Op::matrix_exponential>, const At& at, Value& out) const {
-    if (!is_zero(at[0])) not_rational(Op::matrix_exponential);
+    if (!is_rational_zero(at[0])) not_rational(Op::matrix_exponential);
     out = Value::Identity(at[0].rows(), at[0].cols());
   }
   template <Op op>
@@ -157,6 +155,7 @@ struct Rules {
 void RationalNumbers::apply(const expr::Instruction& instruction, expr::Operands<Value> operands,
                             Value& out) const {
   expr::dispatch(Rules{}, instruction, operands, out);
+  check_size(out);
 }
 
 RationalMatrix rational_value(const expr::Program& program, const RationalValues& values) {

@@ -13,6 +13,12 @@ void subtract_row(RationalMatrix& M, Eigen::Index i, Eigen::Index r, Eigen::Inde
 
 }  // namespace
 
+bool is_rational_zero(const RationalMatrix& M) {
+  for (const Rational& x : M.reshaped())
+    if (x != 0) return false;
+  return true;
+}
+
 Echelon reduced_echelon(RationalMatrix M) {
   Echelon result;
   Eigen::Index r = 0;

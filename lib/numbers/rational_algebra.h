@@ -8,6 +8,8 @@
 
 namespace gainsmith::numbers {
 
+bool is_rational_zero(const RationalMatrix& M);
+
 /// The reduced echelon form of M without its rows of zeros: row r has a 1 in column pivots[r],
 /// where the other rows have 0.
 struct Echelon {

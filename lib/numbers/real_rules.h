@@ -12,6 +12,7 @@
 
 #include "expr/number_type.h"
 #include "numbers/real.h"
+#include "numbers/shared_rules.h"
 
 namespace gainsmith::numbers {
 
@@ -98,16 +99,9 @@ struct RealRules {
   void operator()(Is<Op::transpose>, const At& at, Value& out) const { out = at[0].transpose(); }
   void operator()(Is<Op::blocks>, const At& at, Value& out) const {
     out.resize(at.shape().rows, at.shape().cols);
-    const auto columns = static_cast<std::size_t>(at.attribute(0));
-    Eigen::Index row = 0;
-    for (std::size_t first = 0; first < at.operands.size(); first += columns) {
-      Eigen::Index column = 0;
-      for (std::size_t j = first; j < first + columns; ++j) {
-        out.block(row, column, at[j].rows(), at[j].cols()) = at[j];
-        column += at[j].cols();
-      }
-      row += at[first].rows();
-    }
+    for_each_block(at, [&](Eigen::Index row, Eigen::Index column, const Value& part) {
+      out.block(row, column, part.rows(), part.cols()) = part;
+    });
   }
   void operator()(Is<Op::index>, const At& at, Value& out) const {
     out = at[0].block(at.attribute(0), at.attribute(2), at.attribute(1) - at.attribute(0),
@@ -214,12 +208,7 @@ void Real<Scalar>::apply(const expr::Instruction& instruction, expr::Operands<Va
 
 template <class Scalar>
 MatrixOf<Scalar> evaluate(const expr::Program& program, const ValuesOf<Scalar>& values) {
-  expr::Evaluator<Real<Scalar>> evaluator(program);
-  for (const expr::Input& input : program.inputs) {
-    const auto found = values.find(input.name);
-    if (found != values.end()) evaluator.set(input.name, found->second);
-  }
-  return evaluator.run();
+  return evaluate_once<Real<Scalar>>(program, values);
 }
 
 }  // namespace gainsmith::numbers

@@ -15,12 +15,6 @@
 
 namespace gainsmith::numbers {
 
-/// Without the blocking of large matrices.
-template <class S>
-MatrixOf<S> times(const MatrixOf<S>& A, const MatrixOf<S>& B) {
-  return A.lazyProduct(B);
-}
-
 /// The inverse by Gauss and Jordan with pivots in the column, and the reciprocal condition in the
 /// 1-norm: 0 when a pivot is 0. M must not be empty.
 template <class S>

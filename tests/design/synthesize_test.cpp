@@ -39,6 +39,26 @@ std::string lyapunov(const numbers::Matrix& A) {
          matrix_yaml(A) + "}\n";
 }
 
+/// Data of which the arithmetic knows nothing, or only a wide range, exclude nothing.
+TEST(SynthesizeTest, WhatIsNotKnownIsNoNo) {
+  for (const char* A : {"-eye(2) + 0.1*pinv([1, 1; 1, 1])", "where(0.1 + 0.2 > 0.3, 1, -1)*eye(2)",
+                        "-eye(2) - pinv([1, 2; 2, 4])", "(sign(sin(pi)) - 0.5)*eye(2)"}) {
+    const model::Gains gains = solve(
+        "problem: stable\nmethod:\n  method: lyapunov\n  data: {A: 2 x 2}\n  unknowns: {P: "
+        "symmetric 2}\n  require: {positive: P > 0, stable: He(P*A) < 0}\ndata: {A: \"" +
+        std::string(A) + "\"}\n");
+    EXPECT_NE(gains.verdict, model::Verdict::no) << A;
+  }
+  for (const char* least :
+       {"(100^60 + 0.5 - 10^120)", "sign(sqrt(2)^2 - 2)", "pinv([1, 2; 2, 4])(1, 1)"}) {
+    const model::Gains gains = solve(
+        std::string("problem: room\nmethod:\n  method: room\n  unknowns: {x: scalar}\n  require: "
+                    "{low: \"x > ") +
+        least + "\", high: x < 0.6}\n");
+    EXPECT_NE(gains.verdict, model::Verdict::no) << least;
+  }
+}
+
 /// A homogeneous LMI is feasible exactly when A is Hurwitz; the oracle is the eigenvalues.
 TEST(SynthesizeTest, LyapunovDecidesStability) {
   std::mt19937 generator(5);
