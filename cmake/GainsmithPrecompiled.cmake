@@ -1,11 +1,11 @@
 # Headers that are read once for all sources of the rooms that see them.
 
 # gainsmith_precompiled(TARGET SET)
-#   The sources of TARGET start with a set of precompiled headers: `eigen`, or `all` with nlohmann-json and
-#   fmt besides. They still include what they use: clang, clang-tidy and the dev preset, where ccache serves
-#   better, read them without.
+#   The sources of TARGET start with a set of precompiled headers: `eigen`, `all` with nlohmann-json and fmt
+#   besides, or `tests` with GoogleTest. They still include what they use: clang, and GAINSMITH_GROUPS=OFF, read
+#   them without.
 function(gainsmith_precompiled target set)
-  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR GAINSMITH_TIDY OR NOT CMAKE_BUILD_TYPE STREQUAL "Release")
+  if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU" OR NOT GAINSMITH_GROUPS)
     return()
   endif()
   set(headers gainsmith_headers_${set})
@@ -16,6 +16,10 @@ function(gainsmith_precompiled target set)
     target_link_libraries(${headers} PRIVATE Eigen3::Eigen third_party::fmt)
     target_precompile_headers(${headers} PRIVATE
       <Eigen/Core> <boost/multiprecision/mpfr.hpp> <algorithm> <functional> <map> <memory> <optional> <set> <string> <vector>)
+    if(set STREQUAL "tests")
+      target_link_libraries(${headers} PRIVATE GTest::gtest GTest::gmock)
+      target_precompile_headers(${headers} PRIVATE <gtest/gtest.h> <gmock/gmock.h> <Eigen/Dense> <random>)
+    endif()
     if(set STREQUAL "all")
       # What reads and writes text computes nothing.
       target_compile_options(${headers} PRIVATE -O1)

@@ -1,11 +1,11 @@
 # One library a room, one test program a room.
 
 # gainsmith_compiled_together(TARGET)
-#   A release build compiles the sources of TARGET in groups: what they instantiate of Eigen is then compiled
-#   once, in half the time. Their names must not collide; a dev build, where one changed file should be one
-#   file to compile, keeps them apart and shows that each includes what it uses.
+#   Compiles the sources of TARGET in groups: what they instantiate of Eigen is then compiled once, in half the
+#   time. Their names must not collide. GAINSMITH_GROUPS=OFF keeps them apart: one changed file is one file to
+#   compile, and each is seen to include what it uses.
 function(gainsmith_compiled_together target)
-  if(CMAKE_BUILD_TYPE STREQUAL "Release" AND NOT GAINSMITH_TIDY)
+  if(GAINSMITH_GROUPS)
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
   endif()
 endfunction()
@@ -37,6 +37,7 @@ function(gainsmith_test name)
   add_executable(${name}_test ${T_SOURCES})
   target_include_directories(${name}_test PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_link_libraries(${name}_test PRIVATE ${T_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
+  gainsmith_precompiled(${name}_test tests)
   gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 600)
 endfunction()

@@ -68,7 +68,8 @@ std::string certificate_brief(const model::CertificateRecord& certificate) {
 std::string conflict_text(const design::Conflict& conflict) {
   std::string text = "conflict    " + conflict_statement(conflict) + "\n";
   if (conflict.gain_bound) return text;
-  text += "            certificate of these alone: " + certificate_brief(conflict.certificate) + "\n";
+  text +=
+      "            certificate of these alone: " + certificate_brief(conflict.certificate) + "\n";
   if (conflict.undecided.empty())
     return text + "            without any one of them the others can be satisfied\n";
   return text + fmt::format("            whether {} {} needed is undecided\n",
@@ -82,14 +83,16 @@ std::string relaxations_text(const std::vector<design::Relaxation>& relaxations)
   for (const auto& relaxation : relaxations) width = std::max(width, relaxation.name.size());
   std::string text = fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}\n", "relax by", width, "it alone",
                                  "all together", "of scale");
-  const auto number = [](const std::optional<double>& value, const char* none) {
-    return value ? brief(*value, 4) : std::string(none);
+  const auto number = [](const std::optional<double>& value, bool at_most, const char* none) {
+    if (!value) return std::string(none);
+    return (at_most && *value > 0 ? "at most " : "") + brief(*value, 4);
   };
   for (const auto& relaxation : relaxations)
-    text += fmt::format(
-        "{:<{}}  {:>14}  {:>14}  {:>10}\n", relaxation.name, width,
-        number(relaxation.alone, relaxation.alone_undecided ? "undecided" : "does not help"),
-        number(relaxation.together, "undecided"), brief(relaxation.scale, 3));
+    text += fmt::format("{:<{}}  {:>14}  {:>14}  {:>10}\n", relaxation.name, width,
+                        number(relaxation.alone, relaxation.alone_at_most,
+                               relaxation.alone_undecided ? "undecided" : "does not help"),
+                        number(relaxation.together, relaxation.together_at_most, "undecided"),
+                        brief(relaxation.scale, 3));
   return text;
 }
 
@@ -107,6 +110,7 @@ std::string explanation_line(const design::Conflict& conflict,
 std::string explanation_text(const design::Explanation& explanation) {
   std::string text = fmt::format("problem     {}\nverdict     {}\n", explanation.gains.problem_name,
                                  verdict_line(explanation.gains));
+  if (!explanation.conflict) text += message_lines(explanation.gains);
   if (explanation.conflict) text += conflict_text(*explanation.conflict);
   text += relaxations_text(explanation.relaxations);
   for (const design::Reach& reach : explanation.reaches) text += negotiable_text(reach);
@@ -123,19 +127,19 @@ io::Json explanation_json(const design::Explanation& explanation) {
                        {"relaxations", io::Json::array()},
                        {"negotiable", io::Json::array()}};
   if (const auto& conflict = explanation.conflict)
-    document["conflict"] = {{"requirements", conflict->names},
-                            {"undecided", conflict->undecided},
-                            {"gain_bound", conflict->gain_bound},
-                            {"within_gain_bound", conflict->within_gain_bound},
-                            {"exact", conflict->certificate.exact},
-                            {"about", conflict->certificate.about},
-                            {"omega", conflict->certificate.omega}};
+    document["conflict"] = {
+        {"requirements", conflict->names},      {"undecided", conflict->undecided},
+        {"gain_bound", conflict->gain_bound},   {"within_gain_bound", conflict->within_gain_bound},
+        {"exact", conflict->certificate.exact}, {"about", conflict->certificate.about},
+        {"omega", conflict->certificate.omega}};
   for (const auto& relaxation : explanation.relaxations)
     document["relaxations"].push_back({{"requirement", relaxation.name},
                                        {"scale", relaxation.scale},
                                        {"alone", number(relaxation.alone)},
                                        {"alone_undecided", relaxation.alone_undecided},
-                                       {"together", number(relaxation.together)}});
+                                       {"alone_at_most", relaxation.alone_at_most},
+                                       {"together", number(relaxation.together)},
+                                       {"together_at_most", relaxation.together_at_most}});
   for (const auto& reach : explanation.reaches)
     document["negotiable"].push_back(
         {{"scalar", reach.name},

@@ -70,6 +70,17 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
   }
 }
 
+/// InputError when a file whose verdict is not yes has no gains.
+void refuse_without_gains(const model::Gains& gains, const model::Design& design,
+                          const std::string& file) {
+  if (gains.verdict == model::Verdict::yes || design.gains.empty() || !gains.gains.empty() ||
+      !gains.gain_functions.empty())
+    return;
+  throw InputError({file}, "the verdict is " + std::string(to_string(gains.verdict)) +
+                               ": the file has no gains to simulate; 'gainsmith explain' of its "
+                               "problem says what stands against them");
+}
+
 /// The scalars that the search of a file set.
 std::vector<std::string> scalars_of(const model::SearchRecord& search) {
   std::vector<std::string> scalars = search.over;
@@ -101,6 +112,15 @@ void check_searched(const model::Gains& gains, const std::string& file) {
   }
 }
 
+/// Whether a text is what synth writes, or was: it need not be whole.
+bool is_gain_file(const std::string& text) {
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (begin == std::string::npos || text[begin] != '{') return false;
+  const std::string head = text.substr(begin, 200);
+  return head.find("\"gainsmith\"") != std::string::npos ||
+         head.find("\"verdict\"") != std::string::npos;
+}
+
 }  // namespace
 
 io::MethodLibrary built_in_methods() {
@@ -109,7 +129,12 @@ io::MethodLibrary built_in_methods() {
 
 model::Instance load_problem(const std::filesystem::path& path,
                              const std::function<void(model::Problem&)>& add) {
-  model::Problem problem = io::parse_problem(read_text(path), path.string(), built_in_methods());
+  const std::string text = read_text(path);
+  if (is_gain_file(text))
+    throw InputError({path.string()},
+                     "this is a gain file; expected a problem in YAML. 'gainsmith verify' and "
+                     "'gainsmith simulate' read gain files");
+  model::Problem problem = io::parse_problem(text, path.string(), built_in_methods());
   if (add) add(problem);
   model::Instance instance = model::bind(problem);
   model::refuse_free_unknowns(*instance.design);
@@ -126,6 +151,7 @@ LoadedGains load_gains(const std::filesystem::path& path) {
   check_searched(gains, path.string());
   model::Instance stated = model::bind(io::stated_problem(gains, path.string()), gains.searched);
   check_complete(gains, stated, path.string());
+  refuse_without_gains(gains, *stated.design, path.string());
   return {std::move(gains), std::move(stated)};
 }
 

@@ -24,6 +24,7 @@ struct LoadedGains {
   model::Instance stated;
 };
 
+/// InputError for what is no gain file, and for one without gains: its verdict is no, or undecided.
 LoadedGains load_gains(const std::filesystem::path& path);
 
 }  // namespace gainsmith::app

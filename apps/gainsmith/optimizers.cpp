@@ -40,7 +40,9 @@ void continue_with_optimizers(char** arguments, const OptimizersNeeded& need) {
   if (need.standard_input) restore_standard_input(*need.standard_input);
   ::execv(program.c_str(), arguments);
   throw InputError({program}, "cannot be started (" + std::generic_category().message(errno) +
-                                  "); searches over several scalars need it beside gainsmith");
+                                  "); a search over scalars ('search' with 'over') needs it "
+                                  "beside gainsmith. Scalars that have a value under 'data' or "
+                                  "'parameters' are not searched");
 }
 
 }  // namespace gainsmith::app

@@ -98,11 +98,13 @@ std::string certificate_text(const model::Gains& gains) {
     return fmt::format("certificate exact steps on {}, as above: no solution exists\n", of);
   if (c.exact)
     return fmt::format(
-        "certificate multipliers Y > 0, checked in {} digits on {}: near them is an exact one, so no\n"
+        "certificate multipliers Y > 0, checked in {} digits on {}: near them is an exact one, so "
+        "no\n"
         "            solution exists\n",
         c.digits, of);
   return fmt::format(
-      "certificate multipliers Y >= 0, checked in {} digits on {}: no solution survives a relative\n"
+      "certificate multipliers Y >= 0, checked in {} digits on {}: no solution survives a "
+      "relative\n"
       "            change of {} of the coefficients\n",
       c.digits, of, brief(c.omega, 2));
 }
@@ -133,12 +135,16 @@ std::string verdict_line(const model::Gains& gains) {
   return text;
 }
 
+std::string message_lines(const model::Gains& gains) {
+  return gains.solver.message.empty() ? "" : "            " + gains.solver.message + "\n";
+}
+
 std::string synthesis_summary(const model::Gains& gains) {
   std::string text = fmt::format(
       "problem     {}\nmethod      {}\nverdict     {} (solver: {}, {}, {} iterations)\n",
       gains.problem_name, gains.statement.method_name, to_string(gains.verdict),
       gains.solver.status, gains.solver.cause, gains.solver.iterations);
-  if (!gains.solver.message.empty()) text += "            " + gains.solver.message + "\n";
+  text += message_lines(gains);
   text += objective_text(gains) + named_matrices("gains", gains.gains) + functions_text(gains) +
           named_matrices("report", gains.report) + named_matrices("parameters", gains.parameters) +
           searched_text(gains) + search_text(gains);

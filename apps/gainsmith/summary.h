@@ -15,6 +15,9 @@ std::string matrix_text(const numbers::Matrix& matrix);
 /// Verdict, objective with the price of the margin, gains, margins, bounds, certificate.
 std::string synthesis_summary(const model::Gains& gains);
 
+/// What the verdict rests on, and what stopped it, indented; empty when there is nothing to say.
+std::string message_lines(const model::Gains& gains);
+
 /// One line: "yes, objective 688.572".
 std::string verdict_line(const model::Gains& gains);
 

@@ -28,7 +28,7 @@ bool is_positive(const Posed& posed, const std::vector<double>& x) {
 
 lmi::Margins margins_at(const Posed& posed, const Attempt& attempt, const std::vector<double>& x) {
   return lmi::compute_margins(posed.inequalities, posed.lmi, attempt.formulation.balance,
-                              posed.choices().margin, x);
+                              posed.choices().margin, x, posed.describe);
 }
 
 /// Whether the gains at x are as small as was asked for.

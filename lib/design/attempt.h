@@ -27,7 +27,8 @@ struct Posed {
   const lmi::Inequalities& inequalities;
   const forall::Plan& plan;
   const lmi::Lmi& lmi;
-  bool wide = true;  ///< whether 31 and 100 digits may be tried where double does not decide
+  bool wide = true;      ///< whether 31 and 100 digits may be tried where double does not decide
+  bool describe = true;  ///< whether more is asked of a point than whether it holds
 
   const model::SynthesisOptions& choices() const { return inequalities.design().synthesis; }
 };
@@ -61,6 +62,8 @@ struct Attempt {
   std::string chain;
   /// Of those that lead to a face, but to no point on it: what is known.
   std::string left_open;
+  /// Of a minimum on a face: no solution has an objective below it.
+  std::optional<double> least;
   std::vector<numbers::Matrix> multipliers;
   /// Of a point that was found without the gain bounds of the problem: its largest gain.
   double largest_gain = 0;

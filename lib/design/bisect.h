@@ -4,9 +4,9 @@
 #include <string>
 
 #include "design/search_request.h"
+#include "design/synthesize.h"
 #include "model/gains.h"
 #include "sdp/solver.h"
-#include "design/synthesize.h"
 #include "search/bisect.h"
 
 namespace gainsmith::design {

@@ -81,8 +81,10 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
   gains.objective = lmi.objective_at(point.x);
   if (point.question.goal == lmi::Goal::objective) {
     // The dual solution is feasible to the solver's tolerance only.
-    gains.objective_lower_bound = std::min(
-        *gains.objective, lmi::objective_lower_bound(lmi, point.formulation, point.solution));
+    const double least = point.least
+                             ? *point.least
+                             : lmi::objective_lower_bound(lmi, point.formulation, point.solution);
+    gains.objective_lower_bound = std::min(*gains.objective, least);
     return;
   }
   const Attempt* minimum = climb.find(Rung::minimum);

@@ -27,10 +27,18 @@ void add_relaxed(const Design::Inequality& inequality, const std::string& slack,
     Design::Inequality one = inequality;
     one.name = comparison.name;
     one.comparisons = {{comparison.name,
-                        expr::with_slack(comparison.difference, slack, decimal17(scale)),
+                        expr::with_identity(comparison.difference, decimal17(scale), slack),
                         comparison.strict}};
     out.push_back(std::move(one));
   }
+}
+
+/// a < b becomes a + s I < b, s the scale.
+Design::Inequality demanding(Design::Inequality inequality, double scale) {
+  for (Design::Comparison& comparison : inequality.comparisons)
+    if (comparison.strict)
+      comparison.difference = expr::with_identity(comparison.difference, decimal17(-scale));
+  return inequality;
 }
 
 /// slack >= 0.
@@ -90,10 +98,15 @@ ByInequality scales_of(const model::Instance& instance) {
 
 model::Instance elastic(const model::Instance& instance, const ByInequality& scales,
                         std::map<std::string, std::string>& slacks) {
+  // Without constant parts every solution may be scaled, and every slack with it.
+  const bool scaled = lmi::is_homogeneous(lmi::compile(lmi::Inequalities(instance)).blocks);
+  const ByInequality demands = scaled ? scales_of(instance) : ByInequality{};
   return with_design(instance, [&](Design& design) {
     std::vector<Design::Inequality> relaxed;
     std::vector<std::string> names;
-    for (const Design::Inequality& inequality : design.inequalities) {
+    for (const Design::Inequality& stated : design.inequalities) {
+      const Design::Inequality inequality =
+          scaled ? demanding(stated, demands.at(stated.name)) : stated;
       const auto scale = scales.find(inequality.name);
       if (scale == scales.end()) {
         relaxed.push_back(inequality);
@@ -120,7 +133,7 @@ Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scal
   constexpr double kNone = 1e-7;  // what the shift of a minimum and its tolerance leave
   std::map<std::string, std::string> names;
   const model::Gains gains = synthesize(elastic(instance, scales, names), solver);
-  Slacks slacks{gains.verdict, {}};
+  Slacks slacks{gains.verdict, gains.solver.status == "optimal", {}};
   if (gains.verdict != model::Verdict::yes) return slacks;
   for (const auto& [inequality, slack] : names) {
     const double value = (*gains.find(slack))(0, 0);

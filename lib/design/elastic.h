@@ -30,14 +30,17 @@ ByInequality scales_of(const model::Instance& instance);
 
 /// Every inequality k of `scales` relaxed by an unknown slack t_k >= 0,
 ///   a < b   becomes   a < b + t_k s_k I
-/// (each comparison of a chain), and minimize: the sum of the slacks. `slacks` receives the names
-/// of the unknowns t_k by inequality.
+/// (each comparison of a chain), and minimize: the sum of the slacks. Where nothing has a constant
+/// part, strict inequalities, relaxed or not, have to hold with room s_k I before the slack: a +
+/// s_k I < b + t_k s_k I, so that t_k = 1 gives all of it up. `slacks` receives the names of the
+/// unknowns t_k by inequality.
 model::Instance elastic(const model::Instance& instance, const ByInequality& scales,
                         std::map<std::string, std::string>& slacks);
 
 /// Slacks when the verdict is yes; no when a certificate excludes the elastic problem too.
 struct Slacks {
   model::Verdict verdict = model::Verdict::undecided;
+  bool smallest = false;  ///< otherwise these are enough, and fewer may be
   ByInequality by_inequality;
 };
 

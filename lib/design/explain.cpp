@@ -56,8 +56,10 @@ std::vector<Relaxation> find_relaxations(const model::Instance& instance,
     relaxation.scale = scales.at(name);
     if (together.verdict == model::Verdict::yes)
       relaxation.together = together.by_inequality.at(name);
+    relaxation.together_at_most = !together.smallest;
     const Slacks alone = smallest_slacks(plain, {{name, scales.at(name)}}, solver);
     if (alone.verdict == model::Verdict::yes) relaxation.alone = alone.by_inequality.at(name);
+    relaxation.alone_at_most = !alone.smallest;
     relaxation.alone_undecided = alone.verdict == model::Verdict::undecided;
     relaxations.push_back(std::move(relaxation));
   }

@@ -32,7 +32,9 @@ struct Relaxation {
   double scale = 0;                ///< of the inequality (elastic.h)
   std::optional<double> alone;     ///< when all others hold; none: it alone does not help
   bool alone_undecided = false;    ///< or whether it does is not decided
+  bool alone_at_most = false;      ///< this is enough, and less may be
   std::optional<double> together;  ///< in the solution with the smallest sum
+  bool together_at_most = false;   ///< these sums are enough, and less may be
 };
 
 /// How far one must go along a scalar from the problem's value.

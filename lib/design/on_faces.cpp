@@ -33,9 +33,26 @@ struct Left {
   std::vector<std::size_t> blocks;  ///< which of the faces' they are: those with rows
 };
 
-Left left_of(const Faces& faces) {
+/// c'x in the coordinates of the face, x = x_0 + N y.
+void pose_objective(const Faces& faces, const lmi::Lmi& stated, lmi::Lmi& left) {
+  left.has_objective = stated.has_objective;
+  if (!stated.has_objective) return;
+  const std::vector<Rational> c(stated.objective.begin(), stated.objective.end());
+  const numbers::RationalMatrix& N = faces.directions();
+  Rational constant = 0;
+  for (std::size_t i = 0; i < c.size(); ++i) constant += c[i] * faces.origin()[i];
+  left.objective_constant = stated.objective_constant + nearest_double(constant);
+  for (Eigen::Index j = 0; j < N.cols(); ++j) {
+    Rational sum = 0;
+    for (std::size_t i = 0; i < c.size(); ++i) sum += c[i] * N(static_cast<Eigen::Index>(i), j);
+    left.objective.push_back(nearest_double(sum));
+  }
+}
+
+Left left_of(const Faces& faces, const lmi::Lmi& stated) {
   Left left;
   left.lmi.unknowns = faces.unknowns();
+  pose_objective(faces, stated, left.lmi);
   for (std::size_t k = 0; k < faces.blocks().size(); ++k) {
     const RationalBlock& of = faces.blocks()[k];
     if (of.size == 0) continue;
@@ -112,9 +129,10 @@ class OnFaces {
         faces_.exclude("what is left has no unknowns and does not hold");
       else
         try_point({});
+      if (result_.holds()) settle(posed_.lmi.objective_at(result_.x));
       return finish();
     }
-    const Left left = left_of(faces_);
+    const Left left = left_of(faces_, posed_.lmi);
     const std::size_t steps = faces_.steps();
     for (const Effort& effort : {Effort{"quad", 1e-22}, Effort{"100", 1e-40}}) {
       solve_left(left, effort);
@@ -169,30 +187,74 @@ class OnFaces {
         std::all_of(inside->begin(), inside->end(),
                     [](double value) { return std::isfinite(value); }))
       try_point(*inside);
+    if (result_.holds() && posed_.lmi.has_objective) minimise(left, *inside);
     if (!done_ && first) take_multipliers(left, *first);
+  }
+
+  /// Decimals near a point of the face that the exact blocks take, and their margins.
+  struct Decimals {
+    std::vector<double> x;
+    lmi::Margins margins;
+  };
+
+  std::optional<Decimals> decimals(const std::vector<double>& y, int digits) const {
+    std::vector<double> units;
+    for (int i = 1; i <= posed_.lmi.unknowns; ++i)
+      units.push_back(result_.formulation.balance.unit(i));
+    const std::vector<Rational> exact(y.begin(), y.end());
+    const auto x = lmi::printable_point(faces_, exact, units, digits);
+    if (!x) return std::nullopt;
+    std::vector<Rational> printed;
+    for (const double value : *x) printed.push_back(lmi::printed_fraction(value));
+    if (!lmi::satisfies(stated_, printed)) return std::nullopt;
+    return Decimals{
+        *x, lmi::compute_margins(posed_.inequalities, posed_.lmi, result_.formulation.balance,
+                                 posed_.choices().margin, *x)};
   }
 
   /// A point is one where everything holds, or where it is to be seen what does not.
   void try_point(const std::vector<double>& y) {
-    const std::vector<Rational> exact(y.begin(), y.end());
-    std::vector<double> units;
-    for (int i = 1; i <= posed_.lmi.unknowns; ++i)
-      units.push_back(result_.formulation.balance.unit(i));
     for (const int digits : {3, 6, 9, 12, 15, 16}) {
-      const auto x = lmi::printable_point(faces_, exact, units, digits);
-      if (!x) continue;
-      std::vector<Rational> printed;
-      for (const double value : *x) printed.push_back(lmi::printed_fraction(value));
-      if (!lmi::satisfies(stated_, printed)) continue;
-      lmi::Margins margins =
-          lmi::compute_margins(posed_.inequalities, posed_.lmi, result_.formulation.balance,
-                               posed_.choices().margin, *x);
-      const bool holds = lmi::all_hold(margins);
+      auto found = decimals(y, digits);
+      if (!found) continue;
+      const bool holds = lmi::all_hold(found->margins);
       if (!holds && result_.point) continue;
       result_.point = true;
-      result_.x = *x;
-      result_.margins = std::move(margins);
+      result_.x = std::move(found->x);
+      result_.margins = std::move(found->margins);
       if (holds || !result_.margins.violations.empty()) return finish();
+    }
+  }
+
+  /// The point is a minimum: no solution has an objective below `least`.
+  void settle(double least) {
+    if (!posed_.lmi.has_objective) return;
+    result_.question.goal = lmi::Goal::objective;
+    result_.least = least;
+  }
+
+  /// From a point inside to the least objective on the face: as near as decimals hold.
+  void minimise(const Left& left, const std::vector<double>& inside) {
+    const std::vector<double>& c = left.lmi.objective;
+    if (std::all_of(c.begin(), c.end(), [](double value) { return value == 0; }))
+      return settle(left.lmi.objective_constant);
+    if (!lmi::has_minimum(left.lmi, {})) return;
+    const auto formulation = lmi::formulate_objective(left.lmi, {}, posed_.choices().margin);
+    Attempt minimum;
+    minimum.solution = solve_(formulation.problem, {"auto", 1e-8});
+    if (!minimum.is_near_optimal()) return;
+    const auto least = lmi::read_back(left.lmi, formulation, minimum.solution);
+    for (const double e : {0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4}) {
+      std::vector<double> y = least;
+      for (std::size_t i = 0; i < y.size(); ++i) y[i] += e * (inside[i] - least[i]);
+      if (!std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); }))
+        return;
+      auto found = decimals(y, 16);
+      if (!found || !lmi::all_hold(found->margins)) continue;
+      result_.x = std::move(found->x);
+      result_.margins = std::move(found->margins);
+      solved_ = std::move(minimum.solution);
+      return settle(lmi::objective_lower_bound(left.lmi, formulation, solved_));
     }
   }
 

@@ -3,7 +3,8 @@
 // every solution, or nothing.
 //
 //   plain steps; nothing left to choose: the point, or a no
-//   the largest margin on the face, in 31 digits: its point, rounded to decimals on the face
+//   the largest margin on the face, in 31 digits: its point, rounded to decimals on the face;
+//   from there to the least objective on the face, where one is stated
 //   the multipliers made exact: a no, or a smaller face, and again; once more in 100 digits
 #pragma once
 

@@ -26,7 +26,7 @@ std::vector<ScanRow> scan(const model::DesignPtr& design, const std::vector<std:
     model::Gains gains;
     try {
       instance = model::evaluate(design, overrides);
-      gains = synthesize(*instance, solver);
+      gains = synthesize(*instance, solver, Depth::verdict);
     } catch (const InputError& error) {
       row.refused = error.what();
       return;

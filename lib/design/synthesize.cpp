@@ -113,7 +113,8 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   double compile_seconds = seconds_since(start);
   double solve_seconds = 0;
   for (int round = 1;; ++round) {
-    Climb climb({inequalities, plan, lmi, depth == Depth::thorough}, bounds, solve);
+    Climb climb({inequalities, plan, lmi, depth != Depth::quick, depth != Depth::verdict}, bounds,
+                solve);
     climb.to_point();
     const auto grown = [&] {
       const Attempt* point = climb.point();

@@ -18,9 +18,12 @@ namespace gainsmith::design {
 /// formulas use nothing but data are given.
 ///
 /// InputError for what cannot be posed.
-/// `depth`: a quick answer leaves undecided what double does not decide, for the many questions of an
-/// outer search.
-enum class Depth { thorough, quick };
+enum class Depth {
+  thorough,
+  verdict,  ///< the same verdict and point, but for a table of many points: margins only as far as
+            ///< the verdict rests on them, and no limits of gains
+  quick     ///< leaves undecided what double does not decide: the questions of an outer search
+};
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options,
                         Depth depth = Depth::thorough);
 

@@ -110,17 +110,19 @@ Program combination(const std::vector<Program>& factors, const std::vector<std::
   return compose.take(sum);
 }
 
-Program with_slack(const Program& program, const std::string& name, const std::string& scale) {
+Program with_identity(const Program& program, const std::string& scale, const std::string& name) {
   Assembly assembly;
   const int difference = add_program(assembly, program, nullptr);
   const Instruction like = assembly[difference];
   const Shape shape = like.shape;
   Instruction number = operation(Op::constant, {}, {}, like);
   number.text = scale;
-  const int factor = assembly.add(std::move(number));
-  const int slack = assembly.add_input(name, {}, like);
-  const int product = assembly.add(operation(Op::multiply, {factor, slack}, {}, like));
-  const int room = assembly.add(operation(Op::identity, {product}, shape, like));
+  int factor = assembly.add(std::move(number));
+  if (!name.empty()) {
+    const int scalar = assembly.add_input(name, {}, like);
+    factor = assembly.add(operation(Op::multiply, {factor, scalar}, {}, like));
+  }
+  const int room = assembly.add(operation(Op::identity, {factor}, shape, like));
   return assembly.extract(assembly.add(operation(Op::add, {difference, room}, shape, like)));
 }
 

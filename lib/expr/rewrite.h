@@ -56,7 +56,9 @@ class Composer {
 Program combination(const std::vector<Program>& factors, const std::vector<std::string>& terms,
                     Shape shape, const Place& place);
 
-/// program + scale * s * I, with s the 1 x 1 input `name` and `scale` a decimal.
-Program with_slack(const Program& program, const std::string& name, const std::string& scale);
+/// program + scale * s * I, with s the 1 x 1 input `name` (1 where there is no name) and `scale` a
+/// decimal.
+Program with_identity(const Program& program, const std::string& scale,
+                      const std::string& name = {});
 
 }  // namespace gainsmith::expr

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "expr/rewrite.h"
+#include "hybrid/dependence.h"
 #include "hybrid/polynomial.h"
 #include "numbers/degree.h"
 
@@ -93,8 +94,9 @@ class Builder {
     for (Program& function : functions_) function = simplified(expr_in_coordinates(function));
     find_flow();
     add_images();
-    keep_needed();
-    mark_clocks();
+    result_.functions = std::move(functions_);
+    keep_needed(result_);
+    mark_clocks(result_);
     return std::move(result_);
   }
 
@@ -179,11 +181,7 @@ class Builder {
     result_.constant = std::move(map.constant);
   }
 
-  std::size_t coordinate(const std::string& name) const {
-    std::size_t at = 0;
-    while (at < result_.layout.slots.size() && result_.layout.slots[at].name != name) ++at;
-    return at;
-  }
+  std::size_t coordinate(const std::string& name) const { return index_of(result_.layout, name); }
 
   /// Whether the 1 x 1 coordinate has a constant derivative; then `rate` is it.
   bool has_rate(const Slot& slot, Decimal100& rate) const {
@@ -313,75 +311,6 @@ class Builder {
     result_.linear.rightCols(n - before).setConstant(Decimal100(0));
     result_.constant.conservativeResize(n, 1);
     result_.constant.bottomRows(n - before).setConstant(Decimal100(0));
-  }
-
-  /// Drops the coordinates on which no function depends.
-  void keep_needed() {
-    const std::size_t count = result_.list.size();
-    std::vector<bool> needed(count, false);
-    std::vector<std::size_t> open;
-    const auto need = [&](std::size_t at) {
-      if (at >= count || needed[at]) return;
-      needed[at] = true;
-      open.push_back(at);
-    };
-    const auto need_inputs = [&](const Program& program) {
-      for (const expr::Input& input : program.inputs) need(coordinate(input.name));
-    };
-    for (const Program& function : functions_) need_inputs(function);
-    while (!open.empty()) {
-      const std::size_t at = open.back();
-      open.pop_back();
-      if (result_.list[at].jump) need_inputs(*result_.list[at].jump);
-      const Slot& slot = result_.layout.slots[at];
-      for (std::size_t other = 0; other < count; ++other) {
-        const Slot& from = result_.layout.slots[other];
-        if (!result_.linear.block(slot.offset, from.offset, slot.shape.size(), from.shape.size())
-                 .isZero(0))
-          need(other);
-      }
-    }
-    Coordinates kept;
-    kept.layout.timer = result_.layout.timer;
-    std::vector<Index> elements;
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!needed[i]) continue;
-      const Slot& slot = result_.layout.slots[i];
-      kept.layout.slots.push_back({slot.name, slot.shape, kept.layout.size});
-      kept.layout.size += slot.shape.size();
-      kept.list.push_back(std::move(result_.list[i]));
-      for (Index e = 0; e < slot.shape.size(); ++e) elements.push_back(slot.offset + e);
-    }
-    kept.linear = result_.linear(elements, elements);
-    kept.constant = result_.constant(elements, Eigen::all);
-    kept.constants = std::move(result_.constants);
-    kept.functions = std::move(functions_);
-    result_ = std::move(kept);
-  }
-
-  void mark_clocks() {
-    std::set<std::string> clocks;
-    for (std::size_t i = 0; i < result_.list.size(); ++i) {
-      const Slot& slot = result_.layout.slots[i];
-      if (result_.linear.middleRows(slot.offset, slot.shape.size()).isZero(0))
-        clocks.insert(slot.name);
-    }
-    for (bool changed = true; changed;) {
-      changed = false;
-      for (std::size_t i = 0; i < result_.list.size(); ++i) {
-        const std::string& name = result_.layout.slots[i].name;
-        const auto& jump = result_.list[i].jump;
-        if (!clocks.contains(name) || !jump) continue;
-        for (const expr::Input& input : jump->inputs)
-          if (result_.layout.moves(input.name) && !clocks.contains(input.name)) changed = true;
-        if (changed) {
-          clocks.erase(name);
-          break;
-        }
-      }
-    }
-    for (std::size_t i = 0; i < result_.list.size(); ++i)
-      result_.list[i].clock = clocks.contains(result_.layout.slots[i].name);
   }
 
   const System& system_;

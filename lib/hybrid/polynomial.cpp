@@ -123,7 +123,30 @@ Polynomial Polynomials::transpose(const Polynomial& a) {
   return result;
 }
 
-Polynomial Polynomials::multiply(const Polynomial& a, const Polynomial& b, Shape shape) {
+Shape Polynomials::shape_of(const Factor& factor) const {
+  const Shape shape = atom(factor.atom).shape();
+  return factor.transposed ? Shape{shape.cols, shape.rows} : shape;
+}
+
+void Polynomials::split(Word& word) const {
+  Chain rest;
+  Chain part;
+  for (const Factor& factor : word.chain) {
+    part.push_back(factor);
+    if (shape_of(factor).cols != 1) continue;
+    if (shape_of(part.front()).rows == 1) {
+      word.inner.push_back(std::min(part, transposed(part)));
+    } else {
+      rest.insert(rest.end(), part.begin(), part.end());
+    }
+    part.clear();
+  }
+  rest.insert(rest.end(), part.begin(), part.end());
+  word.chain = std::move(rest);
+  std::sort(word.inner.begin(), word.inner.end());
+}
+
+Polynomial Polynomials::multiply(const Polynomial& a, const Polynomial& b, Shape shape) const {
   Polynomial result{shape, {}};
   for (const auto& [x, cx] : a.terms)
     for (const auto& [y, cy] : b.terms) {
@@ -132,17 +155,7 @@ Polynomial Polynomials::multiply(const Polynomial& a, const Polynomial& b, Shape
       std::sort(word.scalars.begin(), word.scalars.end());
       word.inner.insert(word.inner.end(), y.inner.begin(), y.inner.end());
       word.chain.insert(word.chain.end(), y.chain.begin(), y.chain.end());
-      if (shape.is_scalar() && !word.chain.empty()) {
-        word.inner.push_back(std::min(word.chain, transposed(word.chain)));
-        word.chain.clear();
-      } else if (!shape.is_scalar() && b.shape.is_scalar() && a.shape.cols == 1 &&
-                 y.inner.size() == 1 && !x.chain.empty()) {
-        // (r x 1)(1 x 1): one product, so that L*(C*z) is (L*C)*z.
-        word.inner = x.inner;
-        const Chain& tail = y.inner.front();
-        word.chain.insert(word.chain.end(), tail.begin(), tail.end());
-      }
-      std::sort(word.inner.begin(), word.inner.end());
+      split(word);
       add_term(result, std::move(word), cx * cy);
     }
   return result;
@@ -215,10 +228,6 @@ Polynomial Polynomials::of(const Program& program) {
 
 Program Polynomials::program(const Polynomial& polynomial) const {
   expr::Composer compose({});
-  const auto shape_of = [&](const Factor& factor) {
-    const Shape shape = atom(factor.atom).shape();
-    return factor.transposed ? Shape{shape.cols, shape.rows} : shape;
-  };
   const auto product = [&](const Chain& chain) {
     int result = -1;
     int rows = 0;

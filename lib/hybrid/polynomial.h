@@ -31,10 +31,11 @@ struct Factor {
 using Chain = std::vector<Factor>;
 
 /// The product of 1 x 1 atoms, of 1 x 1 chains, and of one chain of the polynomial's shape; an
-/// empty chain of that shape is the identity.
+/// empty chain of that shape is the identity. No part of a chain that can stand alone is 1 x 1:
+/// L*C*z with a row C is the chain L and the inner chain C z.
 struct Word {
   std::vector<int> scalars;  ///< sorted
-  std::vector<Chain> inner;  ///< sorted
+  std::vector<Chain> inner;  ///< sorted; each the lesser of itself and its transpose
   Chain chain;
   auto operator<=>(const Word&) const = default;
 };
@@ -63,7 +64,10 @@ class Polynomials {
  private:
   int atom_of(const expr::Program& program);
   Polynomial of_atom(int atom);
-  Polynomial multiply(const Polynomial& a, const Polynomial& b, expr::Shape shape);
+  expr::Shape shape_of(const Factor& factor) const;
+  /// Moves the 1 x 1 parts of the chain to the inner chains.
+  void split(Word& word) const;
+  Polynomial multiply(const Polynomial& a, const Polynomial& b, expr::Shape shape) const;
   static Polynomial transpose(const Polynomial& a);
   Polynomial of_instruction(const expr::Program& program, std::size_t at,
                             const std::vector<Polynomial>& values);

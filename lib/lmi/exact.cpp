@@ -5,6 +5,7 @@
 
 #include "base/scalars.h"
 #include "lmi/printed_check.h"
+#include "lmi/stated_point.h"
 
 namespace gainsmith::lmi {
 
@@ -35,27 +36,17 @@ EnclosedValues<S> ExactBlocks<S>::values_at(const Block& block) const {
   EnclosedValues<S> values = values_;
   const Statement& statement = of_.statements[block.inequality];
   for (std::size_t v = 0; v < statement.domain.size(); ++v) {
-    const forall::Variable& variable = statement.domain[v];
-    const auto& stated = statement.stated->domain[v].points;
-    const numbers::Matrix& at = block.where->values.at(variable.name);
-    // A point of the domain that the file states is meant as it is written there.
-    const expr::Program* program = nullptr;
-    if (variable.is_interval()) {
-      // An end stands for that of the file, and so does what rounding put outside of it.
+    const std::string& name = statement.domain[v].name;
+    const numbers::Matrix& at = block.where->values.at(name);
+    const expr::Program* stated = stated_at(statement, v, block, [&](const auto& text, End end) {
+      const Enclosed<S> value = numbers::enclose(text, values_);
       const S t(at(0, 0));
-      const Enclosed<S> low = numbers::enclose(stated[0].program, values_);
-      const Enclosed<S> high = numbers::enclose(stated[1].program, values_);
-      if (at(0, 0) == variable.low || !(t > low.mid(0, 0) + S(low.rad(0, 0))))
-        program = &stated[0].program;
-      if (at(0, 0) == variable.high || !(t < high.mid(0, 0) - S(high.rad(0, 0))))
-        program = &stated[1].program;
-    } else {
-      for (std::size_t e = 0; e < variable.elements.size() && program == nullptr; ++e)
-        if (variable.elements[e] == at) program = &stated[e].program;
-    }
-    values[variable.name] = program != nullptr
-                                ? numbers::enclose(*program, values_)
-                                : numbers::exactly<S>(at.unaryExpr([](double x) { return S(x); }));
+      return end == End::low ? !(t > value.mid(0, 0) + S(value.rad(0, 0)))
+                             : !(t < value.mid(0, 0) - S(value.rad(0, 0)));
+    });
+    values[name] = stated != nullptr
+                       ? numbers::enclose(*stated, values_)
+                       : numbers::exactly<S>(at.unaryExpr([](double x) { return S(x); }));
   }
   return values;
 }

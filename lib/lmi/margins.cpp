@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <utility>
 
 #include "forall/worst.h"
 #include "lmi/correlation.h"
@@ -60,8 +62,14 @@ namespace {
 class Checker {
  public:
   Checker(const Inequalities& of, const Lmi& lmi, const Balance& balance,
-          const std::vector<double>& x)
-      : of_(of), lmi_(lmi), balance_(balance), x_(x), values_(of.instance.values), printed_(of, x) {
+          const std::vector<double>& x, bool describe)
+      : of_(of),
+        lmi_(lmi),
+        balance_(balance),
+        x_(x),
+        describe_(describe),
+        values_(of.instance.values),
+        printed_(of, x) {
     for (auto& [name, matrix] : of.unknowns.values(x)) values_[name] = matrix;
   }
 
@@ -106,12 +114,18 @@ class Checker {
       if (!domain.empty() && !holds)
         result_.violations.push_back({inequality, minimum.point, false});
     };
-    const forall::Minima minima = forall::local_minima(difference, domain, values_, rows);
-    for (const forall::Minimum& minimum : minima.list) meet_point(minimum);
+    const bool blocks_hold = worst.value >= -rounding;
+    std::optional<forall::DomainProof> proof;
+    if (!describe_ && blocks_hold) proof = printed_.check(inequality, comparison);
+    const bool shown = proof && proof->status == forall::DomainProof::Status::holds;
+    if (!shown) {
+      const forall::Minima minima = forall::local_minima(difference, domain, values_, rows);
+      for (const forall::Minimum& minimum : minima.list) meet_point(minimum);
+    }
     margin.reached = worst.value;
     margin.worst_point = worst.point;
-    margin.holds = result_.violations.size() == violations && worst.value >= -rounding &&
-                   check(inequality, comparison, margin.name);
+    margin.holds = shown || (result_.violations.size() == violations && worst.value >= -rounding &&
+                             check(inequality, comparison, margin.name, std::move(proof)));
     // What is below 0 is then rounding: the decimals hold.
     if (margin.holds) margin.reached = std::max(margin.reached, 0.0);
     result_.margins.push_back(std::move(margin));
@@ -125,10 +139,13 @@ class Checker {
     return rows;
   }
 
-  /// Whether it holds at the printed decimals for all values of its variables.
-  bool check(std::size_t inequality, std::size_t comparison, const std::string& name) {
+  /// Whether it holds at the printed decimals for all values of its variables; what does not is
+  /// noted.
+  bool check(std::size_t inequality, std::size_t comparison, const std::string& name,
+             std::optional<forall::DomainProof> known) {
     using Status = forall::DomainProof::Status;
-    const forall::DomainProof proof = printed_.check(inequality, comparison);
+    const forall::DomainProof proof =
+        known ? std::move(*known) : printed_.check(inequality, comparison);
     if (proof.status == Status::fails) {
       // Points at which it fails by less than double tells would be added without end.
       constexpr double kTells = 1e-13;
@@ -153,6 +170,7 @@ class Checker {
   const Lmi& lmi_;
   const Balance& balance_;
   const std::vector<double>& x_;
+  bool describe_;
   numbers::Values values_;
   PrintedCheck printed_;
   std::size_t at_ = 0;
@@ -162,8 +180,8 @@ class Checker {
 }  // namespace
 
 Margins compute_margins(const Inequalities& of, const Lmi& lmi, const Balance& balance,
-                        double wished, const std::vector<double>& x) {
-  return Checker(of, lmi, balance, x).run(wished);
+                        double wished, const std::vector<double>& x, bool describe) {
+  return Checker(of, lmi, balance, x, describe).run(wished);
 }
 
 }  // namespace gainsmith::lmi

@@ -34,8 +34,11 @@ struct Margins {
 /// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where none of
 /// these is certainly negative, the inequality is checked at the printed decimals of x
 /// (printed_check.h): it holds when that shows it.
+///
+/// Without `describe` the check comes first, and where it shows that an inequality holds its minima
+/// are not looked for: its margin is then that of the imposed points.
 Margins compute_margins(const Inequalities& inequalities, const Lmi& lmi, const Balance& balance,
-                        double wished, const std::vector<double>& x);
+                        double wished, const std::vector<double>& x, bool describe = true);
 
 /// Whether all of them hold, and nothing is open.
 bool all_hold(const Margins& margins);

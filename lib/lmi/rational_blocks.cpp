@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "expr/evaluate.h"
+#include "lmi/stated_point.h"
 #include "model/gains.h"
 #include "numbers/rational_algebra.h"
 
@@ -21,24 +22,14 @@ RationalMatrix zeros(const expr::Shape& shape) {
 void add_point(const Statement& statement, const Block& block, RationalValues& values) {
   const RationalValues known = values;
   for (std::size_t v = 0; v < statement.domain.size(); ++v) {
-    const forall::Variable& variable = statement.domain[v];
-    const auto& stated = statement.stated->domain[v].points;
-    const numbers::Matrix& at = block.where->values.at(variable.name);
-    const expr::Program* program = nullptr;
-    if (variable.is_interval()) {
-      // An end stands for that of the file, and so does what rounding put outside of it.
-      const Rational t(at(0, 0));
-      if (at(0, 0) == variable.low || t <= numbers::rational_value(stated[0].program, known)(0))
-        program = &stated[0].program;
-      else if (at(0, 0) == variable.high ||
-               t >= numbers::rational_value(stated[1].program, known)(0))
-        program = &stated[1].program;
-    }
-    for (std::size_t e = 0; e < variable.elements.size() && program == nullptr; ++e)
-      if (variable.elements[e] == at) program = &stated[e].program;
-    values[variable.name] = program != nullptr
-                                ? numbers::rational_value(*program, known)
-                                : at.unaryExpr([](double x) { return Rational(x); }).eval();
+    const std::string& name = statement.domain[v].name;
+    const numbers::Matrix& at = block.where->values.at(name);
+    const expr::Program* stated = stated_at(statement, v, block, [&](const auto& text, End end) {
+      const Rational value = numbers::rational_value(text, known)(0);
+      return end == End::low ? Rational(at(0, 0)) <= value : Rational(at(0, 0)) >= value;
+    });
+    values[name] = stated != nullptr ? numbers::rational_value(*stated, known)
+                                     : at.unaryExpr([](double x) { return Rational(x); }).eval();
   }
 }
 

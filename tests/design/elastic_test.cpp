@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "support/yaml_problem.h"
 
 namespace gainsmith::design {
@@ -54,6 +56,33 @@ TEST(Elastic, AFeasibleProblemNeedsNoSlack) {
   const auto slacks = smallest_slacks(wider, scales_of(wider), {});
   ASSERT_EQ(slacks.verdict, model::Verdict::yes);
   for (const auto& [inequality, slack] : slacks.by_inequality) EXPECT_EQ(slack, 0) << inequality;
+}
+
+/// Without constant parts slacks are measured against the room that strict inequalities keep.
+TEST(Elastic, WithoutConstantPartsASlackIsAPartOfTheRoom) {
+  const auto lyapunov = [](const std::string& A) {
+    return YamlProblem(
+        "problem: lyapunov\nmethod:\n  method: lyapunov\n  data: {A: n x n}\n"
+        "  unknowns: {P: symmetric n}\n  require: {positive: P > 0, stable: He(P*A) < 0}\n"
+        "data: {A: " +
+        A + "}\n");
+  };
+  // p >= (1 - t) s, 2 a p <= (u - 1) q: one of t, u is 0, or all is given up.
+  for (const double a : {1.0, 1000.0, 0.003}) {
+    const YamlProblem problem = lyapunov("[[" + std::to_string(a) + "]]");
+    const ByInequality scales = scales_of(problem.instance);
+    const auto slacks = smallest_slacks(problem.instance, scales, {});
+    ASSERT_EQ(slacks.verdict, model::Verdict::yes) << a;
+    EXPECT_TRUE(slacks.smallest) << a;
+    const double ratio = scales.at("stable") / (2 * a * scales.at("positive"));
+    EXPECT_NEAR(slacks.by_inequality.at("positive") + slacks.by_inequality.at("stable"),
+                1 + std::min(ratio, 1 / ratio), 1e-6)
+        << a;
+  }
+  const YamlProblem stable = lyapunov("[[-1, 3], [0, -2]]");
+  for (const auto& [name, slack] :
+       smallest_slacks(stable.instance, scales_of(stable.instance), {}).by_inequality)
+    EXPECT_EQ(slack, 0) << name;
 }
 
 /// Every comparison of a chain gives by the same slack, which is not negative.

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "design/search_problems.h"
+#include "design/synthesize.h"
 #include "expr/parser.h"
 #include "search/axis.h"
 #include "support/input_error.h"
@@ -48,6 +49,31 @@ TEST(Scan, AnInterruptMarksWhatHasNoAnswer) {
   for (const ScanRow& row : rows) EXPECT_TRUE(row.interrupted);
   const auto whole = scan(problem.instance.design, {"k"}, {{0.3}}, 1, {});
   EXPECT_FALSE(whole[0].interrupted);
+}
+
+/// A row says less than synthesize does, and nothing else.
+TEST(Scan, ARowIsWhatSynthesizeSays) {
+  const YamlProblem problem(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n, T: scalar}\n"
+      "  unknowns: {P: symmetric n, Y: n x n}\n  require:\n    positive: P > I\n"
+      "    cap: P < 40*I\n    bounded: \"[P, Y; Y', P] > 0\"\n"
+      "    shrinks: {forall: \"t in [0, T]\", holds: "
+      "\"[P, (P*expm(A*t) - t*Y)'; P*expm(A*t) - t*Y, P] > 0\"}\n"
+      "  minimize: trace(P)\n  gains: {K: inv(P)*Y}\n"
+      "data: {A: [[0.1, 1], [-1, -0.2]], T: 1}\n");
+  std::vector<std::vector<double>> points;
+  for (int k = 1; k <= 16; ++k) points.push_back({0.25 * k});
+  const auto rows = scan(problem.instance.design, {"T"}, points, 2, {});
+  int yes = 0;
+  for (const ScanRow& row : rows) {
+    const model::Gains gains = synthesize_at(problem.instance.design, {{"T", row.at[0]}}, {});
+    EXPECT_EQ(row.verdict, gains.verdict) << row.at[0];
+    if (gains.verdict != model::Verdict::yes) continue;
+    ++yes;
+    EXPECT_EQ(*row.objective, *gains.objective) << row.at[0];
+  }
+  EXPECT_GT(yes, 0);
+  EXPECT_LT(yes, 16);
 }
 
 TEST(Scan, RefusesUnknownNamesAndKeepsRefusedPoints) {

@@ -58,6 +58,10 @@ TEST(SynthTest, AnInfeasibleProblemExitsWithOneAndItsCertificate) {
   const Json gains = Json::parse(text_of(path));
   EXPECT_EQ(gains["status"], "infeasible");
   EXPECT_EQ(gains["verdict"], "no");
+  const Outcome again = gainsmith({"explain", path});
+  EXPECT_EQ(again.exit, 2);
+  EXPECT_NE(again.err.find("this is a gain file; expected a problem"), std::string::npos)
+      << again.err;
   EXPECT_EQ(gains["certificate"]["about"], "problem");
   EXPECT_TRUE(gains["certificate"]["exact"] || gains["certificate"]["omega"] <= 1e-30);
   EXPECT_TRUE(gains["gains"].empty());
@@ -166,9 +170,12 @@ TEST(VerifyTest, AnUnstableObserverIsNotHeldByRounding) {
 TEST(VerifyTest, AFileWithoutGainsIsRefused) {
   const Folder folder;
   const std::string gains = synthesized(folder, "ferrante-seuret-2021/published-theorem.yaml");
-  const Outcome outcome = gainsmith({"verify", gains});
-  EXPECT_EQ(outcome.exit, 2);
-  EXPECT_NE(outcome.err.find("L"), std::string::npos) << outcome.err;
+  for (const char* command : {"verify", "simulate"}) {
+    const Outcome without = gainsmith({command, gains});
+    EXPECT_EQ(without.exit, 2) << command;
+    EXPECT_NE(without.err.find("the verdict is no: the file has no gains"), std::string::npos)
+        << without.err;
+  }
 }
 
 }  // namespace

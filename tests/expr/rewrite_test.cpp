@@ -113,7 +113,7 @@ TEST_F(Rewriting, AComposedProgramIsItsText) {
 }
 
 TEST_F(Rewriting, SlackIsAMultipleOfI) {
-  const Program loose = with_slack(compile("A"), "t", "-2");
+  const Program loose = with_identity(compile("A"), "-2", "t");
   const Matrix expected = world.values["A"] - 0.8 * Matrix::Identity(2, 2);
   EXPECT_LT(relative_difference(evaluate(loose, world.values), expected), 1e-15);
 }

@@ -55,7 +55,12 @@ TEST_F(PolynomialTest, IsTheFunctionOfItsText) {
 TEST_F(PolynomialTest, WhatIsEqualForAllNumbersCancels) {
   for (const auto& [a, b] : tests::Pairs{{"(A - L*C)*(z - zh)", "A*z - L*C*z - (A - L*C)*zh"},
                                          {"(k*A)*z*th", "th*(A*(k*z))"},
-                                         {"(z + zh)'*(z + zh)", "z'*z + z'*zh + zh'*z + zh'*zh"}}) {
+                                         {"(z + zh)'*(z + zh)", "z'*z + z'*zh + zh'*z + zh'*zh"},
+                                         {"L*(C*z)", "(L*C)*z"},
+                                         {"L*(C*A)*z*th", "(C*A*z)*(th*L)"},
+                                         {"z'*A*zh", "zh'*A'*z"},
+                                         {"(L*z')*(zh*C)", "(zh'*z)*L*C"},
+                                         {"z*(zh'*A*z)*z'", "(z*z'*A')*(zh*z')"}}) {
     Polynomials polynomials;
     const Polynomial left = polynomials.of(problem_.program(a));
     const Polynomial right = polynomials.of(problem_.program(b));
