@@ -3,162 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <deque>
 #include <string_view>
 #include <utility>
 
 #include "base/number.h"
-#include "expr/evaluate.h"
 #include "forall/proof.h"
-#include "numbers/definite.h"
-#include "numbers/jet.h"
+#include "forall/proof_function.h"
 
 namespace gainsmith::forall::proof {
-
-using numbers::Enclosed;
-using numbers::Matrix;
-using numbers::Sign;
-
-struct Piece {
-  std::vector<double> low;
-  std::vector<double> high;
-
-  std::vector<double> corner(std::size_t which) const {
-    std::vector<double> at = low;
-    for (std::size_t i = 0; i < at.size(); ++i)
-      if (((which >> i) & 1U) != 0) at[i] = high[i];
-    return at;
-  }
-  std::size_t corners() const { return std::size_t{1} << low.size(); }
-};
-
-/// The rows that are not exactly 0, with `more`.
-template <class S>
-void drop_zero_rows(Enclosed<S>& B, Matrix& more) {
-  std::vector<Eigen::Index> kept;
-  for (Eigen::Index i = 0; i < B.rows(); ++i) {
-    const bool is_zero = (B.mid.row(i).array() == S(0)).all() &&
-                         (B.mid.col(i).array() == S(0)).all() &&
-                         (B.rad.row(i).array() == 0).all() && (B.rad.col(i).array() == 0).all() &&
-                         (more.size() == 0 ||
-                          ((more.row(i).array() == 0).all() && (more.col(i).array() == 0).all()));
-    if (!is_zero) kept.push_back(i);
-  }
-  if (static_cast<Eigen::Index>(kept.size()) == B.rows()) return;
-  B = {numbers::MatrixOf<S>(B.mid(kept, kept)), Matrix(B.rad(kept, kept))};
-  if (more.size() != 0) more = Matrix(more(kept, kept));
-}
-
-/// B at points and over pieces, with the elements of sets and polytopes chosen.
-template <class S>
-class Function {
- public:
-  struct Corner {
-    Enclosed<S> value;
-    Sign sign = Sign::open;
-    numbers::Vector direction;
-    std::string fault;  ///< why there is no value
-  };
-  /// Over a piece.
-  struct Spread {
-    Enclosed<double> value;
-    std::vector<Matrix> errors;  ///< of the interpolation, along each variable
-    std::string fault;
-  };
-
-  Function(const expr::Program& program, const numbers::EnclosedValues<S>& known, bool strict,
-           const std::vector<const Variable*>& axes)
-      : axes_(axes), strict_(strict), points_(program), at_(axes.size()) {
-    for (std::size_t i = 0; i < axes.size(); ++i) {
-      along_.emplace_back(program);
-      variables_.emplace_back(axes.size());
-    }
-    for (const expr::Input& input : program.inputs) {
-      const auto value = known.find(input.name);
-      if (value == known.end()) continue;
-      points_.fix(input.name, constants_.emplace_back(value->second));
-      const auto& jet =
-          jets_.emplace_back(numbers::constant_jet(numbers::converted<double>(value->second)));
-      for (auto& evaluator : along_) evaluator.fix(input.name, jet);
-    }
-    for (std::size_t k = 0; k < axes.size(); ++k) {
-      points_.set(axes[k]->name, at_[k]);
-      for (std::size_t i = 0; i < axes.size(); ++i) along_[i].set(axes[k]->name, variables_[i][k]);
-    }
-  }
-
-  const Corner& corner(const std::vector<double>& at, double& margin) {
-    const auto [found, is_new] = corners_.try_emplace(at);
-    Corner& corner = found->second;
-    if (!is_new) return corner;
-    for (std::size_t k = 0; k < at.size(); ++k) at_[k] = numbers::exact_number<S>(S(at[k]));
-    try {
-      corner.value = numbers::symmetric_part(points_.run());
-    } catch (const expr::EvaluationError& error) {
-      corner.fault = error.what();
-      return corner;
-    }
-    Enclosed<S> rows = corner.value;
-    Matrix none;
-    if (!strict_) drop_zero_rows(rows, none);
-    numbers::Definite definite = numbers::definite(rows);
-    corner.sign = definite.sign;
-    corner.direction = std::move(definite.direction);
-    if (corner.sign == Sign::negative && rows.rows() != corner.value.rows())
-      corner.direction = numbers::definite(corner.value).direction;
-    margin = std::min(
-        margin,
-        numbers::margin(rows.mid.unaryExpr([](const S& x) { return static_cast<double>(x); })));
-    return corner;
-  }
-
-  bool fails_at(const Corner& corner) const {
-    return corner.sign == Sign::negative || (strict_ && corner.sign == Sign::not_positive);
-  }
-
-  Spread over(const Piece& piece) {
-    Spread spread;
-    try {
-      for (std::size_t i = 0; i < axes_.size(); ++i) {
-        for (std::size_t k = 0; k < axes_.size(); ++k)
-          variables_[i][k] = k == i ? numbers::variable_jet(piece.low[k], piece.high[k])
-                                    : numbers::other_variable_jet(piece.low[k], piece.high[k]);
-        const numbers::Jet& jet = along_[i].run();
-        if (i == 0) spread.value = jet.value();
-        spread.errors.push_back(chord_error(jet, piece.high[i] - piece.low[i]));
-      }
-    } catch (const expr::EvaluationError& error) {
-      spread.fault = error.what();
-    }
-    return spread;
-  }
-
-  bool strict() const { return strict_; }
-
- private:
-  static Matrix chord_error(const numbers::Jet& jet, double width) {
-    const Eigen::Index n = jet.value().rows();
-    if (jet.order == 0) return Matrix::Zero(n, n);
-    const double w = width * (1 + 0x1p-50);
-    Matrix error = jet.derivatives[1].rad * (w / 2);
-    if (jet.order == 2) {
-      const auto& bend = jet.derivatives[2];
-      error =
-          error.cwiseMin(((bend.mid.cwiseAbs() + bend.rad) * (w * w / 8 * (1 + 0x1p-50))).eval());
-    }
-    return error * (1 + 0x1p-50);
-  }
-
-  const std::vector<const Variable*>& axes_;
-  bool strict_;
-  expr::Evaluator<numbers::Enclosure<S>> points_;
-  std::vector<Enclosed<S>> at_;
-  std::deque<expr::Evaluator<numbers::JetAlgebra>> along_;
-  std::deque<std::vector<numbers::Jet>> variables_;
-  std::deque<Enclosed<S>> constants_;
-  std::deque<numbers::Jet> jets_;
-  std::map<std::vector<double>, Corner> corners_;
-};
 
 /// Halves pieces until each holds; stops at the first point where the inequality fails.
 template <class S>
@@ -225,19 +77,44 @@ class Search {
     }
     const auto spread = function_.over(piece);
     if (!spread.fault.empty()) return halve(piece, widest(piece), spread.fault);
-    if (passes(corners, spread)) return;
-    halve(piece, steepest(piece, spread, corners), kTooSteep);
+    const Matrix error = error_of(spread);
+    if (at_corners(corners, error) || (spread.value.is_known() && holds(spread.value, Matrix())))
+      return;
+    const std::size_t along = steepest(piece, spread, corners);
+    divide(piece, along, piece.low.size() == 1 ? halvings(corners, error) : 1);
   }
 
-  bool passes(const std::vector<const Corner*>& corners,
-              const typename Function<S>::Spread& spread) const {
+  static Matrix error_of(const typename Function<S>::Spread& spread) {
     Matrix error = spread.errors.front();
     for (std::size_t i = 1; i < spread.errors.size(); ++i) error += spread.errors[i];
-    error *= 1 + 0x1p-40;
-    if (error.allFinite() && std::all_of(corners.begin(), corners.end(),
-                                         [&](const Corner* c) { return holds(c->value, error); }))
-      return true;
-    return spread.value.is_known() && holds(spread.value, Matrix());
+    return error * (1 + 0x1p-40);
+  }
+
+  bool at_corners(const std::vector<const Corner*>& corners, const Matrix& error) const {
+    return error.allFinite() && std::all_of(corners.begin(), corners.end(), [&](const Corner* c) {
+             return holds(c->value, error);
+           });
+  }
+
+  /// How often a piece is halved before one is worth looking at: the error of a chord falls to a
+  /// quarter each time. A guess, which costs or saves time only.
+  int halvings(const std::vector<const Corner*>& corners, Matrix error) const {
+    constexpr int kMost = 6;
+    if (!error.allFinite()) return 1;
+    int count = 1;
+    for (error /= 4; count < kMost && !at_corners(corners, error); error /= 4) ++count;
+    return count;
+  }
+
+  void divide(const Piece& piece, std::size_t along, int halvings) {
+    const std::size_t before = stack_.size();
+    halve(piece, along, kTooSteep);
+    for (; halvings > 1; --halvings) {
+      const std::vector<Piece> parts(stack_.begin() + static_cast<std::ptrdiff_t>(before),
+                                     stack_.end());
+      stack_.resize(before);
+      for (const Piece& part : parts) halve(part, along, kTooSteep);
+    }
   }
 
   template <class T>

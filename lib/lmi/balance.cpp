@@ -7,6 +7,7 @@
 #include <numeric>
 #include <set>
 #include <string>
+#include <unordered_set>
 #include <utility>
 
 #include "numbers/matrix.h"
@@ -70,7 +71,15 @@ class FreeRows {
   FreeRows(const std::vector<Element>& elements, int rows, std::size_t unknowns, int objective) {
     std::vector<Sum> first(unknowns);
     std::set<Sum> equations;
+    std::unordered_set<std::size_t> seen;  // blocks of one inequality have the same elements
     for (const Element& e : elements) {
+      const auto n = static_cast<std::size_t>(rows);
+      const auto [low, high] = std::minmax(e.first, e.second);
+      if (!seen.insert((static_cast<std::size_t>(e.unknown) * n + static_cast<std::size_t>(low)) *
+                           n +
+                       static_cast<std::size_t>(high))
+               .second)
+        continue;
       Sum sum;
       ++sum[e.first];
       if (e.second != objective) ++sum[e.second];
