@@ -2,12 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "base/error.h"
 #include "hybrid/text_problem.h"
+#include "support/linear_algebra.h"
 
 namespace gainsmith::hybrid {
 namespace {
@@ -136,7 +136,7 @@ Matrix error_flow(const Matrix& L, double H) {
 Matrix sample_map(const Matrix& L, const Matrix& F, double H, double tau) {
   Matrix start = Matrix::Zero(3, 2);
   start.topRows(2) = Matrix::Identity(2, 2) - F * Matrix{{0.5, -1}};
-  return (Matrix(error_flow(L, H) * tau).exp() * start).topRows(2);
+  return tests::product({tests::exponential(error_flow(L, H) * tau), start}).topRows(2);
 }
 
 Eigen::Vector2d error(const Arc& arc, std::size_t k) {
@@ -179,7 +179,7 @@ TEST(SampledData, ErrorFollowsEquationEightBetweenSamples) {
   Eigen::Vector3d start;
   start << error(arc, 0), q(arc, 0);
   for (std::size_t k = 1; k < arc.samples() && !arc.moves[k - 1].jump; ++k) {
-    const Eigen::Vector3d expected = Matrix(error_flow(L, -11.47) * arc.t[k]).exp() * start;
+    const Eigen::Vector3d expected = tests::exponential(error_flow(L, -11.47) * arc.t[k]) * start;
     EXPECT_LT((error(arc, k) - expected.head(2)).norm(), 1e-13);
     EXPECT_NEAR(q(arc, k), expected(2), 1e-12);
   }
@@ -198,7 +198,7 @@ double growth(TextProblem problem) {
 TEST(SampledData, RowThreeDivergesAtTheSpectralRadius) {
   const Matrix L = column({3.68, -24.47});
   const Matrix F = column({0.040, -0.364});
-  const double radius = sample_map(L, F, -11.47, 1.1).eigenvalues().cwiseAbs().maxCoeff();
+  const double radius = tests::eigenvalues(sample_map(L, F, -11.47, 1.1)).cwiseAbs().maxCoeff();
   EXPECT_NEAR(radius, 1.2062, 5e-5);
   EXPECT_NEAR(growth(sampled_data("1.1", L, F, scalar(-11.47))), radius, 1e-6);
 }

@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "hybrid/text_problem.h"
+#include "support/linear_algebra.h"
 #include "verify/judge.h"
 
 namespace gainsmith::verify {
@@ -43,7 +44,7 @@ double van_loan(const Matrix& M, const Matrix& W, double t, const Eigen::VectorX
   const Eigen::Index n = M.rows();
   Matrix block = Matrix::Zero(2 * n, 2 * n);
   block << -M.transpose(), W, Matrix::Zero(n, n), M;
-  const Matrix exponential = Matrix(block * t).exp();
+  const Matrix exponential = tests::exponential(block * t);
   return x0.dot(exponential.bottomRightCorner(n, n).transpose() * exponential.topRightCorner(n, n) *
                 x0);
 }
