@@ -45,8 +45,9 @@ double van_loan(const Matrix& M, const Matrix& W, double t, const Eigen::VectorX
   Matrix block = Matrix::Zero(2 * n, 2 * n);
   block << -M.transpose(), W, Matrix::Zero(n, n), M;
   const Matrix exponential = tests::exponential(block * t);
-  return x0.dot(exponential.bottomRightCorner(n, n).transpose() * exponential.topRightCorner(n, n) *
-                x0);
+  return x0.dot(tests::product({exponential.bottomRightCorner(n, n).transpose(),
+                                exponential.topRightCorner(n, n), x0})
+                    .col(0));
 }
 
 TextProblem linear_plant(const std::string& matrix) {
