@@ -1,8 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <cmath>
 
 #include "design/synthesize.h"
@@ -11,6 +9,7 @@
 #include "expr/parser.h"
 #include "model/stated.h"
 #include "support/input_error.h"
+#include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::design {
@@ -57,10 +56,10 @@ TEST(ForallTest, TheWorstPointIsOnTheWholeInterval) {
     E << std::cos(tau), std::sin(tau), -std::sin(tau), std::cos(tau);
     numbers::Matrix C(1, 2);
     C << 1, 0;
-    const numbers::Matrix S = (P - Z * C) * E;
+    const numbers::Matrix S = tests::product({P - tests::product({Z, C}), E});
     numbers::Matrix M(4, 4);
     M << P, S.transpose(), S, P;
-    worst = std::min(worst, Eigen::SelfAdjointEigenSolver<numbers::Matrix>(M).eigenvalues()(0));
+    worst = std::min(worst, tests::symmetric_eigenvalues(M)(0));
   }
   for (const model::Margin& margin : found.margins) {
     if (margin.name != "step") continue;
@@ -136,8 +135,8 @@ TEST(ForallTest, GainsAtTheVerticesOfTheBox) {
   scope.symbols["s"] = {};
   scope.functions["Ldno"] = {2, 1};
   const auto gain = stated.bodies.link(expr::compile(expr::parse({"Ldno(s)", "test"}), scope));
-  const Eigen::LLT<numbers::Matrix> factor(*found.find("Q"));
-  const numbers::Matrix U = factor.matrixU();
+  const numbers::Matrix U = tests::cholesky_factor(*found.find("Q")).transpose();
+  const numbers::Matrix U_inverse = tests::inverse(U);
   for (int i = 0; i <= 500; ++i) {
     const double tau = 0.1 + 1.3 * i / 500;
     numbers::Values values = stated.values;
@@ -148,9 +147,10 @@ TEST(ForallTest, GainsAtTheVerticesOfTheBox) {
     numbers::Matrix seen(2, 2);  // Jono = [1 0; 0 0] E
     seen << 1, 0, 0, 0;
     const numbers::Matrix row = seen.topRows(1);
-    const numbers::Matrix A =
-        (numbers::Matrix::Identity(2, 2) - L * row - *found.find("Kno") * seen) * E;
-    EXPECT_LT((U * A * U.inverse()).operatorNorm(), 0.8) << tau;
+    const numbers::Matrix gains =
+        tests::product({L, row}) + tests::product({*found.find("Kno"), seen});
+    const numbers::Matrix A = tests::product({numbers::Matrix::Identity(2, 2) - gains, E});
+    EXPECT_LT(tests::singular_values(tests::product({U, A, U_inverse}))(0), 0.8) << tau;
   }
 }
 

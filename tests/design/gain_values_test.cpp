@@ -3,9 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <string>
 
+#include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::design {
@@ -44,11 +45,12 @@ TEST(GainValues, APolynomialIsStoredByItsCoefficients) {
   EXPECT_EQ(gain.variable, "s");
   EXPECT_EQ(gain.formula, "inv(P)*(Y(2*s)*s + C'*s^3)");
   ASSERT_EQ(gain.coefficients.size(), 4U);
-  const numbers::Matrix inverse = kP.inverse();
+  const numbers::Matrix inverse = tests::inverse(kP);
   EXPECT_TRUE(gain.coefficients[0].isZero(0));
-  EXPECT_TRUE(gain.coefficients[1].isApprox(inverse * kFirst, 1e-15));
-  EXPECT_TRUE(gain.coefficients[2].isApprox(2 * inverse * kSecond, 1e-15));
-  EXPECT_TRUE(gain.coefficients[3].isApprox(inverse * numbers::Matrix{{1}, {2}}, 1e-15));
+  EXPECT_TRUE(gain.coefficients[1].isApprox(tests::product({inverse, kFirst}), 1e-15));
+  EXPECT_TRUE(gain.coefficients[2].isApprox(tests::product({2 * inverse, kSecond}), 1e-15));
+  EXPECT_TRUE(
+      gain.coefficients[3].isApprox(tests::product({inverse, numbers::Matrix{{1}, {2}}}), 1e-15));
 }
 
 TEST(GainValues, WhatTurnsOutConstantIsAMatrix) {
@@ -56,7 +58,8 @@ TEST(GainValues, WhatTurnsOutConstantIsAMatrix) {
     const auto gains = gains_of(problem(formula, 0));
     EXPECT_TRUE(gains.gain_functions.empty()) << formula;
     ASSERT_EQ(gains.gains.size(), 1U) << formula;
-    EXPECT_TRUE(gains.gains[0].second.isApprox(kP.inverse() * kFirst, 1e-15));
+    EXPECT_TRUE(
+        gains.gains[0].second.isApprox(tests::product({tests::inverse(kP), kFirst}), 1e-15));
   }
   const auto zero = gains_of(problem("L(s): s*C' - C'*s", 0));
   ASSERT_EQ(zero.gains.size(), 1U);

@@ -2,18 +2,19 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <cmath>
 #include <random>
 
 #include "expr/world.h"
 #include "support/input_error.h"
+#include "support/linear_algebra.h"
 
 namespace gainsmith::expr {
 namespace {
 
 using tests::input_error;
+using tests::product;
 
 class Functions : public testing::TestWithParam<int> {
  protected:
@@ -78,11 +79,11 @@ TEST_P(Functions, OfMatrices) {
   expect("He(A)", A + A.transpose());
   expect("He(x)", 0.6);
   expect("trace(A)", A.trace());
-  expect("trace(B*C)", (B * C).trace());
+  expect("trace(B*C)", product({B, C}).trace());
   expect("norm(v)", v.norm());
   expect("norm(v')", v.norm());
-  expect("norm(A)", Eigen::JacobiSVD<Matrix>(A).singularValues()(0));
-  expect("norm(B*0.5)", 0.5 * Eigen::JacobiSVD<Matrix>(B).singularValues()(0));
+  expect("norm(A)", tests::singular_values(A)(0));
+  expect("norm(B*0.5)", 0.5 * tests::singular_values(B)(0));
   expect("diag(v)", Matrix(Eigen::VectorXd(v).asDiagonal()));
   expect("diag(v')", Matrix(Eigen::VectorXd(v).asDiagonal()));
   expect("diag(A)", A.diagonal());
@@ -93,12 +94,14 @@ TEST_P(Functions, Inverses) {
   expect("inv(A)*A", Matrix::Identity(4, 4), 1e-10);
   expect("inv(x)", 1 / 0.3);
   // The four conditions of Penrose.
-  for (const auto& [name, M] : {std::pair<std::string, Matrix>{"B", B}, {"C", C}, {"B*C", B * C}}) {
+  for (const auto& [name, M] :
+       {std::pair<std::string, Matrix>{"B", B}, {"C", C}, {"B*C", product({B, C})}}) {
     const Matrix inverse = world("pinv(" + name + ")");
-    EXPECT_LT(relative_difference(M * inverse * M, M), 1e-10) << name;
-    EXPECT_LT(relative_difference(inverse * M * inverse, inverse), 1e-10) << name;
-    EXPECT_LT(relative_difference((M * inverse).transpose(), M * inverse), 1e-10) << name;
-    EXPECT_LT(relative_difference((inverse * M).transpose(), inverse * M), 1e-10) << name;
+    const Matrix left = product({M, inverse}), right = product({inverse, M});
+    EXPECT_LT(relative_difference(product({M, inverse, M}), M), 1e-10) << name;
+    EXPECT_LT(relative_difference(product({inverse, M, inverse}), inverse), 1e-10) << name;
+    EXPECT_LT(relative_difference(left.transpose(), left), 1e-10) << name;
+    EXPECT_LT(relative_difference(right.transpose(), right), 1e-10) << name;
   }
   expect("pinv(zeros(2, 3))", Matrix::Zero(3, 2));
 }
@@ -107,7 +110,7 @@ TEST_P(Functions, TheMatrixExponentialIsItsSeries) {
   Matrix term = Matrix::Identity(4, 4);
   Matrix sum = term;
   for (int k = 1; k < 60; ++k) {
-    term = term * A / k;
+    term = product({term, A}) / k;
     sum += term;
   }
   expect("expm(A)", sum, 1e-12);
@@ -133,16 +136,16 @@ TEST_P(Functions, BlockDiagonal) {
 }
 
 TEST_P(Functions, BasesAreOrthonormalAndHaveTheRank) {
-  const Matrix low = B * C;  // 4 x 4 of rank 2
+  const Matrix low = product({B, C});  // 4 x 4 of rank 2
   world.set("M", low);
   const Matrix range = world("orth(M)");
   const Matrix kernel = world("null(M)");
   ASSERT_EQ(range.cols(), 2);
   ASSERT_EQ(kernel.cols(), 2);
-  EXPECT_LT((range.transpose() * range - Matrix::Identity(2, 2)).norm(), 1e-13);
-  EXPECT_LT((kernel.transpose() * kernel - Matrix::Identity(2, 2)).norm(), 1e-13);
-  EXPECT_LT((low - range * range.transpose() * low).norm(), 1e-12);
-  EXPECT_LT((low * kernel).norm(), 1e-12);
+  EXPECT_LT((product({range.transpose(), range}) - Matrix::Identity(2, 2)).norm(), 1e-13);
+  EXPECT_LT((product({kernel.transpose(), kernel}) - Matrix::Identity(2, 2)).norm(), 1e-13);
+  EXPECT_LT((low - product({range, range.transpose(), low})).norm(), 1e-12);
+  EXPECT_LT(product({low, kernel}).norm(), 1e-12);
   EXPECT_EQ(world("null(A)").cols(), 0);
   EXPECT_EQ(world("orth(C)").cols(), 2);
   EXPECT_EQ(world("null(C)").cols(), 2);
@@ -164,7 +167,7 @@ TEST_P(Functions, Observability) {
   Matrix row = C;
   for (int k = 0; k < 4; ++k) {
     expected.middleRows(2 * k, 2) = row;
-    row = row * A;
+    row = product({row, A});
   }
   expect("obsv(A, C)", expected);
 }

@@ -1,21 +1,21 @@
 // Observability Gramians of hybrid systems against their definition and their identities.
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <cmath>
 #include <random>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "expr/world.h"
 #include "support/input_error.h"
+#include "support/linear_algebra.h"
 
 namespace gainsmith::expr {
 namespace {
 
 using tests::input_error;
+using tests::product;
 
-Matrix flow(const Matrix& F, double t) { return (F * t).exp(); }
+Matrix flow(const Matrix& F, double t) { return tests::exponential(F * t); }
 
 /// int_0^t (Hc expm(F s) M)' (Hc expm(F s) M) ds by Gauss-Legendre on 40 pieces of 4 points.
 Matrix integral(const Matrix& F, const Matrix& Hc, const Matrix& M, double t) {
@@ -27,8 +27,8 @@ Matrix integral(const Matrix& F, const Matrix& Hc, const Matrix& M, double t) {
   Matrix sum = Matrix::Zero(F.rows(), F.rows());
   for (int piece = 0; piece < kPieces; ++piece) {
     for (int i = 0; i < 4; ++i) {
-      const Matrix row = Hc * flow(F, t * (piece + kPositions[i]) / kPieces) * M;
-      sum += kWeights[i] * t / kPieces * row.transpose() * row;
+      const Matrix row = product({Hc, flow(F, t * (piece + kPositions[i]) / kPieces), M});
+      sum += kWeights[i] * t / kPieces * product({row.transpose(), row});
     }
   }
   return sum;
@@ -47,7 +47,7 @@ struct Window {
   /// The transition from the start to the end.
   Matrix transition() const {
     Matrix M = flow(F, t(0));
-    for (Eigen::Index k = 1; k < t.size(); ++k) M = flow(F, t(k)) * J * M;
+    for (Eigen::Index k = 1; k < t.size(); ++k) M = product({flow(F, t(k)), J, M});
     return M;
   }
   Matrix F, J, Hc, Hd, t;
@@ -63,10 +63,11 @@ TEST_P(Gramian, IsTheSumOfTheOutputsOfItsDefinition) {
     Matrix expected = Matrix::Zero(3, 3);
     for (Eigen::Index k = 0; k < w.t.size(); ++k) {
       expected += integral(w.F, w.Hc, M, w.t(k));
-      M = flow(w.F, w.t(k)) * M;
+      M = product({flow(w.F, w.t(k)), M});
       if (k + 1 == w.t.size()) break;
-      expected += (w.Hd * M).transpose() * (w.Hd * M);
-      M = w.J * M;
+      const Matrix seen = product({w.Hd, M});
+      expected += product({seen.transpose(), seen});
+      M = product({w.J, M});
     }
     EXPECT_LT(relative_difference(w.world("gramian(F, Hc, J, Hd, t)"), expected), 1e-12);
     EXPECT_EQ(w.world("gramian(F, Hc, J, Hd, t')"), w.world("gramian(F, Hc, J, Hd, t)"));
@@ -76,8 +77,9 @@ TEST_P(Gramian, IsTheSumOfTheOutputsOfItsDefinition) {
 TEST_P(Gramian, TheBackwardOneIsItsCongruence) {
   for (unsigned seed = 1; seed <= 5; ++seed) {
     const Window w(seed, GetParam());
-    const Matrix inverse = w.transition().inverse();
-    const Matrix expected = inverse.transpose() * w.world("gramian(F, Hc, J, Hd, t)") * inverse;
+    const Matrix inverse = tests::inverse(w.transition());
+    const Matrix expected =
+        product({inverse.transpose(), w.world("gramian(F, Hc, J, Hd, t)"), inverse});
     EXPECT_LT(relative_difference(w.world("backward_gramian(F, Hc, J, Hd, t)"), expected), 1e-9);
   }
 }
@@ -99,7 +101,7 @@ TEST(GramianOfExample2, ItsSmallestEigenvalueIsThatOfTheObservedOscillator) {
   for (const double tau : {0.1, 0.4, 0.9, 1.3}) {
     World world = example();
     const Matrix G = world.set("tau", tau)("gramian(F, Hc, J, Hd, [tau, tau, tau])");
-    const double smallest = Eigen::SelfAdjointEigenSolver<Matrix>(G).eigenvalues()(0);
+    const double smallest = tests::symmetric_eigenvalues(G)(0);
     EXPECT_NEAR(smallest, (tau - std::sin(tau)) / 2, 1e-14);
   }
 }

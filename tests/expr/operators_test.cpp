@@ -1,14 +1,17 @@
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include <Eigen/Core>
 #include <cmath>
 #include <random>
 
 #include "expr/world.h"
 #include "support/input_error.h"
+#include "support/linear_algebra.h"
 
 namespace gainsmith::expr {
 namespace {
+
+using tests::product;
 
 class Operators : public testing::TestWithParam<int> {
  protected:
@@ -41,35 +44,35 @@ TEST_P(Operators, SumsAndDifferences) {
 }
 
 TEST_P(Operators, ProductsAndQuotients) {
-  expect("A*B", A * B);
-  expect("B*C*A", B * C * A);
+  expect("A*B", product({A, B}));
+  expect("B*C*A", product({B, C, A}));
   expect("x*B", x * B);
   expect("B*x", x * B);
   expect("B/x", B / x);
-  expect("A*B/2*C", A * B * C / 2);
+  expect("A*B/2*C", product({A, B, C}) / 2);
   expect("1/x/x", 1 / (x * x));
-  expect("-A*B", -A * B);
+  expect("-A*B", product({-A, B}));
 }
 
 TEST_P(Operators, Transposes) {
   expect("B'", B.transpose());
-  expect("(A*B)'", B.transpose() * A.transpose());
+  expect("(A*B)'", product({B.transpose(), A.transpose()}));
   expect("x'", x);
   expect("B''", B);
 }
 
 TEST_P(Operators, PowersBindAsInMatlab) {
-  const Matrix square = A * A;
+  const Matrix square = product({A, A});
   expect("A^2", square);
   expect("A'^2", square.transpose());
   expect("A^2'", square.transpose());
   expect("-A^2", -square);
   expect("A^0", Matrix::Identity(3, 3));
   expect("A^1", A);
-  expect("A^7", square * square * square * A);
-  expect("(A + 3*I)^-1", (A + 3 * Matrix::Identity(3, 3)).inverse());
-  const Matrix inverse = (A + 3 * Matrix::Identity(3, 3)).inverse();
-  expect("(A + 3*I)^-2", inverse * inverse);
+  expect("A^7", product({square, square, square, A}));
+  const Matrix inverse = tests::inverse(A + 3 * Matrix::Identity(3, 3));
+  expect("(A + 3*I)^-1", inverse);
+  expect("(A + 3*I)^-2", product({inverse, inverse}));
   expect("2^-1", 0.5);
   expect("-x^2", -x * x);
   expect("x^-2", 1 / (x * x));

@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-
+#include <Eigen/Core>
 #include <chrono>
 #include <cmath>
 #include <random>
@@ -12,6 +11,7 @@
 #include "forall/variables.h"
 #include "numbers/definite.h"
 #include "numbers/dense.h"
+#include "support/linear_algebra.h"
 
 namespace gainsmith::forall {
 namespace {
@@ -128,8 +128,9 @@ TEST(ProofTest, RandomDecayInAnyUnits) {
     A -= (0.1 + -0.5 * numbers::smallest_eigenvalue(-(A + A.transpose()))) * Matrix::Identity(n, n);
     Matrix S = Matrix::Zero(n, n);
     for (int i = 0; i < n; ++i) S(i, i) = std::ldexp(1.0, static_cast<int>(4 * normal(generator)));
-    const Matrix units = S * A * S.inverse();
-    const numbers::Values known = {{"A", units}, {"P", Matrix(S.inverse() * S.inverse())}};
+    const Matrix inverse = tests::inverse(S);
+    const Matrix units = tests::product({S, A, inverse});
+    const numbers::Values known = {{"A", units}, {"P", tests::product({inverse, inverse})}};
     const std::string decay = "expm(A*t)'*P*expm(A*t)";
     // At t = 0 they are equal.
     expect_holds("1.001*P - " + decay, {interval("t", 0, 3)}, known);

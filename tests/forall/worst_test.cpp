@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/QR>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -10,6 +10,7 @@
 #include <set>
 
 #include "forall/variables.h"
+#include "support/linear_algebra.h"
 
 namespace gainsmith::forall {
 namespace {
@@ -26,7 +27,7 @@ numbers::Matrix random_rotation(int n, std::mt19937& generator) {
   std::normal_distribution<double> normal;
   const numbers::Matrix random =
       numbers::Matrix::NullaryExpr(n, n, [&] { return normal(generator); });
-  return Eigen::HouseholderQR<numbers::Matrix>(random).householderQ();
+  return tests::orthogonal_factor(random);
 }
 
 TEST(WorstTest, WithoutVariablesTheMatrixItself) {

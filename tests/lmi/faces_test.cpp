@@ -152,14 +152,14 @@ class PlantedFace : public testing::TestWithParam<int> {
     for (int i = 0; i <= 1; ++i) {
       RationalMatrix D = zeros(n_);
       for (int k = 0; k < r_; ++k) D(k, k) = Rational(between(1, 5));
-      const RationalMatrix half = U_ * D;
-      terms_.emplace_back(i, half * U_.transpose());
+      const RationalMatrix half = U_.lazyProduct(D);
+      terms_.emplace_back(i, half.lazyProduct(U_.transpose()));
     }
     const RationalMatrix V = numbers::rational_inverse(U_)->transpose().rightCols(n_ - r_);
     RationalMatrix S = zeros(n_ - r_);
     for (int k = 0; k < n_ - r_; ++k) S(k, k) = Rational(between(1, 5));
-    const RationalMatrix half = V * S;
-    const RationalMatrix Y = half * V.transpose();
+    const RationalMatrix half = V.lazyProduct(S);
+    const RationalMatrix Y = half.lazyProduct(V.transpose());
     std::uniform_real_distribution<double> noise(-1e-20, 1e-20);
     Rational size = 0;
     for (int i = 0; i < n_; ++i) size = std::max(size, Y(i, i));
@@ -198,18 +198,19 @@ TEST_P(PlantedFace, ExcludesWhereTheBlockIsStrict) {
   const ExactMultipliers exact = exact_multipliers(faces, found_);
   ASSERT_EQ(exact.say, ExactMultipliers::Say::excludes);
   // The proof again, from the multiplier that is given.
-  const RationalMatrix half = exact.faces[0].V * exact.S[0];
-  const RationalMatrix Y = half * exact.faces[0].V.transpose();
+  const RationalMatrix half = exact.faces[0].V.lazyProduct(exact.S[0]);
+  const RationalMatrix Y = half.lazyProduct(exact.faces[0].V.transpose());
   EXPECT_TRUE(numbers::is_rational_semidefinite(Y));
   for (const auto& [i, B] : terms_) {
-    EXPECT_EQ(RationalMatrix(B * Y).trace(), 0);
+    EXPECT_EQ(RationalMatrix(B.lazyProduct(Y)).trace(), 0);
   }
 }
 
 TEST_P(PlantedFace, IsNotFoundWhereARelativeChangeOf1e15HasRemovedIt) {
   // On the face the block is now positive, so no multiplier is near.
   const RationalMatrix V = numbers::rational_inverse(U_)->transpose().rightCols(n_ - r_);
-  terms_[0].second += power_of_ten(-15) * U_ * U_.transpose();
+  const RationalMatrix square = U_.lazyProduct(U_.transpose());
+  terms_[0].second += power_of_ten(-15) * square;
   const Faces faces = faces_of({block(false, terms_)}, 1);
   EXPECT_EQ(exact_multipliers(faces, found_).say, ExactMultipliers::Say::nothing);
 }

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include <Eigen/Core>
 #include <cmath>
 #include <random>
 
+#include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::lmi {
@@ -121,23 +121,22 @@ TEST(GainBoundsTest, BlocksSayTheSameAsTheMeasure) {
     for (double& value : x) value = number(generator);
     const numbers::Matrix root =
         numbers::Matrix::NullaryExpr(3, 3, [&] { return number(generator); });
-    const numbers::Matrix P = root * root.transpose() + 0.1 * numbers::Matrix::Identity(3, 3);
+    const numbers::Matrix P =
+        tests::product({root, root.transpose()}) + 0.1 * numbers::Matrix::Identity(3, 3);
     for (int k = 0; k < 6; ++k) {
       const auto [row, column] = unknowns.list()[0].places(k).front();
       x[static_cast<std::size_t>(k)] = P(row, column);
     }
-    const double floor = Eigen::SelfAdjointEigenSolver<numbers::Matrix>(P).eigenvalues()(0);
+    const double floor = tests::symmetric_eigenvalues(P)(0);
     x.back() = floor * (1 - 1e-12);
     bool positive = true;
     for (const Block& block : bounds.blocks)
-      positive &=
-          Eigen::SelfAdjointEigenSolver<numbers::Matrix>(block.value(x)).eigenvalues()(0) > 0;
+      positive &= tests::symmetric_eigenvalues(block.value(x))(0) > 0;
     const model::GainBound reached = reached_bounds(bounds, x).front();
     EXPECT_EQ(positive, reached.reached < beta) << reached.reached;
     const numbers::Values values = unknowns.values(x);
-    const numbers::Matrix gain = P.inverse() * values.at("Y");
-    EXPECT_GE(reached.reached * (1 + 1e-9),
-              Eigen::JacobiSVD<numbers::Matrix>(gain).singularValues()(0));
+    const numbers::Matrix gain = tests::product({tests::inverse(P), values.at("Y")});
+    EXPECT_GE(reached.reached * (1 + 1e-9), tests::singular_values(gain)(0));
     inside += positive ? 1 : 0;
   }
   EXPECT_GT(inside, 5);

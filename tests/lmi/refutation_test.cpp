@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -13,6 +13,7 @@
 #include "base/scalars.h"
 #include "model/gains.h"
 #include "sdp/solver.h"
+#include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::lmi {
@@ -79,7 +80,7 @@ Matrix random_matrix(int n, std::mt19937& generator) {
 
 /// A with the largest real part of an eigenvalue moved to `abscissa`.
 Matrix with_abscissa(Matrix A, double abscissa) {
-  const double found = Eigen::EigenSolver<Matrix>(A).eigenvalues().real().maxCoeff();
+  const double found = tests::spectral_abscissa(A);
   A.diagonal().array() += abscissa - found;
   return A;
 }
@@ -102,7 +103,7 @@ Multipliers in_units(const Formulation& formulation, const std::vector<Wide>& Y)
 
 /// Y_2 > 0 and Y_1 = A Y_2 + Y_2 A': <P, Y_1> = <P A + A' P, Y_2> for every P.
 std::vector<Wide> lyapunov_certificate(const Matrix& A, const Wide& Y2) {
-  const Wide product = decimals(A) * Y2;
+  const Wide product = decimals(A).lazyProduct(Y2);
   return {product + product.transpose().eval(), Y2};
 }
 
@@ -180,7 +181,7 @@ TEST(RefutationTest, RandomMultipliersRefuteNoFeasibleProblem) {
     Multipliers Y;
     for (int k = 0; k < 2; ++k) {
       const Matrix root = random_matrix(n, generator) * std::pow(10.0, 3 * k * (trial % 5));
-      Y.push_back((root * root.transpose()).cast<DoubleDouble>());
+      Y.push_back(tests::widened<DoubleDouble>(tests::product({root, root.transpose()})));
     }
     EXPECT_FALSE((refute<DoubleDouble>(feasible.of, feasible.lmi, asked, Y).exact)) << trial;
   }
@@ -199,27 +200,27 @@ TEST(RefutationTest, APerturbedCertificateIsJudgedByItsResidual) {
     const Matrix I = Matrix::Identity(n, n);
     const Matrix lifted = kronecker(I, A) + kronecker(A, I);
     const Eigen::VectorXd right = Eigen::Map<const Eigen::VectorXd>(I.data(), n * n);
-    const Eigen::VectorXd solved = lifted.fullPivLu().solve(right);
+    const Eigen::VectorXd solved = tests::solve(lifted, right);
     const Matrix raw = Eigen::Map<const Matrix>(solved.data(), n, n);
     const Matrix Y2 = 0.5 * (raw + raw.transpose());
     for (const double size : {0., 1e-12, 1e-6}) {
-      std::vector<Wide> Y = lyapunov_certificate(A, Y2.cast<DoubleDouble>());
+      std::vector<Wide> Y = lyapunov_certificate(A, tests::widened<DoubleDouble>(Y2));
       Matrix error = random_matrix(n, generator);
       error = size / error.norm() * (error + error.transpose()).eval();
-      Y[0] += error.cast<DoubleDouble>();
+      Y[0] += tests::widened<DoubleDouble>(error);
       const Refutation found = refute<DoubleDouble>(posed.of, posed.lmi, asked, in_units(asked, Y));
       EXPECT_TRUE(found.exact) << size << "\n" << A;
       EXPECT_LT(found.omega, 100 * size + 1e-27);
       EXPECT_GE(found.omega, 1e-4 * size);
     }
     // As large as the certificate: nothing is shown.
-    std::vector<Wide> Y = lyapunov_certificate(A, Y2.cast<DoubleDouble>());
+    std::vector<Wide> Y = lyapunov_certificate(A, tests::widened<DoubleDouble>(Y2));
     Y[0] *= DoubleDouble(3);
     const Refutation wrong = refute<DoubleDouble>(posed.of, posed.lmi, asked, in_units(asked, Y));
     EXPECT_FALSE(wrong.exact);
     EXPECT_GT(wrong.omega, 0.01);
     // Not positive semidefinite: no certificate at all.
-    Y = lyapunov_certificate(A, Y2.cast<DoubleDouble>());
+    Y = lyapunov_certificate(A, tests::widened<DoubleDouble>(Y2));
     Y[1](0, 0) = DoubleDouble(-1);
     EXPECT_EQ((refute<DoubleDouble>(posed.of, posed.lmi, asked, in_units(asked, Y)).omega), 1);
   }
@@ -229,7 +230,7 @@ TEST(RefutationTest, APerturbedCertificateIsJudgedByItsResidual) {
 std::pair<Matrix, Matrix> whole_triangular(int n, int k, std::mt19937& generator) {
   Matrix L = Matrix::Identity(n, n);
   for (int i = 1; i < n; ++i) L(i, i - 1) = generator() % 2 == 0 ? k : -k;
-  return {L, L.inverse().array().round().matrix()};
+  return {L, tests::inverse(L).array().round().matrix()};
 }
 
 /// Certificates that are known by construction, in coordinates of condition 1e8 and more: Y_2 = T
@@ -242,17 +243,18 @@ TEST(RefutationTest, CoordinatesDoNotMatter) {
     const int k = n == 2 ? 100 : n == 3 ? 20 : 8;
     const auto [lower, lower_inverse] = whole_triangular(n, k, generator);
     const auto [other, other_inverse] = whole_triangular(n, k, generator);
-    const Matrix T = lower * other.transpose();
-    const Matrix inverse = other_inverse.transpose() * lower_inverse;
-    ASSERT_EQ(T * inverse, Matrix::Identity(n, n));
-    Eigen::JacobiSVD<Matrix> svd(T);
-    EXPECT_GT(svd.singularValues()(0) / svd.singularValues()(n - 1), 1e7);
+    const Matrix T = tests::product({lower, other.transpose()});
+    const Matrix inverse = tests::product({other_inverse.transpose(), lower_inverse});
+    ASSERT_EQ(tests::product({T, inverse}), Matrix::Identity(n, n));
+    const Eigen::VectorXd sizes = tests::singular_values(T);
+    EXPECT_GT(sizes(0) / sizes(n - 1), 1e7);
     Matrix skew = random_matrix(n, generator).array().round();
-    const Matrix A = T * (Matrix::Identity(n, n) + skew - skew.transpose()) * inverse;
-    const Wide root = T.cast<DoubleDouble>();
+    const Matrix antistable = Matrix::Identity(n, n) + skew - skew.transpose();
+    const Matrix A = tests::product({T, antistable, inverse});
+    const Wide root = tests::widened<DoubleDouble>(T);
     const Posed posed(lyapunov(A));
     const Formulation asked = posed.formulation();
-    const auto Y = lyapunov_certificate(A, root * root.transpose());
+    const auto Y = lyapunov_certificate(A, root.lazyProduct(root.transpose()));
     const Refutation found = refute<Decimal100>(posed.of, posed.lmi, asked, in_units(asked, Y));
     EXPECT_TRUE(found.exact) << trial;
     EXPECT_LT(found.omega, 1e-25) << trial;

@@ -3,12 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <limits>
 #include <string>
 
 #include "sdp/presolve.h"
+#include "support/linear_algebra.h"
 #include "support/sdp_dense.h"
 
 namespace gainsmith::sdp {
@@ -215,10 +216,8 @@ TEST(NewtonResidual, IsLeftOutWhereItIsNegligible) {
 /// L^-1 D L^-T.
 double longest_step(const Full<double>& matrix, const Full<double>& direction) {
   double smallest = 0;
-  for (std::size_t b = 0; b < matrix.size(); ++b) {
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> pencil(direction[b], matrix[b]);
-    smallest = std::min(smallest, pencil.eigenvalues()[0]);
-  }
+  for (std::size_t b = 0; b < matrix.size(); ++b)
+    smallest = std::min(smallest, tests::pencil_eigenvalues(direction[b], matrix[b])[0]);
   return smallest < 0 ? -1 / smallest : std::numeric_limits<double>::infinity();
 }
 

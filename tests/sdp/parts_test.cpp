@@ -1,7 +1,7 @@
 // The solver's parts, each against the formula that its header states.
 #include <gtest/gtest.h>
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
@@ -13,12 +13,14 @@
 #include "sdp/kernels.h"
 #include "sdp/presolve.h"
 #include "sdp/schur.h"
+#include "support/linear_algebra.h"
 
 namespace gainsmith::sdp {
 namespace {
 
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+using tests::widened;
 
 MatrixXd varied(int rows, int columns, double phase) {
   MatrixXd m(rows, columns);
@@ -29,7 +31,7 @@ MatrixXd varied(int rows, int columns, double phase) {
 
 MatrixXd positive(int n, double phase) {
   const MatrixXd a = varied(n, n, phase);
-  const MatrixXd square = a * a.transpose();
+  const MatrixXd square = tests::product({a, a.transpose()});
   return 0.5 * (square + square.transpose()) + MatrixXd::Identity(n, n);
 }
 
@@ -51,7 +53,7 @@ TYPED_TEST_SUITE(Kernels, Scalars);
 
 TYPED_TEST(Kernels, ProductsAgreeWithTheDefinition) {
   using T = TypeParam;
-  const Matrix<T> a = varied(13, 9, 1).cast<T>(), b = varied(9, 7, 2).cast<T>();
+  const Matrix<T> a = widened<T>(varied(13, 9, 1)), b = widened<T>(varied(9, 7, 2));
   Matrix<T> c = Matrix<T>::Zero(13, 7);
   multiply(View<const T>(a), View<const T>(b), View<T>(c));
   for (int j = 0; j < 7; ++j)
@@ -72,9 +74,9 @@ TYPED_TEST(Kernels, ProductsOfAllShapesAgreeWithTheDefinition) {
     for (const int columns : {1, 3, 6, 11, 40})
       for (const int inner : {0, 1, 5, 32, 300}) {
         if (!narrow && rows * columns * inner > 5000) continue;
-        const Matrix<T> a = varied(rows, inner, 1).cast<T>(),
-                        b = varied(inner, columns, 2).cast<T>();
-        Matrix<T> c = varied(rows, columns, 3).cast<T>();
+        const Matrix<T> a = widened<T>(varied(rows, inner, 1)),
+                        b = widened<T>(varied(inner, columns, 2));
+        Matrix<T> c = widened<T>(varied(rows, columns, 3));
         const double tolerance = (1 + inner) * this->tolerance();
         const Matrix<T> before = c, expected = a.lazyProduct(b);
         multiply(View<const T>(a), View<const T>(b), View<T>(c), Update::subtract);
@@ -87,7 +89,7 @@ TYPED_TEST(Kernels, ProductsOfAllShapesAgreeWithTheDefinition) {
 TYPED_TEST(Kernels, TriangularProductsAreProducts) {
   using T = TypeParam;
   for (const int n : {1, 9, 50}) {
-    const Matrix<T> a = varied(n, n, 1).cast<T>(), full = varied(n, n, 2).cast<T>();
+    const Matrix<T> a = widened<T>(varied(n, n, 1)), full = widened<T>(varied(n, n, 2));
     const Matrix<T> upper = full.template triangularView<Eigen::Upper>();
     const Matrix<T> lower = full.template triangularView<Eigen::Lower>();
     Matrix<T> c(n, n);
@@ -101,7 +103,7 @@ TYPED_TEST(Kernels, TriangularProductsAreProducts) {
 TYPED_TEST(Kernels, CholeskyFactorsInverts) {
   using T = TypeParam;
   constexpr int n = 70;  // three panels
-  const Matrix<T> a = positive(n, 3).cast<T>();
+  const Matrix<T> a = widened<T>(positive(n, 3));
   Matrix<T> l = a, inverse(n, n);
   ASSERT_TRUE(cholesky(View<T>(l)));
   for (int j = 0; j < n; ++j)
@@ -122,7 +124,7 @@ TYPED_TEST(Kernels, CholeskyFactorsInverts) {
 
 TYPED_TEST(Kernels, CholeskyRefusesWhatIsNotPositive) {
   using T = TypeParam;
-  Matrix<T> a = positive(40, 3).cast<T>();
+  Matrix<T> a = widened<T>(positive(40, 3));
   a(37, 37) = T(-1);
   EXPECT_FALSE(cholesky(View<T>(a)));
 }
@@ -132,7 +134,7 @@ TEST(Tridiagonal, BoundsTheSmallestEigenvalueFromBelow) {
     const VectorXd diagonal = varied(n, 1, 1).col(0), subdiagonal = varied(n - 1, 1, 2).col(0);
     MatrixXd t = diagonal.asDiagonal();
     t.diagonal(1) = t.diagonal(-1) = subdiagonal;
-    const double exact = Eigen::SelfAdjointEigenSolver<MatrixXd>(t).eigenvalues()[0];
+    const double exact = tests::symmetric_eigenvalues(t)[0];
     const double bound = smallest_of_tridiagonal(diagonal, subdiagonal, -1e-3);
     EXPECT_LE(bound, exact + 1e-12);
     EXPECT_GT(bound, 1.002 * exact);
@@ -143,10 +145,10 @@ TEST(Tridiagonal, BoundsTheSmallestEigenvalueFromBelow) {
 TEST(Lanczos, BoundsTheSmallestEigenvalueFromBelow) {
   for (const int n : {33, 60, 90}) {
     const MatrixXd v = positive(n, n), d = varied(n, n, 5) + varied(n, n, 5).transpose();
-    MatrixXd l = v.llt().matrixL();
-    const MatrixXd inverse = l.inverse();
-    const MatrixXd w = inverse * d * inverse.transpose();
-    const double exact = Eigen::SelfAdjointEigenSolver<MatrixXd>(w).eigenvalues()[0];
+    MatrixXd l = tests::cholesky_factor(v);
+    const MatrixXd inverse = tests::inverse(l);
+    const MatrixXd w = tests::product({inverse, d, inverse.transpose()});
+    const double exact = tests::symmetric_eigenvalues(w)[0];
     Lanczos lanczos(n);
     bool converged = false;
     const double bound = lanczos.lower_bound(l, d, -1e-3, converged);
@@ -167,7 +169,7 @@ TEST(ConeFactor, DividesByItsMatrix) {
     const MatrixXd m = varied(static_cast<int>(n), static_cast<int>(n), 2);
     MatrixXd quotient = m, work(n, n);
     factor.divide(b, View<double>(quotient), View<double>(work));
-    EXPECT_LT((quotient * v.dense(b) - m).norm(), 1e-9);
+    EXPECT_LT((tests::product({quotient, v.dense(b)}) - m).norm(), 1e-9);
   }
 }
 
@@ -184,13 +186,14 @@ TEST(ConeFactor, StepsToTheBoundary) {
     const double a = cone.step(d, 10);
     const auto smallest = [&](double step) {
       const MatrixXd moved = v.dense(0) + step * d.dense(0);
-      return Eigen::SelfAdjointEigenSolver<MatrixXd>(moved).eigenvalues()[0];
+      return tests::symmetric_eigenvalues(moved)[0];
     };
     EXPECT_GE(smallest(0.999 * a), 0);
     EXPECT_LT(smallest(1.03 * a), 0);
     Blocks<double> inverse(layout);
     cone.inverse(inverse);
-    EXPECT_LT((inverse.dense(0) * v.dense(0) - MatrixXd::Identity(n, n)).norm(), 1e-9);
+    const MatrixXd one = tests::product({inverse.dense(0), v.dense(0)});
+    EXPECT_LT((one - MatrixXd::Identity(n, n)).norm(), 1e-9);
     v.linear()[1] = 0;
     EXPECT_FALSE(cone.factorise(v));
   }
@@ -228,7 +231,7 @@ TYPED_TEST(Kernels, ApplyIsTheTransposeOfAdjoint) {
   const Vector<T> x = varied(11, 1, 6).col(0).cast<T>();
   const T tau = T(0.7);
   adjoint(data, x, tau, image);
-  s.dense(0) = positive(19, 5).cast<T>();
+  s.dense(0) = widened<T>(positive(19, 5));
   s.linear() << T(3), T(-1), T(2);
   Vector<T> products(11);
   const T with_f0 = apply(data, s, products);
@@ -240,7 +243,7 @@ TEST(Schur, SolvesWithTheMatrixOfItsDefinition) {
   for (const auto& [n, m] : {std::pair{5, 9}, std::pair{24, 31}}) {
     const Data data = mixed_data(n, m);
     Blocks<double> X(data.layout), Y(data.layout);
-    X.dense(0) = positive(n, 1).inverse();
+    X.dense(0) = tests::inverse(positive(n, 1));
     Y.dense(0) = positive(n, 2);
     X.linear() << 1, 2, 3;
     Y.linear() << 3, 1, 2;
@@ -250,7 +253,7 @@ TEST(Schur, SolvesWithTheMatrixOfItsDefinition) {
     Blocks<double> f(data.layout), image(data.layout);
     for (int j = 0; j < m; ++j) {
       adjoint(data, Vector<double>(VectorXd::Unit(m, j)), 0.0, f);
-      const MatrixXd u = X.dense(0) * f.dense(0) * Y.dense(0);
+      const MatrixXd u = tests::product({X.dense(0), f.dense(0), Y.dense(0)});
       image.dense(0) = 0.5 * (u + u.transpose());
       image.linear() = X.linear().cwiseProduct(f.linear()).cwiseProduct(Y.linear());
       apply(data, image, column);

@@ -3,11 +3,12 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <cmath>
 #include <limits>
 
 #include "base/random.h"
+#include "support/linear_algebra.h"
 #include "support/sdp_check.h"
 #include "support/sdp_dense.h"
 
@@ -84,8 +85,7 @@ double smallest_eigenvalue(const std::vector<Square>& matrix) {
     Eigen::MatrixXd rounded(n, n);
     for (std::size_t k = 0; k < block.size(); ++k)
       rounded.data()[k] = static_cast<double>(block[k]);
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(rounded);
-    smallest = std::min(smallest, solver.eigenvalues()[0]);
+    smallest = std::min(smallest, tests::symmetric_eigenvalues(rounded)[0]);
   }
   return smallest;
 }

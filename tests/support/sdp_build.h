@@ -1,12 +1,13 @@
 // What the problems of the catalogue are put together from.
 #pragma once
 
-#include <Eigen/Dense>
+#include <Eigen/Core>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 #include "base/random.h"
+#include "support/linear_algebra.h"
 #include "support/sdp_catalogue.h"
 
 namespace gainsmith::sdp::testing {
@@ -30,7 +31,7 @@ class Random {
     const MatrixXd a = matrix(n, n);
     return a + a.transpose();
   }
-  MatrixXd orthogonal(int n) { return matrix(n, n).householderQr().householderQ(); }
+  MatrixXd orthogonal(int n) { return tests::orthogonal_factor(matrix(n, n)); }
 
  private:
   RandomStream stream_;

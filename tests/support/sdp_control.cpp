@@ -20,7 +20,7 @@ std::vector<MatrixXd> symmetric_basis(int n) {
 
 MatrixXd stable(Random& random, int n) {
   const MatrixXd a = random.matrix(n, n);
-  const double abscissa = a.eigenvalues().real().maxCoeff();
+  const double abscissa = tests::spectral_abscissa(a);
   return a - (abscissa + 0.5) * MatrixXd::Identity(n, n);
 }
 
@@ -34,7 +34,7 @@ MatrixXd solve_lyapunov(const MatrixXd& a, const MatrixXd& q) {
         k(i + n * j, l + n * j) += a(l, i);
         k(i + n * j, i + n * l) += a(l, j);
       }
-  const VectorXd p = k.partialPivLu().solve(-q.reshaped());
+  const VectorXd p = tests::solve(k, -q.reshaped());
   return p.reshaped(n, n);
 }
 
@@ -63,7 +63,7 @@ double h_infinity_norm(const MatrixXd& a, const MatrixXd& b, const MatrixXd& c) 
     const double gamma = 0.5 * (low + high);
     MatrixXd h(2 * n, 2 * n);
     h << a, b * b.transpose() / (gamma * gamma), -c.transpose() * c, -a.transpose();
-    const Eigen::VectorXcd lambda = h.eigenvalues();
+    const Eigen::VectorXcd lambda = tests::eigenvalues(h);
     bool imaginary = false;
     for (const std::complex<double>& l : lambda)
       imaginary = imaginary || std::abs(l.real()) < 1e-9 * (1 + std::abs(l));

@@ -142,6 +142,17 @@ Matrix<T> random_matrix(Random& random, Eigen::Index n) {
   return a;
 }
 
+template <typename T>
+Full<T> scaled(const T& factor, Full<T> m) {
+  for (Matrix<T>& block : m) block *= factor;
+  return m;
+}
+
+template <typename T>
+T number(double value, double rest) {
+  return std::is_same_v<T, double> ? T(value) : T(T(value) + T(rest));
+}
+
 }  // namespace
 
 std::vector<NamedProblem> random_problems(std::uint64_t seed) {
@@ -210,7 +221,132 @@ void fill(std::uint64_t seed, Vector<T>& v) {
   for (T& value : v) value = random.full<T>();
 }
 
+template <typename T>
+Full<T> full(const Blocks<T>& matrix) {
+  Full<T> result;
+  for (int b = 0; b < matrix.layout().blocks(); ++b) result.emplace_back(matrix.dense(b));
+  for (const T& value : matrix.linear()) result.push_back(Matrix<T>::Constant(1, 1, value));
+  return result;
+}
+
+template <typename T>
+Full<T> plus(const Full<T>& a, const T& factor, const Full<T>& b) {
+  Full<T> result = a;
+  for (std::size_t k = 0; k < a.size(); ++k) result[k] += factor * b[k];
+  return result;
+}
+
+template <typename T>
+Full<T> times(const Full<T>& a, const Full<T>& b) {
+  Full<T> result;
+  for (std::size_t k = 0; k < a.size(); ++k) result.push_back(a[k].lazyProduct(b[k]));
+  return result;
+}
+
+template <typename T>
+Full<T> symmetric_part(const Full<T>& m) {
+  Full<T> result;
+  for (const Matrix<T>& block : m) result.push_back(T(0.5) * (block + block.transpose()));
+  return result;
+}
+
+template <typename T>
+T trace_of_product(const Full<T>& a, const Full<T>& b) {
+  T sum(0);
+  for (std::size_t k = 0; k < a.size(); ++k)
+    for (Eigen::Index j = 0; j < a[k].cols(); ++j)
+      for (Eigen::Index i = 0; i < a[k].rows(); ++i) sum += a[k](i, j) * b[k](j, i);
+  return sum;
+}
+
+template <typename T>
+Full<T> inverse(const Full<T>& m) {
+  Full<T> result;
+  for (Matrix<T> a : m) {
+    const Eigen::Index n = a.rows();
+    Matrix<T> x = Matrix<T>::Identity(n, n);
+    for (Eigen::Index k = 0; k < n; ++k) {
+      const T pivot = a(k, k);
+      a.row(k) /= pivot;
+      x.row(k) /= pivot;
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const T factor = a(i, k);
+        if (i == k || factor == T(0)) continue;
+        a.row(i) -= factor * a.row(k);
+        x.row(i) -= factor * x.row(k);
+      }
+    }
+    result.push_back(x);
+  }
+  return result;
+}
+
+template <typename T>
+double largest(const Full<T>& m) {
+  double result = 0;
+  for (const Matrix<T>& block : m)
+    for (const T& value : block.reshaped())
+      result = std::max(result, std::abs(static_cast<double>(value)));
+  return result;
+}
+
+template <typename T>
+double largest(const Vector<T>& v) {
+  return largest(Full<T>{v});
+}
+
+template <typename T>
+template <typename Visit>
+void Dense<T>::visit(const BlockData& block, const Visit& at) {
+  for (std::size_t k = 0; k < block.constraint.size(); ++k)
+    for (std::size_t t = block.start[k]; t < block.start[k + 1]; ++t)
+      at(f[static_cast<std::size_t>(block.constraint[k])], block.terms[t],
+         number<T>(block.terms[t].value, block.terms[t].rest));
+}
+
+template <typename T>
+Dense<T>::Dense(const Data& data) : c(data.m()) {
+  Full<T> zero;
+  for (const int n : data.layout.size) zero.push_back(Matrix<T>::Zero(n, n));
+  for (int k = 0; k < data.layout.linear; ++k) zero.push_back(Matrix<T>::Zero(1, 1));
+  f.assign(static_cast<std::size_t>(data.m()) + 1, zero);
+  for (std::size_t b = 0; b < data.dense.size(); ++b)
+    visit(data.dense[b], [&](Full<T>& fi, const Term& term, const T& value) {
+      fi[b](term.row, term.column) = fi[b](term.column, term.row) = value;
+    });
+  visit(data.linear, [&](Full<T>& fi, const Term& term, const T& value) {
+    fi[data.dense.size() + static_cast<std::size_t>(term.row)](0, 0) = value;
+  });
+  for (int i = 0; i < data.m(); ++i) {
+    const auto at = static_cast<std::size_t>(i);
+    c[i] = number<T>(data.c[at], data.c_rest[at]);
+  }
+}
+
+template <typename T>
+Full<T> Dense<T>::combine(const Vector<T>& x, const T& tau) const {
+  Full<T> sum = scaled(T(-tau), f[0]);
+  for (int i = 0; i < m(); ++i) sum = plus(sum, T(x[i]), f[static_cast<std::size_t>(i) + 1]);
+  return sum;
+}
+
+template <typename T>
+Vector<T> Dense<T>::products(const Full<T>& s) const {
+  Vector<T> result(m());
+  for (int i = 0; i < m(); ++i) result[i] = trace_of_product(f[static_cast<std::size_t>(i) + 1], s);
+  return result;
+}
+
 #define GAINSMITH_INSTANTIATE(T)                                          \
+  template struct Dense<T>;                                               \
+  template Full<T> full(const Blocks<T>&);                                \
+  template Full<T> plus(const Full<T>&, const T&, const Full<T>&);        \
+  template Full<T> times(const Full<T>&, const Full<T>&);                 \
+  template Full<T> symmetric_part(const Full<T>&);                        \
+  template T trace_of_product(const Full<T>&, const Full<T>&);            \
+  template Full<T> inverse(const Full<T>&);                               \
+  template double largest(const Full<T>&);                                \
+  template double largest(const Vector<T>&);                              \
   template void fill_positive<T>(std::uint64_t, Blocks<T>&);              \
   template void fill_positive<T>(std::uint64_t, const Data&, Blocks<T>&); \
   template void fill_symmetric<T>(std::uint64_t, Blocks<T>&);             \

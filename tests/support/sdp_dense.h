@@ -18,141 +18,52 @@ template <typename T>
 using Full = std::vector<Matrix<T>>;
 
 template <typename T>
-Full<T> full(const Blocks<T>& matrix) {
-  Full<T> result;
-  for (int b = 0; b < matrix.layout().blocks(); ++b) result.emplace_back(matrix.dense(b));
-  for (const T& value : matrix.linear()) result.push_back(Matrix<T>::Constant(1, 1, value));
-  return result;
-}
+Full<T> full(const Blocks<T>& matrix);
 
 /// a + factor b
 template <typename T>
-Full<T> plus(const Full<T>& a, const T& factor, const Full<T>& b) {
-  Full<T> result = a;
-  for (std::size_t k = 0; k < a.size(); ++k) result[k] += factor * b[k];
-  return result;
-}
+Full<T> plus(const Full<T>& a, const T& factor, const Full<T>& b);
 
 template <typename T>
-Full<T> times(const Full<T>& a, const Full<T>& b) {
-  Full<T> result;
-  for (std::size_t k = 0; k < a.size(); ++k) result.push_back(a[k].lazyProduct(b[k]));
-  return result;
-}
+Full<T> times(const Full<T>& a, const Full<T>& b);
 
 /// H(M) = (M + M')/2
 template <typename T>
-Full<T> symmetric_part(const Full<T>& m) {
-  Full<T> result;
-  for (const Matrix<T>& block : m) result.push_back(T(0.5) * (block + block.transpose()));
-  return result;
-}
-
-template <typename T>
-Full<T> scaled(const T& factor, Full<T> m) {
-  for (Matrix<T>& block : m) block *= factor;
-  return m;
-}
+Full<T> symmetric_part(const Full<T>& m);
 
 /// trace(A B)
 template <typename T>
-T trace_of_product(const Full<T>& a, const Full<T>& b) {
-  T sum(0);
-  for (std::size_t k = 0; k < a.size(); ++k)
-    for (Eigen::Index j = 0; j < a[k].cols(); ++j)
-      for (Eigen::Index i = 0; i < a[k].rows(); ++i) sum += a[k](i, j) * b[k](j, i);
-  return sum;
-}
+T trace_of_product(const Full<T>& a, const Full<T>& b);
 
 /// By Gauss-Jordan elimination; for positive definite matrices, which need no pivoting.
 template <typename T>
-Full<T> inverse(const Full<T>& m) {
-  Full<T> result;
-  for (Matrix<T> a : m) {
-    const Eigen::Index n = a.rows();
-    Matrix<T> x = Matrix<T>::Identity(n, n);
-    for (Eigen::Index k = 0; k < n; ++k) {
-      const T pivot = a(k, k);
-      a.row(k) /= pivot;
-      x.row(k) /= pivot;
-      for (Eigen::Index i = 0; i < n; ++i) {
-        const T factor = a(i, k);
-        if (i == k || factor == T(0)) continue;
-        a.row(i) -= factor * a.row(k);
-        x.row(i) -= factor * x.row(k);
-      }
-    }
-    result.push_back(x);
-  }
-  return result;
-}
+Full<T> inverse(const Full<T>& m);
 
 template <typename T>
-double largest(const Full<T>& m) {
-  double result = 0;
-  for (const Matrix<T>& block : m)
-    for (const T& value : block.reshaped())
-      result = std::max(result, std::abs(static_cast<double>(value)));
-  return result;
-}
+double largest(const Full<T>& m);
 
 template <typename T>
-double largest(const Vector<T>& v) {
-  return largest(Full<T>{v});
-}
+double largest(const Vector<T>& v);
 
 /// F_0, ..., F_m and c of a working problem, in full.
 template <typename T>
 struct Dense {
-  explicit Dense(const Data& data) : c(data.m()) {
-    Full<T> zero;
-    for (const int n : data.layout.size) zero.push_back(Matrix<T>::Zero(n, n));
-    for (int k = 0; k < data.layout.linear; ++k) zero.push_back(Matrix<T>::Zero(1, 1));
-    f.assign(static_cast<std::size_t>(data.m()) + 1, zero);
-    for (std::size_t b = 0; b < data.dense.size(); ++b)
-      visit(data.dense[b], [&](Full<T>& fi, const Term& term, const T& value) {
-        fi[b](term.row, term.column) = fi[b](term.column, term.row) = value;
-      });
-    visit(data.linear, [&](Full<T>& fi, const Term& term, const T& value) {
-      fi[data.dense.size() + static_cast<std::size_t>(term.row)](0, 0) = value;
-    });
-    for (int i = 0; i < data.m(); ++i) {
-      const auto at = static_cast<std::size_t>(i);
-      c[i] = number(data.c[at], data.c_rest[at]);
-    }
-  }
+  explicit Dense(const Data& data);
 
   int m() const { return static_cast<int>(c.size()); }
 
   /// sum x_i F_i - tau F_0
-  Full<T> combine(const Vector<T>& x, const T& tau) const {
-    Full<T> sum = scaled(T(-tau), f[0]);
-    for (int i = 0; i < m(); ++i) sum = plus(sum, T(x[i]), f[static_cast<std::size_t>(i) + 1]);
-    return sum;
-  }
+  Full<T> combine(const Vector<T>& x, const T& tau) const;
 
   /// A(S)_i = F_i . S
-  Vector<T> products(const Full<T>& s) const {
-    Vector<T> result(m());
-    for (int i = 0; i < m(); ++i)
-      result[i] = trace_of_product(f[static_cast<std::size_t>(i) + 1], s);
-    return result;
-  }
+  Vector<T> products(const Full<T>& s) const;
 
   std::vector<Full<T>> f;
   Vector<T> c;
 
  private:
-  static T number(double value, double rest) {
-    return std::is_same_v<T, double> ? T(value) : T(T(value) + T(rest));
-  }
   template <typename Visit>
-  void visit(const BlockData& block, const Visit& at) {
-    for (std::size_t k = 0; k < block.constraint.size(); ++k)
-      for (std::size_t t = block.start[k]; t < block.start[k + 1]; ++t)
-        at(f[static_cast<std::size_t>(block.constraint[k])], block.terms[t],
-           number(block.terms[t].value, block.terms[t].rest));
-  }
+  void visit(const BlockData& block, const Visit& at);
 };
 
 struct NamedProblem {

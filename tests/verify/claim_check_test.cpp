@@ -2,10 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Core>
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
 
 #include "hybrid/text_problem.h"
+#include "support/linear_algebra.h"
 #include "verify/judge.h"
 
 namespace gainsmith::verify {
@@ -43,9 +44,10 @@ double van_loan(const Matrix& M, const Matrix& W, double t, const Eigen::VectorX
   const Eigen::Index n = M.rows();
   Matrix block = Matrix::Zero(2 * n, 2 * n);
   block << -M.transpose(), W, Matrix::Zero(n, n), M;
-  const Matrix exponential = Matrix(block * t).exp();
-  return x0.dot(exponential.bottomRightCorner(n, n).transpose() * exponential.topRightCorner(n, n) *
-                x0);
+  const Matrix exponential = tests::exponential(block * t);
+  return x0.dot(tests::product({exponential.bottomRightCorner(n, n).transpose(),
+                                exponential.topRightCorner(n, n), x0})
+                    .col(0));
 }
 
 TextProblem linear_plant(const std::string& matrix) {
