@@ -10,7 +10,8 @@
 // of radius r leave a chord by at most r w/2, so that kinks need no B''. B > 0 on the piece when
 // B(c) + F > 0 for all |F| <= E at each corner c (numbers/definite.h), since the interpolation is a
 // mean of the corners. Where a slope has no bound (cusps, jumps) the enclosure of B over the piece
-// has to be positive definite itself. A piece that does not pass is halved, as far as doubles go.
+// has to be positive definite itself. A piece that does not pass is cut in two, as far as doubles
+// go.
 #pragma once
 
 #include <cstddef>

@@ -80,8 +80,8 @@ class Search {
     const Matrix error = error_of(spread);
     if (at_corners(corners, error) || (spread.value.is_known() && holds(spread.value, Matrix())))
       return;
-    const std::size_t along = steepest(piece, spread, corners);
-    divide(piece, along, piece.low.size() == 1 ? halvings(corners, error) : 1);
+    if (piece.low.size() == 1 && error.allFinite()) return cut(piece, corners, error);
+    halve(piece, steepest(piece, spread, corners), kTooSteep);
   }
 
   static Matrix error_of(const typename Function<S>::Spread& spread) {
@@ -96,25 +96,22 @@ class Search {
            });
   }
 
-  /// How often a piece is halved before one is worth looking at: the error of a chord falls to a
-  /// quarter each time. A guess, which costs or saves time only.
-  int halvings(const std::vector<const Corner*>& corners, Matrix error) const {
-    constexpr int kMost = 6;
-    if (!error.allFinite()) return 1;
-    int count = 1;
-    for (error /= 4; count < kMost && !at_corners(corners, error); error /= 4) ++count;
+  /// How often E is divided by four before B(c) + F > 0 at a corner c.
+  int quarterings(const Corner& corner, Matrix error) const {
+    constexpr int kMost = 24;
+    int count = 0;
+    for (; count < kMost && !holds(corner.value, error); ++count) error /= 4;
     return count;
   }
 
-  void divide(const Piece& piece, std::size_t along, int halvings) {
-    const std::size_t before = stack_.size();
-    halve(piece, along, kTooSteep);
-    for (; halvings > 1; --halvings) {
-      const std::vector<Piece> parts(stack_.begin() + static_cast<std::ptrdiff_t>(before),
-                                     stack_.end());
-      stack_.resize(before);
-      for (const Piece& part : parts) halve(part, along, kTooSteep);
-    }
+  /// E falls at least to a quarter where a piece is halved: it is cut so far from its tighter
+  /// corner that the part there passes. B grows from a corner where it is nearly singular, so the
+  /// rest is mostly one that passes at once or is cut much farther away.
+  void cut(const Piece& piece, const std::vector<const Corner*>& corners, const Matrix& error) {
+    const int low = quarterings(*corners[0], error);
+    const int high = quarterings(*corners[1], error);
+    const double part = std::ldexp(piece.high[0] - piece.low[0], -std::max(low, high));
+    split(piece, 0, low >= high ? piece.low[0] + part : piece.high[0] - part, kTooSteep);
   }
 
   template <class T>
@@ -165,11 +162,14 @@ class Search {
   bool is_fine(const Piece& piece) const { return width(piece, widest(piece)) < 0x1p-60; }
 
   void halve(const Piece& piece, std::size_t along, std::string_view why) {
-    const double middle = piece.low[along] + (piece.high[along] - piece.low[along]) / 2;
-    if (!(piece.low[along] < middle && middle < piece.high[along])) return leave(piece, why);
+    split(piece, along, piece.low[along] + (piece.high[along] - piece.low[along]) / 2, why);
+  }
+
+  void split(const Piece& piece, std::size_t along, double at, std::string_view why) {
+    if (!(piece.low[along] < at && at < piece.high[along])) return leave(piece, why);
     Piece left = piece;
     Piece right = piece;
-    left.high[along] = right.low[along] = middle;
+    left.high[along] = right.low[along] = at;
     stack_.push_back(std::move(right));
     stack_.push_back(std::move(left));
   }
