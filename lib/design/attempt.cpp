@@ -10,9 +10,6 @@ namespace gainsmith::design {
 
 namespace {
 
-/// What is left of a certificate that is not exact: rounding of 100 digits.
-constexpr double kNothing = 1e-30;
-
 bool is_finite(const std::vector<double>& x) {
   return std::all_of(x.begin(), x.end(), [](double value) { return std::isfinite(value); });
 }
@@ -119,8 +116,11 @@ lmi::Refutation refutation_of(const Posed& posed, const Question& asked,
   const lmi::Formulation& formulation = solved.formulation;
   const auto Y = lmi::multipliers_of(formulation, posed.lmi.blocks.size(), solved.solution);
   const auto found = lmi::refute<DoubleDouble>(posed.inequalities, posed.lmi, formulation, Y);
+  if (found.exact || !posed.wide) return found;
+  const auto polished = lmi::refute_polished(posed.inequalities, posed.lmi, formulation, Y);
+  if (polished.exact || polished.omega <= lmi::kNothing) return polished;
   // What 31 digits see is not of the data's making when 100 are asked for.
-  if (found.exact || asked.effort.precision == "auto") return found;
+  if (asked.effort.precision == "auto") return found;
   return lmi::refute<Decimal100>(posed.inequalities, posed.lmi, formulation, Y);
 }
 
@@ -151,7 +151,7 @@ bool Attempt::is_near_optimal() const {
 }
 
 bool Attempt::refuted() const {
-  return refutation && (refutation->exact || refutation->omega <= kNothing);
+  return refutation && (refutation->exact || refutation->omega <= lmi::kNothing);
 }
 
 bool Attempt::relaxation_refuted() const {

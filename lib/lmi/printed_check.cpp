@@ -7,6 +7,7 @@
 #include "base/scalars.h"
 #include "lmi/rational_blocks.h"
 #include "model/gains.h"
+#include "numbers/degree.h"
 #include "numbers/rational_algebra.h"
 
 namespace gainsmith::lmi {
@@ -46,6 +47,11 @@ forall::Domain stated_domain(const Statement& statement, const EnclosedValues<S>
     }
   }
   return domain;
+}
+
+bool is_affine_in(const expr::Program& program, const std::string& name) {
+  const auto degrees = numbers::degrees(program, [&](const std::string& it) { return it == name; });
+  return degrees[static_cast<std::size_t>(program.result)] <= 1;
 }
 
 }  // namespace
@@ -113,7 +119,9 @@ DomainProof PrintedCheck::check(std::size_t inequality, std::size_t comparison) 
   if (proof.pieces >= forall::ProofOptions{}.most_pieces) return proof;
   if (proof.status == DomainProof::Status::open) proof = check_in(statement, comparison, in_31_);
   if (proof.status == DomainProof::Status::open) proof = check_in(statement, comparison, in_100_);
-  if (proof.status != DomainProof::Status::open) return proof;
+  // A point that fails may be one that rounding put outside of the file's interval.
+  const bool at_ends = !statement.domain.empty() && proof.status == DomainProof::Status::fails;
+  if (proof.status != DomainProof::Status::open && !at_ends) return proof;
   const std::optional<bool> holds = check_in_fractions(statement, comparison);
   if (holds == true) return {};
   if (holds == false && statement.domain.empty()) proof.status = DomainProof::Status::fails;
@@ -123,8 +131,9 @@ DomainProof PrintedCheck::check(std::size_t inequality, std::size_t comparison) 
 std::optional<bool> PrintedCheck::check_in_fractions(const Statement& statement,
                                                      std::size_t comparison) const {
   const auto& domain = statement.domain;
-  if (std::any_of(domain.begin(), domain.end(), [](const forall::Variable& variable) {
-        return variable.over != model::Over::set;
+  if (!std::all_of(domain.begin(), domain.end(), [&](const forall::Variable& variable) {
+        return !variable.is_interval() ||
+               is_affine_in(statement.differences[comparison], variable.name);
       }))
     return std::nullopt;
   const bool strict = statement.stated->comparisons[comparison].strict;

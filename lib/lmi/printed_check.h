@@ -1,7 +1,8 @@
 // The check that is a yes: an inequality at the unknowns as they are printed, for all values of its
 // variables, with the errors of the arithmetic and of the decimals (forall/proof.h). In double,
 // then in 31 and 100 digits where that does not decide. What is singular at the decimals is decided
-// in fractions, where its text has them (numbers/rational.h) and its variables are over sets.
+// in fractions, where its text has them (numbers/rational.h) and it is affine in each variable over
+// an interval: then the ends decide.
 #pragma once
 
 #include <optional>
@@ -31,7 +32,8 @@ class PrintedCheck {
   forall::DomainProof check(std::size_t inequality, std::size_t comparison);
 
  private:
-  /// Whether B > 0 (B >= 0) at each element of the domain, in fractions; none where it has none.
+  /// Whether B > 0 (B >= 0) at each element, vertex and end of the domain, in fractions; none where
+  /// it has none, or where they do not decide.
   std::optional<bool> check_in_fractions(const Statement& statement, std::size_t comparison) const;
   template <class S>
   forall::DomainProof check_in(const Statement& statement, std::size_t comparison,

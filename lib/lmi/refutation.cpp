@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/eigen_scalars.h"
+#include "lmi/polished_multipliers.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::lmi {
@@ -222,11 +223,29 @@ namespace {
 /// One block with its multiplier.
 template <class S>
 struct Weighed {
-  ExactBlock<S> block;
-  MatrixOf<S> Y;
+  const ExactBlock<S>* block = nullptr;
+  const MatrixOf<S>* Y = nullptr;
   double trace = 0;
   bool strict = true;
 };
+
+template <class S>
+std::vector<ExactBlock<S>> exact_blocks(const Inequalities& of, const Lmi& lmi,
+                                        const Formulation& formulation) {
+  const ExactBlocks<S> exact(of, formulation.balance);
+  std::vector<ExactBlock<S>> blocks;
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
+    blocks.push_back(exact.block(lmi.blocks[k], k, formulation.releases.kept[k]));
+  return blocks;
+}
+
+template <class S>
+std::vector<MatrixOf<S>> converted(const Multipliers& Y) {
+  std::vector<MatrixOf<S>> result;
+  for (const auto& y : Y)
+    result.push_back(y.unaryExpr([](const DoubleDouble& x) { return as<S>(x); }));
+  return result;
+}
 
 /// What the blocks with tr(Y_k) >= least say; the others have the multiplier 0.
 template <class S>
@@ -239,10 +258,10 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
   bool definite = true;
   for (const Weighed<S>& weighed : blocks) {
     if (!(weighed.trace > 0 && weighed.trace >= least)) continue;
-    definite &= cholesky(weighed.Y).has_value();
-    const auto lifted = positive<S>(weighed.Y);
+    definite &= cholesky(*weighed.Y).has_value();
+    const auto lifted = positive<S>(*weighed.Y);
     if (!lifted) return result;
-    add_block(weighed.block, *lifted, weighed.strict, sums);
+    add_block(*weighed.block, *lifted, weighed.strict, sums);
   }
   const bool homogeneous = sums.W[0] == 0 && sums.error[0] == 0;
   const double v = static_cast<double>(as<double>(S(-sums.r[0])));
@@ -262,39 +281,76 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
   return result;
 }
 
+/// What Y says, or those of its Y_k that are not small.
+template <class S>
+Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
+                  const std::vector<MatrixOf<S>>& Y) {
+  // Blocks that a certificate does not need have multipliers that tend to 0 but are not.
+  constexpr double kShares[] = {0, 1e-24, 1e-16, 1e-12, 1e-8, 1e-4};
+  Refutation best;
+  best.digits = std::is_same_v<S, DoubleDouble> ? kQuadDigits : kWideDigits;
+  std::vector<Weighed<S>> weighed;
+  double whole = 0;
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
+    const auto trace = static_cast<double>(as<double>(S(Y[k].trace())));
+    weighed.push_back({&blocks[k], &Y[k], trace, lmi.blocks[k].strict});
+    whole += trace;
+  }
+  std::size_t looked_at = 0;
+  for (const double share : kShares) {
+    const auto count = static_cast<std::size_t>(std::count_if(
+        weighed.begin(), weighed.end(),
+        [&](const auto& one) { return one.trace > 0 && one.trace >= share * whole; }));
+    if (share > 0 && count == looked_at) continue;
+    looked_at = count;
+    const auto m = static_cast<Eigen::Index>(lmi.unknowns) + 1;
+    const Refutation found = refute_by(weighed, share * whole, m);
+    best.exact |= found.exact;
+    best.omega = std::min(best.omega, found.omega);
+    if (best.exact) break;
+  }
+  return best;
+}
+
 }  // namespace
 
 template <class S>
 Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
                   const Multipliers& Y) {
-  // Blocks that a certificate does not need have multipliers that tend to 0 but are not.
-  constexpr double kShares[] = {0, 1e-24, 1e-16, 1e-12, 1e-8, 1e-4};
+  if (!lmi.stands_for_points()) return {};
+  return refute<S>(lmi, exact_blocks<S>(of, lmi, formulation), converted<S>(Y));
+}
+
+Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
+                           const Multipliers& Y) {
+  // A block that a certificate does not need may keep the others from being one.
+  constexpr double kShares[] = {0, 1e-8, 1e-4};
   Refutation best;
-  best.digits = std::is_same_v<S, DoubleDouble> ? kQuadDigits : kWideDigits;
   if (!lmi.stands_for_points()) return best;
-  const ExactBlocks<S> exact(of, formulation.balance);
-  std::vector<Weighed<S>> blocks;
+  const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
+  const auto given = converted<Decimal100>(Y);
   double whole = 0;
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
-    Weighed<S> weighed{exact.block(lmi.blocks[k], k, formulation.releases.kept[k]),
-                       Y[k].unaryExpr([](const DoubleDouble& y) { return as<S>(y); }), 0,
-                       lmi.blocks[k].strict};
-    weighed.trace = static_cast<double>(as<double>(S(weighed.Y.trace())));
-    whole += weighed.trace;
-    blocks.push_back(std::move(weighed));
-  }
+  for (const auto& y : Y) whole += as<double>(DoubleDouble(y.trace()));
   std::size_t looked_at = 0;
   for (const double share : kShares) {
-    const auto count = static_cast<std::size_t>(std::count_if(
-        blocks.begin(), blocks.end(),
-        [&](const auto& weighed) { return weighed.trace > 0 && weighed.trace >= share * whole; }));
-    if (share > 0 && count == looked_at) continue;
-    looked_at = count;
-    const auto m = static_cast<Eigen::Index>(lmi.unknowns) + 1;
-    const Refutation found = refute_by(blocks, share * whole, m);
-    best.exact |= found.exact;
-    best.omega = std::min(best.omega, found.omega);
-    if (best.exact) break;
+    std::vector<WideMultiplier> kept;
+    std::vector<std::size_t> which;
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      const double trace = as<double>(DoubleDouble(Y[k].trace()));
+      if (!(trace > 0 && trace >= share * whole)) continue;
+      const auto psd = positive<Decimal100>(given[k]);
+      kept.push_back({&blocks[k], psd ? *psd : given[k]});
+      which.push_back(k);
+    }
+    if (which.size() == looked_at) continue;
+    looked_at = which.size();
+    if (!polish(kept, lmi.unknowns)) continue;
+    std::vector<MatrixOf<Decimal100>> polished;
+    for (const auto& y : given) polished.push_back(MatrixOf<Decimal100>::Zero(y.rows(), y.cols()));
+    for (std::size_t a = 0; a < which.size(); ++a) polished[which[a]] = std::move(kept[a].Y);
+    const Refutation found = refute<Decimal100>(lmi, blocks, polished);
+    if (found.exact || found.omega < best.omega) best = found;
+    if (best.exact || best.omega < kNothing) break;
   }
   return best;
 }

@@ -47,6 +47,14 @@ template <class S>
 Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
                   const Multipliers& Y);
 
+/// What is left of a certificate of which nothing is missing: rounding of 100 digits.
+constexpr double kNothing = 1e-30;
+
+/// What multipliers near Y say in 100 digits, made so that they have no residual
+/// (polished_multipliers.h): Y may come from a solver in double.
+Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
+                           const Multipliers& Y);
+
 /// omega of an interior solution for the blocks as they were solved, gain bounds and corners of
 /// boxes included, in double: what it excludes is only sufficient for the inequalities.
 double relaxed_omega(const Lmi& lmi, const GainBounds& bounds, const Formulation& formulation,

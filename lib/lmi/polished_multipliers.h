@@ -1,0 +1,30 @@
+// Multipliers without a residual, near those of a solver.
+//
+//   r_i(Y) = sum_k <B_ki, Y_k> = 0
+//
+// by Newton's method on factors Y_k = L_k L_k', with the smallest change of the factors: with
+// G lambda = r, G_ij = sum_k tr(B_ki Y_k B_kj),
+//   Y_k <- M_k Y_k M_k,   M_k = I - 1/2 sum_i lambda_i B_ki.
+// Y_k stays >= 0, whatever its rank, and the residual is squared in each step. So a certificate on
+// the boundary of the cone, which the solver knows to as many digits as it computed with, is known
+// to as many as one likes. What comes of it is checked like any other multipliers (refutation.h).
+#pragma once
+
+#include <vector>
+
+#include "base/scalars.h"
+#include "lmi/exact.h"
+
+namespace gainsmith::lmi {
+
+/// A block and its multiplier, in balanced units.
+struct WideMultiplier {
+  const ExactBlock<Decimal100>* block = nullptr;
+  numbers::MatrixOf<Decimal100> Y;
+};
+
+/// Makes r_i = 0 for 1 <= i <= unknowns, and r_0 = 0 where it is not clearly below 0. False, and Y
+/// of no use, when the steps are not small or do not settle.
+bool polish(std::vector<WideMultiplier>& multipliers, int unknowns);
+
+}  // namespace gainsmith::lmi
