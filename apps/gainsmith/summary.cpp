@@ -129,6 +129,7 @@ std::string verdict_line(const model::Gains& gains) {
         ", infeasible" + model::limits_of(gains.certificate.value()) + " by a checked certificate";
   if (gains.verdict == model::Verdict::undecided)
     text += gains.search && !gains.search->value ? ", nothing feasible was found"
+            : gains.solver.cause == "converged"  ? ", what was found is not certain to hold"
                                                  : ", " + gains.solver.cause;
   if (gains.objective && gains.verdict == model::Verdict::yes)
     text += ", objective " + brief(*gains.objective);

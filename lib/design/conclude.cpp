@@ -200,6 +200,7 @@ void conclude(const Climb& climb, model::Gains& gains) {
   }
   if (point != nullptr && (point->holds() || refuted == nullptr)) {
     gains.solver = record_of(*point, has_objective);
+    if (!point->holds()) gains.solver.status = "undecided";
     return accept_point(climb, *point, gains);
   }
   if (refuted != nullptr) {

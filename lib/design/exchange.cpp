@@ -7,6 +7,12 @@
 
 namespace gainsmith::design {
 
+bool is_out_of_reach(const Attempt& attempt) {
+  constexpr double kTells = 1e-13;  // what the points found in double tell from 0
+  return attempt.question.goal == lmi::Goal::interior &&
+         lmi::interior_margin(attempt.solution) < kTells;
+}
+
 bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::Lmi& lmi,
           const Attempt& attempt) {
   constexpr std::size_t kMostAtOnce = 24;  // the worst come first

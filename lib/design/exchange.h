@@ -10,4 +10,8 @@ namespace gainsmith::design {
 bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::Lmi& lmi,
           const Attempt& attempt);
 
+/// Whether the largest margin at the points so far is below what points found in double could raise
+/// above 0: more of them would be added without end.
+bool is_out_of_reach(const Attempt& attempt);
+
 }  // namespace gainsmith::design

@@ -50,6 +50,14 @@ struct Rungs {
   static bool digits_are_due(const Climb& climb) {
     return climb.posed_.wide && climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb);
   }
+  /// 100 digits of large programs take minutes, and say more only where 31 and exact multipliers
+  /// (lmi/polished_multipliers.h) do not.
+  static bool most_digits_are_due(const Climb& climb) {
+    constexpr int kMostRows = 120;
+    int rows = 0;
+    for (const lmi::Block& block : climb.posed_.lmi.blocks) rows += block.size;
+    return digits_are_due(climb) && rows <= kMostRows;
+  }
   /// Not for one who does not want to wait.
   static bool faces_are_due(const Climb& climb) {
     const sdp::Cause cause = climb.last().solution.cause;
@@ -134,7 +142,7 @@ constexpr std::array<Row, 10> kLadder = {{
     {Rung::free_inside, Rungs::bounds_leave_nothing, Rungs::free_inside},
     {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits},
     {Rung::on_faces, Rungs::faces_are_due, Rungs::on_faces},
-    {Rung::in_100_digits, Rungs::digits_are_due, Rungs::in_100_digits},
+    {Rung::in_100_digits, Rungs::most_digits_are_due, Rungs::in_100_digits},
     {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter},
 }};
 

@@ -11,9 +11,9 @@
 //   31 digits       the largest margin in these digits      nothing that holds, nothing refuted
 //   on faces        a point or a no on the face that all    the same
 //                   solutions share (on_faces.h)
-//   100 digits      the largest margin in these digits      the same
-//   tighter         bounds ten times smaller                a yes with gains near their bounds:
-//   those
+//   100 digits      the largest margin in these digits      the same, of programs that are not
+//   large tighter         bounds ten times smaller                a yes with gains near their
+//   bounds: those
 //                                                           that shrink are limited by them alone
 //
 // (An exchange grows by the points at which a solution fails, and begins again.) Each rung is tried

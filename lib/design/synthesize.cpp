@@ -118,7 +118,8 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
     climb.to_point();
     const auto grown = [&] {
       const Attempt* point = climb.point();
-      return point != nullptr && !point->holds() && round < kMostRounds &&
+      return point != nullptr && !point->holds() && climb.refutation() == nullptr &&
+             round < kMostRounds && !is_out_of_reach(*point) &&
              grow(plan, inequalities, lmi, *point);
     };
     bool again = grown();

@@ -104,12 +104,13 @@ class Search {
     return count;
   }
 
-  /// E falls at least to a quarter where a piece is halved: it is cut so far from its tighter
-  /// corner that the part there passes. B grows from a corner where it is nearly singular, so the
-  /// rest is mostly one that passes at once or is cut much farther away.
+  /// E falls at least to a quarter where a piece is halved. Where one corner alone is in the way
+  /// the piece is cut so near to it that the part there passes: B grows from a corner where it is
+  /// nearly singular, so the rest mostly passes at once or is cut much farther away.
   void cut(const Piece& piece, const std::vector<const Corner*>& corners, const Matrix& error) {
     const int low = quarterings(*corners[0], error);
     const int high = quarterings(*corners[1], error);
+    if (std::min(low, high) > 1) return halve(piece, 0, kTooSteep);
     const double part = std::ldexp(piece.high[0] - piece.low[0], -std::max(low, high));
     split(piece, 0, low >= high ? piece.low[0] + part : piece.high[0] - part, kTooSteep);
   }

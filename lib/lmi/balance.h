@@ -14,8 +14,8 @@
 //
 // Equivariant: other units that are powers of two give the same balanced numbers, bit for bit. So
 // directions that nothing determines are pinned by the pattern alone, at rows whose whole changes
-// are whole changes of all others, and exponents are rounded by floor(y + 0.5137): exact halves, which
-// are common in data of whole numbers, must not fall to either side by a rounding of y.
+// are whole changes of all others, and exponents are rounded by floor(y + 0.5137): exact halves,
+// which are common in data of whole numbers, must not fall to either side by a rounding of y.
 #pragma once
 
 #include <vector>

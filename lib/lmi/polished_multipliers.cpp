@@ -31,22 +31,28 @@ struct Residuals {
   std::vector<Decimal100> r;
   std::vector<double> W;
 
-  Residuals(const std::vector<WideMultiplier>& multipliers, int unknowns)
-      : r(static_cast<std::size_t>(unknowns) + 1), W(r.size(), 0) {
-    for (const WideMultiplier& one : multipliers)
-      for (const auto& [i, B] : one.block->terms) {
-        const auto at = static_cast<std::size_t>(i);
-        for (Index e = 0; e < B.mid.size(); ++e) {
-          if (B.mid(e) == 0) continue;
-          const Decimal100 term = B.mid(e) * one.Y(e);
-          r[at] += term;
-          W[at] += size_of(term);
-        }
+  explicit Residuals(int unknowns) : r(static_cast<std::size_t>(unknowns) + 1), W(r.size(), 0) {}
+
+  void add(const ExactBlock<Decimal100>& block, const Wide& Y) {
+    for (const auto& [i, B] : block.terms) {
+      const auto at = static_cast<std::size_t>(i);
+      for (Index e = 0; e < B.mid.size(); ++e) {
+        if (B.mid(e) == 0) continue;
+        const Decimal100 term = B.mid(e) * Y(e);
+        r[at] += term;
+        W[at] += size_of(term);
       }
+    }
   }
 
   double share(std::size_t i) const { return W[i] > 0 ? as<double>(r[i]) / W[i] : 0; }
 };
+
+Residuals residuals_of(const std::vector<WideMultiplier>& multipliers, int unknowns) {
+  Residuals residuals(unknowns);
+  for (const WideMultiplier& one : multipliers) residuals.add(*one.block, one.Y);
+  return residuals;
+}
 
 /// lambda with G lambda = r over `rows`, in units in which G has the diagonal 1. Rows that depend
 /// on those before them, up to rounding, have lambda = 0.
@@ -137,45 +143,54 @@ std::vector<DoubleDouble> step(const std::vector<WideMultiplier>& multipliers,
   return lambda;
 }
 
-/// Y <- M Y M; false when M is not near I.
+/// Y <- M Y M; false when Y changes by more than a half. M itself may be large where Y is nearly 0.
 bool move(WideMultiplier& one, const std::vector<DoubleDouble>& lambda) {
-  constexpr double kNear = 0.5;
+  constexpr double kMost = 0.5;
   const Index n = one.Y.rows();
-  Wide M = Wide::Identity(n, n);
+  Wide change = Wide::Zero(n, n);  // Lambda / 2
   for (const auto& [i, B] : one.block->terms) {
     const DoubleDouble& factor = lambda[static_cast<std::size_t>(i)];
     if (factor == DoubleDouble(0)) continue;
     const Decimal100 half = as<Decimal100>(factor) / 2;
-    for (Index e = 0; e < M.size(); ++e)
-      if (B.mid(e) != 0) M(e) -= half * B.mid(e);
+    for (Index e = 0; e < change.size(); ++e)
+      if (B.mid(e) != 0) change(e) += half * B.mid(e);
   }
-  for (Index r = 0; r < n; ++r) {
-    double sum = 0;
-    for (Index c = 0; c < n; ++c) sum += size_of(M(r, c) - (r == c ? 1 : 0));
-    if (!(sum <= kNear)) return false;
-  }
-  const Wide moved = times<Decimal100>(times<Decimal100>(M, one.Y), M);
+  const Wide left = times<Decimal100>(change, one.Y);
+  const Wide both = times<Decimal100>(left, change);
+  const auto moved_by = as<double>(Decimal100(both.trace()));
+  if (!(moved_by <= kMost * kMost * as<double>(Decimal100(one.Y.trace())))) return false;
+  const Wide moved = one.Y - left - left.transpose() + both;
   one.Y = (moved + moved.transpose()) / Decimal100(2);
   return true;
+}
+
+/// r' G^-1 r.
+double decrement(const std::vector<DoubleDouble>& lambda, const Residuals& residuals) {
+  double sum = 0;
+  for (std::size_t i = 0; i < lambda.size(); ++i)
+    sum += as<double>(DoubleDouble(lambda[i] * as<DoubleDouble>(residuals.r[i])));
+  return sum;
 }
 
 }  // namespace
 
 bool polish(std::vector<WideMultiplier>& multipliers, int unknowns) {
   constexpr int kMostSteps = 12;
-  constexpr double kClear = 1e-6;   // r_0 below this share of W_0 is below 0 whatever is done
-  constexpr double kSlowest = 0.1;  // what a step leaves, where it squares
+  constexpr double kClear = 1e-6;    // r_0 below this share of W_0 is below 0 whatever is done
+  constexpr double kSlowest = 0.25;  // what a step leaves of r' G^-1 r, where it squares
+  constexpr int kFirst = 3;          // steps that may do worse
   double last = std::numeric_limits<double>::infinity();
   for (int k = 0; k <= kMostSteps; ++k) {
-    const Residuals residuals(multipliers, unknowns);
+    const Residuals residuals = residuals_of(multipliers, unknowns);
     const bool with_constant = residuals.share(0) > -kClear;
     double worst = 0;
     for (std::size_t i = with_constant ? 0 : 1; i < residuals.r.size(); ++i)
       worst = std::max(worst, std::abs(residuals.share(i)));
     if (worst <= kSettled) return true;
-    if (!(worst <= kSlowest * last)) return false;
-    last = worst;
     const auto lambda = step(multipliers, residuals, with_constant);
+    const double size = decrement(lambda, residuals);
+    if (k >= kFirst && !(size <= kSlowest * last)) return false;
+    last = size;
     for (WideMultiplier& one : multipliers)
       if (!move(one, lambda)) return false;
   }

@@ -23,8 +23,9 @@ struct WideMultiplier {
   numbers::MatrixOf<Decimal100> Y;
 };
 
-/// Makes r_i = 0 for 1 <= i <= unknowns, and r_0 = 0 where it is not clearly below 0. False, and Y
-/// of no use, when the steps are not small or do not settle.
+/// Makes r_i = 0 for 1 <= i <= unknowns, and r_0 = 0 where it is not clearly below 0. False, and
+/// `multipliers` of no use, when the steps are not small or do not settle: also where the
+/// certificate is a double root, to which the steps come by halves only.
 bool polish(std::vector<WideMultiplier>& multipliers, int unknowns);
 
 }  // namespace gainsmith::lmi

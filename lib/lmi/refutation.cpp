@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "base/eigen_scalars.h"
-#include "lmi/polished_multipliers.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::lmi {
@@ -230,16 +229,6 @@ struct Weighed {
 };
 
 template <class S>
-std::vector<ExactBlock<S>> exact_blocks(const Inequalities& of, const Lmi& lmi,
-                                        const Formulation& formulation) {
-  const ExactBlocks<S> exact(of, formulation.balance);
-  std::vector<ExactBlock<S>> blocks;
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
-    blocks.push_back(exact.block(lmi.blocks[k], k, formulation.releases.kept[k]));
-  return blocks;
-}
-
-template <class S>
 std::vector<MatrixOf<S>> converted(const Multipliers& Y) {
   std::vector<MatrixOf<S>> result;
   for (const auto& y : Y)
@@ -281,7 +270,18 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
   return result;
 }
 
-/// What Y says, or those of its Y_k that are not small.
+}  // namespace
+
+template <class S>
+std::vector<ExactBlock<S>> exact_blocks(const Inequalities& of, const Lmi& lmi,
+                                        const Formulation& formulation) {
+  const ExactBlocks<S> exact(of, formulation.balance);
+  std::vector<ExactBlock<S>> blocks;
+  for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
+    blocks.push_back(exact.block(lmi.blocks[k], k, formulation.releases.kept[k]));
+  return blocks;
+}
+
 template <class S>
 Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
                   const std::vector<MatrixOf<S>>& Y) {
@@ -312,47 +312,11 @@ Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
   return best;
 }
 
-}  // namespace
-
 template <class S>
 Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
                   const Multipliers& Y) {
   if (!lmi.stands_for_points()) return {};
   return refute<S>(lmi, exact_blocks<S>(of, lmi, formulation), converted<S>(Y));
-}
-
-Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
-                           const Multipliers& Y) {
-  // A block that a certificate does not need may keep the others from being one.
-  constexpr double kShares[] = {0, 1e-8, 1e-4};
-  Refutation best;
-  if (!lmi.stands_for_points()) return best;
-  const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
-  const auto given = converted<Decimal100>(Y);
-  double whole = 0;
-  for (const auto& y : Y) whole += as<double>(DoubleDouble(y.trace()));
-  std::size_t looked_at = 0;
-  for (const double share : kShares) {
-    std::vector<WideMultiplier> kept;
-    std::vector<std::size_t> which;
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-      const double trace = as<double>(DoubleDouble(Y[k].trace()));
-      if (!(trace > 0 && trace >= share * whole)) continue;
-      const auto psd = positive<Decimal100>(given[k]);
-      kept.push_back({&blocks[k], psd ? *psd : given[k]});
-      which.push_back(k);
-    }
-    if (which.size() == looked_at) continue;
-    looked_at = which.size();
-    if (!polish(kept, lmi.unknowns)) continue;
-    std::vector<MatrixOf<Decimal100>> polished;
-    for (const auto& y : given) polished.push_back(MatrixOf<Decimal100>::Zero(y.rows(), y.cols()));
-    for (std::size_t a = 0; a < which.size(); ++a) polished[which[a]] = std::move(kept[a].Y);
-    const Refutation found = refute<Decimal100>(lmi, blocks, polished);
-    if (found.exact || found.omega < best.omega) best = found;
-    if (best.exact || best.omega < kNothing) break;
-  }
-  return best;
 }
 
 namespace {
@@ -365,6 +329,11 @@ double solution_trace(const sdp::Solution& solution, std::size_t k) {
 
 }  // namespace
 
+template std::vector<ExactBlock<Decimal100>> exact_blocks<Decimal100>(const Inequalities&,
+                                                                      const Lmi&,
+                                                                      const Formulation&);
+template Refutation refute<Decimal100>(const Lmi&, const std::vector<ExactBlock<Decimal100>>&,
+                                       const std::vector<MatrixOf<Decimal100>>&);
 template Refutation refute<DoubleDouble>(const Inequalities&, const Lmi&, const Formulation&,
                                          const Multipliers&);
 template Refutation refute<Decimal100>(const Inequalities&, const Lmi&, const Formulation&,

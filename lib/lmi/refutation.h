@@ -47,6 +47,16 @@ template <class S>
 Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
                   const Multipliers& Y);
 
+/// The blocks of the Lmi in the balance of a formulation, on the rows that were solved.
+template <class S>
+std::vector<ExactBlock<S>> exact_blocks(const Inequalities& of, const Lmi& lmi,
+                                        const Formulation& formulation);
+
+/// The same of blocks that are known, and multipliers in the same digits.
+template <class S>
+Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
+                  const std::vector<numbers::MatrixOf<S>>& Y);
+
 /// What is left of a certificate of which nothing is missing: rounding of 100 digits.
 constexpr double kNothing = 1e-30;
 

@@ -167,15 +167,19 @@ TEST(Ladder, WhatIsNoCertificateIsNoNo) {
   // Roots have no fractions: nothing but the multipliers can decide.
   const Case of(window("sqrt(4)", "sqrt(1)"));
   const Case feasible(window("sqrt(1)", "sqrt(4)"));
-  for (const Answer& wrong :
-       {refuting(of, {1, 100}), refuting(of, {100, 1}), refuting(of, {0, 3})}) {
-    const Scripted run(wrong, of);
-    EXPECT_EQ(run.tried, (Rungs{Rung::inside, Rung::in_31_digits, Rung::in_100_digits}));
-    EXPECT_EQ(run.gains.verdict, Verdict::undecided);
-    EXPECT_FALSE(run.gains.certificate);
-    EXPECT_TRUE(run.says("the largest margin found is 0")) << run.message();
+  // No step leads from the multiplier 0 to another.
+  const Scripted stuck(refuting(of, {0, 3}), of);
+  EXPECT_EQ(stuck.tried, (Rungs{Rung::inside, Rung::in_31_digits, Rung::in_100_digits}));
+  EXPECT_EQ(stuck.gains.verdict, Verdict::undecided);
+  EXPECT_FALSE(stuck.gains.certificate);
+  EXPECT_TRUE(stuck.says("the largest margin found is 0")) << stuck.message();
+  // From others Newton's method finds the certificate.
+  for (const double y : {0.01, 0.9, 1.1}) {
+    const Scripted near(refuting(of, {1, y}), of);
+    EXPECT_EQ(near.tried, (Rungs{Rung::inside})) << y;
+    EXPECT_EQ(near.gains.verdict, Verdict::no) << y;
   }
-  for (const double y : {1e-6, 1., 2., 1e6}) {
+  for (const double y : {1e-6, 0.99, 1., 2., 1e6}) {
     const Answer any = refuting(feasible, {1, y});
     const Scripted run(any, feasible);
     EXPECT_EQ(run.gains.verdict, Verdict::undecided) << y;
@@ -329,7 +333,8 @@ TEST(Ladder, LessThanTheMarginAskedForIsAYesThatSaysSo) {
 
 TEST(Ladder, WhatIsOpenBetweenThePointsIsNoYes) {
   const Case of(
-      "  unknowns: {x: scalar}\n  require:\n    wave: {forall: \"t in [0, 1]\", that: \"sqrt(1)*x + "
+      "  unknowns: {x: scalar}\n  require:\n    wave: {forall: \"t in [0, 1]\", that: \"sqrt(1)*x "
+      "+ "
       "cos(1e7*t) > 0\"}\n  minimize: x\nsynthesis: {forall: exchange}\n");
   const Answer point = [&](const sdp::Problem& problem) {
     return problem.c.back() == -1 ? inside(of, {1.0001})(problem) : minimum(of, {1.0001})(problem);

@@ -57,8 +57,8 @@ TEST(Scan, ARowIsWhatSynthesizeSays) {
       "problem: p\nmethod:\n  method: m\n  data: {A: n x n, T: scalar}\n"
       "  unknowns: {P: symmetric n, Y: n x n}\n  require:\n    positive: P > I\n"
       "    cap: P < 40*I\n    bounded: \"[P, Y; Y', P] > 0\"\n"
-      "    shrinks: {forall: \"t in [0, T]\", that: "
-      "\"[P, (P*expm(A*t) - t*Y)'; P*expm(A*t) - t*Y, P] > 0\"}\n"
+      "    shrinks: {forall: \"t in [0.1, T]\", that: "
+      "\"[P, (1.1*P*expm(A*t) - t*Y)'; 1.1*P*expm(A*t) - t*Y, P] > 0\"}\n"
       "  minimize: trace(P)\n  gains: {K: inv(P)*Y}\n"
       "data: {A: [[0.1, 1], [-1, -0.2]], T: 1}\n");
   std::vector<std::vector<double>> points;

@@ -55,19 +55,20 @@ TEST(PrintedCheckTest, TheDecimalsOfTheFileCountAndNotTheirDoubles) {
 /// 0.1 is below its double: the interval of the file ends before it.
 TEST(PrintedCheckTest, AnIntervalEndsAtTheDecimalsOfTheFile) {
   const auto over = [](const std::string& variable, const std::string& holds) {
-    return "{forall: \"" + variable + "\", that: \"" + holds + "\"}";
+    return "{forall: [" + variable + "], that: \"" + holds + "\"}";
   };
-  EXPECT_EQ(checked(over("t in [0, 0.1]", "x >= 10*t"), 1).status, Status::holds);
-  EXPECT_NE(checked(over("t in [0, 0.1]", "x >= 10*t"), std::nextafter(1., 0)).status,
+  EXPECT_EQ(checked(over("\"t in [0, 0.1]\"", "x >= 10*t"), 1).status, Status::holds);
+  EXPECT_NE(checked(over("\"t in [0, 0.1]\"", "x >= 10*t"), std::nextafter(1., 0)).status,
             Status::holds);
-  EXPECT_NE(checked(over("t in [0, 0.1]", "x > 10*t"), 1).status, Status::holds);
-  EXPECT_EQ(checked(over("t in [0, 0.1], s in [0.3, 0.7]", "x >= 10*t*s/0.7"), 1).status,
+  EXPECT_NE(checked(over("\"t in [0, 0.1]\"", "x > 10*t"), 1).status, Status::holds);
+  EXPECT_EQ(checked(over("\"t in [0, 0.1]\", \"s in [0.3, 0.7]\"", "x >= 10*t*s/0.7"), 1).status,
             Status::holds);
   EXPECT_EQ(
-      checked(over("t in [0, 0.1], s in {0.3, 0.7}", "[x, 10*t; 10*t, s/0.7] >= 0"), 1).status,
+      checked(over("\"t in [0, 0.1]\", \"s in {0.3, 0.7}\"", "[x, 10*t; 10*t, s/0.7] >= 0"), 1)
+          .status,
       Status::fails);
   // Not affine: the ends decide nothing.
-  EXPECT_NE(checked(over("t in [-0.1, 0.1]", "x >= 1.01 - t^2"), 1).status, Status::holds);
+  EXPECT_NE(checked(over("\"t in [-0.1, 0.1]\"", "x >= 1.01 - t^2"), 1).status, Status::holds);
 }
 
 TEST(PrintedCheckTest, MoreDigitsDecideWhereDoubleDoesNot) {
