@@ -111,7 +111,7 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
   if (climb.is_free(point)) {
     const double largest = point.largest_gain;
     for (model::GainBound& bound : gains.bounds) bound.active = false;
-    if (!(largest <= bounds.beta)) {
+    if (!(largest <= bounds.beta) && climb.posed().choices().gain_bound_stated) {
       gains.verdict = model::Verdict::undecided;
       gains.bound_only = largest;
       gains.solver.add_message("no gains within the gain bound " + brief(bounds.beta) +
@@ -119,6 +119,10 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
                                " exist: raise synthesis.gain_bound");
       return;
     }
+    if (!(largest <= bounds.beta))
+      gains.solver.add_message("gains of " + brief(largest, 2) + ": none below the default of " +
+                               brief(bounds.beta) +
+                               " were found; synthesis.gain_bound states what is acceptable");
   }
   note_wishes(point, gains);
   if (const Attempt* tighter = climb.find(Rung::tighter)) mark_free_gains(*tighter, lmi, gains);

@@ -22,8 +22,12 @@ using numbers::Matrix;
 using numbers::Sign;
 
 struct Piece {
+  static constexpr int kWhole = 1000;
+
   std::vector<double> low;
   std::vector<double> high;
+  /// What a cut left of a piece: the part that was cut off is 2^-cut of that piece.
+  int cut = kWhole;
 
   std::vector<double> corner(std::size_t which) const {
     std::vector<double> at = low;

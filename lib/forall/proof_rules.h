@@ -106,13 +106,17 @@ class Search {
 
   /// E falls at least to a quarter where a piece is halved. Where one corner alone is in the way
   /// the piece is cut so near to it that the part there passes: B grows from a corner where it is
-  /// nearly singular, so the rest mostly passes at once or is cut much farther away.
+  /// nearly singular, so the rest mostly passes at once or is cut much farther away. Where it is
+  /// not, E is no matter of that corner: the rest is halved.
   void cut(const Piece& piece, const std::vector<const Corner*>& corners, const Matrix& error) {
     const int low = quarterings(*corners[0], error);
     const int high = quarterings(*corners[1], error);
-    if (std::min(low, high) > 1) return halve(piece, 0, kTooSteep);
-    const double part = std::ldexp(piece.high[0] - piece.low[0], -std::max(low, high));
-    split(piece, 0, low >= high ? piece.low[0] + part : piece.high[0] - part, kTooSteep);
+    const int most = std::max(low, high);
+    if (std::min(low, high) > 1 || most > 1 + piece.cut / 2) return halve(piece, 0, kTooSteep);
+    const double part = std::ldexp(piece.high[0] - piece.low[0], -most);
+    const bool at_low = low >= high;
+    split(piece, 0, at_low ? piece.low[0] + part : piece.high[0] - part, kTooSteep,
+          {at_low ? Piece::kWhole : most, at_low ? most : Piece::kWhole});
   }
 
   template <class T>
@@ -166,10 +170,13 @@ class Search {
     split(piece, along, piece.low[along] + (piece.high[along] - piece.low[along]) / 2, why);
   }
 
-  void split(const Piece& piece, std::size_t along, double at, std::string_view why) {
+  void split(const Piece& piece, std::size_t along, double at, std::string_view why,
+             std::pair<int, int> cuts = {Piece::kWhole, Piece::kWhole}) {
     if (!(piece.low[along] < at && at < piece.high[along])) return leave(piece, why);
     Piece left = piece;
     Piece right = piece;
+    left.cut = cuts.first;
+    right.cut = cuts.second;
     left.high[along] = right.low[along] = at;
     stack_.push_back(std::move(right));
     stack_.push_back(std::move(left));

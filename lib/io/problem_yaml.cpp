@@ -91,6 +91,7 @@ model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<Yaml
   }
   if (const auto bound = map.find("gain_bound")) {
     const bool off = bound->value.IsScalar() && bound->value.Scalar() == "none";
+    options.gain_bound_stated = true;
     options.gain_bound =
         off ? std::nullopt : std::optional(file.positive(bound->value, "gain_bound"));
   }

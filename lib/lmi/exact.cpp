@@ -44,8 +44,9 @@ EnclosedValues<S> ExactBlocks<S>::values_at(const Block& block) const {
       return end == End::low ? !(t > value.mid(0, 0) + S(value.rad(0, 0)))
                              : !(t < value.mid(0, 0) - S(value.rad(0, 0)));
     });
-    values[name] = stated != nullptr
-                       ? numbers::enclose(*stated, values_)
+    values[name] = stated != nullptr ? numbers::enclose(*stated, values_)
+                   : at.size() == 1
+                       ? enclosed_decimal<S>(at(0, 0))
                        : numbers::exactly<S>(at.unaryExpr([](double x) { return S(x); }));
   }
   return values;

@@ -1,5 +1,6 @@
 // Blocks from the decimals of the file, in as many digits as are asked for: what a certificate is
-// checked on. Nothing in them went through double.
+// checked on. Nothing in them went through double; a point of an interval is the decimals that are
+// printed of it, so that a kink at 0.3 is met.
 #pragma once
 
 #include <utility>

@@ -28,8 +28,9 @@ void add_point(const Statement& statement, const Block& block, RationalValues& v
       const Rational value = numbers::rational_value(text, known)(0);
       return end == End::low ? Rational(at(0, 0)) <= value : Rational(at(0, 0)) >= value;
     });
-    values[name] = stated != nullptr ? numbers::rational_value(*stated, known)
-                                     : at.unaryExpr([](double x) { return Rational(x); }).eval();
+    values[name] = stated != nullptr
+                       ? numbers::rational_value(*stated, known)
+                       : at.unaryExpr([](double x) { return printed_fraction(x); }).eval();
   }
 }
 

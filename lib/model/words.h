@@ -68,6 +68,9 @@ struct SynthesisOptions {
   int slices = 1;                          ///< hull: equal parts of each interval
   double margin = 1e-9;                    ///< wished for of strict inequalities, without units
   std::optional<double> gain_bound = 1e4;  ///< none: off
+  /// Whether the problem states it: one that does not guides the search and decides nothing, since
+  /// it is a number in units.
+  bool gain_bound_stated = false;
 };
 
 /// Sizes of dimension names.

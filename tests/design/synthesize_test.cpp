@@ -188,6 +188,28 @@ TEST(SynthesizeTest, OnlyTheProblemItselfMakesItInfeasible) {
       << bounded.solver.message;
 }
 
+/// A default in units is no reason: the same plant in other units has an answer.
+TEST(SynthesizeTest, GainsBeyondTheDefaultBoundAreAYesThatSaysSo) {
+  const model::Gains found = solve(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n, B: n x m}\n  unknowns: {P: symmetric "
+      "n, Y: m x n}\n  require: {p: P > 0, s: He(A*P + B*Y) < 0}\n  gains: {K: Y*inv(P)}\n"
+      "data: {A: [[100000]], B: [[1]]}\n");
+  EXPECT_EQ(found.verdict, model::Verdict::yes);
+  EXPECT_LT((*found.find("K"))(0, 0), -100000);
+  EXPECT_NE(found.solver.message.find("none below the default of 10000"), std::string::npos)
+      << found.solver.message;
+}
+
+/// The coefficient vanishes where tau is 0.893, which is no double.
+TEST(SynthesizeTest, AKinkAtADecimalIsMet) {
+  const model::Gains found = solve(
+      "problem: kink\nmethod:\n  method: kink\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
+      "  require:\n    positive: P > 0\n"
+      "    decrease: {forall: \"tau in [0, 1.786]\", that: \"He(P*abs(tau - 0.893)*A) < 0\"}\n"
+      "data: {A: [[-1.27]]}\n");
+  EXPECT_EQ(found.verdict, model::Verdict::no) << found.solver.message;
+}
+
 /// The size of a solution is no reason: these are far from 1 and stand in units of their own.
 TEST(SynthesizeTest, LargeSolutionsAreFound) {
   const model::Gains far = solve(
