@@ -122,15 +122,25 @@ std::string matrix_text(const numbers::Matrix& matrix) {
   return text + "]";
 }
 
+namespace {
+
+/// Limits that somebody set are named; how else an iteration ended says nothing.
+std::string undecided_because(const model::Gains& gains) {
+  if (gains.search && !gains.search->value) return "nothing feasible was found";
+  const std::string& cause = gains.solver.cause;
+  for (const char* limit : {"iteration-limit", "time-limit", "interrupted"})
+    if (cause == limit) return cause;
+  return "neither a point that holds nor a certificate was found";
+}
+
+}  // namespace
+
 std::string verdict_line(const model::Gains& gains) {
   std::string text = to_string(gains.verdict);
   if (gains.verdict == model::Verdict::no)
     text +=
         ", infeasible" + model::limits_of(gains.certificate.value()) + " by a checked certificate";
-  if (gains.verdict == model::Verdict::undecided)
-    text += gains.search && !gains.search->value ? ", nothing feasible was found"
-            : gains.solver.cause == "converged"  ? ", what was found is not certain to hold"
-                                                 : ", " + gains.solver.cause;
+  if (gains.verdict == model::Verdict::undecided) text += ", " + undecided_because(gains);
   if (gains.objective && gains.verdict == model::Verdict::yes)
     text += ", objective " + brief(*gains.objective);
   return text;
