@@ -24,7 +24,7 @@ namespace gainsmith::hybrid {
 struct Factor {
   int atom = 0;
   bool transposed = false;
-  auto operator<=>(const Factor&) const = default;
+  auto operator<=>(const Factor&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 /// A product of factors, left to right.
@@ -37,7 +37,7 @@ struct Word {
   std::vector<int> scalars;  ///< sorted
   std::vector<Chain> inner;  ///< sorted; each the lesser of itself and its transpose
   Chain chain;
-  auto operator<=>(const Word&) const = default;
+  auto operator<=>(const Word&) const = default;  // NOLINT(modernize-use-nullptr)
 };
 
 struct Polynomial {

@@ -12,7 +12,6 @@ namespace gainsmith::lmi {
 
 namespace {
 
-using numbers::Enclosed;
 using numbers::MatrixOf;
 using numbers::times;
 
@@ -184,12 +183,11 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
 /// need one in proportion to the whole.
 template <class S>
 std::optional<MatrixOf<S>> positive(const MatrixOf<S>& Y) {
-  constexpr double kLeastLift = 1e-33;
-  constexpr double kMostLift = 1e-27;
+  constexpr double kLifts[] = {0, 1e-33, 1e-32, 1e-31, 1e-30, 1e-29, 1e-28, 1e-27};
   const double size = upper(S(Y.trace()));
   if (size == 0 && Y.isZero()) return Y;
   for (const bool in_proportion : {true, false})
-    for (double lift = 0; lift <= kMostLift; lift = std::max(kLeastLift, 10 * lift)) {
+    for (const double lift : kLifts) {
       MatrixOf<S> lifted = Y;
       for (Eigen::Index i = 0; i < Y.rows(); ++i)
         lifted(i, i) += S(lift) * (in_proportion ? Y(i, i) : S(size));
@@ -204,10 +202,10 @@ Multipliers multipliers_of(const Formulation& formulation, std::size_t blocks,
                            const sdp::Solution& solution) {
   Multipliers result;
   for (std::size_t k = 0; k < blocks; ++k) {
-    const int n = formulation.blocks[k].size;
+    const Eigen::Index n = formulation.blocks[k].size;
     numbers::MatrixOf<DoubleDouble> Y(n, n);
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j) {
+    for (Eigen::Index i = 0; i < n; ++i)
+      for (Eigen::Index j = 0; j < n; ++j) {
         const auto at = static_cast<std::size_t>(i + n * j);
         const double rest = solution.rest.Y.values.empty() ? 0 : solution.rest.Y.values[k][at];
         Y(i, j) = DoubleDouble(solution.Y.values[k][at], rest);
