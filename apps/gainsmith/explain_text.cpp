@@ -20,12 +20,15 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
-/// The value with the decimals that its bracket settles, rounded to the feasible side.
+/// The value with the decimals that its bracket settles, and at least three, rounded to the
+/// feasible side.
 std::string settled(const design::Reach& reach) {
-  const double width = reach.beyond ? std::abs(*reach.beyond - *reach.feasible) : 0;
-  if (!(width > 0)) return brief(*reach.feasible, 10);
-  const double unit = std::pow(10.0, std::ceil(std::log10(width)));
-  const double steps = *reach.feasible / unit;
+  const double value = *reach.feasible;
+  const double width = reach.beyond ? std::abs(*reach.beyond - value) : 0;
+  if (!(width > 0) || value == 0) return brief(value, 10);
+  const double digits = std::floor(std::log10(std::abs(value))) - 2;
+  const double unit = std::pow(10.0, std::min(std::ceil(std::log10(width)), digits));
+  const double steps = value / unit;
   const double rounded = unit * (reach.at_most ? std::floor(steps) : std::ceil(steps));
   return brief(rounded, 10);
 }

@@ -89,7 +89,8 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
   }
   const Attempt* minimum = climb.find(Rung::minimum);
   if (minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible)
-    gains.solver.add_message("the objective has no minimum: it is unbounded below");
+    gains.solver.add_message(
+        "the objective is that of a point inside: the solver finds it unbounded below");
   else
     gains.solver.add_message(
         "the objective is that of a point inside, not its minimum: the minimum was "

@@ -61,8 +61,8 @@ struct Rungs {
   /// Not for one who does not want to wait.
   static bool faces_are_due(const Climb& climb) {
     const sdp::Cause cause = climb.last().solution.cause;
-    return digits_are_due(climb) && cause != sdp::Cause::interrupted &&
-           cause != sdp::Cause::time_limit;
+    return climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb) &&
+           cause != sdp::Cause::interrupted && cause != sdp::Cause::time_limit;
   }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/rational.h"
+#include "design/gain_values.h"
 #include "lmi/face_multipliers.h"
 #include "lmi/faces.h"
 #include "lmi/printable.h"
@@ -88,6 +89,11 @@ class OnFaces {
     const bool any = std::any_of(stated_.begin(), stated_.end(),
                                  [](const RationalBlock& block) { return block.exact; });
     if (!any) return std::nullopt;
+    if (!posed_.wide) {
+      // A quick answer looks at what needs no multipliers only.
+      faces_.find_plain();
+      if (faces_.steps() == 0) return std::nullopt;
+    }
     while (!done_) step();
     if (faces_.excluded()) {
       result_.point = false;
@@ -136,8 +142,9 @@ class OnFaces {
     const std::size_t steps = faces_.steps();
     for (const Effort& effort : {Effort{"quad", 1e-22}, Effort{"100", 1e-40}}) {
       solve_left(left, effort);
-      if (done_ || faces_.steps() > steps) return;
+      if (done_ || faces_.steps() > steps || !posed_.wide) break;
     }
+    if (done_ || faces_.steps() > steps) return;
     finish();
   }
 
@@ -233,6 +240,21 @@ class OnFaces {
     result_.least = least;
   }
 
+  /// Whether the gains are within the bound, or within ten times those of the point inside.
+  bool has_small_gains(const std::vector<double>& x) const {
+    constexpr double kMore = 10;
+    const auto& bound = posed_.choices().gain_bound;
+    if (!bound) return true;
+    return gain_at(x) <= std::max(*bound, kMore * gain_at(result_.x));
+  }
+
+  double gain_at(const std::vector<double>& x) const {
+    const lmi::Inequalities& of = posed_.inequalities;
+    numbers::Values values = of.instance.values;
+    for (auto& [name, matrix] : of.unknowns.values(x)) values[name] = matrix;
+    return largest_gain(of, values);
+  }
+
   /// From a point inside to the least objective on the face: as near as decimals hold.
   void minimise(const Left& left, const std::vector<double>& inside) {
     const std::vector<double>& c = left.lmi.objective;
@@ -244,13 +266,13 @@ class OnFaces {
     minimum.solution = solve_(formulation.problem, {"auto", 1e-8});
     if (!minimum.is_near_optimal()) return;
     const auto least = lmi::read_back(left.lmi, formulation, minimum.solution);
-    for (const double e : {0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4}) {
+    for (const double e : {0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 0.1}) {
       std::vector<double> y = least;
       for (std::size_t i = 0; i < y.size(); ++i) y[i] += e * (inside[i] - least[i]);
       if (!std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); }))
         return;
       auto found = decimals(y, 16);
-      if (!found || !lmi::all_hold(found->margins)) continue;
+      if (!found || !lmi::all_hold(found->margins) || !has_small_gains(found->x)) continue;
       result_.x = std::move(found->x);
       result_.margins = std::move(found->margins);
       solved_ = std::move(minimum.solution);

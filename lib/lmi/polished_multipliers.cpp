@@ -5,7 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <optional>
+#include <type_traits>
+#include <vector>
 
 #include "base/eigen_scalars.h"
 
@@ -15,13 +16,13 @@ namespace {
 
 using Eigen::Index;
 using Wide = numbers::MatrixOf<Decimal100>;
-using Narrow = numbers::MatrixOf<DoubleDouble>;
 using numbers::times;
 
-constexpr double kSettled = 1e-80;  // of W_i; 100 digits leave less than this of a sum
+constexpr double kSettled = 1e-60;  // of W_i; far above the rounding of 100 digits
 
-Narrow narrow(const Wide& matrix) {
-  return matrix.unaryExpr([](const Decimal100& x) { return as<DoubleDouble>(x); });
+template <class S>
+numbers::MatrixOf<S> narrow(const Wide& matrix) {
+  return matrix.unaryExpr([](const Decimal100& x) { return as<S>(x); });
 }
 
 double size_of(const Decimal100& x) { return std::abs(as<double>(x)); }
@@ -56,30 +57,31 @@ Residuals residuals_of(const std::vector<WideMultiplier>& multipliers, int unkno
 
 /// lambda with G lambda = r over `rows`, in units in which G has the diagonal 1. Rows that depend
 /// on those before them, up to rounding, have lambda = 0.
-std::vector<DoubleDouble> solve(const Narrow& G, const std::vector<DoubleDouble>& r) {
+template <class S>
+std::vector<S> solve(const numbers::MatrixOf<S>& G, const std::vector<S>& r) {
   using std::sqrt;
-  constexpr double kDependent = 1e-22;
+  constexpr double kDependent = std::is_same_v<S, DoubleDouble> ? 1e-22 : 1e-85;
   const Index m = G.rows();
-  Narrow L = Narrow::Constant(m, m, DoubleDouble(0));
+  numbers::MatrixOf<S> L = numbers::MatrixOf<S>::Constant(m, m, S(0));
   std::vector<bool> kept(static_cast<std::size_t>(m), false);
   const auto is_kept = [&](Index i) { return kept[static_cast<std::size_t>(i)]; };
   for (Index j = 0; j < m; ++j) {
-    DoubleDouble pivot = G(j, j);
+    S pivot = G(j, j);
     for (Index k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
-    if (!(pivot > DoubleDouble(kDependent))) continue;
+    if (!(pivot > S(kDependent))) continue;
     kept[static_cast<std::size_t>(j)] = true;
     L(j, j) = sqrt(pivot);
     for (Index i = j + 1; i < m; ++i) {
-      DoubleDouble sum = G(i, j);
+      S sum = G(i, j);
       for (Index k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
       L(i, j) = sum / L(j, j);
     }
   }
-  std::vector<DoubleDouble> x(r);
+  std::vector<S> x(r);
   for (Index i = 0; i < m; ++i) {
-    DoubleDouble& value = x[static_cast<std::size_t>(i)];
+    S& value = x[static_cast<std::size_t>(i)];
     if (!is_kept(i)) {
-      value = DoubleDouble(0);
+      value = S(0);
       continue;
     }
     for (Index k = 0; k < i; ++k) value -= L(i, k) * x[static_cast<std::size_t>(k)];
@@ -87,7 +89,7 @@ std::vector<DoubleDouble> solve(const Narrow& G, const std::vector<DoubleDouble>
   }
   for (Index i = m - 1; i >= 0; --i) {
     if (!is_kept(i)) continue;
-    DoubleDouble& value = x[static_cast<std::size_t>(i)];
+    S& value = x[static_cast<std::size_t>(i)];
     for (Index k = i + 1; k < m; ++k)
       if (is_kept(k)) value -= L(k, i) * x[static_cast<std::size_t>(k)];
     value /= L(i, i);
@@ -96,16 +98,17 @@ std::vector<DoubleDouble> solve(const Narrow& G, const std::vector<DoubleDouble>
 }
 
 /// G over all unknowns, and 0 of the constant part.
-Narrow gram(const std::vector<WideMultiplier>& multipliers, int unknowns) {
-  Narrow G = Narrow::Constant(unknowns + 1, unknowns + 1, DoubleDouble(0));
+template <class S>
+numbers::MatrixOf<S> gram(const std::vector<WideMultiplier>& multipliers, int unknowns) {
+  numbers::MatrixOf<S> G = numbers::MatrixOf<S>::Constant(unknowns + 1, unknowns + 1, S(0));
   for (const WideMultiplier& one : multipliers) {
-    const Narrow Y = narrow(one.Y);
-    std::vector<Narrow> B;
-    for (const auto& [i, matrix] : one.block->terms) B.push_back(narrow(matrix.mid));
+    const numbers::MatrixOf<S> Y = narrow<S>(one.Y);
+    std::vector<numbers::MatrixOf<S>> B;
+    for (const auto& [i, matrix] : one.block->terms) B.push_back(narrow<S>(matrix.mid));
     for (std::size_t a = 0; a < B.size(); ++a) {
-      const Narrow moved = times<DoubleDouble>(B[a], Y);
+      const numbers::MatrixOf<S> moved = times<S>(B[a], Y);
       for (std::size_t b = a; b < B.size(); ++b) {
-        DoubleDouble sum(0);
+        S sum(0);
         for (Index e = 0; e < moved.size(); ++e) sum += moved(e) * B[b](e);
         const int i = one.block->terms[a].first;
         const int j = one.block->terms[b].first;
@@ -118,40 +121,41 @@ Narrow gram(const std::vector<WideMultiplier>& multipliers, int unknowns) {
 }
 
 /// lambda of all unknowns, 0 for those without an equation.
-std::vector<DoubleDouble> step(const std::vector<WideMultiplier>& multipliers,
-                               const Residuals& residuals, bool with_constant) {
+template <class S>
+std::vector<Decimal100> step(const std::vector<WideMultiplier>& multipliers,
+                             const Residuals& residuals, bool with_constant) {
   using std::sqrt;
   const auto unknowns = static_cast<int>(residuals.r.size()) - 1;
-  const Narrow G = gram(multipliers, unknowns);
+  const numbers::MatrixOf<S> G = gram<S>(multipliers, unknowns);
   std::vector<int> rows;
   for (int i = with_constant ? 0 : 1; i <= unknowns; ++i)
-    if (G(i, i) > DoubleDouble(0)) rows.push_back(i);
+    if (G(i, i) > S(0)) rows.push_back(i);
   const auto m = static_cast<Index>(rows.size());
-  Narrow scaled(m, m);
-  std::vector<DoubleDouble> units, r;
-  for (const int i : rows) units.push_back(DoubleDouble(1) / sqrt(G(i, i)));
+  numbers::MatrixOf<S> scaled(m, m);
+  std::vector<S> units, r;
+  for (const int i : rows) units.push_back(S(1) / sqrt(G(i, i)));
   for (std::size_t a = 0; a < rows.size(); ++a) {
-    r.push_back(as<DoubleDouble>(residuals.r[static_cast<std::size_t>(rows[a])]) * units[a]);
+    r.push_back(as<S>(residuals.r[static_cast<std::size_t>(rows[a])]) * units[a]);
     for (std::size_t b = 0; b < rows.size(); ++b)
       scaled(static_cast<Index>(a), static_cast<Index>(b)) =
           G(rows[a], rows[b]) * units[a] * units[b];
   }
-  const std::vector<DoubleDouble> solved = solve(scaled, r);
-  std::vector<DoubleDouble> lambda(residuals.r.size(), DoubleDouble(0));
+  const std::vector<S> solved = solve<S>(scaled, r);
+  std::vector<Decimal100> lambda(residuals.r.size(), Decimal100(0));
   for (std::size_t a = 0; a < rows.size(); ++a)
-    lambda[static_cast<std::size_t>(rows[a])] = solved[a] * units[a];
+    lambda[static_cast<std::size_t>(rows[a])] = as<Decimal100>(S(solved[a] * units[a]));
   return lambda;
 }
 
 /// Y <- M Y M; false when Y changes by more than a half. M itself may be large where Y is nearly 0.
-bool move(WideMultiplier& one, const std::vector<DoubleDouble>& lambda) {
+bool move(WideMultiplier& one, const std::vector<Decimal100>& lambda) {
   constexpr double kMost = 0.5;
   const Index n = one.Y.rows();
   Wide change = Wide::Zero(n, n);  // Lambda / 2
   for (const auto& [i, B] : one.block->terms) {
-    const DoubleDouble& factor = lambda[static_cast<std::size_t>(i)];
-    if (factor == DoubleDouble(0)) continue;
-    const Decimal100 half = as<Decimal100>(factor) / 2;
+    const Decimal100& factor = lambda[static_cast<std::size_t>(i)];
+    if (factor == 0) continue;
+    const Decimal100 half = factor / 2;
     for (Index e = 0; e < change.size(); ++e)
       if (B.mid(e) != 0) change(e) += half * B.mid(e);
   }
@@ -165,21 +169,24 @@ bool move(WideMultiplier& one, const std::vector<DoubleDouble>& lambda) {
 }
 
 /// r' G^-1 r.
-double decrement(const std::vector<DoubleDouble>& lambda, const Residuals& residuals) {
+double decrement(const std::vector<Decimal100>& lambda, const Residuals& residuals) {
   double sum = 0;
   for (std::size_t i = 0; i < lambda.size(); ++i)
-    sum += as<double>(DoubleDouble(lambda[i] * as<DoubleDouble>(residuals.r[i])));
+    sum += as<double>(Decimal100(lambda[i] * residuals.r[i]));
   return sum;
 }
 
 }  // namespace
 
 bool polish(std::vector<WideMultiplier>& multipliers, int unknowns) {
-  constexpr int kMostSteps = 12;
+  constexpr int kMostSteps = 60;
   constexpr double kClear = 1e-6;    // r_0 below this share of W_0 is below 0 whatever is done
-  constexpr double kSlowest = 0.25;  // what a step leaves of r' G^-1 r, where it squares
+  constexpr double kSlowest = 0.6;   // what a step leaves of r' G^-1 r, where it squares
+  constexpr double kQuarter = 0.15;  // at a double root a step leaves a quarter
+  constexpr double kNarrow = 1e-8;   // as far as 31 digits solve the equations of a double root
   constexpr int kFirst = 3;          // steps that may do worse
   double last = std::numeric_limits<double>::infinity();
+  bool doubled = false;
   for (int k = 0; k <= kMostSteps; ++k) {
     const Residuals residuals = residuals_of(multipliers, unknowns);
     const bool with_constant = residuals.share(0) > -kClear;
@@ -187,9 +194,14 @@ bool polish(std::vector<WideMultiplier>& multipliers, int unknowns) {
     for (std::size_t i = with_constant ? 0 : 1; i < residuals.r.size(); ++i)
       worst = std::max(worst, std::abs(residuals.share(i)));
     if (worst <= kSettled) return true;
-    const auto lambda = step(multipliers, residuals, with_constant);
+    auto lambda = worst > kNarrow ? step<DoubleDouble>(multipliers, residuals, with_constant)
+                                  : step<Decimal100>(multipliers, residuals, with_constant);
     const double size = decrement(lambda, residuals);
-    if (k >= kFirst && !(size <= kSlowest * last)) return false;
+    if (k >= kFirst && !doubled && !(size <= kSlowest * last)) return false;
+    // To a double root Newton's steps lead half of the way: then one goes the whole way.
+    doubled = !doubled && k > 0 && size > kQuarter * last;
+    if (doubled)
+      for (Decimal100& value : lambda) value *= 2;
     last = size;
     for (WideMultiplier& one : multipliers)
       if (!move(one, lambda)) return false;

@@ -5,9 +5,11 @@
 // by Newton's method on factors Y_k = L_k L_k', with the smallest change of the factors: with
 // G lambda = r, G_ij = sum_k tr(B_ki Y_k B_kj),
 //   Y_k <- M_k Y_k M_k,   M_k = I - 1/2 sum_i lambda_i B_ki.
-// Y_k stays >= 0, whatever its rank, and the residual is squared in each step. So a certificate on
-// the boundary of the cone, which the solver knows to as many digits as it computed with, is known
-// to as many as one likes. What comes of it is checked like any other multipliers (refutation.h).
+// Y_k stays >= 0, whatever its rank, and the residual is squared in each step; where the
+// certificate is a double root every second step is twice as long, and it falls by digits. So a
+// certificate on the boundary of the cone, which the solver knows to as many digits as it computed
+// with, is known to as many as one likes. What comes of it is checked like any other multipliers
+// (refutation.h).
 #pragma once
 
 #include <vector>
@@ -24,8 +26,8 @@ struct WideMultiplier {
 };
 
 /// Makes r_i = 0 for 1 <= i <= unknowns, and r_0 = 0 where it is not clearly below 0. False, and
-/// `multipliers` of no use, when the steps are not small or do not settle: also where the
-/// certificate is a double root, to which the steps come by halves only.
+/// `multipliers` of no use, when the steps are not small or do not
+/// settle.
 bool polish(std::vector<WideMultiplier>& multipliers, int unknowns);
 
 }  // namespace gainsmith::lmi

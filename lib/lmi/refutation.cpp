@@ -54,6 +54,20 @@ MatrixOf<S> lower_inverse(const MatrixOf<S>& L) {
   return inverse;
 }
 
+/// Whether the bounds of the check, which are doubles, can hold what is in the block.
+template <class S>
+bool is_in_range(const ExactBlock<S>& block) {
+  constexpr double kLeast = 1e-250;
+  constexpr double kMost = 1e250;
+  for (const auto& [i, B] : block.terms)
+    for (Eigen::Index e = 0; e < B.mid.size(); ++e) {
+      using std::abs;
+      if (B.mid(e) == S(0)) continue;
+      if (!(S(abs(B.mid(e))) >= S(kLeast) && S(abs(B.mid(e))) <= S(kMost))) return false;
+    }
+  return true;
+}
+
 /// The sums over all blocks.
 template <class S>
 struct Sums {
@@ -287,6 +301,7 @@ Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
   constexpr double kShares[] = {0, 1e-24, 1e-16, 1e-12, 1e-8, 1e-4};
   Refutation best;
   best.digits = std::is_same_v<S, DoubleDouble> ? kQuadDigits : kWideDigits;
+  if (!std::all_of(blocks.begin(), blocks.end(), is_in_range<S>)) return best;
   std::vector<Weighed<S>> weighed;
   double whole = 0;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {

