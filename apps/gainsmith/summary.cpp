@@ -109,6 +109,15 @@ std::string certificate_text(const model::Gains& gains) {
       c.digits, of, brief(c.omega, 2));
 }
 
+/// Limits that somebody set are named; how else an iteration ended says nothing.
+std::string undecided_because(const model::Gains& gains) {
+  if (gains.search && !gains.search->value) return "nothing feasible was found";
+  const std::string& cause = gains.solver.cause;
+  for (const char* limit : {"iteration-limit", "time-limit", "interrupted"})
+    if (cause == limit) return cause;
+  return "neither a point that holds nor a certificate was found";
+}
+
 }  // namespace
 
 std::string matrix_text(const numbers::Matrix& matrix) {
@@ -121,19 +130,6 @@ std::string matrix_text(const numbers::Matrix& matrix) {
   }
   return text + "]";
 }
-
-namespace {
-
-/// Limits that somebody set are named; how else an iteration ended says nothing.
-std::string undecided_because(const model::Gains& gains) {
-  if (gains.search && !gains.search->value) return "nothing feasible was found";
-  const std::string& cause = gains.solver.cause;
-  for (const char* limit : {"iteration-limit", "time-limit", "interrupted"})
-    if (cause == limit) return cause;
-  return "neither a point that holds nor a certificate was found";
-}
-
-}  // namespace
 
 std::string verdict_line(const model::Gains& gains) {
   std::string text = to_string(gains.verdict);

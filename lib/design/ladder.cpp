@@ -54,9 +54,7 @@ struct Rungs {
   /// (lmi/polished_multipliers.h) do not.
   static bool most_digits_are_due(const Climb& climb) {
     constexpr int kMostRows = 120;
-    int rows = 0;
-    for (const lmi::Block& block : climb.posed_.lmi.blocks) rows += block.size;
-    return digits_are_due(climb) && rows <= kMostRows;
+    return digits_are_due(climb) && climb.posed_.lmi.rows() <= kMostRows;
   }
   /// Not for one who does not want to wait.
   static bool faces_are_due(const Climb& climb) {

@@ -337,9 +337,7 @@ class OnFaces {
 }  // namespace
 
 std::optional<Attempt> attempt_on_faces(const Posed& posed, const Solve& solve) {
-  int rows = 0;
-  for (const lmi::Block& block : posed.lmi.blocks) rows += block.size;
-  if (posed.lmi.unknowns > kMostUnknowns || rows > kMostRows) return std::nullopt;
+  if (posed.lmi.unknowns > kMostUnknowns || posed.lmi.rows() > kMostRows) return std::nullopt;
   return OnFaces(posed, solve).run();
 }
 

@@ -52,10 +52,11 @@ std::vector<int> places_of(const std::vector<const Block*>& blocks, std::vector<
 }
 
 void add_elements(const Block& block, int first, double weight, std::vector<Element>& out) {
+  constexpr double kLeast = 1e-290;  // units for less than this would not be doubles
   for (const auto& [i, matrix] : block.terms)
     for (int k = 0; k < matrix.outerSize(); ++k)
       for (Sparse::InnerIterator it(matrix, k); it; ++it)
-        if (it.value() != 0)
+        if (std::abs(it.value()) >= kLeast)
           out.push_back({i, first + static_cast<int>(it.row()), first + static_cast<int>(it.col()),
                          std::log2(std::abs(it.value())), weight});
 }

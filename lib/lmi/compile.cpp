@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -136,6 +137,11 @@ void check_sizes(const std::vector<Block>& blocks, const std::vector<Place>& pla
 }
 
 }  // namespace
+
+int Lmi::rows() const {
+  return std::accumulate(blocks.begin(), blocks.end(), 0,
+                         [](int sum, const Block& block) { return sum + block.size; });
+}
 
 bool Lmi::stands_for_points() const {
   return std::all_of(blocks.begin(), blocks.end(),

@@ -28,6 +28,8 @@ struct Lmi {
   /// Whether every block stands for a point of its domain (Block::where), so that what excludes the
   /// blocks excludes the inequalities.
   bool stands_for_points() const;
+  /// Of all blocks together.
+  int rows() const;
   /// c'x + c_0, when has_objective.
   double objective_at(const std::vector<double>& x) const;
 };

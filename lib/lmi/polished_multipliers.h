@@ -26,8 +26,7 @@ struct WideMultiplier {
 };
 
 /// Makes r_i = 0 for 1 <= i <= unknowns, and r_0 = 0 where it is not clearly below 0. False, and
-/// `multipliers` of no use, when the steps are not small or do not
-/// settle.
+/// `multipliers` of no use, when the steps are not small or do not settle.
 bool polish(std::vector<WideMultiplier>& multipliers, int unknowns);
 
 }  // namespace gainsmith::lmi

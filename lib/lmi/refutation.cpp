@@ -54,20 +54,6 @@ MatrixOf<S> lower_inverse(const MatrixOf<S>& L) {
   return inverse;
 }
 
-/// Whether the bounds of the check, which are doubles, can hold what is in the block.
-template <class S>
-bool is_in_range(const ExactBlock<S>& block) {
-  constexpr double kLeast = 1e-250;
-  constexpr double kMost = 1e250;
-  for (const auto& [i, B] : block.terms)
-    for (Eigen::Index e = 0; e < B.mid.size(); ++e) {
-      using std::abs;
-      if (B.mid(e) == S(0)) continue;
-      if (!(S(abs(B.mid(e))) >= S(kLeast) && S(abs(B.mid(e))) <= S(kMost))) return false;
-    }
-  return true;
-}
-
 /// The sums over all blocks.
 template <class S>
 struct Sums {
@@ -79,6 +65,25 @@ struct Sums {
   numbers::Matrix H_error;  ///< of H: its rounding, and what the B_ki are known to
   double strict = 0;        ///< tr of the Y_k of strict blocks
   double whole = 0;
+  std::vector<bool> present;  ///< whether a term of r is not 0
+
+  explicit Sums(Eigen::Index m)
+      : r(VectorOf<S>::Zero(m)),
+        error(Eigen::VectorXd::Zero(m)),
+        noise(error),
+        W(error),
+        H(MatrixOf<S>::Zero(m, m)),
+        H_error(numbers::Matrix::Zero(m, m)),
+        present(static_cast<std::size_t>(m), false) {}
+
+  /// Whether double, in which the bounds are, holds the size of every r_i.
+  bool is_in_range() const {
+    constexpr double kLeast = 1e-250;
+    constexpr double kMost = 1e250;
+    for (Eigen::Index i = 0; i < W.size(); ++i)
+      if (present[static_cast<std::size_t>(i)] && !(W[i] >= kLeast && W[i] <= kMost)) return false;
+    return true;
+  }
 };
 
 template <class S>
@@ -110,7 +115,11 @@ void add_block(const ExactBlock<S>& block, const MatrixOf<S>& Y, bool strict, Su
     error_of_B.push_back(rounding * of_B + B.rad);
     largest.push_back(times<double>(times<double>(sizes, of_B + B.rad), sizes));
     S r(0);
-    for (Eigen::Index e = 0; e < Y.size(); ++e) r += B.mid(e) * Y(e);
+    for (Eigen::Index e = 0; e < Y.size(); ++e) {
+      if (B.mid(e) == S(0) || Y(e) == S(0)) continue;
+      r += B.mid(e) * Y(e);
+      sums.present[static_cast<std::size_t>(i)] = true;
+    }
     sums.r[i] += r;
     sums.W[i] += of_B.cwiseProduct(sizes).sum();
     // sin(pi) is no entry of the data, whatever the size of its rounding.
@@ -253,9 +262,7 @@ template <class S>
 Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen::Index m) {
   constexpr double kCounts = 1e-6;  // what strict blocks, or v, must have of all multipliers
   Refutation result;
-  const Eigen::VectorXd zero = Eigen::VectorXd::Zero(m);
-  Sums<S> sums{VectorOf<S>::Zero(m),       zero, zero, zero, MatrixOf<S>::Zero(m, m),
-               numbers::Matrix::Zero(m, m)};
+  Sums<S> sums(m);
   bool definite = true;
   for (const Weighed<S>& weighed : blocks) {
     if (!(weighed.trace > 0 && weighed.trace >= least)) continue;
@@ -264,6 +271,7 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
     if (!lifted) return result;
     add_block(*weighed.block, *lifted, weighed.strict, sums);
   }
+  if (!sums.is_in_range()) return result;
   const bool homogeneous = sums.W[0] == 0 && sums.error[0] == 0;
   const double v = static_cast<double>(as<double>(S(-sums.r[0])));
   if (definite && sums.whole > 0 && (homogeneous || v > sums.error[0]))
@@ -301,7 +309,6 @@ Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
   constexpr double kShares[] = {0, 1e-24, 1e-16, 1e-12, 1e-8, 1e-4};
   Refutation best;
   best.digits = std::is_same_v<S, DoubleDouble> ? kQuadDigits : kWideDigits;
-  if (!std::all_of(blocks.begin(), blocks.end(), is_in_range<S>)) return best;
   std::vector<Weighed<S>> weighed;
   double whole = 0;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
@@ -332,16 +339,6 @@ Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& for
   return refute<S>(lmi, exact_blocks<S>(of, lmi, formulation), converted<S>(Y));
 }
 
-namespace {
-
-/// tr(Y_k) in balanced units.
-double solution_trace(const sdp::Solution& solution, std::size_t k) {
-  const auto n = static_cast<Eigen::Index>(std::lround(std::sqrt(solution.Y.values[k].size())));
-  return Eigen::Map<const numbers::Matrix>(solution.Y.values[k].data(), n, n).trace();
-}
-
-}  // namespace
-
 template std::vector<ExactBlock<Decimal100>> exact_blocks<Decimal100>(const Inequalities&,
                                                                       const Lmi&,
                                                                       const Formulation&);
@@ -351,76 +348,5 @@ template Refutation refute<DoubleDouble>(const Inequalities&, const Lmi&, const 
                                          const Multipliers&);
 template Refutation refute<Decimal100>(const Inequalities&, const Lmi&, const Formulation&,
                                        const Multipliers&);
-
-double relaxed_omega(const Lmi& lmi, const GainBounds& bounds, const Formulation& formulation,
-                     const sdp::Solution& solution) {
-  // As in refute(), multipliers that only tend to 0 are left out.
-  constexpr double kShares[] = {0, 1e-10, 1e-8, 1e-6, 1e-4};
-  std::vector<numbers::Matrix> Y = multipliers(lmi, bounds, formulation, solution);
-  double whole = 0;
-  for (numbers::Matrix& y : Y) {
-    // Y_k is >= 0 up to what the solver leaves: made so, at the price of the residuals.
-    numbers::SymmetricEigen eigen(y);
-    y = eigen.vectors() * eigen.values().cwiseMax(0).asDiagonal() * eigen.vectors().transpose();
-  }
-  for (std::size_t k = 0; k < Y.size(); ++k) whole += solution_trace(solution, k);
-  double best = 1;
-  for (const double share : kShares) {
-    std::vector<double> r(static_cast<std::size_t>(lmi.unknowns + bounds.scalars) + 1, 0.0);
-    std::vector<double> W = r;
-    double kept = 0;
-    for (std::size_t k = 0; k < Y.size(); ++k) {
-      if (!(solution_trace(solution, k) >= share * whole)) continue;
-      kept += Y[k].trace();
-      const Block& block =
-          k < lmi.blocks.size() ? lmi.blocks[k] : bounds.blocks[k - lmi.blocks.size()];
-      for (const auto& [i, matrix] : block.terms)
-        for (int c = 0; c < matrix.outerSize(); ++c)
-          for (Sparse::InnerIterator it(matrix, c); it; ++it) {
-            const double term = it.value() * Y[k](it.row(), it.col());
-            r[static_cast<std::size_t>(i)] += term;
-            W[static_cast<std::size_t>(i)] += std::abs(term);
-          }
-    }
-    double omega = kept > 0 ? 0 : 1;
-    for (std::size_t i = 0; i < r.size(); ++i)
-      if (W[i] > 0 && !(i == 0 && r[0] <= 0)) omega = std::max(omega, std::abs(r[i]) / W[i]);
-    best = std::min(best, omega + 1e-14);
-  }
-  return best;
-}
-
-std::optional<ZeroDiagonal> find_zero_diagonal(const Inequalities& of, const Lmi& lmi,
-                                               const Balance& balance) {
-  std::optional<ExactBlocks<DoubleDouble>> exact;
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
-    const Block& block = lmi.blocks[k];
-    if (!block.where) continue;
-    for (int row = 0; row < block.size; ++row) {
-      const bool zero = std::all_of(block.terms.begin(), block.terms.end(), [&](const auto& term) {
-        return term.second.coeff(row, row) == 0;
-      });
-      if (!zero) continue;
-      if (!exact) exact.emplace(of, balance);
-      const ExactBlock<DoubleDouble> known = exact->block(block, k, all_rows(block));
-      // The element (row, column) is certainly the same constant other than 0 for every x.
-      for (int column = 0; column < block.size; ++column) {
-        bool vanishes = true;
-        bool constant = false;
-        for (const auto& [i, B] : known.terms) {
-          vanishes &= B.ball(row, row).is_zero();
-          if (i == 0)
-            constant = std::abs(static_cast<double>(as<double>(B.mid(row, column)))) * (1 - 1e-12) >
-                       B.rad(row, column);
-          else
-            vanishes &= B.ball(row, column).is_zero();
-        }
-        if (column != row && vanishes && constant)
-          return ZeroDiagonal{block.name, row + 1, column + 1};
-      }
-    }
-  }
-  return std::nullopt;
-}
 
 }  // namespace gainsmith::lmi

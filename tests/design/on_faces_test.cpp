@@ -18,16 +18,6 @@ model::Gains solve(const std::string& method, const std::string& data = "") {
   return synthesize(yaml.instance, {});
 }
 
-std::string text_of(const numbers::Matrix& matrix) {
-  std::string text;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    text += i > 0 ? "], [" : "[[";
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-      text += (j > 0 ? ", " : "") + std::to_string(matrix(i, j));
-  }
-  return text + "]]";
-}
-
 /// min <C, P> over P >= 0 of trace 1 is the smallest eigenvalue of C.
 TEST(OnFaces, TheLeastObjectiveUnderATraceIsAnEigenvalue) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
@@ -40,7 +30,7 @@ TEST(OnFaces, TheLeastObjectiveUnderATraceIsAnEigenvalue) {
         "  data: {C: n x n}\n  unknowns: {P: symmetric n}\n"
         "  require: {shape: P >= 0, above: trace(P) >= 1, below: trace(P) <= 1}\n"
         "  minimize: trace(C*P)\n",
-        "data: {C: " + text_of(C) + "}\n");
+        "data: {C: " + tests::matrix_yaml(C) + "}\n");
     ASSERT_EQ(gains.verdict, model::Verdict::yes) << seed;
     EXPECT_EQ(gains.solver.status, "optimal") << seed;
     const double least = numbers::smallest_eigenvalue(C);

@@ -22,22 +22,11 @@ bool is_certain(const model::CertificateRecord& certificate) {
   return certificate.is_about_problem() && (certificate.exact || certificate.omega <= 1e-30);
 }
 
-std::string matrix_yaml(const numbers::Matrix& matrix) {
-  std::string text = "[";
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
-    text += i > 0 ? ", [" : "[";
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
-      text += (j > 0 ? ", " : "") + std::to_string(matrix(i, j));
-    text += "]";
-  }
-  return text + "]";
-}
-
 std::string lyapunov(const numbers::Matrix& A) {
   return "problem: lyapunov\nmethod:\n  method: lyapunov\n  data: {A: n x n}\n  unknowns: {P: "
          "symmetric n}\n"
          "  require: {positive: P > 0, stable: He(P*A) < 0}\ndata: {A: " +
-         matrix_yaml(A) + "}\n";
+         tests::matrix_yaml(A) + "}\n";
 }
 
 /// Data of which the arithmetic knows nothing, or only a wide range, exclude nothing.
@@ -169,19 +158,20 @@ TEST(SynthesizeTest, ScalarInequalitiesThatHoldWithEqualityAreKept) {
   }
 }
 
+/// u = K x for x' = a x + u, the gain being below -a; `more`: of the problem.
+model::Gains feedback(const std::string& a, const std::string& more = "") {
+  return solve(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n, B: n x m}\n  unknowns: {P: symmetric "
+      "n, "
+      "Y: m x n}\n  require: {p: P > 0, s: He(A*P + B*Y) < 0}\n  gains: {K: Y*inv(P)}\n"
+      "data: {A: [[" +
+      a + "]], B: [[1]]}\n" + more);
+}
+
 /// What only the bound on the gain excludes is no "no".
 TEST(SynthesizeTest, OnlyTheProblemItselfMakesItInfeasible) {
-  const auto feedback = [](const std::string& bound) {
-    return solve(
-        "problem: p\nmethod:\n  method: m\n  data: {A: n x n, B: n x m}\n  unknowns: {P: symmetric "
-        "n, Y: m x n}\n"
-        "  require: {p: P > 0, s: He(A*P + B*Y) < 0}\n  gains: {K: Y*inv(P)}\ndata: {A: [[1000]], "
-        "B: [[1]]}\n"
-        "synthesis: {gain_bound: " +
-        bound + "}\n");
-  };
-  EXPECT_EQ(feedback("none").verdict, model::Verdict::yes);
-  const model::Gains bounded = feedback("10");
+  EXPECT_EQ(feedback("1000", "synthesis: {gain_bound: none}\n").verdict, model::Verdict::yes);
+  const model::Gains bounded = feedback("1000", "synthesis: {gain_bound: 10}\n");
   EXPECT_EQ(bounded.verdict, model::Verdict::undecided);
   EXPECT_GT(bounded.bound_only.value(), 1000);
   EXPECT_NE(bounded.solver.message.find("gain bound 10"), std::string::npos)
@@ -190,14 +180,30 @@ TEST(SynthesizeTest, OnlyTheProblemItselfMakesItInfeasible) {
 
 /// A default in units is no reason: the same plant in other units has an answer.
 TEST(SynthesizeTest, GainsBeyondTheDefaultBoundAreAYesThatSaysSo) {
-  const model::Gains found = solve(
-      "problem: p\nmethod:\n  method: m\n  data: {A: n x n, B: n x m}\n  unknowns: {P: symmetric "
-      "n, Y: m x n}\n  require: {p: P > 0, s: He(A*P + B*Y) < 0}\n  gains: {K: Y*inv(P)}\n"
-      "data: {A: [[100000]], B: [[1]]}\n");
+  const model::Gains found = feedback("100000");
   EXPECT_EQ(found.verdict, model::Verdict::yes);
   EXPECT_LT((*found.find("K"))(0, 0), -100000);
   EXPECT_NE(found.solver.message.find("none below the default of 10000"), std::string::npos)
       << found.solver.message;
+}
+
+/// Numbers at the end of the range of double are no certificate and no fault.
+TEST(SynthesizeTest, WhatDoubleCannotBoundExcludesNothing) {
+  const auto pair = [](const std::string& require) {
+    return solve(
+               "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar}\n  require: "
+               "{" +
+               require + "}\n")
+        .verdict;
+  };
+  for (const char* feasible :
+       {"a: x >= 1, b: 1e-324*y >= x", "a: x >= 1, b: 1e-320*y >= x",
+        "a: x >= 1, b: 1e-200*1e-200*y >= x", "a: x > 0, b: x < 1e-324, c: y > 0",
+        "a: x > 0, b: x < 1e-308, c: y > 0"})
+    EXPECT_NE(pair(feasible), model::Verdict::no) << feasible;
+  EXPECT_NE(pair("a: x <= 0, b: x >= 1e-308, c: y > 0, d: y <= 1"), model::Verdict::yes);
+  // Tiny coefficients beside others are as good as any.
+  EXPECT_EQ(pair("a: x + 1e-300*y > 1, b: x < 0, c: y < 1, d: y > -1"), model::Verdict::no);
 }
 
 /// The coefficient vanishes where tau is 0.893, which is no double.

@@ -56,21 +56,10 @@ struct Posed {
   }
 };
 
-std::string text_of(const Matrix& A) {
-  std::string text = "[";
-  for (Eigen::Index i = 0; i < A.rows(); ++i) {
-    text += i > 0 ? ", [" : "[";
-    for (Eigen::Index j = 0; j < A.cols(); ++j)
-      text += (j > 0 ? ", " : "") + model::printed(A(i, j));
-    text += "]";
-  }
-  return text + "]";
-}
-
 std::string lyapunov(const Matrix& A) {
   return "  data: {A: n x n}\n  unknowns: {P: symmetric n}\n  require: {positive: P > 0, stable: "
          "He(P*A) < 0}\ndata: {A: " +
-         text_of(A) + "}\n";
+         tests::matrix_yaml(A) + "}\n";
 }
 
 Matrix random_matrix(int n, std::mt19937& generator) {

@@ -7,8 +7,21 @@
 #include "io/problem_yaml.h"
 #include "methods/methods.h"
 #include "model/bind.h"
+#include "model/gains.h"
 
 namespace gainsmith::tests {
+
+/// [[0.5, 2], [..]], with all digits.
+inline std::string matrix_yaml(const numbers::Matrix& matrix) {
+  std::string text = "[";
+  for (Eigen::Index i = 0; i < matrix.rows(); ++i) {
+    text += i > 0 ? ", [" : "[";
+    for (Eigen::Index j = 0; j < matrix.cols(); ++j)
+      text += (j > 0 ? ", " : "") + model::printed(matrix(i, j));
+    text += "]";
+  }
+  return text + "]";
+}
 
 struct YamlProblem {
   std::shared_ptr<const model::Problem> problem;
