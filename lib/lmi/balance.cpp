@@ -255,7 +255,8 @@ Balance balance(const std::vector<const Block*>& blocks, int unknowns,
   }
   const int last = objective.empty() ? -1 : rows - 1;
   Units units = fit(elements, rows, unknowns, last);
-  units = fit(without_small(elements, units), rows, unknowns, last);
+  if (const auto kept = without_small(elements, units); kept.size() < elements.size())
+    units = fit(kept, rows, unknowns, last);
   Balance result;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     std::vector<int>& of_block = result.rows.emplace_back();

@@ -18,7 +18,7 @@ using Eigen::Index;
 using Wide = numbers::MatrixOf<Decimal100>;
 using numbers::times;
 
-constexpr double kSettled = 1e-60;  // of W_i; far above the rounding of 100 digits
+constexpr double kSettled = 1e-65;  // of W_i; far above the rounding of 100 digits
 
 template <class S>
 numbers::MatrixOf<S> narrow(const Wide& matrix) {
@@ -120,10 +120,10 @@ numbers::MatrixOf<S> gram(const std::vector<WideMultiplier>& multipliers, int un
   return G;
 }
 
-/// lambda of all unknowns, 0 for those without an equation.
+/// lambda of all unknowns, 0 for those without an equation; (G + damping I) lambda = r.
 template <class S>
 std::vector<Decimal100> step(const std::vector<WideMultiplier>& multipliers,
-                             const Residuals& residuals, bool with_constant) {
+                             const Residuals& residuals, bool with_constant, double damping) {
   using std::sqrt;
   const auto unknowns = static_cast<int>(residuals.r.size()) - 1;
   const numbers::MatrixOf<S> G = gram<S>(multipliers, unknowns);
@@ -140,6 +140,7 @@ std::vector<Decimal100> step(const std::vector<WideMultiplier>& multipliers,
       scaled(static_cast<Index>(a), static_cast<Index>(b)) =
           G(rows[a], rows[b]) * units[a] * units[b];
   }
+  for (Index a = 0; a < m; ++a) scaled(a, a) += S(damping);
   const std::vector<S> solved = solve<S>(scaled, r);
   std::vector<Decimal100> lambda(residuals.r.size(), Decimal100(0));
   for (std::size_t a = 0; a < rows.size(); ++a)
@@ -168,45 +169,87 @@ bool move(WideMultiplier& one, const std::vector<Decimal100>& lambda) {
   return true;
 }
 
-/// r' G^-1 r.
-double decrement(const std::vector<Decimal100>& lambda, const Residuals& residuals) {
-  double sum = 0;
-  for (std::size_t i = 0; i < lambda.size(); ++i)
-    sum += as<double>(Decimal100(lambda[i] * residuals.r[i]));
-  return sum;
+/// How far the multipliers are from a certificate, and with which equations they become one.
+struct Distance {
+  bool with_constant = true;  ///< r_0 is not clearly below 0, and must become 0
+  double worst = 0;           ///< of |r_i| / W_i
+
+  explicit Distance(const Residuals& residuals) {
+    constexpr double kClear = 1e-6;  // r_0 below this share of W_0 is below 0 whatever is done
+    with_constant = residuals.share(0) > -kClear;
+    for (std::size_t i = with_constant ? 0 : 1; i < residuals.r.size(); ++i)
+      worst = std::max(worst, std::abs(residuals.share(i)));
+  }
+};
+
+/// How the steps go on.
+struct Way {
+  int most_steps = 0;
+  int patience = 0;       ///< steps in which the worst residual must fall tenfold
+  bool on_range = false;  ///< damped, and doubled at double roots
+};
+
+bool follow(std::vector<WideMultiplier>& multipliers, int unknowns, const Way& way) {
+  constexpr double kFalls = 0.1;
+  constexpr double kQuarter = 0.1;  // at a double root a step leaves a quarter
+  constexpr double kNarrow = 1e-8;  // as far as 31 digits solve the equations of a double root
+  constexpr double kDamping = 1.5;  // between |r|^2 of the scale of Y and |r| of a double root
+  double last = std::numeric_limits<double>::infinity();
+  double best = last;
+  int found = 0;
+  bool doubled = false;
+  for (int k = 0; k <= way.most_steps; ++k) {
+    const Residuals residuals = residuals_of(multipliers, unknowns);
+    const Distance distance(residuals);
+    if (distance.worst <= kSettled) return true;
+    if (distance.worst <= kFalls * best) {
+      best = distance.worst;
+      found = k;
+    }
+    if (!(k - found < way.patience)) return false;
+    const double damping = way.on_range ? std::pow(distance.worst, kDamping) : 0;
+    auto lambda = distance.worst > kNarrow
+                      ? step<DoubleDouble>(multipliers, residuals, distance.with_constant, damping)
+                      : step<Decimal100>(multipliers, residuals, distance.with_constant, damping);
+    // To a double root the steps lead half of the way: then one goes the whole way.
+    doubled = way.on_range && !doubled && k > 0 && distance.worst > kQuarter * last;
+    if (doubled)
+      for (Decimal100& value : lambda) value *= 2;
+    last = distance.worst;
+    if (!std::all_of(multipliers.begin(), multipliers.end(),
+                     [&](WideMultiplier& one) { return move(one, lambda); }))
+      return false;
+  }
+  return false;
 }
 
 }  // namespace
 
 bool polish(std::vector<WideMultiplier>& multipliers, int unknowns) {
-  constexpr int kMostSteps = 60;
-  constexpr double kClear = 1e-6;    // r_0 below this share of W_0 is below 0 whatever is done
-  constexpr double kSlowest = 0.6;   // what a step leaves of r' G^-1 r, where it squares
-  constexpr double kQuarter = 0.15;  // at a double root a step leaves a quarter
-  constexpr double kNarrow = 1e-8;   // as far as 31 digits solve the equations of a double root
-  constexpr int kFirst = 3;          // steps that may do worse
-  double last = std::numeric_limits<double>::infinity();
-  bool doubled = false;
-  for (int k = 0; k <= kMostSteps; ++k) {
-    const Residuals residuals = residuals_of(multipliers, unknowns);
-    const bool with_constant = residuals.share(0) > -kClear;
-    double worst = 0;
-    for (std::size_t i = with_constant ? 0 : 1; i < residuals.r.size(); ++i)
-      worst = std::max(worst, std::abs(residuals.share(i)));
-    if (worst <= kSettled) return true;
-    auto lambda = worst > kNarrow ? step<DoubleDouble>(multipliers, residuals, with_constant)
-                                  : step<Decimal100>(multipliers, residuals, with_constant);
-    const double size = decrement(lambda, residuals);
-    if (k >= kFirst && !doubled && !(size <= kSlowest * last)) return false;
-    // To a double root Newton's steps lead half of the way: then one goes the whole way.
-    doubled = !doubled && k > 0 && size > kQuarter * last;
-    if (doubled)
-      for (Decimal100& value : lambda) value *= 2;
-    last = size;
-    for (WideMultiplier& one : multipliers)
-      if (!move(one, lambda)) return false;
+  return follow(multipliers, unknowns, {20, 3, false});
+}
+
+bool polish_on_range(std::vector<WideMultiplier>& multipliers, int unknowns) {
+  return follow(multipliers, unknowns, {150, 10, true});
+}
+
+int restrict_rank(WideMultiplier& one, double least) {
+  const Index n = one.Y.rows();
+  Wide rest = one.Y;
+  Wide kept = Wide::Zero(n, n);
+  int rank = 0;
+  for (; rank < n; ++rank) {
+    Index best = 0;
+    for (Index i = 1; i < n; ++i)
+      if (rest(i, i) > rest(best, best)) best = i;
+    if (!(as<double>(rest(best, best)) >= least)) break;
+    const Wide column = rest.col(best);
+    const Wide part = times<Decimal100>(column, Wide(column.transpose())) / column(best);
+    kept += part;
+    rest -= part;
   }
-  return false;
+  one.Y = kept;
+  return rank;
 }
 
 }  // namespace gainsmith::lmi

@@ -5,11 +5,16 @@
 // by Newton's method on factors Y_k = L_k L_k', with the smallest change of the factors: with
 // G lambda = r, G_ij = sum_k tr(B_ki Y_k B_kj),
 //   Y_k <- M_k Y_k M_k,   M_k = I - 1/2 sum_i lambda_i B_ki.
-// Y_k stays >= 0, whatever its rank, and the residual is squared in each step; where the
-// certificate is a double root every second step is twice as long, and it falls by digits. So a
-// certificate on the boundary of the cone, which the solver knows to as many digits as it computed
-// with, is known to as many as one likes. What comes of it is checked like any other multipliers
-// (refutation.h).
+// Y_k stays >= 0 and of its rank, and the residual is squared in each step. So a certificate on the
+// boundary of the cone, which the solver knows to as many digits as it computed with, is known to
+// as many as one likes. What comes of it is checked like any other multipliers (refutation.h).
+//
+// Where every certificate is singular (a real eigenvalue of an unstable A: Y = v v' alone), what a
+// solver leaves beside its range is a root of higher order, to which these steps lead slowly.
+// Multipliers of the right rank have more equations than unknowns, which are consistent: G + mu I
+// with mu = |r|^1.5 leads to them whether or not they determine the factors (Levenberg & Marquardt;
+// Fan & Yuan 2005). To what is then still a double root every step leads half of the way; every
+// second one is twice as long (Decker, Keller & Kelley 1983).
 #pragma once
 
 #include <vector>
@@ -28,5 +33,11 @@ struct WideMultiplier {
 /// Makes r_i = 0 for 1 <= i <= unknowns, and r_0 = 0 where it is not clearly below 0. False, and
 /// `multipliers` of no use, when the steps are not small or do not settle.
 bool polish(std::vector<WideMultiplier>& multipliers, int unknowns);
+
+/// The same where the multipliers have the rank of a certificate, and no larger one.
+bool polish_on_range(std::vector<WideMultiplier>& multipliers, int unknowns);
+
+/// Y without what a Cholesky factorisation with pivoting finds below `least`; its rank.
+int restrict_rank(WideMultiplier& one, double least);
 
 }  // namespace gainsmith::lmi

@@ -206,7 +206,8 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
 /// need one in proportion to the whole.
 template <class S>
 std::optional<MatrixOf<S>> positive(const MatrixOf<S>& Y) {
-  constexpr double kLifts[] = {0, 1e-33, 1e-32, 1e-31, 1e-30, 1e-29, 1e-28, 1e-27};
+  constexpr double kLifts[] = {0,     1e-97, 1e-95, 1e-93, 1e-91, 1e-89, 1e-85, 1e-80,
+                               1e-33, 1e-32, 1e-31, 1e-30, 1e-29, 1e-28, 1e-27};
   const double size = upper(S(Y.trace()));
   if (size == 0 && Y.isZero()) return Y;
   for (const bool in_proportion : {true, false})

@@ -57,10 +57,10 @@ template <class S>
 Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
                   const std::vector<numbers::MatrixOf<S>>& Y);
 
-/// omega of a certificate of which nothing is missing, as 31 digits of its multipliers have it. A
-/// feasible problem has certificates that miss by the square of what it is feasible by: one that is
-/// feasible by the last of 16 digits alone is taken for a no.
-constexpr double kNothing = 1e-30;
+/// omega of a certificate of which nothing is missing, in 100 digits. A feasible problem has
+/// certificates that miss by the square of what it is feasible by: what only the last of 16 digits
+/// makes feasible by 1e-33, what only the last of 38 does is taken for a no.
+constexpr double kNothing = 1e-60;
 
 /// What multipliers near Y say in 100 digits, made so that they have no residual
 /// (polished_multipliers.h): Y may come from a solver in double.

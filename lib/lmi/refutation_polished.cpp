@@ -1,4 +1,5 @@
 // Certificates on the boundary of the cone, from multipliers that are only nearly one.
+#include <set>
 #include <utility>
 
 #include "lmi/polished_multipliers.h"
@@ -14,36 +15,66 @@ double trace_of(const numbers::MatrixOf<DoubleDouble>& Y) {
   return as<double>(DoubleDouble(Y.trace()));
 }
 
+/// Those blocks that have a share of the multipliers, with these.
+struct Kept {
+  std::vector<WideMultiplier> multipliers;
+  std::vector<std::size_t> which;
+};
+
+Kept kept_of(const std::vector<ExactBlock<Decimal100>>& blocks, const Multipliers& Y,
+             double least) {
+  Kept kept;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    if (!(trace_of(Y[k]) > 0 && trace_of(Y[k]) >= least)) continue;
+    kept.multipliers.push_back(
+        {&blocks[k], Y[k].unaryExpr([](const DoubleDouble& y) { return as<Decimal100>(y); })});
+    kept.which.push_back(k);
+  }
+  return kept;
+}
+
+Refutation refute_kept(const Lmi& lmi, const std::vector<ExactBlock<Decimal100>>& blocks,
+                       const Multipliers& Y, Kept kept) {
+  std::vector<Wide> polished;
+  for (const auto& y : Y) polished.push_back(Wide::Zero(y.rows(), y.cols()));
+  for (std::size_t a = 0; a < kept.which.size(); ++a)
+    polished[kept.which[a]] = std::move(kept.multipliers[a].Y);
+  return refute<Decimal100>(lmi, blocks, polished);
+}
+
 }  // namespace
 
 Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
                            const Multipliers& Y) {
   // A block that a certificate does not need may keep the others from being one.
   constexpr double kShares[] = {0, 1e-8, 1e-4};
+  // What is left beside the range of a singular certificate.
+  constexpr double kRanges[] = {1e-4, 1e-7, 1e-2, 1e-10};
   Refutation best;
   if (!lmi.stands_for_points()) return best;
   const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
   double whole = 0;
   for (const auto& y : Y) whole += trace_of(y);
+  const auto excludes = [&](Kept kept) {
+    const Refutation found = refute_kept(lmi, blocks, Y, std::move(kept));
+    if (found.exact || found.omega < best.omega) best = found;
+    return best.exact || best.omega <= kNothing;
+  };
   std::size_t looked_at = 0;
   for (const double share : kShares) {
-    std::vector<WideMultiplier> kept;
-    std::vector<std::size_t> which;
-    for (std::size_t k = 0; k < blocks.size(); ++k) {
-      if (!(trace_of(Y[k]) > 0 && trace_of(Y[k]) >= share * whole)) continue;
-      kept.push_back(
-          {&blocks[k], Y[k].unaryExpr([](const DoubleDouble& y) { return as<Decimal100>(y); })});
-      which.push_back(k);
-    }
-    if (which.size() == looked_at) continue;
-    looked_at = which.size();
-    if (!polish(kept, lmi.unknowns)) continue;
-    std::vector<Wide> polished;
-    for (const auto& y : Y) polished.push_back(Wide::Zero(y.rows(), y.cols()));
-    for (std::size_t a = 0; a < which.size(); ++a) polished[which[a]] = std::move(kept[a].Y);
-    const Refutation found = refute<Decimal100>(lmi, blocks, polished);
-    if (found.exact || found.omega < best.omega) best = found;
-    if (best.exact || best.omega <= kNothing) break;
+    Kept kept = kept_of(blocks, Y, share * whole);
+    if (kept.which.size() == looked_at) continue;
+    looked_at = kept.which.size();
+    if (polish(kept.multipliers, lmi.unknowns) && excludes(std::move(kept))) return best;
+  }
+  std::set<std::vector<int>> tried;
+  for (const double range : kRanges) {
+    Kept kept = kept_of(blocks, Y, range * whole);
+    std::vector<int> ranks(blocks.size(), 0);
+    for (std::size_t a = 0; a < kept.which.size(); ++a)
+      ranks[kept.which[a]] = restrict_rank(kept.multipliers[a], range * whole);
+    if (!tried.insert(std::move(ranks)).second) continue;
+    if (polish_on_range(kept.multipliers, lmi.unknowns) && excludes(std::move(kept))) return best;
   }
   return best;
 }

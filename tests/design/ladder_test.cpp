@@ -189,7 +189,7 @@ TEST(Ladder, WhatIsNoCertificateIsNoNo) {
 /// What stands in the blocks themselves needs no solver, and nothing is solved where only one x is.
 TEST(Ladder, PlainStepsOnFacesDecideWhateverTheSolverSays) {
   const Case none(window("2", "1"));
-  const Scripted no(undecided(), none);
+  const Scripted no(refuting(none, {0, 3}), none);
   EXPECT_EQ(no.gains.verdict, Verdict::no);
   ASSERT_TRUE(no.gains.certificate);
   EXPECT_TRUE(no.gains.certificate->exact);

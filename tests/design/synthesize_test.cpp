@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <random>
 
+#include "lmi/refutation.h"
 #include "support/input_error.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
@@ -19,7 +20,8 @@ model::Gains solve(const std::string& text) {
 
 /// A certificate that no solution exists, exactly or up to the rounding of 100 digits.
 bool is_certain(const model::CertificateRecord& certificate) {
-  return certificate.is_about_problem() && (certificate.exact || certificate.omega <= 1e-30);
+  return certificate.is_about_problem() &&
+         (certificate.exact || certificate.omega <= lmi::kNothing);
 }
 
 std::string lyapunov(const numbers::Matrix& A) {

@@ -1,0 +1,82 @@
+// A no needs a certificate: of data that are nearly infeasible there is none, of plainly infeasible
+// ones there is, whatever its rank.
+#include <gtest/gtest.h>
+
+#include <Eigen/Core>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "design/synthesize.h"
+#include "lmi/refutation.h"
+#include "support/linear_algebra.h"
+#include "support/yaml_problem.h"
+
+namespace gainsmith::design {
+namespace {
+
+model::Gains solve(const std::string& text) {
+  const tests::YamlProblem yaml(text);
+  return synthesize(yaml.instance, {});
+}
+
+model::Gains lyapunov(const std::string& A) {
+  return solve(
+      "problem: lyapunov\nmethod:\n  method: lyapunov\n  data: {A: n x n}\n  unknowns: {P: "
+      "symmetric n}\n  require: {positive: P > 0, stable: He(P*A) < 0}\ndata: {A: " +
+      A + "}\n");
+}
+
+model::Gains scalars(const std::string& unknowns, const std::string& require) {
+  return solve("problem: p\nmethod:\n  method: m\n  unknowns: {" + unknowns + "}\n  require: {" +
+               require + "}\n");
+}
+
+/// Feasible by the last of 16 digits: multipliers miss by the square of it.
+TEST(CertificatesTest, AlmostACertificateIsNone) {
+  EXPECT_NE(lyapunov("[[1, 1.0000000000000002], [-1, -1.0000000000000001]]").verdict,
+            model::Verdict::no);
+  EXPECT_NE(lyapunov("[[1, 1.000000000000000000000000002], [-1, -1.000000000000000000000000001]]")
+                .verdict,
+            model::Verdict::no);
+  EXPECT_NE(lyapunov("[[49006999, 343098014001], [-7000, -49007002]]").verdict, model::Verdict::no);
+  EXPECT_NE(scalars("x: scalar, y: scalar, z: scalar",
+                    "a: x > y, b: y > 0.9999999999999998*z, c: z > 1.0000000000000002*x")
+                .verdict,
+            model::Verdict::no);
+  EXPECT_NE(scalars("x: scalar, y: scalar", "a: x > 0, b: \"tanh(50)*x < y\", c: y < x").verdict,
+            model::Verdict::no);
+  // And what these digits make infeasible stays so.
+  EXPECT_EQ(scalars("x: scalar, y: scalar, z: scalar",
+                    "a: x > y, b: y > 0.9999999999999998*z, c: z > 1.0000000000000003*x, d: x > 0")
+                .verdict,
+            model::Verdict::no);
+}
+
+/// The certificate of a plant with one unstable mode has the rank 1, and no other exists.
+TEST(CertificatesTest, SingularCertificatesAreFound) {
+  std::mt19937 generator(7);
+  std::normal_distribution<double> number;
+  std::vector<std::string> plants = {"[[1]]",
+                                     "[[0, 1], [0, 0]]",
+                                     "[[0, 1], [-1, 0]]",
+                                     "[[0, 1, 0], [0, 0, 1], [0, 0, 0]]",
+                                     "[[0, 1, 1, 0], [-1, 0, 0, 1], [0, 0, 0, 1], [0, 0, -1, 0]]",
+                                     "[[1, 1], [0, 1]]",
+                                     "[[2, 0, 0], [0, -1, 1], [0, 0, -1]]",
+                                     "[[1e-3, 1000], [0, -1e6]]"};
+  while (plants.size() < 40) {
+    const int n = 2 + static_cast<int>(plants.size()) % 4;
+    const numbers::Matrix A = numbers::Matrix::NullaryExpr(n, n, [&] { return number(generator); });
+    if (tests::spectral_abscissa(A) > 1e-3) plants.push_back(tests::matrix_yaml(A));
+  }
+  for (const std::string& A : plants) {
+    const model::Gains gains = lyapunov(A);
+    EXPECT_EQ(gains.verdict, model::Verdict::no) << A << ' ' << gains.solver.message;
+    ASSERT_TRUE(gains.certificate.has_value()) << A;
+    EXPECT_TRUE(gains.certificate->exact || gains.certificate->omega <= lmi::kNothing) << A;
+  }
+}
+
+}  // namespace
+}  // namespace gainsmith::design
