@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "base/double_double.h"
+#include "base/finer.h"
 
 namespace gainsmith {
 
@@ -41,6 +42,24 @@ template <>
 inline DoubleDouble as<DoubleDouble, Decimal100>(const Decimal100& value) {
   const double high = static_cast<double>(value);
   return {high, static_cast<double>(Decimal100(value - high))};
+}
+
+/// x = as<DoubleDouble>(x) + the finer part of x.
+inline Finer finer_part(Decimal100 x) {
+  const auto leading = as<DoubleDouble>(x);
+  x -= leading.hi();
+  x -= leading.lo();
+  Finer finer;
+  for (double& part : finer) {
+    part = static_cast<double>(x);
+    x -= part;
+  }
+  return finer;
+}
+inline Decimal100 with_finer(const DoubleDouble& leading, const Finer& finer) {
+  Decimal100 x(0);
+  for (auto part = finer.rbegin(); part != finer.rend(); ++part) x += *part;
+  return x + leading.lo() + leading.hi();
 }
 
 /// The number that a decimal text stands for, with all the digits that T has. Texts and refusals

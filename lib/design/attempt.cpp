@@ -123,7 +123,10 @@ lmi::Refutation refutation_of(const Posed& posed, const Question& asked,
   if (polished.exact || polished.omega <= lmi::kNothing) return polished;
   // What 31 digits see is not of the data's making when 100 are asked for.
   if (asked.effort.precision == "auto") return found;
-  return lmi::refute<Decimal100>(posed.inequalities, posed.lmi, formulation, Y);
+  const auto blocks = lmi::exact_blocks<Decimal100>(posed.inequalities, posed.lmi, formulation);
+  return lmi::refute<Decimal100>(
+      posed.lmi, blocks,
+      lmi::wide_multipliers_of(formulation, posed.lmi.blocks.size(), solved.solution));
 }
 
 /// The multipliers of the first round, and in more digits also those of the rows that they live on.

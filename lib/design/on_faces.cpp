@@ -154,7 +154,7 @@ class OnFaces {
     return lmi::formulate_interior(
         left.lmi, {}, round,
         [&](std::size_t k, const lmi::Balance& balance, const std::vector<int>& kept) {
-          lmi::BalancedBlock block{static_cast<int>(kept.size()), {}};
+          lmi::BalancedBlock block{static_cast<int>(kept.size()), {}, {}};
           for (const auto& [i, matrix] : faces_.blocks()[left.blocks[k]].terms)
             for (int c = 0; c < block.size; ++c)
               for (int r = 0; r <= c; ++r) {

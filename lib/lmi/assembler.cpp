@@ -17,7 +17,8 @@ void merge(std::vector<sdp::Entry>& entries) {
                    [&](const sdp::Entry& a, const sdp::Entry& b) { return key(a) < key(b); });
   std::vector<sdp::Entry> merged;
   for (const sdp::Entry& entry : entries) {
-    if (!merged.empty() && key(merged.back()) == key(entry)) {
+    const bool same = !merged.empty() && key(merged.back()) == key(entry);
+    if (same && merged.back().finer == 0 && entry.finer == 0) {
       const DoubleDouble sum = DoubleDouble(merged.back().value, merged.back().rest) +
                                DoubleDouble(entry.value, entry.rest);
       merged.back().value = sum.hi();
@@ -44,7 +45,7 @@ BalancedBlock balanced(const Block& block, const Balance& balance, std::size_t a
   std::vector<int> moved(static_cast<std::size_t>(block.size), kDropped);
   for (std::size_t k = 0; k < kept.size(); ++k)
     moved[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
-  BalancedBlock result{static_cast<int>(kept.size()), {}};
+  BalancedBlock result{static_cast<int>(kept.size()), {}, {}};
   for (const auto& [i, matrix] : block.terms) {
     for (int k = 0; k < matrix.outerSize(); ++k) {
       for (Sparse::InnerIterator it(matrix, k); it; ++it) {
@@ -81,19 +82,30 @@ int Assembler::add_block(int size, bool diagonal) {
 
 int Assembler::add(const BalancedBlock& block, int constant, double diagonal) {
   const int added = add_block(block.size);
-  for (const BalancedBlock::Element& e : block.elements) {
+  for (std::size_t k = 0; k < block.elements.size(); ++k) {
+    const BalancedBlock::Element& e = block.elements[k];
     const double factor = e.row == e.column ? diagonal : 1;
+    // Only what is not multiplied keeps its digits.
+    const Finer* finer = block.finer.empty() || factor != 1 ? nullptr : &block.finer[k];
     add_entry(e.unknown == 0 ? constant : e.unknown, added, e.row, e.column, factor * e.value,
-              factor * e.rest);
+              factor * e.rest, finer);
   }
   return added;
 }
 
-void Assembler::add_entry(int i, int block, int row, int column, double value, double rest) {
+void Assembler::add_entry(int i, int block, int row, int column, double value, double rest,
+                          const Finer* finer) {
   if (value == 0) return;
   const double sign = i == 0 ? -1 : 1;
+  int place = 0;
+  if (finer != nullptr &&
+      std::any_of(finer->begin(), finer->end(), [](double x) { return x != 0; })) {
+    Finer& own = problem_.finer.emplace_back(*finer);
+    for (double& part : own) part *= sign;
+    place = static_cast<int>(problem_.finer.size());
+  }
   problem_.f[static_cast<std::size_t>(i)].push_back(
-      {block, row, column, sign * value, sign * rest});
+      {block, row, column, sign * value, sign * rest, place});
 }
 
 void Assembler::set_cost(int i, double cost) { problem_.c[static_cast<std::size_t>(i) - 1] = cost; }

@@ -20,6 +20,7 @@ struct BalancedBlock {
   };
   int size = 0;
   std::vector<Element> elements;
+  std::vector<Finer> finer;  ///< what value + rest leave of each element; or empty
 };
 
 /// The rows `kept` of a block; `at` is its place in the balance.
@@ -40,7 +41,8 @@ class Assembler {
   int add(const BalancedBlock& block, int constant, double diagonal);
 
   /// The coefficient of variable i (0: the constant) at one place of the upper triangle.
-  void add_entry(int i, int block, int row, int column, double value, double rest = 0);
+  void add_entry(int i, int block, int row, int column, double value, double rest = 0,
+                 const Finer* finer = nullptr);
 
   void set_cost(int i, double cost);
 

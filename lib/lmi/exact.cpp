@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <string>
+#include <type_traits>
 
 #include "base/scalars.h"
 #include "lmi/printed_check.h"
@@ -93,12 +94,15 @@ ExactBlock<S> ExactBlocks<S>::block(const Block& block, std::size_t at,
 
 template <class S>
 BalancedBlock rounded(const ExactBlock<S>& block, int size) {
-  BalancedBlock result{size, {}};
+  BalancedBlock result{size, {}, {}};
   for (const auto& [i, matrix] : block.terms)
     for (int c = 0; c < size; ++c)
       for (int r = 0; r <= c; ++r) {
         const auto value = as<DoubleDouble>(matrix.mid(r, c));
-        if (value.hi() != 0) result.elements.push_back({i, r, c, value.hi(), value.lo()});
+        if (value.hi() == 0) continue;
+        result.elements.push_back({i, r, c, value.hi(), value.lo()});
+        if constexpr (std::is_same_v<S, Decimal100>)
+          result.finer.push_back(finer_part(matrix.mid(r, c)));
       }
   return result;
 }

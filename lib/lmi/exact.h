@@ -38,7 +38,7 @@ class ExactBlocks {
   numbers::EnclosedValues<S> values_;  ///< of data and parameters
 };
 
-/// Its coefficients in 31 digits.
+/// Its coefficients, in 31 digits or in all of them.
 template <class S>
 BalancedBlock rounded(const ExactBlock<S>& block, int size);
 

@@ -18,7 +18,7 @@ using Eigen::Index;
 using Wide = numbers::MatrixOf<Decimal100>;
 using numbers::times;
 
-constexpr double kSettled = 1e-65;  // of W_i; far above the rounding of 100 digits
+constexpr double kSettled = 1e-60;  // of W_i; far above the rounding of 100 digits
 
 template <class S>
 numbers::MatrixOf<S> narrow(const Wide& matrix) {

@@ -38,6 +38,10 @@ using Multipliers = std::vector<numbers::MatrixOf<DoubleDouble>>;
 /// Of an interior solution.
 Multipliers multipliers_of(const Formulation& formulation, std::size_t blocks,
                            const sdp::Solution& solution);
+/// The same with all digits that the solution has.
+std::vector<numbers::MatrixOf<Decimal100>> wide_multipliers_of(const Formulation& formulation,
+                                                               std::size_t blocks,
+                                                               const sdp::Solution& solution);
 
 /// What Y says over S, or those of its Y_k that are not small: those of blocks that a certificate
 /// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (omega = 1) when a block
@@ -58,9 +62,9 @@ Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
                   const std::vector<numbers::MatrixOf<S>>& Y);
 
 /// omega of a certificate of which nothing is missing, in 100 digits. A feasible problem has
-/// certificates that miss by the square of what it is feasible by: what only the last of 16 digits
-/// makes feasible by 1e-33, what only the last of 38 does is taken for a no.
-constexpr double kNothing = 1e-60;
+/// certificates that miss by the square of what it is feasible by: by 1e-33 where only the last of
+/// 16 digits makes it feasible. Where only the last of 22 does it is taken for a no.
+constexpr double kNothing = 1e-45;
 
 /// What multipliers near Y say in 100 digits, made so that they have no residual
 /// (polished_multipliers.h): Y may come from a solver in double.

@@ -11,23 +11,28 @@ T multiplier(int constraint, const Vector<T>& x, const T& tau) {
   return constraint == 0 ? T(-tau) : T(x[constraint - 1]);
 }
 
-/// The sum over the terms of one F_i and their mirror images: F_i . S in one block.
+/// The sum over the terms first .. last - 1 of one F_i and their mirror images: F_i . S in one
+/// block.
 template <typename T>
-T inner_with(const Term* first, const Term* last, const ConstMatrixMap<T>& S) {
+T inner_with(const BlockData& block, std::size_t first, std::size_t last,
+             const ConstMatrixMap<T>& S) {
   T off(0), on(0);
-  for (const Term* term = first; term != last; ++term)
-    (term->row == term->column ? on : off) += S(term->row, term->column) * coefficient<T>(*term);
+  for (std::size_t t = first; t < last; ++t) {
+    const Term& term = block.terms[t];
+    (term.row == term.column ? on : off) += S(term.row, term.column) * coefficient<T>(block, t);
+  }
   return on + off + off;
 }
 
 /// The same without waiting for the carries of every sum.
 template <>
-DoubleDouble inner_with(const Term* first, const Term* last,
+DoubleDouble inner_with(const BlockData& block, std::size_t first, std::size_t last,
                         const ConstMatrixMap<DoubleDouble>& S) {
   PairSum off, on;
-  for (const Term* term = first; term != last; ++term)
-    (term->row == term->column ? on : off)
-        .add(S(term->row, term->column), {term->value, term->rest});
+  for (std::size_t t = first; t < last; ++t) {
+    const Term& term = block.terms[t];
+    (term.row == term.column ? on : off).add(S(term.row, term.column), {term.value, term.rest});
+  }
   return on.value() + 2 * off.value();
 }
 
@@ -44,7 +49,7 @@ void adjoint(const Data& data, const Vector<T>& x, const T& tau, Blocks<T>& s) {
       const T factor = multiplier(block.constraint[list], x, tau);
       for (std::size_t t = block.start[list]; t < block.start[list + 1]; ++t) {
         const Term& term = block.terms[t];
-        target(term.row, term.column) += factor * coefficient<T>(term);
+        target(term.row, term.column) += factor * coefficient<T>(block, t);
       }
     }
     target.template triangularView<Eigen::StrictlyLower>() = target.transpose();
@@ -54,7 +59,7 @@ void adjoint(const Data& data, const Vector<T>& x, const T& tau, Blocks<T>& s) {
     const auto list = static_cast<std::size_t>(k);
     const T factor = multiplier(data.linear.constraint[list], x, tau);
     for (std::size_t t = data.linear.start[list]; t < data.linear.start[list + 1]; ++t)
-      target[data.linear.terms[t].row] += factor * coefficient<T>(data.linear.terms[t]);
+      target[data.linear.terms[t].row] += factor * coefficient<T>(data.linear, t);
   }
 }
 
@@ -70,8 +75,8 @@ T apply(const Data& data, const Blocks<T>& s, Vector<T>& r) {
     const auto source = s.dense(b);
     for (int k = 0; k < block.lists(); ++k) {
       const auto list = static_cast<std::size_t>(k);
-      add(block.constraint[list], inner_with(block.terms.data() + block.start[list],
-                                             block.terms.data() + block.start[list + 1], source));
+      add(block.constraint[list],
+          inner_with(block, block.start[list], block.start[list + 1], source));
     }
   }
   const auto source = s.linear();
@@ -79,7 +84,7 @@ T apply(const Data& data, const Blocks<T>& s, Vector<T>& r) {
     const auto list = static_cast<std::size_t>(k);
     T sum(0);
     for (std::size_t t = data.linear.start[list]; t < data.linear.start[list + 1]; ++t)
-      sum += source[data.linear.terms[t].row] * coefficient<T>(data.linear.terms[t]);
+      sum += source[data.linear.terms[t].row] * coefficient<T>(data.linear, t);
     add(data.linear.constraint[list], sum);
   }
   return with_f0;

@@ -96,25 +96,27 @@ Layout layout_of(const Recovery& recovery) {
 struct Placed {
   int block = 0;  ///< -1: linear part
   Term term;
+  const Entry* entry = nullptr;
 };
 
-/// Appends the entries of one F_i to the blocks they fall in, sorted by column and row, equal
-/// places added up.
-void append(const std::vector<Entry>& list, int constraint, double factor,
+/// Appends the entries of F_i, times a power of two, to the blocks they fall in, sorted by column
+/// and row, equal places added up.
+void append(const Problem& problem, int i, int constraint, double factor,
             const std::vector<std::vector<Target>>& targets, Data& data) {
   std::vector<Placed> placed;
-  for (const Entry& e : list) {
+  for (const Entry& e : problem.f[static_cast<std::size_t>(i)]) {
     if (e.value == 0) continue;
     const auto& target = targets[static_cast<std::size_t>(e.block)];
     const Target row = target[static_cast<std::size_t>(e.row)];
     const Target column = target[static_cast<std::size_t>(e.column)];
-    placed.push_back({row.block, {row.row, column.row, e.value * factor, e.rest * factor}});
+    placed.push_back({row.block, {row.row, column.row, e.value * factor, e.rest * factor}, &e});
   }
   const auto key = [](const Placed& p) { return std::tie(p.block, p.term.column, p.term.row); };
   const auto before = [&](const Placed& a, const Placed& b) { return key(a) < key(b); };
   if (!std::is_sorted(placed.begin(), placed.end(), before))
     std::stable_sort(placed.begin(), placed.end(), before);
   for (std::size_t k = 0; k < placed.size();) {
+    const std::size_t from = k;
     const Placed& first = placed[k];
     DoubleDouble sum(first.term.value, first.term.rest);
     for (++k; k < placed.size() && key(placed[k]) == key(first); ++k)
@@ -128,6 +130,11 @@ void append(const std::vector<Entry>& list, int constraint, double factor,
     }
     block.terms.push_back({first.term.row, first.term.column, sum.hi(), sum.lo()});
     ++block.start.back();
+    if (problem.finer.empty()) continue;
+    Decimal100 wide(0);
+    for (std::size_t at = from; at < k; ++at)
+      wide += coefficient<Decimal100>(problem, *placed[at].entry) * factor;
+    block.wide.push_back(wide);
   }
 }
 
@@ -180,7 +187,7 @@ Presolved presolve(const Problem& problem) {
 
   const double norm_f0 = frobenius_norm(problem.f[0]);
   if (norm_f0 > 0) recovery.gamma_f = power_of_two_below(norm_f0);
-  append(problem.f[0], 0, 1 / recovery.gamma_f, targets, data);
+  append(problem, 0, 0, 1 / recovery.gamma_f, targets, data);
   double largest_c = 0, largest_norm = norm_f0, largest_ratio = 0;
   for (int i = 0; i < problem.m(); ++i) {
     const auto& list = problem.f[static_cast<std::size_t>(i) + 1];
@@ -199,7 +206,7 @@ Presolved presolve(const Problem& problem) {
     data.c_rest.push_back(problem.c_rest.empty() ? 0
                                                  : s * problem.c_rest[static_cast<std::size_t>(i)]);
     largest_c = std::max(largest_c, std::abs(s * c));
-    append(list, static_cast<int>(recovery.s.size()), s, targets, data);
+    append(problem, i + 1, static_cast<int>(recovery.s.size()), s, targets, data);
   }
   for (std::size_t b = 0; b < data.dense.size(); ++b)
     find_pattern(data.dense[b], data.layout.size[b]);
@@ -257,7 +264,7 @@ Point<Out> restore(const Problem& problem, const Presolved& presolved, const Vec
                                       const Blocks<T>&, const Blocks<T>&, const T&);
 GAINSMITH_INSTANTIATE(double, double)
 GAINSMITH_INSTANTIATE(DoubleDouble, DoubleDouble)
-GAINSMITH_INSTANTIATE(DoubleDouble, Decimal100)
+GAINSMITH_INSTANTIATE(Decimal100, Decimal100)
 #undef GAINSMITH_INSTANTIATE
 
 }  // namespace gainsmith::sdp

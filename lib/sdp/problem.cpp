@@ -19,6 +19,7 @@ void validate_entry(const Problem& problem, std::size_t i, const Entry& e) {
   if (e.row > e.column) fail(i, "an entry is below the diagonal");
   if (block.diagonal && e.row != e.column) fail(i, "a diagonal block has an off-diagonal entry");
   if (!std::isfinite(e.value)) fail(i, "an entry is not finite");
+  if (e.finer < 0 || e.finer > std::ssize(problem.finer)) fail(i, "an entry has no finer part");
 }
 
 }  // namespace

@@ -6,6 +6,8 @@
 
 #include <vector>
 
+#include "base/finer.h"
+
 namespace gainsmith::sdp {
 
 /// One block: `size` rows. A dense symmetric block has size(size+1)/2 free entries, a diagonal one
@@ -21,13 +23,14 @@ struct Block {
 /// entry stands for both of its mirror places (the value is that of one place, as in SDPA files).
 /// `rest` is what rounding to double took from the number as written (0 where nothing is known):
 /// ill posed problems have another answer without it. Arithmetics wider than double use value +
-/// rest.
+/// rest, 100 digits also Problem::finer.
 struct Entry {
   int block = 0;
   int row = 0;
   int column = 0;
   double value = 0;
   double rest = 0;
+  int finer = 0;  ///< place in Problem::finer, from 1; 0: none
 
   bool operator==(const Entry&) const = default;
 };
@@ -38,12 +41,14 @@ struct Problem {
   std::vector<double> c_rest;         ///< as Entry::rest; empty stands for zeros
   std::vector<std::vector<Entry>> f;  ///< f[0] = F_0, f[i] = F_i for i = 1..m
 
+  std::vector<Finer> finer;  ///< what value + rest leave of entries
+
   int m() const { return static_cast<int>(c.size()); }
 };
 
 /// Throws std::invalid_argument unless `problem` is well formed: f has m + 1 lists, blocks have
 /// positive sizes, entries lie in the upper triangle of their block (on the diagonal of a diagonal
-/// one), values and costs are finite, c_rest is empty or has m entries.
+/// one), values and costs are finite, Entry::finer is a place, c_rest is empty or has m entries.
 void validate(const Problem& problem);
 
 }  // namespace gainsmith::sdp

@@ -31,7 +31,7 @@ T inner(const Problem& problem, const std::vector<Entry>& f, const Packed<T>& s)
   for (const Entry& e : f) {
     const T& value =
         s[static_cast<std::size_t>(e.block)][place(block_of(problem, e), e.row, e.column)];
-    sum += value * coefficient<T>(e.value, e.rest) * static_cast<double>(e.row == e.column ? 1 : 2);
+    sum += value * coefficient<T>(problem, e) * static_cast<double>(e.row == e.column ? 1 : 2);
   }
   return sum;
 }
@@ -49,7 +49,7 @@ Packed<T> combine(const Problem& problem, const std::vector<T>& x, double tau) {
     for (const Entry& e : problem.f[i]) {
       const Block& block = block_of(problem, e);
       auto& values = result[static_cast<std::size_t>(e.block)];
-      const T product = factor * coefficient<T>(e.value, e.rest);
+      const T product = factor * coefficient<T>(problem, e);
       values[place(block, e.row, e.column)] += product;
       if (e.row != e.column) values[place(block, e.column, e.row)] += product;
     }
@@ -148,7 +148,7 @@ template <typename T>
 void split(const std::vector<T>& from, std::vector<double>& value, std::vector<double>& rest) {
   for (const T& v : from) {
     value.push_back(static_cast<double>(v));
-    if constexpr (!std::is_same_v<T, double>) rest.push_back(v.lo());
+    if constexpr (!std::is_same_v<T, double>) rest.push_back(as<DoubleDouble>(v).lo());
   }
 }
 
@@ -201,6 +201,11 @@ void store(const Point<T>& point, Solution& solution) {
   split(point.x, solution.x, solution.rest.x);
   split(point.X, solution.X, solution.rest.X);
   split(point.Y, solution.Y, solution.rest.Y);
+  if constexpr (std::is_same_v<T, Decimal100>)
+    for (const auto& block : point.Y) {
+      auto& finer = solution.rest.finer_Y.emplace_back();
+      for (const T& v : block) finer.push_back(finer_part(v));
+    }
 }
 
 template <typename T>
@@ -240,8 +245,7 @@ Certificate check_dual_infeasible(const Problem& problem, Point<T>& point, doubl
   template void store<T>(const Point<T>&, Solution&);                                 \
   template Certificate check_primal_infeasible<T>(const Problem&, Point<T>&, double); \
   template Certificate check_dual_infeasible<T>(const Problem&, Point<T>&, double);
-GAINSMITH_INSTANTIATE(double)
-GAINSMITH_INSTANTIATE(DoubleDouble)
+GAINSMITH_FOR_EACH_SCALAR(GAINSMITH_INSTANTIATE)
 #undef GAINSMITH_INSTANTIATE
 
 }  // namespace gainsmith::sdp

@@ -67,7 +67,7 @@ Schur<T>::Schur(const Data& data, unsigned threads)
     if (linear.constraint[list] == 0) continue;
     for (std::size_t t = linear.start[list]; t < linear.start[list + 1]; ++t)
       columns_[static_cast<std::size_t>(linear.terms[t].row)].emplace_back(
-          linear.constraint[list] - 1, coefficient<T>(linear.terms[t]));
+          linear.constraint[list] - 1, coefficient<T>(linear, t));
   }
   if (!sparse_.worthwhile()) b_.setZero(m, m);
   if (!sparse_.worthwhile()) factor_.setZero(m, m);
@@ -110,7 +110,7 @@ void Schur<T>::append_list(const BlockData& block, std::size_t k, Plan& plan) co
   for (std::size_t t = block.start[k]; t < block.start[k + 1]; ++t) {
     const Term& term = block.terms[t];
     plan.terms.push_back(term);
-    plan.value.push_back(coefficient<T>(term));
+    plan.value.push_back(coefficient<T>(block, t));
     plan.packed.push_back(static_cast<int>(packed_index(term.row, term.column)));
   }
   list.last = plan.terms.size();
@@ -227,9 +227,9 @@ void Schur<T>::multiply_lists(const Plan& plan, std::size_t first, std::size_t l
     const List& list = plan.lists[first + static_cast<std::size_t>(i)];
     for (std::size_t t = list.first; t < list.last; ++t) {
       const Term& term = plan.terms[t];
-      h.col(term.row).segment(n * i, n) += Y.col(term.column) * coefficient<T>(term);
+      h.col(term.row).segment(n * i, n) += Y.col(term.column) * plan.value[t];
       if (term.row != term.column)
-        h.col(term.column).segment(n * i, n) += Y.col(term.row) * coefficient<T>(term);
+        h.col(term.column).segment(n * i, n) += Y.col(term.row) * plan.value[t];
     }
   }
   multiply(View<const T>(h), View<const T>(inverse_X), View<T>(u));
@@ -304,9 +304,9 @@ void Schur<T>::add_rows(const Plan& plan, std::size_t position, const ConstMatri
   };
   for (std::size_t t = list.first; t < list.last; ++t) {
     const Term& term = plan.terms[t];
-    h.row(place(term.row)) += Y.col(term.column).transpose() * coefficient<T>(term);
+    h.row(place(term.row)) += Y.col(term.column).transpose() * plan.value[t];
     if (term.row != term.column)
-      h.row(place(term.column)) += Y.col(term.row).transpose() * coefficient<T>(term);
+      h.row(place(term.column)) += Y.col(term.row).transpose() * plan.value[t];
   }
   for (Eigen::Index k = 0; k < r; ++k)
     u.row(k) = inverse_X.col(list.rows[static_cast<std::size_t>(k)]).transpose();
@@ -319,7 +319,7 @@ void Schur<T>::add_rows(const Plan& plan, std::size_t position, const ConstMatri
       T entry = dot(u.data() + r * term.row, h.data() + r * term.column, r);
       if (term.row != term.column)
         entry += dot(u.data() + r * term.column, h.data() + r * term.row, r);
-      sum += entry * coefficient<T>(term);
+      sum += entry * plan.value[t];
     }
     add(list.constraint, other.constraint, sum);
   }

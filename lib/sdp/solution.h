@@ -6,6 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "base/finer.h"
+
 namespace gainsmith::sdp {
 
 /// What is known. `optimal`: both objectives agree to the tolerance and the errors recomputed on
@@ -68,6 +70,7 @@ struct Solution {
     std::vector<double> x;
     BlockMatrix X;
     BlockMatrix Y;
+    std::vector<std::vector<Finer>> finer_Y;  ///< of each element; empty but in 100 digits
   } rest;
 
   double primal_objective = 0;  ///< c'x, recomputed from the raw data

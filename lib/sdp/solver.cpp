@@ -45,11 +45,10 @@ double worst(const Solution& solution) {
 template <typename T>
 Solution conclude(const Problem& problem, const Presolved& presolved, const Options& options,
                   const Ipm<T>& ipm, Cause cause) {
-  using Out = std::conditional_t<std::is_same_v<T, double>, double, DoubleDouble>;
   const Iterate<T>& end = ipm.point();
   const bool certificate = cause == Cause::certificate;
-  Point<Out> point =
-      restore<Out>(problem, presolved, end.x, end.X, end.Y, certificate ? T(1) : end.tau);
+  Point<T> point =
+      restore<T>(problem, presolved, end.x, end.X, end.Y, certificate ? T(1) : end.tau);
   Solution solution;
   solution.cause = cause;
   measure(problem, point, solution);
@@ -197,7 +196,8 @@ class Ladder {
 
 template <typename T>
 void Ladder::run(Ipm<T>& ipm, Model model) {
-  const double feasibility = strict_ ? kWideFeasibility : options_.tolerance;
+  const double feasibility =
+      strict_ ? std::min(kWideFeasibility, options_.tolerance) : options_.tolerance;
   const Cause cause = ipm.run({.model = model,
                                .aim = kAim * options_.tolerance,
                                .feasibility = feasibility,

@@ -36,8 +36,7 @@ model::Gains scalars(const std::string& unknowns, const std::string& require) {
 TEST(CertificatesTest, AlmostACertificateIsNone) {
   EXPECT_NE(lyapunov("[[1, 1.0000000000000002], [-1, -1.0000000000000001]]").verdict,
             model::Verdict::no);
-  EXPECT_NE(lyapunov("[[1, 1.000000000000000000000000002], [-1, -1.000000000000000000000000001]]")
-                .verdict,
+  EXPECT_NE(lyapunov("[[1, 1.000000000000000000002], [-1, -1.000000000000000000001]]").verdict,
             model::Verdict::no);
   EXPECT_NE(lyapunov("[[49006999, 343098014001], [-7000, -49007002]]").verdict, model::Verdict::no);
   EXPECT_NE(scalars("x: scalar, y: scalar, z: scalar",

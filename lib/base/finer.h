@@ -1,0 +1,10 @@
+// What 31 digits leave of a number in 100, as doubles: with its two leading ones they add up to it.
+#pragma once
+
+#include <array>
+
+namespace gainsmith {
+
+using Finer = std::array<double, 5>;
+
+}  // namespace gainsmith
