@@ -44,6 +44,15 @@ void take_point(const Posed& posed, const std::vector<double>& x, Attempt& resul
   result.x = x;
 }
 
+/// The same where double does not tell: by the check of the decimals of x.
+void take_point_beyond_double(const Posed& posed, const std::vector<double>& x, Attempt& result) {
+  if (!(lmi::interior_margin(result.solution) > 0)) return;
+  if (!is_finite(x) || !is_within(result.question.bounds, x)) return;
+  if (!lmi::all_hold(margins_at(posed, result, x))) return;
+  result.point = true;
+  result.x = x;
+}
+
 void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   const Question& asked = result.question;
   result.formulation = lmi::formulate_objective(posed.lmi, asked.bounds, asked.shift);
@@ -103,6 +112,7 @@ Interior::Solved solve_interior(const Posed& posed, Interior& interior, Attempt&
       result.formulation = std::move(solved.formulation);
       result.solution = std::move(solved.solution);
       take_point(posed, x, result);
+      if (interior.is_wide() && !result.point) take_point_beyond_double(posed, x, result);
     }
     if (!next || next->margin >= posed.choices().margin) break;
     if (next->margin <= round.margin * (1 + kRises)) break;

@@ -19,6 +19,7 @@ using Wide = numbers::MatrixOf<Decimal100>;
 using numbers::times;
 
 constexpr double kSettled = 1e-60;  // of W_i; far above the rounding of 100 digits
+constexpr double kEnough = 1e-50;   // where steps lead no further
 
 template <class S>
 numbers::MatrixOf<S> narrow(const Wide& matrix) {
@@ -49,9 +50,9 @@ struct Residuals {
   double share(std::size_t i) const { return W[i] > 0 ? as<double>(r[i]) / W[i] : 0; }
 };
 
-Residuals residuals_of(const std::vector<WideMultiplier>& multipliers, int unknowns) {
+Residuals residuals_of(const std::vector<FactoredMultiplier>& multipliers, int unknowns) {
   Residuals residuals(unknowns);
-  for (const WideMultiplier& one : multipliers) residuals.add(*one.block, one.Y);
+  for (const FactoredMultiplier& one : multipliers) residuals.add(*one.block, one.value());
   return residuals;
 }
 
@@ -97,32 +98,31 @@ std::vector<S> solve(const numbers::MatrixOf<S>& G, const std::vector<S>& r) {
   return x;
 }
 
-/// G over all unknowns, and 0 of the constant part.
+/// G_ij = sum <B_i L, B_j L> over all unknowns, and 0 of the constant part.
 template <class S>
-numbers::MatrixOf<S> gram(const std::vector<WideMultiplier>& multipliers, int unknowns) {
+numbers::MatrixOf<S> gram(const std::vector<FactoredMultiplier>& multipliers, int unknowns) {
   numbers::MatrixOf<S> G = numbers::MatrixOf<S>::Constant(unknowns + 1, unknowns + 1, S(0));
-  for (const WideMultiplier& one : multipliers) {
-    const numbers::MatrixOf<S> Y = narrow<S>(one.Y);
-    std::vector<numbers::MatrixOf<S>> B;
-    for (const auto& [i, matrix] : one.block->terms) B.push_back(narrow<S>(matrix.mid));
-    for (std::size_t a = 0; a < B.size(); ++a) {
-      const numbers::MatrixOf<S> moved = times<S>(B[a], Y);
-      for (std::size_t b = a; b < B.size(); ++b) {
+  for (const FactoredMultiplier& one : multipliers) {
+    const numbers::MatrixOf<S> L = narrow<S>(one.L);
+    std::vector<numbers::MatrixOf<S>> moved;
+    for (const auto& [i, matrix] : one.block->terms)
+      moved.push_back(times<S>(narrow<S>(matrix.mid), L));
+    for (std::size_t a = 0; a < moved.size(); ++a)
+      for (std::size_t b = a; b < moved.size(); ++b) {
         S sum(0);
-        for (Index e = 0; e < moved.size(); ++e) sum += moved(e) * B[b](e);
+        for (Index e = 0; e < L.size(); ++e) sum += moved[a](e) * moved[b](e);
         const int i = one.block->terms[a].first;
         const int j = one.block->terms[b].first;
         G(i, j) += sum;
         if (i != j) G(j, i) += sum;
       }
-    }
   }
   return G;
 }
 
 /// lambda of all unknowns, 0 for those without an equation; (G + damping I) lambda = r.
 template <class S>
-std::vector<Decimal100> step(const std::vector<WideMultiplier>& multipliers,
+std::vector<Decimal100> step(const std::vector<FactoredMultiplier>& multipliers,
                              const Residuals& residuals, bool with_constant, double damping) {
   using std::sqrt;
   const auto unknowns = static_cast<int>(residuals.r.size()) - 1;
@@ -148,11 +148,11 @@ std::vector<Decimal100> step(const std::vector<WideMultiplier>& multipliers,
   return lambda;
 }
 
-/// Y <- M Y M; false when Y changes by more than a half. M itself may be large where Y is nearly 0.
-bool move(WideMultiplier& one, const std::vector<Decimal100>& lambda) {
+/// L <- L - 1/2 sum lambda_i B_i L; false when L changes by more than a half.
+bool move(FactoredMultiplier& one, const std::vector<Decimal100>& lambda) {
   constexpr double kMost = 0.5;
-  const Index n = one.Y.rows();
-  Wide change = Wide::Zero(n, n);  // Lambda / 2
+  const Index n = one.L.rows();
+  Wide change = Wide::Zero(n, n);
   for (const auto& [i, B] : one.block->terms) {
     const Decimal100& factor = lambda[static_cast<std::size_t>(i)];
     if (factor == 0) continue;
@@ -160,12 +160,14 @@ bool move(WideMultiplier& one, const std::vector<Decimal100>& lambda) {
     for (Index e = 0; e < change.size(); ++e)
       if (B.mid(e) != 0) change(e) += half * B.mid(e);
   }
-  const Wide left = times<Decimal100>(change, one.Y);
-  const Wide both = times<Decimal100>(left, change);
-  const auto moved_by = as<double>(Decimal100(both.trace()));
-  if (!(moved_by <= kMost * kMost * as<double>(Decimal100(one.Y.trace())))) return false;
-  const Wide moved = one.Y - left - left.transpose() + both;
-  one.Y = (moved + moved.transpose()) / Decimal100(2);
+  const Wide moved = times<Decimal100>(change, one.L);
+  const auto square = [](const Wide& M) {
+    Decimal100 sum(0);
+    for (Index e = 0; e < M.size(); ++e) sum += M(e) * M(e);
+    return as<double>(sum);
+  };
+  if (!(square(moved) <= kMost * kMost * square(one.L))) return false;
+  one.L -= moved;
   return true;
 }
 
@@ -189,7 +191,7 @@ struct Way {
   bool on_range = false;  ///< damped, and doubled at double roots
 };
 
-bool follow(std::vector<WideMultiplier>& multipliers, int unknowns, const Way& way) {
+bool follow(std::vector<FactoredMultiplier>& multipliers, int unknowns, const Way& way) {
   constexpr double kFalls = 0.1;
   constexpr double kQuarter = 0.1;  // at a double root a step leaves a quarter
   constexpr double kNarrow = 1e-8;  // as far as 31 digits solve the equations of a double root
@@ -206,7 +208,7 @@ bool follow(std::vector<WideMultiplier>& multipliers, int unknowns, const Way& w
       best = distance.worst;
       found = k;
     }
-    if (!(k - found < way.patience)) return false;
+    if (!(k - found < way.patience)) return distance.worst <= kEnough;
     const double damping = way.on_range ? std::pow(distance.worst, kDamping) : 0;
     auto lambda = distance.worst > kNarrow
                       ? step<DoubleDouble>(multipliers, residuals, distance.with_constant, damping)
@@ -217,7 +219,7 @@ bool follow(std::vector<WideMultiplier>& multipliers, int unknowns, const Way& w
       for (Decimal100& value : lambda) value *= 2;
     last = distance.worst;
     if (!std::all_of(multipliers.begin(), multipliers.end(),
-                     [&](WideMultiplier& one) { return move(one, lambda); }))
+                     [&](FactoredMultiplier& one) { return move(one, lambda); }))
       return false;
   }
   return false;
@@ -225,31 +227,32 @@ bool follow(std::vector<WideMultiplier>& multipliers, int unknowns, const Way& w
 
 }  // namespace
 
-bool polish(std::vector<WideMultiplier>& multipliers, int unknowns) {
-  return follow(multipliers, unknowns, {20, 3, false});
+numbers::MatrixOf<Decimal100> FactoredMultiplier::value() const {
+  return times<Decimal100>(L, Wide(L.transpose()));
 }
 
-bool polish_on_range(std::vector<WideMultiplier>& multipliers, int unknowns) {
-  return follow(multipliers, unknowns, {150, 10, true});
-}
-
-int restrict_rank(WideMultiplier& one, double least) {
-  const Index n = one.Y.rows();
-  Wide rest = one.Y;
-  Wide kept = Wide::Zero(n, n);
-  int rank = 0;
+numbers::MatrixOf<Decimal100> factor_above(const numbers::MatrixOf<Decimal100>& Y, double least) {
+  const Index n = Y.rows();
+  Wide rest = Y;
+  Wide L(n, n);
+  Index rank = 0;
   for (; rank < n; ++rank) {
     Index best = 0;
     for (Index i = 1; i < n; ++i)
       if (rest(i, i) > rest(best, best)) best = i;
-    if (!(as<double>(rest(best, best)) >= least)) break;
-    const Wide column = rest.col(best);
-    const Wide part = times<Decimal100>(column, Wide(column.transpose())) / column(best);
-    kept += part;
-    rest -= part;
+    if (!(rest(best, best) > Decimal100(least))) break;
+    L.col(rank) = rest.col(best) / sqrt(rest(best, best));
+    rest -= times<Decimal100>(Wide(L.col(rank)), Wide(L.col(rank).transpose()));
   }
-  one.Y = kept;
-  return rank;
+  return L.leftCols(rank);
+}
+
+bool polish(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
+  return follow(multipliers, unknowns, {20, 3, false});
+}
+
+bool polish_on_range(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
+  return follow(multipliers, unknowns, {150, 10, true});
 }
 
 }  // namespace gainsmith::lmi

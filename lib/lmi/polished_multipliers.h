@@ -4,7 +4,7 @@
 //
 // by Newton's method on factors Y_k = L_k L_k', with the smallest change of the factors: with
 // G lambda = r, G_ij = sum_k tr(B_ki Y_k B_kj),
-//   Y_k <- M_k Y_k M_k,   M_k = I - 1/2 sum_i lambda_i B_ki.
+//   L_k <- L_k - 1/2 sum_i lambda_i B_ki L_k.
 // Y_k stays >= 0 and of its rank, and the residual is squared in each step. So a certificate on the
 // boundary of the cone, which the solver knows to as many digits as it computed with, is known to
 // as many as one likes. What comes of it is checked like any other multipliers (refutation.h).
@@ -24,20 +24,22 @@
 
 namespace gainsmith::lmi {
 
-/// A block and its multiplier, in balanced units.
-struct WideMultiplier {
+/// A block and a factor of its multiplier L L', in balanced units.
+struct FactoredMultiplier {
   const ExactBlock<Decimal100>* block = nullptr;
-  numbers::MatrixOf<Decimal100> Y;
+  numbers::MatrixOf<Decimal100> L;
+
+  numbers::MatrixOf<Decimal100> value() const;
 };
+
+/// L with L L' = Y but for what a Cholesky factorisation with pivoting finds not above `least`.
+numbers::MatrixOf<Decimal100> factor_above(const numbers::MatrixOf<Decimal100>& Y, double least);
 
 /// Makes r_i = 0 for 1 <= i <= unknowns, and r_0 = 0 where it is not clearly below 0. False, and
 /// `multipliers` of no use, when the steps are not small or do not settle.
-bool polish(std::vector<WideMultiplier>& multipliers, int unknowns);
+bool polish(std::vector<FactoredMultiplier>& multipliers, int unknowns);
 
-/// The same where the multipliers have the rank of a certificate, and no larger one.
-bool polish_on_range(std::vector<WideMultiplier>& multipliers, int unknowns);
-
-/// Y without what a Cholesky factorisation with pivoting finds below `least`; its rank.
-int restrict_rank(WideMultiplier& one, double least);
+/// The same where the factors have as many columns as a certificate has ranks, and no more.
+bool polish_on_range(std::vector<FactoredMultiplier>& multipliers, int unknowns);
 
 }  // namespace gainsmith::lmi

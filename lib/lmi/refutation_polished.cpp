@@ -15,30 +15,43 @@ double trace_of(const numbers::MatrixOf<DoubleDouble>& Y) {
   return as<double>(DoubleDouble(Y.trace()));
 }
 
-/// Those blocks that have a share of the multipliers, with these.
+/// Those blocks that have a share of the multipliers, with factors of these.
 struct Kept {
-  std::vector<WideMultiplier> multipliers;
+  std::vector<FactoredMultiplier> multipliers;
   std::vector<std::size_t> which;
 };
 
-Kept kept_of(const std::vector<ExactBlock<Decimal100>>& blocks, const Multipliers& Y,
+/// Blocks with tr(Y_k) >= share, and of them what is above `least`.
+Kept kept_of(const std::vector<ExactBlock<Decimal100>>& blocks, const Multipliers& Y, double share,
              double least) {
   Kept kept;
   for (std::size_t k = 0; k < blocks.size(); ++k) {
-    if (!(trace_of(Y[k]) > 0 && trace_of(Y[k]) >= least)) continue;
-    kept.multipliers.push_back(
-        {&blocks[k], Y[k].unaryExpr([](const DoubleDouble& y) { return as<Decimal100>(y); })});
+    if (!(trace_of(Y[k]) > 0 && trace_of(Y[k]) >= share)) continue;
+    const Wide wide = Y[k].unaryExpr([](const DoubleDouble& y) { return as<Decimal100>(y); });
+    kept.multipliers.push_back({&blocks[k], factor_above(wide, least)});
     kept.which.push_back(k);
   }
   return kept;
 }
 
+/// A row of nothing but rounding is 0: beside others of its kind its terms would count.
+void clear_rounding(Wide& Y) {
+  const Decimal100 least = Decimal100(1e-75) * Y.trace();
+  for (Eigen::Index i = 0; i < Y.rows(); ++i) {
+    bool rounding = true;
+    for (Eigen::Index j = 0; j < Y.cols(); ++j) rounding &= abs(Y(i, j)) <= least;
+    if (!rounding) continue;
+    Y.row(i).setConstant(Decimal100(0));
+    Y.col(i).setConstant(Decimal100(0));
+  }
+}
+
 Refutation refute_kept(const Lmi& lmi, const std::vector<ExactBlock<Decimal100>>& blocks,
-                       const Multipliers& Y, Kept kept) {
+                       const Multipliers& Y, const Kept& kept) {
   std::vector<Wide> polished;
   for (const auto& y : Y) polished.push_back(Wide::Zero(y.rows(), y.cols()));
   for (std::size_t a = 0; a < kept.which.size(); ++a)
-    polished[kept.which[a]] = std::move(kept.multipliers[a].Y);
+    clear_rounding(polished[kept.which[a]] = kept.multipliers[a].value());
   return refute<Decimal100>(lmi, blocks, polished);
 }
 
@@ -55,26 +68,26 @@ Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formula
   const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
   double whole = 0;
   for (const auto& y : Y) whole += trace_of(y);
-  const auto excludes = [&](Kept kept) {
-    const Refutation found = refute_kept(lmi, blocks, Y, std::move(kept));
+  const auto excludes = [&](const Kept& kept) {
+    const Refutation found = refute_kept(lmi, blocks, Y, kept);
     if (found.exact || found.omega < best.omega) best = found;
     return best.exact || best.omega <= kNothing;
   };
   std::size_t looked_at = 0;
   for (const double share : kShares) {
-    Kept kept = kept_of(blocks, Y, share * whole);
+    Kept kept = kept_of(blocks, Y, share * whole, 0);
     if (kept.which.size() == looked_at) continue;
     looked_at = kept.which.size();
-    if (polish(kept.multipliers, lmi.unknowns) && excludes(std::move(kept))) return best;
+    if (polish(kept.multipliers, lmi.unknowns) && excludes(kept)) return best;
   }
-  std::set<std::vector<int>> tried;
+  std::set<std::vector<Eigen::Index>> tried;
   for (const double range : kRanges) {
-    Kept kept = kept_of(blocks, Y, range * whole);
-    std::vector<int> ranks(blocks.size(), 0);
+    Kept kept = kept_of(blocks, Y, range * whole, range * whole);
+    std::vector<Eigen::Index> ranks(blocks.size(), 0);
     for (std::size_t a = 0; a < kept.which.size(); ++a)
-      ranks[kept.which[a]] = restrict_rank(kept.multipliers[a], range * whole);
+      ranks[kept.which[a]] = kept.multipliers[a].L.cols();
     if (!tried.insert(std::move(ranks)).second) continue;
-    if (polish_on_range(kept.multipliers, lmi.unknowns) && excludes(std::move(kept))) return best;
+    if (polish_on_range(kept.multipliers, lmi.unknowns) && excludes(kept)) return best;
   }
   return best;
 }

@@ -53,23 +53,23 @@ struct Planted {
   }
 
   /// The multipliers with factors that are off by so much.
-  std::vector<WideMultiplier> near(RandomStream& random, double by) const {
-    std::vector<WideMultiplier> result;
+  std::vector<FactoredMultiplier> near(RandomStream& random, double by) const {
+    std::vector<FactoredMultiplier> result;
     for (std::size_t k = 0; k < 2; ++k) {
       const auto n = static_cast<int>(L[k].rows());
       Wide off = drawn(random, n, static_cast<int>(L[k].cols()));
       off = L[k] + off * Decimal100(by);
-      result.push_back({&blocks[k], gram_of(off)});
+      result.push_back({&blocks[k], off});
     }
     return result;
   }
 
-  double residual(const std::vector<WideMultiplier>& multipliers) const {
+  double residual(const std::vector<FactoredMultiplier>& multipliers) const {
     double worst = 0;
     for (std::size_t i = 0; i < blocks[0].terms.size(); ++i) {
       Decimal100 sum(0);
-      for (const WideMultiplier& one : multipliers)
-        sum += inner(one.block->terms[i].second.mid, one.Y);
+      for (const FactoredMultiplier& one : multipliers)
+        sum += inner(one.block->terms[i].second.mid, one.value());
       worst = std::max(worst, std::abs(static_cast<double>(sum)));
     }
     return worst;
@@ -86,18 +86,18 @@ TEST(PolishedMultipliers, LoseTheirResidualAndKeepTheirRank) {
       ASSERT_TRUE(polish(multipliers, 4)) << rank << ' ' << seed;
       EXPECT_LT(planted.residual(multipliers), 1e-57) << rank << ' ' << seed;
       for (std::size_t k = 0; k < 2; ++k) {
-        const Wide moved = multipliers[k].Y - gram_of(planted.L[k]);
+        const Wide moved = multipliers[k].value() - gram_of(planted.L[k]);
         for (Eigen::Index e = 0; e < moved.size(); ++e)
           EXPECT_LT(std::abs(static_cast<double>(moved(e))), 1e-3);
         EXPECT_TRUE((moved - moved.transpose()).isZero(Decimal100(0)));
         // >= 0: the quadratic form at random vectors, and 0 where the rank is 1.
         for (int t = 0; t < 10; ++t) {
           const Wide v = drawn(random, 4, 1);
-          const auto form = static_cast<double>(inner(gram_of(v), multipliers[k].Y));
+          const auto form = static_cast<double>(inner(gram_of(v), multipliers[k].value()));
           EXPECT_GE(form, -1e-90);
         }
         if (rank > 1) continue;
-        const Wide& Y = multipliers[k].Y;
+        const Wide Y = multipliers[k].value();
         EXPECT_LT(std::abs(static_cast<double>(Decimal100(Y(0, 0) * Y(1, 1) - Y(0, 1) * Y(1, 0)))),
                   1e-57);
       }
@@ -110,7 +110,7 @@ TEST(PolishedMultipliers, FarFromACertificateThereIsNone) {
   ExactBlock<Decimal100> block;
   block.terms.emplace_back(
       1, numbers::Enclosed<Decimal100>{Wide::Identity(2, 2), numbers::Matrix::Zero(2, 2)});
-  std::vector<WideMultiplier> multipliers = {{&block, Wide::Identity(2, 2)}};
+  std::vector<FactoredMultiplier> multipliers = {{&block, Wide::Identity(2, 2)}};
   EXPECT_FALSE(polish(multipliers, 1));
 }
 
