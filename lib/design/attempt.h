@@ -57,7 +57,9 @@ struct Attempt {
   /// Of an interior question without a point: what its multipliers leave for the blocks as they
   /// were solved, gain bounds and corners of boxes included (lmi::relaxed_omega).
   double relaxed_omega = 1;
-  /// Of attempts on faces (on_faces.h) that exclude every solution: the exact steps, as text, and
+  /// Made on faces (on_faces.h): the solution says nothing of margins there.
+  bool on_face = false;
+  /// Of attempts on faces that exclude every solution: the exact steps, as text, and
   /// the multipliers of the blocks where one step was enough.
   std::string chain;
   /// Of those that lead to a face, but to no point on it: what is known.

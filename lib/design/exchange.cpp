@@ -9,7 +9,7 @@ namespace gainsmith::design {
 
 bool is_out_of_reach(const Attempt& attempt) {
   constexpr double kTells = 1e-13;  // what the points found in double tell from 0
-  return attempt.question.goal == lmi::Goal::interior &&
+  return attempt.question.goal == lmi::Goal::interior && !attempt.on_face &&
          lmi::interior_margin(attempt.solution) < kTells;
 }
 

@@ -105,6 +105,7 @@ class OnFaces {
       result_.left_open = "every solution has only equality somewhere (" + faces_.why() +
                           "); no numbers of 16 digits were found that keep it";
     }
+    result_.on_face = true;
     result_.solution = as_solution_of(result_.formulation);
     return std::move(result_);
   }

@@ -99,11 +99,12 @@ double upper(const S& value) {
 template <class S>
 void add_block(const ExactBlock<S>& block, const MatrixOf<S>& Y, bool strict, Sums<S>& sums) {
   const Eigen::Index n = Y.rows();
-  constexpr double kNoEntry = 1e-60;
+  constexpr double kNoEntry = 1e-48;  // what a root leaves of 100 digits
   double scale = 0;
   for (const auto& [i, B] : block.terms)
     for (Eigen::Index e = 0; e < Y.size(); ++e)
       if (upper(B.mid(e)) > 2 * B.rad(e)) scale = std::max(scale, upper(B.mid(e)));
+  if (scale == 0) scale = 1;  // balanced units
   const double rounding = 2 * static_cast<double>(n * n + 2 * n + 4) * numbers::unit_roundoff<S>();
   const numbers::Matrix sizes = Y.unaryExpr([](const S& y) { return upper(y); });
   std::vector<MatrixOf<S>> moved;           // Y B_j Y
@@ -124,8 +125,8 @@ void add_block(const ExactBlock<S>& block, const MatrixOf<S>& Y, bool strict, Su
     sums.W[i] += of_B.cwiseProduct(sizes).sum();
     // sin(pi) is no entry of the data, whatever the size of its rounding.
     for (Eigen::Index e = 0; e < Y.size(); ++e)
-      if (B.rad(e) > 0 && of_B(e) <= B.rad(e) && B.rad(e) <= kNoEntry * scale)
-        sums.noise[i] += 2 * error_of_B.back()(e) * sizes(e);
+      if (B.rad(e) > 0 && of_B(e) <= B.rad(e) * (1 + 1e-12) && B.rad(e) <= kNoEntry * scale)
+        sums.noise[i] += 2 * error_of_B.back()(e) * sizes(e) * (1 + 1e-11);
     sums.error[i] += error_of_B.back().cwiseProduct(sizes).sum() * (1 + 1e-12);
   }
   for (std::size_t a = 0; a < moved.size(); ++a)

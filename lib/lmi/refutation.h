@@ -11,7 +11,7 @@
 //   omega   max over i >= 1 of |r_i| / W_i, W_i = sum_k <|B_ki|, |Y_k|>: no x satisfies the
 //           inequalities when their coefficients change by more than omega, relatively; and within
 //           such changes Y is exact for some coefficients (Oettli & Prager).
-//           An element of B_ki that is 0 up to rounding, 60 decades below its block, is none.
+//           An element of B_ki that is 0 up to rounding, 48 decades below its block, is none.
 #pragma once
 
 #include <optional>

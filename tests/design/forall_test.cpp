@@ -200,6 +200,15 @@ TEST(ForallTest, APoleInTheIntervalIsNoYes) {
   EXPECT_NE(found.verdict, model::Verdict::yes) << found.solver.message;
 }
 
+/// At t = 0 equality is left, and just beside it nothing: the point on the face shows where.
+TEST(ForallTest, AFaceIsLeftWhereItFailsBetweenThePoints) {
+  const auto found = solve(
+      "problem: p\nmethod:\n  method: p\n  unknowns: {x: scalar}\n  require:\n"
+      "    above: {forall: \"t in [0, 1]\", that: \"x >= 1 + 1e-6*(exp(-1e5*t) - exp(-3e5*t))\"}\n"
+      "    below: x <= 1\n");
+  EXPECT_EQ(found.verdict, model::Verdict::no) << found.solver.message;
+}
+
 /// Dependence that no hull takes: the auto way falls back to exchange.
 TEST(ForallTest, AnyDependenceOnTheVariable) {
   const auto found = solve(
