@@ -25,7 +25,7 @@ bool is_positive(const Posed& posed, const std::vector<double>& x) {
 
 lmi::Margins margins_at(const Posed& posed, const Attempt& attempt, const std::vector<double>& x) {
   return lmi::compute_margins(posed.inequalities, posed.lmi, attempt.formulation.balance,
-                              posed.choices().margin, x, posed.describe);
+                              posed.choices().margin, x, posed.look);
 }
 
 /// Whether the gains at x are as small as was asked for.

@@ -27,8 +27,8 @@ struct Posed {
   const lmi::Inequalities& inequalities;
   const forall::Plan& plan;
   const lmi::Lmi& lmi;
-  bool wide = true;      ///< whether 31 and 100 digits may be tried where double does not decide
-  bool describe = true;  ///< whether more is asked of a point than whether it holds
+  bool wide = true;  ///< whether 31 and 100 digits may be tried where double does not decide
+  lmi::Look look;    ///< without `describe` nothing but the verdict is asked for
 
   const model::SynthesisOptions& choices() const { return inequalities.design().synthesis; }
 };

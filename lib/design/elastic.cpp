@@ -142,4 +142,22 @@ Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scal
   return slacks;
 }
 
+std::optional<double> estimated_violation(const model::Instance& instance,
+                                          const ByInequality& scales, const sdp::Options& solver) {
+  constexpr double kNear = 1e-4;  // of the objectives
+  std::map<std::string, std::string> names;
+  const model::Instance relaxed = elastic(instance, scales, names);
+  const lmi::Inequalities inequalities(relaxed);
+  const lmi::Lmi lmi = lmi::compile(inequalities);
+  const lmi::Formulation formulation =
+      lmi::formulate_objective(lmi, {}, inequalities.design().synthesis.margin);
+  sdp::Options narrow = solver;
+  narrow.precision = "double";
+  const sdp::Solution solution = sdp::solve(formulation.problem, narrow);
+  if (!(std::abs(solution.relative_gap) <= kNear)) return std::nullopt;
+  const double sum = lmi.objective_at(lmi::read_back(lmi, formulation, solution));
+  if (!std::isfinite(sum)) return std::nullopt;
+  return std::max(sum, 0.0);
+}
+
 }  // namespace gainsmith::design

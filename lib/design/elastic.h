@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <set>
 #include <string>
 
@@ -47,5 +48,10 @@ struct Slacks {
 /// The slacks of the elastic problem with the smallest sum. One below 1e-7 counts as 0.
 Slacks smallest_slacks(const model::Instance& instance, const ByInequality& scales,
                        const sdp::Options& solver);
+
+/// About the smallest sum of slacks, at the first points of each domain, in double and unchecked: a
+/// guide for searches. None where the solver comes to nothing.
+std::optional<double> estimated_violation(const model::Instance& instance,
+                                          const ByInequality& scales, const sdp::Options& solver);
 
 }  // namespace gainsmith::design

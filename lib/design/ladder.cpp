@@ -64,7 +64,7 @@ struct Rungs {
   }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
-    if (!climb.posed_.describe || point == nullptr || !climb.is_yes(*point) ||
+    if (!climb.posed_.look.describe || point == nullptr || !climb.is_yes(*point) ||
         !has_minimum(climb) || climb.is_free(*point))
       return false;
     const auto bounds = lmi::reached_bounds(climb.bounds_, point->x);

@@ -117,11 +117,7 @@ class OuterSearch {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     try {
       const auto plain = without_gains(model::evaluate(own_.design, at_easy_end(point)));
-      const Slacks slacks = smallest_slacks(plain, scales, solver_);
-      if (slacks.verdict != model::Verdict::yes) return kInfinity;
-      double sum = 0;
-      for (const auto& [inequality, slack] : slacks.by_inequality) sum += slack;
-      return sum;
+      return estimated_violation(plain, scales, solver_).value_or(kInfinity);
     } catch (const InputError&) {
       return kInfinity;
     }

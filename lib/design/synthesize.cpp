@@ -71,6 +71,14 @@ void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
             "synthesis.forall: exchange, or more synthesis.slices, may find one");
 }
 
+lmi::Look look_of(Depth depth) {
+  constexpr std::size_t kQuickPieces = 1000;
+  lmi::Look look;
+  look.describe = depth != Depth::verdict;
+  if (depth == Depth::quick) look.most_pieces = kQuickPieces;
+  return look;
+}
+
 /// Gains whose formulas use nothing but data are known in any case, the others when the verdict is
 /// yes.
 void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
@@ -113,8 +121,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   double compile_seconds = seconds_since(start);
   double solve_seconds = 0;
   for (int round = 1;; ++round) {
-    Climb climb({inequalities, plan, lmi, depth != Depth::quick, depth != Depth::verdict}, bounds,
-                solve);
+    Climb climb({inequalities, plan, lmi, depth != Depth::quick, look_of(depth)}, bounds, solve);
     climb.to_point();
     const auto grown = [&] {
       const Attempt* point = climb.point();

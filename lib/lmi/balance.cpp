@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <string>
 #include <unordered_set>
@@ -69,7 +70,8 @@ void add_elements(const Block& block, int first, double weight, std::vector<Elem
 class FreeRows {
  public:
   /// Of the row `objective` (-1: none) it is twice the unit that may change by a whole number.
-  FreeRows(const std::vector<Element>& elements, int rows, std::size_t unknowns, int objective) {
+  FreeRows(const std::vector<Element>& elements, int rows, std::size_t unknowns, int objective)
+      : solved_(static_cast<std::size_t>(rows)) {
     std::vector<Sum> first(unknowns);
     std::set<Sum> equations;
     std::unordered_set<std::size_t> seen;  // blocks of one inequality have the same elements
@@ -81,12 +83,11 @@ class FreeRows {
                        static_cast<std::size_t>(high))
                .second)
         continue;
-      Sum sum;
-      ++sum[e.first];
-      if (e.second != objective) ++sum[e.second];
+      Sum sum = {{e.first, 1}};
+      if (e.second != objective) add({{e.second, 1}}, 1, sum);
       const auto i = static_cast<std::size_t>(e.unknown);
       if (i > 0 && first[i].empty())
-        first[i] = sum;
+        first[i] = std::move(sum);
       else if (add(first[i], -1, sum); !sum.empty())
         equations.insert(std::move(sum));
     }
@@ -95,17 +96,34 @@ class FreeRows {
       if (!solve(equation, true)) later.push_back(equation);
     for (const Sum& equation : later) solve(equation, false);
     for (int row = 0; row < rows; ++row)
-      if (!solved_.contains(row)) list.push_back(row);
+      if (!solved_[static_cast<std::size_t>(row)]) list.push_back(row);
   }
 
   std::vector<int> list;
 
  private:
-  using Sum = std::map<int, long>;  ///< row -> factor
+  /// Rows and their factors, by row; none of these is 0.
+  using Sum = std::vector<std::pair<int, long>>;
 
   static void add(const Sum& other, long factor, Sum& sum) {
-    for (const auto& [row, value] : other)
-      if ((sum[row] += factor * value) == 0) sum.erase(row);
+    Sum result;
+    result.reserve(sum.size() + other.size());
+    auto mine = sum.begin();
+    for (const auto& [row, value] : other) {
+      while (mine != sum.end() && mine->first < row) result.push_back(*mine++);
+      long whole = factor * value;
+      if (mine != sum.end() && mine->first == row) whole += (mine++)->second;
+      if (whole != 0) result.emplace_back(row, whole);
+    }
+    result.insert(result.end(), mine, sum.end());
+    sum = std::move(result);
+  }
+
+  static Sum::iterator find(Sum& sum, int row) {
+    const auto place =
+        std::lower_bound(sum.begin(), sum.end(), row,
+                         [](const auto& term, int wanted) { return term.first < wanted; });
+    return place != sum.end() && place->first == row ? place : sum.end();
   }
 
   /// Solves the equation for one of its rows; false when none has a factor +-1 and one is asked
@@ -113,8 +131,8 @@ class FreeRows {
   bool solve(const Sum& equation, bool whole) {
     Sum sum;
     for (const auto& [row, factor] : equation) {
-      const auto known = solved_.find(row);
-      add(known == solved_.end() ? Sum{{row, 1}} : known->second, factor, sum);
+      const auto& known = solved_[static_cast<std::size_t>(row)];
+      add(known ? *known : Sum{{row, 1}}, factor, sum);
     }
     if (sum.empty()) return true;
     long common = 0;
@@ -128,18 +146,38 @@ class FreeRows {
     const long sign = pivot->second > 0 ? -1 : 1;
     sum.erase(pivot);
     for (auto& [other, factor] : sum) factor *= sign;
-    for (auto& [other, known] : solved_) {
-      const auto place = known.find(row);
-      if (place == known.end()) continue;
+    for (auto& known : solved_) {
+      if (!known) continue;
+      const auto place = find(*known, row);
+      if (place == known->end()) continue;
       const long factor = place->second;
-      known.erase(place);
-      add(sum, factor, known);
+      known->erase(place);
+      add(sum, factor, *known);
     }
-    solved_.emplace(row, std::move(sum));
+    solved_[static_cast<std::size_t>(row)] = std::move(sum);
     return true;
   }
 
-  std::map<int, Sum> solved_;
+  std::vector<std::optional<Sum>> solved_;  ///< by row
+};
+
+/// Weights by row.
+class RowWeights {
+ public:
+  void add(int row, double weight) {
+    const auto place =
+        std::lower_bound(list_.begin(), list_.end(), row,
+                         [](const auto& term, int wanted) { return term.first < wanted; });
+    if (place != list_.end() && place->first == row)
+      place->second += weight;
+    else
+      list_.insert(place, {row, weight});
+  }
+  auto begin() const { return list_.begin(); }
+  auto end() const { return list_.end(); }
+
+ private:
+  std::vector<std::pair<int, double>> list_;
 };
 
 /// The normal equations over the rows; the unknowns are eliminated: given the rows, log2 d_i is
@@ -149,14 +187,14 @@ Units fit(const std::vector<Element>& elements, int rows, int unknowns, int obje
   numbers::Vector right = numbers::Vector::Zero(rows);
   const auto count = static_cast<std::size_t>(unknowns) + 1;
   std::vector<double> weight(count, 0.0), logs(count, 0.0);
-  std::vector<std::map<int, double>> mean(count);  // by row
+  std::vector<RowWeights> mean(count);
   for (const Element& e : elements) {
     const auto i = static_cast<std::size_t>(e.unknown);
     for (const auto& [a, b] : {std::pair(e.first, e.second), std::pair(e.second, e.first)}) {
       normal(a, a) += e.weight;
       normal(a, b) += e.weight;
       right[a] -= e.weight * e.log;
-      mean[i][a] += e.weight;
+      mean[i].add(a, e.weight);
     }
     weight[i] += e.weight;
     logs[i] += e.weight * e.log;

@@ -32,6 +32,7 @@ void check_finite(const Sparse& matrix, const Place& place, const std::string& n
 /// Makes a coefficient exactly symmetric; InputError when it is not so up to rounding.
 Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place,
                       const std::string& name) {
+  if (is_symmetric(matrix)) return matrix;
   const Sparse mirrored = matrix.transpose();
   const Sparse difference = matrix - mirrored;
   for (int k = 0; k < difference.outerSize(); ++k)

@@ -62,14 +62,14 @@ namespace {
 class Checker {
  public:
   Checker(const Inequalities& of, const Lmi& lmi, const Balance& balance,
-          const std::vector<double>& x, bool describe)
+          const std::vector<double>& x, const Look& look)
       : of_(of),
         lmi_(lmi),
         balance_(balance),
         x_(x),
-        describe_(describe),
+        describe_(look.describe),
         values_(of.instance.values),
-        printed_(of, x) {
+        printed_(of, x, look.most_pieces) {
     for (auto& [name, matrix] : of.unknowns.values(x)) values_[name] = matrix;
   }
 
@@ -180,8 +180,8 @@ class Checker {
 }  // namespace
 
 Margins compute_margins(const Inequalities& of, const Lmi& lmi, const Balance& balance,
-                        double wished, const std::vector<double>& x, bool describe) {
-  return Checker(of, lmi, balance, x, describe).run(wished);
+                        double wished, const std::vector<double>& x, const Look& look) {
+  return Checker(of, lmi, balance, x, look).run(wished);
 }
 
 }  // namespace gainsmith::lmi

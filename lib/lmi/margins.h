@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "forall/plan.h"
+#include "forall/proof.h"
 #include "lmi/balance.h"
 #include "lmi/compile.h"
 #include "model/gains.h"
@@ -26,6 +27,14 @@ struct Margins {
   std::string open;
 };
 
+/// How closely a point is looked at.
+struct Look {
+  /// Without it the check of the printed decimals comes first, and where it shows that an
+  /// inequality holds its minima are not looked for: its margin is then that of the imposed points.
+  bool describe = true;
+  std::size_t most_pieces = forall::ProofOptions{}.most_pieces;  ///< of one check
+};
+
 /// How far every inequality holds at x, as its unit-free margin (correlation.h), taken over
 ///  - the vertices and points that were imposed, from the affine blocks, and
 ///  - the local minima over the whole domain of `forall`, from the text itself evaluated over
@@ -34,11 +43,8 @@ struct Margins {
 /// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where none of
 /// these is certainly negative, the inequality is checked at the printed decimals of x
 /// (printed_check.h): it holds when that shows it.
-///
-/// Without `describe` the check comes first, and where it shows that an inequality holds its minima
-/// are not looked for: its margin is then that of the imposed points.
 Margins compute_margins(const Inequalities& inequalities, const Lmi& lmi, const Balance& balance,
-                        double wished, const std::vector<double>& x, bool describe = true);
+                        double wished, const std::vector<double>& x, const Look& look = {});
 
 /// Whether all of them hold, and nothing is open.
 bool all_hold(const Margins& margins);

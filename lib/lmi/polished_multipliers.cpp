@@ -28,7 +28,8 @@ numbers::MatrixOf<S> narrow(const Wide& matrix) {
 
 double size_of(const Decimal100& x) { return std::abs(as<double>(x)); }
 
-/// r_i and W_i = sum <|B_ki|, |Y_k|>, the scale of r_i.
+/// r_i and its scale W_i = sum |B_ki|_ab sqrt(Y_aa Y_bb), which does not vanish where elements of Y
+/// have to.
 struct Residuals {
   std::vector<Decimal100> r;
   std::vector<double> W;
@@ -36,13 +37,15 @@ struct Residuals {
   explicit Residuals(int unknowns) : r(static_cast<std::size_t>(unknowns) + 1), W(r.size(), 0) {}
 
   void add(const ExactBlock<Decimal100>& block, const Wide& Y) {
+    const Index n = Y.rows();
+    numbers::Vector size(n);
+    for (Index a = 0; a < n; ++a) size[a] = std::sqrt(size_of(Y(a, a)));
     for (const auto& [i, B] : block.terms) {
       const auto at = static_cast<std::size_t>(i);
       for (Index e = 0; e < B.mid.size(); ++e) {
         if (B.mid(e) == 0) continue;
-        const Decimal100 term = B.mid(e) * Y(e);
-        r[at] += term;
-        W[at] += size_of(term);
+        r[at] += B.mid(e) * Y(e);
+        W[at] += size_of(B.mid(e)) * size[e % n] * size[e / n];
       }
     }
   }

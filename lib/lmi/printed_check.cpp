@@ -85,7 +85,9 @@ EnclosedValues<S> enclosed_values(const model::Instance& instance) {
   return values;
 }
 
-PrintedCheck::PrintedCheck(const Inequalities& of, const std::vector<double>& x) : of_(of), x_(x) {}
+PrintedCheck::PrintedCheck(const Inequalities& of, const std::vector<double>& x,
+                           std::size_t most_pieces)
+    : of_(of), x_(x), most_pieces_(most_pieces) {}
 
 template <class S>
 DomainProof PrintedCheck::check_in(const Statement& statement, std::size_t comparison,
@@ -103,7 +105,8 @@ DomainProof PrintedCheck::check_in(const Statement& statement, std::size_t compa
     forall::EnclosedElements<S> elements;
     const forall::Domain domain = stated_domain(statement, *known, elements);
     return forall::prove_on_domain(statement.differences[comparison], domain, *known,
-                                   statement.stated->comparisons[comparison].strict, elements);
+                                   statement.stated->comparisons[comparison].strict, elements,
+                                   {.most_pieces = most_pieces_});
   } catch (const expr::EvaluationError& error) {
     DomainProof open;
     open.status = DomainProof::Status::open;
@@ -116,7 +119,7 @@ DomainProof PrintedCheck::check(std::size_t inequality, std::size_t comparison) 
   const Statement& statement = of_.statements[inequality];
   DomainProof proof = check_in(statement, comparison, in_double_);
   // A domain that is too long for its waves is so in all digits.
-  if (proof.pieces >= forall::ProofOptions{}.most_pieces) return proof;
+  if (proof.pieces >= most_pieces_) return proof;
   if (proof.status == DomainProof::Status::open) proof = check_in(statement, comparison, in_31_);
   if (proof.status == DomainProof::Status::open) proof = check_in(statement, comparison, in_100_);
   // A point that fails may be one that rounding put outside of the file's interval.

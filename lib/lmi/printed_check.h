@@ -25,8 +25,9 @@ numbers::Enclosed<S> enclosed_decimal(double value);
 
 class PrintedCheck {
  public:
-  /// `x`: the unknowns.
-  PrintedCheck(const Inequalities& of, const std::vector<double>& x);
+  /// `x`: the unknowns; `most_pieces`: of one check (forall::ProofOptions).
+  PrintedCheck(const Inequalities& of, const std::vector<double>& x,
+               std::size_t most_pieces = forall::ProofOptions{}.most_pieces);
 
   /// One comparison of one inequality. What has no value somewhere is open.
   forall::DomainProof check(std::size_t inequality, std::size_t comparison);
@@ -41,6 +42,7 @@ class PrintedCheck {
 
   const Inequalities& of_;
   const std::vector<double>& x_;
+  std::size_t most_pieces_;
   std::optional<numbers::EnclosedValues<double>> in_double_;
   std::optional<numbers::EnclosedValues<DoubleDouble>> in_31_;
   std::optional<numbers::EnclosedValues<Decimal100>> in_100_;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "base/eigen_scalars.h"
 #include "numbers/dense.h"
@@ -207,8 +208,9 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
 /// need one in proportion to the whole.
 template <class S>
 std::optional<MatrixOf<S>> positive(const MatrixOf<S>& Y) {
-  constexpr double kLifts[] = {0,     1e-97, 1e-95, 1e-93, 1e-91, 1e-89, 1e-85, 1e-80,
-                               1e-33, 1e-32, 1e-31, 1e-30, 1e-29, 1e-28, 1e-27};
+  constexpr double kLifts[] = {0,     1e-97, 1e-95, 1e-93, 1e-91, 1e-89, 1e-85,
+                               1e-80, 1e-70, 1e-60, 1e-55, 1e-52, 1e-50, 1e-33,
+                               1e-32, 1e-31, 1e-30, 1e-29, 1e-28, 1e-27};
   const double size = upper(S(Y.trace()));
   if (size == 0 && Y.isZero()) return Y;
   for (const bool in_proportion : {true, false})
@@ -257,6 +259,24 @@ std::vector<MatrixOf<Decimal100>> wide_multipliers_of(const Formulation& formula
 }
 
 namespace {
+
+/// Elements of nothing but rounding, and rows of such, become 0: an r_i of theirs alone is as large
+/// as its W_i. What that takes from Y >= 0 is lifted again (positive()).
+void clear_rounding(MatrixOf<Decimal100>& Y) {
+  constexpr double kElement = 1e-55;
+  constexpr double kRow = 1e-75;
+  const Eigen::Index n = Y.rows();
+  const Decimal100 least = Decimal100(kRow) * Y.trace();
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (Y.row(i).cwiseAbs().maxCoeff() <= least) {
+      Y.row(i).setConstant(Decimal100(0));
+      Y.col(i).setConstant(Decimal100(0));
+    }
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < i; ++j)
+      if (abs(Y(i, j)) <= Decimal100(kElement) * sqrt(Decimal100(abs(Y(i, i) * Y(j, j)))))
+        Y(i, j) = Y(j, i) = Decimal100(0);
+}
 
 /// One block with its multiplier.
 template <class S>
@@ -322,7 +342,9 @@ std::vector<ExactBlock<S>> exact_blocks(const Inequalities& of, const Lmi& lmi,
 
 template <class S>
 Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
-                  const std::vector<MatrixOf<S>>& Y) {
+                  std::vector<MatrixOf<S>> Y) {
+  if constexpr (std::is_same_v<S, Decimal100>)
+    for (MatrixOf<S>& y : Y) clear_rounding(y);
   // Blocks that a certificate does not need have multipliers that tend to 0 but are not.
   constexpr double kShares[] = {0, 1e-24, 1e-16, 1e-12, 1e-8, 1e-4};
   Refutation best;
@@ -361,7 +383,7 @@ template std::vector<ExactBlock<Decimal100>> exact_blocks<Decimal100>(const Ineq
                                                                       const Lmi&,
                                                                       const Formulation&);
 template Refutation refute<Decimal100>(const Lmi&, const std::vector<ExactBlock<Decimal100>>&,
-                                       const std::vector<MatrixOf<Decimal100>>&);
+                                       std::vector<MatrixOf<Decimal100>>);
 template Refutation refute<DoubleDouble>(const Inequalities&, const Lmi&, const Formulation&,
                                          const Multipliers&);
 template Refutation refute<Decimal100>(const Inequalities&, const Lmi&, const Formulation&,

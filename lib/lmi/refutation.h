@@ -59,7 +59,7 @@ std::vector<ExactBlock<S>> exact_blocks(const Inequalities& of, const Lmi& lmi,
 /// The same of blocks that are known, and multipliers in the same digits.
 template <class S>
 Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
-                  const std::vector<numbers::MatrixOf<S>>& Y);
+                  std::vector<numbers::MatrixOf<S>> Y);
 
 /// omega of a certificate of which nothing is missing, in 100 digits. A feasible problem has
 /// certificates that miss by the square of what it is feasible by: by 1e-33 where only the last of

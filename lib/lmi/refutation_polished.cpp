@@ -34,24 +34,12 @@ Kept kept_of(const std::vector<ExactBlock<Decimal100>>& blocks, const Multiplier
   return kept;
 }
 
-/// A row of nothing but rounding is 0: beside others of its kind its terms would count.
-void clear_rounding(Wide& Y) {
-  const Decimal100 least = Decimal100(1e-75) * Y.trace();
-  for (Eigen::Index i = 0; i < Y.rows(); ++i) {
-    bool rounding = true;
-    for (Eigen::Index j = 0; j < Y.cols(); ++j) rounding &= abs(Y(i, j)) <= least;
-    if (!rounding) continue;
-    Y.row(i).setConstant(Decimal100(0));
-    Y.col(i).setConstant(Decimal100(0));
-  }
-}
-
 Refutation refute_kept(const Lmi& lmi, const std::vector<ExactBlock<Decimal100>>& blocks,
                        const Multipliers& Y, const Kept& kept) {
   std::vector<Wide> polished;
   for (const auto& y : Y) polished.push_back(Wide::Zero(y.rows(), y.cols()));
   for (std::size_t a = 0; a < kept.which.size(); ++a)
-    clear_rounding(polished[kept.which[a]] = kept.multipliers[a].value());
+    polished[kept.which[a]] = kept.multipliers[a].value();
   return refute<Decimal100>(lmi, blocks, polished);
 }
 

@@ -8,6 +8,14 @@ namespace gainsmith::lmi {
 
 Sparse sparse(const Eigen::MatrixXd& matrix) { return matrix.sparseView(0.0, 0.0); }
 
+bool is_symmetric(const Sparse& matrix) {
+  if (matrix.rows() != matrix.cols()) return false;
+  for (int k = 0; k < matrix.outerSize(); ++k)
+    for (Sparse::InnerIterator it(matrix, k); it; ++it)
+      if (matrix.coeff(it.col(), it.row()) != it.value()) return false;
+  return true;
+}
+
 double largest_element(const Sparse& matrix) {
   double result = 0;
   for (int k = 0; k < matrix.outerSize(); ++k)
@@ -18,6 +26,11 @@ double largest_element(const Sparse& matrix) {
 
 Sparse multiplied(const Sparse& a, const Sparse& b) {
   Sparse result(a.rows(), b.cols());
+  Eigen::Index most = 0;
+  for (int j = 0; j < b.outerSize(); ++j)
+    for (Sparse::InnerIterator right(b, j); right; ++right)
+      most += a.outerIndexPtr()[right.index() + 1] - a.outerIndexPtr()[right.index()];
+  result.reserve(std::min(most, result.rows() * result.cols()));
   std::vector<double> column(static_cast<std::size_t>(a.rows()));
   std::vector<char> stands(static_cast<std::size_t>(a.rows()), 0);
   for (int j = 0; j < b.outerSize(); ++j) {

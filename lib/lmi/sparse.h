@@ -14,6 +14,8 @@ using Sparse = Eigen::SparseMatrix<double>;
 /// The elements of a dense matrix that are not 0.
 Sparse sparse(const Eigen::MatrixXd& matrix);
 
+bool is_symmetric(const Sparse& matrix);
+
 /// The largest |element|.
 double largest_element(const Sparse& matrix);
 

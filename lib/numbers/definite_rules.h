@@ -15,6 +15,7 @@ namespace definiteness {
 template <class S>
 std::vector<int> halved_exponents(const MatrixOf<S>& mid) {
   std::vector<int> exponents;
+  exponents.reserve(static_cast<std::size_t>(mid.rows()));
   for (Eigen::Index i = 0; i < mid.rows(); ++i) {
     const auto size = static_cast<double>(mid(i, i));
     if (!(size > 0) || !std::isfinite(size)) return {};

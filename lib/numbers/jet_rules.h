@@ -252,6 +252,7 @@ struct JetRules {
     std::vector<Enclosed<double>> zeros;
     zeros.reserve(at.operands.size());
     std::vector<const Enclosed<double>*> operands;
+    operands.reserve(at.operands.size());
     for (const Jet* operand : at.operands) {
       if (k <= operand->order) {
         operands.push_back(&operand->derivatives[static_cast<std::size_t>(k)]);

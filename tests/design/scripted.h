@@ -29,7 +29,7 @@ struct Case {
         lmi(lmi::compile(inequalities, plan)),
         bounds(lmi::gain_bounds(inequalities, inequalities.design().synthesis.gain_bound)) {}
 
-  Posed posed() const { return {inequalities, plan, lmi}; }
+  Posed posed() const { return {inequalities, plan, lmi, true, {}}; }
 
   /// The first round of a question, with the bounds that a program has by its blocks.
   lmi::Formulation formulation(lmi::Goal goal, const sdp::Problem& problem) const {
