@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "design/optimize.h"
 #include "design/synthesize.h"
+#include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/explain_text.h"
 #include "gainsmith/load.h"
@@ -53,6 +54,8 @@ ExitCode synth(const SynthOptions& options) {
                options.json);
   if (gains.verdict == model::Verdict::no && !options.json && !interrupted())
     print_report("why         " + reason(instance, gains, solver) + "\n", options.output == "-");
+  if (!options.json && !interrupted())
+    print_report(advice(instance, gains, options.problem), options.output == "-");
   return exit_of(gains.verdict);
 }
 

@@ -29,6 +29,16 @@ std::vector<std::vector<int>> rows_of(const Releases& releases, const GainBounds
   return rows;
 }
 
+/// 2^k with which the largest cost is in [1, 2): tolerances of the objective are relative to 1 and
+/// its size, whatever its unit.
+double cost_unit_of(const Lmi& lmi, const Balance& balance) {
+  double largest = 0;
+  for (int i = 1; lmi.has_objective && i <= lmi.unknowns; ++i)
+    largest = std::max(largest,
+                       std::abs(lmi.objective[static_cast<std::size_t>(i) - 1]) * balance.unit(i));
+  return largest > 0 ? std::ldexp(1.0, -std::ilogb(largest)) : 1;
+}
+
 /// N - sum_k tr(D_k^-1 B_k(x)) - x_0 / D_0 >= 0.
 void add_trace_limit(const std::vector<BalancedBlock>& blocks, const Round& round, int constant,
                      int rows, Assembler& assembler) {
@@ -64,8 +74,10 @@ Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double
     for (int r = 0; k < lmi.blocks.size() && r < result.blocks[k].size; ++r)
       assembler.add_entry(0, added, r, r, -shift);
   }
+  result.cost_unit = cost_unit_of(lmi, result.balance);
   for (int i = 1; lmi.has_objective && i <= lmi.unknowns; ++i)
-    assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1] * result.balance.unit(i));
+    assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1] * result.balance.unit(i) *
+                              result.cost_unit);
   result.problem = assembler.take();
   return result;
 }
@@ -171,13 +183,13 @@ std::optional<Round> next_round(const Formulation& formulation, const sdp::Solut
 double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
                              const sdp::Solution& solution) {
   // F_0 holds the shifts on the diagonals: take them out again.
-  double bound = solution.dual_objective + lmi.objective_constant;
+  double bound = solution.dual_objective;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     const std::size_t n = formulation.releases.kept[k].size();
     for (std::size_t i = 0; i < n; ++i)
       bound -= formulation.shift * solution.Y.values[k][i * n + i];
   }
-  return bound;
+  return bound / formulation.cost_unit + lmi.objective_constant;
 }
 
 std::vector<numbers::Matrix> multipliers(const Lmi& lmi, const GainBounds& bounds,

@@ -42,6 +42,7 @@ struct Formulation {
   Goal goal = Goal::objective;
   Balance balance;           ///< of the blocks of the Lmi, then of the gain bounds
   double shift = 0;          ///< objective
+  double cost_unit = 1;      ///< objective: costs of the problem by those of the Lmi, 2^k
   bool homogenised = false;  ///< interior: x_0 stands before s, which is the last variable
   int rows = 0;              ///< interior: N
   sdp::Problem problem;      ///< its first blocks are those of the Lmi, then the gain bounds

@@ -52,6 +52,21 @@ TEST(CertificatesTest, AlmostACertificateIsNone) {
             model::Verdict::no);
 }
 
+/// The unit of an objective is no matter of its precision.
+TEST(CertificatesTest, AnObjectiveIsAsPreciseInEveryUnit) {
+  for (const double unit : {1e-12, 1e-6, 1.0, 1e6, 1e12}) {
+    const std::string u = model::printed(unit);
+    const model::Gains gains = solve(
+        "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar}\n  require: {a: "
+        "\"[x, " +
+        u + "; " + u + ", y] > 0\", b: y < " + u + "}\n  minimize: x\n");
+    ASSERT_EQ(gains.verdict, model::Verdict::yes) << unit;
+    EXPECT_NEAR(*gains.objective / unit, 1, 1e-6);
+    EXPECT_NEAR(*gains.objective_lower_bound / unit, 1, 1e-6);
+    EXPECT_LE(*gains.objective_lower_bound, unit);
+  }
+}
+
 /// The certificate of a plant with one unstable mode has the rank 1, and no other exists.
 TEST(CertificatesTest, SingularCertificatesAreFound) {
   std::mt19937 generator(7);

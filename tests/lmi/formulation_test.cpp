@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "lmi/correlation.h"
 #include "support/yaml_problem.h"
@@ -71,8 +72,14 @@ TEST(FormulationTest, TheObjectiveIsSolvedInBalancedUnitsWithItsShift) {
   const std::vector<double> x = {1.5e4, 0.25e4, 2.5e4};
   const std::vector<double> y = in_units(formulation.balance, x);
   double cost = 0;
-  for (std::size_t i = 0; i < y.size(); ++i) cost += formulation.problem.c[i] * y[i];
-  EXPECT_DOUBLE_EQ(cost, lmi.objective_at(x));
+  double largest = 0;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    cost += formulation.problem.c[i] * y[i];
+    largest = std::max(largest, std::abs(formulation.problem.c[i]));
+  }
+  EXPECT_DOUBLE_EQ(cost, lmi.objective_at(x) * formulation.cost_unit);
+  EXPECT_GE(largest, 1);
+  EXPECT_LT(largest, 2);
   for (std::size_t k = 0; k < 2; ++k) {
     const numbers::Matrix expected =
         in_units(lmi, formulation.balance, k, x) - shift * numbers::Matrix::Identity(2, 2);

@@ -1,0 +1,70 @@
+#include "gainsmith/advice.h"
+
+#include <fmt/format.h>
+
+#include <optional>
+#include <set>
+
+#include "base/number.h"
+#include "expr/program.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+/// The name, where a formula is nothing but a scalar of the problem.
+std::optional<std::string> scalar_of(const model::Formula& formula,
+                                     const model::Instance& instance) {
+  const expr::Program& program = formula.program;
+  if (program.code.size() != 1 || program.code[0].op != expr::Op::input) return std::nullopt;
+  const std::string& name = program.inputs[0].name;
+  const auto value = instance.values.find(name);
+  if (value == instance.values.end() || value->second.size() != 1) return std::nullopt;
+  return name;
+}
+
+/// As one word of a shell.
+std::string quoted(const std::string& word) {
+  const bool plain = word.find_first_not_of(
+                         "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
+                         "_-./+,:@%") == std::string::npos;
+  if (plain && !word.empty()) return word;
+  std::string text = "'";
+  for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return text + "'";
+}
+
+}  // namespace
+
+std::vector<std::string> next_commands(const model::Instance& instance, const model::Gains& gains,
+                                       const std::string& file) {
+  constexpr double kShortest = 0.01;  // of an interval that begins at no scalar
+  std::vector<std::string> commands;
+  if (gains.verdict == model::Verdict::yes) return commands;
+  if (gains.verdict == model::Verdict::undecided)
+    commands.push_back("gainsmith explain " + quoted(file));
+  std::set<std::string> ends;
+  for (const model::Design::Inequality& inequality : instance.design->inequalities)
+    for (const auto& variable : inequality.domain) {
+      if (variable.over != model::Over::interval) continue;
+      const auto end = scalar_of(variable.points[1], instance);
+      if (!end || !ends.insert(*end).second) continue;
+      const double high = instance.values.at(*end)(0, 0);
+      const auto begin = scalar_of(variable.points[0], instance);
+      const double low = begin ? instance.values.at(*begin)(0, 0) : kShortest * high;
+      if (!(0 < low && low < high)) continue;
+      commands.push_back(fmt::format("gainsmith bisect {} --largest {} --in {} {}", quoted(file),
+                                     *end, brief(low, 10), brief(high, 10)));
+    }
+  return commands;
+}
+
+std::string advice(const model::Instance& instance, const model::Gains& gains,
+                   const std::string& file) {
+  std::string text;
+  for (const std::string& command : next_commands(instance, gains, file))
+    text += fmt::format("{:<12}{}\n", text.empty() ? "try" : "", command);
+  return text;
+}
+
+}  // namespace gainsmith::app

@@ -1,0 +1,22 @@
+// What to ask next where there is no yes.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "model/gains.h"
+#include "model/instance.h"
+
+namespace gainsmith::app {
+
+/// Command lines that can be pasted: an explanation where the verdict is undecided, and the longest
+/// interval with gains for each interval that ends at a scalar of the problem. None for a yes.
+/// `file`: the problem as it was named on the command line.
+std::vector<std::string> next_commands(const model::Instance& instance, const model::Gains& gains,
+                                       const std::string& file);
+
+/// The same as lines of a summary.
+std::string advice(const model::Instance& instance, const model::Gains& gains,
+                   const std::string& file);
+
+}  // namespace gainsmith::app

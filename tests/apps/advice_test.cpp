@@ -1,0 +1,48 @@
+#include "gainsmith/advice.h"
+
+#include <gtest/gtest.h>
+
+#include "support/yaml_problem.h"
+
+namespace gainsmith::app {
+namespace {
+
+using model::Verdict;
+
+std::vector<std::string> commands(const std::string& text, Verdict verdict,
+                                  const std::string& file = "plant.yaml") {
+  const tests::YamlProblem yaml(text);
+  model::Gains gains;
+  gains.verdict = verdict;
+  return next_commands(yaml.instance, gains, file);
+}
+
+const std::string kSampled =
+    "problem: p\nmethod:\n  method: m\n  data: {low: scalar, T2: scalar}\n  unknowns: {x: scalar}\n"
+    "  require:\n    a: {forall: \"tau in [low, T2]\", that: x > tau}\n"
+    "    b: {forall: \"tau in [0, T2]\", that: x < 2 - tau}\n"
+    "    c: {forall: \"tau in [0, 3]\", that: x < 5}\ndata: {low: 0.25, T2: 1.5}\n";
+
+TEST(AdviceTest, TheEndOfAnIntervalIsAskedForOnce) {
+  EXPECT_EQ(commands(kSampled, Verdict::no),
+            std::vector<std::string>{"gainsmith bisect plant.yaml --largest T2 --in 0.25 1.5"});
+  EXPECT_EQ(commands(kSampled, Verdict::undecided),
+            (std::vector<std::string>{"gainsmith explain plant.yaml",
+                                      "gainsmith bisect plant.yaml --largest T2 --in 0.25 1.5"}));
+  EXPECT_TRUE(commands(kSampled, Verdict::yes).empty());
+}
+
+TEST(AdviceTest, NamesThatAShellWouldSplitAreQuoted) {
+  EXPECT_EQ(commands(kSampled, Verdict::undecided, "my plant's.yaml")[0],
+            "gainsmith explain 'my plant'\\''s.yaml'");
+}
+
+TEST(AdviceTest, WithoutIntervalsANoHasNothingToAsk) {
+  const std::string fixed =
+      "problem: p\nmethod:\n  method: m\n  data: {b: scalar}\n  unknowns: {x: scalar}\n"
+      "  require: {a: x > b, c: x < 1}\ndata: {b: 2}\n";
+  EXPECT_TRUE(commands(fixed, Verdict::no).empty());
+}
+
+}  // namespace
+}  // namespace gainsmith::app
