@@ -125,7 +125,10 @@ lmi::Refutation refutation_of(const Posed& posed, const Question& asked,
                               const Interior::Solved& solved) {
   const lmi::Formulation& formulation = solved.formulation;
   const auto Y = lmi::multipliers_of(formulation, posed.lmi.blocks.size(), solved.solution);
-  const auto found = lmi::refute<DoubleDouble>(posed.inequalities, posed.lmi, formulation, Y);
+  auto found = lmi::refute<DoubleDouble>(posed.inequalities, posed.lmi, formulation, Y);
+  // 31 digits have the range of double: what underflows there stands in the file all the same.
+  if (found.exact && posed.wide)
+    found = lmi::refute<Decimal100>(posed.inequalities, posed.lmi, formulation, Y);
   // With more of a margin than this no certificate is near.
   constexpr double kNear = 1e-6;
   if (found.exact || !posed.wide || lmi::interior_margin(solved.solution) > kNear) return found;

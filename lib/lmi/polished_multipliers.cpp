@@ -18,8 +18,8 @@ using Eigen::Index;
 using Wide = numbers::MatrixOf<Decimal100>;
 using numbers::times;
 
-constexpr double kSettled = 1e-60;  // of W_i; far above the rounding of 100 digits
-constexpr double kEnough = 1e-50;   // where steps lead no further
+constexpr double kSettled = 1e-78;  // of W_i; far above the rounding of 100 digits
+constexpr double kEnough = 1e-72;   // where steps lead no further
 
 template <class S>
 numbers::MatrixOf<S> narrow(const Wide& matrix) {

@@ -67,6 +67,7 @@ struct Sums {
   double strict = 0;        ///< tr of the Y_k of strict blocks
   double whole = 0;
   std::vector<bool> present;  ///< whether a term of r is not 0
+  double smallest = 1;        ///< of the elements that are certainly not 0, beside their block
 
   explicit Sums(Eigen::Index m)
       : r(VectorOf<S>::Zero(m)),
@@ -106,6 +107,10 @@ void add_block(const ExactBlock<S>& block, const MatrixOf<S>& Y, bool strict, Su
     for (Eigen::Index e = 0; e < Y.size(); ++e)
       if (upper(B.mid(e)) > 2 * B.rad(e)) scale = std::max(scale, upper(B.mid(e)));
   if (scale == 0) scale = 1;  // balanced units
+  for (const auto& [i, B] : block.terms)
+    for (Eigen::Index e = 0; e < Y.size(); ++e)
+      if (upper(B.mid(e)) > 2 * B.rad(e))
+        sums.smallest = std::min(sums.smallest, upper(B.mid(e)) / scale);
   const double rounding = 2 * static_cast<double>(n * n + 2 * n + 4) * numbers::unit_roundoff<S>();
   const numbers::Matrix sizes = Y.unaryExpr([](const S& y) { return upper(y); });
   std::vector<MatrixOf<S>> moved;           // Y B_j Y
@@ -157,7 +162,7 @@ template <class S>
 bool is_exact(const Sums<S>& sums, bool homogeneous) {
   std::vector<Eigen::Index> used;
   for (Eigen::Index i = homogeneous ? 1 : 0; i < sums.r.size(); ++i)
-    if (sums.W[i] > 0 || sums.error[i] > 0 || i == 0) used.push_back(i);
+    if (sums.H(i, i) != S(0) || sums.H_error(i, i) > 0 || i == 0) used.push_back(i);
   const auto m = static_cast<Eigen::Index>(used.size());
   MatrixOf<S> H(m, m);
   VectorOf<S> r(m);
@@ -209,7 +214,7 @@ bool is_exact(const Sums<S>& sums, bool homogeneous) {
 template <class S>
 std::optional<MatrixOf<S>> positive(const MatrixOf<S>& Y) {
   constexpr double kLifts[] = {0,     1e-97, 1e-95, 1e-93, 1e-91, 1e-89, 1e-85,
-                               1e-80, 1e-70, 1e-60, 1e-55, 1e-52, 1e-50, 1e-33,
+                               1e-80, 1e-78, 1e-76, 1e-74, 1e-72, 1e-70, 1e-33,
                                1e-32, 1e-31, 1e-30, 1e-29, 1e-28, 1e-27};
   const double size = upper(S(Y.trace()));
   if (size == 0 && Y.isZero()) return Y;
@@ -263,8 +268,8 @@ namespace {
 /// Elements of nothing but rounding, and rows of such, become 0: an r_i of theirs alone is as large
 /// as its W_i. What that takes from Y >= 0 is lifted again (positive()).
 void clear_rounding(MatrixOf<Decimal100>& Y) {
-  constexpr double kElement = 1e-55;
-  constexpr double kRow = 1e-75;
+  constexpr double kElement = 1e-78;
+  constexpr double kRow = 1e-85;
   const Eigen::Index n = Y.rows();
   const Decimal100 least = Decimal100(kRow) * Y.trace();
   for (Eigen::Index i = 0; i < n; ++i)
@@ -324,7 +329,10 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
     const double share = missing / sums.W[i] * (1 + 1e-12);
     omega = share < 1 ? std::max(omega, share) : 1;
   }
-  result.omega = omega;
+  // What is of the size of an element of the data, or of the rounding, is not nothing.
+  constexpr double kBeside = 1e-40;
+  const double room = sums.smallest < kBeside ? 1 / sums.smallest : 1;
+  result.omega = std::min(1.0, std::max(omega, numbers::unit_roundoff<S>()) * room);
   return result;
 }
 

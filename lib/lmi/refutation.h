@@ -11,7 +11,9 @@
 //   omega   max over i >= 1 of |r_i| / W_i, W_i = sum_k <|B_ki|, |Y_k|>: no x satisfies the
 //           inequalities when their coefficients change by more than omega, relatively; and within
 //           such changes Y is exact for some coefficients (Oettli & Prager).
-//           An element of B_ki that is 0 up to rounding, 48 decades below its block, is none.
+//           Where an element of the data is smaller than 1e-40 beside its block, omega counts
+//           in its size. An element of B_ki that is 0 up to rounding, 48 decades below its block,
+//           is none.
 #pragma once
 
 #include <optional>
@@ -62,9 +64,10 @@ Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
                   std::vector<numbers::MatrixOf<S>> Y);
 
 /// omega of a certificate of which nothing is missing, in 100 digits. A feasible problem has
-/// certificates that miss by the square of what it is feasible by: by 1e-33 where only the last of
-/// 16 digits makes it feasible. Where only the last of 22 does it is taken for a no.
-constexpr double kNothing = 1e-45;
+/// certificates that miss by the square of what it is feasible by, 1e-33 where only the last of 16
+/// digits makes it feasible, and along chains and Jordan blocks by higher powers: no such limit is
+/// a proof, and only `exact` is one. It is far below what data of 16 digits were seen to leave.
+constexpr double kNothing = 1e-70;
 
 /// What multipliers near Y say in 100 digits, made so that they have no residual
 /// (polished_multipliers.h): Y may come from a solver in double.

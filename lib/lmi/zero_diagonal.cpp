@@ -7,7 +7,7 @@ namespace gainsmith::lmi {
 
 std::optional<ZeroDiagonal> find_zero_diagonal(const Inequalities& of, const Lmi& lmi,
                                                const Balance& balance) {
-  std::optional<ExactBlocks<DoubleDouble>> exact;
+  std::optional<ExactBlocks<Decimal100>> exact;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     const Block& block = lmi.blocks[k];
     if (!block.where) continue;
@@ -17,7 +17,7 @@ std::optional<ZeroDiagonal> find_zero_diagonal(const Inequalities& of, const Lmi
       });
       if (!zero) continue;
       if (!exact) exact.emplace(of, balance);
-      const ExactBlock<DoubleDouble> known = exact->block(block, k, all_rows(block));
+      const ExactBlock<Decimal100> known = exact->block(block, k, all_rows(block));
       // The element (row, column) is certainly the same constant other than 0 for every x.
       for (int column = 0; column < block.size; ++column) {
         bool vanishes = true;

@@ -45,11 +45,40 @@ TEST(CertificatesTest, AlmostACertificateIsNone) {
             model::Verdict::no);
   EXPECT_NE(scalars("x: scalar, y: scalar", "a: x > 0, b: \"tanh(50)*x < y\", c: y < x").verdict,
             model::Verdict::no);
+  // A Jordan block leaves the eighth power, a cycle the product of its factors.
+  EXPECT_NE(lyapunov("[[-2.0000001, 0, 3, -1], [-1, -2.0000001, 6, -3], [-3, 1, 1.9999999, 0], "
+                     "[-4, 3, -1, 1.9999999]]")
+                .verdict,
+            model::Verdict::no);
+  EXPECT_NE(lyapunov("[[-1.0000000000000001, 1, 0], [0, -1.0000000000000002, "
+                     "1.0000000000000004], [1.0000000000000005, 0, -1.0000000000000006]]")
+                .verdict,
+            model::Verdict::no);
+  EXPECT_NE(scalars("x: scalar, y: scalar, z: scalar",
+                    "a: x > 0, b: 10000000000000001*y > 10000000000000000*x, c: "
+                    "10000000000000002*z > 10000000000000004*y, d: 10000000000000006*x > "
+                    "10000000000000005*z")
+                .verdict,
+            model::Verdict::no);
   // And what these digits make infeasible stays so.
   EXPECT_EQ(scalars("x: scalar, y: scalar, z: scalar",
                     "a: x > y, b: y > 0.9999999999999998*z, c: z > 1.0000000000000003*x, d: x > 0")
                 .verdict,
             model::Verdict::no);
+}
+
+/// What is small in the file stands there like anything else.
+TEST(CertificatesTest, SmallElementsAreNotOverlooked) {
+  EXPECT_EQ(lyapunov("[[-1e-56, 1], [-1, 0]]").verdict, model::Verdict::yes);
+  for (const char* small : {"1e-46", "1e-120", "1e-300"})
+    EXPECT_NE(scalars("y: scalar, z: scalar",
+                      "a: \"y - z + " + std::string(small) + " > 0\", b: z - y > 0, c: y > 1")
+                  .verdict,
+              model::Verdict::no)
+        << small;
+  EXPECT_NE(
+      scalars("x: scalar, y: scalar", "a: \"[x, y; y, (1e-200*1e-200)*x] > 0\", b: y >= 1").verdict,
+      model::Verdict::no);
 }
 
 /// The unit of an objective is no matter of its precision.
