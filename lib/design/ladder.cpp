@@ -115,7 +115,7 @@ struct Rungs {
     return found;
   }
   static std::optional<Attempt> in_100_digits(const Climb& climb) {
-    return ask(climb, interior({}, {"100", 1e-82}));
+    return ask(climb, interior({}, {"100", 1e-76}));
   }
   static std::optional<Attempt> tighter(const Climb& climb) {
     return ask(climb, objective(climb, lmi::gain_bounds(climb.posed_.inequalities,
