@@ -5,7 +5,6 @@
 #include <optional>
 #include <set>
 
-#include "base/number.h"
 #include "expr/program.h"
 
 namespace gainsmith::app {
@@ -53,8 +52,12 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
       const auto begin = scalar_of(variable.points[0], instance);
       const double low = begin ? instance.values.at(*begin)(0, 0) : kShortest * high;
       if (!(0 < low && low < high)) continue;
-      commands.push_back(fmt::format("gainsmith bisect {} --largest {} --in {} {}", quoted(file),
-                                     *end, brief(low, 10), brief(high, 10)));
+      const std::string from = model::printed(low);
+      const std::string to = model::printed(high);
+      commands.push_back(gains.search ? fmt::format("gainsmith optimize {} --largest {}={}:{}",
+                                                    quoted(file), *end, from, to)
+                                      : fmt::format("gainsmith bisect {} --largest {} --in {} {}",
+                                                    quoted(file), *end, from, to));
     }
   return commands;
 }

@@ -10,7 +10,8 @@
 namespace gainsmith::app {
 
 /// Command lines that can be pasted: an explanation where the verdict is undecided, and the longest
-/// interval with gains for each interval that ends at a scalar of the problem. None for a yes.
+/// interval with gains for each interval that ends at a scalar of the problem, by a search of the
+/// scalars that were searched too. None for a yes.
 /// `file`: the problem as it was named on the command line.
 std::vector<std::string> next_commands(const model::Instance& instance, const model::Gains& gains,
                                        const std::string& file);

@@ -37,20 +37,23 @@ bool is_within(const lmi::GainBounds& bounds, const std::vector<double>& x) {
   });
 }
 
-/// Sets the point when x is one.
+/// Sets the point when x is one; its margins are for the last point alone.
 void take_point(const Posed& posed, const std::vector<double>& x, Attempt& result) {
   if (!is_positive(posed, x) || !is_within(result.question.bounds, x)) return;
   result.point = true;
   result.x = x;
+  result.margins = {};
 }
 
 /// The same where double does not tell: by the check of the decimals of x.
 void take_point_beyond_double(const Posed& posed, const std::vector<double>& x, Attempt& result) {
   if (!(lmi::interior_margin(result.solution) > 0)) return;
   if (!is_finite(x) || !is_within(result.question.bounds, x)) return;
-  if (!lmi::all_hold(margins_at(posed, result, x))) return;
+  lmi::Margins margins = margins_at(posed, result, x);
+  if (!lmi::all_hold(margins)) return;
   result.point = true;
   result.x = x;
+  result.margins = std::move(margins);
 }
 
 void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
@@ -60,6 +63,12 @@ void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   // Far from the minimum a point serves no one: one inside comes from the other goal.
   if (!result.is_near_optimal()) return;
   take_point(posed, lmi::read_back(posed.lmi, result.formulation, result.solution), result);
+}
+
+/// The margins of its point, where they are not known.
+void complete(const Posed& posed, Attempt& result) {
+  if (result.point && result.margins.margins.empty())
+    result.margins = margins_at(posed, result, result.x);
 }
 
 /// Programs for the largest margin, of the data as the effort sees them, and their solutions.
@@ -183,12 +192,12 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
   result.question = std::move(question);
   if (result.question.goal == lmi::Goal::objective) {
     solve_objective(posed, solve, result);
-    if (result.point) result.margins = margins_at(posed, result, result.x);
+    complete(posed, result);
     return result;
   }
   Interior interior(posed, result.question, solve);
   Interior::Solved first = solve_interior(posed, interior, result);
-  if (result.point) result.margins = margins_at(posed, result, result.x);
+  complete(posed, result);
   if (result.holds() || first.solution.x.empty()) return result;
   if (!result.point)
     result.relaxed_omega =

@@ -228,43 +228,6 @@ std::optional<MatrixOf<S>> positive(const MatrixOf<S>& Y) {
   return std::nullopt;
 }
 
-/// The symmetric parts of the multipliers whose elements are `element(block, place)`.
-template <class S, class Element>
-std::vector<MatrixOf<S>> multipliers(const Formulation& formulation, std::size_t blocks,
-                                     Element element) {
-  std::vector<MatrixOf<S>> result;
-  for (std::size_t k = 0; k < blocks; ++k) {
-    const Eigen::Index n = formulation.blocks[k].size;
-    MatrixOf<S> Y(n, n);
-    for (Eigen::Index at = 0; at < n * n; ++at) Y(at) = element(k, static_cast<std::size_t>(at));
-    result.push_back((Y + Y.transpose().eval()) * S(0.5));
-  }
-  return result;
-}
-
-}  // namespace
-
-Multipliers multipliers_of(const Formulation& formulation, std::size_t blocks,
-                           const sdp::Solution& solution) {
-  return multipliers<DoubleDouble>(formulation, blocks, [&](std::size_t k, std::size_t at) {
-    const double rest = solution.rest.Y.values.empty() ? 0 : solution.rest.Y.values[k][at];
-    return DoubleDouble(solution.Y.values[k][at], rest);
-  });
-}
-
-std::vector<MatrixOf<Decimal100>> wide_multipliers_of(const Formulation& formulation,
-                                                      std::size_t blocks,
-                                                      const sdp::Solution& solution) {
-  const auto& rest = solution.rest;
-  return multipliers<Decimal100>(formulation, blocks, [&](std::size_t k, std::size_t at) {
-    const double next = rest.Y.values.empty() ? 0 : rest.Y.values[k][at];
-    return with_finer({solution.Y.values[k][at], next},
-                      rest.finer_Y.empty() ? Finer{} : rest.finer_Y[k][at]);
-  });
-}
-
-namespace {
-
 /// Elements of nothing but rounding, and rows of such, become 0: an r_i of theirs alone is as large
 /// as its W_i. What that takes from Y >= 0 is lifted again (positive()).
 void clear_rounding(MatrixOf<Decimal100>& Y) {
@@ -315,7 +278,8 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
     add_block(*weighed.block, *lifted, weighed.strict, sums);
   }
   if (!sums.is_in_range()) return result;
-  const bool homogeneous = sums.W[0] == 0 && sums.error[0] == 0;
+  // By H, which no zeros of Y hide anything from.
+  const bool homogeneous = sums.H(0, 0) == S(0) && sums.H_error(0, 0) == 0;
   const double v = static_cast<double>(as<double>(S(-sums.r[0])));
   if (definite && sums.whole > 0 && (homogeneous || v > sums.error[0]))
     result.exact = is_exact(sums, homogeneous) && (sums.strict > 0 || v > sums.error[0]);

@@ -32,6 +32,16 @@ TEST(AdviceTest, TheEndOfAnIntervalIsAskedForOnce) {
   EXPECT_TRUE(commands(kSampled, Verdict::yes).empty());
 }
 
+/// A bisection would keep the defaults of the scalars that were searched.
+TEST(AdviceTest, WhatWasSearchedIsSearchedAgain) {
+  const tests::YamlProblem yaml(kSampled);
+  model::Gains gains;
+  gains.verdict = Verdict::undecided;
+  gains.search.emplace();
+  EXPECT_EQ(next_commands(yaml.instance, gains, "plant.yaml")[1],
+            "gainsmith optimize plant.yaml --largest T2=0.25:1.5");
+}
+
 TEST(AdviceTest, NamesThatAShellWouldSplitAreQuoted) {
   EXPECT_EQ(commands(kSampled, Verdict::undecided, "my plant's.yaml")[0],
             "gainsmith explain 'my plant'\\''s.yaml'");
