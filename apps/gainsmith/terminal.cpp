@@ -6,6 +6,7 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
+#include <ctime>
 #include <system_error>
 
 #include "base/error.h"
@@ -15,10 +16,24 @@ namespace gainsmith::app {
 namespace {
 
 volatile std::sig_atomic_t interrupt_flag = 0;
+volatile std::sig_atomic_t interrupted_at = 0;  // seconds
 
+std::sig_atomic_t seconds_now() {
+  timespec now{};
+  ::clock_gettime(CLOCK_MONOTONIC, &now);
+  return static_cast<std::sig_atomic_t>(now.tv_sec);
+}
+
+/// A second one ends the program at once. One that follows within the second is the first again:
+/// timeout(1) and schedulers signal a process and then its group.
 void on_interrupt(int) {
-  interrupt_flag = 1;
-  std::signal(SIGINT, SIG_DFL);
+  if (interrupt_flag == 0) {
+    interrupt_flag = 1;
+    interrupted_at = seconds_now();
+  } else if (seconds_now() - interrupted_at > 1) {
+    std::signal(SIGINT, SIG_DFL);
+    std::raise(SIGINT);
+  }
 }
 
 }  // namespace

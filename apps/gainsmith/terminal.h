@@ -20,7 +20,8 @@ void finish_output();
 /// Whether standard error is a terminal: only then are progress and colour shown.
 bool progress_wanted();
 
-/// From now on Ctrl-C sets a flag instead of ending the program; a second one ends it.
+/// From now on Ctrl-C sets a flag instead of ending the program; one more after some seconds ends
+/// it.
 void catch_interrupts();
 bool interrupted();
 
