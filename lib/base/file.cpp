@@ -93,6 +93,8 @@ void write_atomically(const std::filesystem::path& path, std::string_view text) 
     return;
   }
   std::error_code missing;
+  if (std::filesystem::is_directory(path, missing))
+    throw InputError({path.string()}, "this is a folder; expected the name of a file");
   const auto target = std::filesystem::is_symlink(path, missing)
                           ? std::filesystem::weakly_canonical(path, missing)
                           : path;

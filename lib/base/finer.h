@@ -5,6 +5,6 @@
 
 namespace gainsmith {
 
-using Finer = std::array<double, 5>;
+using Finer = std::array<double, 8>;
 
 }  // namespace gainsmith

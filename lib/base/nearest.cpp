@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <cstddef>
+#include <set>
 
 namespace gainsmith {
 
@@ -12,6 +13,18 @@ int substitution_cost(char a, char b) {
   if (a == b) return 0;
   const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
   return lower(a) == lower(b) ? 1 : 2;
+}
+
+/// The words of four letters or more of a name with hyphens or underscores.
+std::set<std::string> words_of(std::string_view name) {
+  constexpr std::size_t kShortest = 4;
+  std::set<std::string> words;
+  while (!name.empty()) {
+    const std::size_t end = std::min(name.find_first_of("-_ "), name.size());
+    if (end >= kShortest) words.emplace(name.substr(0, end));
+    name.remove_prefix(std::min(end + 1, name.size()));
+  }
+  return words;
 }
 
 }  // namespace
@@ -42,6 +55,8 @@ std::optional<std::string> nearest(std::string_view word,
   int best_distance = allowed + 1;
   for (const std::string& candidate : candidates) {
     const int distance = doubled_edit_distance(word, candidate);
+    // Another letter is no misspelling of a letter.
+    if (word.size() == 1 && candidate.size() == 1 && distance > 1) continue;
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;
@@ -50,15 +65,32 @@ std::optional<std::string> nearest(std::string_view word,
   return best;
 }
 
+std::vector<std::string> relatives(std::string_view word,
+                                   const std::vector<std::string>& candidates) {
+  const auto words = words_of(word);
+  std::vector<std::string> result;
+  std::size_t most = 1;
+  for (const std::string& candidate : candidates) {
+    std::size_t shared = 0;
+    for (const std::string& part : words_of(candidate)) shared += words.count(part);
+    if (shared < most) continue;
+    if (shared > most) result.clear();
+    most = shared;
+    result.push_back(candidate);
+  }
+  return result;
+}
+
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates) {
   if (candidates.empty()) return "";
   if (const auto near = nearest(word, candidates)) return "; did you mean '" + *near + "'?";
   constexpr std::size_t kMost = 12;
-  std::string text = "; known: ";
-  for (std::size_t i = 0; i < std::min(kMost, candidates.size()); ++i)
-    text += (i > 0 ? ", " : "") + candidates[i];
-  if (candidates.size() > kMost) text += ", ...";
-  return text;
+  const auto related = relatives(word, candidates);
+  const auto& listed = related.empty() ? candidates : related;
+  std::string text = related.empty() ? "; known: " : "; did you mean one of these: ";
+  for (std::size_t i = 0; i < std::min(kMost, listed.size()); ++i)
+    text += (i > 0 ? ", " : "") + listed[i];
+  return text + (listed.size() > kMost ? ", ..." : related.empty() ? "" : "?");
 }
 
 }  // namespace gainsmith

@@ -17,7 +17,13 @@ int doubled_edit_distance(std::string_view a, std::string_view b);
 std::optional<std::string> nearest(std::string_view word,
                                    const std::vector<std::string>& candidates);
 
-/// "; did you mean 'x'?" or, when nothing is near, "; known: a, b, c" (at most twelve, then "...").
+/// The candidates that share the most words with `word`, one at least: 'sampled-data' and
+/// 'sampled-data-hybrid'. A word has four letters or more; hyphens and underscores part words.
+std::vector<std::string> relatives(std::string_view word,
+                                   const std::vector<std::string>& candidates);
+
+/// "; did you mean 'x'?"; when nothing is near, "; did you mean one of these: a, b?" with the
+/// relatives, or "; known: a, b, c" (at most twelve, then "...").
 /// Empty when there are no candidates.
 std::string suggestion(std::string_view word, const std::vector<std::string>& candidates);
 

@@ -7,8 +7,8 @@
 namespace gainsmith {
 namespace {
 
-/// Decimals that tell any two numbers of 107 (31 digits) and of 335 (100 digits) bits apart.
-constexpr int kQuadText = 34, kWideText = 103;
+/// Decimals that tell any two numbers of 107 (31 digits) and of 500 (100 digits) bits apart.
+constexpr int kQuadText = 34, kWideText = 153;
 
 }  // namespace
 

@@ -100,25 +100,38 @@ class Parser {
     const bool value = right.kind == TokenKind::number || right.kind == TokenKind::name ||
                        right.kind == TokenKind::open_bracket;
     const bool complete = left.kind == TokenKind::number || left.kind == TokenKind::name ||
-                          left.kind == TokenKind::close || left.kind == TokenKind::close_bracket;
+                          left.kind == TokenKind::close || left.kind == TokenKind::close_bracket ||
+                          left.kind == TokenKind::quote;
     if (!value || !complete) return {};
-    const bool unit = left.kind == TokenKind::number && right.kind == TokenKind::name;
-    if (unit && left.end == right.begin) return in_base_units(left.text, right.text);
+    const bool touches = left.end == right.begin;
+    // Apart, a capital letter is rather a matrix than a unit.
+    const bool unit = power_of_unit(right.text) && (right.text.size() > 1 || right.text[0] >= 'a');
+    if (left.kind == TokenKind::number && right.kind == TokenKind::name && (touches || unit))
+      return in_base_units(left.text, right.text);
+    if (left.kind == TokenKind::name && right.kind == TokenKind::open_bracket && touches)
+      return "; an element is written " + left.text + "(1, 2)";
     return "; a comma is missing between elements, or * in a product";
   }
 
-  /// "5ms", with what to write for it.
-  static std::string in_base_units(const std::string& number, const std::string& unit) {
+  /// What a unit is in base units, as it is written behind a number.
+  static std::optional<std::string_view> power_of_unit(std::string_view unit) {
     static constexpr auto kPowers = std::to_array<std::pair<std::string_view, std::string_view>>(
         {{"ms", "e-3"}, {"us", "e-6"}, {"ns", "e-9"}, {"mm", "e-3"}, {"cm", "e-2"}, {"km", "e3"},
          {"kHz", "e3"}, {"MHz", "e6"}, {"mV", "e-3"}, {"mA", "e-3"}, {"mH", "e-3"}, {"mF", "e-3"},
          {"uF", "e-6"}, {"nF", "e-9"}, {"kg", ""},    {"g", "e-3"},  {"s", ""},     {"m", ""},
          {"Hz", ""},    {"rad", ""},   {"V", ""},     {"A", ""},     {"N", ""}});
-    const bool plain = number.find_first_of("eE") == std::string::npos;
     for (const auto& [name, power] : kPowers)
-      if (plain && name == unit)
-        return "; numbers have no units: for " + number + " " + unit + " write " + number +
-               std::string(power) + ", or " + number + "*" + unit + " for a product";
+      if (name == unit) return power;
+    return std::nullopt;
+  }
+
+  /// "5ms", with what to write for it.
+  static std::string in_base_units(const std::string& number, const std::string& unit) {
+    const bool plain = number.find_first_of("eE") == std::string::npos;
+    const auto power = power_of_unit(unit);
+    if (power && (plain || power->empty()))
+      return "; numbers have no units: for " + number + " " + unit + " write " + number +
+             std::string(*power) + ", or " + number + "*" + unit + " for a product";
     return "; numbers have no units, and a product is written " + number + "*" + unit;
   }
 
@@ -129,7 +142,11 @@ class Parser {
     const Token& right = tokens_[at_ + 1];
     if (left.kind == TokenKind::number && right.kind == TokenKind::number &&
         left.end + 1 == right.begin)
-      fail("unexpected ',': a decimal is written with a point: " + left.text + "." + right.text);
+      fail(left.text.find('.') == std::string::npos
+               ? "unexpected ',': a decimal is written with a point: " + left.text + "." +
+                     right.text
+               : "unexpected ',': a decimal is written with one point and nothing between its "
+                 "thousands");
   }
 
   [[noreturn]] void fail(const std::string& message) const {

@@ -10,6 +10,8 @@ namespace gainsmith::io {
 namespace {
 
 constexpr std::string_view kBlank = " \t\r";
+constexpr std::string_view kWordCharacters =
+    "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_";
 
 std::vector<std::string_view> lines_of(std::string_view text, std::size_t last) {
   std::vector<std::string_view> lines;
@@ -59,9 +61,46 @@ std::optional<std::size_t> find_second_colon(std::string_view line) {
 bool is_bare(std::string_view line) {
   const std::size_t begin = line.find_first_not_of(kBlank);
   return begin != std::string_view::npos &&
-         line.substr(begin).find_first_not_of(
-             "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_") ==
-             std::string_view::npos;
+         line.substr(begin).find_first_not_of(kWordCharacters) == std::string_view::npos;
+}
+
+/// The column behind "key:" where the space is missing that makes it a key: "T1:0.1".
+std::optional<std::size_t> find_tight_colon(std::string_view line) {
+  const std::size_t begin = std::min(line.find_first_not_of(kBlank), line.size());
+  const std::size_t end = line.find_first_not_of(kWordCharacters, begin);
+  if (end == std::string_view::npos || end == begin || line[end] != ':' || end + 1 == line.size() ||
+      kBlank.find(line[end + 1]) != std::string_view::npos)
+    return std::nullopt;
+  return end + 1;
+}
+
+struct Opened {
+  char bracket;
+  std::size_t line, column;
+};
+
+/// The innermost bracket that is open where the lines end; quoted texts and remarks have none.
+std::optional<Opened> find_open_bracket(const std::vector<std::string_view>& lines) {
+  std::vector<Opened> open;
+  char quote = 0;
+  for (std::size_t at = 0; at < lines.size(); ++at)
+    for (std::size_t column = 0; column < lines[at].size(); ++column) {
+      const char c = lines[at][column];
+      const bool begins = column == 0 || (kBlank.find(lines[at][column - 1]) != kBlank.npos) ||
+                          std::string_view("[{,:").find(lines[at][column - 1]) != kBlank.npos;
+      if (quote != 0) {
+        if (c == quote) quote = 0;
+      } else if (c == '#' && begins) {
+        break;
+      } else if ((c == '"' || c == '\'') && begins) {
+        quote = c;
+      } else if (c == '[' || c == '{') {
+        open.push_back({c, at, column});
+      } else if ((c == ']' || c == '}') && !open.empty()) {
+        open.pop_back();
+      }
+    }
+  return open.empty() ? std::nullopt : std::optional(open.back());
 }
 
 bool is_formula(std::string_view text) {
@@ -98,9 +137,16 @@ YamlError explained(const std::string& text, YamlError error) {
     if (const auto colon = find_second_colon(line); colon && at == last)
       return {at, *colon, said + "; a text that holds ': ' must be quoted"};
     if (at == last || line.find_first_not_of(kBlank) == std::string_view::npos) continue;
+    if (const auto value = find_tight_colon(line))
+      return {at, *value, "a space is missing behind the ':' of a key"};
     if (is_bare(line)) return {at, line.size(), said + "; a ':' is missing behind a key"};
     break;
   }
+  if (error.message.find("flow not found") != std::string::npos)
+    if (const auto open = find_open_bracket(lines))
+      return {open->line, open->column,
+              std::string("the '") + open->bracket + "' here is not closed: a '" +
+                  (open->bracket == '[' ? ']' : '}') + "' is missing"};
   const bool map = error.message.find("map") != std::string::npos;
   error.message = said + (map ? "; the keys of a mapping begin in one column" : "");
   return error;

@@ -42,7 +42,7 @@ Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place,
                                     std::to_string(it.row() + 1) + ", " +
                                     std::to_string(it.col() + 1) + ") and (" +
                                     std::to_string(it.col() + 1) + ", " +
-                                    std::to_string(it.row() + 1) + ") differ");
+                                    std::to_string(it.row() + 1) + ") differ; He(M) is M + M'");
   return 0.5 * (matrix + mirrored);
 }
 

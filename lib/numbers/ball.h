@@ -19,7 +19,7 @@ constexpr double kNothingKnown = std::numeric_limits<double>::infinity();
 template <class S>
 constexpr double unit_roundoff() {
   if constexpr (std::is_same_v<S, double>) return 0x1p-53;
-  return std::is_same_v<S, DoubleDouble> ? 0x1p-100 : 1e-99;
+  return std::is_same_v<S, DoubleDouble> ? 0x1p-100 : 1e-148;
 }
 
 /// Functions of libm are within 2 units of the last place.

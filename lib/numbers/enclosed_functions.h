@@ -152,7 +152,7 @@ template <class S>
 struct Series {
   static constexpr int terms = std::is_same_v<S, double>         ? 16
                                : std::is_same_v<S, DoubleDouble> ? 28
-                                                                 : 64;
+                                                                 : 88;
   static constexpr int block = std::is_same_v<S, Decimal100> ? 8 : 4;
 };
 

@@ -73,7 +73,7 @@ struct WideSvd {
 /// The orthogonal matrix nearest to one that is nearly orthogonal: X <- X (3 I - X'X) / 2.
 template <class S>
 MatrixOf<S> orthogonal(MatrixOf<S> X) {
-  constexpr int kSteps = 4;  // 1e-15, 1e-30, 1e-60, 1e-120
+  constexpr int kSteps = 5;  // 1e-15, 1e-30, 1e-60, 1e-120, 1e-240
   const MatrixOf<S> three = S(3) * MatrixOf<S>::Identity(X.cols(), X.cols());
   for (int k = 0; k < kSteps; ++k)
     X = times<S>(X, MatrixOf<S>((three - times<S>(X.transpose(), X)) * S(0.5)));

@@ -60,6 +60,16 @@ TEST(Suggestion, NamesTheNearestOrListsWhatIsKnown) {
   EXPECT_EQ(suggestion("horizon", {}), "");
 }
 
+TEST(Suggestion, NamesThatShareAWordComeBeforeAListOfAll) {
+  const std::vector<std::string> known = {"detectability", "sampled-data-hybrid",
+                                          "sampled-state-feedback", "output-predictor"};
+  EXPECT_EQ(suggestion("sampled-data", known), "; did you mean one of these: sampled-data-hybrid?");
+  EXPECT_EQ(suggestion("sampled", known),
+            "; did you mean one of these: sampled-data-hybrid, sampled-state-feedback?");
+  EXPECT_EQ(suggestion("kalman", {"kal-man", "other"}), "; did you mean 'kal-man'?");
+  EXPECT_EQ(suggestion("a-b-c", {"a-x-y", "b-z-q"}), "; known: a-x-y, b-z-q");
+}
+
 TEST(Suggestion, ListsAtMostTwelve) {
   std::vector<std::string> known;
   std::string expected = "; known: ";

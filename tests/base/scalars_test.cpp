@@ -77,7 +77,7 @@ TYPED_TEST(Scalars, KnowPi) {
   const auto atan_of_inverse = [](int inverse) {
     const TypeParam x = TypeParam(1) / TypeParam(inverse);
     TypeParam sum(0), power = x;
-    for (int k = 0; k < 90; ++k, power = -power * x * x) sum += power / TypeParam(2 * k + 1);
+    for (int k = 0; k < 120; ++k, power = -power * x * x) sum += power / TypeParam(2 * k + 1);
     return sum;
   };
   const TypeParam machin = TypeParam(16) * atan_of_inverse(5) - TypeParam(4) * atan_of_inverse(239);

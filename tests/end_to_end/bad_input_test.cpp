@@ -62,7 +62,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"crossed_interval", "T1: 0.5", "T1: 0.9", "expected 0 < T1 <= T2", 9, 3},
         Broken{"unknown_method", "method: sampled-data-hybrid", "method: sampled-data-hibrid",
                "did you mean 'sampled-data-hybrid'?", 4, 9},
-        Broken{"yaml_error", "\\[1, 0\\]\\]", "[1, 0]", "YAML", 7, 3},
+        Broken{"yaml_error", "\\[1, 0\\]\\]", "[1, 0]", "a ']' is missing", 6, 6},
         Broken{"ragged", "\\[1, 0\\]\\]", "[1]]", "1 elements", 6, 21},
         Broken{"unknown_name", "QJ: 0.01\\*I", "QJ: 0.01*J", "unknown name 'J'", 11, 12},
         Broken{"negative", "delta: 0.03", "delta: -1", "expected delta > 0", 12, 14},

@@ -36,6 +36,7 @@ TEST_F(Messages, UnknownNamesComeWithTheNearest) {
   expect("2*epx(1)", 3, {"unknown function 'epx'", "did you mean 'exp'?"});
   expect("he(A)", 1, {"did you mean 'He'?"});
   expect("qqqqqq", 1, {"known: ", "A, B"});
+  expect("Q", 1, {"known: "});
   expect("exp", 1, {"'exp' is a function: write exp(x)"});
 }
 
@@ -53,6 +54,12 @@ TEST_F(Messages, WhatOtherLanguagesWriteComesWithWhatToWriteHere) {
       "3",
       2, {"write *"});
   expect("A\xC2\xB2", 2, {"write ^2"});
+  expect("A \xE2\x89\xBB 0", 3, {"write >;"});
+  expect("A \xE2\xAA\xAF 0", 3, {"write <=;"});
+  expect("A^T*A", 3, {"'^T'", "write ' for the transpose"});
+  expect("A.T*A", 2, {"write ' for the transpose"});
+  expect("transpose(A)", 1, {"write A'"});
+  expect("A[1, 2]", 2, {"an element is written A(1, 2)"});
 }
 
 TEST_F(Messages, ACommaThatIsMissingIsNamed) {
@@ -61,11 +68,13 @@ TEST_F(Messages, ACommaThatIsMissingIsNamed) {
   expect("[(1) [2]]", 6, {"a comma is missing"});
   expect("1 2", 3, {"a comma is missing"});
   expect("2 A", 3, {"* in a product"});
+  expect("A' A", 4, {"* in a product"});
 }
 
 TEST_F(Messages, ADecimalHasAPoint) {
   expect("0,005", 2, {"decimal", "0.005"});
   expect("1 + 0,5", 6, {"decimal", "0.5"});
+  expect("1.000,5", 6, {"one point", "thousands"});
   EXPECT_EQ(of("1, 5").message().find("decimal"), std::string::npos);
 }
 
@@ -74,6 +83,8 @@ TEST_F(Messages, NumbersHaveNoUnits) {
   expect("2.5kHz", 4, {"for 2.5 kHz write 2.5e3"});
   expect("1e2us", 4, {"no units", "1e2*us"});
   expect("2A", 2, {"2*A"});
+  expect("0.2 s", 5, {"for 0.2 s write 0.2,"});
+  expect("5e-3s", 5, {"for 5e-3 s write 5e-3,"});
   expect("5\xC2\xB5s", 2, {"5e-6"});
 }
 

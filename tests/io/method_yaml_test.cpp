@@ -144,12 +144,12 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"forall: tau in", "forall: rate in", 18, 13,
                             "already names a parameter"}));
 
-INSTANTIATE_TEST_SUITE_P(Files, BrokenMethod,
-                         testing::Values(Mistake{kMethod, "", 0, 0, "empty"},
-                                         Mistake{kMethod, "method: a\n---\nmethod: b\n", 2, 1,
-                                                 "second"},
-                                         Mistake{"summary:", "summary: [", 4, 5, "YAML"},
-                                         Mistake{kMethod, "method: a\n", 1, 1, "no inequality"}));
+INSTANTIATE_TEST_SUITE_P(
+    Files, BrokenMethod,
+    testing::Values(Mistake{kMethod, "", 0, 0, "empty"},
+                    Mistake{kMethod, "method: a\n---\nmethod: b\n", 2, 1, "second"},
+                    Mistake{"summary:", "summary: [", 3, 10, "a ']' is missing"},
+                    Mistake{kMethod, "method: a\n", 1, 1, "no inequality"}));
 
 TEST(Mistakes, InAMethodOfTheLibraryAreShownInItsText) {
   const MethodLibrary broken{[](const std::string&) { return "method: a\nrequire: {x: 1 +}\n"; },

@@ -117,7 +117,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"sampled-data-hybrid", "wrong", 2, 9, "known: "},
         Mistake{"[[0.2, -1.01], [1, 0]]", "[[0.2, -1.01], [1]]", 4, 21, "first row has 2"},
         Mistake{"T1: 0.5", "T1: .nan", 6, 7, "finite"},
-        Mistake{"QF: I", "QF: [1, 2", 9, 11, "YAML"},
+        Mistake{"QF: I", "QF: [1, 2", 8, 7, "a ']' is missing"},
         Mistake{"margin: 1e-6", "margin: 0", 10, 21, "positive"},
         Mistake{"margin: 1e-6", "margin: 1", 10, 21, "below 1"},
         Mistake{"margin: 1e-6", "margin: 2*3", 10, 21, "expected a number"},
@@ -164,7 +164,7 @@ INSTANTIATE_TEST_SUITE_P(Files, BrokenProblem,
                                          Mistake{kProblem, "[1, 2]", 1, 1, "expected a mapping"},
                                          Mistake{kProblem, "word", 1, 1, "found 'word'"},
                                          Mistake{"expect:", "---\nexpect:", 21, 1, "second"},
-                                         Mistake{"data:", "data: [", 5, 3, "YAML"},
+                                         Mistake{"data:", "data: [", 3, 7, "a ']' is missing"},
                                          Mistake{"small", "sm\x01ll", 1, 12, "control characters"},
                                          Mistake{"small", "sm\xE4ll", 1, 12, "UTF-8"}));
 

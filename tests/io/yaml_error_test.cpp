@@ -41,8 +41,18 @@ TEST(YamlErrors, AMappingThatIsTornApart) {
   expect("a: {forall: t in [0, T], that: x}\n", 1, 4, "in { } a text with a comma");
 }
 
+TEST(YamlErrors, ABracketThatIsNotClosed) {
+  expect("a: [1, 2\n", 1, 4, "a ']' is missing");
+  expect("data:\n  A: [[0, 1], [-1, 0]\n  C: [[1, 0]]\n", 2, 6, "a ']' is missing");
+  expect("a: '[' # [\nb: {c: 1, d: \"]\"\n", 2, 4, "a '}' is missing");
+}
+
+TEST(YamlErrors, AKeyWithoutASpaceBehindIt) {
+  expect("data:\n  T1:0.1\n  T2: 1\n", 2, 6, "a space is missing behind the ':'");
+}
+
 TEST(YamlErrors, OthersKeepWhatTheReaderSays) {
-  const InputError error = input_error([] { YamlFile("a: [1, 2\n", "f"); });
+  const InputError error = input_error([] { YamlFile("a: !<\n", "f"); });
   EXPECT_EQ(error.message().find("quoted"), std::string::npos) << error.what();
   EXPECT_EQ(error.message().substr(0, 5), "YAML:");
 }

@@ -126,7 +126,7 @@ TEST(YamlFile, WhatIsNoDocumentIsRefused) {
   expect_refused({"~", {"f"}, "empty"});
   expect_refused({"a: b\n---\nc: d\n", {"f", 2, 1}, "second"});
   expect_refused({"---\n---\na: b\n", {"f", 2, 1}, "second"});
-  expect_refused({"a: [1, 2\nb: 3\n", {"f", 2, 2}, "YAML"});
+  expect_refused({"a: [1, 2\nb: 3\n", {"f", 1, 4}, "a ']' is missing"});
   expect_refused({"a: b\n]\n", {"f", 2, 1}, "YAML"});
   expect_refused({"a: b: c\n", {"f", 1, 5}, "YAML"});
   expect_refused({"\xC3\xBC: b: c\n", {"f", 1, 5}, "YAML"});
