@@ -19,6 +19,15 @@ else()
   target_link_libraries(gainsmith_yaml INTERFACE yaml-cpp)
 endif()
 
+# The memory allocator of the release programs (docs/decisions/0039-allocator.md); other builds keep that of
+# the C library, which the sanitizers replace.
+if(GAINSMITH_STATIC)
+  find_library(GAINSMITH_JEMALLOC_ARCHIVE jemalloc_pic REQUIRED)
+  add_library(gainsmith_allocator INTERFACE)
+  add_library(third_party::allocator ALIAS gainsmith_allocator)
+  target_link_libraries(gainsmith_allocator INTERFACE "${GAINSMITH_JEMALLOC_ARCHIVE}" Threads::Threads ${CMAKE_DL_LIBS})
+endif()
+
 # The optimisation libraries come as shared libraries only (Debian has no libnlopt.a), so a static program
 # cannot hold them: gainsmith-full does.
 add_library(gainsmith_nlopt INTERFACE)

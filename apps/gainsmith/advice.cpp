@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <set>
 
+#include "base/number.h"
+#include "design/search_request.h"
 #include "expr/program.h"
 
 namespace gainsmith::app {
@@ -68,6 +71,16 @@ std::string advice(const model::Instance& instance, const model::Gains& gains,
   for (const std::string& command : next_commands(instance, gains, file))
     text += fmt::format("{:<12}{}\n", text.empty() ? "try" : "", command);
   return text;
+}
+
+std::string held_line(const model::Instance& instance, const std::vector<std::string>& varied) {
+  std::string held;
+  for (const design::SearchedScalar& scalar : design::request_of(instance).over)
+    if (std::find(varied.begin(), varied.end(), scalar.name) == varied.end())
+      held += (held.empty() ? "" : ", ") + scalar.name + " = " +
+              brief(instance.values.at(scalar.name)(0, 0));
+  if (held.empty()) return "";
+  return fmt::format("{:<12}{}; synth and optimize search what this keeps\n", "held", held);
 }
 
 }  // namespace gainsmith::app

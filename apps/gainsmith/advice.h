@@ -20,4 +20,8 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
 std::string advice(const model::Instance& instance, const model::Gains& gains,
                    const std::string& file);
 
+/// "held        delta = 0.03, eta = 0.0001; ...": the scalars that synth would search and that a
+/// command keeps at their values, without those that it varies. Empty when there are none.
+std::string held_line(const model::Instance& instance, const std::vector<std::string>& varied = {});
+
 }  // namespace gainsmith::app

@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/number.h"
+#include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
@@ -119,9 +120,10 @@ ExitCode bisect(const BisectOptions& options) {
   sdp::Options solver;
   solver.interrupted = interrupted;
   const design::BisectResult result = design::bisect(instance, {}, choices, solver);
-  const std::string report =
-      options.json ? io::to_text(json_of(result, choices))
-                   : table(result, choices.scalar.name) + "\n" + synthesis_summary(result.gains);
+  const std::string report = options.json ? io::to_text(json_of(result, choices))
+                                          : table(result, choices.scalar.name) + "\n" +
+                                                synthesis_summary(result.gains) +
+                                                held_line(instance, {choices.scalar.name});
   write_result(result.gains, options.output, report, options.json);
   return exit_of(result.gains.verdict);
 }

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/explain_text.h"
 #include "gainsmith/load.h"
@@ -27,7 +28,7 @@ ExitCode explain(const ExplainOptions& options) {
   solver.interrupted = interrupted;
   const design::Explanation explanation = design::explain(instance, solver);
   fmt::print("{}", options.json ? io::to_text(explanation_json(explanation))
-                                : explanation_text(explanation));
+                                : explanation_text(explanation) + held_line(instance));
   if (interrupted()) {
     say("interrupted: what is called undecided was not finished\n");
     return ExitCode::undecided;

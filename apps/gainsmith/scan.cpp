@@ -10,6 +10,7 @@
 #include "base/file.h"
 #include "base/number.h"
 #include "design/search_request.h"
+#include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
@@ -183,7 +184,8 @@ ExitCode scan(const ScanOptions& options) {
   }
   if (!options.output.empty()) write_atomically(options.output, file);
   fmt::print("{}", options.json ? json(rows, grid, options.show)
-                                : aligned(table_of(rows, grid.names, options.show, kForPeople)));
+                                : aligned(table_of(rows, grid.names, options.show, kForPeople)) +
+                                      held_line(instance, grid.names));
   return exit_of_all(rows);
 }
 

@@ -91,6 +91,9 @@ double ConeFactor<T>::smallest_eigenvalue(const Blocks<T>& D, int b, double enou
   Spectrum& spectrum = spectra_[at];
   for (Eigen::Index j = 0; j < w.cols(); ++j)
     for (Eigen::Index i = 0; i < w.rows(); ++i) spectrum.w(i, j) = static_cast<double>(w(i, j));
+  spectrum.shifted = spectrum.w;
+  spectrum.shifted.diagonal().array() -= enough;
+  if (cholesky(View<double>(spectrum.shifted))) return enough;
   spectrum.reduction.compute(spectrum.w);
   spectrum.diagonal = spectrum.reduction.diagonal();
   spectrum.subdiagonal = spectrum.reduction.subDiagonal();
@@ -100,13 +103,13 @@ double ConeFactor<T>::smallest_eigenvalue(const Blocks<T>& D, int b, double enou
 template <typename T>
 T ConeFactor<T>::step(const Blocks<T>& D, const T& longest) {
   T smallest = T(-1) / longest;
-  for (int b = 0; b < layout_.blocks(); ++b)
-    smallest =
-        std::min(smallest, T(smallest_eigenvalue(D, b, static_cast<double>(T(-1) / longest))));
   const auto reciprocal = inverse_factor_.linear();
   const auto d = D.linear();
   for (Eigen::Index k = 0; k < d.size(); ++k)
     smallest = std::min(smallest, T(d[k] * reciprocal[k]));
+  // What is above the least so far is no matter.
+  for (int b = 0; b < layout_.blocks(); ++b)
+    smallest = std::min(smallest, T(smallest_eigenvalue(D, b, static_cast<double>(smallest))));
   return T(-1) / smallest;
 }
 

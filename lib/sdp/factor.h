@@ -48,8 +48,9 @@ class ConeFactor {
   Blocks<T> work_, scaled_;
   /// L^-1 D L^-T of a block in double, on its way to its smallest eigenvalue.
   struct Spectrum {
-    explicit Spectrum(int n) : w(n, n), reduction(n), diagonal(n), subdiagonal(n - 1) {}
-    Eigen::MatrixXd w;
+    explicit Spectrum(int n)
+        : w(n, n), shifted(n, n), reduction(n), diagonal(n), subdiagonal(n - 1) {}
+    Eigen::MatrixXd w, shifted;
     Eigen::Tridiagonalization<Eigen::MatrixXd> reduction;
     Eigen::VectorXd diagonal, subdiagonal;
   };

@@ -42,6 +42,17 @@ TEST(AdviceTest, WhatWasSearchedIsSearchedAgain) {
             "gainsmith optimize plant.yaml --largest T2=0.25:1.5");
 }
 
+TEST(AdviceTest, ScalarsThatOnlySynthSearchesAreSaid) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  data: {k: scalar}\n  parameters:\n"
+      "    delta: {default: 0.5, search: [0.1, 1]}\n    eta: {default: 2, search: [1, 3]}\n"
+      "  unknowns: {x: scalar}\n  require: {a: x > delta*k, b: x < eta}\ndata: {k: 1}\n"
+      "parameters: {eta: 2}\n");
+  EXPECT_EQ(held_line(yaml.instance),
+            "held        delta = 0.5; synth and optimize search what this keeps\n");
+  EXPECT_EQ(held_line(yaml.instance, {"delta"}), "");
+}
+
 TEST(AdviceTest, NamesThatAShellWouldSplitAreQuoted) {
   EXPECT_EQ(commands(kSampled, Verdict::undecided, "my plant's.yaml")[0],
             "gainsmith explain 'my plant'\\''s.yaml'");
