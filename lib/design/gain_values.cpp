@@ -40,12 +40,13 @@ std::optional<std::vector<numbers::Matrix>> polynomial(const expr::Program& prog
   return coefficients;
 }
 
-/// Whether the formula calls an unknown function that is given by other weights than powers.
-bool uses_vertices(const lmi::Inequalities& inequalities, const expr::Program& formula) {
+/// Whether the formula calls an unknown function in this basis.
+bool calls(const lmi::Inequalities& inequalities, const expr::Program& formula,
+           model::Basis::Kind basis) {
   return std::any_of(
       inequalities.functions.begin(), inequalities.functions.end(),
       [&](const model::Function& function) {
-        return function.basis.kind != model::Basis::Kind::monomials &&
+        return function.basis.kind == basis &&
                std::any_of(formula.functions.begin(), formula.functions.end(),
                            [&](const expr::Input& called) { return called.name == function.name; });
       });
@@ -63,14 +64,18 @@ void add_gain_values(const lmi::Inequalities& inequalities, const numbers::Value
       gains.gains.emplace_back(gain.name, numbers::evaluate(program, values));
       continue;
     }
-    auto coefficients = polynomial(program, gain.variable, values);
+    using Basis = model::Basis::Kind;
+    // Powers would lose the digits of the basis.
+    auto coefficients = calls(inequalities, gain.formula.program, Basis::chebyshev)
+                            ? std::nullopt
+                            : polynomial(program, gain.variable, values);
     if (coefficients && coefficients->size() == 1) {
       gains.gains.emplace_back(gain.name, coefficients->front());
       continue;
     }
-    const Kind kind = coefficients                                        ? Kind::polynomial
-                      : uses_vertices(inequalities, gain.formula.program) ? Kind::vertices
-                                                                          : Kind::formula;
+    const Kind kind = coefficients                                                ? Kind::polynomial
+                      : calls(inequalities, gain.formula.program, Basis::weights) ? Kind::vertices
+                                                                                  : Kind::formula;
     gains.gain_functions.push_back(
         {gain.name, gain.variable, kind, gain.formula.text,
          coefficients ? std::move(*coefficients) : std::vector<numbers::Matrix>{}});

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "expr/binder.h"
+#include "expr/chebyshev.h"
 
 namespace gainsmith::expr {
 
@@ -29,8 +30,12 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
     for (const NodePtr& child : node.children) arguments.push_back(bind(expression, *child));
     return bind_definition(expression, node, name, std::move(arguments));
   }
-  if (const auto found = scope_.functions.find(name); found != scope_.functions.end())
-    return bind_given_function(expression, node, found->second);
+  if (const auto found = scope_.functions.find(name); found != scope_.functions.end()) {
+    if (node.children.size() != 1)
+      fail(expression, node,
+           "'" + name + "' takes 1 arguments, not " + std::to_string(node.children.size()));
+    return bind_given_function(expression, node, name, *node.children.front(), found->second);
+  }
   const Function* function = find_function(name);
   if (function == nullptr) unknown_name(expression, node);
   const int count = static_cast<int>(node.children.size());
@@ -43,17 +48,31 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
   return bind_composed(expression, node, std::get<Composed>(function->what));
 }
 
-Bound Binder::bind_given_function(const Expression& expression, const Node& node, Shape of) {
-  if (node.children.size() != 1)
-    fail(expression, node,
-         "'" + node.text + "' takes 1 arguments, not " + std::to_string(node.children.size()));
-  const Node& argument = *node.children.front();
+std::optional<Bound> Binder::bind_derivative(const Expression& expression, const Node& node) {
+  const Node& whole = node.kind == NodeKind::index ? *node.children[0] : node;
+  if (whole.kind != NodeKind::call || whole.text != "derivative" ||
+      scope_.symbols.contains("derivative") || scope_.definitions.contains("derivative"))
+    return std::nullopt;
+  if (whole.children.size() != 1 || whole.children[0]->kind != NodeKind::name || &whole == &node ||
+      node.children.size() != 2)
+    fail(expression, node, "the derivative of a function P at s is written derivative(P)(s)");
+  const std::string& function = whole.children[0]->text;
+  const std::string name = derivative_name(function);
+  const auto found = scope_.functions.find(name);
+  if (found == scope_.functions.end())
+    fail(expression, *whole.children[0],
+         "'" + function + "' is no unknown function (of: s): only those have a derivative here");
+  return bind_given_function(expression, node, name, *node.children[1], found->second);
+}
+
+Bound Binder::bind_given_function(const Expression& expression, const Node& node,
+                                  const std::string& name, const Node& argument, Shape of) {
   const int at = materialise(expression, argument, bind(expression, argument), {});
   Instruction like;
   like.origin = expression.text;
   like.offset = node.begin;
   like.text = expression.text->str().substr(node.begin, node.end - node.begin);
-  return {assembly_.add_call(node.text, of, at, like)};
+  return {assembly_.add_call(name, of, at, like)};
 }
 
 std::optional<Shape> Binder::shape_of(Op op, const std::vector<int>& operands,
@@ -123,6 +142,8 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return basis(expression, node, Op::kernel_basis);
     case Composed::obsv:
       return observability(expression, node);
+    case Composed::chebyshev:
+      return chebyshev(expression, node);
     case Composed::gramian:
     case Composed::backward_gramian:
       return gramian(expression, node, function == Composed::backward_gramian);
@@ -291,6 +312,27 @@ Bound Binder::observability(const Expression& expression, const Node& node) {
     rows.push_back(emit(expression, node, Op::multiply, {rows.back(), a}, shape(c)));
   const std::vector<int> heights(rows.size(), shape(c).rows);
   return {assemble(expression, node, std::move(rows), 1, heights, {shape(c).cols})};
+}
+
+Bound Binder::chebyshev(const Expression& expression, const Node& node) {
+  constexpr int kMost = 100;
+  const auto k = whole_number(expression, *node.children[0]);
+  if (!k || *k < 0 || *k > kMost)
+    fail(expression, *node.children[0],
+         "the degree must be a whole number known beforehand, from 0 to " + std::to_string(kMost));
+  const auto scalar = [&](std::size_t i) {
+    const Node& argument = *node.children[i];
+    return materialise(expression, argument, bind(expression, argument), {});
+  };
+  const int s = scalar(1);
+  const int low = scalar(2);
+  const int high = scalar(3);
+  Chebyshev polynomials([&](const std::string& text) { return number(expression, node, text); },
+                        [&](Op op, std::vector<int> operands) {
+                          return emit(expression, node, op, std::move(operands), {});
+                        },
+                        s, low, high);
+  return {polynomials.value(*k)};
 }
 
 }  // namespace gainsmith::expr

@@ -73,8 +73,10 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
     case NodeKind::name:
       return bind_name(expression, node);
     case NodeKind::call:
+      if (const auto derivative = bind_derivative(expression, node)) return *derivative;
       return bind_call(expression, node);
     case NodeKind::index:
+      if (const auto derivative = bind_derivative(expression, node)) return *derivative;
       return index(expression, node, child(0), 1);
     case NodeKind::negate: {
       const Bound a = child(0);

@@ -64,7 +64,10 @@ class Binder {
 
   // bind_calls.cpp: functions.
   Bound bind_call(const Expression& expression, const Node& node);
-  Bound bind_given_function(const Expression& expression, const Node& node, Shape shape);
+  Bound bind_given_function(const Expression& expression, const Node& node, const std::string& name,
+                            const Node& argument, Shape shape);
+  /// derivative(P)(s), or nothing when the node is something else.
+  std::optional<Bound> bind_derivative(const Expression& expression, const Node& node);
   Bound bind_composed(const Expression& expression, const Node& node, Composed function);
   Bound bind_operation(const Expression& expression, const Node& node, const Function& function,
                        Op op);
@@ -77,6 +80,7 @@ class Binder {
   Bound block_diagonal(const Expression& expression, const Node& node);
   Bound basis(const Expression& expression, const Node& node, Op op);
   Bound observability(const Expression& expression, const Node& node);
+  Bound chebyshev(const Expression& expression, const Node& node);
   // bind_gramian.cpp
   Bound gramian(const Expression& expression, const Node& node, bool backward);
 

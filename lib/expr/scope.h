@@ -36,6 +36,11 @@ class KnownValues {
   virtual int rank(const Program& matrix, const Program* tolerance) const = 0;
 };
 
+/// "derivative(P)": under this name a scope has the derivative of a function, where it has one.
+inline std::string derivative_name(const std::string& function) {
+  return "derivative(" + function + ")";
+}
+
 struct Scope {
   std::map<std::string, int> dimensions;  ///< n, p, ...
   std::map<std::string, Symbol> symbols;

@@ -53,7 +53,12 @@ model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {
   result.help = optional_string(file, map.find("help"));
   result.variable = optional_string(file, map.find("of"));
   const auto degree = map.find("degree");
+  const auto in = map.find("in");
   map.finish();
+  if (in && result.variable.empty())
+    throw InputError(in->place,
+                     "in: only of an unknown that is a function; say of which variable by 'of'");
+  if (in) result.in = scalar_range(file, {"in", in->key_text, in->place, in->value});
   if (degree && result.variable.empty())
     throw InputError(degree->place,
                      "degree: only of an unknown that is a function; say of which "

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <utility>
 
+#include "base/number.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::lmi {
@@ -43,25 +45,84 @@ bool is_call_of(const std::string& text, const std::string& function) {
   return text.starts_with(function) && after < text.size() && text[after] == '(';
 }
 
-/// Which coefficient stands for each call of an unknown function, by the call's text.
-using Choice = std::map<std::string, std::string>;
+/// What of a gain's formula is bounded: with a coefficient for each call of an unknown function, by
+/// the call's text, or, without coefficients, at a value of the gain's variable.
+struct Choice {
+  std::map<std::string, std::string> coefficients;
+  std::optional<double> at;
+
+  /// " at s = 0.35", for what is said.
+  std::string where(const std::string& variable) const {
+    return at ? " at " + variable + " = " + brief(*at) : "";
+  }
+};
+
+const model::Function* function_called(const Inequalities& of, const std::string& text) {
+  const auto found =
+      std::find_if(of.functions.begin(), of.functions.end(),
+                   [&](const model::Function& f) { return is_call_of(text, f.name); });
+  return found == of.functions.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> calls_of(const Factor& factor) {
+  std::vector<std::string> texts;
+  for (const auto& [begin, length] : factor.calls)
+    texts.push_back(factor.text.substr(begin, length));
+  return texts;
+}
+
+/// Whether the formula is bounded at points: coefficients bound nothing where the basis is not that
+/// of weights and powers, or where a function is inverted.
+bool is_bounded_at_points(const Inequalities& of, const model::Design::Gain& gain) {
+  using Kind = model::Basis::Kind;
+  for (const std::string& text : calls_of(gain.whole))
+    if (const auto* function = function_called(of, text);
+        function != nullptr && function->basis.kind == Kind::chebyshev)
+      return true;
+  return std::any_of(gain.products.begin(), gain.products.end(), [&](const auto& product) {
+    const auto* function = function_called(of, product.inverse);
+    return function != nullptr && function->basis.kind != Kind::weights;
+  });
+}
+
+/// The ends and the extrema between them of a Chebyshev polynomial, on the interval over which the
+/// variable runs in the inequalities.
+std::vector<Choice> points_of(const Inequalities& of, const model::Design::Gain& gain) {
+  if (gain.variable.empty()) return {{}};
+  std::size_t most = 2;
+  for (const std::string& text : calls_of(gain.whole))
+    if (const auto* function = function_called(of, text)) most = std::max(most, function->size());
+  std::vector<Choice> points;
+  for (const Statement& statement : of.statements)
+    for (const forall::Variable& variable : statement.domain) {
+      if (variable.name != gain.variable || !variable.is_interval() || !points.empty()) continue;
+      for (std::size_t k = 0; k <= most; ++k) {
+        const double angle = std::numbers::pi * static_cast<double>(k) / static_cast<double>(most);
+        const double middle = variable.low / 2 + variable.high / 2;
+        const double half = variable.high / 2 - variable.low / 2;
+        points.push_back({{},
+                          k == 0      ? variable.low
+                          : k == most ? variable.high
+                                      : middle - half * std::cos(angle)});
+      }
+    }
+  return points;
+}
 
 /// A gain's formula with each call Y(...) of an unknown function replaced by one of its
 /// coefficients, in all combinations: the gain is bounded when all of them are.
 std::vector<Choice> choices_of(const Inequalities& of, const model::Design::Gain& gain) {
+  if (is_bounded_at_points(of, gain)) return points_of(of, gain);
   std::vector<Choice> choices = {{}};
-  const auto& calls = gain.whole.calls;
+  const std::vector<std::string> calls = calls_of(gain.whole);
   for (auto call = calls.rbegin(); call != calls.rend(); ++call) {
-    const std::string text = gain.whole.text.substr(call->first, call->second);
-    const auto function =
-        std::find_if(of.functions.begin(), of.functions.end(),
-                     [&](const model::Function& f) { return is_call_of(text, f.name); });
-    if (function == of.functions.end() || choices.front().contains(text)) continue;
+    const model::Function* function = function_called(of, *call);
+    if (function == nullptr || choices.front().coefficients.contains(*call)) continue;
     std::vector<Choice> next;
     for (const Choice& choice : choices) {
       for (const std::string& coefficient : function->coefficients()) {
         next.push_back(choice);
-        next.back()[text] = coefficient;
+        next.back().coefficients[*call] = coefficient;
       }
     }
     choices = std::move(next);
@@ -73,8 +134,9 @@ std::vector<Choice> choices_of(const Inequalities& of, const model::Design::Gain
 std::string text_of(const Factor& factor, const Choice& choice) {
   std::string text = factor.text;
   for (auto call = factor.calls.rbegin(); call != factor.calls.rend(); ++call) {
-    const auto chosen = choice.find(factor.text.substr(call->first, call->second));
-    if (chosen != choice.end()) text.replace(call->first, call->second, chosen->second);
+    const auto chosen = choice.coefficients.find(factor.text.substr(call->first, call->second));
+    if (chosen != choice.coefficients.end())
+      text.replace(call->first, call->second, chosen->second);
   }
   return text;
 }
@@ -85,8 +147,8 @@ expr::Program chosen(const Inequalities& of, const expr::Program& program, const
   std::map<std::string, expr::Body> bodies;
   return expr::link(
       program, [&](const std::string& name, const expr::Instruction& call) -> const expr::Body& {
-        const auto found = choice.find(call.text);
-        if (found == choice.end()) {
+        const auto found = choice.coefficients.find(call.text);
+        if (found == choice.coefficients.end()) {
           const auto function =
               std::find_if(of.functions.begin(), of.functions.end(),
                            [&](const model::Function& f) { return f.name == name; });
@@ -160,7 +222,7 @@ class Collector {
     for (const Part& part : affine_parts(gain, gain.whole, choice)) {
       if (!part.form.has_unknown()) continue;
       const int rows = part.form.shape.rows;
-      add({text_of(gain.whole, choice) + part.factor,
+      add({text_of(gain.whole, choice) + part.factor + choice.where(gain.variable),
            constant_form(numbers::Matrix::Identity(rows, rows)), part.form, 0});
     }
   }
@@ -169,10 +231,14 @@ class Collector {
   std::vector<Part> affine_parts(const model::Design::Gain& gain, const Factor& factor,
                                  const Choice& choice) const {
     if (!factor.program) return {};
-    forall::MonomialTable monomials(forall::free_variable(gain.variable));
+    forall::MonomialTable monomials(choice.at ? forall::Domain{}
+                                              : forall::free_variable(gain.variable));
+    numbers::Values values = of_.instance.values;
+    if (choice.at)
+      values.insert_or_assign(gain.variable, numbers::Matrix::Constant(1, 1, *choice.at));
     try {
-      const AffineForm form = evaluate_affine(chosen(of_, *factor.program, choice), of_.unknowns,
-                                              monomials, of_.instance.values);
+      const AffineForm form =
+          evaluate_affine(chosen(of_, *factor.program, choice), of_.unknowns, monomials, values);
       return parts_of(form, monomials, gain.variable);
     } catch (const InputError&) {
       return {};
@@ -189,25 +255,30 @@ class Collector {
       factor = &product.nearest;
       parts = affine_parts(gain, *factor, choice);
     }
-    // inv(Q(t)) of an unknown function is bounded through its coefficients.
-    const auto coefficient = choice.find(product.inverse);
-    const std::string& name = coefficient == choice.end() ? product.inverse : coefficient->second;
-    const Unknown& unknown = *of_.unknowns.find(name);
+    // inv(Q(t)) of an unknown function is bounded through its coefficients, or its value.
+    const auto coefficient = choice.coefficients.find(product.inverse);
+    const std::string& name =
+        coefficient == choice.coefficients.end() ? product.inverse : coefficient->second;
+    const Unknown* unknown = of_.unknowns.find(name);
+    const auto inverted = unknown != nullptr ? std::vector<Part>{{unknown_form(*unknown), ""}}
+                                             : affine_parts(gain, product.inverted, choice);
+    if (inverted.size() != 1) return;
+    const std::string where = choice.where(gain.variable);
     const std::string inverse = "inv(" + name + ")";
     const std::string text = text_of(*factor, choice);
     for (const Part& part : parts)
-      add({(product.left ? inverse + "*" + text : text + "*" + inverse) + part.factor,
-           unknown_form(unknown), product.left ? part.form : transposed(part.form),
-           scalar_of(unknown)});
+      add({(product.left ? inverse + "*" + text : text + "*" + inverse) + part.factor + where,
+           inverted.front().form, product.left ? part.form : transposed(part.form),
+           scalar_of(unknown != nullptr ? name : name + where, inverted.front().form)});
   }
 
-  /// The scalar s of an unknown S, made when it is first asked for.
-  int scalar_of(const Unknown& unknown) {
+  /// The scalar s of what S is called, made when it is first asked for.
+  int scalar_of(const std::string& name, const AffineForm& S) {
     const auto [found, fresh] =
-        scalars_.try_emplace(unknown.name, of_.unknowns.size() + result_.scalars + 1);
+        scalars_.try_emplace(name, of_.unknowns.size() + result_.scalars + 1);
     if (fresh) {
       ++result_.scalars;
-      result_.blocks.push_back(floor_block(unknown_form(unknown), found->second, unknown.name));
+      result_.blocks.push_back(floor_block(S, found->second, name));
     }
     return found->second;
   }

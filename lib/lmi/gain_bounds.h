@@ -12,7 +12,8 @@
 //
 // A gain that is a function of a scalar is bounded coefficient by coefficient: inv(S)*Y_k for
 // inv(S)*Y(tau), and the matrix that each function theta(tau) in it multiplies. That bounds a gain
-// at vertices itself, of a polynomial its coefficients.
+// at vertices itself, of a polynomial its coefficients. With Chebyshev polynomials, or an inverse
+// of a function, it is bounded at the ends of the variable's interval and at extrema between them.
 #pragma once
 
 #include <optional>

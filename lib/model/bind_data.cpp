@@ -232,12 +232,16 @@ void Binding::add_unknowns() {
     bound.variable = unknown.variable;
     bound.place = unknown.place;
     bound.degree = degree_of(unknown, bound);
+    if (unknown.in)
+      bound.in = {unknown.name, scalar(unknown.in->low, names_->known),
+                  scalar(unknown.in->high, names_->known), unknown.in->place};
     if (unknown.variable.empty()) {
       scope.symbols[unknown.name] = {bound.shape};
     } else {
       for (int k = 0; k <= bound.degree; ++k)
         scope.symbols[coefficient_name(unknown.name, static_cast<std::size_t>(k))] = {bound.shape};
       scope.functions[unknown.name] = bound.shape;
+      scope.functions[expr::derivative_name(unknown.name)] = bound.shape;
     }
     design_->unknowns.push_back(std::move(bound));
   }

@@ -47,12 +47,13 @@ class Products {
     std::vector<NodePtr> factors;
     factors_of(node, factors);
     for (std::size_t k = 0; k < factors.size(); ++k) {
-      const std::string inverse = inverse_of(*factors[k]);
+      const NodePtr argument = inverted_by(*factors[k]);
+      const std::string inverse = argument ? written(*argument) : "";
       const auto at = factors.begin() + static_cast<std::ptrdiff_t>(k);
       if (!inverse.empty() && k + 1 < factors.size())
-        found.push_back(product(inverse, {at + 1, factors.end()}, true));
+        found.push_back(product(argument, {at + 1, factors.end()}, true));
       if (!inverse.empty() && k + 1 == factors.size() && k > 0)
-        found.push_back(product(inverse, {factors.begin(), at}, false));
+        found.push_back(product(argument, {factors.begin(), at}, false));
       if (inverse.empty())
         for (const NodePtr& child : factors[k]->children) find(child, found);
     }
@@ -79,23 +80,25 @@ class Products {
   }
 
  private:
-  /// "inv(S)" of a symmetric unknown, such as every 1 x 1 one: "S", or "S(t)" of a function.
-  std::string inverse_of(const Node& node) const {
-    if (node.kind != NodeKind::call || node.text != "inv" || node.children.size() != 1) return "";
+  /// S of inv(S) with a symmetric unknown S, such as every 1 x 1 one, or S(t) of a function.
+  NodePtr inverted_by(const Node& node) const {
+    if (node.kind != NodeKind::call || node.text != "inv" || node.children.size() != 1)
+      return nullptr;
     const Node& argument = *node.children.front();
     for (const Design::Unknown& unknown : design_.unknowns) {
       const bool symmetric = unknown.structure == Structure::symmetric ||
                              unknown.structure == Structure::diagonal || unknown.shape.is_scalar();
       const NodeKind kind = unknown.variable.empty() ? NodeKind::name : NodeKind::call;
       if (unknown.name == argument.text && argument.kind == kind && symmetric)
-        return written(argument);
+        return node.children.front();
     }
-    return "";
+    return nullptr;
   }
 
-  Design::Product product(const std::string& inverse, const std::vector<NodePtr>& factors,
+  Design::Product product(const NodePtr& inverted, const std::vector<NodePtr>& factors,
                           bool left) const {
-    return {inverse, left, factor(factors), factor({left ? factors.front() : factors.back()})};
+    return {written(*inverted), factor({inverted}), left, factor(factors),
+            factor({left ? factors.front() : factors.back()})};
   }
 
   std::string written(const Node& node) const {

@@ -12,6 +12,7 @@ bool uses(const expr::Program& program, const Design::Unknown& unknown) {
   const auto is_named = [&](const expr::Input& input) {
     if (input.name == unknown.name) return true;
     if (unknown.variable.empty()) return false;
+    if (input.name == expr::derivative_name(unknown.name)) return true;
     for (int k = 0; k <= unknown.degree; ++k)
       if (input.name == coefficient_name(unknown.name, static_cast<std::size_t>(k))) return true;
     return false;

@@ -84,8 +84,8 @@ struct Design {
     Place place;                       ///< of one of them in the problem
   };
 
-  /// A matrix or, with `variable`, a function of a scalar: a polynomial unless a room chooses
-  /// another basis.
+  /// A matrix or, with `variable`, a function of a scalar: a polynomial (function.h) unless a room
+  /// chooses another basis.
   struct Unknown {
     std::string name;
     expr::Shape shape;
@@ -93,6 +93,8 @@ struct Design {
     std::string variable;  ///< empty: a matrix
     int degree = 0;        ///< of the polynomial
     std::optional<Formula> degree_formula;
+    /// Where its digits are kept: a basis of Chebyshev polynomials; none: of powers.
+    std::optional<Range> in;
     Place place;
   };
 
@@ -127,16 +129,17 @@ struct Design {
   /// A part of a gain formula next to an inverse, for the bound on the gain (lmi/gain_bounds.h):
   /// inv(S)*E, or E*inv(S).
   struct Product {
-    std::string inverse;  ///< S as written: a symmetric unknown or a call of one, "P", "P(t)"
-    bool left = true;     ///< inv(S) stands left of E
     struct Factor {
       std::optional<expr::Program> program;  ///< none: it has no value of its own
       std::string text;
       /// The calls of unknown functions in `text`: first byte, length.
       std::vector<std::pair<std::size_t, std::size_t>> calls;
     };
-    Factor all;      ///< the product of all factors beside the inverse
-    Factor nearest;  ///< the one next to it
+    std::string inverse;  ///< S as written: a symmetric unknown or a call of one, "P", "P(t)"
+    Factor inverted;      ///< S
+    bool left = true;     ///< inv(S) stands left of E
+    Factor all;           ///< the product of all factors beside the inverse
+    Factor nearest;       ///< the one next to it
   };
 
   struct Gain {

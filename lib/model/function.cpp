@@ -1,6 +1,9 @@
 #include "model/function.h"
 
+#include <functional>
 #include <stdexcept>
+
+#include "expr/chebyshev.h"
 
 namespace gainsmith::model {
 
@@ -19,6 +22,31 @@ std::string power_text(const std::string& variable, int k) {
   return k == 1 ? variable : variable + "^" + std::to_string(k);
 }
 
+/// k s^(k-1); without instructions for k = 1.
+expr::Program power_derivative(const std::string& variable, int k, const Place& place) {
+  if (k == 1) return {};
+  expr::Composer compose(place);
+  const int s = compose.input(variable);
+  const int power = k == 2 ? s : compose.apply(expr::Op::power, {s}, {}, {k - 1});
+  return compose.take(
+      compose.apply(expr::Op::multiply, {compose.number(std::to_string(k)), power}));
+}
+
+/// A value of the Chebyshev polynomials of the interval: of degree k, or its derivative.
+expr::Program chebyshev_program(const std::string& variable, int k, bool derivative,
+                                const Range& in, const Place& place) {
+  expr::Composer compose(place);
+  const int s = compose.input(variable);
+  const int low = compose.program(in.low.program);
+  const int high = compose.program(in.high.program);
+  expr::Chebyshev polynomials([&](const std::string& decimal) { return compose.number(decimal); },
+                              [&](expr::Op op, std::vector<int> operands) {
+                                return compose.apply(op, std::move(operands));
+                              },
+                              s, low, high);
+  return compose.take(derivative ? polynomials.derivative(k) : polynomials.value(k));
+}
+
 }  // namespace
 
 Basis monomials(const std::string& variable, int degree, const Place& place) {
@@ -26,8 +54,29 @@ Basis monomials(const std::string& variable, int degree, const Place& place) {
   for (int k = 0; k <= degree; ++k) {
     basis.elements.push_back(power(variable, k, place));
     basis.texts.push_back(power_text(variable, k));
+    if (k > 0) basis.derivatives.push_back(power_derivative(variable, k, place));
   }
   return basis;
+}
+
+Basis chebyshev(const std::string& variable, int degree, const Range& in, const Place& place) {
+  Basis basis;
+  basis.kind = Basis::Kind::chebyshev;
+  basis.elements.emplace_back();
+  basis.texts.emplace_back();
+  for (int k = 1; k <= degree; ++k) {
+    basis.elements.push_back(chebyshev_program(variable, k, false, in, place));
+    basis.texts.push_back("chebyshev(" + std::to_string(k) + ", " + variable + ", " + in.low.text +
+                          ", " + in.high.text + ")");
+    basis.derivatives.push_back(chebyshev_program(variable, k, true, in, place));
+  }
+  return basis;
+}
+
+Basis basis_of(const Design::Unknown& unknown, std::size_t size) {
+  const int degree = static_cast<int>(size) - 1;
+  return unknown.in ? chebyshev(unknown.variable, degree, *unknown.in, unknown.place)
+                    : monomials(unknown.variable, degree, unknown.place);
 }
 
 std::string coefficient_name(const std::string& name, std::size_t k) {
@@ -53,8 +102,8 @@ std::string Function::text() const {
     if (factor.empty()) {
       sum += coefficient;
     } else {
-      sum += basis.kind == Basis::Kind::monomials ? coefficient + "*" + factor
-                                                  : factor + "*" + coefficient;
+      sum += basis.kind == Basis::Kind::weights ? factor + "*" + coefficient
+                                                : coefficient + "*" + factor;
     }
   }
   return sum;
@@ -64,8 +113,22 @@ expr::Body Function::body() const {
   return {variable, expr::combination(basis.elements, coefficients(), shape, place)};
 }
 
+expr::Body Function::derivative() const {
+  const auto names = coefficients();
+  if (names.size() == 1) {
+    expr::Composer compose(place);
+    return {variable, compose.take(compose.apply(expr::Op::zeros, {}, shape))};
+  }
+  return {variable,
+          expr::combination(basis.derivatives, {names.begin() + 1, names.end()}, shape, place)};
+}
+
 Bodies::Bodies(const std::vector<Function>& functions) {
-  for (const Function& function : functions) set(function.name, function.body());
+  for (const Function& function : functions) {
+    set(function.name, function.body());
+    if (function.basis.derivatives.size() + 1 == function.size())
+      set(expr::derivative_name(function.name), function.derivative());
+  }
 }
 
 expr::Program Bodies::link(const expr::Program& program) const {

@@ -12,7 +12,7 @@
 
 #include "expr/program.h"
 #include "expr/rewrite.h"
-#include "model/words.h"
+#include "model/design.h"
 
 namespace gainsmith::model {
 
@@ -20,14 +20,20 @@ namespace gainsmith::model {
 struct Basis {
   enum class Kind {
     monomials,  ///< 1, s, s^2, ...
+    chebyshev,  ///< T_k on an interval (expr/chebyshev.h), for the digits of high degrees
     weights     ///< those of the vertices of a box (forall/box.h): >= 0, their sum is 1
   };
   Kind kind = Kind::monomials;
   std::vector<expr::Program> elements;
   std::vector<std::string> texts;  ///< of each element in the matrix language; "" for 1
+  /// d phi_k/ds for k = 1, 2, ...; phi_0 is a constant. None where it is not known.
+  std::vector<expr::Program> derivatives;
 };
 
 Basis monomials(const std::string& variable, int degree, const Place& place);
+
+/// T_0, ..., T_degree with [low, high] for [-1, 1].
+Basis chebyshev(const std::string& variable, int degree, const Range& in, const Place& place);
 
 struct Function {
   std::string name;      ///< "YL"
@@ -46,10 +52,15 @@ struct Function {
   std::string text() const;
   /// What a call of the function is linked with.
   expr::Body body() const;
+  /// The same of derivative(YL); the basis must have derivatives.
+  expr::Body derivative() const;
 };
 
 /// "YL_2": the coefficient k = 0, 1, ... of the function `name`.
 std::string coefficient_name(const std::string& name, std::size_t k);
+
+/// The polynomials that an unknown function's basis has `size` of.
+Basis basis_of(const Design::Unknown& unknown, std::size_t size);
 
 /// "YL_0 + YL_1*tau + YL_2*tau^2", for `degree` 2.
 std::string polynomial_text(const std::string& name, const std::string& variable, int degree);

@@ -99,7 +99,7 @@ std::vector<Function> polynomials(const Design& design) {
   for (const Design::Unknown& unknown : design.unknowns)
     if (!unknown.variable.empty())
       functions.push_back({unknown.name, unknown.variable, unknown.shape, unknown.structure,
-                           monomials(unknown.variable, unknown.degree, unknown.place),
+                           basis_of(unknown, static_cast<std::size_t>(unknown.degree) + 1),
                            unknown.place});
   return functions;
 }

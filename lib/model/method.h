@@ -24,10 +24,6 @@ struct Declaration {
 };
 
 /// An unknown: a matrix or, with `variable`, a function of a scalar given by coefficient matrices.
-struct UnknownDeclaration : Declaration {
-  std::string variable;                    ///< "tau" of `of: tau`; empty: a matrix
-  std::optional<expr::Expression> degree;  ///< of its polynomial; none: 0
-};
 
 /// A scalar and the range in which it is looked for: "T2: [0.5, 1.1]".
 struct ScalarRange {
@@ -35,6 +31,12 @@ struct ScalarRange {
   expr::Expression low;
   expr::Expression high;
   Place place;
+};
+
+struct UnknownDeclaration : Declaration {
+  std::string variable;                    ///< "tau" of `of: tau`; empty: a matrix
+  std::optional<expr::Expression> degree;  ///< of its polynomial; none: 0
+  std::optional<ScalarRange> in;           ///< "in: [0, T2]": where its digits are kept
 };
 
 /// A scalar that the engineer may tune.

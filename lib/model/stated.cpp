@@ -70,10 +70,15 @@ class Builder {
         throw InputError({gains_.file}, "the gain file lacks the coefficients " +
                                             coefficient_name(known->name, 0) + ", ... of " +
                                             stated.signature);
-      *known = polynomial(known->name, known->variable, known->shape, count, {gains_.file});
+      known->basis = basis_of(unknown(known->name), count);
       stated_.bodies.set(known->name, {known->variable, body_of(*known, stated)});
     }
     stated_.unknowns = unknown_matrices(design_, functions);
+  }
+
+  const Design::Unknown& unknown(const std::string& name) const {
+    return *std::find_if(design_.unknowns.begin(), design_.unknowns.end(),
+                         [&](const Design::Unknown& known) { return known.name == name; });
   }
 
   /// `polynomial` has as many coefficients as the file.
@@ -81,7 +86,8 @@ class Builder {
     if (stated.body) return *stated.body;
     if (stated.text == polynomial.text()) return polynomial.body().program;
     const Place place{gains_.file};
-    expr::Scope scope;
+    expr::Scope scope = design_.names->known;
+    scope.known = std::make_shared<numbers::KnownDoubles>(instance_.values);
     scope.symbols[polynomial.variable] = {};
     for (const std::string& coefficient : polynomial.coefficients())
       scope.symbols[coefficient] = {polynomial.shape};

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -23,16 +24,17 @@ std::string with_function(const std::string& declaration) {
   return changed(kSmallMethod, "X: n x m", "X: " + declaration);
 }
 
-/// "X(t)" of the design at t, the function and its coefficients given.
+/// "X(t)" of the design at t, or another text, the function and its coefficients given.
 numbers::Matrix value_at(const Small& small, const Function& function,
-                         const std::vector<numbers::Matrix>& coefficients, double t) {
+                         const std::vector<numbers::Matrix>& coefficients, double t,
+                         const std::string& text = "X(t)") {
   expr::Scope scope = small.design().names->design;
   scope.symbols["t"] = {};
   numbers::Values values = small.instance.values;
   values["t"] = numbers::Matrix::Constant(1, 1, t);
   for (std::size_t k = 0; k < coefficients.size(); ++k)
     values[coefficient_name("X", k)] = coefficients[k];
-  const expr::Program call = expr::compile(expr::parse({"X(t)", "test"}), scope);
+  const expr::Program call = expr::compile(expr::parse({text, "test"}), scope);
   return numbers::evaluate(Bodies({function}).link(call), values);
 }
 
@@ -53,6 +55,65 @@ TEST(UnknownFunction, IsThePolynomialOfItsCoefficients) {
       EXPECT_TRUE(value_at(small, function, coefficients, t).isApprox(expected, 1e-14)) << degree;
     }
   }
+}
+
+/// X(t) = sum_k C_k cos(k acos x), x = t over [0, T2] brought to [-1, 1].
+TEST(UnknownFunction, HasChebyshevPolynomialsOnItsInterval) {
+  std::mt19937 random(2);
+  std::uniform_real_distribution<double> draw(-2, 2);
+  for (const int degree : {0, 1, 2, 5, 30}) {
+    const Small small(kSmallProblem, with_function("{shape: n x m, of: tau, in: [0, T2], degree: " +
+                                                   std::to_string(degree) + "}"));
+    const double T2 = small.instance.values.at("T2")(0, 0);
+    const Function function = polynomials(small.design()).at(0);
+    std::vector<numbers::Matrix> coefficients;
+    for (int k = 0; k <= degree; ++k)
+      coefficients.push_back(numbers::Matrix::NullaryExpr(2, 1, [&] { return draw(random); }));
+    for (const double part : {0.0, 0.1, 0.5, 0.77, 1.0}) {
+      numbers::Matrix expected = numbers::Matrix::Zero(2, 1);
+      for (std::size_t k = 0; k < coefficients.size(); ++k)
+        expected += std::cos(static_cast<double>(k) * std::acos(2 * part - 1)) * coefficients[k];
+      EXPECT_TRUE(value_at(small, function, coefficients, part * T2).isApprox(expected, 1e-12))
+          << degree << ": " << part;
+    }
+  }
+}
+
+/// Against the slope of a chord, which is off by the square of its width.
+TEST(UnknownFunction, HasADerivative) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> draw(-2, 2);
+  for (const std::string in : {"", "in: [T1/2, T2], "})
+    for (const int degree : {0, 1, 2, 4}) {
+      const Small small(kSmallProblem, with_function("{shape: n x m, of: tau, " + in +
+                                                     "degree: " + std::to_string(degree) + "}"));
+      const Function function = polynomials(small.design()).at(0);
+      std::vector<numbers::Matrix> coefficients;
+      for (int k = 0; k <= degree; ++k)
+        coefficients.push_back(numbers::Matrix::NullaryExpr(2, 1, [&] { return draw(random); }));
+      const auto at = [&](double t, const std::string& text) {
+        return value_at(small, function, coefficients, t, text);
+      };
+      constexpr double kHalf = 1e-4;
+      for (const double t : {0.3, 1.1}) {
+        const numbers::Matrix slope = (at(t + kHalf, "X(t)") - at(t - kHalf, "X(t)")) / (2 * kHalf);
+        EXPECT_LE((at(t, "derivative(X)(t)") - slope).norm(), 1e-5 * (1 + slope.norm()))
+            << in << degree << ": " << t;
+      }
+    }
+}
+
+TEST(UnknownFunction, OnlyAnUnknownHasADerivative) {
+  const auto message = [](const std::string& text) {
+    return input_error([&] {
+             Small(kSmallProblem, changed(with_function("{shape: n x m, of: tau, degree: 1}"),
+                                          "K: b'*P", "K: " + text));
+           })
+        .message();
+  };
+  EXPECT_NE(message("derivative(P)(T1)*P").find("'P' is no unknown function"), std::string::npos);
+  EXPECT_NE(message("derivative(X)").find("is written derivative(P)(s)"), std::string::npos);
+  EXPECT_NE(message("\"derivative(X)(T1, 2)\"").find("is written derivative(P)(s)"), std::string::npos);
 }
 
 TEST(UnknownFunction, ItsCoefficientsStandInItsPlaceAmongTheUnknowns) {
@@ -87,7 +148,7 @@ Function weighted(const Function& polynomial) {
     return expr::compile(expr::parse({text, "test"}), scope);
   };
   Function result = polynomial;
-  result.basis = {Basis::Kind::weights, {weight("1 - tau"), weight("tau")}, {"(1 - tau)", "(tau)"}};
+  result.basis = {Basis::Kind::weights, {weight("1 - tau"), weight("tau")}, {"(1 - tau)", "(tau)"}, {}};
   return result;
 }
 
@@ -109,13 +170,20 @@ TEST(UnknownFunction, MayHaveAnotherBasis) {
 TEST(UnknownFunction, ItsTextIsItsBody) {
   const Small small(kSmallProblem, with_function("{shape: n x m, of: tau, degree: 3}"));
   const Function polynomial = polynomials(small.design()).at(0);
-  for (const Function& function : {polynomial, weighted(polynomial)}) {
-    expr::Scope scope;
+  const Small other(kSmallProblem,
+                    with_function("{shape: n x m, of: tau, in: [-1, T2/3], degree: 3}"));
+  const Function chebyshev = polynomials(other.design()).at(0);
+  EXPECT_EQ(chebyshev.text(),
+            "X_0 + X_1*chebyshev(1, tau, -1, T2/3) + X_2*chebyshev(2, tau, -1, T2/3) + "
+            "X_3*chebyshev(3, tau, -1, T2/3)");
+  for (const Function& function : {polynomial, weighted(polynomial), chebyshev}) {
+    expr::Scope scope = small.design().names->known;
     scope.symbols[function.variable] = {};
     for (const std::string& coefficient : function.coefficients())
       scope.symbols[coefficient] = {function.shape};
     const expr::Program text = expr::compile(expr::parse({function.text(), "test"}), scope);
-    numbers::Values values{{function.variable, numbers::Matrix::Constant(1, 1, 0.3)}};
+    numbers::Values values = small.instance.values;
+    values[function.variable] = numbers::Matrix::Constant(1, 1, 0.3);
     for (std::size_t k = 0; k < function.size(); ++k)
       values[coefficient_name("X", k)] = numbers::Matrix{{0.1 + static_cast<double>(k)}, {-0.7}};
     EXPECT_EQ(numbers::evaluate(text, values), numbers::evaluate(function.body().program, values))
