@@ -9,9 +9,10 @@
 // with enclosures of the slopes B'_i and of B''_i over the piece (numbers/jet.h); slopes in a ball
 // of radius r leave a chord by at most r w/2, so that kinks need no B''. B > 0 on the piece when
 // B(c) + F > 0 for all |F| <= E at each corner c (numbers/definite.h), since the interpolation is a
-// mean of the corners. Where a slope has no bound (cusps, jumps) the enclosure of B over the piece
-// has to be positive definite itself. A piece that does not pass is cut in two, as far as doubles
-// go.
+// mean of the corners. Where all B''_i are known it is enough that B(c) - sum_i theta_i w_i^2/8
+// B''_i > 0 for theta_i = 0 and 1: B lies below the chord by these, and their sign and direction
+// count. Where a slope has no bound (cusps, jumps) the enclosure of B over the piece has to be
+// positive definite itself. A piece that does not pass is cut in two, as far as doubles go.
 #pragma once
 
 #include <cstddef>

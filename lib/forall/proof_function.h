@@ -2,8 +2,10 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <deque>
+#include <limits>
 #include <map>
 #include <string>
 #include <utility>
@@ -69,6 +71,8 @@ class Function {
   struct Spread {
     Enclosed<double> value;
     std::vector<Matrix> errors;  ///< of the interpolation, along each variable
+    /// The same with its sign, where all second derivatives are known: w_i^2/8 B''_i.
+    std::vector<Enclosed<double>> sags;
     std::string fault;
   };
 
@@ -132,6 +136,10 @@ class Function {
         const numbers::Jet& jet = along_[i].run();
         if (i == 0) spread.value = jet.value();
         spread.errors.push_back(chord_error(jet, piece.high[i] - piece.low[i]));
+        if (jet.order == 2 && jet.derivatives[2].is_known())
+          spread.sags.push_back(sag(jet.derivatives[2], piece.high[i] - piece.low[i]));
+        else if (jet.order < 2 && spread.errors.back().isZero(0))
+          spread.sags.push_back(numbers::exactly<double>(spread.errors.back()));
       }
     } catch (const expr::EvaluationError& error) {
       spread.fault = error.what();
@@ -142,6 +150,17 @@ class Function {
   bool strict() const { return strict_; }
 
  private:
+  static Enclosed<double> sag(const Enclosed<double>& bend, double width) {
+    const double part = width * width / 8;
+    Enclosed<double> result = bend;
+    result.mid *= part;
+    for (Eigen::Index k = 0; k < bend.mid.size(); ++k)
+      if (bend.mid(k) != 0 || bend.rad(k) != 0)
+        result.rad(k) = bend.rad(k) * part * (1 + 0x1p-45) + std::abs(result.mid(k)) * 0x1p-45 +
+                        std::numeric_limits<double>::min();
+    return result;
+  }
+
   static Matrix chord_error(const numbers::Jet& jet, double width) {
     const Eigen::Index n = jet.value().rows();
     if (jet.order == 0) return Matrix::Zero(n, n);

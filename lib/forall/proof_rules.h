@@ -78,9 +78,10 @@ class Search {
     const auto spread = function_.over(piece);
     if (!spread.fault.empty()) return halve(piece, widest(piece), spread.fault);
     const Matrix error = error_of(spread);
-    if (at_corners(corners, error) || (spread.value.is_known() && holds(spread.value, Matrix())))
+    if (above_sags(corners, spread) || at_corners(corners, error) ||
+        (spread.value.is_known() && holds(spread.value, Matrix())))
       return;
-    if (piece.low.size() == 1 && error.allFinite()) return cut(piece, corners, error);
+    if (piece.low.size() == 1 && error.allFinite()) return cut(piece, corners, spread, error);
     halve(piece, steepest(piece, spread, corners), kTooSteep);
   }
 
@@ -90,17 +91,49 @@ class Search {
     return error * (1 + 0x1p-40);
   }
 
+  /// With the sags d_i: B(t) lies between the corners, less the sum of theta_i d_i with 0 <=
+  /// theta_i <=
+  /// 1. What a corner is nearly singular along then counts only by its own second derivative.
+  bool above_sags(const std::vector<const Corner*>& corners,
+                  const typename Function<S>::Spread& spread) const {
+    const std::size_t count = spread.sags.size();
+    if (count != spread.errors.size()) return false;
+    return std::all_of(corners.begin(), corners.end(), [&](const Corner* corner) {
+      for (std::size_t chosen = 1; chosen < (std::size_t{1} << count); ++chosen) {
+        Enclosed<S> B = corner->value;
+        for (std::size_t i = 0; i < count; ++i)
+          if (((chosen >> i) & 1U) != 0)
+            B = numbers::difference(B, numbers::converted<S>(spread.sags[i]));
+        if (!holds(B, Matrix())) return false;
+      }
+      return true;
+    });
+  }
+
   bool at_corners(const std::vector<const Corner*>& corners, const Matrix& error) const {
     return error.allFinite() && std::all_of(corners.begin(), corners.end(), [&](const Corner* c) {
              return holds(c->value, error);
            });
   }
 
-  /// How often E is divided by four before B(c) + F > 0 at a corner c.
-  int quarterings(const Corner& corner, Matrix error) const {
+  /// How often E is divided by four before B(c) + F > 0 at a corner c; with the sag, where it has
+  /// one.
+  int quarterings(const Corner& corner, const typename Function<S>::Spread& spread,
+                  Matrix error) const {
     constexpr int kMost = 24;
+    const bool has_sag = !spread.sags.empty();
+    Enclosed<double> sag = has_sag ? spread.sags.front() : Enclosed<double>{};
+    const auto passes = [&] {
+      return has_sag
+                 ? holds(numbers::difference(corner.value, numbers::converted<S>(sag)), Matrix())
+                 : holds(corner.value, error);
+    };
     int count = 0;
-    for (; count < kMost && !holds(corner.value, error); ++count) error /= 4;
+    for (; count < kMost && !passes(); ++count) {
+      error /= 4;
+      sag.mid /= 4;
+      sag.rad /= 4;
+    }
     return count;
   }
 
@@ -108,9 +141,10 @@ class Search {
   /// the piece is cut so near to it that the part there passes: B grows from a corner where it is
   /// nearly singular, so the rest mostly passes at once or is cut much farther away. Where it is
   /// not, E is no matter of that corner: the rest is halved.
-  void cut(const Piece& piece, const std::vector<const Corner*>& corners, const Matrix& error) {
-    const int low = quarterings(*corners[0], error);
-    const int high = quarterings(*corners[1], error);
+  void cut(const Piece& piece, const std::vector<const Corner*>& corners,
+           const typename Function<S>::Spread& spread, const Matrix& error) {
+    const int low = quarterings(*corners[0], spread, error);
+    const int high = quarterings(*corners[1], spread, error);
     const int most = std::max(low, high);
     if (std::min(low, high) > 1 || most > 1 + piece.cut / 2) return halve(piece, 0, kTooSteep);
     const double part = std::ldexp(piece.high[0] - piece.low[0], -most);
