@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/number.h"
+#include "design/hautus.h"
 #include "design/search_request.h"
 #include "expr/program.h"
 
@@ -45,6 +46,8 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
   if (gains.verdict == model::Verdict::yes) return commands;
   if (gains.verdict == model::Verdict::undecided)
     commands.push_back("gainsmith explain " + quoted(file));
+  // What the output does not show no interval shows.
+  if (!design::hidden_mode_text(instance).empty()) return commands;
   std::set<std::string> ends;
   for (const model::Design::Inequality& inequality : instance.design->inequalities)
     for (const auto& variable : inequality.domain) {
@@ -71,6 +74,11 @@ std::string advice(const model::Instance& instance, const model::Gains& gains,
   for (const std::string& command : next_commands(instance, gains, file))
     text += fmt::format("{:<12}{}\n", text.empty() ? "try" : "", command);
   return text;
+}
+
+std::string hidden_line(const model::Instance& instance) {
+  const std::string hidden = design::hidden_mode_text(instance);
+  return hidden.empty() ? "" : fmt::format("{:<12}{}\n", "plant", hidden);
 }
 
 std::string held_line(const model::Instance& instance, const std::vector<std::string>& varied) {

@@ -24,4 +24,8 @@ std::string advice(const model::Instance& instance, const model::Gains& gains,
 /// command keeps at their values, without those that it varies. Empty when there are none.
 std::string held_line(const model::Instance& instance, const std::vector<std::string>& varied = {});
 
+/// "plant       the output does not show a mode ...": the mode that makes the plant undetectable.
+/// Empty when there is none.
+std::string hidden_line(const model::Instance& instance);
+
 }  // namespace gainsmith::app

@@ -104,9 +104,9 @@ io::Json json_of(const design::BisectResult& result, const design::BisectChoices
 }
 
 std::string table(const design::BisectResult& result, const std::string& name) {
-  std::string text = fmt::format("{:<16}{}\n", name, "feasible");
+  std::string text = fmt::format("{:<20}{}\n", name, "feasible");
   for (const search::Sample& sample : result.found.samples)
-    text += fmt::format("{:<16}{}\n", brief(sample.value, 12), word(sample.answer));
+    text += fmt::format("{:<20}{}\n", brief(sample.value, 12), word(sample.answer));
   return text;
 }
 

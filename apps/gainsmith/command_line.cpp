@@ -31,8 +31,17 @@ CLI::Range validator(const Option::Range<double>& range) {
 }
 
 template <typename Whole>
-CLI::Range validator(const Option::Range<Whole>& range) {
-  return {range.first, range.second};
+CLI::Validator validator(const Option::Range<Whole>& range) {
+  const std::string ends = std::to_string(range.first) + " to " + std::to_string(range.second);
+  return {[range, ends](const std::string& text) -> std::string {
+            Whole value = 0;
+            const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
+            if (end.ec == std::errc() && end.ptr == text.data() + text.size() &&
+                range.first <= value && value <= range.second)
+              return {};
+            return "expected a whole number from " + ends + " in digits, not '" + text + "'";
+          },
+          "WHOLE in [" + ends + "]"};
 }
 
 void add_checks(CLI::Option& added, const Option& option) {

@@ -28,7 +28,8 @@ ExitCode explain(const ExplainOptions& options) {
   solver.interrupted = interrupted;
   const design::Explanation explanation = design::explain(instance, solver);
   fmt::print("{}", options.json ? io::to_text(explanation_json(explanation))
-                                : explanation_text(explanation) + held_line(instance));
+                                : explanation_text(explanation) + hidden_line(instance) +
+                                      held_line(instance));
   if (interrupted()) {
     say("interrupted: what is called undecided was not finished\n");
     return ExitCode::undecided;

@@ -119,7 +119,7 @@ Command run_command() {
            .required(),
        Option("-o,--output", options->output, "folder for the results, one folder a problem in it"),
        Option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
-           .within<std::uint64_t>(1, 1000000000),
+           .within<std::uint64_t>(1, 1000000000000000),
        Option("--seed", options->job.seed, "seed (default: the problem's)"),
        Option("--threads", options->threads, "threads, 0: one a core; results do not depend on it")
            .within(0, 1024),

@@ -56,10 +56,10 @@ std::string objective_text(const model::Gains& gains) {
   if (gains.objective_lower_bound) {
     const double price = *gains.objective - *gains.objective_lower_bound;
     const double relative = price / std::max(std::abs(*gains.objective), 1e-300);
-    text +=
-        fmt::format("  (no solution without margins{} is below {}: the margins cost at most {})",
-                    gains.bounds.empty() ? "" : ", within the gain bound,",
-                    brief(*gains.objective_lower_bound, 10), brief(relative, 2));
+    text += fmt::format(
+        "  (no like solution without margins{} is below {}: the margins cost at most {})",
+        gains.bounds.empty() ? "" : ", within the gain bound,",
+        brief(*gains.objective_lower_bound, 10), brief(relative, 2));
   }
   return text + "\n";
 }

@@ -56,6 +56,9 @@ ExitCode synth(const SynthOptions& options) {
     print_report("why         " + reason(instance, gains, solver) + "\n", options.output == "-");
   if (!options.json && !interrupted())
     print_report(advice(instance, gains, options.problem), options.output == "-");
+  if (gains.verdict == model::Verdict::yes && options.output.empty() && !options.json &&
+      progress_wanted())
+    say("no gain file was written: -o GAINS.json writes one\n");
   return exit_of(gains.verdict);
 }
 

@@ -45,7 +45,7 @@ Command verify_command() {
           "Check a gain file's claims by Monte-Carlo simulation",
           {Option("gains", options->gains, "gain file (JSON)").required(),
            Option("--runs", options->runs, "number of runs (default: the problem's)")
-               .within<std::uint64_t>(1, 1000000000),
+               .within<std::uint64_t>(1, 1000000000000000),
            Option("--seed", options->seed, "seed of the random streams (default: the problem's)"),
            Option("--threads", options->threads,
                   "threads, 0: one a core; the report does not depend on it")

@@ -15,6 +15,11 @@ int substitution_cost(char a, char b) {
   return lower(a) == lower(b) ? 1 : 2;
 }
 
+bool differs_in_case(std::string_view a, std::string_view b) {
+  return a != b && std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                              [](char x, char y) { return substitution_cost(x, y) < 2; });
+}
+
 /// The words of four letters or more of a name with hyphens or underscores.
 std::set<std::string> words_of(std::string_view name) {
   constexpr std::size_t kShortest = 4;
@@ -57,6 +62,7 @@ std::optional<std::string> nearest(std::string_view word,
     const int distance = doubled_edit_distance(word, candidate);
     // Another letter is no misspelling of a letter.
     if (word.size() == 1 && candidate.size() == 1 && distance > 1) continue;
+    if (differs_in_case(word, candidate)) return candidate;
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

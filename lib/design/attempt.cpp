@@ -30,11 +30,9 @@ lmi::Margins margins_at(const Posed& posed, const Attempt& attempt, const std::v
 
 /// Whether the gains at x are as small as was asked for.
 bool is_within(const lmi::GainBounds& bounds, const std::vector<double>& x) {
-  constexpr double kRounding = 1e-9;
   const auto reached = lmi::reached_bounds(bounds, x);
-  return std::all_of(reached.begin(), reached.end(), [](const model::GainBound& bound) {
-    return bound.reached <= bound.bound * (1 + kRounding);
-  });
+  return std::all_of(reached.begin(), reached.end(),
+                     [](const model::GainBound& bound) { return bound.reached <= bound.bound; });
 }
 
 /// Sets the point when x is one; its margins are for the last point alone.

@@ -106,7 +106,8 @@ class Parser {
     const bool touches = left.end == right.begin;
     // Apart, a capital letter is rather a matrix than a unit.
     const bool unit = power_of_unit(right.text) && (right.text.size() > 1 || right.text[0] >= 'a');
-    if (left.kind == TokenKind::number && right.kind == TokenKind::name && (touches || unit))
+    if (left.kind == TokenKind::number && right.kind == TokenKind::name &&
+        (touches || unit || right.text.ends_with("Hz")))
       return in_base_units(left.text, right.text);
     if (left.kind == TokenKind::name && right.kind == TokenKind::open_bracket && touches)
       return "; an element is written " + left.text + "(1, 2)";
@@ -116,10 +117,11 @@ class Parser {
   /// What a unit is in base units, as it is written behind a number.
   static std::optional<std::string_view> power_of_unit(std::string_view unit) {
     static constexpr auto kPowers = std::to_array<std::pair<std::string_view, std::string_view>>(
-        {{"ms", "e-3"}, {"us", "e-6"}, {"ns", "e-9"}, {"mm", "e-3"}, {"cm", "e-2"}, {"km", "e3"},
-         {"kHz", "e3"}, {"MHz", "e6"}, {"mV", "e-3"}, {"mA", "e-3"}, {"mH", "e-3"}, {"mF", "e-3"},
-         {"uF", "e-6"}, {"nF", "e-9"}, {"kg", ""},    {"g", "e-3"},  {"s", ""},     {"m", ""},
-         {"Hz", ""},    {"rad", ""},   {"V", ""},     {"A", ""},     {"N", ""}});
+        {{"ms", "e-3"},  {"us", "e-6"},      {"ns", "e-9"},   {"mm", "e-3"}, {"cm", "e-2"},
+         {"km", "e3"},   {"mV", "e-3"},      {"mA", "e-3"},   {"mH", "e-3"}, {"mF", "e-3"},
+         {"uF", "e-6"},  {"nF", "e-9"},      {"msec", "e-3"}, {"sec", ""},   {"min", "*60"},
+         {"h", "*3600"}, {"deg", "*pi/180"}, {"kg", ""},      {"g", "e-3"},  {"s", ""},
+         {"m", ""},      {"rad", ""},        {"V", ""},       {"A", ""},     {"N", ""}});
     for (const auto& [name, power] : kPowers)
       if (name == unit) return power;
     return std::nullopt;
@@ -128,6 +130,9 @@ class Parser {
   /// "5ms", with what to write for it.
   static std::string in_base_units(const std::string& number, const std::string& unit) {
     const bool plain = number.find_first_of("eE") == std::string::npos;
+    if (unit.ends_with("Hz"))
+      return "; numbers have no units: a frequency in 1/s is a number, a sampling time its inverse "
+             "in s";
     const auto power = power_of_unit(unit);
     if (power && (plain || power->empty()))
       return "; numbers have no units: for " + number + " " + unit + " write " + number +

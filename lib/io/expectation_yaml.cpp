@@ -49,7 +49,8 @@ model::Expectation expectation_from(const YamlFile& file, const YamlItem& item) 
   model::Expectation result;
   result.place = item.place;
   result.verdict = word(file, map.find("verdict"), {"yes", "no", "undecided"});
-  result.status = word(file, map.find("status"), {"optimal", "feasible", "infeasible", "undecided"});
+  result.status =
+      word(file, map.find("status"), {"optimal", "feasible", "infeasible", "undecided"});
   result.campaign = word(file, map.find("campaign"), {"held", "violated", "undecided"});
   if (const auto bounds = map.find("active_bounds")) {
     if (!bounds->value.IsSequence())

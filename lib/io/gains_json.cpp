@@ -58,9 +58,12 @@ Json solver_json(const model::SolverRecord& solver) {
 }
 
 Json margin_json(const model::Margin& margin) {
-  return {{"name", margin.name},         {"strict", margin.strict},
-          {"holds", margin.holds},       {"reached", margin.reached},
-          {"required", margin.required}, {"smallest_eigenvalue", margin.smallest_eigenvalue},
+  return {{"name", margin.name},
+          {"strict", margin.strict},
+          {"holds", margin.holds},
+          {"reached", margin.reached},
+          {"required", margin.required},
+          {"smallest_eigenvalue", margin.smallest_eigenvalue},
           {"worst_point", margin.worst_point}};
 }
 

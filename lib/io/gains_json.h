@@ -19,8 +19,8 @@ std::string gains_text(const model::Gains& gains);
 
 /// Reads a gain file. InputError with the place, or the path of the key, when it is truncated,
 /// lacks a key, holds an unknown one or a value of the wrong kind, when its status or cause differs
-/// from its solver's, or when its statement does not match its hash. The decimals of its matrices and
-/// searched scalars are kept (model::decimals_of).
+/// from its solver's, or when its statement does not match its hash. The decimals of its matrices
+/// and searched scalars are kept (model::decimals_of).
 model::Gains parse_gains(const std::string& text, const std::string& file);
 
 /// The problem that a gain file states; the method is the text in the file, whatever the program's

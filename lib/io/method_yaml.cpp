@@ -264,7 +264,9 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
   method.signals = named(file, map.find("signals"), "signals");
   for (const YamlItem& item : items_of(file, map.find("claims"), "claims"))
     method.claims.push_back(claim(file, item));
-  map.finish();
+  map.finish({{"maximize", "write minimize: -(...)"},
+              {"maximise", "write minimize: -(...)"},
+              {"objective", "write minimize: ..."}});
   if (method.require.empty())
     throw InputError(map.place(),
                      "the method '" + method.name + "' has no inequality under 'require'");

@@ -190,6 +190,16 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
   return result;
 }
 
+/// What to do with keys that stand at the wrong level.
+std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
+  std::map<std::string, std::string> advice;
+  advice["let"] = "a problem has no definitions: write numbers and expressions in 'data'";
+  for (const auto& datum : method.data) advice[datum.name] = "it belongs under 'data'";
+  for (const auto& parameter : method.parameters)
+    advice[parameter.name] = "it belongs under 'parameters'";
+  return advice;
+}
+
 }  // namespace
 
 model::Problem parse_problem(const std::string& text, const std::string& file,
@@ -213,7 +223,7 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.negotiable = scalar_ranges(yaml, map.find("negotiable"), "negotiable", *problem.method);
   problem.campaign = campaign(yaml, map.find("campaign"), *problem.method);
   if (const auto expect = map.find("expect")) problem.expect = expectation_from(yaml, *expect);
-  map.finish();
+  map.finish(advice_on_keys(*problem.method));
   return problem;
 }
 

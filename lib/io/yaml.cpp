@@ -272,10 +272,13 @@ expr::Text YamlFile::scalar(const YAML::Node& node, const std::string& what) con
 }
 
 expr::Expression YamlFile::expression(const YAML::Node& node, const std::string& what) const {
+  const bool is_number = !what.empty() && what.find_first_not_of("0123456789") == what.npos;
   if (node.IsNull())
     throw InputError(place(node),
                      what + ": the formula is missing" +
-                         (is_written(node) ? "; YAML reads null and ~ as nothing" : ""));
+                         (is_written(node) ? "; YAML reads null and ~ as nothing"
+                          : is_number      ? "; a decimal is written with a point, not with a comma"
+                                           : ""));
   if (node.IsSequence())
     throw InputError(
         place(node),
@@ -334,11 +337,14 @@ YamlItem YamlMap::require(const std::string& key) {
   throw InputError(place_, what_ + ": the key '" + key + "' is missing");
 }
 
-void YamlMap::finish() const {
-  for (const YamlItem& item : items_)
-    if (std::find(asked_.begin(), asked_.end(), item.key) == asked_.end())
-      throw InputError(item.place,
-                       what_ + ": unknown key '" + item.key + "'" + suggestion(item.key, asked_));
+void YamlMap::finish(const std::map<std::string, std::string>& advice) const {
+  for (const YamlItem& item : items_) {
+    if (std::find(asked_.begin(), asked_.end(), item.key) != asked_.end()) continue;
+    const auto known = advice.find(item.key);
+    throw InputError(item.place, what_ + ": unknown key '" + item.key + "'" +
+                                     (known != advice.end() ? "; " + known->second
+                                                            : suggestion(item.key, asked_)));
+  }
 }
 
 std::vector<YamlItem> items_of(const YamlFile& file, const std::optional<YamlItem>& item,

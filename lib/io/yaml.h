@@ -3,6 +3,7 @@
 
 #include <yaml-cpp/yaml.h>
 
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -72,8 +73,9 @@ class YamlMap {
   const std::vector<YamlItem>& items() const { return items_; }
   std::optional<YamlItem> find(const std::string& key);
   YamlItem require(const std::string& key);
-  /// InputError at the first key that nobody asked for, with the nearest one that somebody did.
-  void finish() const;
+  /// InputError at the first key that nobody asked for, with `advice` on it or else the nearest one
+  /// that somebody did.
+  void finish(const std::map<std::string, std::string>& advice = {}) const;
   const Place& place() const { return place_; }
   const std::string& what() const { return what_; }
 

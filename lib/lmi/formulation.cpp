@@ -182,13 +182,30 @@ std::optional<Round> next_round(const Formulation& formulation, const sdp::Solut
 
 double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
                              const sdp::Solution& solution) {
-  // F_0 holds the shifts on the diagonals: take them out again.
-  double bound = solution.dual_objective;
-  for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
-    const std::size_t n = formulation.releases.kept[k].size();
-    for (std::size_t i = 0; i < n; ++i)
-      bound -= formulation.shift * solution.Y.values[k][i * n + i];
+  constexpr double kLike = 10;
+  constexpr double kRounding = 1e-14;
+  // c'x >= -sum_k <B_k0, Y_k> + r'x  with  r_i = c_i - sum_k <B_ki, Y_k>.
+  std::vector<double> r(solution.x.size() + 1, 0.0);
+  std::vector<double> sizes(r.size(), 0.0);
+  const auto add = [&](int i, double term) {
+    r[static_cast<std::size_t>(i)] += term;
+    sizes[static_cast<std::size_t>(i)] += std::abs(term);
+  };
+  for (int i = 1; i <= lmi.unknowns; ++i)
+    add(i, lmi.objective[static_cast<std::size_t>(i) - 1] * formulation.balance.unit(i) *
+               formulation.cost_unit);
+  for (std::size_t k = 0; k < formulation.blocks.size(); ++k) {
+    const auto n = static_cast<std::size_t>(formulation.blocks[k].size);
+    const auto& Y = solution.Y.values[k];
+    for (const BalancedBlock::Element& e : formulation.blocks[k].elements) {
+      const auto row = static_cast<std::size_t>(e.row);
+      const auto column = static_cast<std::size_t>(e.column);
+      add(e.unknown, -(row == column ? 1 : 2) * e.value * Y[row * n + column]);
+    }
   }
+  double bound = r[0] - kRounding * sizes[0];
+  for (std::size_t i = 1; i < r.size(); ++i)
+    bound -= (std::abs(r[i]) + kRounding * sizes[i]) * kLike * std::abs(solution.x[i - 1]);
   return bound / formulation.cost_unit + lmi.objective_constant;
 }
 

@@ -287,7 +287,9 @@ class Collector {
     if (bound.e.shape.size() == 0) return;
     for (const BoundedProduct& known : result_.list)
       if (known.scalar == bound.scalar && is_same(known.e, bound.e)) return;
-    result_.blocks.push_back(bound_block(bound, result_.beta));
+    // A little less, so that what the solver reaches is within.
+    constexpr double kRoom = 1e-9;
+    result_.blocks.push_back(bound_block(bound, result_.beta * (1 - kRoom)));
     result_.list.push_back(std::move(bound));
   }
 
@@ -316,8 +318,9 @@ std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
     if (const numbers::Cholesky factor(s); factor) {
       const double largest =
           numbers::symmetric_eigenvalues(e.transpose() * factor.solve(e)).maxCoeff();
-      record.reached =
-          std::sqrt(std::max(0.0, largest) / numbers::symmetric_eigenvalues(s).minCoeff());
+      // With the rounding of these lines.
+      record.reached = (1 + 1e-12) * std::sqrt(std::max(0.0, largest) /
+                                               numbers::symmetric_eigenvalues(s).minCoeff());
     }
     record.active = record.reached > kActive * bounds.beta;
     result.push_back(std::move(record));

@@ -127,7 +127,10 @@ class Checker {
     margin.holds = shown || (result_.violations.size() == violations && worst.value >= -rounding &&
                              check(inequality, comparison, margin.name, std::move(proof)));
     // What is below 0 is then rounding: the decimals hold.
-    if (margin.holds) margin.reached = std::max(margin.reached, 0.0);
+    if (margin.holds) {
+      margin.reached = std::max(margin.reached, 0.0);
+      margin.smallest_eigenvalue = std::max(margin.smallest_eigenvalue, 0.0);
+    }
     result_.margins.push_back(std::move(margin));
   }
 

@@ -36,7 +36,7 @@ struct ScalarRange {
 struct UnknownDeclaration : Declaration {
   std::string variable;                    ///< "tau" of `of: tau`; empty: a matrix
   std::optional<expr::Expression> degree;  ///< of its polynomial; none: 0
-  std::optional<ScalarRange> in;           ///< "in: [0, T2]": where its digits are kept
+  std::optional<ScalarRange> in{};         ///< "in: [0, T2]": where its digits are kept
 };
 
 /// A scalar that the engineer may tune.

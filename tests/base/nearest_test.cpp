@@ -43,8 +43,8 @@ TEST(EditDistance, IsSymmetricAndBoundedByTheLongerWord) {
 TEST(Nearest, FindsTheLikelyMisspelling) {
   const std::vector<std::string> known = {"delta", "eta", "a1", "sampling"};
   EXPECT_EQ(nearest("dleta", known), "delta");
-  EXPECT_EQ(nearest("SAMPLING", known), std::nullopt);  // 8 halves, 2 whole allowed
   EXPECT_EQ(nearest("Sampling", known), "sampling");
+  EXPECT_EQ(nearest("SAMPLING", known), "sampling");
   EXPECT_EQ(nearest("smplin", known), "sampling");
   EXPECT_EQ(nearest("horizon", known), std::nullopt);
 }

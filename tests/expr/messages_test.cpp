@@ -80,7 +80,9 @@ TEST_F(Messages, ADecimalHasAPoint) {
 
 TEST_F(Messages, NumbersHaveNoUnits) {
   expect("5ms", 2, {"no units", "for 5 ms write 5e-3", "5*ms"});
-  expect("2.5kHz", 4, {"for 2.5 kHz write 2.5e3"});
+  expect("2.5kHz", 4, {"no units", "its inverse"});
+  expect("100 Hz", 5, {"no units", "its inverse"});
+  expect("2 min", 3, {"for 2 min write 2*60"});
   expect("1e2us", 4, {"no units", "1e2*us"});
   expect("2A", 2, {"2*A"});
   expect("0.2 s", 5, {"for 0.2 s write 0.2,"});
