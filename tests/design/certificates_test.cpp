@@ -96,6 +96,40 @@ TEST(CertificatesTest, AnObjectiveIsAsPreciseInEveryUnit) {
   }
 }
 
+/// Where solutions are unbounded a dual solution satisfies its equations only to a tolerance.
+TEST(CertificatesTest, NoSolutionOfLikeSizeIsBelowTheBound) {
+  const struct {
+    const char* require;
+    const char* minimize;
+    double least;
+  } cases[] = {
+      {"a: x >= 1, b: y >= 5", "y", 5},
+      {"a: x >= 2.5, b: y >= 0.5", "y", 0.5},
+      {"a: x > 2.5, b: y > 1000000", "y", 1000000},
+      {"a: x >= 1e12, b: y >= 1", "x", 1e12},
+      {"a: \"(4e-3)*x >= 1000\", b: \"(1e-2)*x >= 50000\", c: \"(2e-8)*x > -1e-2\", d: y > x",
+       "\"(1e-6)*x\"", 5}};
+  for (const auto& one : cases) {
+    const model::Gains gains =
+        solve("problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar}\n  require: {" +
+              std::string(one.require) + "}\n  minimize: " + one.minimize + "\n");
+    ASSERT_EQ(gains.verdict, model::Verdict::yes) << one.require;
+    EXPECT_LE(*gains.objective_lower_bound, one.least) << one.require;
+    EXPECT_NEAR(*gains.objective / one.least, 1, 1e-6) << one.require;
+  }
+}
+
+/// A - L*C is Hurwitz for |L| > 1 only.
+TEST(CertificatesTest, AStatedGainBoundHoldsToTheLastDigit) {
+  const std::string text =
+      "problem: p\nmethod:\n  method: m\n  unknowns: {P: symmetric 2, Y: 2 x 1}\n  require: {p: P "
+      "> 0, "
+      "r: \"He(P*[1, 0; 0, -1] - Y*[1, 0]) < 0\"}\n  gains: {L: inv(P)*Y}\nsynthesis: "
+      "{gain_bound: ";
+  EXPECT_EQ(solve(text + "1}\n").verdict, model::Verdict::undecided);
+  EXPECT_EQ(solve(text + "1.01}\n").verdict, model::Verdict::yes);
+}
+
 /// The certificate of a plant with one unstable mode has the rank 1, and no other exists.
 TEST(CertificatesTest, SingularCertificatesAreFound) {
   std::mt19937 generator(7);

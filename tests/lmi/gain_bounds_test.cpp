@@ -78,6 +78,25 @@ TEST(GainBoundsTest, FunctionsAreBoundedCoefficientByCoefficient) {
     EXPECT_NEAR(reached[i].reached, expected[i], 1e-11 * expected[i]) << reached[i].what;
 }
 
+/// Coefficients of Chebyshev polynomials, and of what is inverted, bound nothing.
+TEST(GainBoundsTest, InversesOfFunctionsAreBoundedAtPoints) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  unknowns:\n"
+      "    P: {shape: symmetric 2, of: s, in: [0, 2], degree: 1}\n"
+      "    Y: {shape: 2 x 1, of: s, in: [0, 2], degree: 1}\n"
+      "  require: {positive: {forall: \"s in [0, 2]\", that: P(s) > 0}}\n"
+      "  gains: {L(s): inv(P(s))*Y(s), F: inv(P(0))*Y(2)}\n");
+  const GainBounds bounds = gain_bounds(Inequalities(yaml.instance), 100);
+  EXPECT_EQ(names(bounds),
+            (std::vector<std::string>{"inv(P(s))*Y(s) at s = 0", "inv(P(s))*Y(s) at s = 1",
+                                      "inv(P(s))*Y(s) at s = 2", "inv(P(0))*Y(2)"}));
+  // P = (2 + (s - 1)) I, Y = [1; 0] + 3 (s - 1) [1; 0].
+  const auto reached = reached_bounds(bounds, {2, 0, 2, 1, 0, 1, 1, 0, 3, 0});
+  const double expected[] = {2, 1. / 2, 4. / 3, 4};
+  for (std::size_t i = 0; i < reached.size(); ++i)
+    EXPECT_NEAR(reached[i].reached, expected[i], 1e-11 * expected[i]) << reached[i].what;
+}
+
 /// A call in a definition is no part of the gain's text, which may have spaces.
 TEST(GainBoundsTest, CallsMayStandInDefinitions) {
   const tests::YamlProblem yaml(
@@ -92,7 +111,8 @@ TEST(GainBoundsTest, CallsMayStandInDefinitions) {
   const auto reached = reached_bounds(bounds, {1, 0, 1, 1, 0, 4, 0, 1});
   const double expected[] = {2, 8, 2, 24, 1, 4};
   for (std::size_t i = 0; i < reached.size(); ++i)
-    EXPECT_NEAR(reached[i].reached, expected[i], 1e-11 * std::max(1.0, expected[i])) << reached[i].what;
+    EXPECT_NEAR(reached[i].reached, expected[i], 1e-11 * std::max(1.0, expected[i]))
+        << reached[i].what;
 }
 
 TEST(GainBoundsTest, AnEmptyGainNeedsNoBound) {
