@@ -264,10 +264,11 @@ class OnFaces {
     if (!lmi::has_minimum(left.lmi, {})) return;
     const auto formulation = lmi::formulate_objective(left.lmi, {}, posed_.choices().margin);
     Attempt minimum;
-    minimum.solution = solve_(formulation.problem, {"auto", 1e-8});
+    minimum.solution = solve_(formulation.problem, {"auto", 1e-10});
     if (!minimum.is_near_optimal()) return;
     const auto least = lmi::read_back(left.lmi, formulation, minimum.solution);
-    for (const double e : {0.0, 1e-12, 1e-10, 1e-8, 1e-6, 1e-4, 1e-3, 1e-2, 0.1}) {
+    for (const double e :
+         {0.0, 1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1}) {
       std::vector<double> y = least;
       for (std::size_t i = 0; i < y.size(); ++i) y[i] += e * (inside[i] - least[i]);
       if (!std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); }))

@@ -12,6 +12,8 @@ std::string to_string(Relation relation) {
       return ">";
     case Relation::greater_equal:
       return ">=";
+    case Relation::equal:
+      return "==";
   }
   return "?";
 }

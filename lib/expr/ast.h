@@ -29,9 +29,9 @@ enum class NodeKind {
   compare  ///< children = operands of a chain a < b <= c; relations between them
 };
 
-enum class Relation { less, less_equal, greater, greater_equal };
+enum class Relation { less, less_equal, greater, greater_equal, equal };
 
-/// "<", "<=", ">", ">=".
+/// "<", "<=", ">", ">=", "==".
 std::string to_string(Relation relation);
 
 struct Node {

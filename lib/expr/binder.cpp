@@ -291,6 +291,15 @@ Bound Binder::power(const Expression& expression, const Node& node) {
           base.identity};
 }
 
+int Binder::equation(const Expression& expression, const Node& node, int difference) {
+  const auto [rows, columns] = shape(difference);
+  const int transposed = sized(expression, node, transpose(expression, node, {difference}));
+  const int above = emit(expression, node, Op::zeros, {}, {rows, rows});
+  const int below = emit(expression, node, Op::zeros, {}, {columns, columns});
+  return emit(expression, node, Op::blocks, {above, difference, transposed, below},
+              {rows + columns, rows + columns}, {2});
+}
+
 Program compile(const Expression& expression, const Scope& scope, std::optional<Shape> expected) {
   count_bound();
   Binder binder(scope);
@@ -323,6 +332,10 @@ std::vector<CompiledRelation> compile_relations(const Expression& expression, co
     pair.children = {root.children[large], root.children[small]};
     const Bound difference = binder.subtract(expression, pair, sides[large], sides[small]);
     const int at = binder.sized(expression, pair, difference);
+    if (relation == Relation::equal) {
+      relations.push_back({binder.extract(binder.equation(expression, pair, at)), false, true});
+      continue;
+    }
     if (!binder.shape(at).is_square())
       throw InputError(expression.place(pair), "a comparison of matrices needs square ones, not " +
                                                    to_string(binder.shape(at)));

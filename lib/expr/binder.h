@@ -29,6 +29,8 @@ class Binder {
   /// The instruction of a value whose shape is known; `I` alone is an error.
   int sized(const Expression& expression, const Node& node, Bound value);
   Bound subtract(const Expression& expression, const Node& node, Bound a, Bound b);
+  /// [0, D; D', 0], which is >= 0 where D = 0 and nowhere else.
+  int equation(const Expression& expression, const Node& node, int difference);
 
   Shape shape(int at) const { return assembly_.shape(at); }
   /// The program that computes `at`, without the instructions that it does not need.

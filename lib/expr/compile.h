@@ -22,8 +22,9 @@ Program compile(const Expression& expression, const Scope& scope,
 
 /// One comparison of a chain: the larger side minus the smaller one, to be > 0 (strict) or >= 0.
 struct CompiledRelation {
-  Program difference;
+  Program difference;  ///< of `==`: [0, D; D', 0], D of any shape
   bool strict = true;
+  bool equation = false;
 };
 
 /// The comparisons of a chain such as I <= P <= kappa*I, in order. InputError when the expression

@@ -45,8 +45,7 @@ using Foreign = std::pair<std::string_view, std::string_view>;
 constexpr auto kForeign = std::to_array<Foreign>({
     {"=>", "did you mean >=?"},
     {"=<", "did you mean <=?"},
-    {"==", "equations are not part of the language; use two inequalities or a definition"},
-    {"=", "equations are not part of the language; definitions go into 'let'"},
+    {"=", "an equation of a requirement is written ==, and definitions go into 'let'"},
     {".nan", "a number must be finite"},
     {".NaN", "a number must be finite"},
     {".NAN", "a number must be finite"},
@@ -124,7 +123,8 @@ std::vector<Token> tokenize(const Text& text) {
     } else {
       const std::string_view rest = source.substr(at);
       for (const auto& [spelling, advice] : kForeign)
-        if (rest.starts_with(spelling) && spelling != "**") refuse(text, at);
+        if (rest.starts_with(spelling) && spelling != "**" && !rest.starts_with("=="))
+          refuse(text, at);
       bool known = false;
       for (const auto& [spelling, kind] : kSymbols) {
         if (!rest.starts_with(spelling)) continue;

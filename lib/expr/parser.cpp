@@ -23,6 +23,8 @@ std::optional<Relation> relation_of(TokenKind kind) {
       return Relation::greater;
     case TokenKind::greater_equal:
       return Relation::greater_equal;
+    case TokenKind::equal:
+      return Relation::equal;
     default:
       return std::nullopt;
   }

@@ -196,8 +196,13 @@ void Binding::add_definitions() {
 void Binding::add_assumption(const Named& assumption) {
   Design::Assumption bound;
   bound.text = assumption.value.text->str();
-  for (const auto& relation : compile_relations(assumption.value, names_->known))
+  for (const auto& relation : compile_relations(assumption.value, names_->known)) {
+    if (relation.equation)
+      throw InputError(assumption.place,
+                       "'==' stands in requirements only; an assumption is an "
+                       "inequality of scalars, such as 0 < T1 <= T2");
     bound.differences.emplace_back(relation.difference, relation.strict);
+  }
   for (const std::string& name : names_in(assumption.value)) {
     const auto value = recorder_->values.find(name);
     if (value == recorder_->values.end() || value->second.size() != 1) continue;

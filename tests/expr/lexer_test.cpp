@@ -81,7 +81,7 @@ TEST(Lexer, NothingIsTheEndAlone) {
 
 TEST(Lexer, SpellingsOfOtherLanguagesAreExplained) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"==", "two inequalities"}, {"=", "'let'"},
+      {"=", "'let'"},
       {".nan", "finite"},         {".NaN", "finite"},
       {".NAN", "finite"},         {".inf", "finite"},
       {".Inf", "finite"},         {".INF", "finite"},

@@ -1,0 +1,75 @@
+// Equations between matrices: solved exactly, or refused by a certificate.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/random.h"
+#include "design/synthesize.h"
+#include "numbers/dense.h"
+#include "support/yaml_problem.h"
+
+namespace gainsmith::design {
+namespace {
+
+model::Gains solve(const std::string& method, const std::string& data = "") {
+  const tests::YamlProblem yaml("problem: p\nmethod:\n  method: m\n" + method + data);
+  return synthesize(yaml.instance, {});
+}
+
+/// min tr(C P) over P >= 0, tr(P) = 1 is the smallest eigenvalue of C.
+TEST(Equations, TheSmallestEigenvalueIsAMinimumOverATrace) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    RandomStream random(0xE0, seed);
+    const int n = 2 + static_cast<int>(seed % 4);
+    numbers::Matrix C(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j <= i; ++j) C(i, j) = C(j, i) = std::round(128 * random.uniform() - 64) / 64;
+    const model::Gains gains = solve(
+        "  data: {C: n x n}\n  unknowns: {P: symmetric n}\n"
+        "  require: {shape: P >= 0, one: trace(P) == 1}\n  minimize: trace(C*P)\n",
+        "data: {C: " + tests::matrix_yaml(C) + "}\n");
+    ASSERT_EQ(gains.verdict, model::Verdict::yes) << seed;
+    EXPECT_NEAR(*gains.objective, numbers::smallest_eigenvalue(C), 1e-6) << seed;
+    EXPECT_NEAR(gains.unknowns.front().second.trace(), 1, 1e-15) << seed;
+  }
+}
+
+const std::string kPassive =
+    "  data: {A: n x n, B: n x 1, C: 1 x n}\n  unknowns: {P: symmetric n}\n"
+    "  require: {positive: P > 0, decrease: He(P*A) < 0, output: P*B == C'}\n";
+
+/// (s + 1)/(s^2 + 3 s + 2): P = [a, 1; 1, 1] with 1 < a and |a - 5| < 4 (Kalman, Yakubovich, Popov).
+TEST(Equations, ThoseOfPassivityHoldExactly) {
+  const model::Gains gains =
+      solve(kPassive, "data: {A: [[0, 1], [-2, -3]], B: [[0], [1]], C: [1, 1]}\n");
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  const numbers::Matrix& P = gains.unknowns.front().second;
+  EXPECT_EQ(P(0, 1), 1);
+  EXPECT_EQ(P(1, 1), 1);
+  EXPECT_LT(std::abs(P(0, 0) - 5), 4);
+  // With s - 1 above it is not passive: P(1,2) = -1.
+  EXPECT_EQ(solve(kPassive, "data: {A: [[0, 1], [-2, -3]], B: [[0], [1]], C: [-1, 1]}\n").verdict,
+            model::Verdict::no);
+}
+
+TEST(Equations, WithoutASolutionAreANo) {
+  EXPECT_EQ(solve("  unknowns: {P: symmetric 2}\n  require: {a: P > I, b: trace(P) == 2}\n").verdict,
+            model::Verdict::no);
+  EXPECT_EQ(solve("  unknowns: {x: scalar}\n  require: {a: x == 1, b: x == 2}\n").verdict,
+            model::Verdict::no);
+}
+
+TEST(Equations, StandInChainsAndHaveAnyShape) {
+  const model::Gains gains = solve(
+      "  data: {M: n x m}\n  unknowns: {X: n x m, Y: n x m, g: scalar}\n"
+      "  require: {same: X == Y == M, size: \"[g*I, X; *, I] > 0\"}\n  minimize: g\n",
+      "data: {M: [[3, 0, 0.1], [0, 4, 0]]}\n");
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  const numbers::Matrix expected{{3, 0, 0.1}, {0, 4, 0}};
+  EXPECT_EQ(gains.unknowns[0].second, expected);
+  EXPECT_EQ(gains.unknowns[1].second, expected);
+  EXPECT_NEAR(*gains.objective, 16, 1e-5);
+}
+
+}  // namespace
+}  // namespace gainsmith::design
