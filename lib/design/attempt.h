@@ -69,6 +69,7 @@ struct Attempt {
   std::vector<numbers::Matrix> multipliers;
   /// Of a point that was found without the gain bounds of the problem: its largest gain.
   double largest_gain = 0;
+  double reached_gain = 0;  ///< the same as the bound measures it (lmi::GainBounds)
 
   bool is_optimal() const { return solution.status == sdp::Status::optimal; }
   /// Optimal, or with objectives that nearly agree.

@@ -120,10 +120,10 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
                                " exist: raise synthesis.gain_bound");
       return;
     }
-    if (!(largest <= bounds.beta))
-      gains.solver.add_message("gains of " + brief(largest, 2) + ": none below the default of " +
-                               brief(bounds.beta) +
-                               " were found; synthesis.gain_bound states what is acceptable");
+    if (!(point.reached_gain <= bounds.beta))
+      gains.solver.add_message(
+          "gains of " + brief(largest, 2) + ": none within the default of " + brief(bounds.beta) +
+          " in balanced units were found; synthesis.gain_bound states what is acceptable");
   }
   note_wishes(point, gains);
   if (const Attempt* tighter = climb.find(Rung::tighter)) mark_free_gains(*tighter, lmi, gains);

@@ -83,6 +83,13 @@ struct Rungs {
       numbers::Values values = of.instance.values;
       for (auto& [name, matrix] : of.unknowns.values(result.x)) values[name] = matrix;
       result.largest_gain = largest_gain(of, values);
+      result.reached_gain = result.largest_gain;
+      // In the units of the bound.
+      if (!climb.bounds_.units.empty()) {
+        result.reached_gain = 0;
+        for (const auto& bound : lmi::reached_bounds(climb.bounds_, result.x))
+          result.reached_gain = std::max(result.reached_gain, bound.reached);
+      }
     }
     return result;
   }
@@ -119,7 +126,8 @@ struct Rungs {
   }
   static std::optional<Attempt> tighter(const Climb& climb) {
     return ask(climb, objective(climb, lmi::gain_bounds(climb.posed_.inequalities,
-                                                        kTighter * climb.bounds_.beta)));
+                                                        kTighter * climb.bounds_.beta,
+                                                        climb.bounds_.units)));
   }
 };
 
@@ -199,7 +207,7 @@ const Attempt& Climb::last() const {
 }
 
 bool Climb::is_yes(const Attempt& attempt) const {
-  return attempt.holds() && (!is_free(attempt) || attempt.largest_gain <= bounds_.beta);
+  return attempt.holds() && (!is_free(attempt) || attempt.reached_gain <= bounds_.beta);
 }
 
 bool Climb::is_free(const Attempt& attempt) const {

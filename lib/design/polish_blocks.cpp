@@ -12,7 +12,7 @@ SmoothBlocks smooth_blocks(const model::Instance& instance) {
   const model::SynthesisOptions& choices = instance.design->synthesis;
   SmoothBlocks result;
   result.layout = inequalities.unknowns;
-  result.bounds = lmi::gain_bounds(inequalities, choices.gain_bound);
+  result.bounds = lmi::gain_bounds(inequalities, lmi);
   const lmi::Formulation formulation = lmi::formulate_objective(lmi, result.bounds, choices.margin);
   // The shift is that of the row with the smallest: any is enough, since what is found is solved
   // again.

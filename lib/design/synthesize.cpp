@@ -109,7 +109,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   const lmi::Inequalities inequalities(instance);
   forall::Plan plan = forall::make_plan(inequalities.design());
   lmi::Lmi lmi = lmi::compile(inequalities, plan);
-  const auto bounds = lmi::gain_bounds(inequalities, inequalities.design().synthesis.gain_bound);
+  const auto bounds = lmi::gain_bounds(inequalities, lmi);
   model::Gains gains = stated(instance);
   refuse_zero_solution(inequalities.design(), lmi);
   const Solve solve = [&](const sdp::Problem& problem, const Effort& effort) {
@@ -167,7 +167,7 @@ sdp::Problem semidefinite_program(const model::Instance& instance) {
   const lmi::Inequalities inequalities(instance);
   const model::SynthesisOptions& choices = inequalities.design().synthesis;
   const lmi::Lmi lmi = lmi::compile(inequalities);
-  const lmi::GainBounds bounds = lmi::gain_bounds(inequalities, choices.gain_bound);
+  const lmi::GainBounds bounds = lmi::gain_bounds(inequalities, lmi);
   if (lmi::has_minimum(lmi, bounds))
     return lmi::formulate_objective(lmi, bounds, choices.margin).problem;
   return lmi::formulate_interior(lmi, bounds, {}).problem;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <complex>
 #include <numbers>
+#include <numeric>
 
 #include "expr/evaluate.h"
 #include "numbers/dense.h"
@@ -104,6 +105,52 @@ void add_terms(std::vector<std::pair<Atom, numbers::Matrix>>& terms, const numbe
   }
 }
 
+/// log2 of units d for the states, 0 for the first of each part that hangs together: by least
+/// squares the elements F_ij 2^(d_j - d_i) longest are as near to 1 as they can be. Other units of
+/// the states and of the time, by powers of two, give the same matrix.
+std::vector<int> units_of(const numbers::Matrix& F, double longest) {
+  constexpr int kSweeps = 200;
+  const Eigen::Index n = F.rows();
+  Eigen::MatrixXd size = Eigen::MatrixXd::Zero(n, n);
+  Eigen::MatrixXi present = Eigen::MatrixXi::Zero(n, n);
+  std::vector<Eigen::Index> first(static_cast<std::size_t>(n));
+  std::iota(first.begin(), first.end(), 0);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index j = 0; j < n; ++j) {
+      if (i == j || F(i, j) == 0) continue;
+      present(i, j) = 1;
+      size(i, j) = std::ilogb(F(i, j));
+      const auto [low, high] =
+          std::minmax(first[static_cast<std::size_t>(i)], first[static_cast<std::size_t>(j)]);
+      std::replace(first.begin(), first.end(), high, low);
+    }
+  Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
+  const double middle = longest > 0 ? -std::ilogb(longest) : 0;
+  for (int sweep = 0; sweep < kSweeps; ++sweep)
+    for (Eigen::Index i = 0; i < n; ++i) {
+      double sum = 0;
+      int count = 0;
+      for (Eigen::Index j = 0; j < n; ++j) {
+        if (present(i, j) != 0) sum += size(i, j) - middle + d[j], ++count;
+        if (present(j, i) != 0) sum -= size(j, i) - middle - d[j], ++count;
+      }
+      if (count > 0) d[i] = sum / count;
+    }
+  std::vector<int> units;
+  for (Eigen::Index i = 0; i < n; ++i)
+    units.push_back(static_cast<int>(std::lround(d[i] - d[first[static_cast<std::size_t>(i)]])));
+  return units;
+}
+
+/// M_ij 2^(sign (d_j - d_i)).
+numbers::Matrix in_units(numbers::Matrix M, const std::vector<int>& units, int sign) {
+  for (Eigen::Index i = 0; i < M.rows(); ++i)
+    for (Eigen::Index j = 0; j < M.cols(); ++j)
+      M(i, j) = std::ldexp(M(i, j), sign * (units[static_cast<std::size_t>(j)] -
+                                            units[static_cast<std::size_t>(i)]));
+  return M;
+}
+
 void verify(const std::vector<std::pair<Atom, numbers::Matrix>>& terms, const numbers::Matrix& F,
             double low, double high) {
   constexpr int kPieces = 6;
@@ -122,15 +169,18 @@ void verify(const std::vector<std::pair<Atom, numbers::Matrix>>& terms, const nu
 
 }  // namespace
 
-std::vector<std::pair<Atom, numbers::Matrix>> residue_expansion(const numbers::Matrix& F,
+std::vector<std::pair<Atom, numbers::Matrix>> residue_expansion(const numbers::Matrix& given,
                                                                 double low, double high) {
-  const double norm = F.norm();
   const double longest = std::max(std::abs(low), std::abs(high));
+  const std::vector<int> units = units_of(given, longest);
+  const numbers::Matrix F = in_units(given, units, 1);
+  const double norm = F.norm();
   std::vector<std::pair<Atom, numbers::Matrix>> terms;
   const Eigen::VectorXcd eigenvalues = numbers::eigenvalues(F);
   for (const Cluster& cluster : clusters_of(eigenvalues, norm))
     if (cluster.mean.imag() >= 0) add_terms(terms, F, cluster, norm, longest);
   verify(terms, F, low, high);
+  for (auto& [atom, matrix] : terms) matrix = in_units(std::move(matrix), units, -1);
   return terms;
 }
 

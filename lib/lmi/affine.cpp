@@ -1,6 +1,8 @@
 #include "lmi/affine.h"
 
 #include <algorithm>
+#include <map>
+#include <tuple>
 #include <utility>
 
 #include "forall/hull.h"
@@ -103,9 +105,25 @@ std::set<int> monomials_in(const AffineForm& form) {
 }
 
 void remove_noise(AffineForm& form, const forall::MonomialTable& monomials) {
+  // An element of a term counts beside the largest one that the same unknown has there, so that no
+  // unit matters.
+  using Element = std::tuple<int, Eigen::Index, Eigen::Index>;
+  std::map<Element, double> largest;
+  const auto for_each = [&](const auto& visit) {
+    for (const auto& [key, matrix] : form.terms)
+      for (int column = 0; column < matrix.outerSize(); ++column)
+        for (Sparse::InnerIterator it(matrix, column); it; ++it)
+          visit(key.first, Element(key.second, it.row(), it.col()), std::abs(it.value()));
+  };
+  if (form.terms.empty() || form.terms.rbegin()->first.first == 0) return;
+  for_each([&](int, const Element& at, double size) {
+    double& most = largest[at];
+    most = std::max(most, size);
+  });
   forall::Sizes sizes;
-  for (const auto& [key, matrix] : form.terms)
-    sizes[key.first] = std::max(sizes[key.first], largest_element(matrix));
+  for_each([&](int monomial, const Element& at, double size) {
+    if (size > 0) sizes[monomial] = std::max(sizes[monomial], size / largest[at]);
+  });
   const std::set<int> noise = forall::noise(sizes, monomials);
   std::erase_if(form.terms, [&](const auto& term) { return noise.contains(term.first.first); });
 }

@@ -8,6 +8,8 @@
 #include <utility>
 
 #include "base/number.h"
+#include "lmi/balance.h"
+#include "lmi/gain_units.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::lmi {
@@ -207,7 +209,10 @@ AffineForm transposed(const AffineForm& form) {
 /// Collects the bounds of all gain formulas.
 class Collector {
  public:
-  Collector(const Inequalities& of, double beta) : of_(of) { result_.beta = beta; }
+  Collector(const Inequalities& of, double beta, std::vector<int> units) : of_(of) {
+    result_.beta = beta;
+    result_.units = std::move(units);
+  }
 
   GainBounds collect() {
     for (const model::Design::Gain& gain : of_.design().gains)
@@ -222,8 +227,10 @@ class Collector {
     for (const Part& part : affine_parts(gain, gain.whole, choice)) {
       if (!part.form.has_unknown()) continue;
       const int rows = part.form.shape.rows;
-      add({text_of(gain.whole, choice) + part.factor + choice.where(gain.variable),
-           constant_form(numbers::Matrix::Identity(rows, rows)), part.form, 0});
+      BoundedProduct bound{text_of(gain.whole, choice) + part.factor + choice.where(gain.variable),
+                           constant_form(numbers::Matrix::Identity(rows, rows)), part.form, 0};
+      if (!result_.units.empty()) bring_to_units(bound.s, bound.e, false, result_.units);
+      add(std::move(bound));
     }
   }
 
@@ -266,10 +273,15 @@ class Collector {
     const std::string where = choice.where(gain.variable);
     const std::string inverse = "inv(" + name + ")";
     const std::string text = text_of(*factor, choice);
-    for (const Part& part : parts)
-      add({(product.left ? inverse + "*" + text : text + "*" + inverse) + part.factor + where,
-           inverted.front().form, product.left ? part.form : transposed(part.form),
-           scalar_of(unknown != nullptr ? name : name + where, inverted.front().form)});
+    for (const Part& part : parts) {
+      BoundedProduct bound{
+          (product.left ? inverse + "*" + text : text + "*" + inverse) + part.factor + where,
+          inverted.front().form, product.left ? part.form : transposed(part.form), 0};
+      if (bound.e.shape.size() == 0) continue;
+      if (!result_.units.empty()) bring_to_units(bound.s, bound.e, true, result_.units);
+      bound.scalar = scalar_of(unknown != nullptr ? name : name + where, bound.s);
+      add(std::move(bound));
+    }
   }
 
   /// The scalar s of what S is called, made when it is first asked for.
@@ -300,9 +312,20 @@ class Collector {
 
 }  // namespace
 
-GainBounds gain_bounds(const Inequalities& inequalities, std::optional<double> beta) {
+GainBounds gain_bounds(const Inequalities& inequalities, std::optional<double> beta,
+                       std::vector<int> units) {
   if (!beta) return {};
-  return Collector(inequalities, *beta).collect();
+  return Collector(inequalities, *beta, std::move(units)).collect();
+}
+
+GainBounds gain_bounds(const Inequalities& inequalities, const Lmi& lmi) {
+  const model::SynthesisOptions& asked = inequalities.design().synthesis;
+  if (!asked.gain_bound || asked.gain_bound_stated || inequalities.design().gains.empty())
+    return gain_bounds(inequalities, asked.gain_bound);
+  std::vector<const Block*> blocks;
+  for (const Block& block : lmi.blocks) blocks.push_back(&block);
+  return gain_bounds(inequalities, asked.gain_bound,
+                     balance(blocks, lmi.unknowns, lmi.objective).unknowns);
 }
 
 std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,

@@ -35,6 +35,7 @@ struct BoundedProduct {
 
 struct GainBounds {
   double beta = 0;
+  std::vector<int> units;  ///< log2 d_i of each unknown (balance.h); empty: those of the problem
   std::vector<BoundedProduct> list;
   std::vector<Block> blocks;  ///< all non-strict, in terms of the unknowns and the scalars s
   int scalars = 0;            ///< number of scalars s, with the indices m + 1, m + 2, ...
@@ -43,7 +44,16 @@ struct GainBounds {
 /// One bound for each different product in the gain formulas: inv(S) with all factors beside it, or
 /// with the nearest where their product is not affine; none where that is not either, and none
 /// without `beta`.
-GainBounds gain_bounds(const Inequalities& inequalities, std::optional<double> beta);
+///
+/// With `units` (log2 d_i, balance.h) beta is meant in balanced units: with powers of two T and U,
+/// T S T and T E U stand for S and E, so that their elements are near 1 in these units. Nothing
+/// depends on the units of the problem then.
+GainBounds gain_bounds(const Inequalities& inequalities, std::optional<double> beta,
+                       std::vector<int> units = {});
+
+/// As the problem asks: a bound that it states is meant in its own units, the default in balanced
+/// ones.
+GainBounds gain_bounds(const Inequalities& inequalities, const Lmi& lmi);
 
 /// How far each bound is used at x: sqrt(lambda_max(E' inv(S) E) / lambda_min(S)), never less than
 /// the largest singular value of the gain; `active` here: above 99 % of the bound.

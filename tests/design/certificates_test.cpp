@@ -119,6 +119,25 @@ TEST(CertificatesTest, NoSolutionOfLikeSizeIsBelowTheBound) {
   }
 }
 
+/// A state in other units: the gain has them, the margins stay.
+TEST(CertificatesTest, TheDefaultGainBoundIsInNoUnits) {
+  const auto reset = [](int exponent) {
+    return solve("problem: p\nmethod: reset-observer\ndata: {A: [[0, 2^" +
+                 std::to_string(exponent) + "], [0, 0]], C: [1, 0], T1: 0.1, T2: 0.2}\n");
+  };
+  const model::Gains reference = reset(0);
+  ASSERT_EQ(reference.verdict, model::Verdict::yes);
+  for (const int exponent : {-40, -20, 20}) {
+    const model::Gains gains = reset(exponent);
+    ASSERT_EQ(gains.verdict, model::Verdict::yes) << exponent;
+    const numbers::Matrix& F = gains.gains.front().second;
+    EXPECT_EQ(F(0), reference.gains.front().second(0)) << exponent;
+    EXPECT_EQ(std::ldexp(F(1), exponent), reference.gains.front().second(1)) << exponent;
+    for (std::size_t i = 0; i < gains.margins.size(); ++i)
+      EXPECT_EQ(gains.margins[i].reached, reference.margins[i].reached) << exponent;
+  }
+}
+
 /// A - L*C is Hurwitz for |L| > 1 only.
 TEST(CertificatesTest, AStatedGainBoundHoldsToTheLastDigit) {
   const std::string text =
