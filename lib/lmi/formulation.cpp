@@ -182,7 +182,7 @@ std::optional<Round> next_round(const Formulation& formulation, const sdp::Solut
 
 double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
                              const sdp::Solution& solution) {
-  constexpr double kLike = 10;
+  constexpr double kLike = 2;
   constexpr double kRounding = 1e-14;
   // c'x >= -sum_k <B_k0, Y_k> + r'x  with  r_i = c_i - sum_k <B_ki, Y_k>.
   std::vector<double> r(solution.x.size() + 1, 0.0);

@@ -86,8 +86,8 @@ std::optional<Round> next_round(const Formulation& formulation, const sdp::Solut
 
 /// A lower bound on the objective without margins by weak duality with the dual solution Y,
 ///   c'x >= -sum_k <B_k0, Y_k> + sum_i r_i x_i,   r_i = c_i - sum_k <B_ki, Y_k>,
-/// for every x that satisfies the inequalities and is like the solution: no |x_i| is more than ten
-/// times as large.
+/// for every x that satisfies the inequalities and is like the solution: no |x_i| is more than
+/// twice as large.
 double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
                              const sdp::Solution& solution);
 
