@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/scalars.h"
 #include "lmi/assembler.h"
 #include "lmi/correlation.h"
 
@@ -183,13 +184,13 @@ std::optional<Round> next_round(const Formulation& formulation, const sdp::Solut
 double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
                              const sdp::Solution& solution) {
   constexpr double kLike = 2;
-  constexpr double kRounding = 1e-14;
+  constexpr double kRounding = 3e-16;  // of the coefficients, which stand for decimals
   // c'x >= -sum_k <B_k0, Y_k> + r'x  with  r_i = c_i - sum_k <B_ki, Y_k>.
-  std::vector<double> r(solution.x.size() + 1, 0.0);
+  std::vector<DoubleDouble> r(solution.x.size() + 1, DoubleDouble(0));
   std::vector<double> sizes(r.size(), 0.0);
-  const auto add = [&](int i, double term) {
-    r[static_cast<std::size_t>(i)] += term;
-    sizes[static_cast<std::size_t>(i)] += std::abs(term);
+  const auto add = [&](int i, double factor, double times = 1) {
+    r[static_cast<std::size_t>(i)] += DoubleDouble(factor) * DoubleDouble(times);
+    sizes[static_cast<std::size_t>(i)] += std::abs(factor * times);
   };
   for (int i = 1; i <= lmi.unknowns; ++i)
     add(i, lmi.objective[static_cast<std::size_t>(i) - 1] * formulation.balance.unit(i) *
@@ -200,12 +201,13 @@ double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
     for (const BalancedBlock::Element& e : formulation.blocks[k].elements) {
       const auto row = static_cast<std::size_t>(e.row);
       const auto column = static_cast<std::size_t>(e.column);
-      add(e.unknown, -(row == column ? 1 : 2) * e.value * Y[row * n + column]);
+      add(e.unknown, -(row == column ? 1 : 2) * e.value, Y[row * n + column]);
     }
   }
-  double bound = r[0] - kRounding * sizes[0];
+  double bound = as<double>(r[0]) - kRounding * sizes[0];
   for (std::size_t i = 1; i < r.size(); ++i)
-    bound -= (std::abs(r[i]) + kRounding * sizes[i]) * kLike * std::abs(solution.x[i - 1]);
+    bound -=
+        (std::abs(as<double>(r[i])) + kRounding * sizes[i]) * kLike * std::abs(solution.x[i - 1]);
   return bound / formulation.cost_unit + lmi.objective_constant;
 }
 
