@@ -38,7 +38,8 @@ const std::string kPassive =
     "  data: {A: n x n, B: n x 1, C: 1 x n}\n  unknowns: {P: symmetric n}\n"
     "  require: {positive: P > 0, decrease: He(P*A) < 0, output: P*B == C'}\n";
 
-/// (s + 1)/(s^2 + 3 s + 2): P = [a, 1; 1, 1] with 1 < a and |a - 5| < 4 (Kalman, Yakubovich, Popov).
+/// (s + 1)/(s^2 + 3 s + 2): P = [a, 1; 1, 1] with 1 < a and |a - 5| < 4 (Kalman, Yakubovich,
+/// Popov).
 TEST(Equations, ThoseOfPassivityHoldExactly) {
   const model::Gains gains =
       solve(kPassive, "data: {A: [[0, 1], [-2, -3]], B: [[0], [1]], C: [1, 1]}\n");
@@ -53,8 +54,9 @@ TEST(Equations, ThoseOfPassivityHoldExactly) {
 }
 
 TEST(Equations, WithoutASolutionAreANo) {
-  EXPECT_EQ(solve("  unknowns: {P: symmetric 2}\n  require: {a: P > I, b: trace(P) == 2}\n").verdict,
-            model::Verdict::no);
+  EXPECT_EQ(
+      solve("  unknowns: {P: symmetric 2}\n  require: {a: P > I, b: trace(P) == 2}\n").verdict,
+      model::Verdict::no);
   EXPECT_EQ(solve("  unknowns: {x: scalar}\n  require: {a: x == 1, b: x == 2}\n").verdict,
             model::Verdict::no);
 }

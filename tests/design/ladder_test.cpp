@@ -137,7 +137,8 @@ TEST(Ladder, AnObjectiveWithoutConstantsHasNoMinimum) {
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_FALSE(run.gains.objective);
   EXPECT_FALSE(run.gains.objective_lower_bound);
-  EXPECT_TRUE(run.says("the objective has no minimum, since without constant parts")) << run.message();
+  EXPECT_TRUE(run.says("the objective has no minimum, since without constant parts"))
+      << run.message();
 }
 
 /// x > 2 and x < 1: their sum is 0 x - 1 > 0.

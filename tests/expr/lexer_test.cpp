@@ -81,13 +81,10 @@ TEST(Lexer, NothingIsTheEndAlone) {
 
 TEST(Lexer, SpellingsOfOtherLanguagesAreExplained) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"=", "'let'"},
-      {".nan", "finite"},         {".NaN", "finite"},
-      {".NAN", "finite"},         {".inf", "finite"},
-      {".Inf", "finite"},         {".INF", "finite"},
-      {".*", "diag(a)*b"},        {"&", "chain"},
-      {"\xE2\x88\x92", "-"},      {"\xE2\x89\xA4", "<="},
-      {"\xE2\x89\xA5", ">="},     {"\xE2\x80\x99", "'"}};
+      {"=", "'let'"},       {".nan", "finite"},    {".NaN", "finite"},     {".NAN", "finite"},
+      {".inf", "finite"},   {".Inf", "finite"},    {".INF", "finite"},     {".*", "diag(a)*b"},
+      {"&", "chain"},       {"\xE2\x88\x92", "-"}, {"\xE2\x89\xA4", "<="}, {"\xE2\x89\xA5", ">="},
+      {"\xE2\x80\x99", "'"}};
   for (const auto& [spelling, advice] : cases) {
     const InputError error = input_error([&] { tokenize({"ab " + spelling + " c", "f"}); });
     EXPECT_EQ(error.place(), (Place{"f", 1, 4})) << error.what();

@@ -113,7 +113,8 @@ TEST(UnknownFunction, OnlyAnUnknownHasADerivative) {
   };
   EXPECT_NE(message("derivative(P)(T1)*P").find("'P' is no unknown function"), std::string::npos);
   EXPECT_NE(message("derivative(X)").find("is written derivative(P)(s)"), std::string::npos);
-  EXPECT_NE(message("\"derivative(X)(T1, 2)\"").find("is written derivative(P)(s)"), std::string::npos);
+  EXPECT_NE(message("\"derivative(X)(T1, 2)\"").find("is written derivative(P)(s)"),
+            std::string::npos);
 }
 
 TEST(UnknownFunction, ItsCoefficientsStandInItsPlaceAmongTheUnknowns) {
@@ -148,7 +149,8 @@ Function weighted(const Function& polynomial) {
     return expr::compile(expr::parse({text, "test"}), scope);
   };
   Function result = polynomial;
-  result.basis = {Basis::Kind::weights, {weight("1 - tau"), weight("tau")}, {"(1 - tau)", "(tau)"}, {}};
+  result.basis = {
+      Basis::Kind::weights, {weight("1 - tau"), weight("tau")}, {"(1 - tau)", "(tau)"}, {}};
   return result;
 }
 
