@@ -57,7 +57,7 @@ std::string objective_text(const model::Gains& gains) {
     const double price = *gains.objective - *gains.objective_lower_bound;
     const double relative = price / std::max(std::abs(*gains.objective), 1e-300);
     text += fmt::format(
-        "  (no like solution without margins{} is below {}: the margins cost at most {})",
+        "  (without margins no solution of its size{} is below {}: the margins cost at most {})",
         gains.bounds.empty() ? "" : ", within the gain bound,",
         brief(*gains.objective_lower_bound, 10), brief(relative, 2));
   }

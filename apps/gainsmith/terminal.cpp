@@ -24,8 +24,8 @@ std::sig_atomic_t seconds_now() {
   return static_cast<std::sig_atomic_t>(now.tv_sec);
 }
 
-/// A second one ends the program at once. One that follows within the second is the first again:
-/// timeout(1) and schedulers signal a process and then its group.
+/// One that follows within two seconds is the first again: timeout(1) and schedulers signal a
+/// process and then its group. A later one ends the program.
 void on_interrupt(int) {
   if (interrupt_flag == 0) {
     interrupt_flag = 1;

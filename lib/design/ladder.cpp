@@ -85,7 +85,7 @@ struct Rungs {
       result.largest_gain = largest_gain(of, values);
       result.reached_gain = result.largest_gain;
       // In the units of the bound.
-      if (!climb.bounds_.units.empty()) {
+      if (!climb.bounds_.units.empty() && !climb.bounds_.list.empty()) {
         result.reached_gain = 0;
         for (const auto& bound : lmi::reached_bounds(climb.bounds_, result.x))
           result.reached_gain = std::max(result.reached_gain, bound.reached);

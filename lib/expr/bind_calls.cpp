@@ -50,9 +50,7 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
 
 std::optional<Bound> Binder::bind_derivative(const Expression& expression, const Node& node) {
   const Node& whole = node.kind == NodeKind::index ? *node.children[0] : node;
-  if (whole.kind != NodeKind::call || whole.text != "derivative" ||
-      scope_.symbols.contains("derivative") || scope_.definitions.contains("derivative"))
-    return std::nullopt;
+  if (whole.kind != NodeKind::call || whole.text != "derivative") return std::nullopt;
   if (whole.children.size() != 1 || whole.children[0]->kind != NodeKind::name || &whole == &node ||
       node.children.size() != 2)
     fail(expression, node, "the derivative of a function P at s is written derivative(P)(s)");

@@ -36,7 +36,7 @@ const Function* find_function(std::string_view name) {
 }
 
 bool is_reserved(std::string_view name) {
-  return name == "I" || name == "pi" || find_function(name) != nullptr;
+  return name == "I" || name == "pi" || name == "derivative" || find_function(name) != nullptr;
 }
 
 std::vector<std::string> function_names() {

@@ -41,6 +41,10 @@ inline std::string derivative_name(const std::string& function) {
   return "derivative(" + function + ")";
 }
 
+inline bool is_derivative(const std::string& function) {
+  return function.starts_with("derivative(");
+}
+
 struct Scope {
   std::map<std::string, int> dimensions;  ///< n, p, ...
   std::map<std::string, Symbol> symbols;

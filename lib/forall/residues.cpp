@@ -105,40 +105,45 @@ void add_terms(std::vector<std::pair<Atom, numbers::Matrix>>& terms, const numbe
   }
 }
 
-/// log2 of units d for the states, 0 for the first of each part that hangs together: by least
-/// squares the elements F_ij 2^(d_j - d_i) longest are as near to 1 as they can be. Other units of
-/// the states and of the time, by powers of two, give the same matrix.
+/// The least state that each hangs together with, by elements of F other than 0.
+std::vector<Eigen::Index> parts_of(const numbers::Matrix& F) {
+  std::vector<Eigen::Index> part(static_cast<std::size_t>(F.rows()));
+  std::iota(part.begin(), part.end(), 0);
+  for (Eigen::Index i = 0; i < F.rows(); ++i)
+    for (Eigen::Index j = 0; j < F.cols(); ++j) {
+      const Eigen::Index a = part[static_cast<std::size_t>(i)];
+      const Eigen::Index b = part[static_cast<std::size_t>(j)];
+      if (F(i, j) != 0) std::replace(part.begin(), part.end(), std::max(a, b), std::min(a, b));
+    }
+  return part;
+}
+
+/// log2 of units d for the states, 0 for the first of each part: by least squares the elements
+/// F_ij 2^(d_j - d_i) longest are as near to 1 as they can be. Other units of the states and of the
+/// time, by powers of two, give the same matrix.
 std::vector<int> units_of(const numbers::Matrix& F, double longest) {
-  constexpr int kSweeps = 200;
+  constexpr double kHalf = 0.5137;  // exact halves must not fall to either side by rounding
   const Eigen::Index n = F.rows();
-  Eigen::MatrixXd size = Eigen::MatrixXd::Zero(n, n);
-  Eigen::MatrixXi present = Eigen::MatrixXi::Zero(n, n);
-  std::vector<Eigen::Index> first(static_cast<std::size_t>(n));
-  std::iota(first.begin(), first.end(), 0);
+  const double wanted = longest > 0 ? -std::ilogb(longest) : 0;
+  numbers::Matrix normal = numbers::Matrix::Zero(n, n);
+  numbers::Vector right = numbers::Vector::Zero(n);
   for (Eigen::Index i = 0; i < n; ++i)
     for (Eigen::Index j = 0; j < n; ++j) {
       if (i == j || F(i, j) == 0) continue;
-      present(i, j) = 1;
-      size(i, j) = std::ilogb(F(i, j));
-      const auto [low, high] =
-          std::minmax(first[static_cast<std::size_t>(i)], first[static_cast<std::size_t>(j)]);
-      std::replace(first.begin(), first.end(), high, low);
+      const double difference = std::ilogb(F(i, j)) - wanted;  // d_i - d_j
+      normal(i, i) += 1;
+      normal(j, j) += 1;
+      normal(i, j) -= 1;
+      normal(j, i) -= 1;
+      right[i] += difference;
+      right[j] -= difference;
     }
-  Eigen::VectorXd d = Eigen::VectorXd::Zero(n);
-  const double middle = longest > 0 ? -std::ilogb(longest) : 0;
-  for (int sweep = 0; sweep < kSweeps; ++sweep)
-    for (Eigen::Index i = 0; i < n; ++i) {
-      double sum = 0;
-      int count = 0;
-      for (Eigen::Index j = 0; j < n; ++j) {
-        if (present(i, j) != 0) sum += size(i, j) - middle + d[j], ++count;
-        if (present(j, i) != 0) sum -= size(j, i) - middle - d[j], ++count;
-      }
-      if (count > 0) d[i] = sum / count;
-    }
-  std::vector<int> units;
+  const auto part = parts_of(F);
   for (Eigen::Index i = 0; i < n; ++i)
-    units.push_back(static_cast<int>(std::lround(d[i] - d[first[static_cast<std::size_t>(i)]])));
+    if (part[static_cast<std::size_t>(i)] == i) normal(i, i) += 1;
+  const numbers::Matrix d = numbers::Cholesky(normal).solve(right);
+  std::vector<int> units;
+  for (Eigen::Index i = 0; i < n; ++i) units.push_back(static_cast<int>(std::floor(d(i) + kHalf)));
   return units;
 }
 

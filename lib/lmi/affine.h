@@ -55,7 +55,8 @@ AffineForm evaluate_at(const expr::Program& program, const Unknowns& unknowns,
 /// The monomials that stand in a form, but for the constant.
 std::set<int> monomials_in(const AffineForm& form);
 
-/// Removes the monomials whose terms are rounding noise (forall::noise).
+/// Removes the monomials whose terms are rounding noise (forall::noise), each element beside the
+/// largest one of the same unknown at its place.
 void remove_noise(AffineForm& form, const forall::MonomialTable& monomials);
 
 /// The form with numbers for its monomials.

@@ -38,11 +38,11 @@ Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place,
   for (int k = 0; k < difference.outerSize(); ++k)
     for (Sparse::InnerIterator it(difference, k); it; ++it)
       if (std::abs(it.value()) > 1e-12 * scale)
-        throw InputError(place, "the inequality '" + name + "' is not symmetric: elements (" +
-                                    std::to_string(it.row() + 1) + ", " +
-                                    std::to_string(it.col() + 1) + ") and (" +
-                                    std::to_string(it.col() + 1) + ", " +
-                                    std::to_string(it.row() + 1) + ") differ; He(M) is M + M'");
+        throw InputError(place,
+                         "the inequality '" + name + "' is not symmetric: elements (" +
+                             std::to_string(it.row() + 1) + ", " + std::to_string(it.col() + 1) +
+                             ") and (" + std::to_string(it.col() + 1) + ", " +
+                             std::to_string(it.row() + 1) + ") differ; M + M' is written He(M)");
   return 0.5 * (matrix + mirrored);
 }
 

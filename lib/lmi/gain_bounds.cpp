@@ -150,12 +150,7 @@ expr::Program chosen(const Inequalities& of, const expr::Program& program, const
   return expr::link(
       program, [&](const std::string& name, const expr::Instruction& call) -> const expr::Body& {
         const auto found = choice.coefficients.find(call.text);
-        if (found == choice.coefficients.end()) {
-          const auto function =
-              std::find_if(of.functions.begin(), of.functions.end(),
-                           [&](const model::Function& f) { return f.name == name; });
-          return bodies.try_emplace(name, function->body()).first->second;
-        }
+        if (found == choice.coefficients.end()) return of.bodies.body(name, call);
         expr::Composer composer(call.place());
         const int coefficient = composer.input(found->second, call.shape);
         return bodies.try_emplace(call.text, expr::Body{"", composer.take(coefficient)})

@@ -237,9 +237,11 @@ void Binding::add_unknowns() {
     bound.variable = unknown.variable;
     bound.place = unknown.place;
     bound.degree = degree_of(unknown, bound);
-    if (unknown.in)
+    if (unknown.in) {
       bound.in = {unknown.name, scalar(unknown.in->low, names_->known),
                   scalar(unknown.in->high, names_->known), unknown.in->place};
+      ends_of(*bound.in, recorder_->values);
+    }
     if (unknown.variable.empty()) {
       scope.symbols[unknown.name] = {bound.shape};
     } else {

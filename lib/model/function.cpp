@@ -1,6 +1,5 @@
 #include "model/function.h"
 
-#include <functional>
 #include <stdexcept>
 
 #include "expr/chebyshev.h"
@@ -124,21 +123,36 @@ expr::Body Function::derivative() const {
 }
 
 Bodies::Bodies(const std::vector<Function>& functions) {
-  for (const Function& function : functions) {
-    set(function.name, function.body());
-    if (function.basis.derivatives.size() + 1 == function.size())
-      set(expr::derivative_name(function.name), function.derivative());
-  }
+  for (const Function& function : functions) set(function);
+}
+
+void Bodies::set(const Function& function) {
+  set(function.name, function.body());
+  if (function.basis.derivatives.size() + 1 == function.size())
+    set(expr::derivative_name(function.name), function.derivative());
+}
+
+void Bodies::set(const std::string& name, expr::Body body) {
+  bodies_.erase(expr::derivative_name(name));
+  bodies_.insert_or_assign(name, std::move(body));
+}
+
+const expr::Body& Bodies::body(const std::string& name, const expr::Instruction& call) const {
+  const auto found = bodies_.find(name);
+  if (found != bodies_.end()) return found->second;
+  if (expr::is_derivative(name))
+    throw InputError(call.place(), "the " + name +
+                                       " is not known: only a polynomial has one here, not a "
+                                       "function that is given at the vertices of a box, or by a "
+                                       "text of its own in a gain file");
+  throw std::logic_error("the function " + name + " has no body");
 }
 
 expr::Program Bodies::link(const expr::Program& program) const {
-  return expr::link(program,
-                    [&](const std::string& name, const expr::Instruction&) -> const expr::Body& {
-                      const auto found = bodies_.find(name);
-                      if (found == bodies_.end())
-                        throw std::logic_error("the function " + name + " has no body");
-                      return found->second;
-                    });
+  return expr::link(
+      program, [&](const std::string& name, const expr::Instruction& call) -> const expr::Body& {
+        return body(name, call);
+      });
 }
 
 }  // namespace gainsmith::model

@@ -71,11 +71,15 @@ class Bodies {
   Bodies() = default;
   explicit Bodies(const std::vector<Function>& functions);
 
-  void set(const std::string& name, expr::Body body) {
-    bodies_.insert_or_assign(name, std::move(body));
-  }
+  /// With its derivative, where the basis has one.
+  void set(const Function& function);
+  /// A body of another make, whose derivative is not known.
+  void set(const std::string& name, expr::Body body);
   bool contains(const std::string& name) const { return bodies_.contains(name); }
-  /// The program without calls; std::logic_error for a function that has no body.
+  /// What a call stands for. InputError at its place for a derivative that is not known,
+  /// std::logic_error for a function without a body.
+  const expr::Body& body(const std::string& name, const expr::Instruction& call) const;
+  /// The program without calls, by body().
   expr::Program link(const expr::Program& program) const;
 
  private:

@@ -24,6 +24,8 @@ class Evaluation {
         values_[datum.name] = value_of(design_, datum, overrides_, values_);
     for (const Design::Assumption& assumption : design_.assumptions)
       check_assumption(design_, assumption, values_);
+    for (const Design::Unknown& unknown : design_.unknowns)
+      if (unknown.in) ends_of(*unknown.in, values_);
     return std::move(values_);
   }
 

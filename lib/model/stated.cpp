@@ -56,7 +56,7 @@ class Builder {
   /// The unknown functions as the file defines them, and all unknown matrices.
   void add_functions() {
     std::vector<Function> functions = polynomials(design_);
-    for (const Function& function : functions) stated_.bodies.set(function.name, function.body());
+    stated_.bodies = Bodies(functions);
     for (const StatedFunction& stated : gains_.functions) {
       const auto known = std::find_if(
           functions.begin(), functions.end(),
@@ -71,7 +71,10 @@ class Builder {
                                             coefficient_name(known->name, 0) + ", ... of " +
                                             stated.signature);
       known->basis = basis_of(unknown(known->name), count);
-      stated_.bodies.set(known->name, {known->variable, body_of(*known, stated)});
+      if (!stated.body && stated.text == known->text())
+        stated_.bodies.set(*known);
+      else
+        stated_.bodies.set(known->name, {known->variable, body_of(*known, stated)});
     }
     stated_.unknowns = unknown_matrices(design_, functions);
   }
@@ -84,7 +87,6 @@ class Builder {
   /// `polynomial` has as many coefficients as the file.
   expr::Program body_of(const Function& polynomial, const StatedFunction& stated) const {
     if (stated.body) return *stated.body;
-    if (stated.text == polynomial.text()) return polynomial.body().program;
     const Place place{gains_.file};
     expr::Scope scope = design_.names->known;
     scope.known = std::make_shared<numbers::KnownDoubles>(instance_.values);
