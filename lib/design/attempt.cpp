@@ -54,35 +54,12 @@ void take_point_beyond_double(const Posed& posed, const std::vector<double>& x, 
   result.margins = std::move(margins);
 }
 
-/// What the margins are said to cost, by the objective's size (lmi::objective_lower_bound).
-double price_of(const Posed& posed, const lmi::Formulation& formulation,
-                const sdp::Solution& solution) {
-  const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, formulation, solution));
-  const double least = lmi::objective_lower_bound(posed.lmi, formulation, solution);
-  return (value - least) / std::abs(value);
-}
-
-/// A dual solution that misses its equations beside large unknowns says less than it could: a finer
-/// one is taken where it says more.
-void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
-  constexpr double kCheap = 1e-6, kDear = 1e-3;  // dearer is no matter of the solver's digits
-  constexpr double kFiner = 1e-3;
-  const double price = price_of(posed, result.formulation, result.solution);
-  if (!(kCheap < price && price < kDear)) return;
-  Effort finer = result.question.effort;
-  finer.tolerance *= kFiner;
-  sdp::Solution again = solve(result.formulation.problem, finer);
-  if (again.status == sdp::Status::optimal && price_of(posed, result.formulation, again) < price)
-    result.solution = std::move(again);
-}
-
 void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   const Question& asked = result.question;
   result.formulation = lmi::formulate_objective(posed.lmi, asked.bounds, asked.shift);
   result.solution = solve(result.formulation.problem, asked.effort);
   // Far from the minimum a point serves no one: one inside comes from the other goal.
   if (!result.is_near_optimal()) return;
-  refine_price(posed, solve, result);
   take_point(posed, lmi::read_back(posed.lmi, result.formulation, result.solution), result);
 }
 
@@ -231,19 +208,32 @@ std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const
   const std::vector<double> least =
       lmi::read_back(posed.lmi, minimum.formulation, minimum.solution);
   if (!is_finite(least)) return std::nullopt;
-  for (double e = 1e-12; e < 1; e *= 10) {
+  std::optional<Attempt> result;
+  const auto holds_at = [&](double fraction) {
     std::vector<double> x = least;
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] += e * (inside.x[i] - least[i]);
-    if (!is_positive(posed, x) || !is_within(minimum.question.bounds, x)) continue;
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] += fraction * (inside.x[i] - least[i]);
+    if (!is_positive(posed, x) || !is_within(minimum.question.bounds, x)) return false;
     lmi::Margins margins = margins_at(posed, minimum, x);
-    if (!lmi::all_hold(margins)) continue;
-    Attempt result = minimum;
-    result.point = true;
-    result.x = std::move(x);
-    result.margins = std::move(margins);
-    return result;
+    if (!lmi::all_hold(margins)) return false;
+    result = minimum;
+    result->point = true;
+    result->x = std::move(x);
+    result->margins = std::move(margins);
+    return true;
+  };
+  constexpr double kStep = 10;
+  constexpr int kHalvings = 3;
+  for (double e = 1e-12; e < 1; e *= kStep) {
+    if (!holds_at(e)) continue;
+    // What the fraction costs is seen in the objective.
+    double fails = e / kStep;
+    for (int k = 0; k < kHalvings; ++k) {
+      const double middle = std::sqrt(fails * e);
+      (holds_at(middle) ? e : fails) = middle;
+    }
+    break;
   }
-  return std::nullopt;
+  return result;
 }
 
 }  // namespace gainsmith::design

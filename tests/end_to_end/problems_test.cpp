@@ -48,6 +48,12 @@ TEST_P(Problems, IsAsExpected) {
   const std::string name = std::filesystem::path(GetParam()).stem().string();
   EXPECT_NE(text_of(folder.path("out/" + name + "/summary.txt")).find("all as expected"),
             std::string::npos);
+  const auto gains = nlohmann::json::parse(text_of(folder.path("out/" + name + "/gains.json")),
+                                           nullptr, /*allow_exceptions=*/false);
+  if (!gains.contains("objective_lower_bound")) return;
+  const double least = gains["objective_lower_bound"];
+  const double found = gains["objective"];
+  EXPECT_LE(found - least, 1e-6 * std::abs(found)) << "what the margins cost";
 }
 
 /// The file's path in the signs that a test's name may have.

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <cmath>
 #include <random>
 
 #include "expr/evaluate.h"
@@ -76,6 +77,34 @@ TEST(ResiduesTest, ARotationHasItsCosineAndSineOnly) {
   for (const auto& [atom, matrix] : terms) {
     EXPECT_EQ(atom.rate, 0);
     EXPECT_EQ((matrix.array() != 0).count(), 2) << matrix;
+  }
+}
+
+/// Other units of states and time by powers of two change no digit, whichever states hang together.
+TEST(ResiduesTest, UnitsByPowersOfTwoChangeNoDigit) {
+  std::mt19937 generator(5);
+  std::normal_distribution<double> number;
+  std::uniform_int_distribution<int> power(-12, 12);
+  std::bernoulli_distribution present(0.4);
+  for (int trial = 0; trial < 60; ++trial) {
+    const int n = 2 + trial % 4;
+    const numbers::Matrix F = numbers::Matrix::NullaryExpr(
+        n, n, [&] { return present(generator) ? number(generator) : 0.0; });
+    numbers::Vector unit(n);
+    for (double& u : unit) u = std::ldexp(1.0, power(generator));
+    const double second = std::ldexp(1.0, power(generator));
+    const numbers::Matrix scaled =
+        second * unit.asDiagonal() * F * unit.cwiseInverse().asDiagonal();
+    const auto own = residue_expansion(F, 0, 1);
+    const auto other = residue_expansion(scaled, 0, 1 / second);
+    ASSERT_EQ(own.size(), other.size()) << F;
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      EXPECT_EQ(own[i].first.rate * second, other[i].first.rate);
+      const double times = std::pow(second, own[i].first.power);
+      const numbers::Matrix expected =
+          times * unit.asDiagonal() * own[i].second * unit.cwiseInverse().asDiagonal();
+      EXPECT_EQ(expected, other[i].second) << F;
+    }
   }
 }
 

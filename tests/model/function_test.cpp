@@ -117,6 +117,24 @@ TEST(UnknownFunction, OnlyAnUnknownHasADerivative) {
             std::string::npos);
 }
 
+TEST(UnknownFunction, OnlyAPolynomialHasADerivative) {
+  const Small small(kSmallProblem, with_function("{shape: n x m, of: tau, degree: 1}"));
+  const expr::Program slope =
+      expr::compile(expr::parse({"derivative(X)(T1)", "slope"}), small.design().names->design);
+  Bodies bodies(polynomials(small.design()));
+  EXPECT_NO_THROW(bodies.link(slope));
+  bodies.set("X", expr::Body{});
+  const InputError error = input_error([&] { bodies.link(slope); });
+  EXPECT_NE(error.message().find("the derivative(X) is not known"), std::string::npos);
+  EXPECT_EQ(error.place().file, "slope");
+}
+
+TEST(UnknownFunction, ItsIntervalHasALength) {
+  const std::string text = with_function("{shape: n x m, of: tau, in: [T1, T1], degree: 1}");
+  EXPECT_NE(input_error([&] { Small(kSmallProblem, text); }).message().find("X"),
+            std::string::npos);
+}
+
 TEST(UnknownFunction, ItsCoefficientsStandInItsPlaceAmongTheUnknowns) {
   const Small small(kSmallProblem, with_function("{shape: symmetric n, of: tau, degree: m + 1}"));
   const auto structure = Structure::symmetric;
