@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include "expr/chebyshev.h"
+#include "expr/scope.h"
 
 namespace gainsmith::model {
 
