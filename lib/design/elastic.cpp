@@ -88,8 +88,7 @@ ByInequality scales_of(const model::Instance& instance) {
   for (const Design::Inequality& inequality : instance.design->inequalities) {
     double& scale = scales[inequality.name];
     for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
-      if (lmi.blocks[k].name == inequality.name ||
-          lmi.blocks[k].name.starts_with(inequality.name + "."))
+      if (model::is_comparison_of(lmi.blocks[k].name, inequality.name))
         for (int r = 0; r < lmi.blocks[k].size; ++r)
           scale = std::max(scale, std::pow(balance.row(k, r), -2));
   }

@@ -14,6 +14,8 @@ std::string to_string(Relation relation) {
       return ">=";
     case Relation::equal:
       return "==";
+    case Relation::not_equal:
+      return "!=";
   }
   return "?";
 }

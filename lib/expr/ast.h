@@ -26,12 +26,14 @@ enum class NodeKind {
   power,
   block,   ///< children row by row, `columns` in each row
   mirror,  ///< "*" inside a block: the transpose of the mirrored entry
+  each,    ///< "i in a..b" in a sum: text = the index, children = {from, to}
   compare  ///< children = operands of a chain a < b <= c; relations between them
 };
 
-enum class Relation { less, less_equal, greater, greater_equal, equal };
+/// not_equal stands between whole numbers only.
+enum class Relation { less, less_equal, greater, greater_equal, equal, not_equal };
 
-/// "<", "<=", ">", ">=", "==".
+/// "<", "<=", ">", ">=", "==", "!=".
 std::string to_string(Relation relation);
 
 struct Node {

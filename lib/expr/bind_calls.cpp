@@ -16,6 +16,12 @@ int value_of(const std::vector<int>& sizes, std::size_t at) { return sizes[at]; 
 
 Bound Binder::bind_call(const Expression& expression, const Node& node) {
   const std::string& name = node.text;
+  if (const auto found = member(expression, node)) {
+    Node plain = node;
+    plain.kind = NodeKind::name;
+    plain.text = *found;
+    return bind_name(expression, plain);
+  }
   const bool is_value =
       environment_.contains(name) || scope_.symbols.contains(name) || name == "I" || name == "pi";
   if (is_value) {
@@ -51,10 +57,11 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
 std::optional<Bound> Binder::bind_derivative(const Expression& expression, const Node& node) {
   const Node& whole = node.kind == NodeKind::index ? *node.children[0] : node;
   if (whole.kind != NodeKind::call || whole.text != "derivative") return std::nullopt;
-  if (whole.children.size() != 1 || whole.children[0]->kind != NodeKind::name || &whole == &node ||
-      node.children.size() != 2)
+  const bool one = whole.children.size() == 1 && &whole != &node && node.children.size() == 2;
+  const auto of = one ? member(expression, *whole.children[0]) : std::nullopt;
+  if (!one || (!of && whole.children[0]->kind != NodeKind::name))
     fail(expression, node, "the derivative of a function P at s is written derivative(P)(s)");
-  const std::string& function = whole.children[0]->text;
+  const std::string function = of ? *of : whole.children[0]->text;
   const std::string name = derivative_name(function);
   const auto found = scope_.functions.find(name);
   if (found == scope_.functions.end())
@@ -134,6 +141,10 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return diagonal(expression, node);
     case Composed::blkdiag:
       return block_diagonal(expression, node);
+    case Composed::kron:
+      return kronecker(expression, node);
+    case Composed::sum:
+      return sum(expression, node);
     case Composed::orth:
       return basis(expression, node, Op::range_basis);
     case Composed::null:

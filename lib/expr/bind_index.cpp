@@ -17,6 +17,19 @@ std::optional<int> as_int(std::int64_t value) {
   return std::abs(value) <= kMost ? std::optional(static_cast<int>(value)) : std::nullopt;
 }
 
+std::optional<int> whole(const std::string& decimal) {
+  int value = 0;
+  const auto end = std::from_chars(decimal.data(), decimal.data() + decimal.size(), value);
+  const bool complete = end.ec == std::errc() && end.ptr == decimal.data() + decimal.size();
+  return complete ? std::optional(value) : std::nullopt;
+}
+
+std::optional<int> combined(Op op, std::optional<std::int64_t> a, std::optional<std::int64_t> b) {
+  if (!a || !b) return std::nullopt;
+  if (op == Op::add) return as_int(*a + *b);
+  return as_int(op == Op::subtract ? *a - *b : *a * *b);
+}
+
 }  // namespace
 
 std::optional<int> Binder::whole_number(const Expression& expression, const Node& node) {
@@ -24,34 +37,37 @@ std::optional<int> Binder::whole_number(const Expression& expression, const Node
     const auto value = whole_number(expression, *node.children[0]);
     return value ? std::optional<int>(-*value) : std::nullopt;
   }
-  if (node.kind == NodeKind::number) {
-    int value = 0;
-    const auto end = std::from_chars(node.text.data(), node.text.data() + node.text.size(), value);
-    if (end.ec != std::errc() || end.ptr != node.text.data() + node.text.size())
-      return std::nullopt;
-    return value;
-  }
+  if (node.kind == NodeKind::number) return whole(node.text);
   if (node.kind == NodeKind::name) {
-    if (environment_.contains(node.text) || scope_.symbols.contains(node.text) ||
-        scope_.definitions.contains(node.text))
+    if (const auto found = environment_.find(node.text); found != environment_.end())
+      return found->second.identity ? std::nullopt : whole_value(found->second.at);
+    if (scope_.symbols.contains(node.text) || scope_.definitions.contains(node.text))
       return std::nullopt;
     const auto found = scope_.dimensions.find(node.text);
     return found == scope_.dimensions.end() ? std::nullopt : std::optional<int>(found->second);
   }
-  if (node.children.size() != 2) return std::nullopt;
-  const std::optional<std::int64_t> a = whole_number(expression, *node.children[0]);
-  const std::optional<std::int64_t> b = whole_number(expression, *node.children[1]);
-  if (!a || !b) return std::nullopt;
-  switch (node.kind) {
-    case NodeKind::add:
-      return as_int(*a + *b);
-    case NodeKind::subtract:
-      return as_int(*a - *b);
-    case NodeKind::multiply:
-      return as_int(*a * *b);
-    default:
-      return std::nullopt;
+  const auto op = node.kind == NodeKind::add        ? std::optional(Op::add)
+                  : node.kind == NodeKind::subtract ? std::optional(Op::subtract)
+                  : node.kind == NodeKind::multiply ? std::optional(Op::multiply)
+                                                    : std::nullopt;
+  if (!op) return std::nullopt;
+  return combined(*op, whole_number(expression, *node.children[0]),
+                  whole_number(expression, *node.children[1]));
+}
+
+/// Of an instruction: what stands for a parameter of a definition, or an index.
+std::optional<int> Binder::whole_value(int at) const {
+  const Instruction& instruction = assembly_[at];
+  const auto operand = [&](std::size_t i) { return whole_value(instruction.operands[i]); };
+  if (instruction.op == Op::constant) return whole(instruction.text);
+  if (instruction.op == Op::negate) {
+    const auto value = operand(0);
+    return value ? std::optional<int>(-*value) : std::nullopt;
   }
+  const bool arithmetic =
+      instruction.op == Op::add || instruction.op == Op::subtract || instruction.op == Op::multiply;
+  if (!arithmetic || !instruction.shape.is_scalar()) return std::nullopt;
+  return combined(instruction.op, operand(0), operand(1));
 }
 
 std::pair<int, int> Binder::index_range(const Expression& expression, const Node& node, int size) {

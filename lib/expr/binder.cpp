@@ -17,6 +17,7 @@ std::vector<std::string> Scope::names() const {
   for (const auto& [name, value] : symbols) all.push_back(name);
   for (const auto& [name, value] : definitions) all.push_back(name);
   for (const auto& [name, value] : functions) all.push_back(name);
+  for (const auto& [name, value] : families) all.push_back(name);
   for (const auto& [name, value] : dimensions) all.push_back(name);
   return all;
 }
@@ -77,6 +78,7 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
       return bind_call(expression, node);
     case NodeKind::index:
       if (const auto derivative = bind_derivative(expression, node)) return *derivative;
+      if (const auto value = bind_member_call(expression, node)) return *value;
       return index(expression, node, child(0), 1);
     case NodeKind::negate: {
       const Bound a = child(0);
@@ -104,6 +106,8 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
       return bind_block(expression, node);
     case NodeKind::range:
       fail(expression, node, "a range stands only in an index, such as x(1:2)");
+    case NodeKind::each:
+      fail(expression, node, "an index stands only in a sum, such as sum(i in 1..N, P(i))");
     case NodeKind::mirror:
       fail(expression, node, "'*' alone stands only in a block");
     case NodeKind::compare:
@@ -145,6 +149,10 @@ Bound Binder::bind_name(const Expression& expression, const Node& node) {
   }
   if (scope_.functions.contains(name))
     fail(expression, node, "'" + name + "' takes 1 arguments, not 0");
+  if (scope_.families.contains(name))
+    fail(expression, node,
+         "'" + name + "' is a family: write one of its members, " + name + "(1) or " + name +
+             "(i) with an index i");
   if (scope_.definitions.contains(name)) return bind_definition(expression, node, name, {});
   if (const auto found = scope_.dimensions.find(name); found != scope_.dimensions.end())
     return {number(expression, node, std::to_string(found->second))};

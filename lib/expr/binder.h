@@ -38,6 +38,8 @@ class Binder {
 
  private:
   friend class BlockBinding;
+  friend int whole_number(const Expression& expression, const Scope& scope);
+  friend bool whole_condition(const Expression& expression, const Scope& scope);
 
   using Environment = std::map<std::string, Bound>;
 
@@ -58,6 +60,19 @@ class Binder {
   Bound index(const Expression& expression, const Node& node, Bound base, std::size_t first);
   std::pair<int, int> index_range(const Expression& expression, const Node& node, int size);
   std::optional<int> whole_number(const Expression& expression, const Node& node);
+  std::optional<int> whole_value(int at) const;
+
+  // bind_families.cpp: names and sums with indices.
+  /// "P_2" of P(2), P(i); nothing when the node is no member of a family.
+  std::optional<std::string> member(const Expression& expression, const Node& node);
+  /// P(i)(s) of a family of functions, or nothing.
+  std::optional<Bound> bind_member_call(const Expression& expression, const Node& node);
+  Bound sum(const Expression& expression, const Node& node);
+  Bound sum_of_elements(const Expression& expression, const Node& node);
+  Bound kronecker(const Expression& expression, const Node& node);
+  bool holds(const Expression& expression, const Node& comparison);
+  int required_whole_number(const Expression& expression, const Node& node,
+                            const std::string& what);
 
   // bind_blocks.cpp: block matrices.
   Bound bind_block(const Expression& expression, const Node& node);

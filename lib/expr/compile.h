@@ -20,6 +20,12 @@ namespace gainsmith::expr {
 Program compile(const Expression& expression, const Scope& scope,
                 std::optional<Shape> expected = std::nullopt);
 
+/// A whole number over dimensions: numbers, +, - and *. InputError at what is none.
+int whole_number(const Expression& expression, const Scope& scope);
+
+/// Whether a comparison of such whole numbers holds, `i != j`, `i < j <= k`.
+bool whole_condition(const Expression& expression, const Scope& scope);
+
 /// One comparison of a chain: the larger side minus the smaller one, to be > 0 (strict) or >= 0.
 struct CompiledRelation {
   Program difference;  ///< of `==`: [0, D; D', 0], D of any shape

@@ -19,7 +19,8 @@ std::size_t number_end(std::string_view text, std::size_t at) {
     while (at < text.size() && is_digit(text[at])) ++at;
   };
   digits();
-  if (at < text.size() && text[at] == '.') {
+  // "1..N" is a range, not "1." and ".N".
+  if (at < text.size() && text[at] == '.' && text.substr(at, 2) != "..") {
     ++at;
     digits();
   }

@@ -25,6 +25,8 @@ std::optional<Relation> relation_of(TokenKind kind) {
       return Relation::greater_equal;
     case TokenKind::equal:
       return Relation::equal;
+    case TokenKind::not_equal:
+      return Relation::not_equal;
     default:
       return std::nullopt;
   }
@@ -32,7 +34,8 @@ std::optional<Relation> relation_of(TokenKind kind) {
 
 class Parser {
  public:
-  explicit Parser(const Text& text) : text_(text), tokens_(tokenize(text)) {}
+  explicit Parser(std::shared_ptr<const Text> text)
+      : shared_(std::move(text)), text_(*shared_), tokens_(tokenize(text_)) {}
 
   NodePtr whole() {
     if (peek() == TokenKind::end) fail("expected an expression, found nothing");
@@ -46,21 +49,65 @@ class Parser {
     Signature result;
     result.name = expect(TokenKind::name, "a name").text;
     if (accept(TokenKind::open)) {
-      do {
-        const Token parameter = expect(TokenKind::name, "a parameter's name");
-        if (std::find(result.parameters.begin(), result.parameters.end(), parameter.text) !=
-            result.parameters.end())
-          throw InputError(text_.place(parameter.begin),
-                           "the parameter '" + parameter.text + "' stands here twice");
-        result.parameters.push_back(parameter.text);
-      } while (accept(TokenKind::comma));
-      expect(TokenKind::close, "',' or ')'");
+      if (is_index()) {
+        do {
+          result.indices.push_back(index());
+          refuse_twice(result.indices, result.indices.back().name, result.indices.back().place);
+        } while (accept(TokenKind::comma));
+        expect(TokenKind::close, "',' or ')'");
+        if (accept(TokenKind::open)) parameters(result);
+      } else {
+        parameters(result);
+      }
     }
     expect(TokenKind::end, "':' or '(' after the name");
     return result;
   }
 
+  Index whole_index() {
+    Index result = index();
+    expect(TokenKind::end, "the end of the range");
+    return result;
+  }
+
  private:
+  void parameters(Signature& result) {
+    do {
+      const Token parameter = expect(TokenKind::name, "a parameter's name");
+      if (std::find(result.parameters.begin(), result.parameters.end(), parameter.text) !=
+          result.parameters.end())
+        throw InputError(text_.place(parameter.begin),
+                         "the parameter '" + parameter.text + "' stands here twice");
+      result.parameters.push_back(parameter.text);
+    } while (accept(TokenKind::comma));
+    expect(TokenKind::close, "',' or ')'");
+  }
+
+  static void refuse_twice(const std::vector<Index>& indices, const std::string& name,
+                           const Place& place) {
+    const auto count = std::count_if(indices.begin(), indices.end(),
+                                     [&](const Index& index) { return index.name == name; });
+    if (count > 1) throw InputError(place, "the index '" + name + "' stands here twice");
+  }
+
+  /// "i in ..."
+  bool is_index() const {
+    return peek() == TokenKind::name && tokens_[at_ + 1].kind == TokenKind::name &&
+           tokens_[at_ + 1].text == "in";
+  }
+
+  Index index() {
+    if (!is_index()) fail("expected an index such as i in 1..N");
+    Index result;
+    result.place = text_.place(tokens_[at_].begin);
+    result.name = next().text;
+    next();
+    result.low = {shared_, sum()};
+    expect(TokenKind::dots, "'..' in the range of an index, such as 1..N");
+    result.high = {shared_, sum()};
+    return result;
+  }
+
   // Deeper nesting, or a longer chain such as 1 + 1 + ..., is no formula; it would only exhaust the
   // stack, here or where the tree is walked.
   static constexpr int kDeepest = 200;
@@ -282,6 +329,12 @@ class Parser {
   NodePtr argument() {
     const std::size_t begin = tokens_[at_].begin;
     if (accept(TokenKind::colon)) return make(NodeKind::range, begin, {});
+    if (is_index()) {
+      const Index found = index();
+      auto each = make(NodeKind::each, begin, {found.low.root, found.high.root});
+      each->text = found.name;
+      return each;
+    }
     NodePtr from = comparison();
     if (!accept(TokenKind::colon)) return from;
     NodePtr to = comparison();
@@ -351,6 +404,7 @@ class Parser {
     return sum();
   }
 
+  std::shared_ptr<const Text> shared_;
   const Text& text_;
   std::vector<Token> tokens_;
   std::size_t at_ = 0;
@@ -362,10 +416,16 @@ class Parser {
 Expression parse(Text text) {
   count_parsed();
   auto shared = std::make_shared<const Text>(std::move(text));
-  NodePtr root = Parser(*shared).whole();
+  NodePtr root = Parser(shared).whole();
   return {shared, root};
 }
 
-Signature parse_signature(const Text& text) { return Parser(text).signature(); }
+Index parse_index(Text text) {
+  return Parser(std::make_shared<const Text>(std::move(text))).whole_index();
+}
+
+Signature parse_signature(Text text) {
+  return Parser(std::make_shared<const Text>(std::move(text))).signature();
+}
 
 }  // namespace gainsmith::expr

@@ -1,6 +1,6 @@
 // From tokens to a syntax tree.
 //
-//   comparison := sum (("<" | "<=" | ">" | ">=") sum)*
+//   comparison := sum (relation sum)*
 //   sum        := term (("+" | "-") term)*
 //   term       := sign (("*" | "/") sign)*
 //   sign       := ("-" | "+") sign | postfix
@@ -9,7 +9,9 @@
 //   exponent   := ("-" | "+") exponent | primary
 //   primary    := number | name | "(" comparison ")" | "[" row (";" row)* "]"
 //   row        := entry ("," entry)*;   entry := "*" | sum
-//   arguments  := argument ("," argument)*;   argument := ":" | comparison [":" comparison]
+//   arguments  := argument ("," argument)*
+//   argument   := ":" | comparison [":" comparison] | index
+//   index      := name "in" sum ".." sum
 #pragma once
 
 #include "expr/ast.h"
@@ -20,12 +22,23 @@ namespace gainsmith::expr {
 /// expected there.
 Expression parse(Text text);
 
-/// A definition's left-hand side: "mu" or "E(tau)" or "f(a, b)".
+/// "i in 1..N": whole numbers that count the members of a family.
+struct Index {
+  std::string name;
+  Expression low;
+  Expression high;
+  Place place;
+};
+
+Index parse_index(Text text);
+
+/// A left-hand side: "mu", "E(tau)", "f(a, b)", or of a family "L(i in 1..N)", "L(i in 1..N)(s)".
 struct Signature {
   std::string name;
   std::vector<std::string> parameters;
+  std::vector<Index> indices{};
 };
 
-Signature parse_signature(const Text& text);
+Signature parse_signature(Text text);
 
 }  // namespace gainsmith::expr

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "expr/ast.h"
@@ -45,6 +46,12 @@ inline bool is_derivative(const std::string& function) {
   return function.starts_with("derivative(");
 }
 
+/// The ranges of the indices of a family.
+using Ranges = std::vector<std::pair<int, int>>;
+
+/// "P_2", "P_1_3": under these names a scope has the members P(2), P(1, 3) of a family.
+std::string member_name(const std::string& family, const std::vector<int>& indices);
+
 struct Scope {
   std::map<std::string, int> dimensions;  ///< n, p, ...
   std::map<std::string, Symbol> symbols;
@@ -52,6 +59,8 @@ struct Scope {
   /// Functions of a number that are given later (link() in rewrite.h), with the shape of their
   /// values: unknown functions, gains that are functions.
   std::map<std::string, Shape> functions;
+  /// Names with indices: P(2) is the symbol or function P_2.
+  std::map<std::string, Ranges> families;
   std::shared_ptr<const KnownValues> known;  ///< none: nothing is known beforehand
 
   /// All names, for suggestions.

@@ -9,7 +9,7 @@ namespace gainsmith::io {
 
 model::Method method_from(const YamlFile& file, const YAML::Node& node);
 
-/// "tau in [a, b]", "k in {a, b, c}" or "A in conv{A1, A2}".
+/// "tau in [a, b]", "k in {a, b, c}", "h in v" with a vector v, or "A in conv{A1, A2}".
 model::Forall parse_forall(const expr::Text& text);
 
 /// Splits "a, b, c" at commas outside brackets and parses the parts.

@@ -1,6 +1,8 @@
 #include "io/method_yaml.h"
 
 #include <algorithm>
+#include <cctype>
+#include <string_view>
 #include <utility>
 
 #include "io/method_node.h"
@@ -21,6 +23,26 @@ std::string optional_string(const YamlFile& file, const std::optional<YamlItem>&
   return item ? file.string(item->value, item->key) : "";
 }
 
+/// The texts of a key that takes one or a list of them.
+std::vector<expr::Text> texts_of(const YamlFile& file, const YamlItem& item) {
+  std::vector<expr::Text> texts;
+  if (item.value.IsSequence()) {
+    for (const auto& entry : item.value) texts.push_back(file.scalar(entry, item.key));
+  } else {
+    texts.push_back(file.scalar(item.value, item.key));
+  }
+  return texts;
+}
+
+/// "for: i in 1..N" or "for: [i in 1..N, j in 1..M]"
+std::vector<expr::Index> indices(const YamlFile& file, const std::optional<YamlItem>& item) {
+  std::vector<expr::Index> result;
+  if (!item) return result;
+  for (expr::Text& text : texts_of(file, *item))
+    result.push_back(expr::parse_index(std::move(text)));
+  return result;
+}
+
 /// "A: n x n" or "A: {shape: n x n, default: ..., help: ...}"; `fallback` is the key of the value
 /// without a given one: "default" of a datum, "start" of a state.
 model::Declaration declaration(const YamlFile& file, const YamlItem& item, const char* fallback) {
@@ -35,6 +57,7 @@ model::Declaration declaration(const YamlFile& file, const YamlItem& item, const
   result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
   result.fallback = optional_expression(file, map.find(fallback));
   result.help = optional_string(file, map.find("help"));
+  if (std::string_view(fallback) == "default") result.indices = indices(file, map.find("for"));
   map.finish();
   return result;
 }
@@ -52,6 +75,7 @@ model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {
   result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
   result.help = optional_string(file, map.find("help"));
   result.variable = optional_string(file, map.find("of"));
+  result.indices = indices(file, map.find("for"));
   const auto degree = map.find("degree");
   const auto in = map.find("in");
   map.finish();
@@ -101,29 +125,43 @@ std::vector<model::Named> named(const YamlFile& file, const std::optional<YamlIt
   return result;
 }
 
-/// "L: inv(P)*Y" or "F(tau): inv(P)*Z(tau)".
+/// "L: inv(P)*Y", "F(tau): inv(P)*Z(tau)" or "L(i in 1..N): inv(P(i))*Y(i)".
 model::Gain gain(const YamlFile& file, const YamlItem& item) {
   const expr::Signature signature = expr::parse_signature(item.key_text);
   if (signature.parameters.size() > 1)
     throw InputError(item.place, "a gain is a matrix or a function of one variable");
   return {signature.name, file.expression(item.value, item.key), item.place,
-          signature.parameters.empty() ? "" : signature.parameters.front()};
+          signature.parameters.empty() ? "" : signature.parameters.front(), signature.indices};
+}
+
+/// An index, a condition between indices, or a variable.
+void add_forall(const expr::Text& text, model::Requirement& result) {
+  const std::string& source = text.str();
+  const bool ranges = source.find(" in ") != std::string::npos;
+  if (ranges && source.find("..") != std::string::npos)
+    result.indices.push_back(expr::parse_index(text));
+  else if (!ranges && source.find_first_of("<>=!") != std::string::npos)
+    result.conditions.push_back(expr::parse(text));
+  else
+    result.forall.push_back(parse_forall(text));
 }
 
 model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
-  if (!item.value.IsMap()) return {item.key, {}, file.expression(item.value, item.key), item.place};
-  YamlMap map(file, item.value, item.key);
-  model::Requirement result{
-      item.key, {}, file.expression(map.require("that").value, "that"), item.place};
-  if (const auto forall = map.find("forall")) {
-    if (forall->value.IsSequence()) {
-      for (const auto& entry : forall->value)
-        result.forall.push_back(parse_forall(file.scalar(entry, "forall")));
-    } else {
-      result.forall.push_back(parse_forall(file.scalar(forall->value, "forall")));
-    }
+  model::Requirement result;
+  result.name = item.key;
+  result.place = item.place;
+  if (!item.value.IsMap()) {
+    result.that = file.expression(item.value, item.key);
+    return result;
   }
+  YamlMap map(file, item.value, item.key);
+  result.that = file.expression(map.require("that").value, "that");
+  if (const auto forall = map.find("forall"))
+    for (const expr::Text& text : texts_of(file, *forall)) add_forall(text, result);
   map.finish();
+  if (!result.conditions.empty() && result.indices.empty())
+    throw InputError(result.conditions.front().place(*result.conditions.front().root),
+                     "a condition chooses among indices, such as i in 1..N: there are none here");
   return result;
 }
 
@@ -173,7 +211,14 @@ model::Claim claim(const YamlFile& file, const YamlItem& item) {
     throw InputError(item.place,
                      "the claim '" + item.key + "' needs one of nonincreasing, cost, shrinks");
   }
-  model::Claim result{item.key, Kind::nonincreasing, {}, {}, {}, {}, item.place};
+  const expr::Signature signature = expr::parse_signature(item.key_text);
+  if (!signature.parameters.empty())
+    throw InputError(item.place, "a claim has no variables; one of a family is written " +
+                                     signature.name + "(i in 1..N)");
+  model::Claim result;
+  result.name = signature.name;
+  result.indices = signature.indices;
+  result.place = item.place;
   if (nonincreasing) result.value = file.expression(nonincreasing->value, item.key);
   if (cost) {
     result.kind = Kind::cost;
@@ -213,9 +258,10 @@ model::Forall parse_forall(const expr::Text& text) {
   using model::Over;
   const std::string& source = text.str();
   const auto fail = [&](std::size_t at) {
-    throw InputError(text.place(at),
-                     "expected 'NAME in [low, high]', 'NAME in {a, b, ...}' or 'NAME in conv{A, B, "
-                     "...}'");
+    throw InputError(
+        text.place(at),
+        "expected 'NAME in [low, high]', 'NAME in {a, b, ...}', 'NAME in VECTOR', 'NAME "
+        "in conv{A, B, ...}', or an index 'NAME in 1..N'");
   };
   const std::size_t in = source.find(" in ");
   if (in == std::string::npos) fail(0);
@@ -226,9 +272,16 @@ model::Forall parse_forall(const expr::Text& text) {
   const bool hull = open != std::string::npos && source.compare(open, kHull.size(), kHull) == 0;
   if (hull) open = source.find_first_not_of(' ', open + kHull.size());
   if (!signature.parameters.empty()) fail(0);
-  if (open == std::string::npos || close <= open) fail(in);
+  if (open == std::string::npos || close < open) fail(in);
   const bool interval = !hull && source[open] == '[' && source[close] == ']';
   const bool set = source[open] == '{' && source[close] == '}';
+  const bool name = std::isalpha(static_cast<unsigned char>(source[open])) != 0;
+  if (!hull && name)
+    return {signature.name,
+            Over::set,
+            {expr::parse(text.part(open, source.size()))},
+            text.place(0),
+            true};
   if (!interval && !set) fail(open);
   const Over over = interval ? Over::interval : hull ? Over::polytope : Over::set;
   model::Forall forall{signature.name, over, parse_list(text.part(open + 1, close)), text.place(0)};

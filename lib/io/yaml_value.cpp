@@ -10,6 +10,18 @@ namespace gainsmith::io {
 
 namespace {
 
+/// A list of matrices is one of lists of rows.
+bool is_list_of_matrices(const YAML::Node& node) {
+  for (const auto& element : node)
+    if (element.IsSequence() && element.size() > 0 && element[0].IsSequence()) return true;
+  return false;
+}
+
+/// Quoted, so that a ';' in it is no slip.
+bool is_quoted_matrix(const YAML::Node& node) {
+  return node.IsScalar() && node.Tag() == "!" && node.Scalar().starts_with('[');
+}
+
 /// Text put together from scalars and punctuation, each character with its place.
 class Composer {
  public:
@@ -26,7 +38,7 @@ class Composer {
                                               ": expected a number or an expression here, found " +
                                               (node.IsMap() ? "a mapping" : "a list"));
     const expr::Text part = file_.scalar(node, what);
-    if (part.str().find(';') != std::string::npos)
+    if (part.str().find(';') != std::string::npos && !is_quoted_matrix(node))
       throw InputError(file_.place(node),
                        what + ": a matrix with ';' must be quoted: \"[a, b; c, d]\"");
     expr::parse(part);
@@ -58,6 +70,13 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
   if (!node.IsSequence())
     return {item.key, file.expression(node, item.key), false, file.place(node)};
   if (node.size() == 0) throw InputError(file.place(node), item.key + ": the list is empty");
+  if (is_list_of_matrices(node)) {
+    model::Value result{item.key, {}, false, file.place(node), true};
+    for (const auto& element : node)
+      result.matrices.push_back(
+          value_of(file, {item.key, item.key_text, file.place(element), element}));
+    return result;
+  }
   const bool flat = !node[0].IsSequence();
   Composer composer(file);
   composer.punctuation("[", file.place(node));
@@ -83,7 +102,7 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
     }
   }
   composer.punctuation("]", file.place(node));
-  return {item.key, composer.parse(file.place(node)), flat, file.place(node)};
+  return {item.key, composer.parse(file.place(node)), flat, file.place(node), true};
 }
 
 }  // namespace gainsmith::io

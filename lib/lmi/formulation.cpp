@@ -240,7 +240,7 @@ std::vector<double> multiplier_sizes(const Lmi& lmi, const Formulation& formulat
   std::vector<double> sizes(points, 0.0);
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     const Block& block = lmi.blocks[k];
-    if (block.name != inequality && !block.name.starts_with(inequality + ".")) continue;
+    if (!model::is_comparison_of(block.name, inequality)) continue;
     const std::size_t n = formulation.releases.kept[k].size();
     for (std::size_t i = 0; i < n; ++i) sizes.at(block.at) += solution.Y.values[k][i * n + i];
   }

@@ -41,6 +41,9 @@ std::string declared(const Declaration& declaration, const Dimensions& dimension
   return text + (known.empty() ? "" : " (" + known + ")");
 }
 
+constexpr const char* kFamilyTakes =
+    "; a family takes a list with a matrix for each member, or one expression for all";
+
 /// Whether the expression may take its size from its place: a bare number or a multiple of I.
 bool has_free_size(const Value& value) {
   const auto names = names_in(value.value);
@@ -67,8 +70,13 @@ void Binding::bind_data() {
     if (!std::isfinite(value))
       throw InputError({problem().file}, name + ": expected a finite number");
   }
-  for (const Declaration& datum : method().data) add_datum(datum);
-  for (const Declaration& datum : method().data) check_shape(datum);
+  std::vector<Given> all;
+  for (const Declaration& datum : method().data)
+    for (Given& member : given(datum)) {
+      add_datum(member);
+      all.push_back(std::move(member));
+    }
+  for (const Given& datum : all) check_shape(datum);
   for (const Parameter& parameter : method().parameters) add_parameter(parameter);
   add_definitions();
   for (const Named& assumption : method().assume) add_assumption(assumption);
@@ -122,7 +130,53 @@ void Binding::define(Design::Datum datum, std::vector<Design::Datum>& list) {
   list.push_back(std::move(datum));
 }
 
-void Binding::add_datum(const Declaration& datum) {
+expr::Expression Binding::instantiate(const expr::Expression& expression, const Member& member,
+                                      const expr::Scope& scope) const {
+  if (member.indices.empty()) return expression;
+  return expr::instantiate(expression, member.indices, scope.families);
+}
+
+/// The datum itself, or the members of a family, each with its element of the list.
+std::vector<Binding::Given> Binding::given(const Declaration& datum) {
+  const Value* found = find_named(problem().data, datum.name);
+  const auto value = found ? std::optional(*found) : std::nullopt;
+  if (datum.indices.empty()) {
+    if (value && !value->matrices.empty())
+      throw InputError(value->place, "the datum " + datum.name + " is declared " +
+                                         datum.shape.text + "; found a list of matrices");
+    return {{datum, value}};
+  }
+  if (!value && !datum.fallback)
+    throw InputError({problem().file}, "the datum " + datum.name + " (" + datum.shape.text +
+                                           " for each index) of the "
+                                           "method " +
+                                           method().name + " is missing under 'data'" +
+                                           kFamilyTakes);
+  const std::vector<Value> elements = value ? elements_of(*value) : std::vector<Value>{};
+  if (!elements.empty()) learn_count(datum.indices, elements.size(), design_->dimensions);
+  expr::Scope& scope = names_->known;
+  scope.dimensions = design_->dimensions;
+  scope.families[datum.name] = ranges(datum.indices, scope);
+  const auto all = members(datum.indices, {}, scope);
+  if (!elements.empty() && elements.size() != all.size())
+    throw InputError(value->place, "the family " + datum.name + " has " +
+                                       std::to_string(all.size()) + " members; found " +
+                                       std::to_string(elements.size()));
+  std::vector<Given> result;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Given member{datum, value};
+    member.declaration.name = all[k].name_of(datum.name);
+    if (!elements.empty()) member.value = elements[k];
+    for (auto* text : {member.value && elements.empty() ? &member.value->value : nullptr,
+                       datum.fallback ? &*member.declaration.fallback : nullptr})
+      if (text != nullptr) *text = instantiate(*text, all[k], scope);
+    result.push_back(std::move(member));
+  }
+  return result;
+}
+
+void Binding::add_datum(const Given& given) {
+  const Declaration& datum = given.declaration;
   Dimensions& dimensions = design_->dimensions;
   Design::Datum bound;
   bound.name = datum.name;
@@ -130,14 +184,14 @@ void Binding::add_datum(const Declaration& datum) {
   bound.declared = datum.shape.text;
   bound.missing = "the datum " + datum.name + " (" + datum.shape.text + ") of the method " +
                   method().name + " is missing under 'data'";
-  const Value* given = find_named(problem().data, datum.name);
   const ScalarRange* searched = find_searched(datum.name);
-  if (given == nullptr && !datum.fallback && searched != nullptr) {
+  if (!given.value && !datum.fallback && searched != nullptr) {
     start_at_end(*searched, bound);
     return define(std::move(bound), design_->data);
   }
-  if (given == nullptr && !datum.fallback) return define(std::move(bound), design_->data);
-  const Value value = given ? *given : Value{datum.name, *datum.fallback, false, datum.place};
+  if (!given.value && !datum.fallback) return define(std::move(bound), design_->data);
+  const Value value =
+      given.value ? *given.value : Value{datum.name, *datum.fallback, false, datum.place};
   const auto expected = resolve(datum.shape, dimensions);
   const bool column = datum.shape.is_column() || (expected && is_proper_column(*expected));
   Value turned{value.name, oriented(value, column), false, value.place};
@@ -148,21 +202,22 @@ void Binding::add_datum(const Declaration& datum) {
   if (!learn(datum.shape, bound.shape, dimensions))
     throw InputError(value.place, "the datum " + datum.name + " is declared " +
                                       declared(datum, dimensions) + "; found " +
-                                      to_string(bound.shape));
+                                      to_string(bound.shape) +
+                                      (datum.indices.empty() ? "" : kFamilyTakes));
   bound.elements = element_places(value, bound.shape);
   define(std::move(bound), design_->data);
 }
 
 /// A size such as n + p may have been unknown when the datum was read.
-void Binding::check_shape(const Declaration& datum) const {
+void Binding::check_shape(const Given& given) const {
+  const Declaration& datum = given.declaration;
   const expr::Shape shape = names_->known.symbols.at(datum.name).shape;
-  const Value* given = find_named(problem().data, datum.name);
   // A default may be empty: no output at jumps, nothing that is hidden.
-  const bool empty = shape.size() == 0 && given != nullptr;
+  const bool empty = shape.size() == 0 && given.value;
   if (learn(datum.shape, shape, design_->dimensions) && !empty) return;
-  throw InputError(given ? given->place : datum.place, "the datum " + datum.name + " is declared " +
-                                                           declared(datum, design_->dimensions) +
-                                                           "; found " + to_string(shape));
+  throw InputError(given.value ? given.value->place : datum.place,
+                   "the datum " + datum.name + " is declared " +
+                       declared(datum, design_->dimensions) + "; found " + to_string(shape));
 }
 
 void Binding::add_parameter(const Parameter& parameter) {
@@ -230,28 +285,46 @@ void Binding::add_unknowns() {
   names_->design = names_->known;
   expr::Scope& scope = names_->design;
   for (const UnknownDeclaration& unknown : method().unknowns) {
-    Design::Unknown bound;
-    bound.name = unknown.name;
-    bound.shape = known_shape(unknown, "unknown");
-    bound.structure = unknown.shape.structure;
-    bound.variable = unknown.variable;
-    bound.place = unknown.place;
-    bound.degree = degree_of(unknown, bound);
-    if (unknown.in) {
-      bound.in = {unknown.name, scalar(unknown.in->low, names_->known),
-                  scalar(unknown.in->high, names_->known), unknown.in->place};
-      ends_of(*bound.in, recorder_->values);
+    if (unknown.indices.empty()) {
+      add_unknown(unknown);
+      continue;
     }
-    if (unknown.variable.empty()) {
-      scope.symbols[unknown.name] = {bound.shape};
-    } else {
-      for (int k = 0; k <= bound.degree; ++k)
-        scope.symbols[coefficient_name(unknown.name, static_cast<std::size_t>(k))] = {bound.shape};
-      scope.functions[unknown.name] = bound.shape;
-      scope.functions[expr::derivative_name(unknown.name)] = bound.shape;
+    scope.families[unknown.name] = ranges(unknown.indices, scope);
+    for (const Member& member : members(unknown.indices, {}, scope)) {
+      UnknownDeclaration one = unknown;
+      one.name = member.name_of(unknown.name);
+      if (one.degree) one.degree = instantiate(*one.degree, member, scope);
+      if (one.in)
+        for (expr::Expression* end : {&one.in->low, &one.in->high})
+          *end = instantiate(*end, member, scope);
+      add_unknown(one);
     }
-    design_->unknowns.push_back(std::move(bound));
   }
+}
+
+void Binding::add_unknown(const UnknownDeclaration& unknown) {
+  expr::Scope& scope = names_->design;
+  Design::Unknown bound;
+  bound.name = unknown.name;
+  bound.shape = known_shape(unknown, "unknown");
+  bound.structure = unknown.shape.structure;
+  bound.variable = unknown.variable;
+  bound.place = unknown.place;
+  bound.degree = degree_of(unknown, bound);
+  if (unknown.in) {
+    bound.in = {unknown.name, scalar(unknown.in->low, names_->known),
+                scalar(unknown.in->high, names_->known), unknown.in->place};
+    ends_of(*bound.in, recorder_->values);
+  }
+  if (unknown.variable.empty()) {
+    scope.symbols[unknown.name] = {bound.shape};
+  } else {
+    for (int k = 0; k <= bound.degree; ++k)
+      scope.symbols[coefficient_name(unknown.name, static_cast<std::size_t>(k))] = {bound.shape};
+    scope.functions[unknown.name] = bound.shape;
+    scope.functions[expr::derivative_name(unknown.name)] = bound.shape;
+  }
+  design_->unknowns.push_back(std::move(bound));
 }
 
 void Binding::add_states() {

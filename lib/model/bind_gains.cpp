@@ -1,5 +1,6 @@
 // The gains, and the products in their formulas that bounds are put on.
 #include <algorithm>
+#include <map>
 #include <memory>
 
 #include "expr/parser.h"
@@ -125,21 +126,30 @@ expr::Scope gain_scope(expr::Scope scope, const std::string& variable) {
 
 }  // namespace
 
+void Binding::add_gain(const Gain& gain) {
+  const expr::Scope scope = gain_scope(names_->design, gain.variable);
+  Design::Gain bound;
+  bound.name = gain.name;
+  bound.variable = gain.variable;
+  bound.formula = formula(gain.value, scope);
+  bound.shape = bound.formula.program.shape();
+  const Products products(*design_, gain, scope);
+  products.find(gain.value.root, bound.products);
+  bound.whole = products.factor({gain.value.root});
+  design_->gains.push_back(std::move(bound));
+}
+
 void Binding::bind_gains() {
+  std::map<std::string, expr::Ranges> families;
   for (const Gain& gain : method().gains) {
-    const expr::Scope scope = gain_scope(names_->design, gain.variable);
-    Design::Gain bound;
-    bound.name = gain.name;
-    bound.variable = gain.variable;
-    bound.formula = formula(gain.value, scope);
-    bound.shape = bound.formula.program.shape();
-    const Products products(*design_, gain, scope);
-    products.find(gain.value.root, bound.products);
-    bound.whole = products.factor({gain.value.root});
-    design_->gains.push_back(std::move(bound));
+    if (!gain.indices.empty()) families[gain.name] = ranges(gain.indices, names_->design);
+    for (const Member& member : members(gain.indices, {}, names_->design))
+      add_gain({member.name_of(gain.name), instantiate(gain.value, member, names_->design),
+                gain.place, gain.variable});
   }
   names_->running = names_->design;
   expr::Scope& scope = names_->running;
+  for (auto& [name, range] : families) scope.families[name] = std::move(range);
   for (const Design::Gain& gain : design_->gains) {
     if (!gain.variable.empty()) {
       scope.symbols.erase(gain.name);

@@ -1,5 +1,6 @@
 // The inequalities and the objective.
 #include <algorithm>
+#include <memory>
 
 #include "model/binding.h"
 
@@ -23,14 +24,43 @@ bool uses(const expr::Program& program, const Design::Unknown& unknown) {
 
 }  // namespace
 
-Design::Variable Binding::variable(const Forall& forall) const {
+/// The ends, elements or vertices as they are written, or the elements of a vector.
+std::vector<expr::Expression> Binding::points_of(const Forall& forall, const Member& member) const {
+  std::vector<expr::Expression> points;
+  for (const expr::Expression& point : forall.points)
+    points.push_back(instantiate(point, member, names_->known));
+  if (!forall.of_vector) return points;
+  const expr::Expression& vector = points.front();
+  const expr::Shape shape = expr::compile(vector, names_->known).shape();
+  if (shape.rows != 1 && shape.cols != 1)
+    throw InputError(vector.place(*vector.root),
+                     "'" + vector.quote(*vector.root) + "' is " + to_string(shape) + ": " +
+                         forall.variable +
+                         " runs over the elements of a vector, an interval "
+                         "[low, high], or a set {a, b, ...}");
+  std::vector<expr::Expression> elements;
+  for (int k = 1; k <= shape.size(); ++k) {
+    auto number = std::make_shared<expr::Node>(*vector.root);
+    number->kind = expr::NodeKind::number;
+    number->text = std::to_string(k);
+    number->children.clear();
+    auto element = std::make_shared<expr::Node>(*vector.root);
+    element->kind = expr::NodeKind::index;
+    element->children = {vector.root, number};
+    elements.push_back({vector.text, element});
+  }
+  return elements;
+}
+
+Design::Variable Binding::variable(const Forall& forall, const Member& member) const {
   Design::Variable bound{forall.variable, forall.over, {}, {}, forall.place};
   const expr::Scope& scope = names_->known;
+  const std::vector<expr::Expression> points = points_of(forall, member);
   if (forall.over == Over::interval) {
-    for (const expr::Expression& end : forall.points) bound.points.push_back(scalar(end, scope));
+    for (const expr::Expression& end : points) bound.points.push_back(scalar(end, scope));
     return bound;
   }
-  for (const expr::Expression& element : forall.points) {
+  for (const expr::Expression& element : points) {
     bound.points.push_back(formula(element, scope));
     const expr::Shape shape = bound.points.back().program.shape();
     if (bound.points.size() == 1) bound.shape = shape;
@@ -39,29 +69,38 @@ Design::Variable Binding::variable(const Forall& forall) const {
                        "the elements of " + forall.variable + " must have one shape; found " +
                            to_string(bound.shape) + " and " + to_string(shape));
     bound.points.back().text = element.quote(*element.root);
+    if (forall.of_vector)
+      bound.points.back().text += "(" + std::to_string(bound.points.size()) + ")";
   }
   return bound;
 }
 
 void Binding::bind_inequalities() {
-  for (const Requirement& requirement : method().require) {
-    Design::Inequality bound;
-    bound.name = requirement.name;
-    bound.place = requirement.place;
-    bound.that_place = requirement.that.place(*requirement.that.root);
-    expr::Scope scope = names_->design;
-    for (const Forall& forall : requirement.forall) {
-      bound.domain.push_back(variable(forall));
-      scope.symbols[forall.variable] = {bound.domain.back().shape};
-    }
-    const auto relations = expr::compile_relations(requirement.that, scope);
-    for (std::size_t k = 0; k < relations.size(); ++k)
-      bound.comparisons.push_back(
-          {relations.size() > 1 ? bound.name + "." + std::to_string(k + 1) : bound.name,
-           relations[k].difference, relations[k].strict});
-    design_->inequalities.push_back(std::move(bound));
-  }
+  for (const Requirement& requirement : method().require)
+    for (const Member& member :
+         members(requirement.indices, requirement.conditions, names_->design))
+      add_inequality(requirement, member);
   if (method().minimize) design_->objective = scalar(*method().minimize, names_->design);
+}
+
+void Binding::add_inequality(const Requirement& requirement, const Member& member) {
+  Design::Inequality bound;
+  bound.name = member.title_of(requirement.name);
+  bound.place = requirement.place;
+  expr::Scope scope = names_->design;
+  const expr::Expression that = instantiate(requirement.that, member, scope);
+  bound.that_place = that.place(*that.root);
+  for (const Forall& forall : requirement.forall) {
+    bound.domain.push_back(variable(forall, member));
+    scope.symbols[forall.variable] = {bound.domain.back().shape};
+  }
+  const auto relations = expr::compile_relations(that, scope);
+  for (std::size_t k = 0; k < relations.size(); ++k)
+    bound.comparisons.push_back(
+        {relations.size() > 1 ? member.title_of(requirement.name + "." + std::to_string(k + 1))
+                              : bound.name,
+         relations[k].difference, relations[k].strict});
+  design_->inequalities.push_back(std::move(bound));
 }
 
 void refuse_free_unknowns(const Design& design) {

@@ -53,13 +53,22 @@ void Binding::bind_timer() {
 }
 
 void Binding::bind_claims() {
-  const auto optional = [&](const std::optional<expr::Expression>& part) {
-    return part ? std::optional(scalar(*part, names_->running)) : std::nullopt;
-  };
   for (const Claim& claim : method().claims)
-    design_->claims.push_back({claim.name, claim.kind, scalar(claim.value, names_->running),
-                               optional(claim.flow_cost), optional(claim.jump_cost),
-                               optional(claim.factor), claim.place});
+    for (const Member& member : members(claim.indices, {}, names_->running))
+      add_claim(claim, member);
+}
+
+void Binding::add_claim(const Claim& claim, const Member& member) {
+  const expr::Scope& scope = names_->running;
+  const auto bound = [&](const expr::Expression& part) {
+    return scalar(instantiate(part, member, scope), scope);
+  };
+  const auto optional = [&](const std::optional<expr::Expression>& part) {
+    return part ? std::optional(bound(*part)) : std::nullopt;
+  };
+  design_->claims.push_back({member.title_of(claim.name), claim.kind, bound(claim.value),
+                             optional(claim.flow_cost), optional(claim.jump_cost),
+                             optional(claim.factor), claim.place});
 }
 
 }  // namespace gainsmith::model

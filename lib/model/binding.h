@@ -9,6 +9,7 @@
 #include "expr/compile.h"
 #include "expr/scope.h"
 #include "model/bind.h"
+#include "model/families.h"
 
 namespace gainsmith::model {
 
@@ -52,23 +53,35 @@ class Binding {
   void refuse_unknown_names() const;
   const ScalarRange* find_searched(const std::string& name) const;
   void start_at_end(const ScalarRange& searched, Design::Datum& datum) const;
-  void add_datum(const Declaration& datum);
-  void check_shape(const Declaration& datum) const;
+  /// A datum that is declared, with what the problem gives.
+  struct Given {
+    Declaration declaration;
+    std::optional<Value> value;
+  };
+  std::vector<Given> given(const Declaration& datum);
+  void add_datum(const Given& datum);
+  void check_shape(const Given& datum) const;
   void add_parameter(const Parameter& parameter);
   void define(Design::Datum datum, std::vector<Design::Datum>& list);
   void add_definitions();
   void add_assumption(const Named& assumption);
   int degree_of(const UnknownDeclaration& unknown, Design::Unknown& bound) const;
   void add_unknowns();
+  void add_unknown(const UnknownDeclaration& unknown);
+  expr::Expression instantiate(const expr::Expression& expression, const Member& member,
+                               const expr::Scope& scope) const;
   void add_states();
   expr::Shape known_shape(const Declaration& declaration, const char* what) const;
 
   // bind_inequalities.cpp
   void bind_inequalities();
-  Design::Variable variable(const Forall& forall) const;
+  void add_inequality(const Requirement& requirement, const Member& member);
+  Design::Variable variable(const Forall& forall, const Member& member) const;
+  std::vector<expr::Expression> points_of(const Forall& forall, const Member& member) const;
 
   // bind_gains.cpp
   void bind_gains();
+  void add_gain(const Gain& gain);
   void add_products(const Gain& gain, const expr::Scope& scope, Design::Gain& bound) const;
 
   // bind_simulation.cpp
@@ -77,6 +90,7 @@ class Binding {
   std::vector<NamedFormula> named(const std::vector<Named>& list, const expr::Scope& scope) const;
   void bind_timer();
   void bind_claims();
+  void add_claim(const Claim& claim, const Member& member);
 
   // bind_campaign.cpp
   void bind_campaign();

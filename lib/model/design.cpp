@@ -19,6 +19,16 @@ const Design::Inequality* find_inequality(const Design& design, const std::strin
   return nullptr;
 }
 
+bool is_comparison_of(const std::string& comparison, const std::string& inequality) {
+  const std::size_t at = std::min(inequality.find(" at "), inequality.size());
+  const std::string stem = inequality.substr(0, at) + ".";
+  const std::string member = inequality.substr(at);
+  if (comparison == inequality) return true;
+  if (!comparison.starts_with(stem) || !comparison.ends_with(member)) return false;
+  const std::size_t end = comparison.size() - member.size();
+  return end > stem.size() && comparison.find_first_not_of("0123456789", stem.size()) >= end;
+}
+
 std::vector<std::string> scalar_names(const Design& design) {
   std::vector<std::string> names;
   for (const Design::Datum& datum : design.data)

@@ -13,17 +13,17 @@
 
 namespace gainsmith::model {
 
-/// Something with a name and a shape: a datum, an unknown, a state.
+/// Something with a name and a shape: a datum, an unknown, a state. With indices it is a family:
+/// "for: i in 1..N".
 struct Declaration {
   std::string name;
   ShapeText shape;
+  std::vector<expr::Index> indices;
   /// A datum's default or a state's start, used when the problem gives none.
   std::optional<expr::Expression> fallback;
   std::string help;
   Place place;
 };
-
-/// An unknown: a matrix or, with `variable`, a function of a scalar given by coefficient matrices.
 
 /// A scalar and the range in which it is looked for: "T2: [0.5, 1.1]".
 struct ScalarRange {
@@ -33,6 +33,7 @@ struct ScalarRange {
   Place place;
 };
 
+/// An unknown: a matrix or, with `variable`, a function of a scalar given by coefficient matrices.
 struct UnknownDeclaration : Declaration {
   std::string variable;                    ///< "tau" of `of: tau`; empty: a matrix
   std::optional<expr::Expression> degree;  ///< of its polynomial; none: 0
@@ -63,12 +64,14 @@ struct Let {
   Place place;
 };
 
-/// A gain: a matrix or, with `variable`, a function of a scalar: "F(tau): inv(P)*Z(tau)".
+/// A gain: a matrix or, with `variable`, a function of a scalar: "F(tau): inv(P)*Z(tau)"; with
+/// indices a family: "L(i in 1..N): inv(P(i))*Y(i)".
 struct Gain {
   std::string name;
   expr::Expression value;
   Place place;
   std::string variable;  ///< empty: a matrix
+  std::vector<expr::Index> indices{};
 };
 
 /// "forall: tau in [a, b]", "forall: k in {a, b, c}" or "forall: A in conv{A1, A2}".
@@ -77,11 +80,14 @@ struct Forall {
   Over over = Over::interval;
   std::vector<expr::Expression> points;  ///< the two ends, the elements, or the vertices
   Place place;
+  bool of_vector = false;  ///< "forall: h in v": the elements of one vector
 };
 
-/// A named matrix inequality, or a chain of them.
+/// A named matrix inequality, or a chain of them; with indices a family of them.
 struct Requirement {
   std::string name;
+  std::vector<expr::Index> indices;
+  std::vector<expr::Expression> conditions;  ///< "i != j": those of the members
   std::vector<Forall> forall;
   expr::Expression that;
   Place place;
@@ -117,6 +123,7 @@ struct Claim {
   std::optional<expr::Expression> jump_cost;  ///< cost
   std::optional<expr::Expression> factor;     ///< shrinks
   Place place;
+  std::vector<expr::Index> indices{};
 };
 
 struct Method {

@@ -21,6 +21,18 @@ bool is_name(const std::string& text) {
          std::all_of(text.begin(), text.end(), is_part);
 }
 
+/// "P_1", "P_1_0" of P.
+bool is_numbered(const std::string& name, const std::string& owner) {
+  if (!name.starts_with(owner) || name.size() == owner.size()) return false;
+  char before = '0';
+  for (const char c : name.substr(owner.size())) {
+    const bool digit = c >= '0' && c <= '9';
+    if (!digit && (c != '_' || before == '_')) return false;
+    before = c;
+  }
+  return name[owner.size()] == '_' && before != '_';
+}
+
 std::string with_article(const std::string& noun) {
   const bool vowel = std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
   return (vowel ? "an " : "a ") + noun;
@@ -52,6 +64,18 @@ class NameCheck {
                                          with_article(found->second));
   }
 
+  /// An index may be that of another family, nothing else.
+  void check_indices(const std::vector<expr::Index>& indices) const {
+    for (const expr::Index& index : indices) {
+      if (expr::is_reserved(index.name) || index.name == "in")
+        throw InputError(index.place, "'" + index.name + "' is a word of the language");
+      if (const auto found = known_.find(index.name); found != known_.end())
+        throw InputError(index.place, "'" + index.name +
+                                          "' is an index here, but it already names " +
+                                          with_article(found->second));
+    }
+  }
+
   void add(const std::string& name, const std::string& what, const Place& place) {
     if (!is_name(name))
       throw InputError(place, "'" + name + "' is no name: expected letters, digits and _");
@@ -65,17 +89,16 @@ class NameCheck {
     places_.emplace(name, place);
   }
 
-  /// The coefficients of a function YL are YL_0, YL_1, ...: none of them may name anything else.
-  void reserve_coefficients(const std::string& function) const {
-    const std::string stem = function + "_";
+  /// The coefficients of a function YL are YL_0, YL_1, ..., the members of a family P are P_1, P_2,
+  /// ...: none of them may name anything else.
+  void reserve_numbered(const std::string& owner, const std::string& what,
+                        const std::string& kind) const {
     const auto clash = std::find_if(places_.begin(), places_.end(), [&](const auto& entry) {
-      const std::string& name = entry.first;
-      return name.starts_with(stem) && name.size() > stem.size() &&
-             name.find_first_not_of("0123456789", stem.size()) == std::string::npos;
+      return is_numbered(entry.first, owner);
     });
     if (clash == places_.end()) return;
-    throw InputError(clash->second, "'" + clash->first + "' is the name of a coefficient of " +
-                                        function + ", which is a function");
+    throw InputError(clash->second, "'" + clash->first + "' is the name of a " + what + " of " +
+                                        owner + ", which is a " + kind);
   }
 
   void check_parameter(const std::string& name, const Place& place) const {
@@ -90,6 +113,18 @@ class NameCheck {
   std::map<std::string, std::string> known_;
   std::map<std::string, Place> places_;
 };
+
+void check_families(const Method& method, const NameCheck& names) {
+  const auto check = [&](const std::string& name, const std::vector<expr::Index>& indices) {
+    names.check_indices(indices);
+    if (!indices.empty()) names.reserve_numbered(name, "member", "family");
+  };
+  for (const Declaration& datum : method.data) check(datum.name, datum.indices);
+  for (const UnknownDeclaration& unknown : method.unknowns) check(unknown.name, unknown.indices);
+  for (const Gain& gain : method.gains) check(gain.name, gain.indices);
+  for (const Claim& claim : method.claims) names.check_indices(claim.indices);
+  for (const Requirement& requirement : method.require) names.check_indices(requirement.indices);
+}
 
 void check_maps(const Component& component, const std::vector<Named>& map,
                 const std::string& what) {
@@ -146,15 +181,16 @@ void check_names(const Method& method) {
   for (const UnknownDeclaration& unknown : method.unknowns) {
     if (unknown.variable.empty()) continue;
     names.check_parameter(unknown.variable, unknown.place);
-    names.reserve_coefficients(unknown.name);
+    names.reserve_numbered(unknown.name, "coefficient", "function");
   }
   for (const Gain& gain : method.gains) {
     if (gain.variable.empty()) continue;
     names.check_parameter(gain.variable, gain.place);
-    names.reserve_coefficients(gain.name);
+    names.reserve_numbered(gain.name, "coefficient", "function");
   }
   for (const Requirement& requirement : method.require)
     for (const Forall& forall : requirement.forall) names.check_variable(forall);
+  check_families(method, names);
 }
 
 }  // namespace gainsmith::model

@@ -18,9 +18,11 @@ namespace gainsmith::model {
 /// is declared (`flat`).
 struct Value {
   std::string name;
-  expr::Expression value;
+  expr::Expression value;  ///< without a root: a list of matrices, given for a family
   bool flat = false;
   Place place;
+  bool list = false;              ///< a YAML list, whose elements a family takes for its members
+  std::vector<Value> matrices{};  ///< of a list of matrices, which has no value as one expression
 };
 
 /// How the sampling intervals of a run are chosen.

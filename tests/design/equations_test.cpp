@@ -3,27 +3,18 @@
 
 #include <cmath>
 
-#include "base/random.h"
-#include "design/synthesize.h"
+#include "design/solve.h"
 #include "numbers/dense.h"
-#include "support/yaml_problem.h"
 
 namespace gainsmith::design {
 namespace {
-
-model::Gains solve(const std::string& method, const std::string& data = "") {
-  const tests::YamlProblem yaml("problem: p\nmethod:\n  method: m\n" + method + data);
-  return synthesize(yaml.instance, {});
-}
 
 /// min tr(C P) over P >= 0, tr(P) = 1 is the smallest eigenvalue of C.
 TEST(Equations, TheSmallestEigenvalueIsAMinimumOverATrace) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     RandomStream random(0xE0, seed);
     const int n = 2 + static_cast<int>(seed % 4);
-    numbers::Matrix C(n, n);
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j <= i; ++j) C(i, j) = C(j, i) = std::round(128 * random.uniform() - 64) / 64;
+    const numbers::Matrix C = random_symmetric(random, n);
     const model::Gains gains = solve(
         "  data: {C: n x n}\n  unknowns: {P: symmetric n}\n"
         "  require: {shape: P >= 0, one: trace(P) == 1}\n  minimize: trace(C*P)\n",

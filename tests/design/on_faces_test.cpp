@@ -5,27 +5,18 @@
 
 #include <cmath>
 
-#include "base/random.h"
-#include "design/synthesize.h"
+#include "design/solve.h"
 #include "numbers/dense.h"
-#include "support/yaml_problem.h"
 
 namespace gainsmith::design {
 namespace {
-
-model::Gains solve(const std::string& method, const std::string& data = "") {
-  const tests::YamlProblem yaml("problem: face\nmethod:\n  method: face\n" + method + data);
-  return synthesize(yaml.instance, {});
-}
 
 /// min <C, P> over P >= 0 of trace 1 is the smallest eigenvalue of C.
 TEST(OnFaces, TheLeastObjectiveUnderATraceIsAnEigenvalue) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(0xFACE, seed);
     const int n = 2 + static_cast<int>(seed % 3);
-    numbers::Matrix C(n, n);
-    for (int i = 0; i < n; ++i)
-      for (int j = 0; j <= i; ++j) C(i, j) = C(j, i) = std::round(128 * random.uniform() - 64) / 64;
+    const numbers::Matrix C = random_symmetric(random, n);
     const model::Gains gains = solve(
         "  data: {C: n x n}\n  unknowns: {P: symmetric n}\n"
         "  require: {shape: P >= 0, above: trace(P) >= 1, below: trace(P) <= 1}\n"

@@ -54,16 +54,20 @@ TEST(Problems, EveryBuiltInMethodIsUsableWithItsDefaults) {
       if (!datum.fallback)
         // With Hc = 0 flows show nothing: that is what the methods for hidden parts are for.
         text += "  " + datum.name + ": " +
-                (datum.name == "T2"   ? "2"
-                 : datum.name == "Hc" ? "0"
-                                      : "1") +
+                (datum.name == "T2"       ? "2"
+                 : datum.name == "Hc"     ? "0"
+                 : !datum.indices.empty() ? "[[[1]], [[1]]]"
+                                          : "1") +
                 "\n";
     text += "parameters: {";
     for (const model::Parameter& parameter : method.parameters)
       if (!parameter.fallback) text += parameter.name + ": 1, ";
     text += "}\n";
     const model::Problem problem = read_problem(text);
-    EXPECT_EQ(model::bind(problem).design->unknowns.size(), method.unknowns.size());
+    std::size_t unknowns = 0;
+    for (const model::UnknownDeclaration& unknown : method.unknowns)
+      unknowns += unknown.indices.empty() ? 1 : 2;
+    EXPECT_EQ(model::bind(problem).design->unknowns.size(), unknowns);
   }
 }
 

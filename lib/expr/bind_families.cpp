@@ -1,0 +1,176 @@
+// Names with indices, sums over them, and Kronecker products.
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "expr/binder.h"
+#include "expr/compile.h"
+
+namespace gainsmith::expr {
+
+std::string member_name(const std::string& family, const std::vector<int>& indices) {
+  std::string name = family;
+  for (const int index : indices) name += "_" + std::to_string(index);
+  return name;
+}
+
+namespace {
+
+bool compares(Relation relation, int a, int b) {
+  switch (relation) {
+    case Relation::less:
+      return a < b;
+    case Relation::less_equal:
+      return a <= b;
+    case Relation::greater:
+      return a > b;
+    case Relation::greater_equal:
+      return a >= b;
+    case Relation::equal:
+      return a == b;
+    case Relation::not_equal:
+      return a != b;
+  }
+  return false;
+}
+
+}  // namespace
+
+int Binder::required_whole_number(const Expression& expression, const Node& node,
+                                  const std::string& what) {
+  const auto value = whole_number(expression, node);
+  if (!value)
+    fail(expression, node,
+         what + " must be a whole number known beforehand, not '" + expression.quote(node) +
+             "'; an index has its values from 'forall: i in 1..N', from the name of a gain "
+             "L(i in 1..N), or in sum(i in 1..N, ...)");
+  return *value;
+}
+
+std::optional<std::string> Binder::member(const Expression& expression, const Node& node) {
+  if (node.kind != NodeKind::call || environment_.contains(node.text)) return std::nullopt;
+  const auto family = scope_.families.find(node.text);
+  if (family == scope_.families.end()) return std::nullopt;
+  const Ranges& ranges = family->second;
+  if (node.children.size() != ranges.size())
+    fail(expression, node,
+         "the family " + node.text + " takes " + std::to_string(ranges.size()) + " indices, not " +
+             std::to_string(node.children.size()));
+  std::vector<int> indices;
+  for (std::size_t k = 0; k < ranges.size(); ++k) {
+    const Node& child = *node.children[k];
+    indices.push_back(required_whole_number(expression, child, "an index of " + node.text));
+    const auto [low, high] = ranges[k];
+    if (indices.back() < low || indices.back() > high)
+      fail(expression, child,
+           "the family " + node.text + " has the members " + std::to_string(low) + " to " +
+               std::to_string(high) + "; found " + std::to_string(indices.back()));
+  }
+  return member_name(node.text, indices);
+}
+
+std::optional<Bound> Binder::bind_member_call(const Expression& expression, const Node& node) {
+  const auto name = member(expression, *node.children[0]);
+  if (!name) return std::nullopt;
+  const auto function = scope_.functions.find(*name);
+  if (function == scope_.functions.end()) return std::nullopt;
+  if (node.children.size() != 2)
+    fail(expression, node, "'" + *name + "' is a function of one variable");
+  return bind_given_function(expression, node, *name, *node.children[1], function->second);
+}
+
+bool Binder::holds(const Expression& expression, const Node& comparison) {
+  if (comparison.kind != NodeKind::compare)
+    fail(expression, comparison,
+         "expected a comparison of indices such as i != j, found '" + expression.quote(comparison) +
+             "'");
+  for (std::size_t k = 0; k < comparison.relations.size(); ++k) {
+    const auto side = [&](std::size_t i) {
+      return required_whole_number(expression, *comparison.children[i], "a side of the comparison");
+    };
+    if (!compares(comparison.relations[k], side(k), side(k + 1))) return false;
+  }
+  return true;
+}
+
+/// sum(i in 1..N, j in 1..N, i != j, M): the last argument for all indices that the comparisons
+/// leave.
+Bound Binder::sum(const Expression& expression, const Node& node) {
+  if (node.children.size() == 1) return sum_of_elements(expression, node);
+  const Node& term = *node.children.back();
+  std::optional<Bound> total;
+  const std::function<void(std::size_t)> from = [&](std::size_t k) {
+    const Node& child = *node.children[k];
+    if (&child == &term) {
+      const Bound value = bind(expression, term);
+      Node pair = node;
+      pair.kind = NodeKind::add;
+      pair.children = {node.children.back(), node.children.back()};
+      total = total ? add(expression, pair, Op::add, *total, value) : value;
+      return;
+    }
+    if (child.kind != NodeKind::each) {
+      if (holds(expression, child)) from(k + 1);
+      return;
+    }
+    const int low = required_whole_number(expression, *child.children[0], "the end of a range");
+    const int high = required_whole_number(expression, *child.children[1], "the end of a range");
+    const auto outer = environment_.find(child.text);
+    if (outer != environment_.end() || scope_.symbols.contains(child.text) ||
+        scope_.dimensions.contains(child.text))
+      fail(expression, child,
+           "'" + child.text + "' already has a meaning here; name the index otherwise");
+    for (int i = low; i <= high; ++i) {
+      environment_[child.text] = {number(expression, child, std::to_string(i))};
+      from(k + 1);
+      environment_.erase(child.text);
+    }
+  };
+  if (node.children[0]->kind != NodeKind::each)
+    fail(expression, node, "a sum is written sum(i in 1..N, P(i)), or sum(M) of the elements of M");
+  from(0);
+  return total ? *total : Bound{number(expression, node, "0")};
+}
+
+/// 1' M 1.
+Bound Binder::sum_of_elements(const Expression& expression, const Node& node) {
+  const int at = sized(expression, *node.children[0], bind(expression, *node.children[0]));
+  const auto [rows, columns] = shape(at);
+  const int one = number(expression, node, "1");
+  const int left = emit(expression, node, Op::fill, {one}, {1, rows});
+  const int right = emit(expression, node, Op::fill, {one}, {columns, 1});
+  if (rows == 1 && columns == 1) return {at};
+  const int sums = rows == 1 ? at : emit(expression, node, Op::multiply, {left, at}, {1, columns});
+  return {columns == 1 ? sums : emit(expression, node, Op::multiply, {sums, right}, {})};
+}
+
+/// [A_11 B, A_12 B; ...]
+Bound Binder::kronecker(const Expression& expression, const Node& node) {
+  const auto factor = [&](std::size_t i) {
+    return sized(expression, *node.children[i], bind(expression, *node.children[i]));
+  };
+  const int a = factor(0);
+  const int b = factor(1);
+  const auto [rows, columns] = shape(a);
+  if (rows == 1 && columns == 1) return multiply(expression, node, {a}, {b});
+  std::vector<int> blocks;
+  for (int i = 0; i < rows; ++i)
+    for (int j = 0; j < columns; ++j) {
+      const int element = emit(expression, node, Op::index, {a}, {}, {i, i + 1, j, j + 1});
+      blocks.push_back(multiply(expression, node, {element}, {b}).at);
+    }
+  return {assemble(expression, node, std::move(blocks), columns,
+                   std::vector<int>(static_cast<std::size_t>(rows), shape(b).rows),
+                   std::vector<int>(static_cast<std::size_t>(columns), shape(b).cols))};
+}
+
+int whole_number(const Expression& expression, const Scope& scope) {
+  return Binder(scope).required_whole_number(expression, *expression.root, "an index");
+}
+
+bool whole_condition(const Expression& expression, const Scope& scope) {
+  return Binder(scope).holds(expression, *expression.root);
+}
+
+}  // namespace gainsmith::expr

@@ -1,0 +1,126 @@
+// Families: one text for all members gives what the members written one by one give.
+#include <gtest/gtest.h>
+
+#include "design/solve.h"
+#include "support/input_error.h"
+
+namespace gainsmith::design {
+namespace {
+
+using tests::input_error;
+
+/// A matrix with eigenvalues left of -1/8.
+numbers::Matrix random_stable(RandomStream& random, int n) {
+  const numbers::Matrix S = random_symmetric(random, n);
+  numbers::Matrix A = S - S.triangularView<Eigen::StrictlyLower>().toDenseMatrix() * 2;
+  A.diagonal() = -S.diagonal().cwiseAbs().array() - 0.125;
+  return A;
+}
+
+const std::string kDwell = R"yaml(  data:
+    A: {shape: n x n, for: i in 1..N}
+    T: {shape: scalar, for: i in 1..N}
+  unknowns: {P: {shape: symmetric n, for: i in 1..N}}
+  let: {E(i): expm(A(i)*T(i))}
+  require:
+    positive: {forall: i in 1..N, that: P(i) > 0}
+    flow: {forall: i in 1..N, that: He(P(i)*A(i)) < 0}
+    switch: {forall: [i in 1..N, j in 1..N, i != j], that: "E(i)'*P(j)*E(i) < P(i)"
+}
+)yaml";
+
+TEST(FamilyDesign, IsThatOfItsMembersOneByOne) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    RandomStream random(0xFA, seed);
+    const int N = 2 + static_cast<int>(seed % 3);
+    std::string list, data, single, names, let, positive, flow, jumps;
+    for (int i = 1; i <= N; ++i) {
+      const std::string I = std::to_string(i);
+      const std::string A = tests::matrix_yaml(random_stable(random, 2));
+      list += (i > 1 ? ", " : "") + A;
+      data += (i > 1 ? ", A" : "A") + I + ": " + A;
+      single += (i > 1 ? ", A" : "A") + I + ": n x n";
+      names += (i > 1 ? ", P" : "P") + I + ": symmetric n";
+      positive += "    positive" + I + ": P" + I + " > 0\n";
+      flow += "    flow" + I + ": He(P" + I + "*A" + I + ") < 0\n";
+      for (int j = 1; j <= N; ++j)
+        if (i != j)
+          jumps += "    switch" + I + std::to_string(j) + ": expm(A" + I + "*0.5)'*P" +
+                   std::to_string(j) + "*expm(A" + I + "*0.5) < P" + I + "\n";
+    }
+    const model::Gains family = solve(kDwell, "data: {A: [" + list + "], T: 0.5}\n");
+    const model::Gains members = solve("  data: {" + single + "}\n  unknowns: {" + names +
+                                           "}\n  require:\n" + positive + flow + jumps,
+                                       "data: {" + data + "}\n");
+    EXPECT_EQ(family.verdict, members.verdict) << seed;
+    ASSERT_EQ(family.unknowns.size(), members.unknowns.size());
+    for (std::size_t k = 0; k < family.unknowns.size(); ++k) {
+      EXPECT_EQ(family.unknowns[k].first, "P_" + std::to_string(k + 1));
+      EXPECT_EQ(family.unknowns[k].second, members.unknowns[k].second) << seed;
+    }
+    ASSERT_EQ(family.margins.size(), members.margins.size());
+    for (std::size_t k = 0; k < family.margins.size(); ++k)
+      EXPECT_EQ(family.margins[k].reached, members.margins[k].reached) << family.margins[k].name;
+    EXPECT_EQ(family.margins.back().name,
+              "switch at i = " + std::to_string(N) + ", j = " + std::to_string(N - 1));
+  }
+}
+
+TEST(FamilyDesign, GainsAndFunctionsCarryTheIndex) {
+  const model::Gains gains = solve(R"yaml(  data: {A: {shape: n x n, for: i in 1..N}, h: N}
+  unknowns: {P: {shape: symmetric n, for: i in 1..N, of: s, in: [0, 1], degree: i}}
+  require:
+    above: {forall: [i in 1..N, "s in [0, 1]"], that: P(i)(s) > I}
+    below: {forall: [i in 1..N, "s in [0, 1]"], that: P(i)(s) + derivative(P(i))(s) < i*3*I}
+    each: {forall: x in h, that: x*P(1)(0) > 0}
+  gains: {"K(i in 1..N)": inv(P(i)(0))*A(i), "L(i in 1..2)(s)": A(i)*P(i)(s)}
+)yaml",
+                                   "data: {A: [[[0, 1], [2, 3]], 2*I], h: [1, 2]}\n");
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  ASSERT_EQ(gains.gains.size(), 2U);
+  EXPECT_EQ(gains.gains[0].first, "K_1");
+  EXPECT_EQ(gains.gains[1].first, "K_2");
+  ASSERT_EQ(gains.functions.size(), 2U);
+  EXPECT_EQ(gains.functions[1].signature, "P_2(s)");
+  EXPECT_EQ(gains.unknowns.size(), 5U) << "degrees 1 and 2";
+}
+
+TEST(FamilyDesign, ChainsNameTheMember) {
+  const model::Gains gains = solve(
+      "  data: {a: {shape: scalar, for: i in 1..2, default: i}}\n"
+      "  unknowns: {x: {shape: scalar, for: i in 1..2}}\n"
+      "  require: {bounds: {forall: i in 1..2, that: a(i) < x(i) < 2*a(i)}}\n");
+  ASSERT_EQ(gains.margins.size(), 4U);
+  EXPECT_EQ(gains.margins[3].name, "bounds.2 at i = 2");
+  EXPECT_TRUE(model::is_comparison_of("bounds.2 at i = 2", "bounds at i = 2"));
+  EXPECT_FALSE(model::is_comparison_of("bounds.2 at i = 2", "bounds at i = 1"));
+  EXPECT_FALSE(model::is_comparison_of("bounds_2", "bounds"));
+}
+
+TEST(FamilyDesign, MistakesAreNamed) {
+  const auto message = [](const std::string& method, const std::string& data) {
+    return input_error([&] { solve(method, data); }).message();
+  };
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"data: {A: [[[0]], [[1]]], T: [1, 2, 3]}\n", "the family T has 2 members; found 3"},
+      {"data: {A: [[[0]], [[1, 2]]], T: 1}\n", "a family takes a list with a matrix for each"},
+      {"data: {T: 1}\n", "the datum A (n x n for each index) of the method m is missing"},
+      {"data: {A: -I, T: [1, 2]}\n", "must be a whole number known beforehand, not 'N'"},
+      {"data: {A: [[[-1]], [[-2]]]}\n", "the datum T_1 (scalar) of the method m is missing"}};
+  for (const auto& [data, expected] : cases) {
+    const std::string found = message(kDwell, data);
+    EXPECT_NE(found.find(expected), std::string::npos) << data << found;
+  }
+  const std::string plain =
+      "  data: {A: n x n}\n  unknowns: {P: symmetric n}\n  require: {p: P > A}\n";
+  EXPECT_NE(message(plain, "data: {A: [[[1]], [[2]]]}\n").find("found a list of matrices"),
+            std::string::npos);
+  EXPECT_NE(message("  unknowns: {P: {shape: scalar, for: i in 1..2}, P_1: scalar}\n"
+                    "  require: {p: P(1) + P_1 > 0}\n",
+                    "")
+                .find("'P_1' is the name of a member of P, which is a family"),
+            std::string::npos);
+}
+
+}  // namespace
+}  // namespace gainsmith::design
