@@ -54,12 +54,35 @@ void take_point_beyond_double(const Posed& posed, const std::vector<double>& x, 
   result.margins = std::move(margins);
 }
 
+/// What the margins are said to cost, by the objective's size (lmi::objective_lower_bound).
+double price_of(const Posed& posed, const lmi::Formulation& formulation,
+                const sdp::Solution& solution) {
+  const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, formulation, solution));
+  const double least = lmi::objective_lower_bound(posed.lmi, formulation, solution);
+  return (value - least) / std::abs(value);
+}
+
+/// A gap that is small beside the solver's 1 may be large beside the objective: then the program is
+/// solved to a finer one.
+void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
+  constexpr double kCheap = 3e-7, kDear = 1e-3;  // dearer is no matter of the solver's digits
+  constexpr double kFiner = 1e-3;
+  const double price = price_of(posed, result.formulation, result.solution);
+  if (!(kCheap < price && price < kDear)) return;
+  Effort finer = result.question.effort;
+  finer.tolerance *= kFiner;
+  sdp::Solution again = solve(result.formulation.problem, finer);
+  if (again.status == sdp::Status::optimal && price_of(posed, result.formulation, again) < price)
+    result.solution = std::move(again);
+}
+
 void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   const Question& asked = result.question;
   result.formulation = lmi::formulate_objective(posed.lmi, asked.bounds, asked.shift);
   result.solution = solve(result.formulation.problem, asked.effort);
   // Far from the minimum a point serves no one: one inside comes from the other goal.
   if (!result.is_near_optimal()) return;
+  refine_price(posed, solve, result);
   take_point(posed, lmi::read_back(posed.lmi, result.formulation, result.solution), result);
 }
 

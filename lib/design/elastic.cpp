@@ -68,7 +68,10 @@ model::Instance without_gains(const model::Instance& instance) {
 }
 
 model::Instance without_objective(const model::Instance& instance) {
-  return with_design(instance, [](Design& design) { design.objective.reset(); });
+  return with_design(instance, [](Design& design) {
+    design.objective.reset();
+    design.quotient.reset();
+  });
 }
 
 model::Instance with_inequalities(const model::Instance& instance,
@@ -123,6 +126,7 @@ model::Instance elastic(const model::Instance& instance, const ByInequality& sca
       relaxed.push_back(not_negative(slack, inequality));
     }
     design.inequalities = std::move(relaxed);
+    design.quotient.reset();
     design.objective = sum_of(names, design.method_file);
   });
 }

@@ -9,6 +9,7 @@
 #include "design/gain_values.h"
 #include "design/hautus.h"
 #include "design/ladder.h"
+#include "design/quotient.h"
 
 namespace gainsmith::design {
 
@@ -105,6 +106,7 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
 
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth) {
   constexpr int kMostRounds = 60;
+  if (instance.design->quotient) return smallest_quotient(instance, options, depth);
   const auto start = Clock::now();
   const lmi::Inequalities inequalities(instance);
   forall::Plan plan = forall::make_plan(inequalities.design());

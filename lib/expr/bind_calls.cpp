@@ -149,6 +149,9 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return basis(expression, node, Op::range_basis);
     case Composed::null:
       return basis(expression, node, Op::kernel_basis);
+    case Composed::lambda_max:
+    case Composed::lambda_min:
+      return extreme_eigenvalue(expression, node, function == Composed::lambda_max);
     case Composed::obsv:
       return observability(expression, node);
     case Composed::chebyshev:
@@ -309,6 +312,22 @@ Bound Binder::basis(const Expression& expression, const Node& node, Op op) {
   const Shape result =
       op == Op::range_basis ? Shape{from.rows, rank} : Shape{from.cols, from.cols - rank};
   return {emit(expression, node, op, {at}, result)};
+}
+
+/// With c = |M|: the singular values of M + cI, c I - M are eigenvalues, the largest of them the
+/// one looked for but for c.
+Bound Binder::extreme_eigenvalue(const Expression& expression, const Node& node, bool largest) {
+  const int m = square_argument(expression, node, node.text);
+  const Shape square = shape(m);
+  if (square.rows == 0) fail(expression, node, "an empty matrix has no eigenvalues");
+  const int c = emit(expression, node, Op::norm, {m}, {});
+  const int shift = emit(expression, node, Op::identity, {c}, square);
+  const int shifted = largest ? emit(expression, node, Op::add, {m, shift}, square)
+                              : emit(expression, node, Op::subtract, {shift, m}, square);
+  const int values = emit(expression, node, Op::singular_values, {shifted}, {square.rows, 1});
+  const int first = emit(expression, node, Op::index, {values}, {}, {0, 1, 0, 1});
+  return {largest ? emit(expression, node, Op::subtract, {first, c}, {})
+                  : emit(expression, node, Op::subtract, {c, first}, {})};
 }
 
 Bound Binder::observability(const Expression& expression, const Node& node) {

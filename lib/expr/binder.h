@@ -96,6 +96,7 @@ class Binder {
   Bound diagonal(const Expression& expression, const Node& node);
   Bound block_diagonal(const Expression& expression, const Node& node);
   Bound basis(const Expression& expression, const Node& node, Op op);
+  Bound extreme_eigenvalue(const Expression& expression, const Node& node, bool largest);
   Bound observability(const Expression& expression, const Node& node);
   Bound chebyshev(const Expression& expression, const Node& node);
   // bind_gramian.cpp

@@ -80,7 +80,51 @@ void Binding::bind_inequalities() {
     for (const Member& member :
          members(requirement.indices, requirement.conditions, names_->design))
       add_inequality(requirement, member);
-  if (method().minimize) design_->objective = scalar(*method().minimize, names_->design);
+  if (method().minimize) bind_objective(*method().minimize);
+}
+
+void Binding::bind_objective(const expr::Expression& text) {
+  const expr::Node& root = *text.root;
+  const bool quotient =
+      root.kind == expr::NodeKind::call && root.text == "lambda_max" && root.children.size() == 2;
+  if (!quotient) {
+    const expr::Expression affine{text.text, bounded(text, text.root, 1, false, names_->design)};
+    design_->objective = scalar(affine, names_->design);
+    return;
+  }
+  const expr::Expression first{text.text, root.children[0]};
+  const expr::Expression second{text.text, root.children[1]};
+  // The smaller one may be a multiple of I.
+  const auto square = [&](const expr::Expression& part, std::optional<expr::Shape> expected) {
+    expr::Program program = expr::compile(part, names_->design, expected);
+    if (!program.shape().is_square())
+      throw InputError(part.place(*part.root),
+                       "lambda_max takes symmetric matrices; found " + to_string(program.shape()));
+    return program;
+  };
+  Design::Quotient bound;
+  bound.numerator = square(first, std::nullopt);
+  bound.denominator = square(second, bound.numerator.shape());
+  bound.text = text.quote(root);
+  bound.denominator_text = text.quote(*second.root);
+  bound.place = text.place(root);
+  design_->quotient = std::move(bound);
+}
+
+/// "flow", or "flow.1", "flow.2" of several; of a family "flow.1 at i = 2".
+void Binding::add_comparisons(const std::vector<expr::Expression>& comparisons,
+                              Design::Inequality& bound, const std::string& stem,
+                              const std::string& member, const expr::Scope& scope) const {
+  std::vector<expr::CompiledRelation> relations;
+  for (const expr::Expression& comparison : comparisons)
+    for (expr::CompiledRelation& relation : expr::compile_relations(comparison, scope))
+      relations.push_back(std::move(relation));
+  const std::string at = member.empty() ? "" : " at " + member;
+  for (std::size_t k = 0; k < relations.size(); ++k) {
+    const std::string number = relations.size() > 1 ? "." + std::to_string(k + 1) : "";
+    bound.comparisons.push_back(
+        {stem + number + at, std::move(relations[k].difference), relations[k].strict});
+  }
 }
 
 void Binding::add_inequality(const Requirement& requirement, const Member& member) {
@@ -94,12 +138,8 @@ void Binding::add_inequality(const Requirement& requirement, const Member& membe
     bound.domain.push_back(variable(forall, member));
     scope.symbols[forall.variable] = {bound.domain.back().shape};
   }
-  const auto relations = expr::compile_relations(that, scope);
-  for (std::size_t k = 0; k < relations.size(); ++k)
-    bound.comparisons.push_back(
-        {relations.size() > 1 ? member.title_of(requirement.name + "." + std::to_string(k + 1))
-                              : bound.name,
-         relations[k].difference, relations[k].strict});
+  add_comparisons(affine_comparisons(that, scope, !requirement.forall.empty()), bound,
+                  requirement.name, member.label, scope);
   design_->inequalities.push_back(std::move(bound));
 }
 

@@ -9,6 +9,7 @@
 #include "expr/compile.h"
 #include "expr/scope.h"
 #include "model/bind.h"
+#include "model/convex.h"
 #include "model/families.h"
 
 namespace gainsmith::model {
@@ -75,9 +76,32 @@ class Binding {
 
   // bind_inequalities.cpp
   void bind_inequalities();
+  void bind_objective(const expr::Expression& text);
   void add_inequality(const Requirement& requirement, const Member& member);
   Design::Variable variable(const Forall& forall, const Member& member) const;
   std::vector<expr::Expression> points_of(const Forall& forall, const Member& member) const;
+
+  void add_comparisons(const std::vector<expr::Expression>& comparisons, Design::Inequality& bound,
+                       const std::string& stem, const std::string& member,
+                       const expr::Scope& scope) const;
+
+  // bind_convex.cpp
+  bool reads_unknowns(const expr::Expression& part, const expr::Scope& scope) const;
+  std::optional<Curvature> curvature_at(const expr::Expression& text, const expr::Node& node,
+                                        const expr::Scope& scope) const;
+  bool has_curvature(const expr::Expression& text, const expr::Node& node,
+                     const expr::Scope& scope) const;
+  void refuse_nested(const expr::Expression& text, const expr::Node& call,
+                     const expr::Scope& scope) const;
+  std::vector<expr::Expression> bounds_of(const expr::Expression& text, const expr::Node& call,
+                                          const expr::NodePtr& bound, expr::Scope& scope,
+                                          bool strict) const;
+  expr::NodePtr bounding_unknown(const expr::Expression& text, const expr::Node& call,
+                                 Curvature curvature);
+  expr::NodePtr bounded(const expr::Expression& text, const expr::NodePtr& node, int sign,
+                        bool quantified, const expr::Scope& scope);
+  std::vector<expr::Expression> affine_comparisons(const expr::Expression& that, expr::Scope& scope,
+                                                   bool quantified);
 
   // bind_gains.cpp
   void bind_gains();

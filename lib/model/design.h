@@ -142,6 +142,15 @@ struct Design {
     Factor nearest;       ///< the one next to it
   };
 
+  /// The objective lambda_max(M, N): the smallest l with M <= l N, where N > 0.
+  struct Quotient {
+    expr::Program numerator;
+    expr::Program denominator;
+    std::string text;
+    std::string denominator_text;
+    Place place;
+  };
+
   struct Gain {
     std::string name;
     std::string variable;  ///< empty: a matrix; otherwise a function of it
@@ -254,6 +263,7 @@ struct Design {
   std::vector<Unknown> unknowns;
   std::vector<Inequality> inequalities;
   std::optional<Formula> objective;
+  std::optional<Quotient> quotient;  ///< instead of an objective
   std::vector<Gain> gains;
   std::vector<NamedFormula> report;
 

@@ -106,7 +106,7 @@ TEST(FamilyDesign, MistakesAreNamed) {
       {"data: {A: [[[0]], [[1, 2]]], T: 1}\n", "a family takes a list with a matrix for each"},
       {"data: {T: 1}\n", "the datum A (n x n for each index) of the method m is missing"},
       {"data: {A: -I, T: [1, 2]}\n", "must be a whole number known beforehand, not 'N'"},
-      {"data: {A: [[[-1]], [[-2]]]}\n", "the datum T_1 (scalar) of the method m is missing"}};
+      {"data: {A: [[[-1]], [[-2]]]}\n", "the datum T (scalar for each index) of the method m is missing"}};
   for (const auto& [data, expected] : cases) {
     const std::string found = message(kDwell, data);
     EXPECT_NE(found.find(expected), std::string::npos) << data << found;

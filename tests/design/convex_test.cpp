@@ -1,0 +1,165 @@
+// Norms, moduli, eigenvalues and their quotients as objectives and in requirements.
+#include <gtest/gtest.h>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <Eigen/SVD>
+#include <algorithm>
+
+#include "design/solve.h"
+#include "numbers/dense.h"
+#include "support/input_error.h"
+
+namespace gainsmith::design {
+namespace {
+
+using numbers::Matrix;
+using tests::input_error;
+
+Matrix random_matrix(RandomStream& random, int rows, int cols) {
+  return Matrix::NullaryExpr(rows, cols,
+                             [&] { return std::round(128 * random.uniform() - 64) / 64; });
+}
+
+double norm(const Matrix& matrix) { return Eigen::JacobiSVD<Matrix>(matrix).singularValues()(0); }
+
+/// Parrott: with the best corner the norm is that of the known rows or columns.
+TEST(ConvexFunctions, TheLeastNormOfACompletion) {
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    RandomStream random(0xC0, seed);
+    const Matrix M = random_matrix(random, 4, 5);
+    const model::Gains gains = solve(
+        "  data: {M: 4 x 5}\n  unknowns: {X: 2 x 2}\n"
+        "  require: {finite: norm(X) <= 100}\n"
+        "  minimize: \"norm([M(1:2, 1:3), M(1:2, 4:5); M(3:4, 1:3), X])\"\n",
+        "data: {M: " + tests::matrix_yaml(M) + "}\n");
+    const double least = std::max(norm(M.topRows(2)), norm(M.leftCols(3)));
+    ASSERT_EQ(gains.verdict, model::Verdict::yes) << seed;
+    EXPECT_NEAR(*gains.objective, least, 1e-6 * least) << seed;
+    EXPECT_LE(*gains.objective_lower_bound, *gains.objective) << seed;
+  }
+}
+
+/// The best point in the sense of moduli is the median, in that of the largest modulus the middle.
+TEST(ConvexFunctions, SumsAndLargestOfModuli) {
+  const std::string head =
+      "  data: {v: n}\n  unknowns: {x: scalar}\n  require: {any: abs(x) <= 9}\n";
+  const std::string data = "data: {v: [1, 2, 7, -4, 3]}\n";
+  const model::Gains median = solve(head + "  minimize: sum(abs(v - x*ones(n, 1)))\n", data);
+  EXPECT_NEAR(*median.objective, 1 + 0 + 5 + 6 + 1, 1e-6);
+  EXPECT_NEAR((*median.find("x"))(0, 0), 2, 1e-5);
+  const model::Gains middle = solve(
+      head + "  minimize: \"max(x - v(1), x - v(4), v(3) - x, v(5) - x) - min(x, 5)/2\"\n", data);
+  EXPECT_NEAR(*middle.objective, 5.5 - 0.75, 1e-6) << "at 1.5";
+}
+
+/// Of a symmetric pencil without further unknowns.
+TEST(ConvexFunctions, TheSpreadOfEigenvalues) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random(0xC1, seed);
+    const int n = 2 + static_cast<int>(seed % 3);
+    const Matrix C = random_symmetric(random, n);
+    const model::Gains gains = solve(
+        "  data: {C: n x n}\n  unknowns: {d: scalar}\n  require: {any: abs(d) <= 1}\n"
+        "  minimize: lambda_max(C + d*I) - 2*lambda_min(C + d*I)\n",
+        "data: {C: " + tests::matrix_yaml(C) + "}\n");
+    const auto values = numbers::SymmetricEigen(C).values();
+    // d = 1 is best: max + d - 2 (min + d).
+    EXPECT_NEAR(*gains.objective, values.maxCoeff() - 2 * values.minCoeff() - 1, 1e-6) << seed;
+  }
+}
+
+TEST(ConvexFunctions, AnEigenvalueIsAFunctionOfData) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    RandomStream random(0xC2, seed);
+    const Matrix C = random_symmetric(random, 4);
+    const model::Gains gains = solve(
+        "  data: {C: n x n}\n  unknowns: {x: scalar}\n  require: {any: x > 0}\n"
+        "  gains: {e: \"[lambda_max(C), lambda_min(C)]\"}\n",
+        "data: {C: " + tests::matrix_yaml(C) + "}\n");
+    const auto values = numbers::SymmetricEigen(C).values();
+    EXPECT_NEAR(gains.gains[0].second(0), values.maxCoeff(), 1e-13);
+    EXPECT_NEAR(gains.gains[0].second(1), values.minCoeff(), 1e-13);
+  }
+}
+
+/// The least norm of D M inv(D) of a matrix without negative elements is its Perron eigenvalue.
+TEST(Quotient, ScalingsReachThePerronEigenvalue) {
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    RandomStream random(0xC3, seed);
+    const int n = 2 + static_cast<int>(seed % 4);
+    const Matrix M = random_matrix(random, n, n).cwiseAbs().array() + 1.0 / 64;
+    const model::Gains gains = solve(
+        "  data: {M: n x n}\n  unknowns: {P: diagonal n}\n  require: {positive: P > 0}\n"
+        "  minimize: lambda_max(M'*P*M, P)\n",
+        "data: {M: " + tests::matrix_yaml(M) + "}\n");
+    const double perron = Eigen::EigenSolver<Matrix>(M).eigenvalues().cwiseAbs().maxCoeff();
+    ASSERT_EQ(gains.verdict, model::Verdict::yes) << seed;
+    EXPECT_NEAR(*gains.objective, perron * perron, 1e-6 * perron * perron) << seed;
+    ASSERT_TRUE(gains.objective_lower_bound) << seed;
+    EXPECT_LE(*gains.objective_lower_bound, perron * perron * (1 + 1e-12)) << seed;
+    EXPECT_GE(*gains.objective_lower_bound, perron * perron * (1 - 1e-6)) << seed;
+  }
+}
+
+/// A Lyapunov matrix shows every decay rate below that of the slowest mode, in all units of time.
+TEST(Quotient, TheDecayRateIsThatOfTheSlowestMode) {
+  for (const double unit : {1e-3, 1.0, 1e3})
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+      RandomStream random(0xC4, seed);
+      const Matrix A = unit * random_matrix(random, 3, 3);
+      const model::Gains gains = solve(
+          "  data: {A: n x n}\n  unknowns: {P: symmetric n}\n  require: {positive: P > 0}\n"
+          "  minimize: lambda_max(He(P*A), 2*P)\n",
+          "data: {A: " + tests::matrix_yaml(A) + "}\n");
+      const double slowest = Eigen::EigenSolver<Matrix>(A).eigenvalues().real().maxCoeff();
+      ASSERT_EQ(gains.verdict, model::Verdict::yes) << seed;
+      EXPECT_NEAR(*gains.objective, slowest, 1e-6 * unit) << seed;
+      EXPECT_LE(*gains.objective_lower_bound, slowest + 1e-12 * unit) << seed;
+    }
+}
+
+TEST(Quotient, WithoutASolutionTheInequalitiesSayNo) {
+  const model::Gains gains =
+      solve("  unknowns: {x: scalar}\n  require: {a: x < -1}\n  minimize: lambda_max(1, x)\n");
+  EXPECT_EQ(gains.verdict, model::Verdict::no);
+  EXPECT_FALSE(gains.objective);
+}
+
+TEST(Quotient, WhatHasNoMinimumIsSaid) {
+  const model::Gains gains = solve(
+      "  unknowns: {x: scalar, y: scalar}\n  require: {a: x < 1, c: y < 2}\n"
+      "  minimize: lambda_max(x, y)\n");
+  EXPECT_EQ(gains.verdict, model::Verdict::yes);
+  EXPECT_FALSE(gains.objective_lower_bound);
+  EXPECT_NE(gains.solver.message.find("a smaller one may be possible"), std::string::npos);
+}
+
+TEST(ConvexFunctions, MistakesAreNamed) {
+  const std::string head = "  data: {A: 2 x 2}\n  unknowns: {X: 2 x 2, v: 2, s: scalar}\n";
+  const std::string data = "data: {A: I}\n";
+  const std::vector<std::pair<std::string, std::string>> cases = {
+      {"norm(X) >= 1", "'norm(X)' is convex: it can only be asked to be small"},
+      {"min(s, 1) <= 0", "'min(s, 1)' is concave: it can only be asked to be large"},
+      {"s*norm(X) <= 1", "times a number that is written out, not inside of 's*norm(X)'"},
+      {"norm(X)^2 <= 1", "not inside of 'norm(X)^2'"},
+      {"norm(norm(X)*A) <= 1", "'norm(X)*A' stands inside of another such function"},
+      {"abs(X) <= 1", "abs of unknowns is taken of numbers and vectors; found 2 x 2"},
+      {"norm(X) <= v", "is compared with a number; found 2 x 1"},
+      {"abs(v) <= A(1:1, :)*[1; 1; 1]", "cannot multiply"},
+      {"lambda_max(v) <= 1", "lambda_max takes a symmetric matrix; found 2 x 1"},
+      {"norm(X) == 1", "'==' takes affine sides"}};
+  for (const auto& [text, expected] : cases) {
+    const std::string found =
+        input_error([&] { solve(head + "  require: {a: \"" + text + "\"}\n", data); }).message();
+    EXPECT_NE(found.find(expected), std::string::npos) << text << ": " << found;
+  }
+  const std::string quantified =
+      input_error([&] {
+        solve(head + "  require: {a: {forall: \"t in [0, 1]\", that: norm(X) + s <= t}}\n", data);
+      }).message();
+  EXPECT_NE(quantified.find("stands alone on its side"), std::string::npos) << quantified;
+}
+
+}  // namespace
+}  // namespace gainsmith::design
