@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "io/blocks_yaml.h"
 #include "io/method_node.h"
 #include "io/search_yaml.h"
 #include "model/names.h"
@@ -155,7 +156,16 @@ model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
     return result;
   }
   YamlMap map(file, item.value, item.key);
-  result.that = file.expression(map.require("that").value, "that");
+  const auto blocks = map.find("blocks");
+  const auto is = map.find("is");
+  if (blocks && is)
+    result.that = named_blocks(file, *blocks, *is);
+  else if (blocks || is)
+    throw InputError(blocks ? blocks->place : is->place,
+                     "blocks filled by name need both, blocks: {...} and is: < 0");
+  const auto that = blocks ? map.find("that") : std::optional(map.require("that"));
+  if (blocks && that) throw InputError(that->place, "either 'that' or 'blocks', not both");
+  if (!blocks) result.that = file.expression(that->value, "that");
   if (const auto forall = map.find("forall"))
     for (const expr::Text& text : texts_of(file, *forall)) add_forall(text, result);
   map.finish();

@@ -147,6 +147,10 @@ YamlError explained(const std::string& text, YamlError error) {
       return {open->line, open->column,
               std::string("the '") + open->bracket + "' here is not closed: a '" +
                   (open->bracket == '[' ? ']' : '}') + "' is missing"};
+  if (error.message.find("block scalar") != std::string::npos) {
+    error.message = "a text that begins with > or | must be quoted, such as \"> 0\"";
+    return error;
+  }
   const bool map = error.message.find("map") != std::string::npos;
   error.message = said + (map ? "; the keys of a mapping begin in one column" : "");
   return error;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "expr/parser.h"
+#include "io/text_composer.h"
 #include "io/yaml.h"
 
 namespace gainsmith::io {
@@ -22,46 +23,18 @@ bool is_quoted_matrix(const YAML::Node& node) {
   return node.IsScalar() && node.Tag() == "!" && node.Scalar().starts_with('[');
 }
 
-/// Text put together from scalars and punctuation, each character with its place.
-class Composer {
- public:
-  explicit Composer(const YamlFile& file) : file_(file) {}
-
-  void punctuation(const std::string& mark, const Place& place) {
-    text_ += mark;
-    positions_.insert(positions_.end(), mark.size(), {place.line, place.column});
-  }
-
-  void scalar(const YAML::Node& node, const std::string& what) {
-    if (node.IsSequence() || node.IsMap())
-      throw InputError(file_.place(node), what +
-                                              ": expected a number or an expression here, found " +
-                                              (node.IsMap() ? "a mapping" : "a list"));
-    const expr::Text part = file_.scalar(node, what);
-    if (part.str().find(';') != std::string::npos && !is_quoted_matrix(node))
-      throw InputError(file_.place(node),
-                       what + ": a matrix with ';' must be quoted: \"[a, b; c, d]\"");
-    expr::parse(part);
-    // In brackets of its own an element cannot be torn apart by what stands around it.
-    punctuation("(", part.place(0));
-    text_ += part.str();
-    for (std::size_t at = 0; at < part.str().size(); ++at) {
-      const Place place = part.place(at);
-      positions_.push_back({place.line, place.column});
-    }
-    punctuation(")", part.place(part.str().size()));
-  }
-
-  expr::Expression parse(const Place& end) {
-    positions_.push_back({end.line, end.column});
-    return expr::parse({text_, file_.file(), std::move(positions_)});
-  }
-
- private:
-  const YamlFile& file_;
-  std::string text_;
-  std::vector<expr::Position> positions_;
-};
+void add_scalar(const YamlFile& file, const YAML::Node& node, const std::string& what,
+                TextComposer& composer) {
+  if (node.IsSequence() || node.IsMap())
+    throw InputError(file.place(node), what + ": expected a number or an expression here, found " +
+                                           (node.IsMap() ? "a mapping" : "a list"));
+  const expr::Text part = file.scalar(node, what);
+  if (part.str().find(';') != std::string::npos && !is_quoted_matrix(node))
+    throw InputError(file.place(node),
+                     what + ": a matrix with ';' must be quoted: \"[a, b; c, d]\"");
+  expr::parse(part);
+  composer.bracketed(part);
+}
 
 }  // namespace
 
@@ -78,7 +51,7 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
     return result;
   }
   const bool flat = !node[0].IsSequence();
-  Composer composer(file);
+  TextComposer composer(file.file());
   composer.punctuation("[", file.place(node));
   std::size_t width = 0;
   for (std::size_t i = 0; i < node.size(); ++i) {
@@ -86,7 +59,7 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
     if (flat || !row.IsSequence()) {
       if (!flat) throw InputError(file.place(row), item.key + ": expected a row [a, b, ...] here");
       if (i > 0) composer.punctuation(",", file.place(row));
-      composer.scalar(row, item.key);
+      add_scalar(file, row, item.key, composer);
       continue;
     }
     if (i > 0) composer.punctuation(";", file.place(row));
@@ -98,7 +71,7 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
                                             std::to_string(width));
     for (std::size_t j = 0; j < row.size(); ++j) {
       if (j > 0) composer.punctuation(",", file.place(row[j]));
-      composer.scalar(row[j], item.key);
+      add_scalar(file, row[j], item.key, composer);
     }
   }
   composer.punctuation("]", file.place(node));

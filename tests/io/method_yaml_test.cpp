@@ -75,6 +75,51 @@ TEST(Forall, MistakesAreShownWhereTheyAre) {
   }
 }
 
+/// What stands under "a:" of the requirements.
+model::Requirement required(const std::string& text) {
+  return parse_method("method: m\nunknowns: {P: symmetric n}\nrequire:\n  a:\n" + text, "m.yaml")
+      .require.at(0);
+}
+
+TEST(NamedBlocks, AreTheBlockMatrixOfTheirRows) {
+  const model::Requirement named = required(
+      "    blocks:\n      x: {x: He(P), w: P*B}\n      w: {w: -g*I}\n"
+      "      z: {x: \"[C; D]\", z: -I}\n    is: < 0\n    forall: i in 1..N\n");
+  EXPECT_EQ(named.that.text->str(), "[(He(P)),(P*B),([C; D])';*,(-g*I),0;*,*,(-I)]< 0");
+  EXPECT_EQ(named.indices.size(), 1U);
+  const Place place = named.that.text->place(named.that.text->str().find("P*B"));
+  EXPECT_EQ(place, (Place{"m.yaml", 6, 24}));
+  // A column without a row of its own has one that is zero but for it.
+  EXPECT_EQ(required("    blocks: {x: {x: P, y: b}}\n    is: \">= 0\"\n").that.text->str(),
+            "[(P),(b);*,0]>= 0");
+}
+
+TEST(NamedBlocks, MistakesAreShownWhereTheyAre) {
+  const auto expect = [](const std::string& text, int line, const std::string& part) {
+    const InputError error = input_error([&] { required(text); });
+    EXPECT_EQ(error.place().line, line) << text << error.what();
+    EXPECT_NE(error.message().find(part), std::string::npos) << error.what();
+  };
+  expect("    blocks: {x: {x: P}}\n", 5, "need both");
+  expect("    is: < 0\n", 5, "need both");
+  expect("    blocks: {x: {x: P}}\n    is: P\n", 6, "comparison with 0");
+  expect("    blocks: {x: {x: P}}\n    is: < 0\n    that: P > 0\n", 7, "not both");
+  expect("    blocks: {x: {y: P}, y: {x: P}}\n    is: < 0\n", 5, "one of them is enough");
+}
+
+TEST(FamilyTexts, HaveIndicesAndConditions) {
+  const model::Requirement pairs =
+      required("    forall: [i in 1..N, j in 1..N, i != j, \"t in [0, 1]\"]\n    that: P > 0\n");
+  EXPECT_EQ(pairs.indices.size(), 2U);
+  EXPECT_EQ(pairs.conditions.size(), 1U);
+  EXPECT_EQ(pairs.forall.size(), 1U);
+  EXPECT_TRUE(required("    forall: h in v\n    that: P > 0\n").forall.at(0).of_vector);
+  EXPECT_NE(input_error([] { required("    forall: i != j\n    that: P > 0\n"); })
+                .message()
+                .find("there are none here"),
+            std::string::npos);
+}
+
 class BrokenMethod : public testing::TestWithParam<Mistake> {};
 
 TEST_P(BrokenMethod, IsRefusedAtItsPlace) {
