@@ -54,12 +54,14 @@ std::string objective_text(const model::Gains& gains) {
   if (!gains.objective) return "";
   std::string text = fmt::format("objective   {}", brief(*gains.objective, 10));
   if (gains.objective_lower_bound) {
+    constexpr double kTells = 0.1;  // an objective near 0 has no relative price
     const double price = *gains.objective - *gains.objective_lower_bound;
     const double relative = price / std::max(std::abs(*gains.objective), 1e-300);
-    text += fmt::format(
-        "  (without margins no solution of its size{} is below {}: the margins cost at most {})",
-        gains.bounds.empty() ? "" : ", within the gain bound,",
-        brief(*gains.objective_lower_bound, 10), brief(relative, 2));
+    text +=
+        fmt::format("  (without margins no solution of its size{} is below {}{})",
+                    gains.bounds.empty() ? "" : ", within the gain bound,",
+                    brief(*gains.objective_lower_bound, 10),
+                    relative < kTells ? ": the margins cost at most " + brief(relative, 2) : "");
   }
   return text + "\n";
 }

@@ -74,8 +74,9 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
   if (!lmi::has_minimum(lmi, climb.bounds())) {
     // Its value at a point that may be scaled says nothing.
     gains.solver.add_message(
-        "the objective has no minimum, since without constant parts every solution may be scaled; "
-        "the gains, which scaling leaves as they are, are those of the largest margin");
+        "the objective was not used: without constant parts every solution may be scaled, so its "
+        "infimum is 0 or there is none; the gains, which scaling leaves as they are, are those of "
+        "the largest margin");
     return;
   }
   gains.objective = lmi.objective_at(point.x);

@@ -154,8 +154,8 @@ class Quotient {
   /// A point with a smaller value.
   std::optional<model::Gains> step(const model::Gains& from, double value) const {
     const Matrix denominator = evaluated(denominator_, from);
-    model::Gains gains =
-        solve(with_step({{"step", difference(value, &denominator)}, {"room", room(denominator)}}));
+    model::Gains gains = solve(
+        with_step({{stated_.text, difference(value, &denominator)}, {"room", room(denominator)}}));
     if (gains.verdict != model::Verdict::yes || !(value_at(gains) < value)) return std::nullopt;
     return gains;
   }
@@ -198,6 +198,7 @@ class Quotient {
     }
     best->objective = high;
     best->objective_lower_bound = low;
+    if (!low) best->solver.status = "feasible";
     if (!low)
       best->solver.add_message("no value below " + brief(high, 10) +
                                " is excluded by a certificate: a smaller one may be possible");

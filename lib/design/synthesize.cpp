@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <optional>
 
 #include "base/number.h"
 #include "base/version.h"
@@ -102,11 +103,24 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
   }
 }
 
-}  // namespace
+/// Unknown functions with half of their degrees; none where there is nothing to halve. What they
+/// satisfy, functions of the stated degrees satisfy.
+std::optional<model::Instance> with_lower_degrees(const model::Instance& instance) {
+  constexpr int kLeast = 8;
+  const auto& unknowns = instance.design->unknowns;
+  if (std::none_of(unknowns.begin(), unknowns.end(),
+                   [](const model::Design::Unknown& unknown) { return unknown.degree >= kLeast; }))
+    return std::nullopt;
+  return with_design(instance, [](model::Design& design) {
+    for (model::Design::Unknown& unknown : design.unknowns)
+      if (unknown.degree >= kLeast) unknown.degree /= 2;
+  });
+}
 
-model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth) {
+/// `digits`: more than double where double does not decide.
+model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth,
+                        bool digits) {
   constexpr int kMostRounds = 60;
-  if (instance.design->quotient) return smallest_quotient(instance, options, depth);
   const auto start = Clock::now();
   const lmi::Inequalities inequalities(instance);
   forall::Plan plan = forall::make_plan(inequalities.design());
@@ -123,7 +137,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   double compile_seconds = seconds_since(start);
   double solve_seconds = 0;
   for (int round = 1;; ++round) {
-    Climb climb({inequalities, plan, lmi, depth != Depth::quick, look_of(depth)}, bounds, solve);
+    Climb climb({inequalities, plan, lmi, digits, look_of(depth)}, bounds, solve);
     climb.to_point();
     const auto grown = [&] {
       const Attempt* point = climb.point();
@@ -158,6 +172,27 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   gains.timings = {
       {"compile", compile_seconds}, {"solve", solve_seconds}, {"total", seconds_since(start)}};
   return gains;
+}
+
+}  // namespace
+
+model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth) {
+  if (instance.design->quotient) return smallest_quotient(instance, options, depth);
+  const auto lower = with_lower_degrees(instance);
+  if (!lower || depth == Depth::quick)
+    return synthesize(instance, options, depth, depth != Depth::quick);
+  // Programs of high degrees are slow in many digits: lower degrees come before them.
+  model::Gains gains = synthesize(instance, options, depth, false);
+  if (gains.verdict == model::Verdict::yes) return gains;
+  if (gains.verdict == model::Verdict::undecided) {
+    model::Gains fewer = synthesize(*lower, options, depth);
+    if (fewer.verdict == model::Verdict::yes) {
+      const std::string found = "found with functions of lower degrees";
+      if (fewer.solver.message.find(found) == std::string::npos) fewer.solver.add_message(found);
+      return fewer;
+    }
+  }
+  return synthesize(instance, options, depth, true);
 }
 
 model::Gains synthesize_at(const model::DesignPtr& design, const model::Overrides& overrides,

@@ -1,9 +1,11 @@
 // Names with indices, sums over them, and Kronecker products.
+#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/nearest.h"
 #include "expr/binder.h"
 #include "expr/compile.h"
 
@@ -40,6 +42,18 @@ bool compares(Relation relation, int a, int b) {
 int Binder::required_whole_number(const Expression& expression, const Node& node,
                                   const std::string& what) {
   const auto value = whole_number(expression, node);
+  const bool is_unknown = node.kind == NodeKind::name && !environment_.contains(node.text) &&
+                          !scope_.symbols.contains(node.text) &&
+                          !scope_.definitions.contains(node.text);
+  if (!value && is_unknown && !scope_.dimensions.empty()) {
+    std::vector<std::string> known;
+    for (const auto& [name, size] : scope_.dimensions) known.push_back(name);
+    fail(expression, node,
+         what + " must be a whole number known beforehand: there is no dimension or index '" +
+             node.text + "' here" + suggestion(node.text, known) +
+             "; an index has its values from 'forall: i in 1..N', from the name of a gain L(i in "
+             "1..N), or in sum(i in 1..N, ...)");
+  }
   if (!value)
     fail(expression, node,
          what + " must be a whole number known beforehand, not '" + expression.quote(node) +
@@ -114,8 +128,11 @@ Bound Binder::sum(const Expression& expression, const Node& node) {
       if (holds(expression, child)) from(k + 1);
       return;
     }
+    constexpr int kMost = 10'000;
     const int low = required_whole_number(expression, *child.children[0], "the end of a range");
     const int high = required_whole_number(expression, *child.children[1], "the end of a range");
+    if (std::int64_t{high} - low >= kMost)
+      fail(expression, child, "a sum has at most " + std::to_string(kMost) + " terms an index");
     const auto outer = environment_.find(child.text);
     if (outer != environment_.end() || scope_.symbols.contains(child.text) ||
         scope_.dimensions.contains(child.text))
@@ -154,6 +171,8 @@ Bound Binder::kronecker(const Expression& expression, const Node& node) {
   const int b = factor(1);
   const auto [rows, columns] = shape(a);
   if (rows == 1 && columns == 1) return multiply(expression, node, {a}, {b});
+  const Shape whole{rows * shape(b).rows, columns * shape(b).cols};
+  if (whole.size() == 0) return {emit(expression, node, Op::zeros, {}, whole)};
   std::vector<int> blocks;
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j) {

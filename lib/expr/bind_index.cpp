@@ -101,7 +101,8 @@ Bound Binder::index(const Expression& expression, const Node& node, Bound base, 
     cols = index_range(expression, *node.children[first + 1], from.cols);
   } else {
     fail(expression, node,
-         "a " + to_string(from) + " matrix takes two indices, not " + std::to_string(count));
+         "a " + to_string(from) + " matrix takes two indices, not " + std::to_string(count) +
+             (count == 1 ? "; one of several matrices is that of a family, 'for: i in 1..N'" : ""));
   }
   return {emit(expression, node, Op::index, {at},
                {rows.second - rows.first, cols.second - cols.first},

@@ -148,7 +148,7 @@ Bound Binder::bind_name(const Expression& expression, const Node& node) {
     return {assembly_.add_input(name, found->second.shape, like)};
   }
   if (scope_.functions.contains(name))
-    fail(expression, node, "'" + name + "' takes 1 arguments, not 0");
+    fail(expression, node, "'" + name + "' is a function: write " + name + "(s) with a number s");
   if (scope_.families.contains(name))
     fail(expression, node,
          "'" + name + "' is a family: write one of its members, " + name + "(1) or " + name +
@@ -229,13 +229,19 @@ Bound Binder::add(const Expression& expression, const Node& node, Op op, Bound a
   }
   if (shape(a.at) != shape(b.at)) {
     const bool scalar = shape(a.at).is_scalar() || shape(b.at).is_scalar();
+    const auto is_vector = [&](Bound value) {
+      return shape(value.at).size() > 1 && (shape(value.at).rows == 1 || shape(value.at).cols == 1);
+    };
     fail(expression, node,
          "cannot " +
              std::string(node.kind == NodeKind::compare ? "compare "
                          : op == Op::add                ? "add "
                                                         : "subtract ") +
              describe(expression, left, a) + " and " + describe(expression, right, b) +
-             (scalar ? "; a multiple of the identity is written s*I" : ""));
+             (scalar && node.kind == NodeKind::compare && (is_vector(a) || is_vector(b))
+                  ? "; elements are compared by min(x) >= a, max(x) <= b or abs(x) <= b"
+              : scalar ? "; a multiple of the identity is written s*I"
+                       : ""));
   }
   return {emit(expression, node, op, {a.at, b.at}, shape(a.at))};
 }
@@ -346,7 +352,9 @@ std::vector<CompiledRelation> compile_relations(const Expression& expression, co
     }
     if (!binder.shape(at).is_square())
       throw InputError(expression.place(pair), "a comparison of matrices needs square ones, not " +
-                                                   to_string(binder.shape(at)));
+                                                   to_string(binder.shape(at)) +
+                                                   "; elements are compared by min(x) >= a, max(x) "
+                                                   "<= b or abs(x) <= b");
     relations.push_back(
         {binder.extract(at), relation == Relation::less || relation == Relation::greater});
   }

@@ -44,9 +44,14 @@ constexpr std::array kSymbols = {
 /// Spellings of other languages, with what to write here.
 using Foreign = std::pair<std::string_view, std::string_view>;
 constexpr auto kForeign = std::to_array<Foreign>({
+    {"~=", "indices that differ are written i != j"},
+    {">>", "write >"},
+    {"<<", "write <"},
     {"=>", "did you mean >=?"},
     {"=<", "did you mean <=?"},
-    {"=", "an equation of a requirement is written ==, and definitions go into 'let'"},
+    {"=",
+     "an equation of a requirement is written ==, an index i in 1..N, and definitions go into "
+     "'let'"},
     {".nan", "a number must be finite"},
     {".NaN", "a number must be finite"},
     {".NAN", "a number must be finite"},

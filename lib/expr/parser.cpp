@@ -141,9 +141,22 @@ class Parser {
     return peek() == TokenKind::end ? "the end of the text" : "'" + tokens_[at_].text + "'";
   }
 
+  /// Whether a bracket is open where the parser stands.
+  bool is_open() const {
+    int depth = 0;
+    for (std::size_t k = 0; k < at_; ++k) {
+      const TokenKind kind = tokens_[k].kind;
+      depth += static_cast<int>(kind == TokenKind::open || kind == TokenKind::open_bracket);
+      depth -= static_cast<int>(kind == TokenKind::close || kind == TokenKind::close_bracket);
+    }
+    return depth > 0;
+  }
+
   /// What is missing between two values that stand side by side.
   std::string cure() const {
     if (at_ == 0) return {};
+    if (peek() == TokenKind::end && is_open())
+      return "; inside of { } and [ ] of YAML a text with a comma must be quoted";
     const Token& left = tokens_[at_ - 1];
     const Token& right = tokens_[at_];
     const bool value = right.kind == TokenKind::number || right.kind == TokenKind::name ||

@@ -330,7 +330,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
   map.finish({{"maximize", "write minimize: -(...)"},
               {"maximise", "write minimize: -(...)"},
               {"objective", "write minimize: ..."}});
-  if (method.require.empty())
+  if (method.require.empty() && !method.minimize)
     throw InputError(map.place(),
                      "the method '" + method.name + "' has no inequality under 'require'");
   model::check_names(method);

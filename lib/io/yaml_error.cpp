@@ -125,6 +125,12 @@ YamlError explained(const std::string& text, YamlError error) {
               "a formula that begins with '" + std::string(1, line[*alias]) +
                   "' must be quoted: YAML takes it for the name of a node"};
     const auto list = find_value(line, "[{");
+    const bool nested = list && line.find_first_of("[{", *list + 1) != std::string_view::npos;
+    if (nested && line.find(" in ") != std::string_view::npos)
+      return {at, *list,
+              said +
+                  "; in { } and [ ] a text with a comma or a bracket must be quoted, such as "
+                  "\"tau in [0, T]\""};
     if (list && line[*list] == '[' && is_formula(line.substr(*list)))
       return {
           at, *list,

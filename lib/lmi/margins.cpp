@@ -157,7 +157,9 @@ class Checker {
                                              *proof.point, values_)) < -kTells;
       if (tells && !of_.statements[inequality].domain.empty())
         result_.violations.push_back({inequality, *proof.point, true});
-      if (!tells) leave_open(name, "it fails by less than double tells at " + proof.point->label);
+      if (!tells)
+        leave_open(name, "it fails by less than double tells" +
+                             (proof.point->label.empty() ? "" : " at " + proof.point->label));
     }
     if (proof.status == Status::open)
       leave_open(name, (proof.where.empty() ? "" : "not settled for " + proof.where + ": ") +

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "expr/functions.h"
 #include "model/binding.h"
 #include "model/convex.h"
 
@@ -18,6 +19,30 @@ NodePtr with_children(const Node& node, std::vector<NodePtr> children) {
   auto changed = std::make_shared<Node>(node);
   changed->children = std::move(children);
   return changed;
+}
+
+bool is_of_matrices(const Node& call) {
+  return call.text == "norm" || call.text.starts_with("lambda");
+}
+
+expr::Shape largest(const std::vector<expr::Shape>& shapes) {
+  return *std::max_element(shapes.begin(), shapes.end(),
+                           [](expr::Shape a, expr::Shape b) { return a.size() < b.size(); });
+}
+
+bool names_curved(const Node& node) {
+  return curvature_of(node) ||
+         std::any_of(node.children.begin(), node.children.end(),
+                     [](const NodePtr& child) { return names_curved(*child); });
+}
+
+/// The tree at another place of the text.
+NodePtr placed(const Node& node, const Node& at) {
+  auto moved = std::make_shared<Node>(node);
+  moved->begin = at.begin;
+  moved->end = at.end;
+  for (NodePtr& child : moved->children) child = placed(*child, at);
+  return moved;
 }
 
 bool is_positive_number(const Node& node) {
@@ -47,12 +72,22 @@ bool Binding::reads_unknowns(const expr::Expression& part, const expr::Scope& sc
 std::optional<Curvature> Binding::curvature_at(const expr::Expression& text, const Node& node,
                                                const expr::Scope& scope) const {
   const auto curvature = curvature_of(node);
-  if (!curvature) return std::nullopt;
+  if (!curvature || node.children.empty()) return std::nullopt;
   const bool reads =
       std::any_of(node.children.begin(), node.children.end(), [&](const NodePtr& child) {
         return reads_unknowns({text.text, child}, scope);
       });
-  return reads ? curvature : std::nullopt;
+  if (!reads) return std::nullopt;
+  const expr::Function& function = *expr::find_function(node.text);
+  const int count = static_cast<int>(node.children.size());
+  if (count < function.fewest || (function.most >= 0 && count > function.most))
+    throw InputError(text.place(node),
+                     node.text == "lambda_max" && count == 2
+                         ? "lambda_max(M, N) of two matrices stands alone in minimize; elsewhere "
+                           "write M <= l*N with a number l"
+                         : "'" + node.text + "' is written " + std::string(function.usage) +
+                               "; found " + std::to_string(count) + " arguments");
+  return curvature;
 }
 
 bool Binding::has_curvature(const expr::Expression& text, const Node& node,
@@ -70,44 +105,108 @@ void Binding::refuse_nested(const expr::Expression& text, const Node& call,
                        "'" + text.quote(*child) + "' stands inside of another such function");
 }
 
-std::vector<expr::Expression> Binding::bounds_of(const expr::Expression& text, const Node& call,
-                                                 const NodePtr& bound, expr::Scope& scope,
-                                                 bool strict) const {
-  const expr::Shape of = expr::compile({text.text, call.children.front()}, scope).shape();
-  const expr::Shape limit = expr::compile({text.text, bound}, scope).shape();
-  const bool matrix = call.text == "norm" || call.text.starts_with("lambda");
-  const bool vector = of.rows == 1 || of.cols == 1;
+/// Of the arguments of a call. InputError when the function does not take them.
+std::vector<expr::Shape> Binding::shapes_of(const expr::Expression& text, const Node& call,
+                                            const expr::Scope& scope) const {
+  std::vector<expr::Shape> shapes;
+  for (const NodePtr& child : call.children)
+    shapes.push_back(expr::compile({text.text, child}, scope).shape());
+  const expr::Shape of = largest(shapes);
   if (call.text.starts_with("lambda") && !of.is_square())
     throw InputError(text.place(call),
                      call.text + " takes a symmetric matrix; found " + to_string(of));
-  if (!matrix && !vector)
+  if (!is_of_matrices(call) && of.rows != 1 && of.cols != 1)
     throw InputError(text.place(call), call.text +
                                            " of unknowns is taken of numbers and vectors; "
                                            "found " +
                                            to_string(of));
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    if (!shapes[k].is_scalar() && shapes[k].size() != of.size())
+      throw InputError(text.place(*call.children[k]), "'" + text.quote(*call.children[k]) +
+                                                          "' is " + to_string(shapes[k]) +
+                                                          ", another one " + to_string(of));
+  return shapes;
+}
+
+std::vector<expr::Expression> Binding::bounds_of(const expr::Expression& text, const Node& call,
+                                                 const NodePtr& bound, expr::Scope& scope,
+                                                 bool strict) const {
+  const std::vector<expr::Shape> arguments = shapes_of(text, call, scope);
+  const expr::Shape of = largest(arguments);
+  const expr::Shape limit = expr::compile({text.text, bound}, scope).shape();
+  const bool matrix = is_of_matrices(call);
   if (!limit.is_scalar() && (matrix || limit.size() != of.size()))
     throw InputError(text.place(*bound),
                      "'" + text.quote(call) + "' is compared with " +
                          (matrix ? "a number" : "a number or a vector like it") + "; found " +
                          to_string(limit));
   std::vector<expr::Expression> comparisons;
-  for (NodePtr& comparison :
-       comparisons_of(call, bound, of.rows, of.cols, limit.is_scalar(), strict))
+  for (NodePtr& comparison : comparisons_of(call, bound, arguments, limit.is_scalar(), strict))
     comparisons.push_back({text.text, std::move(comparison)});
   return comparisons;
+}
+
+/// Sums over indices with such functions in them as the terms that they have.
+NodePtr Binding::with_terms(const expr::Expression& text, const NodePtr& node,
+                            const expr::Scope& scope) const {
+  if (!names_curved(*node)) return node;
+  const bool indexed = node->kind == NodeKind::call && node->text == "sum" &&
+                       node->children.front()->kind == NodeKind::each;
+  if (!indexed) {
+    std::vector<NodePtr> children;
+    for (const NodePtr& child : node->children) children.push_back(with_terms(text, child, scope));
+    return with_children(*node, std::move(children));
+  }
+  std::vector<expr::Index> indices;
+  std::vector<expr::Expression> conditions;
+  for (std::size_t k = 0; k + 1 < node->children.size(); ++k) {
+    const Node& child = *node->children[k];
+    if (child.kind == NodeKind::each)
+      indices.push_back({child.text,
+                         {text.text, child.children[0]},
+                         {text.text, child.children[1]},
+                         text.place(child)});
+    else
+      conditions.push_back({text.text, node->children[k]});
+  }
+  NodePtr total;
+  for (const Member& member : members(indices, conditions, scope)) {
+    const expr::Expression one =
+        expr::instantiate({text.text, node->children.back()}, member.indices, scope.families);
+    const NodePtr term = placed(*with_terms(one, one.root, scope), *node);
+    if (total == nullptr) {
+      total = term;
+      continue;
+    }
+    auto sum = std::make_shared<Node>(*term);
+    sum->kind = NodeKind::add;
+    sum->children = {total, term};
+    total = sum;
+  }
+  if (total != nullptr) return total;
+  auto zero = std::make_shared<Node>(*node);
+  zero->kind = NodeKind::number;
+  zero->text = "0";
+  zero->children.clear();
+  return zero;
 }
 
 /// An unknown that bounds the function at `call`, as a node that stands for it.
 NodePtr Binding::bounding_unknown(const expr::Expression& text, const Node& call,
                                   Curvature curvature) {
   expr::Scope& scope = names_->design;
-  const bool matrix = call.text == "norm" || call.text.starts_with("lambda");
-  const expr::Shape of = expr::compile({text.text, call.children.front()}, scope).shape();
   Design::Unknown unknown;
-  unknown.shape = matrix ? expr::Shape{} : of;
+  if (!is_of_matrices(call)) unknown.shape = largest(shapes_of(text, call, scope));
   unknown.structure = unknown.shape.is_scalar() ? Structure::scalar : Structure::full;
   unknown.place = text.place(call);
-  for (int k = 1; unknown.name.empty() || scope.symbols.contains(unknown.name); ++k)
+  const auto is_taken = [&](const std::string& name) {
+    return scope.symbols.contains(name) || scope.definitions.contains(name) ||
+           std::any_of(method().gains.begin(), method().gains.end(),
+                       [&](const Gain& gain) { return gain.name == name; }) ||
+           std::any_of(design_->states.begin(), design_->states.end(),
+                       [&](const Design::State& state) { return state.name == name; });
+  };
+  for (int k = 1; unknown.name.empty() || is_taken(unknown.name); ++k)
     unknown.name = call.text + "_" + std::to_string(k);
   scope.symbols[unknown.name] = {unknown.shape};
   auto name = std::make_shared<Node>(call);
@@ -177,12 +276,13 @@ NodePtr Binding::bounded(const expr::Expression& text, const NodePtr& node, int 
   throw InputError(text.place(*node),
                    "norm, abs, max, min and eigenvalues of unknowns may stand in sums, in sum(...) "
                    "and times a number that is written out, not inside of '" +
-                       text.quote(*node) + "'");
+                       text.quote(*node) + "'; a weight w >= 0 goes inside, as in norm(w*X)");
 }
 
 /// A comparison chain without convex functions of unknowns: the chain itself where there are none.
-std::vector<expr::Expression> Binding::affine_comparisons(const expr::Expression& that,
+std::vector<expr::Expression> Binding::affine_comparisons(const expr::Expression& stated,
                                                           expr::Scope& scope, bool quantified) {
+  const expr::Expression that{stated.text, with_terms(stated, stated.root, scope)};
   const Node& chain = *that.root;
   if (chain.kind != NodeKind::compare || !has_curvature(that, chain, scope)) return {that};
   std::vector<expr::Expression> comparisons;

@@ -153,6 +153,11 @@ std::vector<Binding::Given> Binding::given(const Declaration& datum) {
                                            method().name + " is missing under 'data'" +
                                            kFamilyTakes);
   const std::vector<Value> elements = value ? elements_of(*value) : std::vector<Value>{};
+  for (const Value& element : elements)
+    if (!element.matrices.empty())
+      throw InputError(element.place, "the family " + datum.name +
+                                          " takes a list of matrices; this member is one itself: "
+                                          "a bracket too many");
   if (!elements.empty()) learn_count(datum.indices, elements.size(), design_->dimensions);
   expr::Scope& scope = names_->known;
   scope.dimensions = design_->dimensions;
@@ -160,7 +165,8 @@ std::vector<Binding::Given> Binding::given(const Declaration& datum) {
   const auto all = members(datum.indices, {}, scope);
   if (!elements.empty() && elements.size() != all.size())
     throw InputError(value->place, "the family " + datum.name + " has " +
-                                       std::to_string(all.size()) + " members; found " +
+                                       std::to_string(all.size()) +
+                                       " members by the data before it; found " +
                                        std::to_string(elements.size()));
   std::vector<Given> result;
   for (std::size_t k = 0; k < all.size(); ++k) {

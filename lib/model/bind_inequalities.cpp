@@ -81,6 +81,9 @@ void Binding::bind_inequalities() {
          members(requirement.indices, requirement.conditions, names_->design))
       add_inequality(requirement, member);
   if (method().minimize) bind_objective(*method().minimize);
+  if (method().minimize && design_->inequalities.empty() && !design_->quotient)
+    throw InputError({method().file},
+                     "the method '" + method().name + "' has no inequality under 'require'");
 }
 
 void Binding::bind_objective(const expr::Expression& text) {
@@ -88,7 +91,9 @@ void Binding::bind_objective(const expr::Expression& text) {
   const bool quotient =
       root.kind == expr::NodeKind::call && root.text == "lambda_max" && root.children.size() == 2;
   if (!quotient) {
-    const expr::Expression affine{text.text, bounded(text, text.root, 1, false, names_->design)};
+    const expr::Expression affine{
+        text.text,
+        bounded(text, with_terms(text, text.root, names_->design), 1, false, names_->design)};
     design_->objective = scalar(affine, names_->design);
     return;
   }
@@ -148,6 +153,9 @@ void refuse_free_unknowns(const Design& design) {
     for (const Design::Inequality& inequality : design.inequalities)
       for (const Design::Comparison& comparison : inequality.comparisons)
         if (uses(comparison.difference, unknown)) return true;
+    if (design.quotient &&
+        (uses(design.quotient->numerator, unknown) || uses(design.quotient->denominator, unknown)))
+      return true;
     return unknown.shape.size() == 0;
   };
   for (const Design::Unknown& unknown : design.unknowns) {

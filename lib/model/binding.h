@@ -91,6 +91,10 @@ class Binding {
                                         const expr::Scope& scope) const;
   bool has_curvature(const expr::Expression& text, const expr::Node& node,
                      const expr::Scope& scope) const;
+  expr::NodePtr with_terms(const expr::Expression& text, const expr::NodePtr& node,
+                           const expr::Scope& scope) const;
+  std::vector<expr::Shape> shapes_of(const expr::Expression& text, const expr::Node& call,
+                                     const expr::Scope& scope) const;
   void refuse_nested(const expr::Expression& text, const expr::Node& call,
                      const expr::Scope& scope) const;
   std::vector<expr::Expression> bounds_of(const expr::Expression& text, const expr::Node& call,
@@ -100,8 +104,8 @@ class Binding {
                                  Curvature curvature);
   expr::NodePtr bounded(const expr::Expression& text, const expr::NodePtr& node, int sign,
                         bool quantified, const expr::Scope& scope);
-  std::vector<expr::Expression> affine_comparisons(const expr::Expression& that, expr::Scope& scope,
-                                                   bool quantified);
+  std::vector<expr::Expression> affine_comparisons(const expr::Expression& stated,
+                                                   expr::Scope& scope, bool quantified);
 
   // bind_gains.cpp
   void bind_gains();

@@ -60,33 +60,38 @@ std::optional<Curvature> curvature_of(const Node& node) {
   return std::nullopt;
 }
 
-std::vector<NodePtr> comparisons_of(const Node& call, const NodePtr& bound, int rows, int cols,
-                                    bool bound_is_number, bool strict) {
+std::vector<NodePtr> comparisons_of(const Node& call, const NodePtr& bound,
+                                    const std::vector<expr::Shape>& arguments, bool bound_is_number,
+                                    bool strict) {
   const Trees trees(call);
   const NodePtr& argument = call.children.front();
-  const NodePtr limit =
-      bound_is_number ? trees.times(bound, trees.identity()) : trees.call("diag", bound);
-  // Vectors are compared as diagonal matrices.
-  const auto diagonal = [&](const NodePtr& value) {
-    return rows == 1 && cols == 1 ? value : trees.call("diag", value);
-  };
+  const NodePtr multiple = trees.times(bound, trees.identity());
   if (call.text == "norm") {
     const auto corner = [&](int size) {
       return trees.times(bound, trees.call("eye", trees.number(size)));
     };
     const NodePtr block =
-        trees.block({corner(rows), argument, trees.make(NodeKind::mirror, {}), corner(cols)});
+        trees.block({corner(arguments.front().rows), argument, trees.make(NodeKind::mirror, {}),
+                     corner(arguments.front().cols)});
     return {trees.at_most(trees.number(0), block, strict)};
   }
-  if (call.text == "abs")
-    return {trees.at_most(trees.make(NodeKind::negate, {limit}), diagonal(argument), strict),
-            trees.at_most(diagonal(argument), limit, strict)};
-  if (call.text == "lambda_max") return {trees.at_most(argument, limit, strict)};
-  if (call.text == "lambda_min") return {trees.at_most(limit, argument, strict)};
+  if (call.text == "lambda_max") return {trees.at_most(argument, multiple, strict)};
+  if (call.text == "lambda_min") return {trees.at_most(multiple, argument, strict)};
+  // Vectors are compared as diagonal matrices, numbers with them as multiples of I.
+  const NodePtr limit = bound_is_number ? multiple : trees.call("diag", bound);
   std::vector<NodePtr> comparisons;
-  for (const NodePtr& child : call.children)
-    comparisons.push_back(call.text == "max" ? trees.at_most(diagonal(child), limit, strict)
-                                             : trees.at_most(limit, diagonal(child), strict));
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    const NodePtr& child = call.children[k];
+    const bool number = arguments[k].is_scalar();
+    const NodePtr value = !number           ? trees.call("diag", child)
+                          : bound_is_number ? child
+                                            : trees.times(child, trees.identity());
+    const NodePtr& other = number && bound_is_number ? bound : limit;
+    if (call.text == "abs")
+      comparisons.push_back(trees.at_most(trees.make(NodeKind::negate, {other}), value, strict));
+    comparisons.push_back(call.text == "min" ? trees.at_most(other, value, strict)
+                                             : trees.at_most(value, other, strict));
+  }
   return comparisons;
 }
 

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "expr/ast.h"
+#include "expr/program.h"
 
 namespace gainsmith::model {
 
@@ -23,8 +24,9 @@ enum class Curvature { convex, concave };
 std::optional<Curvature> curvature_of(const expr::Node& node);
 
 /// The comparisons that say: the function at `call` is at most (at least, of a concave one)
-/// `bound`. `rows`, `cols`: the shape of its first argument; `strict`: < instead of <=.
+/// `bound`. `arguments`: the shapes of its arguments; `strict`: < instead of <=.
 std::vector<expr::NodePtr> comparisons_of(const expr::Node& call, const expr::NodePtr& bound,
-                                          int rows, int cols, bool bound_is_number, bool strict);
+                                          const std::vector<expr::Shape>& arguments,
+                                          bool bound_is_number, bool strict);
 
 }  // namespace gainsmith::model

@@ -21,18 +21,6 @@ bool is_name(const std::string& text) {
          std::all_of(text.begin(), text.end(), is_part);
 }
 
-/// "P_1", "P_1_0" of P.
-bool is_numbered(const std::string& name, const std::string& owner) {
-  if (!name.starts_with(owner) || name.size() == owner.size()) return false;
-  char before = '0';
-  for (const char c : name.substr(owner.size())) {
-    const bool digit = c >= '0' && c <= '9';
-    if (!digit && (c != '_' || before == '_')) return false;
-    before = c;
-  }
-  return name[owner.size()] == '_' && before != '_';
-}
-
 std::string with_article(const std::string& noun) {
   const bool vowel = std::string_view("aeiou").find(noun.front()) != std::string_view::npos;
   return (vowel ? "an " : "a ") + noun;
@@ -66,7 +54,10 @@ class NameCheck {
 
   /// An index may be that of another family, nothing else.
   void check_indices(const std::vector<expr::Index>& indices) const {
+    std::map<std::string, int> counts;
     for (const expr::Index& index : indices) {
+      if (++counts[index.name] > 1)
+        throw InputError(index.place, "the index '" + index.name + "' stands here twice");
       if (expr::is_reserved(index.name) || index.name == "in")
         throw InputError(index.place, "'" + index.name + "' is a word of the language");
       if (const auto found = known_.find(index.name); found != known_.end())
@@ -141,6 +132,17 @@ void check_maps(const Component& component, const std::vector<Named>& map,
 
 }  // namespace
 
+bool is_numbered(const std::string& name, const std::string& owner) {
+  if (!name.starts_with(owner) || name.size() == owner.size()) return false;
+  char before = '0';
+  for (const char c : name.substr(owner.size())) {
+    const bool digit = c >= '0' && c <= '9';
+    if (!digit && (c != '_' || before == '_')) return false;
+    before = c;
+  }
+  return name[owner.size()] == '_' && before != '_';
+}
+
 void check_scalar_name(const std::string& method, const std::vector<std::string>& scalars,
                        const std::map<std::string, std::string>& shapes, const std::string& name,
                        const Place& place) {
@@ -188,8 +190,18 @@ void check_names(const Method& method) {
     names.check_parameter(gain.variable, gain.place);
     names.reserve_numbered(gain.name, "coefficient", "function");
   }
-  for (const Requirement& requirement : method.require)
-    for (const Forall& forall : requirement.forall) names.check_variable(forall);
+  for (const Requirement& requirement : method.require) {
+    std::map<std::string, Place> variables;
+    const auto add = [&](const std::string& name, const Place& place) {
+      if (!variables.emplace(name, place).second)
+        throw InputError(place, "'" + name + "' stands twice in 'forall'");
+    };
+    for (const expr::Index& index : requirement.indices) add(index.name, index.place);
+    for (const Forall& forall : requirement.forall) {
+      names.check_variable(forall);
+      add(forall.variable, forall.place);
+    }
+  }
   check_families(method, names);
 }
 

@@ -13,6 +13,9 @@ namespace gainsmith::model {
 /// pi, a dimension), is none, or when flow or jump maps name no state.
 void check_names(const Method& method);
 
+/// Whether the name is `owner` with numbers: "P_1", "P_1_0" of P.
+bool is_numbered(const std::string& name, const std::string& owner);
+
 /// InputError at `place` when `name` is none of the method's scalars, with the nearest that is.
 /// `shapes`: of all data, as they are declared.
 void check_scalar_name(const std::string& method, const std::vector<std::string>& scalars,

@@ -53,6 +53,32 @@ TEST(ConvexFunctions, SumsAndLargestOfModuli) {
   EXPECT_NEAR(*middle.objective, 5.5 - 0.75, 1e-6) << "at 1.5";
 }
 
+/// What stands in a sum over an index is bounded term by term.
+TEST(ConvexFunctions, SumsOverIndices) {
+  const model::Gains gains = solve(
+      "  unknowns: {x: scalar, P: {shape: symmetric 2, for: i in 1..2}}\n"
+      "  require: {c: x <= 100, d: {forall: i in 1..2, that: \"P(i)(1, 2) == i\"}}\n"
+      "  minimize: \"sum(i in 1..3, abs(x - i^2)) + sum(i in 1..2, j in 1..2, i < j, "
+      "norm(P(i)) + 2*norm(P(j)))\"\n");
+  EXPECT_EQ(gains.verdict, model::Verdict::yes);
+  EXPECT_NEAR(*gains.objective, 8 + 1 + 2 * 2, 1e-5);
+}
+
+TEST(ConvexFunctions, NumbersAreComparedWithEachElement) {
+  const model::Gains gains = solve(
+      "  unknowns: {x: 3}\n  require: {a: \"max(x, 0, [-1; 2; 1]) <= 3\", b: sum(x) >= -4}\n"
+      "  minimize: \"sum(max(x, 0)) + 2*max(x(1), -1)\"\n");
+  EXPECT_NEAR(*gains.objective, 0 - 2, 1e-6);
+}
+
+/// An objective with functions of its own needs no other inequality.
+TEST(ConvexFunctions, MayStandAlone) {
+  const model::Gains gains =
+      solve("  data: {b: n}\n  unknowns: {x: scalar}\n  minimize: norm(b - x*ones(n, 1))\n",
+            "data: {b: [1, 3]}\n");
+  EXPECT_NEAR(*gains.objective, std::sqrt(2), 1e-6);
+}
+
 /// Of a symmetric pencil without further unknowns.
 TEST(ConvexFunctions, TheSpreadOfEigenvalues) {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -132,6 +158,7 @@ TEST(Quotient, WhatHasNoMinimumIsSaid) {
       "  minimize: lambda_max(x, y)\n");
   EXPECT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_FALSE(gains.objective_lower_bound);
+  EXPECT_EQ(gains.solver.status, "feasible");
   EXPECT_NE(gains.solver.message.find("a smaller one may be possible"), std::string::npos);
 }
 
@@ -148,12 +175,21 @@ TEST(ConvexFunctions, MistakesAreNamed) {
       {"norm(X) <= v", "is compared with a number; found 2 x 1"},
       {"abs(v) <= A(1:1, :)*[1; 1; 1]", "cannot multiply"},
       {"lambda_max(v) <= 1", "lambda_max takes a symmetric matrix; found 2 x 1"},
-      {"norm(X) == 1", "'==' takes affine sides"}};
+      {"norm(X) == 1", "'==' takes affine sides"},
+      {"norm(X, 1) <= 1", "'norm' is written norm(M); found 2 arguments"},
+      {"lambda_max(X, A) <= 1", "lambda_max(M, N) of two matrices stands alone in minimize"},
+      {"lambda_min(-X, A) >= 1", "'lambda_min' is written lambda_min(M); found 2 arguments"},
+      {"max(v, [1, 2, 3]) <= 1", "'v' is 2 x 1, another one 1 x 3"},
+      {"-1 <= v", "elements are compared by min(x) >= a"}};
   for (const auto& [text, expected] : cases) {
     const std::string found =
         input_error([&] { solve(head + "  require: {a: \"" + text + "\"}\n", data); }).message();
     EXPECT_NE(found.find(expected), std::string::npos) << text << ": " << found;
   }
+  EXPECT_NE(input_error([] { solve("  unknowns: {g: scalar}\n  minimize: g\n"); })
+                .message()
+                .find("has no inequality under 'require'"),
+            std::string::npos);
   const std::string quantified =
       input_error([&] {
         solve(head + "  require: {a: {forall: \"t in [0, 1]\", that: norm(X) + s <= t}}\n", data);

@@ -85,6 +85,28 @@ TEST(FamilyDesign, GainsAndFunctionsCarryTheIndex) {
   EXPECT_EQ(gains.unknowns.size(), 5U) << "degrees 1 and 2";
 }
 
+TEST(FamilyDesign, AVariableStandsOnceInForall) {
+  for (const std::string list :
+       {"i in 1..3, i in 1..2", "\"t in [0, 3]\", \"t in [0, 2]\"", "i in 1..5, \"i in [0, 2]\""}) {
+    const std::string message = input_error([&] {
+                                  solve("  unknowns: {x: scalar}\n  require: {a: {forall: [" +
+                                        list + "], that: x > 1}}\n  minimize: x\n");
+                                }).message();
+    EXPECT_NE(message.find("twice"), std::string::npos) << list << message;
+  }
+}
+
+/// A member of a family of scalars is searched under its name.
+TEST(FamilyDesign, AMemberMayBeOverridden) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  data: {T: {shape: scalar, for: i in 1..2}}\n"
+      "  unknowns: {x: scalar}\n  require: {a: {forall: i in 1..2, that: x >= T(i)}}\n"
+      "  minimize: x\ndata: {T: [1, 2]}\n");
+  const model::Gains gains = synthesize_at(yaml.instance.design, {{"T_1", 5}}, {});
+  EXPECT_NEAR(*gains.objective, 5, 1e-6);
+  EXPECT_THROW(synthesize_at(yaml.instance.design, {{"T", 5}}, {}), InputError);
+}
+
 TEST(FamilyDesign, ChainsNameTheMember) {
   const model::Gains gains = solve(
       "  data: {a: {shape: scalar, for: i in 1..2, default: i}}\n"
@@ -102,11 +124,13 @@ TEST(FamilyDesign, MistakesAreNamed) {
     return input_error([&] { solve(method, data); }).message();
   };
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"data: {A: [[[0]], [[1]]], T: [1, 2, 3]}\n", "the family T has 2 members; found 3"},
+      {"data: {A: [[[0]], [[1]]], T: [1, 2, 3]}\n", "the family T has 2 members by the data before it; found 3"},
       {"data: {A: [[[0]], [[1, 2]]], T: 1}\n", "a family takes a list with a matrix for each"},
       {"data: {T: 1}\n", "the datum A (n x n for each index) of the method m is missing"},
       {"data: {A: -I, T: [1, 2]}\n", "must be a whole number known beforehand, not 'N'"},
-      {"data: {A: [[[-1]], [[-2]]]}\n", "the datum T (scalar for each index) of the method m is missing"}};
+      {"data: {A: [[[[1]]]], T: 1}\n", "this member is one itself: a bracket too many"},
+      {"data: {A: [[[-1]], [[-2]]]}\n",
+       "the datum T (scalar for each index) of the method m is missing"}};
   for (const auto& [data, expected] : cases) {
     const std::string found = message(kDwell, data);
     EXPECT_NE(found.find(expected), std::string::npos) << data << found;

@@ -125,7 +125,7 @@ TEST(SynthesizeTest, AnObjectiveWithoutConstantsHasNoMinimum) {
   ASSERT_EQ(found.verdict, model::Verdict::yes);
   EXPECT_FALSE(found.objective);
   EXPECT_FALSE(found.objective_lower_bound);
-  EXPECT_NE(found.solver.message.find("the objective has no minimum"), std::string::npos);
+  EXPECT_NE(found.solver.message.find("the objective was not used"), std::string::npos);
   for (const model::Margin& margin : found.margins) EXPECT_GT(margin.reached, margin.required);
 }
 

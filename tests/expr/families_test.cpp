@@ -66,6 +66,7 @@ TEST_F(Families, TheKroneckerProductHasItsRules) {
   world.set("R", random_matrix(random, 3, 2)).set("S", random_matrix(random, 1, 4));
   EXPECT_LE(relative_difference(world("kron(P, Q)*kron(R, S)"), world("kron(P*R, Q*S)")), 1e-14);
   EXPECT_EQ(world("kron(P, Q)'"), world("kron(P', Q')"));
+  EXPECT_EQ(world("sum(kron(zeros(0, 2), P))")(0, 0), 0);
   EXPECT_EQ(world("kron(2, P)"), world("2*P"));
   EXPECT_EQ(world("kron(P, 2)"), world("2*P"));
   EXPECT_EQ(world("kron(eye(2), P)"), world("blkdiag(P, P)"));
@@ -77,7 +78,7 @@ TEST_F(Families, MistakesAreNamed) {
       {"A(0)", "has the members 1 to 3; found 0"},
       {"A(1.5)", "must be a whole number known beforehand, not '1.5'"},
       {"A(1, 2)", "takes 1 indices, not 2"},
-      {"A(j)", "must be a whole number known beforehand, not 'j'"},
+      {"A(j)", "there is no dimension or index 'j' here"},
       {"sum(i in 1..N)", "an index stands only in a sum, such as sum(i in 1..N, P(i))"},
       {"sum(i in 1..x, A(i))", "the end of a range must be a whole number"},
       {"sum(1, A(1))", "a sum is written sum(i in 1..N, P(i))"},
@@ -85,7 +86,8 @@ TEST_F(Families, MistakesAreNamed) {
       {"sum(N in 1..2, A(1))", "'N' already has a meaning here"},
       {"sum(i in 1..2, sum(i in 1..2, A(i)))", "'i' already has a meaning here"},
       {"exp(i in 1..2)", "an index stands only in a sum"},
-      {"kron(I, A(1))", "write eye(n)"}};
+      {"kron(I, A(1))", "write eye(n)"},
+      {"sum(i in 1..1000000000, A(1))", "at most 10000 terms"}};
   for (const auto& [text, expected] : cases) {
     const std::string found = input_error([&] { world(text); }).message();
     EXPECT_NE(found.find(expected), std::string::npos) << text << ": " << found;

@@ -124,7 +124,7 @@ TEST_F(Rewriting, CallsAreCheckedWhenBound) {
     EXPECT_EQ(error.place(), (Place{"test", 1, column})) << text << ": " << error.what();
     EXPECT_NE(error.message().find(part), std::string::npos) << text << ": " << error.what();
   };
-  refused("A*Y", 3, "'Y' takes 1 arguments, not 0");
+  refused("A*Y", 3, "'Y' is a function: write Y(s)");
   refused("A*Y(1, 2)", 3, "'Y' takes 1 arguments, not 2");
   refused("Y(A)", 3, "expected 1 x 1");
   refused("[1, 2]*Y(t)*f(t) + A", 1, "cannot add");

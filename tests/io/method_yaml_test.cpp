@@ -152,26 +152,23 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     Values, BrokenMethod,
-    testing::Values(
-        Mistake{"A: n x n", "A: n x", 5, 9, "expected"},
-        Mistake{"A: n x n", "A: symmetric", 5, 6, "symmetric n"},
-        Mistake{"A: n x n", "A: scaler", 5, 6, "did you mean 'scalar'?"},
-        Mistake{"A: n x n", "A: symetric n", 5, 6, "did you mean 'symmetric'?"},
-        Mistake{"A: n x n", "A: [n, n]", 5, 6, "expected a mapping"},
-        Mistake{"A: n x n", "A:", 5, 5, "found nothing"},
-        Mistake{"A: n x n", "2A: n x n", 5, 3, "'2A' is no name"},
-        Mistake{"A: n x n", "A B: n x n", 5, 3, "'A B' is no name"},
-        Mistake{"  mu(tau)", "  mu(", 14, 6, "parameter"},
-        Mistake{"P > 0", "P >", 16, 16, "the end of the text"},
-        Mistake{"tau in [0, 1]", "tau of [0, 1]", 18, 13, "expected 'NAME in"},
-        Mistake{"[1, 2]}", "[1]}", 28, 16, "expected [low, high]"},
-        Mistake{"[1, 2]}", "1}", 28, 16, "expected [low, high]"},
-        Mistake{"tau: {reset", "s: {reset: [1, 2]}\n  tau: {reset", 27, 1, "one timer"},
-        Mistake{"{nonincreasing: z'*P*z}", "{}", 32, 3, "needs one of"},
-        Mistake{"{nonincreasing: z'*P*z}", "{nonincreasing: 1, shrinks: 2}", 32, 3, "needs one of"},
-        Mistake{"  positive: P > 0\n  flow:\n    forall: tau in [0, 1]\n    that: He(P*A) + "
-                "mu(tau)*P < g*I\n",
-                "", 1, 1, "no inequality"}));
+    testing::Values(Mistake{"A: n x n", "A: n x", 5, 9, "expected"},
+                    Mistake{"A: n x n", "A: symmetric", 5, 6, "symmetric n"},
+                    Mistake{"A: n x n", "A: scaler", 5, 6, "did you mean 'scalar'?"},
+                    Mistake{"A: n x n", "A: symetric n", 5, 6, "did you mean 'symmetric'?"},
+                    Mistake{"A: n x n", "A: [n, n]", 5, 6, "expected a mapping"},
+                    Mistake{"A: n x n", "A:", 5, 5, "found nothing"},
+                    Mistake{"A: n x n", "2A: n x n", 5, 3, "'2A' is no name"},
+                    Mistake{"A: n x n", "A B: n x n", 5, 3, "'A B' is no name"},
+                    Mistake{"  mu(tau)", "  mu(", 14, 6, "parameter"},
+                    Mistake{"P > 0", "P >", 16, 16, "the end of the text"},
+                    Mistake{"tau in [0, 1]", "tau of [0, 1]", 18, 13, "expected 'NAME in"},
+                    Mistake{"[1, 2]}", "[1]}", 28, 16, "expected [low, high]"},
+                    Mistake{"[1, 2]}", "1}", 28, 16, "expected [low, high]"},
+                    Mistake{"tau: {reset", "s: {reset: [1, 2]}\n  tau: {reset", 27, 1, "one timer"},
+                    Mistake{"{nonincreasing: z'*P*z}", "{}", 32, 3, "needs one of"},
+                    Mistake{"{nonincreasing: z'*P*z}", "{nonincreasing: 1, shrinks: 2}", 32, 3,
+                            "needs one of"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Names, BrokenMethod,
