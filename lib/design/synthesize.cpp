@@ -106,7 +106,7 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
 /// Unknown functions with half of their degrees; none where there is nothing to halve. What they
 /// satisfy, functions of the stated degrees satisfy.
 std::optional<model::Instance> with_lower_degrees(const model::Instance& instance) {
-  constexpr int kLeast = 8;
+  constexpr int kLeast = 16;
   const auto& unknowns = instance.design->unknowns;
   if (std::none_of(unknowns.begin(), unknowns.end(),
                    [](const model::Design::Unknown& unknown) { return unknown.degree >= kLeast; }))
@@ -115,6 +115,14 @@ std::optional<model::Instance> with_lower_degrees(const model::Instance& instanc
     for (model::Design::Unknown& unknown : design.unknowns)
       if (unknown.degree >= kLeast) unknown.degree /= 2;
   });
+}
+
+/// Whether the objective chooses among the solutions.
+bool has_minimum(const model::Instance& instance) {
+  if (!instance.design->objective) return false;
+  const lmi::Inequalities inequalities(instance);
+  const lmi::Lmi lmi = lmi::compile(inequalities);
+  return lmi::has_minimum(lmi, lmi::gain_bounds(inequalities, lmi));
 }
 
 /// `digits`: more than double where double does not decide.
@@ -181,16 +189,15 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   const auto lower = with_lower_degrees(instance);
   if (!lower || depth == Depth::quick)
     return synthesize(instance, options, depth, depth != Depth::quick);
-  // Programs of high degrees are slow in many digits: lower degrees come before them.
-  model::Gains gains = synthesize(instance, options, depth, false);
-  if (gains.verdict == model::Verdict::yes) return gains;
-  if (gains.verdict == model::Verdict::undecided) {
-    model::Gains fewer = synthesize(*lower, options, depth);
-    if (fewer.verdict == model::Verdict::yes) {
-      const std::string found = "found with functions of lower degrees";
-      if (fewer.solver.message.find(found) == std::string::npos) fewer.solver.add_message(found);
-      return fewer;
-    }
+  // Programs of high degrees are slow, and slower in many digits.
+  if (has_minimum(instance)) {
+    model::Gains gains = synthesize(instance, options, depth, false);
+    if (gains.verdict == model::Verdict::yes) return gains;
+  }
+  model::Gains fewer = synthesize(*lower, options, depth, true);
+  if (fewer.verdict == model::Verdict::yes) {
+    fewer.solver.add_message("found with functions of half the degree");
+    return fewer;
   }
   return synthesize(instance, options, depth, true);
 }

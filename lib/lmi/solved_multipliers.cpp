@@ -1,4 +1,6 @@
 // Multipliers as a solver left them, in all their digits.
+#include <Eigen/Core>
+
 #include "base/eigen_scalars.h"
 #include "lmi/refutation.h"
 
