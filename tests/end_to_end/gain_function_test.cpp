@@ -41,6 +41,22 @@ parameters: {degree: )yaml" +
          std::to_string(degree) + "}\n";
 }
 
+/// Without an objective a high degree begins with half of it; the gain file has what was found.
+TEST(GainFunctionTest, OfAHighDegreeBeginsWithHalfOfIt) {
+  const Folder folder;
+  std::string text = problem_text(24);
+  text.replace(text.find("of: tau, degree"), 15, "of: tau, in: [T1, T2], degree");
+  const std::string path = folder.path("g.json");
+  const Outcome synth = gainsmith({"synth", folder.file("p.yaml", text), "-o", path});
+  ASSERT_EQ(synth.exit, 0) << synth.out << synth.err;
+  EXPECT_NE(synth.out.find("found with functions of half the degree"), std::string::npos);
+  const Json gains = Json::parse(text_of(path));
+  EXPECT_TRUE(gains["unknowns"].contains("Z_12"));
+  EXPECT_FALSE(gains["unknowns"].contains("Z_13"));
+  const Outcome verify = gainsmith({"verify", path});
+  EXPECT_EQ(verify.exit, 0) << verify.out << verify.err;
+}
+
 TEST(GainFunctionTest, IsStoredVerifiedAndReplayed) {
   const Folder folder;
   const std::string problem = folder.file("p.yaml", problem_text(1));
