@@ -183,7 +183,9 @@ class RowWeights {
 /// The normal equations over the rows; the unknowns are eliminated: given the rows, log2 d_i is
 /// minus the mean of its elements.
 Units fit(const std::vector<Element>& elements, int rows, int unknowns, int objective) {
-  numbers::Matrix normal = numbers::Matrix::Zero(rows, rows);
+  // The elimination goes along rows.
+  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+  RowMajor normal = RowMajor::Zero(rows, rows);
   numbers::Vector right = numbers::Vector::Zero(rows);
   const auto count = static_cast<std::size_t>(unknowns) + 1;
   std::vector<double> weight(count, 0.0), logs(count, 0.0);
