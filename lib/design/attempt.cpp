@@ -1,6 +1,7 @@
 #include "design/attempt.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -244,12 +245,13 @@ std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const
     result->margins = std::move(margins);
     return true;
   };
-  constexpr double kStep = 10;
+  constexpr std::array kFractions = {1e-12, 1e-11, 1e-10, 1e-9, 1e-8, 1e-7,
+                                     1e-6,  1e-5,  1e-4,  1e-3, 1e-2, 1e-1};
   constexpr int kHalvings = 3;
-  for (double e = 1e-12; e < 1; e *= kStep) {
+  for (double e : kFractions) {
     if (!holds_at(e)) continue;
     // What the fraction costs is seen in the objective.
-    double fails = e / kStep;
+    double fails = 0.1 * e;
     for (int k = 0; k < kHalvings; ++k) {
       const double middle = std::sqrt(fails * e);
       (holds_at(middle) ? e : fails) = middle;

@@ -40,8 +40,9 @@ inline double up(double radius, double operations = 6) {
 
 /// NaN is nothing known.
 inline double bound_or_nothing(double radius) {
+  // NOLINTNEXTLINE(bugprone-narrowing-conversions)
   return radius >= 0 ? radius : kNothingKnown;
-}  // NOLINT(bugprone-narrowing-conversions)
+}
 
 /// Not below |x|.
 template <class S>
