@@ -21,7 +21,8 @@ namespace {
 using model::Design;
 using numbers::Matrix;
 
-constexpr const char* kStep = "step__";
+/// No name that a text may use.
+constexpr const char* kStep = "the step";
 
 class Quotient {
  public:
@@ -134,7 +135,7 @@ class Quotient {
     return gains.verdict == model::Verdict::yes ? std::optional(std::move(gains)) : std::nullopt;
   }
 
-  /// The smallest number `step__` under the inequalities and these, each >= 0.
+  /// The smallest step under the inequalities and these, each >= 0.
   model::Instance with_step(const std::vector<std::pair<std::string, expr::Program>>& more) const {
     return with_design(base_, [&](Design& design) {
       Design::Unknown t;
@@ -178,6 +179,10 @@ class Quotient {
       high = value + away * size;
       best = at(high);
       if (best->verdict == model::Verdict::yes) break;
+    }
+    if (best->verdict == model::Verdict::no) {
+      best->verdict = model::Verdict::undecided;
+      best->solver.add_message("a value that the steps reached was excluded: too near to double");
     }
     if (best->verdict != model::Verdict::yes) return *best;
     std::optional<double> low;

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <chrono>
 #include <optional>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "base/number.h"
 #include "base/version.h"
@@ -103,13 +106,53 @@ void add_gains(const lmi::Inequalities& inequalities, model::Gains& gains) {
   }
 }
 
+/// Whether what synthesis evaluates reads a coefficient of an unknown function by its name.
+bool names_coefficients(const model::Design& design) {
+  std::set<std::string> coefficients;
+  for (const model::Function& function : model::polynomials(design))
+    for (const std::string& name : function.coefficients()) coefficients.insert(name);
+  const auto reads = [&](const expr::Program& program) {
+    return std::any_of(program.inputs.begin(), program.inputs.end(),
+                       [&](const expr::Input& input) { return coefficients.contains(input.name); });
+  };
+  return std::any_of(design.inequalities.begin(), design.inequalities.end(),
+                     [&](const model::Design::Inequality& inequality) {
+                       return std::any_of(inequality.comparisons.begin(),
+                                          inequality.comparisons.end(),
+                                          [&](const auto& each) { return reads(each.difference); });
+                     }) ||
+         std::any_of(design.gains.begin(), design.gains.end(),
+                     [&](const auto& gain) { return reads(gain.formula.program); }) ||
+         std::any_of(design.report.begin(), design.report.end(),
+                     [&](const auto& each) { return reads(each.value.program); }) ||
+         (design.objective && reads(design.objective->program));
+}
+
+/// Gains of lower degrees as those of the stated ones: the coefficients above are 0.
+void raise_degrees(const model::Instance& instance, model::Gains& gains) {
+  const auto functions = model::polynomials(*instance.design);
+  std::vector<std::pair<std::string, numbers::Matrix>> unknowns;
+  for (const model::UnknownMatrix& unknown : model::unknown_matrices(*instance.design, functions)) {
+    const numbers::Matrix* found = gains.find(unknown.name);
+    unknowns.emplace_back(
+        unknown.name,
+        found != nullptr ? *found : numbers::Matrix::Zero(unknown.shape.rows, unknown.shape.cols));
+  }
+  gains.unknowns = std::move(unknowns);
+  gains.functions.clear();
+  for (const model::Function& function : functions)
+    gains.functions.push_back({function.signature(), function.text(), function.body().program});
+}
+
 /// Unknown functions with half of their degrees; none where there is nothing to halve. What they
 /// satisfy, functions of the stated degrees satisfy.
 std::optional<model::Instance> with_lower_degrees(const model::Instance& instance) {
   constexpr int kLeast = 16;
   const auto& unknowns = instance.design->unknowns;
-  if (std::none_of(unknowns.begin(), unknowns.end(),
-                   [](const model::Design::Unknown& unknown) { return unknown.degree >= kLeast; }))
+  if (std::none_of(
+          unknowns.begin(), unknowns.end(),
+          [](const model::Design::Unknown& unknown) { return unknown.degree >= kLeast; }) ||
+      names_coefficients(*instance.design))
     return std::nullopt;
   return with_design(instance, [](model::Design& design) {
     for (model::Design::Unknown& unknown : design.unknowns)
@@ -196,6 +239,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   }
   model::Gains fewer = synthesize(*lower, options, depth, true);
   if (fewer.verdict == model::Verdict::yes) {
+    raise_degrees(instance, fewer);
     fewer.solver.add_message("found with functions of half the degree");
     return fewer;
   }
@@ -208,6 +252,10 @@ model::Gains synthesize_at(const model::DesignPtr& design, const model::Override
 }
 
 sdp::Problem semidefinite_program(const model::Instance& instance) {
+  if (instance.design->quotient)
+    throw InputError(instance.design->quotient->place,
+                     "minimize: " + instance.design->quotient->text +
+                         " is solved by several semidefinite programs; there is no one to write");
   const lmi::Inequalities inequalities(instance);
   const model::SynthesisOptions& choices = inequalities.design().synthesis;
   const lmi::Lmi lmi = lmi::compile(inequalities);

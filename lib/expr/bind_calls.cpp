@@ -208,6 +208,7 @@ Bound Binder::where(const Expression& expression, const Node& node) {
   if (condition.kind != NodeKind::compare || condition.relations.size() != 1)
     fail(expression, condition, "where needs one comparison first, such as where(x > 0, a, b)");
   const Relation relation = condition.relations.front();
+  if (relation == Relation::not_equal) fail(expression, condition, kNotEqual);
   if (relation == Relation::equal)
     fail(expression, condition, "'==' stands in requirements only; where takes < <= > >=");
   const bool ascending = relation == Relation::less || relation == Relation::less_equal;

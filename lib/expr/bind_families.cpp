@@ -1,5 +1,4 @@
 // Names with indices, sums over them, and Kronecker products.
-#include <cstdint>
 #include <functional>
 #include <string>
 #include <utility>
@@ -60,6 +59,22 @@ int Binder::required_whole_number(const Expression& expression, const Node& node
              "'; an index has its values from 'forall: i in 1..N', from the name of a gain "
              "L(i in 1..N), or in sum(i in 1..N, ...)");
   return *value;
+}
+
+std::pair<int, int> Binder::range_of(const Expression& expression, const Node& low,
+                                     const Node& high) {
+  constexpr int kFarthest = 1'000'000'000;
+  constexpr int kMost = 100'000;
+  const int first = required_whole_number(expression, low, "the end of a range");
+  const int last = required_whole_number(expression, high, "the end of a range");
+  for (const auto& [end, node] : {std::pair(first, &low), std::pair(last, &high)})
+    if (end < -kFarthest || end > kFarthest)
+      fail(expression, *node, "the end of a range is at most " + std::to_string(kFarthest));
+  if (last - first >= kMost)
+    fail(expression, high,
+         "the range has " + std::to_string(last - first + 1) + " values; an index has at most " +
+             std::to_string(kMost));
+  return {first, last};
 }
 
 std::optional<std::string> Binder::member(const Expression& expression, const Node& node) {
@@ -128,11 +143,7 @@ Bound Binder::sum(const Expression& expression, const Node& node) {
       if (holds(expression, child)) from(k + 1);
       return;
     }
-    constexpr int kMost = 10'000;
-    const int low = required_whole_number(expression, *child.children[0], "the end of a range");
-    const int high = required_whole_number(expression, *child.children[1], "the end of a range");
-    if (std::int64_t{high} - low >= kMost)
-      fail(expression, child, "a sum has at most " + std::to_string(kMost) + " terms an index");
+    const auto [low, high] = range_of(expression, *child.children[0], *child.children[1]);
     const auto outer = environment_.find(child.text);
     if (outer != environment_.end() || scope_.symbols.contains(child.text) ||
         scope_.dimensions.contains(child.text))
@@ -146,7 +157,9 @@ Bound Binder::sum(const Expression& expression, const Node& node) {
   };
   if (node.children[0]->kind != NodeKind::each)
     fail(expression, node, "a sum is written sum(i in 1..N, P(i)), or sum(M) of the elements of M");
+  ++open_sums_;
   from(0);
+  --open_sums_;
   return total ? *total : Bound{number(expression, node, "0")};
 }
 
@@ -184,8 +197,8 @@ Bound Binder::kronecker(const Expression& expression, const Node& node) {
                    std::vector<int>(static_cast<std::size_t>(columns), shape(b).cols))};
 }
 
-int whole_number(const Expression& expression, const Scope& scope) {
-  return Binder(scope).required_whole_number(expression, *expression.root, "an index");
+std::pair<int, int> range_of(const Index& index, const Scope& scope) {
+  return Binder(scope).range_of(index.low, *index.low.root, *index.high.root);
 }
 
 bool whole_condition(const Expression& expression, const Scope& scope) {

@@ -53,13 +53,13 @@ bool Binder::is_zero(Bound value) const {
 }
 
 Bound Binder::bind(const Expression& expression, const Node& node) {
-  // Definitions may stand on each other in towers that no formula needs. Outside of them an
-  // operation stands in the text.
+  // Definitions and sums may stand on each other in towers that no formula needs. Outside of them
+  // an operation stands in the text.
   constexpr int kDeepest = 1000;
   constexpr int kMostSteps = 250'000;
   if (depth_ >= kDeepest) fail(expression, node, "the definitions are nested too deeply");
-  if (!open_definitions_.empty() && ++steps_ > kMostSteps)
-    fail(expression, node, "the definitions expand to too many operations");
+  if ((!open_definitions_.empty() || open_sums_ > 0) && ++steps_ > kMostSteps)
+    fail(expression, node, "the definitions and sums expand to too many operations");
   ++depth_;
   const Bound value = bind_kind(expression, node);
   --depth_;
@@ -346,6 +346,7 @@ std::vector<CompiledRelation> compile_relations(const Expression& expression, co
     pair.children = {root.children[large], root.children[small]};
     const Bound difference = binder.subtract(expression, pair, sides[large], sides[small]);
     const int at = binder.sized(expression, pair, difference);
+    if (relation == Relation::not_equal) throw InputError(expression.place(pair), kNotEqual);
     if (relation == Relation::equal) {
       relations.push_back({binder.extract(binder.equation(expression, pair, at)), false, true});
       continue;

@@ -19,6 +19,10 @@ struct Bound {
   bool identity = false;
 };
 
+/// What is said of != anywhere else.
+inline constexpr const char* kNotEqual =
+    "'!=' stands between indices only, as in forall: [i in 1..N, j in 1..N, i != j]";
+
 class Binder {
  public:
   explicit Binder(const Scope& scope) : scope_(scope) {}
@@ -38,7 +42,7 @@ class Binder {
 
  private:
   friend class BlockBinding;
-  friend int whole_number(const Expression& expression, const Scope& scope);
+  friend std::pair<int, int> range_of(const Index& index, const Scope& scope);
   friend bool whole_condition(const Expression& expression, const Scope& scope);
 
   using Environment = std::map<std::string, Bound>;
@@ -71,6 +75,7 @@ class Binder {
   Bound sum_of_elements(const Expression& expression, const Node& node);
   Bound kronecker(const Expression& expression, const Node& node);
   bool holds(const Expression& expression, const Node& comparison);
+  std::pair<int, int> range_of(const Expression& expression, const Node& low, const Node& high);
   int required_whole_number(const Expression& expression, const Node& node,
                             const std::string& what);
 
@@ -125,7 +130,8 @@ class Binder {
   std::map<std::string, Bound> defined_;       ///< definitions without parameters, once bound
   std::vector<std::string> open_definitions_;  ///< being bound now, to find cycles
   int depth_ = 0;                              ///< of calls of bind()
-  int steps_ = 0;                              ///< calls of bind() within definitions
+  int steps_ = 0;                              ///< calls of bind() within definitions and sums
+  int open_sums_ = 0;                          ///< over indices, being bound now
   Environment environment_;                    ///< parameters of the definition being bound
 };
 

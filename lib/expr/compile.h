@@ -9,6 +9,7 @@
 #pragma once
 
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "expr/scope.h"
@@ -20,8 +21,9 @@ namespace gainsmith::expr {
 Program compile(const Expression& expression, const Scope& scope,
                 std::optional<Shape> expected = std::nullopt);
 
-/// A whole number over dimensions: numbers, +, - and *. InputError at what is none.
-int whole_number(const Expression& expression, const Scope& scope);
+/// The ends of the range of an index, whole numbers over dimensions: numbers, +, - and *.
+/// InputError at what is none, and for more than 100,000 values.
+std::pair<int, int> range_of(const Index& index, const Scope& scope);
 
 /// Whether a comparison of such whole numbers holds, `i != j`, `i < j <= k`.
 bool whole_condition(const Expression& expression, const Scope& scope);

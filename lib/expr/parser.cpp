@@ -1,12 +1,11 @@
 #include "expr/parser.h"
 
 #include <algorithm>
-#include <array>
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "expr/lexer.h"
+#include "expr/parser_advice.h"
 #include "expr/work.h"
 
 namespace gainsmith::expr {
@@ -133,7 +132,8 @@ class Parser {
   }
 
   const Token& expect(TokenKind kind, const std::string& what) {
-    if (peek() != kind) fail("expected " + what + ", found " + found() + cure());
+    if (peek() != kind)
+      fail("expected " + what + ", found " + found() + missing_between(tokens_, at_));
     return kind == TokenKind::end ? tokens_[at_] : next();
   }
 
@@ -141,79 +141,9 @@ class Parser {
     return peek() == TokenKind::end ? "the end of the text" : "'" + tokens_[at_].text + "'";
   }
 
-  /// Whether a bracket is open where the parser stands.
-  bool is_open() const {
-    int depth = 0;
-    for (std::size_t k = 0; k < at_; ++k) {
-      const TokenKind kind = tokens_[k].kind;
-      depth += static_cast<int>(kind == TokenKind::open || kind == TokenKind::open_bracket);
-      depth -= static_cast<int>(kind == TokenKind::close || kind == TokenKind::close_bracket);
-    }
-    return depth > 0;
-  }
-
-  /// What is missing between two values that stand side by side.
-  std::string cure() const {
-    if (at_ == 0) return {};
-    if (peek() == TokenKind::end && is_open())
-      return "; inside of { } and [ ] of YAML a text with a comma must be quoted";
-    const Token& left = tokens_[at_ - 1];
-    const Token& right = tokens_[at_];
-    const bool value = right.kind == TokenKind::number || right.kind == TokenKind::name ||
-                       right.kind == TokenKind::open_bracket;
-    const bool complete = left.kind == TokenKind::number || left.kind == TokenKind::name ||
-                          left.kind == TokenKind::close || left.kind == TokenKind::close_bracket ||
-                          left.kind == TokenKind::quote;
-    if (!value || !complete) return {};
-    const bool touches = left.end == right.begin;
-    // Apart, a capital letter is rather a matrix than a unit.
-    const bool unit = power_of_unit(right.text) && (right.text.size() > 1 || right.text[0] >= 'a');
-    if (left.kind == TokenKind::number && right.kind == TokenKind::name &&
-        (touches || unit || right.text.ends_with("Hz")))
-      return in_base_units(left.text, right.text);
-    if (left.kind == TokenKind::name && right.kind == TokenKind::open_bracket && touches)
-      return "; an element is written " + left.text + "(1, 2)";
-    return "; a comma is missing between elements, or * in a product";
-  }
-
-  /// What a unit is in base units, as it is written behind a number.
-  static std::optional<std::string_view> power_of_unit(std::string_view unit) {
-    static constexpr auto kPowers = std::to_array<std::pair<std::string_view, std::string_view>>(
-        {{"ms", "e-3"},  {"us", "e-6"},      {"ns", "e-9"},   {"mm", "e-3"}, {"cm", "e-2"},
-         {"km", "e3"},   {"mV", "e-3"},      {"mA", "e-3"},   {"mH", "e-3"}, {"mF", "e-3"},
-         {"uF", "e-6"},  {"nF", "e-9"},      {"msec", "e-3"}, {"sec", ""},   {"min", "*60"},
-         {"h", "*3600"}, {"deg", "*pi/180"}, {"kg", ""},      {"g", "e-3"},  {"s", ""},
-         {"m", ""},      {"rad", ""},        {"V", ""},       {"A", ""},     {"N", ""}});
-    for (const auto& [name, power] : kPowers)
-      if (name == unit) return power;
-    return std::nullopt;
-  }
-
-  /// "5ms", with what to write for it.
-  static std::string in_base_units(const std::string& number, const std::string& unit) {
-    const bool plain = number.find_first_of("eE") == std::string::npos;
-    if (unit.ends_with("Hz"))
-      return "; numbers have no units: a frequency in 1/s is a number, a sampling time its inverse "
-             "in s";
-    const auto power = power_of_unit(unit);
-    if (power && (plain || power->empty()))
-      return "; numbers have no units: for " + number + " " + unit + " write " + number +
-             std::string(*power) + ", or " + number + "*" + unit + " for a product";
-    return "; numbers have no units, and a product is written " + number + "*" + unit;
-  }
-
   /// "0,005"
   void refuse_decimal_comma() const {
-    if (peek() != TokenKind::comma || at_ == 0 || at_ + 1 >= tokens_.size()) return;
-    const Token& left = tokens_[at_ - 1];
-    const Token& right = tokens_[at_ + 1];
-    if (left.kind == TokenKind::number && right.kind == TokenKind::number &&
-        left.end + 1 == right.begin)
-      fail(left.text.find('.') == std::string::npos
-               ? "unexpected ',': a decimal is written with a point: " + left.text + "." +
-                     right.text
-               : "unexpected ',': a decimal is written with one point and nothing between its "
-                 "thousands");
+    if (const std::string said = decimal_comma(tokens_, at_); !said.empty()) fail(said);
   }
 
   [[noreturn]] void fail(const std::string& message) const {
@@ -399,7 +329,8 @@ class Parser {
              std::to_string(columns));
       if (accept(TokenKind::close_bracket)) break;
       if (!accept(TokenKind::semicolon))
-        fail("expected ',' ';' or ']' in the block, found " + found() + cure());
+        fail("expected ',' ';' or ']' in the block, found " + found() +
+             missing_between(tokens_, at_));
     }
     auto node = make(NodeKind::block, begin, std::move(entries));
     node->columns = columns;

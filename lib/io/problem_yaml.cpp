@@ -26,10 +26,11 @@ std::shared_ptr<const model::Method> method_of(const YamlFile& file, const YamlI
 }
 
 std::vector<model::Value> values(const YamlFile& file, const std::optional<YamlItem>& item,
-                                 const char* what) {
+                                 const char* what,
+                                 model::Value (*read)(const YamlFile&, const YamlItem&)) {
   std::vector<model::Value> result;
   for (const YamlItem& entry : items_of(file, item, what)) {
-    model::Value value = value_of(file, entry);
+    model::Value value = read(file, entry);
     value.place = entry.place;
     result.push_back(std::move(value));
   }
@@ -215,8 +216,8 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.method_place = method.place;
   problem.method = method_of(yaml, method, library);
   problem.method_name = problem.method->name;
-  problem.data = values(yaml, map.find("data"), "data");
-  problem.parameters = values(yaml, map.find("parameters"), "parameters");
+  problem.data = values(yaml, map.find("data"), "data", datum_of);
+  problem.parameters = values(yaml, map.find("parameters"), "parameters", value_of);
   problem.synthesis = synthesis(yaml, map.find("synthesis"));
   if (const auto search = map.find("search"))
     problem.search = search_from(yaml, *search, *problem.method);

@@ -94,4 +94,7 @@ std::vector<YamlItem> items_of(const YamlFile& file, const std::optional<YamlIte
 /// expressions.
 model::Value value_of(const YamlFile& file, const YamlItem& item);
 
+/// The same of a datum, which may be a list of matrices: those of a family.
+model::Value datum_of(const YamlFile& file, const YamlItem& item);
+
 }  // namespace gainsmith::io

@@ -43,13 +43,6 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
   if (!node.IsSequence())
     return {item.key, file.expression(node, item.key), false, file.place(node)};
   if (node.size() == 0) throw InputError(file.place(node), item.key + ": the list is empty");
-  if (is_list_of_matrices(node)) {
-    model::Value result{item.key, {}, false, file.place(node), true};
-    for (const auto& element : node)
-      result.matrices.push_back(
-          value_of(file, {item.key, item.key_text, file.place(element), element}));
-    return result;
-  }
   const bool flat = !node[0].IsSequence();
   TextComposer composer(file.file());
   composer.punctuation("[", file.place(node));
@@ -76,6 +69,15 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
   }
   composer.punctuation("]", file.place(node));
   return {item.key, composer.parse(file.place(node)), flat, file.place(node), true};
+}
+
+model::Value datum_of(const YamlFile& file, const YamlItem& item) {
+  if (!item.value.IsSequence() || !is_list_of_matrices(item.value)) return value_of(file, item);
+  model::Value result{item.key, {}, false, file.place(item.value), true};
+  for (const auto& element : item.value)
+    result.matrices.push_back(
+        datum_of(file, {item.key, item.key_text, file.place(element), element}));
+  return result;
 }
 
 }  // namespace gainsmith::io

@@ -1,6 +1,7 @@
 // Requirements and objectives with convex functions of unknowns (convex.h).
 #include <algorithm>
 #include <memory>
+#include <span>
 
 #include "expr/functions.h"
 #include "model/binding.h"
@@ -43,6 +44,23 @@ NodePtr placed(const Node& node, const Node& at) {
   moved->end = at.end;
   for (NodePtr& child : moved->children) child = placed(*child, at);
   return moved;
+}
+
+/// The sum of terms as a tree that is not deep, at the place of `at`; 0 without terms.
+NodePtr sum_of(std::span<const NodePtr> terms, const Node& at) {
+  if (terms.size() == 1) return terms.front();
+  auto sum = std::make_shared<Node>();
+  sum->begin = at.begin;
+  sum->end = at.end;
+  if (terms.empty()) {
+    sum->kind = NodeKind::number;
+    sum->text = "0";
+    return sum;
+  }
+  const std::size_t half = terms.size() / 2;
+  sum->kind = NodeKind::add;
+  sum->children = {sum_of(terms.first(half), at), sum_of(terms.subspan(half), at)};
+  return sum;
 }
 
 bool is_positive_number(const Node& node) {
@@ -149,6 +167,7 @@ std::vector<expr::Expression> Binding::bounds_of(const expr::Expression& text, c
 /// Sums over indices with such functions in them as the terms that they have.
 NodePtr Binding::with_terms(const expr::Expression& text, const NodePtr& node,
                             const expr::Scope& scope) const {
+  constexpr std::size_t kMostTerms = 1000;
   if (!names_curved(*node)) return node;
   const bool indexed = node->kind == NodeKind::call && node->text == "sum" &&
                        node->children.front()->kind == NodeKind::each;
@@ -169,38 +188,33 @@ NodePtr Binding::with_terms(const expr::Expression& text, const NodePtr& node,
     else
       conditions.push_back({text.text, node->children[k]});
   }
-  NodePtr total;
+  std::vector<NodePtr> terms;
   for (const Member& member : members(indices, conditions, scope)) {
+    if (terms.size() == kMostTerms)
+      throw InputError(text.place(*node), "a sum of norms, moduli or eigenvalues has at most " +
+                                              std::to_string(kMostTerms) + " terms");
     const expr::Expression one =
         expr::instantiate({text.text, node->children.back()}, member.indices, scope.families);
-    const NodePtr term = placed(*with_terms(one, one.root, scope), *node);
-    if (total == nullptr) {
-      total = term;
-      continue;
-    }
-    auto sum = std::make_shared<Node>(*term);
-    sum->kind = NodeKind::add;
-    sum->children = {total, term};
-    total = sum;
+    terms.push_back(placed(*with_terms(one, one.root, scope), *node));
   }
-  if (total != nullptr) return total;
-  auto zero = std::make_shared<Node>(*node);
-  zero->kind = NodeKind::number;
-  zero->text = "0";
-  zero->children.clear();
-  return zero;
+  return sum_of(terms, *node);
 }
 
 /// An unknown that bounds the function at `call`, as a node that stands for it.
 NodePtr Binding::bounding_unknown(const expr::Expression& text, const Node& call,
                                   Curvature curvature) {
   expr::Scope& scope = names_->design;
+  constexpr std::size_t kMost = 10'000;
+  if (design_->unknowns.size() >= kMost)
+    throw InputError(text.place(call),
+                     "there are more than " + std::to_string(kMost) + " unknowns");
   Design::Unknown unknown;
   if (!is_of_matrices(call)) unknown.shape = largest(shapes_of(text, call, scope));
   unknown.structure = unknown.shape.is_scalar() ? Structure::scalar : Structure::full;
   unknown.place = text.place(call);
   const auto is_taken = [&](const std::string& name) {
     return scope.symbols.contains(name) || scope.definitions.contains(name) ||
+           scope.dimensions.contains(name) || (method().timer && method().timer->name == name) ||
            std::any_of(method().gains.begin(), method().gains.end(),
                        [&](const Gain& gain) { return gain.name == name; }) ||
            std::any_of(design_->states.begin(), design_->states.end(),
@@ -214,7 +228,11 @@ NodePtr Binding::bounding_unknown(const expr::Expression& text, const Node& call
   name->text = unknown.name;
   name->children.clear();
   Design::Inequality bound;
-  bound.name = unknown.name + (curvature == Curvature::convex ? " >= " : " <= ") + text.quote(call);
+  const std::string quoted = text.quote(call);
+  // A term of a sum over an index stands where the sum stands.
+  const bool own = quoted.starts_with(call.text);
+  bound.name = unknown.name + (curvature == Curvature::convex ? " >= " : " <= ") +
+               (own ? quoted : call.text + " in " + quoted);
   bound.place = bound.that_place = unknown.place;
   design_->unknowns.push_back(std::move(unknown));
   add_comparisons(bounds_of(text, call, name, scope, false), bound, bound.name, "", scope);
@@ -289,7 +307,7 @@ std::vector<expr::Expression> Binding::affine_comparisons(const expr::Expression
   for (std::size_t k = 0; k < chain.relations.size(); ++k) {
     const Relation relation = chain.relations[k];
     if (relation == Relation::equal || relation == Relation::not_equal)
-      throw InputError(that.place(chain), "'==' takes affine sides");
+      throw InputError(that.place(chain), "'" + to_string(relation) + "' takes affine sides");
     const bool ascending = relation == Relation::less || relation == Relation::less_equal;
     const bool strict = relation == Relation::less || relation == Relation::greater;
     const NodePtr& small = chain.children[ascending ? k : k + 1];

@@ -78,6 +78,7 @@ void Binding::bind_data() {
     }
   for (const Given& datum : all) check_shape(datum);
   for (const Parameter& parameter : method().parameters) add_parameter(parameter);
+  for (const auto& [name, value] : overrides_) check_scalar_name(*design_, name, {problem().file});
   add_definitions();
   for (const Named& assumption : method().assume) add_assumption(assumption);
   add_unknowns();

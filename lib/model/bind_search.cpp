@@ -33,6 +33,7 @@ Formula Binding::figure(const expr::Expression& text) const {
 
 void Binding::bind_search() {
   const auto checked = [&](const ScalarRange& text) {
+    check_scalar_name(*design_, text.name, text.place);
     Range bound = range(text);
     if (checks_ == Checks::all) ends_of(bound, recorder_->values);
     return bound;

@@ -19,22 +19,22 @@ std::vector<Member> members(const std::vector<expr::Index>& indices,
                             const std::vector<expr::Expression>& conditions,
                             const expr::Scope& scope) {
   constexpr std::size_t kMost = 100'000;
+  std::size_t tried = 0;
   std::vector<Member> found;
   expr::Scope inner = scope;
   Member member;
   const std::function<void(std::size_t)> from = [&](std::size_t k) {
     if (k == indices.size()) {
-      for (const expr::Expression& condition : conditions)
-        if (!expr::whole_condition(condition, inner)) return;
-      if (found.size() == kMost)
+      if (++tried > kMost)
         throw InputError(indices.front().place,
                          "the indices have more than " + std::to_string(kMost) + " values");
+      for (const expr::Expression& condition : conditions)
+        if (!expr::whole_condition(condition, inner)) return;
       found.push_back(member);
       return;
     }
     const expr::Index& index = indices[k];
-    const int low = expr::whole_number(index.low, inner);
-    const int high = expr::whole_number(index.high, inner);
+    const auto [low, high] = expr::range_of(index, inner);
     const std::string outer = member.label;
     for (int i = low; i <= high; ++i) {
       inner.dimensions[index.name] = i;
@@ -56,8 +56,7 @@ expr::Ranges ranges(const std::vector<expr::Index>& indices, const expr::Scope& 
   constexpr int kMost = 10'000;
   expr::Ranges result;
   for (const expr::Index& index : indices) {
-    const int low = expr::whole_number(index.low, scope);
-    const int high = expr::whole_number(index.high, scope);
+    const auto [low, high] = expr::range_of(index, scope);
     if (low < 0 || high < low || high - low >= kMost)
       throw InputError(index.place, "the index " + index.name + " of a family runs from " +
                                         std::to_string(low) + " to " + std::to_string(high) +

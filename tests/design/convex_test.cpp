@@ -162,6 +162,42 @@ TEST(Quotient, WhatHasNoMinimumIsSaid) {
   EXPECT_NE(gains.solver.message.find("a smaller one may be possible"), std::string::npos);
 }
 
+/// Whenever it comes, an interrupt makes no verdict and no bound wrong.
+TEST(Quotient, MayBeInterrupted) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
+      "  require: {positive: P > 0}\n  minimize: lambda_max(He(P*A), 2*P)\n"
+      "data: {A: [[-1, 4], [0, -2]]}\n");
+  int undecided = 0;
+  for (int after = 0; after < 400; after += 13) {
+    sdp::Options options;
+    int calls = 0;
+    options.interrupted = [&] { return ++calls > after; };
+    const model::Gains gains = synthesize(yaml.instance, options);
+    EXPECT_NE(gains.verdict, model::Verdict::no) << after;
+    if (gains.verdict == model::Verdict::undecided) {
+      ++undecided;
+      EXPECT_FALSE(gains.objective) << after;
+      continue;
+    }
+    EXPECT_GE(*gains.objective, -1) << after;
+    if (gains.objective_lower_bound) {
+      EXPECT_LE(*gains.objective_lower_bound, -1 + 1e-12) << after;
+    }
+  }
+  EXPECT_GT(undecided, 0);
+}
+
+TEST(Quotient, IsNoSemidefiniteProgram) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod: {method: m, unknowns: {x: scalar}, require: {a: x > 1}, minimize: "
+      "\"lambda_max(1, x)\"}\n");
+  EXPECT_NE(input_error([&] { semidefinite_program(yaml.instance); })
+                .message()
+                .find("is solved by several semidefinite programs"),
+            std::string::npos);
+}
+
 TEST(ConvexFunctions, MistakesAreNamed) {
   const std::string head = "  data: {A: 2 x 2}\n  unknowns: {X: 2 x 2, v: 2, s: scalar}\n";
   const std::string data = "data: {A: I}\n";
@@ -180,6 +216,8 @@ TEST(ConvexFunctions, MistakesAreNamed) {
       {"lambda_max(X, A) <= 1", "lambda_max(M, N) of two matrices stands alone in minimize"},
       {"lambda_min(-X, A) >= 1", "'lambda_min' is written lambda_min(M); found 2 arguments"},
       {"max(v, [1, 2, 3]) <= 1", "'v' is 2 x 1, another one 1 x 3"},
+      {"norm(X) != 1", "'!=' takes affine sides"},
+      {"sum(i in 1..1001, abs(s - i)) <= 1", "eigenvalues has at most 1000 terms"},
       {"-1 <= v", "elements are compared by min(x) >= a"}};
   for (const auto& [text, expected] : cases) {
     const std::string found =

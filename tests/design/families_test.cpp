@@ -124,11 +124,19 @@ TEST(FamilyDesign, MistakesAreNamed) {
     return input_error([&] { solve(method, data); }).message();
   };
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"data: {A: [[[0]], [[1]]], T: [1, 2, 3]}\n", "the family T has 2 members by the data before it; found 3"},
+      {"data: {A: [[[0]], [[1]]], T: [1, 2, 3]}\n",
+       "the family T has 2 members by the data before it; found 3"},
       {"data: {A: [[[0]], [[1, 2]]], T: 1}\n", "a family takes a list with a matrix for each"},
       {"data: {T: 1}\n", "the datum A (n x n for each index) of the method m is missing"},
       {"data: {A: -I, T: [1, 2]}\n", "must be a whole number known beforehand, not 'N'"},
       {"data: {A: [[[[1]]]], T: 1}\n", "this member is one itself: a bracket too many"},
+      {"data: {A: [[[-1]], [[-2]]], T: 1}\nsearch: {largest: {T_7: [1, 3]}}\n",
+       "has no scalar datum or parameter 'T_7'; did you mean 'T_1'?"},
+      {"data: {A: [[[-1]], [[-2]]], T: 1}\nparameters: {k: [[[1]]]}\n",
+       "expected a number or an expression here, found a list"},
+      {"data: {A: [[[-1]], [[-2]]], T: 1}\nexpect: {values: {P_1: {value: [[[1]]], absolute: "
+       "1}}}\n",
+       "expected a number or an expression here, found a list"},
       {"data: {A: [[[-1]], [[-2]]]}\n",
        "the datum T (scalar for each index) of the method m is missing"}};
   for (const auto& [data, expected] : cases) {
@@ -139,6 +147,20 @@ TEST(FamilyDesign, MistakesAreNamed) {
       "  data: {A: n x n}\n  unknowns: {P: symmetric n}\n  require: {p: P > A}\n";
   EXPECT_NE(message(plain, "data: {A: [[[1]], [[2]]]}\n").find("found a list of matrices"),
             std::string::npos);
+  EXPECT_NE(
+      message(
+          "  unknowns: {x: scalar}\n  require: {p: {forall: [i in 1..1000, j in 1..1000, i == j], "
+          "that: x > i}}\n",
+          "")
+          .find("the indices have more than 100000 values"),
+      std::string::npos);
+  for (const std::string& text : {"  unknowns: {x: scalar}\n  require: {p: x != 3}\n",
+                                  "  data: {k: scalar}\n  assume: {c: k != 2}\n  unknowns: {x: "
+                                  "scalar}\n  require: {p: x > k}\n"})
+    EXPECT_NE(message(text, text.find("data") < text.size() ? "data: {k: 1}\n" : "")
+                  .find("'!=' stands between indices only"),
+              std::string::npos)
+        << text;
   EXPECT_NE(message("  unknowns: {P: {shape: scalar, for: i in 1..2}, P_1: scalar}\n"
                     "  require: {p: P(1) + P_1 > 0}\n",
                     "")

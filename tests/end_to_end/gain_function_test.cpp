@@ -41,7 +41,7 @@ parameters: {degree: )yaml" +
          std::to_string(degree) + "}\n";
 }
 
-/// Without an objective a high degree begins with half of it; the gain file has what was found.
+/// Without an objective a high degree begins with half of it; the gain file has the stated one.
 TEST(GainFunctionTest, OfAHighDegreeBeginsWithHalfOfIt) {
   const Folder folder;
   std::string text = problem_text(24);
@@ -51,10 +51,25 @@ TEST(GainFunctionTest, OfAHighDegreeBeginsWithHalfOfIt) {
   ASSERT_EQ(synth.exit, 0) << synth.out << synth.err;
   EXPECT_NE(synth.out.find("found with functions of half the degree"), std::string::npos);
   const Json gains = Json::parse(text_of(path));
-  EXPECT_TRUE(gains["unknowns"].contains("Z_12"));
-  EXPECT_FALSE(gains["unknowns"].contains("Z_13"));
+  EXPECT_NE(gains["unknowns"]["Z_12"], Json::parse("[[0.0], [0.0]]"));
+  for (int k = 13; k <= 24; ++k)
+    EXPECT_EQ(gains["unknowns"]["Z_" + std::to_string(k)], Json::parse("[[0.0], [0.0]]")) << k;
   const Outcome verify = gainsmith({"verify", path});
   EXPECT_EQ(verify.exit, 0) << verify.out << verify.err;
+}
+
+/// Where a text names a coefficient, the degree is the one that is stated.
+TEST(GainFunctionTest, CoefficientsMayBeNamed) {
+  const Folder folder;
+  const Outcome synth = gainsmith({"synth", folder.file("p.yaml", R"yaml(problem: p
+method:
+  method: p
+  unknowns: {Z: {shape: scalar, of: s, in: [0, 1], degree: 20}}
+  require: {b: {forall: "s in [0, 1]", that: "-2 < Z(s) - sin(3*s) < 2"}, c: Z_20 == 1}
+  gains: {K: Z_20}
+)yaml")});
+  EXPECT_EQ(synth.exit, 0) << synth.out << synth.err;
+  EXPECT_NE(synth.out.find("K = 1\n"), std::string::npos) << synth.out;
 }
 
 TEST(GainFunctionTest, IsStoredVerifiedAndReplayed) {

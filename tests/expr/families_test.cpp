@@ -87,7 +87,10 @@ TEST_F(Families, MistakesAreNamed) {
       {"sum(i in 1..2, sum(i in 1..2, A(i)))", "'i' already has a meaning here"},
       {"exp(i in 1..2)", "an index stands only in a sum"},
       {"kron(I, A(1))", "write eye(n)"},
-      {"sum(i in 1..1000000000, A(1))", "at most 10000 terms"}};
+      {"sum(i in 1..1000000000, A(1))", "an index has at most 100000"},
+      {"sum(i in 1..2000000000, A(1))", "the end of a range is at most 1000000000"},
+      {"sum(i in 1..1000, sum(j in 1..1000, A(1)))", "expand to too many operations"},
+      {"where(x != 1, A(1), A(2))", "'!=' stands between indices only"}};
   for (const auto& [text, expected] : cases) {
     const std::string found = input_error([&] { world(text); }).message();
     EXPECT_NE(found.find(expected), std::string::npos) << text << ": " << found;
