@@ -19,6 +19,16 @@ else()
   target_link_libraries(gainsmith_yaml INTERFACE yaml-cpp)
 endif()
 
+# CVODE of SUNDIALS; its archive holds the vectors and solvers that it works with.
+add_library(gainsmith_cvode INTERFACE)
+add_library(third_party::cvode ALIAS gainsmith_cvode)
+find_library(GAINSMITH_CVODE_LIBRARY sundials_cvode REQUIRED)
+target_link_libraries(gainsmith_cvode INTERFACE "${GAINSMITH_CVODE_LIBRARY}")
+if(NOT GAINSMITH_STATIC)
+  find_library(GAINSMITH_NVECTOR_LIBRARY sundials_nvecserial REQUIRED)
+  target_link_libraries(gainsmith_cvode INTERFACE "${GAINSMITH_NVECTOR_LIBRARY}")
+endif()
+
 # The memory allocator of the release programs (docs/decisions/0039-allocator.md); other builds keep that of
 # the C library, which the sanitizers replace.
 if(GAINSMITH_STATIC)

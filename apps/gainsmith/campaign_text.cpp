@@ -56,13 +56,14 @@ std::string check_text(const verify::CheckReport& check) {
                   check.name, kind_text(check.kind), verdict, held ? "nearest" : "worst",
                   check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
   if (worst.undecided())
-    text +=
-        fmt::format("               known to {} in {} digits: nothing is certain of {} <= {}\n",
-                    brief(worst.rounding, 2), worst.digits, brief(worst.value), brief(worst.bound));
-  if (check.floor > 0)
     text += fmt::format(
-        "               checked down to {} of the start: the digits show no larger drop\n",
-        brief(check.floor, 2));
+        "               known to {} {}: nothing is certain of {} <= {}\n", brief(worst.rounding, 2),
+        worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits),
+        brief(worst.value), brief(worst.bound));
+  if (check.floor > 0)
+    text +=
+        fmt::format("               checked down to {} of the start: the {} no larger drop\n",
+                    brief(check.floor, 2), worst.estimated ? "integration shows" : "digits show");
   return text;
 }
 
@@ -70,14 +71,15 @@ std::string check_text(const verify::CheckReport& check) {
 std::string undecided_text(const verify::Report& report, const std::string& gains_file) {
   if (report.undecided == 0) return "";
   return fmt::format(
-      "  {} of {} runs are undecided: what they compare lies closer together than the rounding of "
-      "{} "
-      "digits\n"
+      "  {} of {} runs are undecided: what they compare lies closer together than the {}\n"
       "  try         a shorter campaign.horizon, a claim that asks for a little less, or claims "
       "written "
       "in differences of states (z - zh); see\n"
       "              gainsmith simulate {} --run {} --seed {}\n",
-      report.undecided, report.runs, kQuadDigits, gains_file, report.worst_run, report.seed);
+      report.undecided, report.runs,
+      report.integrated ? "errors of integration"
+                        : fmt::format("rounding of {} digits", kQuadDigits),
+      gains_file, report.worst_run, report.seed);
 }
 
 }  // namespace
@@ -97,20 +99,21 @@ ExitCode campaign_exit(model::CampaignVerdict verdict) {
 io::Json campaign_json(const verify::Report& report) {
   io::Json checks = io::Json::array();
   for (const verify::CheckReport& check : report.checks) checks.push_back(check_json(check));
-  io::Json document = {{"verdict", to_string(report.verdict)},
-                       {"runs", report.runs},
-                       {"seed", report.seed},
-                       {"horizon", report.horizon},
-                       {"status", to_string(report.verdict)},
-                       {"violations", report.violations},
-                       {"undecided", report.undecided},
-                       {"unfinished", report.unfinished},
-                       {"worst_run", report.worst_run},
-                       {"repeated_in_31_digits", report.repeated},
-                       {"confirmed_in_31_digits", report.confirmed},
-                       {"confidence", report.confidence},
-                       {"violation_probability_at_most", report.violation_probability},
-                       {"checks", checks}};
+  io::Json document = {
+      {"verdict", to_string(report.verdict)},
+      {"runs", report.runs},
+      {"seed", report.seed},
+      {"horizon", report.horizon},
+      {"status", to_string(report.verdict)},
+      {"violations", report.violations},
+      {"undecided", report.undecided},
+      {"unfinished", report.unfinished},
+      {"worst_run", report.worst_run},
+      {report.integrated ? "repeated" : "repeated_in_31_digits", report.repeated},
+      {report.integrated ? "confirmed" : "confirmed_in_31_digits", report.confirmed},
+      {"confidence", report.confidence},
+      {"violation_probability_at_most", report.violation_probability},
+      {"checks", checks}};
   if (report.interrupted()) {
     document["runs_asked"] = report.asked;
     document["message"] = interruption_text(report);
@@ -132,8 +135,10 @@ std::string campaign_line(const verify::Report& report) {
   if (report.verdict == model::CampaignVerdict::held)
     return fmt::format("held in {} runs", report.runs);
   if (report.verdict == model::CampaignVerdict::violated)
-    return fmt::format("violated in {} of {} runs, worst {}, confirmed in {} digits",
-                       report.violations, report.runs, report.worst_run, kQuadDigits);
+    return fmt::format(
+        "violated in {} of {} runs, worst {}, confirmed {}", report.violations, report.runs,
+        report.worst_run,
+        report.integrated ? "more accurately" : fmt::format("in {} digits", kQuadDigits));
   return fmt::format("undecided in {} of {} runs", report.undecided + report.violations,
                      report.runs);
 }

@@ -35,9 +35,11 @@ io::Json replay_json(const verify::Replay& replay) {
       row.push_back(io::finite_or_null(replay.table(i, j)));
     rows.push_back(std::move(row));
   }
-  return {{"termination", to_string(replay.arc.termination)},
-          {"columns", replay.columns},
-          {"rows", rows}};
+  io::Json document = {{"termination", to_string(replay.arc.termination)}};
+  if (!replay.arc.message.empty()) document["message"] = replay.arc.message;
+  document["columns"] = replay.columns;
+  document["rows"] = rows;
+  return document;
 }
 
 ExitCode simulate(const SimulateOptions& options) {
@@ -54,6 +56,7 @@ ExitCode simulate(const SimulateOptions& options) {
   }
   say(fmt::format("run {} of seed {}: {} samples, {} jumps, ended by: {}\n", options.run, seed,
                   replay.arc.samples(), replay.arc.j.back(), to_string(replay.arc.termination)));
+  if (!replay.arc.message.empty()) say("  " + replay.arc.message + "\n");
   for (const verify::ReplayedClaim& claim : replay.claims)
     say(fmt::format("  {:<12} {}: {} against {} at (t, j) = ({}, {})\n", claim.name,
                     to_string(claim.finding.judgement), brief(claim.finding.value),

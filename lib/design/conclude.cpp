@@ -116,9 +116,13 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
     if (!(largest <= bounds.beta) && climb.posed().choices().gain_bound_stated) {
       gains.verdict = model::Verdict::undecided;
       gains.bound_only = largest;
-      gains.solver.add_message("no gains within the gain bound " + brief(bounds.beta) +
-                               " were found, but gains of " + brief(largest, 2) +
-                               " exist: raise synthesis.gain_bound");
+      gains.solver.add_message(climb.posed().choices().gain_bounds.empty()
+                                   ? "no gains within the gain bound " + brief(bounds.beta) +
+                                         " were found, but gains of " + brief(largest, 2) +
+                                         " exist: raise synthesis.gain_bound"
+                                   : "no gains within the gain bounds were found, but gains of " +
+                                         brief(largest / bounds.beta, 2) +
+                                         " times the bounds exist: raise synthesis.gain_bound");
       return;
     }
     if (!(point.reached_gain <= bounds.beta))

@@ -85,15 +85,19 @@ void add_gain_values(const lmi::Inequalities& inequalities, const numbers::Value
 double largest_gain(const lmi::Inequalities& inequalities, const numbers::Values& values) {
   constexpr int kPoints = 64;
   double largest = 0;
+  double share = 1;
   const auto meet = [&](const expr::Program& program, const numbers::Values& at) {
     try {
       const numbers::Matrix gain = numbers::evaluate(program, at);
-      if (gain.size() > 0) largest = std::max(largest, numbers::singular_values(gain)[0]);
+      if (gain.size() > 0) largest = std::max(largest, numbers::singular_values(gain)[0] / share);
     } catch (const expr::EvaluationError&) {
       largest = std::numeric_limits<double>::infinity();
     }
   };
   for (const model::Design::Gain& gain : inequalities.design().gains) {
+    const auto bounded = inequalities.design().synthesis.share_of_bound(gain.name);
+    if (!bounded) continue;
+    share = *bounded;
     const expr::Program program = inequalities.bodies.link(gain.formula.program);
     if (!model::has_values(program, values, gain.variable)) continue;
     if (gain.variable.empty() || !program.uses(gain.variable)) {

@@ -12,9 +12,10 @@ namespace gainsmith::design {
 void add_gain_values(const lmi::Inequalities& inequalities, const numbers::Values& values,
                      model::Gains& gains);
 
-/// The largest singular value of the gains whose formulas have values; of functions of a variable
-/// at 65 equidistant points of each interval that a `forall` gives a variable of that name.
-/// Infinite when one cannot be evaluated.
+/// The largest singular value of the gains whose formulas have values, in the measure of the
+/// largest bound where the gains have bounds of their own; of functions of a variable at 65
+/// equidistant points of each interval that a `forall` gives a variable of that name. Infinite when
+/// one cannot be evaluated.
 double largest_gain(const lmi::Inequalities& inequalities, const numbers::Values& values);
 
 /// Evaluates what the method asks to be shown and what has a value, into `gains.report`.

@@ -88,7 +88,8 @@ struct Rungs {
       if (!climb.bounds_.units.empty() && !climb.bounds_.list.empty()) {
         result.reached_gain = 0;
         for (const auto& bound : lmi::reached_bounds(climb.bounds_, result.x))
-          result.reached_gain = std::max(result.reached_gain, bound.reached);
+          result.reached_gain =
+              std::max(result.reached_gain, bound.reached / bound.bound * climb.bounds_.beta);
       }
     }
     return result;

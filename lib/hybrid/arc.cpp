@@ -10,8 +10,10 @@ std::string to_string(Termination termination) {
       return "diverged";
     case Termination::jump_limit:
       return "jump limit reached";
+    case Termination::lost:
+      return "a flow that could not be integrated further";
     case Termination::undefined:
-      return "jump map without a value";
+      return "a map without a value";
   }
   return "?";
 }

@@ -16,8 +16,9 @@ namespace gainsmith::hybrid {
 enum class Termination {
   horizon,     ///< the horizon was reached
   diverged,    ///< an element of the state left [-1e150, 1e150] or is not a number
+  lost,        ///< the integration of the flow could not go on, and why is not certain
   jump_limit,  ///< more jumps than allowed before the horizon: intervals that shrink to nothing
-  undefined    ///< a jump map has no value at the state, such as a division by zero
+  undefined    ///< a map has no value at the state, such as a division by zero, or a flow escapes
 };
 std::string to_string(Termination termination);
 

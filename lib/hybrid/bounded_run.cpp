@@ -306,9 +306,7 @@ const Track<Scalar>& BoundedSimulator<Scalar>::run(std::uint64_t seed, std::uint
   track_.clear();
   track_.size = x_.rows();
   start(run, random);
-  const double first = scenario_->first.value_or(system_->first_low);
-  const double spread = scenario_->first ? 0 : system_->first_high - system_->first_low;
-  append(0, 0, Scalar(scenario_->first ? first : first + spread * random.uniform()), 0);
+  append(0, 0, Scalar(first_timer(*system_, *scenario_, random)), 0);
   for (std::size_t jumps = 0;; ++jumps) {
     const double left = scenario_->horizon - track_.t.back();
     const double timer = static_cast<double>(track_.timer.back());

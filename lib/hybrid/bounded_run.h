@@ -42,6 +42,9 @@ struct Track {
   std::vector<double> bounds;
   Termination termination = Termination::horizon;
   std::string message;
+  /// The relative accuracy of a flow that is integrated (integrated_run.h): its bounds are
+  /// estimates. 0: they are bounds.
+  double accuracy = 0;
 
   void clear() {
     for (auto* list : {&t, &timer_bound, &bounds}) list->clear();

@@ -73,8 +73,8 @@ const Ball<Scalar>& BallFunction<Scalar>::operator()(const Eigen::Ref<const Colu
 }
 
 template <class Scalar>
-BoundedSystem<Scalar>::BoundedSystem(const Coordinates& all, const ExactSteps& exact)
-    : coordinates(&all), steps(exact) {
+BoundedSystem<Scalar>::BoundedSystem(const Coordinates& all, const std::optional<ExactSteps>& exact)
+    : coordinates(&all), steps(exact ? StepMaps<Scalar>(*exact) : StepMaps<Scalar>()) {
   for (const auto& [name, value] : all.constants) constants.emplace(name, ball_of<Scalar>(value));
   if (const auto map = affine_jump(all)) jump = bounded_map<Scalar>(map->linear, map->constant, 0);
   std::set<std::string> turning;

@@ -37,7 +37,8 @@ class BallFunction {
 /// What the runs of one Scalar share.
 template <class Scalar>
 struct BoundedSystem {
-  BoundedSystem(const Coordinates& coordinates, const ExactSteps& exact);
+  /// `exact`: of an affine flow; others have no steps.
+  BoundedSystem(const Coordinates& coordinates, const std::optional<ExactSteps>& exact);
 
   const Coordinates* coordinates;
   BallsOf<Scalar> constants;

@@ -92,8 +92,11 @@ class Builder {
   Coordinates build() {
     add_coordinates();
     for (Program& function : functions_) function = simplified(expr_in_coordinates(function));
-    find_flow();
-    add_images();
+    result_.affine = system_.flow.has_value();
+    if (result_.affine) {
+      find_flow();
+      add_images();
+    }
     result_.functions = std::move(functions_);
     keep_needed(result_);
     mark_clocks(result_);
@@ -327,10 +330,30 @@ class Builder {
 
 }  // namespace
 
+bool Coordinate::rate_is_constant(const StateLayout& layout) const {
+  return std::none_of(flow->inputs.begin(), flow->inputs.end(),
+                      [&](const expr::Input& input) { return layout.moves(input.name); });
+}
+
 bool Coordinates::is_still(std::size_t coordinate) const {
+  if (!affine) return !list[coordinate].flow;
   const Slot& slot = layout.slots[coordinate];
   return linear.middleRows(slot.offset, slot.shape.size()).isZero(0) &&
          constant.middleRows(slot.offset, slot.shape.size()).isZero(0);
+}
+
+Coordinates states_as_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants) {
+  std::vector<Program> states;
+  for (const Slot& slot : system.layout.slots)
+    states.push_back(input_program(slot.name, slot.shape));
+  return make_coordinates(system, std::move(constants), states);
+}
+
+Index add_integral(Coordinates& coordinates, const std::string& name, const Program& function) {
+  const Index offset = coordinates.layout.size++;
+  coordinates.layout.slots.push_back({name, {1, 1}, offset});
+  coordinates.list.push_back({zero_program({1, 1}), function, std::nullopt, false});
+  return offset;
 }
 
 Coordinates make_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants,

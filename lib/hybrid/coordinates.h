@@ -30,13 +30,17 @@ struct Coordinate {
   std::optional<expr::Program> flow;  ///< its derivative; none: 0
   std::optional<expr::Program> jump;  ///< its value after a jump; none: unchanged
   bool clock = false;                 ///< constant derivative, and jumps depend on clocks alone
+
+  /// Whether nothing that moves stands in the derivative. There must be one.
+  bool rate_is_constant(const StateLayout& layout) const;
 };
 
 struct Coordinates {
   StateLayout layout;
   std::vector<Coordinate> list;
   numbers::ValuesOf<Decimal100> constants;
-  /// The flow, x' = linear x + constant; what is 0 is exactly 0.
+  bool affine = true;  ///< whether the flow is, with constant coefficients
+  /// The affine flow, x' = linear x + constant; what is 0 is exactly 0.
   numbers::MatrixOf<Decimal100> linear;
   numbers::MatrixOf<Decimal100> constant;
   /// The functions in these coordinates.
@@ -45,6 +49,14 @@ struct Coordinates {
   /// Whether the elements of a coordinate stay as they are along flows.
   bool is_still(std::size_t coordinate) const;
 };
+
+/// The states themselves, all of them.
+Coordinates states_as_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants);
+
+/// Appends the integral over time of a 1 x 1 function of the coordinates, 0 at the start and kept
+/// by jumps; the offset of its element. The flow must not be affine.
+Eigen::Index add_integral(Coordinates& coordinates, const std::string& name,
+                          const expr::Program& function);
 
 /// Coordinates for functions of the states, the timer and constants.
 Coordinates make_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants,

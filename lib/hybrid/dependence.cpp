@@ -28,6 +28,10 @@ std::vector<bool> find_needed(const Coordinates& all) {
     const std::size_t at = open.back();
     open.pop_back();
     if (all.list[at].jump) need_inputs(*all.list[at].jump);
+    if (!all.affine) {
+      if (all.list[at].flow) need_inputs(*all.list[at].flow);
+      continue;
+    }
     for (std::size_t other = 0; other < slots.size(); ++other)
       if (!all.linear
                .block(slots[at].offset, slots[other].offset, slots[at].shape.size(),
@@ -49,6 +53,7 @@ std::size_t index_of(const StateLayout& layout, const std::string& name) {
 void keep_needed(Coordinates& coordinates) {
   const std::vector<bool> needed = find_needed(coordinates);
   Coordinates kept;
+  kept.affine = coordinates.affine;
   kept.layout.timer = coordinates.layout.timer;
   std::vector<Eigen::Index> elements;
   for (std::size_t i = 0; i < needed.size(); ++i) {
@@ -59,8 +64,10 @@ void keep_needed(Coordinates& coordinates) {
     kept.list.push_back(std::move(coordinates.list[i]));
     for (Eigen::Index e = 0; e < slot.shape.size(); ++e) elements.push_back(slot.offset + e);
   }
-  kept.linear = coordinates.linear(elements, elements);
-  kept.constant = coordinates.constant(elements, Eigen::all);
+  if (coordinates.affine) {
+    kept.linear = coordinates.linear(elements, elements);
+    kept.constant = coordinates.constant(elements, Eigen::all);
+  }
   kept.constants = std::move(coordinates.constants);
   kept.functions = std::move(coordinates.functions);
   coordinates = std::move(kept);
@@ -69,9 +76,13 @@ void keep_needed(Coordinates& coordinates) {
 void mark_clocks(Coordinates& coordinates) {
   const std::vector<Slot>& slots = coordinates.layout.slots;
   std::set<std::string> clocks;
-  for (const Slot& slot : slots)
-    if (coordinates.linear.middleRows(slot.offset, slot.shape.size()).isZero(0))
-      clocks.insert(slot.name);
+  const auto has_rate = [&](std::size_t i) {
+    const Coordinate& one = coordinates.list[i];
+    if (!coordinates.affine) return !one.flow || one.rate_is_constant(coordinates.layout);
+    return coordinates.linear.middleRows(slots[i].offset, slots[i].shape.size()).isZero(0);
+  };
+  for (std::size_t i = 0; i < slots.size(); ++i)
+    if (has_rate(i)) clocks.insert(slots[i].name);
   const auto jumps_with_others = [&](std::size_t i) {
     const auto& jump = coordinates.list[i].jump;
     return jump && std::any_of(jump->inputs.begin(), jump->inputs.end(), [&](const auto& input) {

@@ -45,8 +45,13 @@ Scenario make_scenario(const model::Design& design, const System& system) {
   return scenario;
 }
 
+double first_timer(const System& system, const Scenario& scenario, RandomStream& random) {
+  if (scenario.first) return *scenario.first;
+  return system.first_low + (system.first_high - system.first_low) * random.uniform();
+}
+
 FlowSteps make_steps(const System& system) {
-  return {system.flow, std::max(system.high, system.first_high), system.flow_place};
+  return {system.flow.value(), std::max(system.high, system.first_high), system.flow_place};
 }
 
 Simulator::Simulator(const System& system, const Scenario& scenario, const FlowSteps& steps)
@@ -62,9 +67,7 @@ Arc Simulator::run(std::uint64_t seed, std::uint64_t run) {
   Arc arc;
   arc.size = system_->layout.size;
   const Eigen::VectorXd start = starts_(run, random);
-  const double first = scenario_->first.value_or(system_->first_low);
-  const double spread = scenario_->first ? 0 : system_->first_high - system_->first_low;
-  arc.append(0, 0, scenario_->first ? first : first + spread * random.uniform(), start);
+  arc.append(0, 0, first_timer(*system_, *scenario_, random), start);
 
   for (std::size_t jumps = 0;; ++jumps) {
     const double left = scenario_->horizon - arc.t.back();

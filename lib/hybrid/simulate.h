@@ -35,6 +35,9 @@ struct Scenario {
 /// longest intervals, so that it has the units of the timer.
 Scenario make_scenario(const model::Design& design, const System& system);
 
+/// The timer's first value: one draw unless the campaign gives it.
+double first_timer(const System& system, const Scenario& scenario, RandomStream& random);
+
 /// Simulates run after run; one for each thread. System, scenario and steps must outlive it.
 class Simulator {
  public:
@@ -58,7 +61,7 @@ class Simulator {
   std::vector<FlowStep> cuts_;
 };
 
-/// The steps that every run of the scenario can be cut into.
+/// The steps that every run of the scenario can be cut into. The flow must be affine.
 FlowSteps make_steps(const System& system);
 
 }  // namespace gainsmith::hybrid

@@ -100,6 +100,7 @@ ExactSteps exact_steps(const Coordinates& coordinates, const FlowSteps& steps,
 
 template <class Scalar>
 struct StepMaps {
+  StepMaps() = default;
   explicit StepMaps(const ExactSteps& exact);
 
   std::vector<BoundedMap<Scalar>> maps;

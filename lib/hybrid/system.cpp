@@ -38,37 +38,26 @@ Eigen::VectorXd values_at(const System& system, const std::vector<MapEntry>& map
   return rest;
 }
 
-void require_exact_flow(const expr::Program& program, const StateLayout& layout) {
+bool is_exact_flow(const std::vector<MapEntry>& map, const StateLayout& layout) {
   const auto moves = [&](const std::string& name) { return layout.moves(name); };
-  if (const expr::Instruction* at = first_not_affine(program, moves))
-    throw InputError(at->place(),
-                     "this flow is not affine in the states (" + expr::to_string(at->op) +
-                         "): this version steps affine flows exactly, by the matrix exponential, "
-                         "and no others");
-  if (!program.uses(layout.timer)) return;
-  const auto timer = std::find_if(program.code.begin(), program.code.end(),
-                                  [&](const expr::Instruction& instruction) {
-                                    return instruction.op == expr::Op::input &&
-                                           instruction.attributes[0] == program.input(layout.timer);
-                                  });
-  throw InputError(timer->place(),
-                   "this flow depends on the timer " + layout.timer +
-                       ": this version steps flows that depend on the states alone");
+  return std::none_of(map.begin(), map.end(), [&](const MapEntry& entry) {
+    return first_not_affine(entry.program, moves) != nullptr || entry.program.uses(layout.timer);
+  });
 }
 
 void make_flow(const std::vector<model::Design::MapEntry>& entries, System& system) {
-  const auto map = link_map(entries, system);
-  for (const MapEntry& entry : map) require_exact_flow(entry.program, system.layout);
+  system.flow_entries = link_map(entries, system);
+  const auto& map = system.flow_entries;
+  if (!is_exact_flow(map, system.layout)) return;
   const Eigen::Index n = system.layout.size;
   system.flow = sample_affine(
       [&](const Eigen::VectorXd& x) { return values_at(system, map, x, Eigen::VectorXd::Zero(n)); },
       n);
-  system.flow_entries = map;
   double fastest = 0;
   for (const model::Design::MapEntry& entry : entries) {
     const Slot& slot = system.layout.slots[entry.state];
     const double size =
-        system.flow.linear.middleRows(slot.offset, slot.shape.size()).cwiseAbs().sum();
+        system.flow->linear.middleRows(slot.offset, slot.shape.size()).cwiseAbs().sum();
     if (size > fastest) system.flow_place = entry.place;
     fastest = std::max(fastest, size);
   }

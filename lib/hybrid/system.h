@@ -1,10 +1,11 @@
 // Plant and observer as one hybrid system with a timer, for the gains of one file.
 //
-//   flow, while the timer tau runs down to 0:   x' = M x + b,  tau' = -1
-//   jump, when tau = 0:                          x+ = g(x),     tau+ in [low, high]
+//   flow, while the timer tau runs down to 0:   x' = f(x, tau),  tau' = -1
+//   jump, when tau = 0:                          x+ = g(x),       tau+ in [low, high]
 //
-// x stacks the states of the plant and then of the observer. Whether the flow is affine is read
-// from its program; it must be, and must not depend on the timer. Jump maps may be any expression.
+// x stacks the states of the plant and then of the observer. Whether the flow is M x + b with
+// constant M and b is read from its program: such a flow is exact (steps.h), others are integrated
+// (integrated_run.h). Jump maps may be any expression.
 #pragma once
 
 #include <Eigen/Core>
@@ -28,8 +29,8 @@ struct System {
   StateLayout layout;
   numbers::Values constants;  ///< data, parameters, gains and unknowns that have a value
   model::Bodies bodies;       ///< of unknown functions and of gains that are functions
-  AffineMap flow;
-  std::vector<MapEntry> flow_entries;    ///< what it was made of
+  std::vector<MapEntry> flow_entries;
+  std::optional<AffineMap> flow;         ///< when it is affine and does not depend on the timer
   Place flow_place;                      ///< where the fastest part of the flow stands
   std::vector<MapEntry> jump;            ///< states that change; the others keep their value
   std::optional<AffineMap> affine_jump;  ///< when every entry of `jump` is affine
@@ -48,9 +49,9 @@ struct System {
   double scalar(const model::Formula& formula) const { return value(formula)(0, 0); }
 };
 
-/// InputError, at its place, for a flow that is not affine or depends on the timer, a gain without
-/// a value or with a wrong shape, a timer whose bounds are not 0 <= low <= high (high > 0) and 0 <=
-/// first_low <= first_high, and a method without a timer.
+/// InputError, at its place, for a gain without a value or with a wrong shape, a timer whose bounds
+/// are not 0 <= low <= high (high > 0) and 0 <= first_low <= first_high, and a method without a
+/// timer.
 System make_system(const model::Instance& instance, const model::Gains& gains);
 
 }  // namespace gainsmith::hybrid

@@ -93,8 +93,16 @@ model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<Yaml
   if (const auto bound = map.find("gain_bound")) {
     const bool off = bound->value.IsScalar() && bound->value.Scalar() == "none";
     options.gain_bound_stated = true;
-    options.gain_bound =
-        off ? std::nullopt : std::optional(file.positive(bound->value, "gain_bound"));
+    options.gain_bound = std::nullopt;
+    if (bound->value.IsMap()) {
+      for (const YamlItem& one : items_of(file, *bound, "gain_bound")) {
+        options.gain_bounds.push_back({one.key, file.positive(one.value, one.key), one.place});
+        options.gain_bound =
+            std::max(options.gain_bound.value_or(0), options.gain_bounds.back().bound);
+      }
+    } else if (!off) {
+      options.gain_bound = file.positive(bound->value, "gain_bound");
+    }
   }
   if (const auto forall = map.find("forall")) read_way(file, *forall, options);
   map.finish();

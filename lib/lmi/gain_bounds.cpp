@@ -210,8 +210,12 @@ class Collector {
   }
 
   GainBounds collect() {
-    for (const model::Design::Gain& gain : of_.design().gains)
+    for (const model::Design::Gain& gain : of_.design().gains) {
+      const auto share = of_.design().synthesis.share_of_bound(gain.name);
+      if (!share) continue;
+      share_ = *share;
       for (const Choice& choice : choices_of(of_, gain)) add_formula(gain, choice);
+    }
     return std::move(result_);
   }
 
@@ -292,16 +296,19 @@ class Collector {
 
   void add(BoundedProduct bound) {
     if (bound.e.shape.size() == 0) return;
+    bound.share = share_;
     for (const BoundedProduct& known : result_.list)
-      if (known.scalar == bound.scalar && is_same(known.e, bound.e)) return;
+      if (known.scalar == bound.scalar && known.share <= bound.share && is_same(known.e, bound.e))
+        return;
     // A little less, so that what the solver reaches is within.
     constexpr double kRoom = 1e-9;
-    result_.blocks.push_back(bound_block(bound, result_.beta * (1 - kRoom)));
+    result_.blocks.push_back(bound_block(bound, result_.beta * bound.share * (1 - kRoom)));
     result_.list.push_back(std::move(bound));
   }
 
   const Inequalities& of_;
   std::map<std::string, int> scalars_;
+  double share_ = 1;  ///< of the gain that is added now
   GainBounds result_;
 };
 
@@ -330,8 +337,8 @@ std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
   for (const BoundedProduct& bound : bounds.list) {
     const numbers::Matrix s = value_of(bound.s, x);
     const numbers::Matrix e = value_of(bound.e, x);
-    model::GainBound record{bound.what, bounds.beta, std::numeric_limits<double>::infinity(),
-                            false};
+    model::GainBound record{bound.what, bounds.beta * bound.share,
+                            std::numeric_limits<double>::infinity(), false};
     // A coefficient of a function need not be definite: then the measure says nothing.
     if (const numbers::Cholesky factor(s); factor) {
       const double largest =
@@ -340,7 +347,7 @@ std::vector<model::GainBound> reached_bounds(const GainBounds& bounds,
       record.reached = (1 + 1e-12) * std::sqrt(std::max(0.0, largest) /
                                                numbers::symmetric_eigenvalues(s).minCoeff());
     }
-    record.active = record.reached > kActive * bounds.beta;
+    record.active = record.reached > kActive * record.bound;
     result.push_back(std::move(record));
   }
   return result;

@@ -31,10 +31,11 @@ struct BoundedProduct {
   AffineForm s;      ///< n x n
   AffineForm e;      ///< n x k
   int scalar = 0;    ///< index of the scalar s among the variables; 0: S is the identity and s = 1
+  double share = 1;  ///< of beta, that bounds it
 };
 
 struct GainBounds {
-  double beta = 0;
+  double beta = 0;         ///< the largest bound
   std::vector<int> units;  ///< log2 d_i of each unknown (balance.h); empty: those of the problem
   std::vector<BoundedProduct> list;
   std::vector<Block> blocks;  ///< all non-strict, in terms of the unknowns and the scalars s

@@ -3,6 +3,7 @@
 #include <map>
 #include <memory>
 
+#include "base/nearest.h"
 #include "expr/parser.h"
 #include "model/binding.h"
 
@@ -147,6 +148,7 @@ void Binding::bind_gains() {
       add_gain({member.name_of(gain.name), instantiate(gain.value, member, names_->design),
                 gain.place, gain.variable});
   }
+  bind_gain_bounds();
   names_->running = names_->design;
   expr::Scope& scope = names_->running;
   for (auto& [name, range] : families) scope.families[name] = std::move(range);
@@ -162,6 +164,25 @@ void Binding::bind_gains() {
   if (method().timer) scope.symbols[method().timer->name] = {};
   names_->results = scope;
   names_->results.symbols["objective"] = {};
+}
+
+/// The bound of a family is that of each of its members.
+void Binding::bind_gain_bounds() {
+  std::vector<BoundOfGain> bounds;
+  std::vector<std::string> names;
+  for (const Gain& gain : method().gains) names.push_back(gain.name);
+  for (const BoundOfGain& stated : source_->synthesis.gain_bounds) {
+    const std::size_t before = bounds.size();
+    for (const Gain& gain : method().gains)
+      for (const Member& member : members(gain.indices, {}, names_->design))
+        if (const std::string name = member.name_of(gain.name);
+            stated.gain == gain.name || stated.gain == name)
+          bounds.push_back({name, stated.bound, stated.place});
+    if (bounds.size() == before)
+      throw InputError(stated.place, "the method " + method().name + " has no gain '" +
+                                         stated.gain + "'" + suggestion(stated.gain, names));
+  }
+  design_->synthesis.gain_bounds = std::move(bounds);
 }
 
 expr::Program bind_gain_formula(const Instance& instance,

@@ -109,6 +109,7 @@ class Binding {
 
   // bind_gains.cpp
   void bind_gains();
+  void bind_gain_bounds();
   void add_gain(const Gain& gain);
   void add_products(const Gain& gain, const expr::Scope& scope, Design::Gain& bound) const;
 

@@ -82,4 +82,11 @@ std::string to_string(Structure structure) {
   return "?";
 }
 
+std::optional<double> SynthesisOptions::share_of_bound(const std::string& gain) const {
+  if (gain_bounds.empty()) return 1;
+  for (const BoundOfGain& one : gain_bounds)
+    if (one.gain == gain) return one.bound / gain_bound.value();
+  return std::nullopt;
+}
+
 }  // namespace gainsmith::model

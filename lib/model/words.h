@@ -4,6 +4,9 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
+
+#include "base/error.h"
 
 namespace gainsmith::model {
 
@@ -62,12 +65,23 @@ enum class StartKind {
   list         ///< run i takes element i modulo their number
 };
 
+struct BoundOfGain {
+  std::string gain;
+  double bound = 0;
+  Place place;
+};
+
 /// Choices for the synthesis.
 struct SynthesisOptions {
   Way way = Way::automatic;
   int slices = 1;                          ///< hull: equal parts of each interval
   double margin = 1e-9;                    ///< wished for of strict inequalities, without units
   std::optional<double> gain_bound = 1e4;  ///< none: off
+  /// Of gains by their names, each in its own units: `gain_bound` is then the largest of them, and
+  /// gains that are not here have none.
+  std::vector<BoundOfGain> gain_bounds;
+  /// The bound of a gain, as a part of `gain_bound`; none where it has none.
+  std::optional<double> share_of_bound(const std::string& gain) const;
   /// Whether the problem states it: one that does not guides the search and decides nothing, since
   /// it is a number in units.
   bool gain_bound_stated = false;

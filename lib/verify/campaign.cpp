@@ -204,6 +204,7 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
   const Tally tally = judge_all(setup, report.seed, report.asked, options);
   report.runs = tally.runs;
   report.horizon = setup.scenario.horizon;
+  report.integrated = !setup.steps;
   report.verdict = model::CampaignVerdict::undecided;
   if (!tally.run) return report;
   report.violations = tally.violations;

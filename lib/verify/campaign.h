@@ -48,9 +48,9 @@ struct Report {
   std::uint64_t asked = 0;  ///< that were to be made
   std::uint64_t seed = 0;
   std::uint64_t violations = 0;  ///< runs that violate a claim or do not reach the horizon
-  std::uint64_t undecided = 0;   ///< runs of which neither is certain, in 31 digits
+  std::uint64_t undecided = 0;   ///< runs of which neither is certain when repeated
   std::uint64_t unfinished = 0;  ///< runs that do not reach the horizon
-  std::uint64_t repeated = 0;    ///< runs that were repeated in 31 digits
+  std::uint64_t repeated = 0;    ///< runs that were repeated, in 31 digits
   /// The violating runs that were, and violate there too; the worst run and that of each claim are
   /// among them. In order.
   std::vector<std::uint64_t> confirmed;
@@ -61,6 +61,7 @@ struct Report {
   hybrid::Termination worst_termination = hybrid::Termination::horizon;
   std::string worst_message;  ///< why it ended, when a jump map had no value
   double horizon = 0;
+  bool integrated = false;  ///< errors are estimates, and "repeated" means more accurately
   double confidence = 0.95;
   /// With that confidence the probability that a run of this campaign violates is at most this;
   /// undecided runs count as violating.

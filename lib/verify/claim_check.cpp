@@ -21,6 +21,12 @@ constexpr double kFloor = 1e-200;
 template <>
 constexpr double kFloor<DoubleDouble> = 1e-24;
 
+// Of integrated flows: the part of the accuracy below which nothing is compared, and a value of
+// which so much is error that no more than its size is known, when that is so small a part of v(0).
+constexpr double kOfAccuracy = 1e-4;
+constexpr double kDrowned = 0.1;
+constexpr double kNothing = 1e-8;
+
 template <class Scalar>
 constexpr int kDigits = kDoubleDigits;
 template <>
@@ -57,6 +63,7 @@ Finding finding_at(const Track<Scalar>& track, std::size_t sample, const Bounded
   finding.t = track.t[sample];
   finding.j = track.j[sample];
   finding.digits = kDigits<Scalar>;
+  finding.estimated = track.accuracy > 0;
   const double excess = static_cast<double>(value.value - bound.value);
   const bool violated = judgement == Judgement::violated;
   if (std::isnan(excess) || (violated && scale == 0)) {
@@ -104,7 +111,8 @@ ClaimCheck<Scalar>::ClaimCheck(const JudgedClaim& claim,
       value_(claim.value, system),
       jump_cost_(make_value(claim.jump_cost, system)),
       factor_(make_value(claim.factor, system)) {
-  if (claim.flow_cost && !claim.integral) flow_cost_.emplace(*claim.flow_cost, system);
+  if (claim.flow_cost && !claim.integral && !claim.accumulated)
+    flow_cost_.emplace(*claim.flow_cost, system);
 }
 
 template <class Scalar>
@@ -133,7 +141,8 @@ template <class Scalar>
 Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
   const std::vector<Bounded> v = values(track);
   const double scale = static_cast<double>(v[0].value);
-  const double floor = kFloor<Scalar> * std::abs(scale);
+  const double floor =
+      (track.accuracy > 0 ? kOfAccuracy * track.accuracy : kFloor<Scalar>)*std::abs(scale);
   Bounded low = v[0];   // with the smallest value - bound
   Bounded high = v[0];  // with the smallest value + bound
   std::optional<Finding> worst;
@@ -146,7 +155,12 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
       if (judgement == Judgement::violated) judgement = Judgement::undecided;
     }
     const double top = hybrid::size_of(v[k].value) + v[k].bound;
-    if (judgement == Judgement::undecided && scale != 0 && top <= floor) {
+    const bool integrated = track.accuracy > 0;
+    const bool drowned = integrated && judgement == Judgement::undecided &&
+                         v[k].bound >= kDrowned * hybrid::size_of(v[k].value) &&
+                         top <= kNothing * std::abs(scale);
+    const bool open = judgement == Judgement::undecided || integrated;
+    if (judgement != Judgement::held && open && scale != 0 && (top <= floor || drowned)) {
       noise = std::max(noise, top / std::abs(scale));
     } else if (judgement != Judgement::held) {
       const Finding found = finding_at(track, k, v[k], high, scale, judgement);
@@ -178,7 +192,7 @@ Bounded<Scalar> ClaimCheck<Scalar>::rest_cost(const Track& track, std::size_t mo
 
 template <class Scalar>
 Bounded<Scalar> ClaimCheck<Scalar>::step_cost(const Track& track, std::size_t move) {
-  if (!claim_->flow_cost) return {};
+  if (!claim_->flow_cost || claim_->accumulated) return {};
   if (flow_cost_) return (*flow_cost_)(track, move);
   const hybrid::FlowStep& step = track.moves[move].step;
   if (step.level == hybrid::FlowStep::kRest) return rest_cost(track, move);
@@ -199,6 +213,10 @@ std::vector<Bounded<Scalar>> ClaimCheck<Scalar>::running_cost(const Track& track
     }
     cost[k + 1] = sum(cost[k], more);
   }
+  if (!claim_->accumulated) return cost;
+  for (std::size_t k = 0; k < track.samples(); ++k)
+    cost[k] =
+        sum(cost[k], {track.state(k)(*claim_->accumulated), track.bound(k)(*claim_->accumulated)});
   return cost;
 }
 
@@ -230,7 +248,10 @@ Finding ClaimCheck<Scalar>::shrinks(const Track& track) {
                 hybrid::unit_roundoff<Scalar>() * hybrid::size_of(bound.value);
   const double scale = static_cast<double>(bound.value);
   const bool nothing = start.value == Scalar(0) && start.bound == 0;
-  const Judgement judgement = nothing ? Judgement::held : compare(end, bound);
+  const bool lost = track.termination == hybrid::Termination::lost;
+  const Judgement judgement = lost      ? Judgement::undecided
+                              : nothing ? Judgement::held
+                                        : compare(end, bound);
   return finding_at(track, last, end, bound, nothing ? 0 : scale, judgement);
 }
 

@@ -19,7 +19,9 @@
 // violates in 31 digits and is undecided in double. Of a value that falls by more than the digits
 // can show, the rest is noise: what is below kFloor of v(0) is not compared, and Finding::floor
 // says so. kFloor is 1e-24 in 31 digits, of which the last are rounding, and the range of the
-// numbers, 1e-200, in double.
+// numbers, 1e-200, in double. The bounds of a flow that is integrated to a relative accuracy a are
+// estimates: below a/1e4 of v(0) nothing is compared, nor below 1e-8 of it what lies in its own
+// error.
 //
 // The integral of a quadratic form over a flow is a quadratic form of its start (step_maps.h). That
 // of any other is bounded over pieces of the flow (flow_integral.h).
@@ -56,6 +58,7 @@ struct Finding {
   /// none.
   double floor = 0;
   int digits = kDoubleDigits;  ///< of the arithmetic that says so
+  bool estimated = false;      ///< `rounding` is an estimate, of the error of integration too
 
   bool violated() const { return judgement == Judgement::violated; }
   bool undecided() const { return judgement == Judgement::undecided; }
@@ -71,6 +74,8 @@ struct JudgedClaim {
   std::optional<JudgedFunction> factor;
   /// Which integrals of the step maps are those of the flow cost.
   std::optional<std::size_t> integral;
+  /// The coordinate that is the integral of the flow cost, when the flow is integrated.
+  std::optional<Eigen::Index> accumulated;
 };
 
 /// Checks one claim, run after run; one for each thread. All arguments must outlive it.

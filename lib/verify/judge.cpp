@@ -9,7 +9,9 @@ namespace {
 using hybrid::Termination;
 
 /// Whether the run left the range of the states for certain.
-bool is_certain_end(const hybrid::Track<DoubleDouble>& track) {
+template <class Scalar>
+bool is_certain_end(const hybrid::Track<Scalar>& track) {
+  if (track.termination == Termination::lost) return false;
   if (track.termination != Termination::diverged) return true;
   const std::size_t last = track.samples() - 1;
   for (Eigen::Index i = 0; i < track.size; ++i) {
@@ -28,42 +30,56 @@ Judgement worst_of(const std::vector<Finding>& findings) {
   return any(Judgement::undecided) ? Judgement::undecided : Judgement::held;
 }
 
-}  // namespace
-
-Judge::Judge(const Setup& setup)
-    : narrow_(setup.system, setup.scenario, setup.steps, *setup.narrow),
-      wide_(setup.system, setup.scenario, setup.steps, *setup.wide),
-      checks_(make_checks(setup, *setup.narrow)),
-      wide_checks_(make_checks(setup, *setup.wide)) {}
-
-RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
-  const hybrid::Track<DoubleDouble>& track = wide_.run(seed, run);
+template <class Scalar>
+RunVerdict verdict_on(const hybrid::Track<Scalar>& track, std::vector<ClaimCheck<Scalar>>& checks) {
   RunVerdict verdict;
-  verdict.repeated = true;
   verdict.termination = track.termination;
   verdict.message = track.message;
-  for (ClaimCheck<DoubleDouble>& check : wide_checks_) verdict.findings.push_back(check(track));
+  for (ClaimCheck<Scalar>& check : checks) verdict.findings.push_back(check(track));
   verdict.judgement = worst_of(verdict.findings);
+  return verdict;
+}
+
+/// The verdict on a run that is not repeated again.
+template <class Scalar>
+RunVerdict last_verdict(const hybrid::Track<Scalar>& track,
+                        std::vector<ClaimCheck<Scalar>>& checks) {
+  RunVerdict verdict = verdict_on(track, checks);
+  verdict.repeated = true;
   if (verdict.unfinished() && verdict.judgement != Judgement::violated)
     verdict.judgement = is_certain_end(track) ? Judgement::violated : Judgement::undecided;
   verdict.confirmed = verdict.judgement == Judgement::violated;
   return verdict;
 }
 
+}  // namespace
+
+Judge::Judge(const Setup& setup) : checks_(make_checks(setup, *setup.narrow)) {
+  if (!setup.steps) {
+    integrated_.emplace(setup.system, setup.scenario, setup.coordinates);
+    return;
+  }
+  narrow_.emplace(setup.system, setup.scenario, *setup.steps, *setup.narrow);
+  wide_.emplace(setup.system, setup.scenario, *setup.steps, *setup.wide);
+  wide_checks_ = make_checks(setup, *setup.wide);
+}
+
+RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
+  return integrated_ ? last_verdict(integrated_->run(seed, run, kRepeated), checks_)
+                     : last_verdict(wide_->run(seed, run), wide_checks_);
+}
+
 RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run) {
-  const hybrid::Track<double>& track = narrow_.run(seed, run);
-  if (track.termination != Termination::horizon) return confirm(seed, run);
-  RunVerdict verdict;
-  for (ClaimCheck<double>& check : checks_) verdict.findings.push_back(check(track));
-  verdict.judgement = worst_of(verdict.findings);
+  RunVerdict verdict = verdict_on(track(seed, run), checks_);
+  if (verdict.unfinished()) return confirm(seed, run);
   const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
                                 [](const Finding& one) { return one.undecided(); });
   if (!open) return verdict;
-  RunVerdict wide = confirm(seed, run);
-  for (std::size_t i = 0; i < wide.findings.size(); ++i)
-    if (!verdict.findings[i].undecided()) wide.findings[i] = verdict.findings[i];
-  if (!wide.unfinished()) wide.judgement = worst_of(wide.findings);
-  return wide;
+  RunVerdict again = confirm(seed, run);
+  for (std::size_t i = 0; i < again.findings.size(); ++i)
+    if (!verdict.findings[i].undecided()) again.findings[i] = verdict.findings[i];
+  if (!again.unfinished()) again.judgement = worst_of(again.findings);
+  return again;
 }
 
 }  // namespace gainsmith::verify

@@ -1,11 +1,14 @@
-// The verdict on one run: in double, and in 31 digits where double does not decide.
+// The verdict on one run: in double, and in 31 digits where double does not decide. A flow that is
+// integrated (hybrid/integrated_run.h) is repeated to a hundredth of its error instead.
 #pragma once
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "hybrid/integrated_run.h"
 #include "verify/setup.h"
 
 namespace gainsmith::verify {
@@ -14,9 +17,9 @@ struct RunVerdict {
   Judgement judgement = Judgement::held;
   std::vector<Finding> findings;  ///< of the claims that are stated, in order
   hybrid::Termination termination = hybrid::Termination::horizon;
-  std::string message;     ///< why it ended, when a jump map had no value
-  bool repeated = false;   ///< in 31 digits
-  bool confirmed = false;  ///< violated in 31 digits
+  std::string message;  ///< why it ended, when a jump map had no value
+  bool repeated = false;
+  bool confirmed = false;  ///< violated when repeated
 
   bool unfinished() const { return termination != hybrid::Termination::horizon; }
 };
@@ -24,25 +27,30 @@ struct RunVerdict {
 /// Judges run after run; one for each thread. The setup must outlive it.
 class Judge {
  public:
+  /// The relative accuracies of integrated runs, usual and repeated.
+  static constexpr double kUsual = 1e-8;
+  static constexpr double kRepeated = 1e-10;
+
   explicit Judge(const Setup& setup);
 
   /// What double decides is decided; a run with a claim that it does not decide, or that does not
-  /// reach the horizon, is repeated in 31 digits. Of a run that does not end in 31 digits with half
-  /// of its last state certain, the end is undecided.
+  /// reach the horizon, is repeated. Of a run that diverges there with less than half of its last
+  /// state certain, the end is undecided.
   RunVerdict operator()(std::uint64_t seed, std::uint64_t run);
 
-  /// The run in 31 digits.
+  /// The run repeated.
   RunVerdict confirm(std::uint64_t seed, std::uint64_t run);
 
   /// In double, until the next call.
   const hybrid::Track<double>& track(std::uint64_t seed, std::uint64_t run) {
-    return narrow_.run(seed, run);
+    return integrated_ ? integrated_->run(seed, run, kUsual) : narrow_->run(seed, run);
   }
   std::vector<ClaimCheck<double>>& checks() { return checks_; }
 
  private:
-  hybrid::BoundedSimulator<double> narrow_;
-  hybrid::BoundedSimulator<DoubleDouble> wide_;
+  std::optional<hybrid::IntegratedSimulator> integrated_;  ///< otherwise the two below
+  std::optional<hybrid::BoundedSimulator<double>> narrow_;
+  std::optional<hybrid::BoundedSimulator<DoubleDouble>> wide_;
   std::vector<ClaimCheck<double>> checks_;
   std::vector<ClaimCheck<DoubleDouble>> wide_checks_;
 };

@@ -4,6 +4,7 @@
 #include <limits>
 #include <memory>
 
+#include "hybrid/exact_values.h"
 #include "verify/judge.h"
 #include "verify/setup.h"
 #include "verify/signals.h"
@@ -76,6 +77,19 @@ void add_claims(Judge& judge, std::uint64_t seed, std::uint64_t run, Replay& rep
   }
 }
 
+/// The states of a run, all of them.
+hybrid::Arc arc_of(const model::Instance& instance, const model::Gains& gains, const Setup& setup,
+                   std::uint64_t seed, std::uint64_t run) {
+  if (setup.steps)
+    return hybrid::Simulator(setup.system, setup.scenario, *setup.steps).run(seed, run);
+  const hybrid::Coordinates states = hybrid::states_as_coordinates(
+      setup.system, hybrid::exact_values(instance, setup.system, gains));
+  hybrid::IntegratedSimulator simulator(setup.system, setup.scenario, states);
+  const hybrid::Track<double>& track = simulator.run(seed, run, Judge::kUsual);
+  return {track.size,  track.t,       track.j,           track.timer,
+          track.moves, track.stacked, track.termination, track.message};
+}
+
 }  // namespace
 
 Replay replay(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
@@ -83,7 +97,7 @@ Replay replay(const model::Instance& instance, const model::Gains& gains, std::u
   const std::unique_ptr<const Setup> made = make_setup(instance, gains);
   const Setup& setup = *made;
   Replay result;
-  result.arc = hybrid::Simulator(setup.system, setup.scenario, setup.steps).run(seed, run);
+  result.arc = arc_of(instance, gains, setup, seed, run);
   const hybrid::Arc& arc = result.arc;
   Table table(result);
   table.add("t", Eigen::Map<const Eigen::VectorXd>(arc.t.data(), static_cast<Index>(arc.t.size())));

@@ -28,7 +28,28 @@ std::vector<expr::Program> functions_of(const Setup& setup) {
   return functions;
 }
 
+/// Of each stated claim, the coordinate that is the integral of its flow cost along flows that are
+/// integrated; none where there is no such cost.
+std::vector<std::optional<Eigen::Index>> add_integrals(Setup& setup) {
+  std::vector<std::optional<Eigen::Index>> added;
+  std::size_t next = 0;
+  for (const LinkedClaim* claim : stated_claims(setup)) {
+    ++next;  // the value
+    added.emplace_back();
+    if (claim->flow_cost) {
+      const expr::Program& cost = setup.coordinates.functions[next++];
+      if (!setup.steps)
+        added.back() = hybrid::add_integral(setup.coordinates, "integral of " + claim->name, cost);
+    }
+    next += static_cast<std::size_t>(claim->jump_cost.has_value()) +
+            static_cast<std::size_t>(claim->factor.has_value());
+  }
+  return added;
+}
+
 void add_judged_claims(Setup& setup, std::vector<Wide>& forms) {
+  const auto integrals = add_integrals(setup);
+  auto accumulated = integrals.begin();
   std::size_t next = 0;
   const auto take = [&] {
     return make_function(setup.coordinates.functions[next++], setup.coordinates);
@@ -42,7 +63,8 @@ void add_judged_claims(Setup& setup, std::vector<Wide>& forms) {
     if (claim->jump_cost) judged.jump_cost = take();
     if (claim->factor) judged.factor = take();
     const Eigen::Index n = setup.coordinates.layout.size;
-    if (judged.flow_cost && judged.flow_cost->is_form()) {
+    judged.accumulated = *accumulated++;
+    if (setup.steps && judged.flow_cost && judged.flow_cost->is_form()) {
       judged.integral = forms.size();
       forms.push_back(judged.flow_cost->parts.empty() ? Wide(Wide::Zero(n + 1, n + 1))
                                                       : judged.flow_cost->parts.front().matrix);
@@ -58,7 +80,8 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
   const model::Design& design = *instance.design;
   hybrid::System system = hybrid::make_system(instance, gains);
   hybrid::Scenario scenario = hybrid::make_scenario(design, system);
-  hybrid::FlowSteps steps = hybrid::make_steps(system);
+  std::optional<hybrid::FlowSteps> steps;
+  if (system.flow) steps = hybrid::make_steps(system);
   std::vector<LinkedClaim> claims = link_claims(design, system);
   auto setup = std::make_unique<Setup>(Setup{
       std::move(system), std::move(scenario), std::move(steps), std::move(claims), {}, {}, {}, {}});
@@ -66,9 +89,11 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
       setup->system, hybrid::exact_values(instance, setup->system, gains), functions_of(*setup));
   std::vector<Wide> forms;
   add_judged_claims(*setup, forms);
-  const hybrid::ExactSteps exact = hybrid::exact_steps(setup->coordinates, setup->steps, forms);
+  std::optional<hybrid::ExactSteps> exact;
+  if (setup->steps) exact = hybrid::exact_steps(setup->coordinates, *setup->steps, forms);
   setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, exact);
-  setup->wide = std::make_unique<hybrid::BoundedSystem<DoubleDouble>>(setup->coordinates, exact);
+  if (exact)
+    setup->wide = std::make_unique<hybrid::BoundedSystem<DoubleDouble>>(setup->coordinates, exact);
   return setup;
 }
 

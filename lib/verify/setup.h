@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "hybrid/bounded_run.h"
@@ -12,10 +13,12 @@
 
 namespace gainsmith::verify {
 
+/// Of a flow that is not affine with constant coefficients, `narrow` is without steps and `wide`
+/// is not there: its runs are integrated.
 struct Setup {
   hybrid::System system;
   hybrid::Scenario scenario;
-  hybrid::FlowSteps steps;
+  std::optional<hybrid::FlowSteps> steps;  ///< of an affine flow
   std::vector<LinkedClaim> claims;
   hybrid::Coordinates coordinates;  ///< those of the claims that are stated
   std::vector<JudgedClaim> judged;  ///< the claims that are stated, in order

@@ -316,6 +316,25 @@ TEST(SynthesizeTest, GainsDoNotDependOnTheUnitsOfTheCost) {
   for (const char* weight : {"1e-4", "1e4"}) EXPECT_LT((gain(weight) - one).norm(), 1e-2);
 }
 
+/// x wants to be large in both gains; each stops at its own bound, in its own units.
+TEST(SynthesizeTest, GainsStopAtTheirOwnBounds) {
+  const std::string method =
+      "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar, z: scalar}\n"
+      "  require: {a: x < 1e6, b: y < 1e6, c: z < 7}\n  minimize: -x - y - z\n"
+      "  gains: {L: x, H: y, F: z}\n";
+  const tests::YamlProblem yaml(method + "synthesis: {gain_bound: {L: 0.25, H: 3}}\n");
+  const model::Gains gains = synthesize(yaml.instance, {});
+  EXPECT_EQ(gains.verdict, model::Verdict::yes);
+  EXPECT_NEAR(gains.gains[0].second(0), 0.25, 1e-6);
+  EXPECT_NEAR(gains.gains[1].second(0), 3, 1e-5);
+  EXPECT_NEAR(gains.gains[2].second(0), 7, 1e-5);
+  EXPECT_LE(gains.gains[0].second(0), 0.25);
+  EXPECT_LE(gains.gains[1].second(0), 3);
+  const InputError error = tests::input_error(
+      [&] { tests::YamlProblem other(method + "synthesis: {gain_bound: {K: 1}}\n"); });
+  EXPECT_NE(error.message().find("has no gain 'K'"), std::string::npos) << error.message();
+}
+
 TEST(SynthesizeTest, TheSameProblemGivesTheSameBits) {
   const std::string text =
       "problem: p\nmethod: output-predictor\ndata: {A: [[0.2, -1.01], [1, 0]], C: [[0.5, -1]], T1: "

@@ -32,8 +32,8 @@ TEST(System, FlowAndJumpOfPlantAndObserverAreRead) {
                        {0, 0, 0.2, -1.01, 2},
                        {0, 0, 1, 0, 3},
                        {0, 0, 0, 0, -5}};
-  EXPECT_EQ(system.flow.linear, flow);
-  EXPECT_TRUE(system.flow.constant.isZero(0));
+  EXPECT_EQ(system.flow->linear, flow);
+  EXPECT_TRUE(system.flow->constant.isZero(0));
   const double rest = 1 - (0.5 * 0.1 + 0.9);  // I - C F
   numbers::Matrix jump{{1, 0, 0, 0, 0},
                        {0, 1, 0, 0, 0},
@@ -61,24 +61,18 @@ TEST(System, ErrorFlowIsEquationEight) {
   flow << A - L * C, L, C * A - C * L * C - H * C, C * L + scalar(H);
   numbers::Matrix jump = numbers::Matrix::Zero(3, 3);
   jump.topLeftCorner(2, 2) = numbers::Matrix::Identity(2, 2) - F * C;
-  EXPECT_LT((errors * system.flow.linear - flow * errors).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_LT((errors * system.flow->linear - flow * errors).cwiseAbs().maxCoeff(), 1e-13);
   EXPECT_LT((errors * system.affine_jump->linear - jump * errors).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-TEST(System, NonlinearFlowIsRefusedAtItsPlace) {
-  TextProblem problem;
-  problem.data("a", "scalar", "1").state("x", "scalar").flow({{"x", "a - x*x"}});
-  problem.timer("1", "2", "0", "2");
-  const std::string message = error_of(problem);
-  EXPECT_NE(message.find("test.yaml:1:5"), std::string::npos) << message;
-  EXPECT_NE(message.find("matrix exponential"), std::string::npos) << message;
-}
-
-TEST(System, FlowThatDependsOnTheTimerIsRefused) {
-  TextProblem problem;
-  problem.state("x", "scalar").flow({{"x", "3 - tau"}}).timer("1", "2", "0", "2");
-  EXPECT_NE(error_of(problem).find("depends on the timer tau"), std::string::npos)
-      << error_of(problem);
+TEST(System, OnlyAffineFlowsWithConstantCoefficientsAreExact) {
+  for (const char* flow : {"3 - tau", "x^2", "x*tau", "sin(x)"}) {
+    TextProblem problem;
+    problem.state("x", "scalar").flow({{"x", flow}}).timer("1", "2", "0", "2");
+    const System system = system_of(problem);
+    EXPECT_FALSE(system.flow) << flow;
+    EXPECT_EQ(system.flow_entries.size(), 1U);
+  }
 }
 
 TEST(System, NonlinearJumpIsKeptAsText) {
@@ -86,7 +80,7 @@ TEST(System, NonlinearJumpIsKeptAsText) {
   problem.state("x", "scalar").state("w", "scalar").jump({{"x", "x^2"}}).timer("1", "2", "0", "2");
   const System system = system_of(problem);
   EXPECT_FALSE(system.affine_jump.has_value());
-  EXPECT_TRUE(system.flow.linear.isZero(0));
+  EXPECT_TRUE(system.flow->linear.isZero(0));
 }
 
 TEST(System, GainsMustBeThereAndFit) {

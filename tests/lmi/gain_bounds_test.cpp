@@ -48,6 +48,22 @@ TEST(GainBoundsTest, ScalarsAreBoundedAlike) {
   }
 }
 
+/// What two gains share keeps the smaller bound; gains that are not named have none.
+TEST(GainBoundsTest, GainsMayHaveBoundsOfTheirOwn) {
+  const tests::YamlProblem yaml(
+      problem_with("L: inv(P)*Y, M: inv(P)*Y + K, G: Z*inv(P), N: inv(Q)*Z") +
+      "synthesis: {gain_bound: {L: 200, M: 5, G: 0.1}}\n");
+  const GainBounds bounds = gain_bounds(Inequalities(yaml.instance), 200);
+  EXPECT_EQ(names(bounds), (std::vector<std::string>{"inv(P)*Y", "inv(P)*Y", "Z*inv(P)"}));
+  EXPECT_EQ(bounds.beta, 200);
+  EXPECT_DOUBLE_EQ(200 * bounds.list[0].share, 200);
+  EXPECT_DOUBLE_EQ(200 * bounds.list[1].share, 5);
+  EXPECT_DOUBLE_EQ(200 * bounds.list[2].share, 0.1);
+  const std::vector<model::GainBound> reached = reached_bounds(
+      bounds, std::vector<double>(Inequalities(yaml.instance).unknowns.size() + 2, 0.0));
+  EXPECT_DOUBLE_EQ(reached[2].bound, 0.1);
+}
+
 TEST(GainBoundsTest, TheWholeProductAndAffineGainsAreBounded) {
   const tests::YamlProblem yaml(problem_with("L: inv(P)*C'*Q*2, M: 2*K + K, N: inv(P)*Y*inv(Q)"));
   const GainBounds bounds = gain_bounds(Inequalities(yaml.instance), 100);

@@ -75,6 +75,50 @@ TEST(Campaign, PublishedRowThreeIsCaughtAtTheLongestInterval) {
   EXPECT_EQ(again.claims[0].finding.score, report.checks[0].worst.score);
 }
 
+/// V = x^2/2 falls by x^4 along x' = -x^3, which is the cost.
+TEST(Campaign, FlowsThatAreNotAffineAreIntegrated) {
+  TextProblem problem;
+  problem.state("x", "scalar").flow({{"x", "-x^3"}}).timer("0.5", "1", "0", "1");
+  problem.jump({{"x", "0.9*x"}}).runs(40).horizon("10");
+  problem.nonincreasing("falls", "x^2").cost("cost", "x^2/2", "x^4", "0.09*x^2");
+  problem.shrinks("shrinks", "abs(x)", "0.5");
+  const Report report = run(problem);
+  EXPECT_TRUE(report.integrated);
+  EXPECT_EQ(report.verdict, CampaignVerdict::held);
+  TextProblem dear = problem;
+  dear.cost("dear", "x^2/2", "1.5*x^4", "0.2*x^2");
+  const Report violated = run(dear);
+  EXPECT_EQ(violated.verdict, CampaignVerdict::violated);
+  EXPECT_EQ(violated.checks[0].violations, 0U);
+  EXPECT_EQ(violated.checks[3].violations, 40U);
+  const Replay again = replay(dear.instance(), dear.gains, violated.seed, violated.worst_run);
+  EXPECT_TRUE(again.claims[3].finding.violated());
+  EXPECT_EQ(again.claims[3].finding.value, violated.checks[3].worst.value);
+  EXPECT_TRUE(again.claims[3].finding.estimated);
+}
+
+/// A pendulum without friction keeps its energy: neither is certain of it.
+TEST(Campaign, WhatTheIntegrationDoesNotShowIsUndecided) {
+  TextProblem problem;
+  problem.state("x", "2").flow({{"x", "[x(2); -sin(x(1))]"}}).timer("1", "1", "1", "1");
+  problem.runs(4).horizon("5").nonincreasing("energy", "x(2)^2/2 - cos(x(1)) + 1");
+  const Report report = run(problem);
+  EXPECT_EQ(report.verdict, CampaignVerdict::undecided);
+  EXPECT_EQ(report.undecided, 4U);
+  EXPECT_EQ(report.repeated, 4U);
+}
+
+/// An error that decays in the coordinates z - zh is checked however large z is.
+TEST(Campaign, IntegratedErrorsAreCoordinates) {
+  TextProblem problem;
+  problem.state("z", "scalar").state("zh", "scalar").timer("1", "1", "1", "1");
+  problem.flow({{"z", "3*z + tau"}, {"zh", "3*zh + tau - (4 + tau)*(zh - z)"}});
+  problem.runs(20).horizon("8").nonincreasing("error", "(z - zh)^2");
+  const Report report = run(problem);
+  EXPECT_EQ(report.verdict, CampaignVerdict::held);
+  EXPECT_TRUE(report.integrated);
+}
+
 TEST(Campaign, ReportDoesNotDependOnTheNumberOfThreads) {
   TextProblem problem = row_two();
   problem.runs(150).horizon("6").shrinks("shrinks", "norm(e)", "0.001");

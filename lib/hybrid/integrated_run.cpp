@@ -1,0 +1,247 @@
+#include "hybrid/integrated_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "base/error.h"
+#include "base/number.h"
+#include "hybrid/ball.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+constexpr double kSharper = 1e-2;
+
+/// Where A and B happen to agree, samples beside it and a margin speak for the error.
+constexpr Index kBeside = 2;
+constexpr double kMargin = 4;
+
+numbers::Values in_double(const numbers::ValuesOf<Decimal100>& values) {
+  numbers::Values rounded;
+  for (const auto& [name, value] : values)
+    rounded[name] =
+        value.unaryExpr([](const Decimal100& element) { return static_cast<double>(element); });
+  return rounded;
+}
+
+bool is_within_range(const VectorXd& x) { return (x.array().abs() <= kLargestState).all(); }
+
+}  // namespace
+
+IntegratedSimulator::IntegratedSimulator(const System& system, const Scenario& scenario,
+                                         const Coordinates& coordinates)
+    : system_(&system),
+      scenario_(&scenario),
+      coordinates_(&coordinates),
+      constants_(in_double(coordinates.constants)),
+      starts_(scenario.starts, system) {
+  const StateLayout& layout = coordinates.layout;
+  clock_rates_ = VectorXd::Zero(layout.size);
+  point_ = VectorXd::Zero(layout.size);
+  for (std::size_t i = 0; i < coordinates.list.size(); ++i) {
+    const Coordinate& one = coordinates.list[i];
+    const Slot& slot = layout.slots[i];
+    begin_.emplace_back(one.start, system.layout, constants_);
+    const auto function = [&](const std::optional<expr::Program>& program) {
+      return program ? std::make_unique<PointFunction>(*program, layout, constants_) : nullptr;
+    };
+    after_.push_back(function(one.jump));
+    flow_.push_back(function(one.flow));
+    if (flow_.back() == nullptr) continue;
+    if (one.rate_is_constant(layout)) {
+      clock_rates_.segment(slot.offset, slot.shape.size()) = (*flow_.back())(point_, 0).reshaped();
+      flow_.back().reset();
+      continue;
+    }
+    for (Index e = 0; e < slot.shape.size(); ++e) elements_.push_back(slot.offset + e);
+  }
+  copies_.push_back(make_copy());
+  copies_.push_back(make_copy());
+}
+
+IntegratedSimulator::Copy IntegratedSimulator::make_copy() {
+  const auto moving = static_cast<Index>(elements_.size());
+  return {VectorXd::Zero(point_.size()), VectorXd::Zero(point_.size()), VectorXd::Zero(moving),
+          Integrator(moving,
+                     [this](double t, const VectorXd& x, VectorXd& slope) { rate(t, x, slope); })};
+}
+
+void IntegratedSimulator::set_moving(double t, const VectorXd& moving, VectorXd& x) const {
+  x = *flow_start_ + t * clock_rates_;
+  x(elements_) = moving;
+}
+
+void IntegratedSimulator::rate(double t, const VectorXd& moving, VectorXd& slope) {
+  set_moving(t, moving, point_);
+  Index at = 0;
+  for (const auto& entry : flow_) {
+    if (entry == nullptr) continue;
+    const numbers::Matrix& value = (*entry)(point_, flow_timer_ - t);
+    slope.segment(at, value.size()) = value.reshaped();
+    at += value.size();
+  }
+}
+
+VectorXd IntegratedSimulator::absolute(const VectorXd& x, double relative) const {
+  constexpr double kBelow = 1e-2;
+  constexpr double kOfOthers = 1e-4;
+  VectorXd sizes = VectorXd::Zero(x.size());
+  double largest = 0;
+  for (std::size_t i = 0; i < flow_.size(); ++i) {
+    if (flow_[i] == nullptr) continue;
+    const Slot& slot = coordinates_->layout.slots[i];
+    const double size = x.segment(slot.offset, slot.shape.size()).lpNorm<Eigen::Infinity>();
+    sizes.segment(slot.offset, slot.shape.size()).setConstant(size);
+    largest = std::max(largest, size);
+  }
+  return (kBelow * relative * sizes.cwiseMax(kOfOthers * largest))(elements_).cwiseMax(1e-250);
+}
+
+void IntegratedSimulator::append(double t, std::int64_t j, double timer, double timer_bound) {
+  const VectorXd& x = copies_[1].x;
+  track_.t.push_back(t);
+  track_.j.push_back(j);
+  track_.timer.push_back(timer);
+  track_.timer_bound.push_back(timer_bound);
+  const VectorXd bound = difference();
+  track_.stacked.insert(track_.stacked.end(), x.data(), x.data() + x.size());
+  track_.bounds.insert(track_.bounds.end(), bound.data(), bound.data() + bound.size());
+  if (!is_within_range(x)) track_.termination = Termination::diverged;
+}
+
+/// The largest |A - B| of each state.
+VectorXd IntegratedSimulator::difference() const {
+  VectorXd result = (copies_[0].x - copies_[1].x).cwiseAbs();
+  for (const Slot& slot : coordinates_->layout.slots) {
+    auto part = result.segment(slot.offset, slot.shape.size());
+    if (part.size() > 0) part.setConstant(part.maxCoeff());
+  }
+  return result;
+}
+
+/// Of the samples since the last jump, once all are there.
+void IntegratedSimulator::set_bounds() {
+  const std::size_t last = track_.samples() - 1;
+  const Eigen::Map<numbers::Matrix> bounds(track_.bounds.data(), track_.size,
+                                           static_cast<Index>(track_.samples()));
+  const numbers::Matrix own = bounds.rightCols(static_cast<Index>(last - flow_first_ + 1));
+  for (std::size_t k = flow_first_; k <= last; ++k) {
+    const auto at = static_cast<Index>(k - flow_first_);
+    const Index from = std::max<Index>(at - kBeside, 0);
+    const Index to = std::min<Index>(at + kBeside, own.cols() - 1);
+    Eigen::Map<VectorXd>(track_.bounds.data() + static_cast<Index>(k) * track_.size, track_.size) =
+        kMargin * own.middleCols(from, to - from + 1).rowwise().maxCoeff() +
+        8 * kUnit * track_.state(k).cwiseAbs();
+  }
+}
+
+void IntegratedSimulator::begin(std::uint64_t run, RandomStream& random) {
+  const VectorXd drawn = starts_(run, random);
+  for (std::size_t i = 0; i < begin_.size(); ++i) {
+    const Slot& slot = coordinates_->layout.slots[i];
+    copies_[0].x.segment(slot.offset, slot.shape.size()) = begin_[i](drawn, 0).reshaped();
+  }
+  copies_[1].x = copies_[0].x;
+  for (Copy& copy : copies_) copy.integrator.reset();
+}
+
+/// Both copies to the time t of the flow, or to their end.
+void IntegratedSimulator::advance(double t) {
+  constexpr double kSame = 1e-6;
+  std::vector<IntegrationError> ends;
+  for (Copy& copy : copies_) {
+    flow_start_ = &copy.start;
+    try {
+      copy.integrator.advance(t, copy.moving);
+      set_moving(t, copy.moving, copy.x);
+    } catch (const IntegrationError& error) {
+      ends.push_back(error);
+    }
+  }
+  if (ends.empty()) return;
+  const bool certain = ends.size() == 2 && ends[0].collapsed && ends[1].collapsed &&
+                       std::abs(ends[0].t - ends[1].t) <= kSame * t;
+  track_.termination = certain ? Termination::undefined : Termination::lost;
+  track_.message =
+      std::string(ends.back().what()) + ", " + brief(ends.back().t) + " after the last jump";
+}
+
+void IntegratedSimulator::flow(double interval, double relative) {
+  const double start = track_.t.back();
+  const std::int64_t jumps = track_.j.back();
+  flow_timer_ = track_.timer.back();
+  double accuracy = relative;
+  for (Copy& copy : copies_) {
+    copy.start = copy.x;
+    if (interval == 0) continue;
+    copy.integrator.start(0, copy.x(elements_), interval, accuracy, absolute(copy.x, accuracy));
+    accuracy *= kSharper;
+  }
+  for (int piece = 1; piece <= kPieces && interval > 0; ++piece) {
+    const double t = piece == kPieces ? interval : interval * piece / kPieces;
+    advance(t);
+    if (track_.termination != Termination::horizon) break;
+    track_.moves.push_back({false, {FlowStep::kRest, interval / kPieces}});
+    const double left = flow_timer_ - t;
+    append(start + t, jumps, left, left == 0 ? 0 : 4 * kUnit * flow_timer_);
+    if (track_.termination != Termination::horizon) break;
+  }
+  set_bounds();
+}
+
+void IntegratedSimulator::jump(VectorXd& x) {
+  VectorXd after = x;
+  for (std::size_t i = 0; i < after_.size(); ++i) {
+    if (after_[i] == nullptr) continue;
+    const Slot& slot = coordinates_->layout.slots[i];
+    after.segment(slot.offset, slot.shape.size()) = (*after_[i])(x, 0).reshaped();
+  }
+  x = after;
+}
+
+void IntegratedSimulator::jump(double reset_value) {
+  for (Copy& copy : copies_) jump(copy.x);
+  track_.moves.push_back({true, {}});
+  flow_first_ = track_.samples();
+  append(track_.t.back(), track_.j.back() + 1, reset_value, 0);
+}
+
+const Track<double>& IntegratedSimulator::run(std::uint64_t seed, std::uint64_t run,
+                                              double relative) {
+  track_.clear();
+  track_.size = point_.size();
+  track_.accuracy = relative;
+  flow_first_ = 0;
+  RandomStream random(seed, run);
+  const Law& law = scenario_->laws[run % scenario_->laws.size()];
+  try {
+    begin(run, random);
+    append(0, 0, first_timer(*system_, *scenario_, random), 0);
+    for (std::size_t jumps = 0;; ++jumps) {
+      const double left = scenario_->horizon - track_.t.back();
+      const bool expires = track_.timer.back() <= left;
+      flow(expires ? track_.timer.back() : left, relative);
+      if (track_.termination != Termination::horizon || !expires) return track_;
+      if (track_.j.back() >= scenario_->jump_limit) {
+        track_.termination = Termination::jump_limit;
+        return track_;
+      }
+      jump(law.reset_value(jumps, track_.t.back(), random));
+      if (track_.termination != Termination::horizon || track_.t.back() >= scenario_->horizon)
+        return track_;
+    }
+  } catch (const InputError& error) {
+    track_.message = error.what();
+  }
+  track_.termination = Termination::undefined;
+  return track_;
+}
+
+}  // namespace gainsmith::hybrid

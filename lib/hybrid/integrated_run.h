@@ -1,0 +1,83 @@
+// One run in the coordinates of a judgement when the flow is not affine with constant coefficients:
+// integrated twice (integrator.h), to a relative accuracy and to a hundredth of it.
+//
+//   x' = f(x, tau)   over a flow of length T from a jump on, samples at its 32 equal pieces
+//
+// The samples are those of the sharper run B. The bound of an element's error is four times the
+// largest |A - B| of its state at the sample and at two on each side, + 8 u |B|: A errs some
+// hundred times more than B, so it is an estimate that leaves a margin, and no proof. u has to stay
+// below the accuracy. An element may err by 1e-2 of its state's relative accuracy below the largest
+// element of that state when a flow begins, and a state that is 0 there counts 1e-4 of the largest
+// state.
+//
+// A coordinate without a flow keeps its bits; one of a constant derivative (a clock) is start +
+// rate t, with the rounding of that alone.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "hybrid/bounded_run.h"
+#include "hybrid/coordinates.h"
+#include "hybrid/integrator.h"
+#include "hybrid/simulate.h"
+
+namespace gainsmith::hybrid {
+
+/// Simulates run after run; one for each thread. All arguments must outlive it.
+class IntegratedSimulator {
+ public:
+  static constexpr int kPieces = 32;
+
+  IntegratedSimulator(const System& system, const Scenario& scenario,
+                      const Coordinates& coordinates);
+
+  /// The run of the draws that Simulator makes of the same seed and number, integrated to
+  /// `relative` and `relative`/100. It ends as undefined where a map has no value or the steps of
+  /// both integrations fall to nothing at the same time (to 1e-6 of the flow), as lost where the
+  /// flow cannot be continued otherwise, as diverged where a coordinate leaves [-1e150, 1e150].
+  const Track<double>& run(std::uint64_t seed, std::uint64_t run, double relative);
+
+ private:
+  /// One of the two runs.
+  struct Copy {
+    Eigen::VectorXd x;       ///< of all coordinates
+    Eigen::VectorXd start;   ///< of the flow
+    Eigen::VectorXd moving;  ///< the elements that are integrated
+    Integrator integrator;
+  };
+
+  Copy make_copy();
+  void set_moving(double t, const Eigen::VectorXd& moving, Eigen::VectorXd& x) const;
+  void rate(double t, const Eigen::VectorXd& moving, Eigen::VectorXd& slope);
+  Eigen::VectorXd absolute(const Eigen::VectorXd& x, double relative) const;
+  void begin(std::uint64_t run, RandomStream& random);
+  void flow(double interval, double relative);
+  void advance(double t);
+  void jump(double reset_value);
+  void jump(Eigen::VectorXd& x);
+  void append(double t, std::int64_t j, double timer, double timer_bound);
+  Eigen::VectorXd difference() const;
+  void set_bounds();
+
+  const System* system_;
+  const Scenario* scenario_;
+  const Coordinates* coordinates_;
+  numbers::Values constants_;
+  Starts starts_;
+  std::vector<PointFunction> begin_;                  ///< of the coordinates, over the states
+  std::vector<std::unique_ptr<PointFunction>> flow_;  ///< of those that are integrated
+  std::vector<std::unique_ptr<PointFunction>> after_;
+  std::vector<Eigen::Index> elements_;  ///< that are integrated
+  Eigen::VectorXd clock_rates_;         ///< of all elements
+  const Eigen::VectorXd* flow_start_ = nullptr;
+  double flow_timer_ = 0;
+  Eigen::VectorXd point_;  ///< where the flow is evaluated
+  std::vector<Copy> copies_;
+  std::size_t flow_first_ = 0;  ///< the first sample since the last jump
+  Track<double> track_;
+};
+
+}  // namespace gainsmith::hybrid

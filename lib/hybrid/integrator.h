@@ -1,0 +1,55 @@
+// x' = f(t, x) by SUNDIALS CVODE: steps of its error control, the solution at any time by its dense
+// output.
+//
+// Adams of variable order with fixed-point iterations; where that takes too many steps or does not
+// converge, the flow is stiff and goes on with BDF and Newton's method.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace gainsmith::hybrid {
+
+namespace cvode {
+class Solver;
+}
+
+/// A flow that cannot be continued.
+struct IntegrationError : std::runtime_error {
+  IntegrationError(const std::string& message, double at, bool collapsed_)
+      : std::runtime_error(message), t(at), collapsed(collapsed_) {}
+  double t;
+  bool collapsed;  ///< no step is short enough; otherwise there were too many
+};
+
+class Integrator {
+ public:
+  /// Writes x' at (t, x). What it throws shortens the step; where no step is short enough, it ends
+  /// the integration.
+  using Rate = std::function<void(double t, const Eigen::VectorXd& x, Eigen::VectorXd& rate)>;
+
+  Integrator(Eigen::Index size, Rate rate);
+  Integrator(Integrator&&) noexcept;
+  Integrator& operator=(Integrator&&) noexcept;
+  ~Integrator();
+
+  /// Forgets that a flow was stiff.
+  void reset();
+
+  /// From x at t on. `absolute`: the error of each element that counts as `relative` of it, > 0. f
+  /// is not evaluated after `last`.
+  void start(double t, const Eigen::VectorXd& x, double last, double relative,
+             const Eigen::VectorXd& absolute);
+
+  /// x at t, which is not before the time asked for last and not after `last`. IntegrationError
+  /// where the flow ends before.
+  void advance(double t, Eigen::VectorXd& x);
+
+ private:
+  std::unique_ptr<cvode::Solver> cvode_;
+};
+
+}  // namespace gainsmith::hybrid
