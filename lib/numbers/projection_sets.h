@@ -136,7 +136,7 @@ Projection<S> project_polytope(const MatrixOf<S>& x, const MatrixOf<S>& P, const
   for (W covered(0); p; p = most_violated<W>(rows, basis, z, false)) {
     activate<W>(*p, rows.excess(*p, z) / rows.lengths(*p), rows, basis, u);
     const auto step = basis.shortest(start);
-    z = start + times<W>(T.transpose(), step.d);
+    z = on_rows<W>(start, step.d, T, rows, basis);
     u = step.u;
     // What is left to gain is below the working arithmetic.
     if (!(step.d.squaredNorm() > covered)) break;
@@ -164,7 +164,7 @@ Projection<S> project_ellipsoid(const MatrixOf<S>& x, const MatrixOf<S>& P, cons
     value = std::max(value, W(0));
   }
   if (level < W(0)) throw NoProjection("the ellipsoid is empty: r is negative");
-  const Column<W> point = widened<S>(x), from = point - Column<W>(widened<S>(x0));
+  const Column<W> point = widened<S>(x), centre = widened<S>(x0), from = point - centre;
   // What the rounding of x changes the form by.
   const MatrixOf<W> weight = sizes<W>(form);
   const Column<W> size = sizes<W>(point);
@@ -186,8 +186,13 @@ Projection<S> project_ellipsoid(const MatrixOf<S>& x, const MatrixOf<S>& P, cons
     if (level > W(0)) shift(i) *= y * q(i) / (W(1) + y * q(i));
     if (!(q(i) > W(0))) shift(i) = W(0);
   }
-  const Column<W> z = point - Column<W>(times<W>(T.transpose(), times<W>(V, shift)));
-  return {narrowed<S>(z), MatrixOf<S>::Constant(1, 1, as<S>(y))};
+  const MatrixOf<W> back = times<W>(T.transpose(), V);
+  const Column<W> reached = sizes<W>(from) + times<W>(sizes<W>(back), sizes<W>(shift));
+  Column<W> offset = from - Column<W>(times<W>(back, shift));
+  for (Eigen::Index i = 0; i < offset.size(); ++i)  // as in on_rows
+    if (size_of<W>(offset(i)) <= W(0x1p20) * std::numeric_limits<W>::epsilon() * reached(i))
+      offset(i) = W(0);
+  return {narrowed<S>(Column<W>(centre + offset)), MatrixOf<S>::Constant(1, 1, as<S>(y))};
 }
 
 template <class S>
@@ -218,7 +223,7 @@ Projection<S> project_affine(const MatrixOf<S>& x, const MatrixOf<S>& P, const M
     basis.add(*next);
   }
   const auto step = basis.shortest(start);
-  const Column<W> z = start + times<W>(T.transpose(), step.d);
+  const Column<W> z = on_rows<W>(start, step.d, T, rows, basis);
   const W several(static_cast<double>(x.rows() + 4));  // roundings in the making of a row
   for (Eigen::Index i = 0; i < rows.count(); ++i) {
     if (basis.has(i)) continue;
