@@ -36,8 +36,8 @@ struct NoProjection : std::runtime_error {
 };
 
 /// A m x n, b m x 1. Rows may be redundant, parallel, zero or meet in one point in any number.
-/// Where rows are dependent, or contradict each other, only to the rounding of A, P counts as exact
-/// and they are taken as dependent: the set may then be called empty.
+/// Rows that the rounding of A could make dependent are taken as dependent; where such rows
+/// contradict each other the set is called empty.
 ///
 /// The dual active-set method of Goldfarb and Idnani (Mathematical Programming 27, 1983) on
 /// d = L'(z - x), P = L L': minimise d'd. Every step to a new active set makes d'd larger, also
@@ -49,8 +49,8 @@ Projection<Scalar> project_polytope(const MatrixOf<Scalar>& x, const MatrixOf<Sc
 /// x0 n x 1, Q n x n with symmetric part >= 0, r >= 0 the level of the form, not the square of a
 /// radius. A singular Q is a cylinder; r = 0 leaves x0 and the kernel of Q.
 ///
-/// With T P T' = I and T Q T' = diag(q), T n x n, and c = T'^-1 (x - x0): z = x - T' (c_i y q_i /
-/// (1 + y q_i)), where y > 0 is the root of the secular equation
+/// With d = V'L'(z - x0), P = L L', the metric is d'd and the form d' diag(q) d; with c for z = x
+/// the nearest point has d_i = c_i / (1 + y q_i), where y > 0 is the root of the secular equation
 ///   sum_i q_i c_i^2 / (1 + y q_i)^2 = r,
 /// by Newton steps on 1 / sqrt of both sides, which rise to the root from y = 0, and bisection
 /// where rounding throws one out of the bracket (Conn, Gould and Toint, Trust-Region Methods, 7.3).

@@ -213,14 +213,22 @@ class Basis {
   MatrixOf<W> R_;
 };
 
-/// x + T'd on the rows of the basis, to a quarter of the rounding of z, which leaves room for
-/// rounding the result. An element of which only the rounding of W is left becomes 0: an excess of
-/// 1e-32 has no digit that counts, but looks large to the row z_1 <= 0.
+/// A sum whose terms have the sizes `most`: elements of which only the rounding of W is left become
+/// 0. An excess of 1e-32 has no digit that counts, but looks large to the row z_1 <= 0.
+template <class W>
+Column<W> without_noise(Column<W> sum, const Column<W>& most) {
+  const W least = W(0x1p20) * std::numeric_limits<W>::epsilon();
+  for (Eigen::Index i = 0; i < sum.size(); ++i)
+    if (size_of<W>(sum(i)) <= least * most(i)) sum(i) = W(0);
+  return sum;
+}
+
+/// x + T'd on the rows of the basis, without noise, to a quarter of the rounding of z, which leaves
+/// room for rounding the result.
 template <class W>
 Column<W> on_rows(const Column<W>& x, const Column<W>& d, const MatrixOf<W>& T, const Rows<W>& rows,
                   const Basis<W>& basis) {
   constexpr int kMostCorrections = 12;  // 30 digits each
-  const W least = W(0x1p20) * std::numeric_limits<W>::epsilon();
   const auto meets = [&](const Column<W>& z) {
     for (Eigen::Index k = 0; k < basis.size(); ++k)
       if (size_of<W>(rows.excess(basis.row(k), z)) > rows.unsure(basis.row(k), z) * W(0.25))
@@ -231,9 +239,7 @@ Column<W> on_rows(const Column<W>& x, const Column<W>& d, const MatrixOf<W>& T, 
   const Column<W> most = sizes<W>(x) + times<W>(sizes<W>(turned), sizes<W>(d));
   Column<W> z = x + times<W>(turned, d);
   for (int k = 0; k < kMostCorrections; ++k) {
-    Column<W> cleared = z;
-    for (Eigen::Index i = 0; i < z.size(); ++i)
-      if (size_of<W>(z(i)) <= least * most(i)) cleared(i) = W(0);
+    const Column<W> cleared = without_noise<W>(z, most);
     if (meets(cleared)) return cleared;
     if (meets(z)) break;
     z += times<W>(turned, basis.shortest(z).d);

@@ -91,6 +91,46 @@ Column<W> symmetric_eigenvalues(MatrixOf<W> M, MatrixOf<W>& V) {
   return M.diagonal();
 }
 
+/// The axes that the metric and a form share: with d = V'L'(z - x0) the metric is d'd and the form
+/// d' diag(q) d.
+template <class W>
+struct Axes {
+  Column<W> q;
+  MatrixOf<W> forth;  ///< V'L'
+  MatrixOf<W> back;   ///< T'V
+};
+
+template <class W>
+Axes<W> common_axes(const MatrixOf<W>& T, const MatrixOf<W>& form, const W& rounding) {
+  const MatrixOf<W> turned = T.transpose();
+  MatrixOf<W> V;
+  Axes<W> axes{symmetric_eigenvalues<W>(times<W>(times<W>(T, form), turned), V), V.transpose(),
+               times<W>(turned, V)};
+  const W noise =
+      rounding *
+      times<W>(times<W>(sizes<W>(T), sizes<W>(form)), MatrixOf<W>(sizes<W>(turned))).trace();
+  for (W& value : axes.q) {
+    if (value < -noise) throw NoProjection("Q is not positive semidefinite");
+    value = std::max(value, W(0));
+  }
+  // V'L' column by column, by substitution: V' = (V'L') T'.
+  for (Eigen::Index j = 0; j < T.cols(); ++j) {
+    for (Eigen::Index k = 0; k < j; ++k) axes.forth.col(j) -= axes.forth.col(k) * T(j, k);
+    axes.forth.col(j) /= T(j, j);
+  }
+  return axes;
+}
+
+/// from' Q from <= r to the rounding of z = x0 + from.
+template <class W>
+bool is_below(const MatrixOf<W>& form, const Column<W>& from, const Column<W>& z, const W& level,
+              const W& rounding) {
+  const Column<W> reach = W(2) * sizes<W>(from) + rounding * sizes<W>(z);
+  const Column<W> weight = times<W>(sizes<W>(form), sizes<W>(z));
+  const Column<W> slope = times<W>(form, from);
+  return from.dot(slope) <= level + rounding * (reach.dot(weight) + level);
+}
+
 /// The y > 0 with f(y) = sum_i q_i c_i^2 / (1 + y q_i)^2 = r, where f(0) > r > 0.
 template <class W>
 W secular_root(const Column<W>& q, const Column<W>& c, const W& r) {
@@ -153,45 +193,20 @@ Projection<S> project_ellipsoid(const MatrixOf<S>& x, const MatrixOf<S>& P, cons
   const W unit = rounding<S>(), level = as<W>(r(0, 0));
   const MatrixOf<W> T = metric<W>(widened<S>(P), unit);
   const MatrixOf<W> form = symmetric_part<W>(widened<S>(Q));
-  MatrixOf<W> V;
-  Column<W> q =
-      symmetric_eigenvalues<W>(times<W>(times<W>(T, form), MatrixOf<W>(T.transpose())), V);
-  const MatrixOf<W> most = sizes<W>(T);
-  const W noise =
-      unit * times<W>(times<W>(most, sizes<W>(form)), MatrixOf<W>(most.transpose())).trace();
-  for (W& value : q) {
-    if (value < -noise) throw NoProjection("Q is not positive semidefinite");
-    value = std::max(value, W(0));
-  }
+  const Axes<W> axes = common_axes<W>(T, form, unit);
   if (level < W(0)) throw NoProjection("the ellipsoid is empty: r is negative");
   const Column<W> point = widened<S>(x), centre = widened<S>(x0), from = point - centre;
-  // What the rounding of x changes the form by.
-  const MatrixOf<W> weight = sizes<W>(form);
-  const Column<W> size = sizes<W>(point);
-  const Column<W> reach = W(2) * sizes<W>(from) + unit * size;
-  const W unsure = unit * (reach.dot(Column<W>(times<W>(weight, size))) + level);
-  if (from.dot(Column<W>(times<W>(form, from))) <= level + unsure) return unmoved<S>(x, 1);
+  if (is_below<W>(form, from, point, level, unit)) return unmoved<S>(x, 1);
 
-  // c = T'^-1 (x - x0), by substitution in the triangle T'.
-  Column<W> c = from;
-  for (Eigen::Index i = c.size() - 1; i >= 0; --i) {
-    for (Eigen::Index j = i + 1; j < c.size(); ++j) c(i) -= T(j, i) * c(j);
-    c(i) /= T(i, i);
-  }
-  c = times<W>(V.transpose(), c);
+  const Column<W> c = times<W>(axes.forth, from);
+  const W y = level > W(0) ? secular_root<W>(axes.q, c, level) : W(0);
   Column<W> shift = c;
-  W y(0);
-  if (level > W(0)) y = secular_root<W>(q, c, level);
   for (Eigen::Index i = 0; i < c.size(); ++i) {
-    if (level > W(0)) shift(i) *= y * q(i) / (W(1) + y * q(i));
-    if (!(q(i) > W(0))) shift(i) = W(0);
+    if (level > W(0)) shift(i) *= y * axes.q(i) / (W(1) + y * axes.q(i));
+    if (!(axes.q(i) > W(0))) shift(i) = W(0);
   }
-  const MatrixOf<W> back = times<W>(T.transpose(), V);
-  const Column<W> reached = sizes<W>(from) + times<W>(sizes<W>(back), sizes<W>(shift));
-  Column<W> offset = from - Column<W>(times<W>(back, shift));
-  for (Eigen::Index i = 0; i < offset.size(); ++i)  // as in on_rows
-    if (size_of<W>(offset(i)) <= W(0x1p20) * std::numeric_limits<W>::epsilon() * reached(i))
-      offset(i) = W(0);
+  const Column<W> most = sizes<W>(from) + times<W>(sizes<W>(axes.back), sizes<W>(shift));
+  const Column<W> offset = without_noise<W>(from - times<W>(axes.back, shift), most);
   return {narrowed<S>(Column<W>(centre + offset)), MatrixOf<S>::Constant(1, 1, as<S>(y))};
 }
 
