@@ -105,6 +105,9 @@ int Binder::square_argument(const Expression& expression, const Node& node,
 
 Bound Binder::bind_operation(const Expression& expression, const Node& node,
                              const Function& function, Op op) {
+  if (operation(op).rule == ShapeRule::nearest_to_rows ||
+      operation(op).rule == ShapeRule::nearest_to_form)
+    return projection(expression, node, function, op);
   std::vector<int> operands;
   for (const NodePtr& child : node.children) {
     const Bound value = bind(expression, *child);

@@ -106,6 +106,8 @@ class Binder {
   Bound chebyshev(const Expression& expression, const Node& node);
   // bind_gramian.cpp
   Bound gramian(const Expression& expression, const Node& node, bool backward);
+  // bind_projections.cpp
+  Bound projection(const Expression& expression, const Node& node, const Function& function, Op op);
 
   int same_shape(const Expression& expression, const Node& node, Bound value, Shape shape);
   int square_argument(const Expression& expression, const Node& node, std::string_view function);

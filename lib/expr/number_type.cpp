@@ -19,6 +19,15 @@ void not_finite(Op op) {
   throw EvaluationError("the " + to_string(op) + " is not a finite number");
 }
 
+void without_result(Op op, const std::string& why) {
+  throw EvaluationError(to_string(op) + ": " + why);
+}
+
+void no_error_bound(Op op) {
+  throw EvaluationError("the " + to_string(op) +
+                        " has no error bound, so nothing is proved with it");
+}
+
 void beyond_range(const Instruction& constant) {
   throw EvaluationError("the number " + constant.text + " is beyond the range of double");
 }

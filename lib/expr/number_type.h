@@ -34,6 +34,9 @@
 //     EvaluationError too, and the type lists it. In a pack a point without a result is not a
 //     number and the other points go on.
 //  5. Empty matrices are values like others.
+//  6. Projections (project_...) are computed by Real and what goes back to it. A type that bounds
+//  errors
+//     may lack them: it throws fault::no_error_bound, whatever moves.
 #pragma once
 
 #include <concepts>
@@ -65,6 +68,10 @@ namespace fault {
 /// "log of -0.1".
 [[noreturn]] void outside_domain(Op op, double value);
 [[noreturn]] void not_finite(Op op);
+/// "project_polytope: the polytope is empty".
+[[noreturn]] void without_result(Op op, const std::string& why);
+/// Of an operation that a number type with error bounds does not have.
+[[noreturn]] void no_error_bound(Op op);
 /// The decimal is finite, but not in double.
 [[noreturn]] void beyond_range(const Instruction& constant);
 

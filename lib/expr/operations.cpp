@@ -43,6 +43,16 @@ std::optional<Shape> part_shape(Shape from, const Attributes& at) {
   return when(inside, {at[1] - at[0], at[3] - at[2]});
 }
 
+std::optional<Shape> nearest_shape(ShapeRule rule, std::span<const Shape> operands) {
+  const Shape point{operands[0].rows, 1}, square{point.rows, point.rows};
+  const Shape rows{operands[2].rows, point.rows}, right{rows.rows, 1};
+  const std::array<Shape, 4> of_rows{point, square, rows, right};
+  const std::array<Shape, 5> of_form{point, square, point, square, Shape{}};
+  return when(rule == ShapeRule::nearest_to_rows ? std::ranges::equal(operands, of_rows)
+                                                 : std::ranges::equal(operands, of_form),
+              point);
+}
+
 }  // namespace
 
 std::span<const Operation> operations() { return kOperations; }
@@ -101,6 +111,9 @@ std::optional<Shape> result_shape(Op op, std::span<const Shape> operands,
       return when(wanted.cols <= least, {a.rows, wanted.cols});
     case ShapeRule::kernel_basis:
       return when(a.cols - least <= wanted.cols && wanted.cols <= a.cols, {a.cols, wanted.cols});
+    case ShapeRule::nearest_to_rows:
+    case ShapeRule::nearest_to_form:
+      return nearest_shape(operation(op).rule, operands);
   }
   return std::nullopt;
 }

@@ -389,6 +389,9 @@ struct BallRules {
     numbers::Real<Scalar>{}.apply(at.instruction, operands, out.mid);
     out.rad = Matrix::Constant(out.mid.rows(), out.mid.cols(), out.mid.isZero(0) ? 0 : kInfinity);
   }
+  template <Op op>
+  requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
+  void operator()(Is<op>, const At&, Value&) const { expr::fault::no_error_bound(op); }
 };
 
 }  // namespace gainsmith::hybrid::rules

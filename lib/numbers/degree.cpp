@@ -41,7 +41,8 @@ struct DegreeRules {
   requires expr::OneOf<op, Op::constant, Op::zeros, Op::scalar_power, Op::inverse,
                        Op::pseudo_inverse, Op::matrix_exponential, Op::exp, Op::log, Op::sqrt,
                        Op::sin, Op::cos, Op::tanh, Op::abs, Op::sign, Op::minimum, Op::maximum,
-                       Op::norm, Op::range_basis, Op::kernel_basis, Op::singular_values>
+                       Op::norm, Op::range_basis, Op::kernel_basis, Op::singular_values,
+                       Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
   void operator()(Is<op>, const At&, Degree& out) const { out = kNotAffine; }
 };
 

@@ -23,6 +23,8 @@ namespace gainsmith::numbers {
 /// the
 ///   range as the binder found, and of a kernel of the dimension that it found.
 ///
+/// - The projections have no bound and are refused by name.
+///
 /// EvaluationError for what certainly has no value, and for a middle that is not finite. Elements
 /// in units that are powers of two apart have the same digits (expm: balance.h).
 template <class S>

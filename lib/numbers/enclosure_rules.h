@@ -190,6 +190,9 @@ struct EnclosureRules {
     out = exactly<S>(MatrixOf<S>::Identity(at[0].cols(), count));
     if (at[0].mid.size() > 0 && count > 0) out = enclosed::kernel_basis<S>(at[0], count);
   }
+  template <Op op>
+  requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
+  void operator()(Is<op>, const At&, Value&) const { expr::fault::no_error_bound(op); }
 
  private:
   template <class Function>

@@ -36,7 +36,7 @@ Jet variable_jet(double low, double high);
 Jet other_variable_jet(double low, double high);
 
 /// Jet arithmetic (expr/number_type.h) on top of Enclosure<double>. An operation of a value that
-/// does not move has its error bounds, and its faults.
+/// does not move has its error bounds, and its faults; the projections are refused there and here.
 struct JetAlgebra {
   using Value = Jet;
   void apply(const expr::Instruction& instruction, expr::Operands<Jet> operands, Jet& out) const;

@@ -141,7 +141,8 @@ struct Rules {
   }
   template <Op op>
   requires expr::OneOf<op, Op::scalar_power, Op::log, Op::sqrt, Op::norm, Op::pseudo_inverse,
-                       Op::singular_values, Op::range_basis, Op::kernel_basis>
+                       Op::singular_values, Op::range_basis, Op::kernel_basis, Op::project_polytope,
+                       Op::project_ellipsoid, Op::project_affine>
   void operator()(Is<op>, const At&, Value&) const { not_rational(op); }
 
  private:

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "expr/number_type.h"
+#include "numbers/projection.h"
 #include "numbers/real.h"
 #include "numbers/shared_rules.h"
 
@@ -180,8 +181,28 @@ struct RealRules {
     out = Value::Identity(at[0].cols(), count);
     if (at[0].size() > 0) out = Base::full_svd(at[0]).V.rightCols(count);
   }
+  void operator()(Is<Op::project_polytope>, const At& at, Value& out) const {
+    project(at, out, [&] { return project_polytope<Scalar>(at[0], at[1], at[2], at[3]); });
+  }
+  void operator()(Is<Op::project_ellipsoid>, const At& at, Value& out) const {
+    project(at, out, [&] { return project_ellipsoid<Scalar>(at[0], at[1], at[2], at[3], at[4]); });
+  }
+  void operator()(Is<Op::project_affine>, const At& at, Value& out) const {
+    project(at, out, [&] { return project_affine<Scalar>(at[0], at[1], at[2], at[3]); });
+  }
 
  private:
+  template <class Nearest>
+  static void project(const At& at, Value& out, const Nearest& nearest) {
+    for (const Value* operand : at.operands)
+      if (!operand->allFinite()) expr::fault::not_finite(at.instruction.op);
+    try {
+      out = nearest().point;
+    } catch (const NoProjection& why) {
+      expr::fault::without_result(at.instruction.op, why.what());
+    }
+  }
+
   /// Small products, by far the most frequent here, and those of other scalars than double are
   /// faster without the blocking of large ones.
   static void multiply(const Value& a, const Value& b, Value& out) {

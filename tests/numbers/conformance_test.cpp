@@ -8,6 +8,9 @@
 namespace gainsmith::numbers {
 namespace {
 
+const std::vector<expr::Op> kProjections = {expr::Op::project_polytope, expr::Op::project_ellipsoid,
+                                            expr::Op::project_affine};
+
 template <class Scalar>
 Subject real(const std::string& name, double tolerance) {
   using Value = MatrixOf<Scalar>;
@@ -33,7 +36,9 @@ Subject enclosure(const std::string& name, double tolerance) {
     EXPECT_TRUE(value.is_known());
     return value.mid.unaryExpr([](const Scalar& x) { return static_cast<double>(x); });
   };
-  return subject<Enclosure<Scalar>>(name, tolerance, exact, moving, middle);
+  Subject result = subject<Enclosure<Scalar>>(name, tolerance, exact, moving, middle);
+  result.lacks = kProjections;
+  return result;
 }
 
 /// What moves has the slope 1.
@@ -49,7 +54,9 @@ Subject jet() {
     EXPECT_TRUE(value.value().is_known());
     return value.value().mid;
   };
-  return subject<JetAlgebra>("jet", 1e-14, fixed, moving, middle);
+  Subject result = subject<JetAlgebra>("jet", 1e-14, fixed, moving, middle);
+  result.lacks = kProjections;
+  return result;
 }
 
 Subject pack() {
