@@ -101,6 +101,10 @@ std::optional<Shape> result_shape(Op op, std::span<const Shape> operands,
       return when(wanted.cols <= least, {a.rows, wanted.cols});
     case ShapeRule::kernel_basis:
       return when(a.cols - least <= wanted.cols && wanted.cols <= a.cols, {a.cols, wanted.cols});
+    case ShapeRule::complement_basis:
+      return when(a.cols + wanted.cols <= a.rows, {a.rows, wanted.cols});
+    case ShapeRule::jacobian:
+      return when(!operands.empty() && wanted.cols == a.size(), wanted);
   }
   return std::nullopt;
 }

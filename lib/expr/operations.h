@@ -42,7 +42,9 @@ enum class ShapeRule {
   diagonal_of,       ///< M -> r x 1
   singular_values,   ///< A -> min(r, c) x 1
   range_basis,       ///< A -> r x k, k <= min(r, c) given
-  kernel_basis       ///< A -> c x k, c - min(r, c) <= k <= c given
+  kernel_basis,      ///< A -> c x k, c - min(r, c) <= k <= c given
+  complement_basis,  ///< A -> r x k, c + k <= r given
+  jacobian           ///< A, B, ... -> any number of rows x rc
 };
 
 using Attributes = std::array<int, 4>;

@@ -98,25 +98,56 @@ struct JetRules {
       out.derivatives[0].set(0, size);
     }
   }
-  void operator()(Is<Op::scalar_power>, const At& at, Jet& out) const {
-    const Number y = at[1].value().ball(0);
-    const auto known = ball::power(at[0].value().ball(0), y);
-    if (!known) expr::fault::not_finite(Op::scalar_power);
-    if (at[1].order == 0) {
-      const auto or_unknown = [](const Number& x, const Number& exponent) {
-        return ball::power(x, exponent).value_or(jets::kUnknown);
+  void operator()(Is<Op::elementwise_product>, const At& at, Jet& out) const {
+    out = jets::product(at[0], at[1], [](const auto& a, const auto& b) {
+      Enclosed<double> both;
+      map_balls([](const Number& x, const Number& y) { return x * y; }, a, b, both);
+      return both;
+    });
+  }
+  void operator()(Is<Op::elementwise_quotient>, const At& at, Jet& out) const {
+    each(out, {&at[0], &at[1]}, at.shape(), [](const std::vector<Taylor>& x) {
+      const auto& [a, b] = std::pair(x[0], x[1]);
+      if (b.value.is_zero()) expr::fault::division_by_zero();
+      const Number value = a.value / b.value;
+      const Number first = (a.first - value * b.first) / b.value;
+      const Number two{2, 0};
+      return Taylor{value, first, (a.second - two * first * b.first - value * b.second) / b.value};
+    });
+  }
+  void operator()(Is<Op::elementwise_power>, const At& at, Jet& out) const {
+    const int k = at.attribute(0);
+    chain(at[0], out, [&](const Number& x) {
+      const Number value = ball::whole_power(k % 2 == 0 ? ball::abs(x) : x, k);
+      if (k == 0) return Taylor{value, {}, {}};
+      const Number first = Number{static_cast<double>(k), 0} * ball::whole_power(x, k - 1);
+      if (k == 1) return Taylor{value, first, {}};
+      return Taylor{value, first,
+                    Number{static_cast<double>(k), 0} * Number{static_cast<double>(k - 1), 0} *
+                        ball::whole_power(x, k - 2)};
+    });
+  }
+  /// By the chain rule where the exponent stands still, as e^(b log a) where it moves.
+  void operator()(Is<Op::real_power>, const At& at, Jet& out) const {
+    const bool moves = at[1].order > 0;
+    each(out, {&at[0], &at[1]}, at.shape(), [&](const std::vector<Taylor>& x) {
+      const auto& [a, b] = std::pair(x[0], x[1]);
+      const auto known = ball::power(a.value, b.value);
+      if (!known) expr::fault::not_finite(Op::real_power);
+      if (moves) {
+        const Taylor log =
+            log_of(a.value).value_or(Taylor{jets::kUnknown, jets::kUnknown, jets::kUnknown});
+        const Taylor exponent = product(b, composed(log, a));
+        const Taylor power = composed(exp_of(exponent.value), exponent);
+        return Taylor{*known, power.first, power.second};
+      }
+      const auto or_unknown = [&](const Number& exponent) {
+        return ball::power(a.value, exponent).value_or(jets::kUnknown);
       };
-      const Number one{1, 0}, two{2, 0};
-      chain(at[0], out, [&](const Number& x) {
-        return Taylor{*known, y * or_unknown(x, y - one), y * (y - one) * or_unknown(x, y - two)};
-      });
-      return;
-    }
-    Jet logarithm, exponent;
-    chain(at[0], logarithm, [](const Number& x) { return log_of(x).value_or(Taylor{}); });
-    exponent = jets::scaled_jet(at[1], logarithm);
-    chain(exponent, out, [](const Number& x) { return exp_of(x); });
-    out.derivatives[0].set(0, *known);
+      const Number one{1, 0}, two{2, 0}, y = b.value;
+      return composed(Taylor{*known, y * or_unknown(y - one), y * (y - one) * or_unknown(y - two)},
+                      a);
+    });
   }
 
   void operator()(Is<Op::inverse>, const At& at, Jet& out) const {
@@ -193,6 +224,39 @@ struct JetRules {
       return Taylor{sign, jets::kUnknown, jets::kUnknown};
     });
   }
+  void operator()(Is<Op::floor>, const At& at, Jet& out) const {
+    each(out, {&at[0]}, at.shape(), [](const std::vector<Taylor>& x) {
+      const Number value = ball::floor(x[0].value);
+      if (value.is_exact()) return Taylor{value, {}, {}};
+      return Taylor{value, jets::kUnknown, jets::kUnknown};
+    });
+  }
+  /// a - b k: the slope is known where k is.
+  void operator()(Is<Op::mod>, const At& at, Jet& out) const {
+    each(out, {&at[0], &at[1]}, at.shape(), [](const std::vector<Taylor>& x) {
+      const auto& [a, b] = std::pair(x[0], x[1]);
+      if (b.value.is_zero()) expr::fault::division_by_zero();
+      const Number value = ball::mod(a.value, b.value);
+      const Number count = ball::floor((a.value - value) / b.value + Number{0.5, 0});
+      if (!count.is_exact() || !is_at_least(ball::abs(b.value), ball::abs(value)))
+        return Taylor{value, jets::kUnknown, jets::kUnknown};
+      return Taylor{value, a.first - count * b.first, a.second - count * b.second};
+    });
+  }
+  /// a' = (x y' - y x')/s with s = x^2 + y^2; a'' = (x y'' - y x'' - a' s')/s.
+  void operator()(Is<Op::atan2>, const At& at, Jet& out) const {
+    each(out, {&at[0], &at[1]}, at.shape(), [](const std::vector<Taylor>& operands) {
+      const auto& [y, x] = std::pair(operands[0], operands[1]);
+      const Number value = ball::atan2(y.value, x.value);
+      if (!(value.rad < 1)) return Taylor{value, jets::kUnknown, jets::kUnknown};
+      const Number s =
+          ball::whole_power(ball::abs(x.value), 2) + ball::whole_power(ball::abs(y.value), 2);
+      const Number half = x.value * x.first + y.value * y.first;
+      const Number first = (x.value * y.first - y.value * x.first) / s;
+      const Number turned = x.value * y.second - y.value * x.second;
+      return Taylor{value, first, (turned - Number{2, 0} * first * half) / s};
+    });
+  }
   template <Op op>
   requires expr::OneOf<op, Op::minimum, Op::maximum>
   void operator()(Is<op>, const At& at, Jet& out) const {
@@ -240,7 +304,7 @@ struct JetRules {
     lipschitz(enclosed::norm_upward(magnitudes<double>(at[0].derivative(1))), out);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis>
+  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::complement_basis, Op::jacobian>
   void operator()(Is<op>, const At& at, Jet& out) const {
     coefficient(at, 0, out);
     if (at[0].order > 0) lipschitz(kNothingKnown, out);
@@ -302,13 +366,17 @@ struct JetRules {
   /// f(x): f' x', f'' x'^2 + f' x''.
   template <class Function>
   static void chain(const Jet& x, Jet& out, const Function& function) {
-    each(
-        out, {&x}, {static_cast<int>(x.value().rows()), static_cast<int>(x.value().cols())},
-        [&](const std::vector<Taylor>& at) {
-          const Taylor f = function(at[0].value);
-          const Number square = at[0].first * at[0].first;
-          return Taylor{f.value, f.first * at[0].first, f.second * square + f.first * at[0].second};
-        });
+    each(out, {&x}, {static_cast<int>(x.value().rows()), static_cast<int>(x.value().cols())},
+         [&](const std::vector<Taylor>& at) { return composed(function(at[0].value), at[0]); });
+  }
+  static Taylor composed(const Taylor& f, const Taylor& x) {
+    const Number square = x.first * x.first;
+    return {f.value, f.first * x.first, f.second * square + f.first * x.second};
+  }
+  static Taylor product(const Taylor& a, const Taylor& b) {
+    const Number two{2, 0};
+    return {a.value * b.value, a.first * b.value + a.value * b.first,
+            a.second * b.value + two * a.first * b.first + a.value * b.second};
   }
 
   static Taylor exp_of(const Number& x) {

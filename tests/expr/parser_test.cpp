@@ -44,6 +44,12 @@ std::string tree(const Node& node) {
       return list("/");
     case NodeKind::power:
       return list("^");
+    case NodeKind::elementwise_multiply:
+      return list(".*");
+    case NodeKind::elementwise_divide:
+      return list("./");
+    case NodeKind::elementwise_power:
+      return list(".^");
     case NodeKind::block:
       return list("block" + std::to_string(node.columns));
     case NodeKind::mirror:
