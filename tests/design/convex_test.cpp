@@ -51,6 +51,13 @@ TEST(ConvexFunctions, SumsAndLargestOfModuli) {
   const model::Gains middle = solve(
       head + "  minimize: \"max(x - v(1), x - v(4), v(3) - x, v(5) - x) - min(x, 5)/2\"\n", data);
   EXPECT_NEAR(*middle.objective, 5.5 - 0.75, 1e-6) << "at 1.5";
+  // One vector has one largest element, also where an unknown bounds it.
+  for (const char* text :
+       {"max([x - v; v - x])", "-min([x - v; v - x])/2 + max([x - v; v - x])/2"}) {
+    const model::Gains alike = solve(head + "  minimize: \"" + text + "\"\n", data);
+    EXPECT_NEAR(*alike.objective, 5.5, 1e-6) << text;
+    EXPECT_NEAR((*alike.find("x"))(0, 0), 1.5, 1e-5) << text;
+  }
 }
 
 /// What stands in a sum over an index is bounded term by term.

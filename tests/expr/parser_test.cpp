@@ -79,6 +79,11 @@ TEST(Parser, BindsAsMatlabDoes) {
   EXPECT_EQ(tree("2^-1*3"), "(* (^ 2 (neg 1)) 3)");
   EXPECT_EQ(tree("2^3^4"), "(^ (^ 2 3) 4)");
   EXPECT_EQ(tree("-a*b"), "(* (neg a) b)");
+  EXPECT_EQ(tree("a.*b*c./d"), "(./ (* (.* a b) c) d)");
+  EXPECT_EQ(tree("a + 2.*b"), "(+ a (.* 2 b))");
+  EXPECT_EQ(tree("-x.^2.*y"), "(.* (neg (.^ x 2)) y)");
+  EXPECT_EQ(tree("x.^-2'"), "(' (.^ x (neg 2)))");
+  EXPECT_EQ(tree("x.^2^3"), "(^ (.^ x 2) 3)");
   EXPECT_EQ(tree("a*-b"), "(* a (neg b))");
   EXPECT_EQ(tree("a - -b"), "(- a (neg b))");
   EXPECT_EQ(tree("+a"), "a");
