@@ -34,6 +34,8 @@
 //     EvaluationError too, and the type lists it. In a pack a point without a result is not a
 //     number and the other points go on.
 //  5. Empty matrices are values like others.
+//  6. The operands of Op::jacobian are the inputs of its body, which the type differentiates by the
+//     first of them; Dual (numbers/dual.h) does so over the reals.
 #pragma once
 
 #include <concepts>

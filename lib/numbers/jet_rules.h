@@ -11,6 +11,7 @@
 #include "numbers/enclosure.h"
 #include "numbers/foundation.h"
 #include "numbers/jet.h"
+#include "numbers/jet_elements.h"
 
 namespace gainsmith::numbers {
 
@@ -27,14 +28,6 @@ Jet transposed_jet(const Jet& x);
 Jet inverse(const Jet& x, Enclosed<double> value);
 Jet exponential_of(const Jet::Ray& ray);
 Jet exponential(const Jet& x);
-
-using Number = Ball<double>;
-
-/// Value and derivatives of a function of one number over a ball.
-struct Taylor {
-  Number value, first, second;
-};
-constexpr Number kUnknown{0, kNothingKnown};
 
 }  // namespace jets
 
@@ -106,48 +99,16 @@ struct JetRules {
     });
   }
   void operator()(Is<Op::elementwise_quotient>, const At& at, Jet& out) const {
-    each(out, {&at[0], &at[1]}, at.shape(), [](const std::vector<Taylor>& x) {
-      const auto& [a, b] = std::pair(x[0], x[1]);
-      if (b.value.is_zero()) expr::fault::division_by_zero();
-      const Number value = a.value / b.value;
-      const Number first = (a.first - value * b.first) / b.value;
-      const Number two{2, 0};
-      return Taylor{value, first, (a.second - two * first * b.first - value * b.second) / b.value};
-    });
+    each(out, {&at[0], &at[1]}, at.shape(),
+         [](const std::vector<Taylor>& x) { return jets::quotient(x[0], x[1]); });
   }
   void operator()(Is<Op::elementwise_power>, const At& at, Jet& out) const {
-    const int k = at.attribute(0);
-    chain(at[0], out, [&](const Number& x) {
-      const Number value = ball::whole_power(k % 2 == 0 ? ball::abs(x) : x, k);
-      if (k == 0) return Taylor{value, {}, {}};
-      const Number first = Number{static_cast<double>(k), 0} * ball::whole_power(x, k - 1);
-      if (k == 1) return Taylor{value, first, {}};
-      return Taylor{value, first,
-                    Number{static_cast<double>(k), 0} * Number{static_cast<double>(k - 1), 0} *
-                        ball::whole_power(x, k - 2)};
-    });
+    chain(at[0], out, [&](const Number& x) { return jets::whole_power(x, at.attribute(0)); });
   }
-  /// By the chain rule where the exponent stands still, as e^(b log a) where it moves.
   void operator()(Is<Op::real_power>, const At& at, Jet& out) const {
     const bool moves = at[1].order > 0;
-    each(out, {&at[0], &at[1]}, at.shape(), [&](const std::vector<Taylor>& x) {
-      const auto& [a, b] = std::pair(x[0], x[1]);
-      const auto known = ball::power(a.value, b.value);
-      if (!known) expr::fault::not_finite(Op::real_power);
-      if (moves) {
-        const Taylor log =
-            log_of(a.value).value_or(Taylor{jets::kUnknown, jets::kUnknown, jets::kUnknown});
-        const Taylor exponent = product(b, composed(log, a));
-        const Taylor power = composed(exp_of(exponent.value), exponent);
-        return Taylor{*known, power.first, power.second};
-      }
-      const auto or_unknown = [&](const Number& exponent) {
-        return ball::power(a.value, exponent).value_or(jets::kUnknown);
-      };
-      const Number one{1, 0}, two{2, 0}, y = b.value;
-      return composed(Taylor{*known, y * or_unknown(y - one), y * (y - one) * or_unknown(y - two)},
-                      a);
-    });
+    each(out, {&at[0], &at[1]}, at.shape(),
+         [&](const std::vector<Taylor>& x) { return jets::real_power(x[0], x[1], moves); });
   }
 
   void operator()(Is<Op::inverse>, const At& at, Jet& out) const {
@@ -176,10 +137,10 @@ struct JetRules {
     }
   }
 
-  void operator()(Is<Op::exp>, const At& at, Jet& out) const { chain(at[0], out, exp_of); }
+  void operator()(Is<Op::exp>, const At& at, Jet& out) const { chain(at[0], out, jets::exp_of); }
   void operator()(Is<Op::log>, const At& at, Jet& out) const {
     chain(at[0], out, [&](const Number& x) {
-      const auto found = log_of(x);
+      const auto found = jets::log_of(x);
       if (!found) expr::fault::outside_domain(Op::log, x.mid);
       return *found;
     });
@@ -225,37 +186,15 @@ struct JetRules {
     });
   }
   void operator()(Is<Op::floor>, const At& at, Jet& out) const {
-    each(out, {&at[0]}, at.shape(), [](const std::vector<Taylor>& x) {
-      const Number value = ball::floor(x[0].value);
-      if (value.is_exact()) return Taylor{value, {}, {}};
-      return Taylor{value, jets::kUnknown, jets::kUnknown};
-    });
+    chain(at[0], out, jets::floor_of);
   }
-  /// a - b k: the slope is known where k is.
   void operator()(Is<Op::mod>, const At& at, Jet& out) const {
-    each(out, {&at[0], &at[1]}, at.shape(), [](const std::vector<Taylor>& x) {
-      const auto& [a, b] = std::pair(x[0], x[1]);
-      if (b.value.is_zero()) expr::fault::division_by_zero();
-      const Number value = ball::mod(a.value, b.value);
-      const Number count = ball::floor((a.value - value) / b.value + Number{0.5, 0});
-      if (!count.is_exact() || !is_at_least(ball::abs(b.value), ball::abs(value)))
-        return Taylor{value, jets::kUnknown, jets::kUnknown};
-      return Taylor{value, a.first - count * b.first, a.second - count * b.second};
-    });
+    each(out, {&at[0], &at[1]}, at.shape(),
+         [](const std::vector<Taylor>& x) { return jets::rest_of(x[0], x[1]); });
   }
-  /// a' = (x y' - y x')/s with s = x^2 + y^2; a'' = (x y'' - y x'' - a' s')/s.
   void operator()(Is<Op::atan2>, const At& at, Jet& out) const {
-    each(out, {&at[0], &at[1]}, at.shape(), [](const std::vector<Taylor>& operands) {
-      const auto& [y, x] = std::pair(operands[0], operands[1]);
-      const Number value = ball::atan2(y.value, x.value);
-      if (!(value.rad < 1)) return Taylor{value, jets::kUnknown, jets::kUnknown};
-      const Number s =
-          ball::whole_power(ball::abs(x.value), 2) + ball::whole_power(ball::abs(y.value), 2);
-      const Number half = x.value * x.first + y.value * y.first;
-      const Number first = (x.value * y.first - y.value * x.first) / s;
-      const Number turned = x.value * y.second - y.value * x.second;
-      return Taylor{value, first, (turned - Number{2, 0} * first * half) / s};
-    });
+    each(out, {&at[0], &at[1]}, at.shape(),
+         [](const std::vector<Taylor>& x) { return jets::angle_of(x[0], x[1]); });
   }
   template <Op op>
   requires expr::OneOf<op, Op::minimum, Op::maximum>
@@ -363,33 +302,13 @@ struct JetRules {
     return result;
   }
 
-  /// f(x): f' x', f'' x'^2 + f' x''.
   template <class Function>
   static void chain(const Jet& x, Jet& out, const Function& function) {
     each(out, {&x}, {static_cast<int>(x.value().rows()), static_cast<int>(x.value().cols())},
-         [&](const std::vector<Taylor>& at) { return composed(function(at[0].value), at[0]); });
+         [&](const std::vector<Taylor>& at) {
+           return jets::composed(function(at[0].value), at[0]);
+         });
   }
-  static Taylor composed(const Taylor& f, const Taylor& x) {
-    const Number square = x.first * x.first;
-    return {f.value, f.first * x.first, f.second * square + f.first * x.second};
-  }
-  static Taylor product(const Taylor& a, const Taylor& b) {
-    const Number two{2, 0};
-    return {a.value * b.value, a.first * b.value + a.value * b.first,
-            a.second * b.value + two * a.first * b.first + a.value * b.second};
-  }
-
-  static Taylor exp_of(const Number& x) {
-    const Number value = ball::exp(x);
-    return {value, value, value};
-  }
-  static std::optional<Taylor> log_of(const Number& x) {
-    const auto value = ball::log(x);
-    if (!value) return std::nullopt;
-    const Number first = Number{1, 0} / x;
-    return Taylor{*value, first, -(first * first)};
-  }
-
   static Jet reciprocal(const Jet& x) {
     Jet out;
     chain(x, out, [](const Number& at) {
