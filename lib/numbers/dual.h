@@ -24,6 +24,8 @@ struct Dual {
   MatrixOf<Scalar> slope;  ///< elements column by column; without columns: it does not move
   std::optional<expr::Op> without;
 
+  Eigen::Index rows() const { return value.rows(); }
+  Eigen::Index cols() const { return value.cols(); }
   bool moves() const { return slope.cols() > 0; }
 };
 

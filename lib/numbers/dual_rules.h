@@ -11,40 +11,9 @@
 #include "numbers/dual.h"
 #include "numbers/householder.h"
 #include "numbers/real_rules.h"
+#include "numbers/tangent.h"
 
 namespace gainsmith::numbers {
-
-/// A number with its slope in one direction.
-template <class S>
-struct Tangent {
-  S value{0};
-  S slope{0};
-
-  friend Tangent operator+(const Tangent& a, const Tangent& b) {
-    return {S(a.value + b.value), S(a.slope + b.slope)};
-  }
-  friend Tangent operator-(const Tangent& a, const Tangent& b) {
-    return {S(a.value - b.value), S(a.slope - b.slope)};
-  }
-  friend Tangent operator*(const Tangent& a, const Tangent& b) {
-    return {S(a.value * b.value), S(a.slope * b.value + a.value * b.slope)};
-  }
-  friend Tangent operator/(const Tangent& a, const Tangent& b) {
-    const S quotient = a.value / b.value;
-    return {quotient, S((a.slope - quotient * b.slope) / b.value)};
-  }
-};
-
-template <class S>
-struct TangentNumbers {
-  static Tangent<S> root(const Tangent<S>& x) {
-    using std::sqrt;
-    const S root = sqrt(x.value);
-    return {root, S(x.slope / (S(2) * root))};
-  }
-  static bool is_zero(const Tangent<S>& x) { return x.value == S(0) && x.slope == S(0); }
-  static std::optional<bool> is_negative(const Tangent<S>& x) { return x.value < S(0); }
-};
 
 /// At least one operand moves; `out` has its value, and a slope of the right shape, all zero.
 template <class Scalar>
@@ -57,17 +26,38 @@ struct DualRules {
   template <Op op>
   using Is = expr::Is<op>;
 
-  /// Linear in all operands together.
   template <Op op>
-  requires expr::OneOf<op, Op::fill, Op::identity, Op::add, Op::subtract, Op::negate, Op::transpose,
-                       Op::blocks, Op::index, Op::trace, Op::diagonal_matrix, Op::diagonal_of>
+  requires expr::OneOf<op, Op::add, Op::subtract>
   void operator()(Is<op>, const At& at, Value& out) const {
-    std::vector<M> slopes(at.operands.size());
-    std::vector<const M*> operands;
-    for (const M& slope : slopes) operands.push_back(&slope);
-    M result;
+    if (at[0].moves()) out.slope = at[0].slope;
+    if (!at[1].moves()) return;
+    if (op == Op::add) {
+      out.slope += at[1].slope;
+    } else {
+      out.slope -= at[1].slope;
+    }
+  }
+  void operator()(Is<Op::negate>, const At& at, Value& out) const { out.slope = -at[0].slope; }
+  void operator()(Is<Op::blocks>, const At& at, Value& out) const {
+    for_each_block(at, [&](Eigen::Index row, Eigen::Index column, const Value& part) {
+      place(part, out, row, column);
+    });
+  }
+  void operator()(Is<Op::index>, const At& at, Value& out) const {
+    const Eigen::Index rows = out.value.rows(), height = at[0].value.rows();
+    for (Eigen::Index j = 0; j < out.value.cols(); ++j)
+      out.slope.middleRows(j * rows, rows) =
+          at[0].slope.middleRows((at.attribute(2) + j) * height + at.attribute(0), rows);
+  }
+  /// Linear as well, direction by direction.
+  template <Op op>
+  requires expr::OneOf<op, Op::fill, Op::identity, Op::transpose, Op::trace, Op::diagonal_matrix,
+                       Op::diagonal_of>
+  void operator()(Is<op>, const At& at, Value& out) const {
+    M slope, result;
+    const M* operands[] = {&slope};
     each_direction(out, [&](Eigen::Index d) {
-      for (std::size_t i = 0; i < slopes.size(); ++i) slopes[i] = direction(at[i], d);
+      slope = direction(at[0], d);
       expr::dispatch(RealRules<Scalar>{}, at.instruction, expr::Operands<M>(operands), result);
       return result;
     });
@@ -77,17 +67,20 @@ struct DualRules {
   void operator()(Is<op>, const At&, Value&) const {}
 
   void operator()(Is<Op::multiply>, const At& at, Value& out) const {
+    if (at[0].value.size() == 1 && at[1].value.size() == 1) {
+      along(at[0], out, at[1].value);
+      return along(at[1], out, at[0].value);
+    }
     each_direction(out, [&](Eigen::Index d) { return product_slope(at[0], at[1], d); });
   }
   void operator()(Is<Op::scale>, const At& at, Value& out) const {
-    each_direction(out, [&](Eigen::Index d) -> M {
-      return direction(at[0], d)(0) * at[1].value + at[0].value(0) * direction(at[1], d);
-    });
+    if (at[1].moves()) out.slope = at[0].value(0) * at[1].slope;
+    if (at[0].moves()) out.slope += times<Scalar>(M(at[1].value.reshaped()), at[0].slope);
   }
   void operator()(Is<Op::divide>, const At& at, Value& out) const {
-    each_direction(out, [&](Eigen::Index d) -> M {
-      return (direction(at[0], d) - out.value * direction(at[1], d)(0)) / at[1].value(0);
-    });
+    if (at[0].moves()) out.slope = at[0].slope;
+    if (at[1].moves()) out.slope -= times<Scalar>(M(out.value.reshaped()), at[1].slope);
+    out.slope /= at[1].value(0);
   }
   void operator()(Is<Op::elementwise_product>, const At& at, Value& out) const {
     along(at[0], out, at[1].value);
@@ -287,6 +280,14 @@ struct DualRules {
   static M direction(const Value& x, Eigen::Index d) {
     if (!x.moves()) return M::Zero(x.value.rows(), x.value.cols());
     return x.slope.col(d).reshaped(x.value.rows(), x.value.cols());
+  }
+  /// The slope of a block whose first element stands at (row, column).
+  static void place(const Value& x, Value& out, Eigen::Index row, Eigen::Index column) {
+    if (!x.moves()) return;
+    const Eigen::Index rows = x.value.rows();
+    for (Eigen::Index j = 0; j < x.value.cols(); ++j)
+      out.slope.middleRows((column + j) * out.value.rows() + row, rows) =
+          x.slope.middleRows(j * rows, rows);
   }
   template <class Slope>
   static void each_direction(Value& out, const Slope& slope) {

@@ -323,6 +323,9 @@ TEST_P(Conformance, FaultsAreTheSameAtTheSamePlace) {
            {"log(zero)", 1, "log of 0"},
            {"2*sqrt(-delta)", 3, "sqrt of -0.1"},
            {"(-delta)^0.5", 1, "the power is not a finite number"},
+           {"2*[-1; 2].^0.5", 3, "the power is not a finite number"},
+           {"zero./[1; 0]", 1, "division by zero"},
+           {"1 + mod(delta, zero)", 5, "division by zero"},
            {"2*exp(exp(exp(4)))", 3, "the exp is not a finite number"},
            {"1 + 1e400", 5, "the number 1e400 is beyond the range of double"},
            {"backward_gramian(A, A, S, A, [1, 1])", 1,
@@ -351,6 +354,9 @@ TEST_P(Conformance, EmptyMatricesAreValues) {
                                          {"orth(zeros(2, 0))", "zeros(2, 0)"},
                                          {"null(zeros(0, 2))", "eye(2)"},
                                          {"diag(zeros(0, 1))", "zeros(0)"},
+                                         {"zeros(0, 2).*zeros(0, 2)", "zeros(0, 2)"},
+                                         {"2./zeros(2, 0).^2", "zeros(2, 0)"},
+                                         {"complement(zeros(2, 0), 2)", "eye(2)"},
                                          {"max(zeros(0, 2), 1)", "log(zeros(0, 2))"}}) {
     const Matrix found = GetParam().evaluate(compile(residual(text, value), {}), {}, {});
     EXPECT_EQ(largest(found), 0) << text;
