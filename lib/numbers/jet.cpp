@@ -171,6 +171,7 @@ Enclosed<double> enclosed_jacobian(const expr::Instruction& instruction,
   Enclosed<double> result =
       exactly<double>(Matrix::Zero(instruction.shape.rows, instruction.shape.cols));
   std::vector<Jet> inputs;
+  inputs.reserve(operands.size());
   for (const Enclosed<double>& operand : operands) inputs.push_back(constant_jet(operand));
   inputs.front().order = 1;
   expr::Evaluator<JetAlgebra> evaluator(*instruction.body);

@@ -60,6 +60,24 @@ TEST(ConvexFunctions, SumsAndLargestOfModuli) {
   }
 }
 
+/// The derivative of a text at a datum is data, enclosed like the rest; elements of unknowns are
+/// affine in them.
+TEST(ConvexFunctions, DerivativesAndElementsInRequirements) {
+  const model::Gains gains = solve(
+      "  data: {x0: 2}\n  unknowns: {P: symmetric 2, g: scalar}\n"
+      "  let: {f(x): \"[x(2); -9.81*sin(x(1)) - 0.1*x(2)]\"}\n"
+      "  require: {flow: \"He(P*jacobian(f(x0), x0)) < -eye(2)\", floor: P > 0.1*I, "
+      "weighted: \"[1, 2; 2, 1].*P < g*I\"}\n  minimize: g\n  gains: {K: P}\n",
+      "data: {x0: [0.1, 0]}\n");
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  const Matrix A{{0, 1}, {-9.81 * std::cos(0.1), -0.1}};
+  const Matrix& P = *gains.find("K");
+  EXPECT_LT(numbers::symmetric_eigenvalues(P * A + A.transpose() * P + Matrix::Identity(2, 2))(1),
+            0);
+  const Matrix weighted = Matrix{{1, 2}, {2, 1}}.cwiseProduct(P);
+  EXPECT_NEAR(*gains.objective, numbers::symmetric_eigenvalues(weighted)(1), 1e-5);
+}
+
 /// What stands in a sum over an index is bounded term by term.
 TEST(ConvexFunctions, SumsOverIndices) {
   const model::Gains gains = solve(
