@@ -31,5 +31,8 @@ DoubleDouble tanh(const DoubleDouble& a) { return narrow(tanh(wide(a))); }
 DoubleDouble pow(const DoubleDouble& a, const DoubleDouble& b) {
   return narrow(pow(wide(a), wide(b)));
 }
+DoubleDouble atan2(const DoubleDouble& y, const DoubleDouble& x) {
+  return narrow(atan2(wide(y), wide(x)));
+}
 
 }  // namespace gainsmith

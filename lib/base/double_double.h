@@ -90,6 +90,7 @@ class DoubleDouble {
   friend DoubleDouble cos(const DoubleDouble& a);
   friend DoubleDouble tanh(const DoubleDouble& a);
   friend DoubleDouble pow(const DoubleDouble& a, const DoubleDouble& b);
+  friend DoubleDouble atan2(const DoubleDouble& y, const DoubleDouble& x);
 
  private:
   static DoubleDouble two_sum(double a, double b) {

@@ -1,5 +1,6 @@
 #include "expr/assembly.h"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -30,11 +31,27 @@ int Assembly::add(Instruction instruction) {
       instruction.shape)
     throw std::logic_error("a " + to_string(instruction.op) + " of a wrong shape, " +
                            to_string(instruction.shape));
-  const Key key{instruction.op,         instruction.operands,   instruction.shape.rows,
-                instruction.shape.cols, instruction.attributes, instruction.text};
+  const Key key{instruction.op,
+                instruction.operands,
+                instruction.shape.rows,
+                instruction.shape.cols,
+                instruction.attributes,
+                instruction.text,
+                number_of(instruction.body)};
   const auto [found, fresh] = known_.emplace(key, static_cast<int>(program_.code.size()));
   if (fresh) program_.code.push_back(std::move(instruction));
   return found->second;
+}
+
+int Assembly::number_of(const std::shared_ptr<const Program>& body) {
+  if (!body) return -1;
+  const auto found = std::ranges::find_if(
+      bodies_, [&](const auto& known) { return known == body || is_same(*known, *body); });
+  if (found == bodies_.end()) {
+    bodies_.push_back(body);
+    return static_cast<int>(bodies_.size()) - 1;
+  }
+  return static_cast<int>(found - bodies_.begin());
 }
 
 int Assembly::add_input(const std::string& name, Shape shape, const Instruction& like) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -25,14 +26,19 @@ class Assembly {
     return program_.code[static_cast<std::size_t>(at)];
   }
   Shape shape(int at) const { return (*this)[at].shape; }
+  int size() const { return static_cast<int>(program_.code.size()); }
 
   /// The program that computes `at`, without the instructions that it does not need.
   Program extract(int at) const;
 
  private:
-  using Key = std::tuple<Op, std::vector<int>, int, int, Attributes, std::string>;
+  using Key = std::tuple<Op, std::vector<int>, int, int, Attributes, std::string, int>;
+
+  /// Which of the bodies it is; equal ones are the same. -1: none.
+  int number_of(const std::shared_ptr<const Program>& body);
 
   Program program_;
+  std::vector<std::shared_ptr<const Program>> bodies_;
   std::map<Key, int> known_;
 };
 

@@ -24,6 +24,9 @@ enum class NodeKind {
   multiply,
   divide,
   power,
+  elementwise_multiply,
+  elementwise_divide,
+  elementwise_power,
   block,   ///< children row by row, `columns` in each row
   mirror,  ///< "*" inside a block: the transpose of the mirrored entry
   each,    ///< "i in a..b" in a sum: text = the index, children = {from, to}

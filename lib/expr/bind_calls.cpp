@@ -115,6 +115,11 @@ Bound Binder::bind_operation(const Expression& expression, const Node& node,
       return {emit(expression, node, op, {value.at}, {}), true};
     operands.push_back(sized(expression, *child, value));
   }
+  if (operands.size() == 2 && operation(op).rule == ShapeRule::elementwise) {
+    const Shape common = shape(operands[shape(operands[0]).is_scalar() ? 1 : 0]);
+    for (std::size_t i = 0; i < 2; ++i)
+      operands[i] = same_shape(expression, *node.children[i], {operands[i]}, common);
+  }
   const auto result = shape_of(op, operands);
   if (result) return {emit(expression, node, op, operands, *result)};
   const Node& first = *node.children[0];
@@ -152,6 +157,14 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return basis(expression, node, Op::range_basis);
     case Composed::null:
       return basis(expression, node, Op::kernel_basis);
+    case Composed::complement:
+      return complement(expression, node);
+    case Composed::skew:
+      return skew(expression, node);
+    case Composed::sat:
+      return saturated(expression, node);
+    case Composed::jacobian:
+      return jacobian(expression, node);
     case Composed::lambda_max:
     case Composed::lambda_min:
       return extreme_eigenvalue(expression, node, function == Composed::lambda_max);
@@ -181,6 +194,7 @@ int Binder::same_shape(const Expression& expression, const Node& node, Bound val
 }
 
 Bound Binder::fold_minmax(const Expression& expression, const Node& node, Op op) {
+  if (node.children.size() == 1) return extreme_element(expression, node, op);
   std::vector<Bound> values;
   Shape common;
   for (const NodePtr& child : node.children) {
@@ -293,7 +307,9 @@ Program Binder::known_program(const Expression& expression, const Node& node, in
              "', whose value is not known beforehand");
   };
   for (const Input& input : program.inputs)
-    if (!scope_.known || !scope_.symbols.at(input.name).known) refuse(input.name);
+    if (const auto symbol = scope_.symbols.find(input.name);
+        !scope_.known || symbol == scope_.symbols.end() || !symbol->second.known)
+      refuse(input.name);
   for (const Input& function : program.functions) refuse(function.name);
   return program;
 }
@@ -316,6 +332,19 @@ Bound Binder::basis(const Expression& expression, const Node& node, Op op) {
   const Shape result =
       op == Op::range_basis ? Shape{from.rows, rank} : Shape{from.cols, from.cols - rank};
   return {emit(expression, node, op, {at}, result)};
+}
+
+Bound Binder::complement(const Expression& expression, const Node& node) {
+  const Node& argument = *node.children[0];
+  const int at = sized(expression, argument, bind(expression, argument));
+  const int count = required_whole_number(expression, *node.children[1], "the number of columns");
+  const Shape from = shape(at);
+  if (count < 0 || from.cols + count > from.rows)
+    fail(expression, node,
+         "complement: of " + describe(expression, argument, {at}) + " there are " +
+             std::to_string(std::max(0, from.rows - from.cols)) + " columns, not " +
+             std::to_string(count));
+  return {emit(expression, node, Op::complement_basis, {at}, {from.rows, count})};
 }
 
 /// With c = |M|: the singular values of M + cI, c I - M are eigenvalues, the largest of them the

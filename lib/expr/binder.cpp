@@ -34,12 +34,13 @@ std::string Binder::describe(const Expression& expression, const Node& node, Bou
 }
 
 int Binder::emit(const Expression& expression, const Node& node, Op op, std::vector<int> operands,
-                 Shape shape, Attributes attributes, std::string text) {
+                 Shape shape, Attributes attributes, std::string text,
+                 std::shared_ptr<const Program> body) {
   constexpr std::int64_t kMostElements = 10'000'000;
   if (std::int64_t{shape.rows} * shape.cols > kMostElements)
     fail(expression, node, "the " + to_string(op) + " is too large: " + to_string(shape));
-  return assembly_.add(
-      {op, std::move(operands), shape, attributes, std::move(text), expression.text, node.begin});
+  return assembly_.add({op, std::move(operands), shape, attributes, std::move(text),
+                        expression.text, node.begin, std::move(body)});
 }
 
 int Binder::number(const Expression& expression, const Node& node, const std::string& text) {
@@ -102,6 +103,11 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
     }
     case NodeKind::power:
       return power(expression, node);
+    case NodeKind::elementwise_multiply:
+    case NodeKind::elementwise_divide:
+      return elementwise(expression, node);
+    case NodeKind::elementwise_power:
+      return elementwise_power(expression, node);
     case NodeKind::block:
       return bind_block(expression, node);
     case NodeKind::range:
@@ -227,6 +233,14 @@ Bound Binder::add(const Expression& expression, const Node& node, Op op, Bound a
     const int second = materialise(expression, right, b, shape(a.at));
     return {emit(expression, node, op, {a.at, second}, shape(a.at))};
   }
+  const auto is_column = [&](Bound value) {
+    return !value.identity && shape(value.at).cols == 1 && shape(value.at).rows > 1;
+  };
+  const auto is_number = [&](Bound value) {
+    return !value.identity && shape(value.at).is_scalar();
+  };
+  if (is_number(a) && is_column(b)) a = {emit(expression, left, Op::fill, {a.at}, shape(b.at))};
+  if (is_number(b) && is_column(a)) b = {emit(expression, right, Op::fill, {b.at}, shape(a.at))};
   if (shape(a.at) != shape(b.at)) {
     const bool scalar = shape(a.at).is_scalar() || shape(b.at).is_scalar();
     const auto is_vector = [&](Bound value) {
@@ -264,7 +278,8 @@ Bound Binder::multiply(const Expression& expression, const Node& node, Bound a, 
     fail(expression, node,
          "cannot multiply " + describe(expression, *node.children[0], a) + " by " +
              describe(expression, *node.children[1], b) + ": " + std::to_string(left.cols) +
-             " columns meet " + std::to_string(right.rows) + " rows");
+             " columns meet " + std::to_string(right.rows) + " rows" +
+             (left == right ? "; element by element it is .*" : ""));
   return {emit(expression, node, Op::multiply, {a.at, b.at}, {left.rows, right.cols})};
 }
 
@@ -273,7 +288,9 @@ Bound Binder::divide(const Expression& expression, const Node& node, Bound a, Bo
   if (!b.identity && !shape(b.at).is_scalar())
     fail(expression, node,
          "cannot divide by " + describe(expression, right, b) +
-             ": only by a number; write inv(...)*");
+             ": only by a number; write inv(...)*" +
+             (shape(a.at) == shape(b.at) || shape(a.at).is_scalar() ? ", or ./ for each element"
+                                                                    : ""));
   const int divisor = sized(expression, right, b);
   return {emit(expression, node, Op::divide, {a.at, divisor}, shape(a.at)), a.identity};
 }
@@ -290,7 +307,8 @@ Bound Binder::power(const Expression& expression, const Node& node) {
   const Shape base_shape = shape(base.at);
   if (!base_shape.is_square())
     fail(expression, node,
-         "cannot take a power of " + describe(expression, base_node, base) + ": it is not square");
+         "cannot take a power of " + describe(expression, base_node, base) +
+             ": it is not square; element by element it is .^");
   if (const auto exponent = whole_number(expression, exponent_node)) {
     int value = base.at;
     if (*exponent < 0) value = emit(expression, node, Op::inverse, {value}, base_shape);
@@ -299,8 +317,10 @@ Bound Binder::power(const Expression& expression, const Node& node) {
   }
   const Bound exponent = bind(expression, exponent_node);
   if (!base_shape.is_scalar() || !shape(exponent.at).is_scalar())
-    fail(expression, node, "a matrix takes only whole powers; for exp(A*t) write expm(A*t)");
-  return {emit(expression, node, Op::scalar_power,
+    fail(expression, node,
+         "a matrix takes only whole powers; for exp(A*t) write expm(A*t), for powers of the "
+         "elements .^");
+  return {emit(expression, node, Op::real_power,
                {base.at, sized(expression, exponent_node, exponent)}, {}),
           base.identity};
 }

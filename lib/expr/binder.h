@@ -2,8 +2,10 @@
 #pragma once
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "expr/assembly.h"
@@ -57,6 +59,21 @@ class Binder {
   Bound divide(const Expression& expression, const Node& node, Bound a, Bound b);
   Bound power(const Expression& expression, const Node& node);
   Bound transpose(const Expression& expression, const Node& node, Bound a);
+
+  // bind_elements.cpp: element by element.
+  Bound elementwise(const Expression& expression, const Node& node);
+  Bound elementwise_power(const Expression& expression, const Node& node);
+  /// Both sides in one shape: a number as a matrix of it.
+  std::pair<int, int> fitted(const Expression& expression, const Node& node, Bound a, Bound b);
+  Bound extreme_element(const Expression& expression, const Node& node, Op op);
+  Bound skew(const Expression& expression, const Node& node);
+  Bound saturated(const Expression& expression, const Node& node);
+
+  // bind_jacobian.cpp
+  Bound jacobian(const Expression& expression, const Node& node);
+  Bound derivative_by(const Expression& expression, const Node& node, int value, int variable,
+                      int point);
+
   bool is_zero(Bound value) const;
   [[noreturn]] void unknown_name(const Expression& expression, const Node& node) const;
 
@@ -101,6 +118,7 @@ class Binder {
   Bound diagonal(const Expression& expression, const Node& node);
   Bound block_diagonal(const Expression& expression, const Node& node);
   Bound basis(const Expression& expression, const Node& node, Op op);
+  Bound complement(const Expression& expression, const Node& node);
   Bound extreme_eigenvalue(const Expression& expression, const Node& node, bool largest);
   Bound observability(const Expression& expression, const Node& node);
   Bound chebyshev(const Expression& expression, const Node& node);
@@ -118,7 +136,8 @@ class Binder {
                         std::string_view why);
 
   int emit(const Expression& expression, const Node& node, Op op, std::vector<int> operands,
-           Shape shape, Attributes attributes = {}, std::string text = "");
+           Shape shape, Attributes attributes = {}, std::string text = "",
+           std::shared_ptr<const Program> body = nullptr);
   /// The shape that the operation's rule gives, none when the operands do not fit.
   std::optional<Shape> shape_of(Op op, const std::vector<int>& operands,
                                 const Attributes& attributes = {}) const;
@@ -134,6 +153,7 @@ class Binder {
   int depth_ = 0;                              ///< of calls of bind()
   int steps_ = 0;                              ///< calls of bind() within definitions and sums
   int open_sums_ = 0;                          ///< over indices, being bound now
+  int jacobians_ = 0;                          ///< that stand for a parameter or a definition
   Environment environment_;                    ///< parameters of the definition being bound
 };
 

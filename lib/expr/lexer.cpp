@@ -19,8 +19,10 @@ std::size_t number_end(std::string_view text, std::size_t at) {
     while (at < text.size() && is_digit(text[at])) ++at;
   };
   digits();
-  // "1..N" is a range, not "1." and ".N".
-  if (at < text.size() && text[at] == '.' && text.substr(at, 2) != "..") {
+  // "1..N" is a range, not "1." and ".N"; the point of "2./v" belongs to the operator.
+  const bool point = at < text.size() && text[at] == '.';
+  if (point && (at + 1 == text.size() ||
+                std::string_view(".*/^").find(text[at + 1]) == std::string_view::npos)) {
     ++at;
     digits();
   }
@@ -58,9 +60,6 @@ constexpr auto kForeign = std::to_array<Foreign>({
     {".inf", "a number must be finite"},
     {".Inf", "a number must be finite"},
     {".INF", "a number must be finite"},
-    {".*", "the elementwise product is not part of the language; use diag(a)*b"},
-    {"./", "only a number divides; write inv(diag(a))*b"},
-    {".^", "the elementwise power is not part of the language"},
     {".'", "write ' for the transpose"},
     {"\\", "write inv(A)*B"},
     {"**", "write ^ for a power"},

@@ -114,6 +114,10 @@ std::optional<Shape> result_shape(Op op, std::span<const Shape> operands,
     case ShapeRule::nearest_to_rows:
     case ShapeRule::nearest_to_form:
       return nearest_shape(operation(op).rule, operands);
+    case ShapeRule::complement_basis:
+      return when(a.cols + wanted.cols <= a.rows, {a.rows, wanted.cols});
+    case ShapeRule::jacobian:
+      return when(!operands.empty() && wanted.cols == a.size(), wanted);
   }
   return std::nullopt;
 }

@@ -44,7 +44,9 @@ enum class ShapeRule {
   range_basis,       ///< A -> r x k, k <= min(r, c) given
   kernel_basis,      ///< A -> c x k, c - min(r, c) <= k <= c given
   nearest_to_rows,   ///< n x 1, n x n, m x n, m x 1 -> n x 1
-  nearest_to_form    ///< n x 1, n x n, n x 1, n x n, s -> n x 1
+  nearest_to_form,   ///< n x 1, n x n, n x 1, n x n, s -> n x 1
+  complement_basis,  ///< A -> r x k, c + k <= r given
+  jacobian           ///< A, B, ... -> any number of rows x rc
 };
 
 using Attributes = std::array<int, 4>;

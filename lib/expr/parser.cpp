@@ -31,6 +31,21 @@ std::optional<Relation> relation_of(TokenKind kind) {
   }
 }
 
+std::optional<NodeKind> factor_of(TokenKind kind) {
+  switch (kind) {
+    case TokenKind::star:
+      return NodeKind::multiply;
+    case TokenKind::slash:
+      return NodeKind::divide;
+    case TokenKind::point_star:
+      return NodeKind::elementwise_multiply;
+    case TokenKind::point_slash:
+      return NodeKind::elementwise_divide;
+    default:
+      return std::nullopt;
+  }
+}
+
 class Parser {
  public:
   explicit Parser(std::shared_ptr<const Text> text)
@@ -198,17 +213,12 @@ class Parser {
   NodePtr term() {
     const std::size_t begin = tokens_[at_].begin;
     NodePtr left = sign();
-    for (;;) {
-      if (accept(TokenKind::star)) {
-        NodePtr right = sign();
-        left = make(NodeKind::multiply, begin, {left, right});
-      } else if (accept(TokenKind::slash)) {
-        NodePtr right = sign();
-        left = make(NodeKind::divide, begin, {left, right});
-      } else {
-        return left;
-      }
+    while (const auto kind = factor_of(peek())) {
+      next();
+      NodePtr right = sign();
+      left = make(*kind, begin, {left, right});
     }
+    return left;
   }
 
   NodePtr sign() {
@@ -228,9 +238,11 @@ class Parser {
     for (;;) {
       if (accept(TokenKind::quote)) {
         value = make(NodeKind::transpose, begin, {value});
-      } else if (accept(TokenKind::caret)) {
+      } else if (peek() == TokenKind::caret || peek() == TokenKind::point_caret) {
+        const bool whole = next().kind == TokenKind::caret;
         NodePtr exponent = this->exponent();
-        value = make(NodeKind::power, begin, {value, exponent});
+        value =
+            make(whole ? NodeKind::power : NodeKind::elementwise_power, begin, {value, exponent});
       } else if (accept(TokenKind::open)) {
         value = apply(begin, value);
       } else {

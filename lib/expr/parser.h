@@ -2,9 +2,9 @@
 //
 //   comparison := sum (relation sum)*
 //   sum        := term (("+" | "-") term)*
-//   term       := sign (("*" | "/") sign)*
+//   term       := sign (("*" | "/" | ".*" | "./") sign)*
 //   sign       := ("-" | "+") sign | postfix
-//   postfix    := primary ("'" | "(" arguments ")" | "^" exponent)*
+//   postfix    := primary ("'" | "(" arguments ")" | ("^" | ".^") exponent)*
 //                 (left to right, as in MATLAB)
 //   exponent   := ("-" | "+") exponent | primary
 //   primary    := number | name | "(" comparison ")" | "[" row (";" row)* "]"

@@ -10,7 +10,8 @@ bool is_same(const Program& a, const Program& b) {
   };
   const auto same_instruction = [](const Instruction& x, const Instruction& y) {
     return x.op == y.op && x.operands == y.operands && x.shape == y.shape &&
-           x.attributes == y.attributes && x.text == y.text;
+           x.attributes == y.attributes && x.text == y.text &&
+           (x.body == y.body || (x.body && y.body && is_same(*x.body, *y.body)));
   };
   return a.result == b.result && std::ranges::equal(a.inputs, b.inputs, same_input) &&
          std::ranges::equal(a.functions, b.functions, same_input) &&

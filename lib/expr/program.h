@@ -12,6 +12,8 @@
 
 namespace gainsmith::expr {
 
+struct Program;
+
 struct Instruction {
   Op op = Op::constant;
   std::vector<int> operands;  ///< earlier instructions
@@ -20,6 +22,8 @@ struct Instruction {
   std::string text;  ///< constant: the decimal as written; inverse: of what; call: as written
   std::shared_ptr<const Text> origin;
   std::size_t offset = 0;  ///< where in the origin it was written
+  /// jacobian: what is differentiated; its inputs are the operands.
+  std::shared_ptr<const Program> body = nullptr;
 
   Place place() const { return origin ? origin->place(offset) : Place{}; }
 };

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "hybrid/ball.h"
+#include "numbers/enclosure.h"
 
 namespace gainsmith::hybrid::rules {
 
@@ -169,28 +171,54 @@ struct BallRules {
     }
     out = result;
   }
-  void operator()(Is<Op::scalar_power>, const At& at, Value& out) const {
+  void operator()(Is<Op::elementwise_product>, const At& at, Value& out) const {
+    each(
+        at, out, [&](Index e) { return at[0].mid(e) * at[1].mid(e); },
+        [&](Index e) {
+          const double x = size_of(at[0].mid(e));
+          const double y = size_of(at[1].mid(e));
+          return x * at[1].rad(e) + at[0].rad(e) * (y + at[1].rad(e)) + kUnit * x * y;
+        });
+  }
+  void operator()(Is<Op::real_power>, const At& at, Value& out) const {
     using std::pow;
-    const Scalar& x = at[0].mid(0);
-    const Scalar& y = at[1].mid(0);
-    const double rx = at[0].rad(0);
-    const double ry = at[1].rad(0);
-    const auto value = [&](double dx, double dy) { return pow(x + Scalar(dx), y + Scalar(dy)); };
-    out.mid = MatrixOf<Scalar>::Constant(1, 1, value(0, 0));
-    double rad = kFunction * kUnit * size_of(out.mid(0));
-    if (rx > 0 || ry > 0) {
-      // Monotone in each argument where the base is positive: the corners are the extremes.
-      const bool positive = x - Scalar(rx) > Scalar(0);
-      for (const double dx : {-rx, rx})
-        for (const double dy : {-ry, ry})
-          if (positive) {
-            const Scalar corner = value(dx, dy);
-            rad = std::max(rad,
-                           size_of(corner - out.mid(0)) + 2 * kFunction * kUnit * size_of(corner));
-          }
-      if (!positive) rad = kInfinity;
+    shape_like(at.instruction, out);
+    for (Index e = 0; e < out.mid.size(); ++e) {
+      const Scalar& x = at[0].mid(e);
+      const Scalar& y = at[1].mid(e);
+      const double rx = at[0].rad(e);
+      const double ry = at[1].rad(e);
+      const auto value = [&](double dx, double dy) { return pow(x + Scalar(dx), y + Scalar(dy)); };
+      out.mid(e) = value(0, 0);
+      double rad = kFunction * kUnit * size_of(out.mid(e));
+      if (rx > 0 || ry > 0) {
+        // Monotone in each argument where the base is positive: the corners are the extremes.
+        const bool positive = x - Scalar(rx) > Scalar(0);
+        for (const double dx : {-rx, rx})
+          for (const double dy : {-ry, ry})
+            if (positive) {
+              const Scalar corner = value(dx, dy);
+              rad = std::max(
+                  rad, size_of(corner - out.mid(e)) + 2 * kFunction * kUnit * size_of(corner));
+            }
+        if (!positive) rad = kInfinity;
+      }
+      out.rad(e) = rad;
     }
-    out.rad = Matrix::Constant(1, 1, rad);
+  }
+  /// By the number type with directed rounding.
+  template <Op op>
+  requires expr::OneOf<op, Op::elementwise_quotient, Op::elementwise_power, Op::floor, Op::mod,
+                       Op::atan2, Op::complement_basis, Op::jacobian>
+  void operator()(Is<op>, const At& at, Value& out) const {
+    std::vector<numbers::Enclosed<Scalar>> operands;
+    std::vector<const numbers::Enclosed<Scalar>*> pointers;
+    for (const Value* operand : at.operands)
+      operands.push_back({operand->mid, operand->rad * kBoundSlack});
+    for (const auto& operand : operands) pointers.push_back(&operand);
+    numbers::Enclosed<Scalar> result;
+    numbers::Enclosure<Scalar>{}.apply(at.instruction, pointers, result);
+    out = {std::move(result.mid), std::move(result.rad)};
   }
   void operator()(Is<Op::transpose>, const At& at, Value& out) const {
     move(at, out, [](const auto& m) { return m.transpose(); });

@@ -27,6 +27,7 @@ void append_key(const Program& program, std::string& key) {
       for (const int attribute : instruction.attributes) key += '.' + std::to_string(attribute);
     key += '|' + std::to_string(instruction.shape.rows) + 'x' +
            std::to_string(instruction.shape.cols) + ';';
+    if (instruction.body) append_key(*instruction.body, key);
   }
   key += std::to_string(program.result);
 }

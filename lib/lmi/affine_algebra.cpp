@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "forall/residues.h"
+#include "numbers/degree.h"
 #include "numbers/dense.h"
 #include "numbers/real.h"
 
@@ -103,7 +104,7 @@ class Rules {
       : monomials_(monomials), unknowns_(unknowns) {}
 
   AffineForm product(const AffineForm& a, const AffineForm& b, expr::Shape shape,
-                     bool scaling) const {
+                     expr::Op op) const {
     refuse_two_unknowns(a, b);
     if (largest_power(a) + largest_power(b) > kLargestPower)
       throw expr::EvaluationError("a 'forall' variable has a power above " +
@@ -111,7 +112,10 @@ class Rules {
     AffineForm result{shape, {}};
     for (const auto& [left_key, left] : a.terms) {
       for (const auto& [right_key, right] : b.terms) {
-        const Sparse matrix = scaling ? Sparse(left.coeff(0, 0) * right) : multiplied(left, right);
+        const Sparse matrix = op == expr::Op::scale ? Sparse(left.coeff(0, 0) * right)
+                              : op == expr::Op::elementwise_product
+                                  ? Sparse(left.cwiseProduct(right))
+                                  : multiplied(left, right);
         for (const auto& [factor, monomial] : monomials_.product(left_key.first, right_key.first))
           add_term(result, {monomial, left_key.second + right_key.second}, matrix, factor);
       }
@@ -121,15 +125,16 @@ class Rules {
 
   /// By squaring, so that a large power of one function costs nothing; that of a sum is a sum of as
   /// many functions as its exponent says.
-  AffineForm power(const AffineForm& form, int exponent) const {
+  AffineForm power(const AffineForm& form, const numbers::Matrix& one, int exponent,
+                   expr::Op by) const {
     const auto times = [&](const AffineForm& a, const AffineForm& b) {
-      AffineForm both = product(a, b, form.shape, false);
+      AffineForm both = product(a, b, form.shape, by);
       if (both.terms.size() <= kMostFunctions) return both;
       throw expr::EvaluationError("the power expands to more than " +
                                   std::to_string(kMostFunctions) +
                                   " functions of the 'forall' variables; use the way exchange");
     };
-    AffineForm result = constant_form(numbers::Matrix::Identity(form.shape.rows, form.shape.rows));
+    AffineForm result = constant_form(one);
     AffineForm square = form;
     for (int left = exponent; left > 0; left /= 2) {
       if (left % 2 == 1) result = times(result, square);
@@ -138,11 +143,17 @@ class Rules {
     return result;
   }
 
-  AffineForm quotient(const AffineForm& a, const AffineForm& b) const {
-    if (!b.is_constant()) refuse(expr::Op::divide, b);
-    const double divisor = dense_constant(b)(0, 0);
-    if (divisor == 0) expr::fault::division_by_zero();
-    return map_terms(a, a.shape, [&](const Sparse& matrix) { return Sparse(matrix / divisor); });
+  AffineForm quotient(const AffineForm& a, const AffineForm& b, expr::Op op) const {
+    if (!b.is_constant()) refuse(op, b);
+    const numbers::Matrix by = dense_constant(b);
+    if ((by.array() == 0).any()) expr::fault::division_by_zero();
+    if (op == expr::Op::divide)
+      return map_terms(a, a.shape, [&](const Sparse& matrix) { return Sparse(matrix / by(0, 0)); });
+    return map_terms(a, a.shape, [&](const Sparse& matrix) {
+      return moved(matrix, a.shape.rows, a.shape.cols, [&](const auto& it, auto& elements) {
+        elements.emplace_back(it.row(), it.col(), it.value() / by(it.row(), it.col()));
+      });
+    });
   }
 
   /// exp, sin or cos of c0 + c1 tau.
@@ -250,6 +261,20 @@ class Rules {
   const Unknowns& unknowns_;
 };
 
+/// An operation on constants, in doubles.
+AffineForm constant_result(const expr::Instruction& instruction,
+                           std::span<const AffineForm* const> operands) {
+  std::vector<numbers::Matrix> dense;
+  std::vector<const numbers::Matrix*> pointers;
+  dense.reserve(operands.size());
+  pointers.reserve(operands.size());
+  for (const AffineForm* operand : operands) dense.push_back(dense_constant(*operand));
+  for (const numbers::Matrix& matrix : dense) pointers.push_back(&matrix);
+  numbers::Matrix result;
+  numbers::RealAlgebra().apply(instruction, pointers, result);
+  return constant_form(result);
+}
+
 /// The rules of expr/number_type.h; one operand at least is not constant.
 struct AffineRules {
   using Op = expr::Op;
@@ -268,15 +293,22 @@ struct AffineRules {
     out = sum({at[0].shape, {}}, at[0], -1);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::multiply, Op::scale>
+  requires expr::OneOf<op, Op::multiply, Op::scale, Op::elementwise_product>
   void operator()(Is<op>, const At& at, AffineForm& out) const {
-    out = rules.product(at[0], at[1], at.shape(), op == Op::scale);
+    out = rules.product(at[0], at[1], at.shape(), op);
   }
-  void operator()(Is<Op::divide>, const At& at, AffineForm& out) const {
-    out = rules.quotient(at[0], at[1]);
+  template <Op op>
+  requires expr::OneOf<op, Op::divide, Op::elementwise_quotient>
+  void operator()(Is<op>, const At& at, AffineForm& out) const {
+    out = rules.quotient(at[0], at[1], op);
   }
   void operator()(Is<Op::power>, const At& at, AffineForm& out) const {
-    out = rules.power(at[0], at.attribute(0));
+    const numbers::Matrix one = numbers::Matrix::Identity(at.shape().rows, at.shape().rows);
+    out = rules.power(at[0], one, at.attribute(0), Op::multiply);
+  }
+  void operator()(Is<Op::elementwise_power>, const At& at, AffineForm& out) const {
+    const numbers::Matrix ones = numbers::Matrix::Ones(at.shape().rows, at.shape().cols);
+    out = rules.power(at[0], ones, at.attribute(0), Op::elementwise_product);
   }
   void operator()(Is<Op::transpose>, const At& at, AffineForm& out) const {
     out = map_terms(at[0], transposed(at[0].shape),
@@ -294,7 +326,7 @@ struct AffineRules {
   void operator()(Is<Op::fill>, const At& at, AffineForm& out) const {
     const expr::Shape shape = at.shape();
     out = rules.product(at[0], constant_form(numbers::Matrix::Ones(shape.rows, shape.cols)), shape,
-                        true);
+                        Op::scale);
   }
   void operator()(Is<Op::trace>, const At& at, AffineForm& out) const { out = trace(at[0]); }
   template <Op op>
@@ -310,32 +342,35 @@ struct AffineRules {
   void operator()(Is<Op::matrix_exponential>, const At& at, AffineForm& out) const {
     out = rules.matrix_exponential(at[0]);
   }
+  /// That of what is affine is a constant.
+  void operator()(Is<Op::jacobian>, const At& at, AffineForm& out) const {
+    numbers::Degree degree = 0;
+    std::vector<numbers::Degree> degrees;
+    std::vector<const numbers::Degree*> operands;
+    for (const AffineForm* operand : at.operands) degrees.push_back(operand->is_constant() ? 0 : 1);
+    for (const numbers::Degree& one : degrees) operands.push_back(&one);
+    numbers::DegreeAlgebra{}.apply(at.instruction, operands, degree);
+    std::vector<AffineForm> constants;
+    std::vector<const AffineForm*> pointers;
+    for (const AffineForm* operand : at.operands) {
+      if (degree != 0 && !operand->is_constant()) rules.refuse(Op::jacobian, *operand);
+      constants.push_back(operand->is_constant() ? *operand : AffineForm{operand->shape, {}});
+    }
+    for (const AffineForm& constant : constants) pointers.push_back(&constant);
+    out = constant_result(at.instruction, pointers);
+  }
   /// Not affine in what moves: no value.
   template <Op op>
-  requires expr::OneOf<op, Op::constant, Op::zeros, Op::scalar_power, Op::log, Op::sqrt, Op::tanh,
-                       Op::abs, Op::sign, Op::minimum, Op::maximum, Op::where, Op::norm,
-                       Op::inverse, Op::pseudo_inverse, Op::singular_values, Op::range_basis,
-                       Op::kernel_basis, Op::project_polytope, Op::project_ellipsoid,
-                       Op::project_affine>
+  requires expr::OneOf<op, Op::constant, Op::zeros, Op::real_power, Op::log, Op::sqrt, Op::tanh,
+                       Op::floor, Op::mod, Op::atan2, Op::complement_basis, Op::abs, Op::sign,
+                       Op::minimum, Op::maximum, Op::where, Op::norm, Op::inverse,
+                       Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
+                       Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
   void operator()(Is<op>, const At& at, AffineForm&) const {
     for (const AffineForm* operand : at.operands)
       if (!operand->is_constant()) rules.refuse(op, *operand);
   }
 };
-
-/// An operation on constants, in doubles.
-AffineForm constant_result(const expr::Instruction& instruction,
-                           std::span<const AffineForm* const> operands) {
-  std::vector<numbers::Matrix> dense;
-  std::vector<const numbers::Matrix*> pointers;
-  dense.reserve(operands.size());
-  pointers.reserve(operands.size());
-  for (const AffineForm* operand : operands) dense.push_back(dense_constant(*operand));
-  for (const numbers::Matrix& matrix : dense) pointers.push_back(&matrix);
-  numbers::Matrix result;
-  numbers::RealAlgebra().apply(instruction, pointers, result);
-  return constant_form(result);
-}
 
 }  // namespace
 

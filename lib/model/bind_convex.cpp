@@ -26,6 +26,11 @@ bool is_of_matrices(const Node& call) {
   return call.text == "norm" || call.text.starts_with("lambda");
 }
 
+/// max(v) and min(v) of one vector.
+bool is_of_one_vector(const Node& call) {
+  return call.text.starts_with("m") && call.children.size() == 1;
+}
+
 expr::Shape largest(const std::vector<expr::Shape>& shapes) {
   return *std::max_element(shapes.begin(), shapes.end(),
                            [](expr::Shape a, expr::Shape b) { return a.size() < b.size(); });
@@ -152,7 +157,7 @@ std::vector<expr::Expression> Binding::bounds_of(const expr::Expression& text, c
   const std::vector<expr::Shape> arguments = shapes_of(text, call, scope);
   const expr::Shape of = largest(arguments);
   const expr::Shape limit = expr::compile({text.text, bound}, scope).shape();
-  const bool matrix = is_of_matrices(call);
+  const bool matrix = is_of_matrices(call) || is_of_one_vector(call);
   if (!limit.is_scalar() && (matrix || limit.size() != of.size()))
     throw InputError(text.place(*bound),
                      "'" + text.quote(call) + "' is compared with " +
@@ -209,7 +214,7 @@ NodePtr Binding::bounding_unknown(const expr::Expression& text, const Node& call
     throw InputError(text.place(call),
                      "there are more than " + std::to_string(kMost) + " unknowns");
   Design::Unknown unknown;
-  if (!is_of_matrices(call)) unknown.shape = largest(shapes_of(text, call, scope));
+  if (!is_of_matrices(call) && !is_of_one_vector(call)) unknown.shape = largest(shapes_of(text, call, scope));
   unknown.structure = unknown.shape.is_scalar() ? Structure::scalar : Structure::full;
   unknown.place = text.place(call);
   const auto is_taken = [&](const std::string& name) {

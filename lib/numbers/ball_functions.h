@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "numbers/ball.h"
+#include "numbers/scalar_functions.h"
 
 namespace gainsmith::numbers {
 
@@ -98,6 +99,52 @@ Ball<S> maximum(const Ball<S>& x, const Ball<S>& y) {
 template <class S>
 Ball<S> minimum(const Ball<S>& x, const Ball<S>& y) {
   return -maximum(-x, -y);
+}
+
+/// Both whole numbers, and what lies between, where it is not certain on which side of a step x is.
+template <class S>
+Ball<S> floor(const Ball<S>& x) {
+  using std::floor;
+  if (x.is_exact()) return {S(floor(x.mid)), 0};
+  const double low = std::floor(low_end(x)), high = std::floor(high_end(x));
+  return low == high ? Ball<S>{S(low), 0} : hull<S>(low, high);
+}
+
+/// a - b floor(a / b): where it is not certain which floor it is, all that a rest can be. b is not
+/// 0.
+template <class S>
+Ball<S> mod(const Ball<S>& a, const Ball<S>& b) {
+  using std::floor;
+  if (is_positive(-b)) return -mod(-a, -b);
+  if (!is_positive(b)) return {S(0), kNothingKnown};
+  const S count = floor(S(a.mid / b.mid));
+  for (const S& shift : {S(0), S(-1), S(1)}) {
+    const Ball<S> rest = a - b * Ball<S>{S(count + shift), 0};
+    if (is_not_negative(rest) && is_positive(b - rest)) return rest;
+  }
+  return hull<S>(0, high_end(b));
+}
+
+/// The angle of (x, y): the point in the middle is r away from the origin, the others at most rad
+/// from it, under an angle of at most asin(rad / r) to it.
+template <class S>
+Ball<S> atan2(const Ball<S>& y, const Ball<S>& x) {
+  constexpr double kPi = 3.15;  // above it
+  if (x.is_zero() && y.is_zero()) return {};
+  const bool above = is_not_negative(y), right = is_not_negative(x);
+  const bool may_jump = !above && !is_positive(-y) && !right;
+  const auto least = [](const S& value) {
+    return std::max(0.0, below(value < S(0) ? S(-value) : value));
+  };
+  const double rad = up(std::hypot(x.rad, y.rad));
+  const double distance = std::hypot(least(x.mid), least(y.mid)) * (1 - 0x1p-48);
+  if (!may_jump && rad < distance) {
+    // asin t <= t (1 + t^2/5) for t <= 1/2, <= pi/2 t for t <= 1.
+    const double t = up(rad / distance);
+    return moved_by(angle(y.mid, x.mid), up(t * (t < 0.5 ? 1 + 0.2 * t * t : kPi / 2), 16));
+  }
+  if (above) return hull<S>(0, kPi);
+  return right ? hull<S>(-kPi / 2, kPi / 2) : hull<S>(-kPi, kPi);
 }
 
 /// Holds x and y.

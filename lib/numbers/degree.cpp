@@ -24,25 +24,39 @@ struct DegreeRules {
                        Op::blocks, Op::index, Op::trace, Op::diagonal_matrix, Op::diagonal_of>
   void operator()(Is<op>, const At& at, Degree& out) const { out = largest(at.operands); }
   template <Op op>
-  requires expr::OneOf<op, Op::multiply, Op::scale>
+  requires expr::OneOf<op, Op::multiply, Op::scale, Op::elementwise_product>
   void operator()(Is<op>, const At& at, Degree& out) const {
     out = std::min(kNotAffine, at[0] + at[1]);
   }
-  void operator()(Is<Op::divide>, const At& at, Degree& out) const {
+  template <Op op>
+  requires expr::OneOf<op, Op::divide, Op::elementwise_quotient>
+  void operator()(Is<op>, const At& at, Degree& out) const {
     out = at[1] == 0 ? at[0] : kNotAffine;
   }
-  void operator()(Is<Op::power>, const At& at, Degree& out) const {
+  template <Op op>
+  requires expr::OneOf<op, Op::power, Op::elementwise_power>
+  void operator()(Is<op>, const At& at, Degree& out) const {
     out = at.attribute(0) == 1 ? at[0] : kNotAffine;
+  }
+  /// The derivative of what is affine in all that moves is constant.
+  void operator()(Is<Op::jacobian>, const At& at, Degree& out) const {
+    const expr::Program& body = *at.instruction.body;
+    const auto all = degrees(body, [&](const std::string& name) {
+      const auto input = static_cast<std::size_t>(body.input(name));
+      return input == 0 || at[input] > 0;
+    });
+    out = all[static_cast<std::size_t>(body.result)] == kNotAffine ? kNotAffine : 0;
   }
   void operator()(Is<Op::where>, const At& at, Degree& out) const {
     out = at[0] == 0 ? largest(at.operands) : kNotAffine;
   }
   template <Op op>
-  requires expr::OneOf<op, Op::constant, Op::zeros, Op::scalar_power, Op::inverse,
-                       Op::pseudo_inverse, Op::matrix_exponential, Op::exp, Op::log, Op::sqrt,
-                       Op::sin, Op::cos, Op::tanh, Op::abs, Op::sign, Op::minimum, Op::maximum,
-                       Op::norm, Op::range_basis, Op::kernel_basis, Op::singular_values,
-                       Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
+  requires expr::OneOf<op, Op::constant, Op::zeros, Op::real_power, Op::inverse, Op::floor, Op::mod,
+                       Op::atan2, Op::complement_basis, Op::pseudo_inverse, Op::matrix_exponential,
+                       Op::exp, Op::log, Op::sqrt, Op::sin, Op::cos, Op::tanh, Op::abs, Op::sign,
+                       Op::minimum, Op::maximum, Op::norm, Op::range_basis, Op::kernel_basis,
+                       Op::singular_values, Op::project_polytope, Op::project_ellipsoid,
+                       Op::project_affine>
   void operator()(Is<op>, const At&, Degree& out) const { out = kNotAffine; }
 };
 

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <string>
+#include <vector>
 
 #include "expr/evaluate.h"
 #include "expr/program.h"
@@ -16,7 +17,10 @@ namespace gainsmith::numbers {
 /// last place) and of MPFR. An infinite radius says that nothing is known; more digits may help.
 ///
 /// - A decimal that the scalar holds has radius 0.
-/// - abs, sign, min, max, where: both branches where it is not certain which one holds.
+/// - abs, sign, floor, mod, min, max, where: both branches where it is not certain which one holds.
+/// - atan2: all angles where its jump may be inside. complement: nothing where a reflection may
+///   turn over.
+/// - jacobian: the slopes of both branches at a kink, nothing where there may be no derivative.
 /// - sqrt: of the part >= 0 of its argument. log, division, inv and powers know nothing where their
 ///   argument may be singular, and fail where it certainly is.
 /// - pinv needs full rank. orth and null: some exact orthonormal basis, of as many directions of
@@ -42,6 +46,10 @@ using EnclosedValues = std::map<std::string, Enclosed<S>, std::less<>>;
 /// value.
 template <class S>
 Enclosed<S> enclose(const expr::Program& program, const EnclosedValues<S>& values);
+
+/// Op::jacobian over balls, one column at a time by a jet (jet.h).
+Enclosed<double> enclosed_jacobian(const expr::Instruction& instruction,
+                                   const std::vector<Enclosed<double>>& operands);
 
 /// Whether a decimal is an integer below 2^53 divided by a power of two: exact in every scalar.
 bool is_exact_decimal(const std::string& decimal);

@@ -3,13 +3,28 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "numbers/ball_functions.h"
 #include "numbers/enclosed_functions.h"
 #include "numbers/enclosure.h"
+#include "numbers/householder.h"
 #include "numbers/shared_rules.h"
 
 namespace gainsmith::numbers {
+
+/// What complement() asks of balls.
+template <class S>
+struct BallNumbers {
+  static Ball<S> root(const Ball<S>& x) {
+    return ball::sqrt(x).value_or(Ball<S>{S(0), kNothingKnown});
+  }
+  static bool is_zero(const Ball<S>& x) { return x.is_zero(); }
+  static std::optional<bool> is_negative(const Ball<S>& x) {
+    if (is_not_negative(x)) return false;
+    return is_positive(-x) ? std::optional(true) : std::nullopt;
+  }
+};
 
 template <class S>
 struct EnclosureRules {
@@ -73,11 +88,24 @@ struct EnclosureRules {
       if (exponent > 1) square = product(square, square);
     }
   }
-  void operator()(Is<Op::scalar_power>, const At& at, Value& out) const {
-    const auto power = ball::power(at[0].ball(0), at[1].ball(0));
-    if (!power) expr::fault::not_finite(Op::scalar_power);
-    out.resize(1, 1);
-    out.set(0, *power);
+  void operator()(Is<Op::elementwise_product>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& a, const Ball<S>& b) { return a * b; }, at[0], at[1], out);
+  }
+  void operator()(Is<Op::elementwise_quotient>, const At& at, Value& out) const {
+    refuse_zeros(at[1]);
+    map_balls([](const Ball<S>& a, const Ball<S>& b) { return a / b; }, at[0], at[1], out);
+  }
+  void operator()(Is<Op::elementwise_power>, const At& at, Value& out) const {
+    const int exponent = at.attribute(0);
+    map_balls([&](const Ball<S>& x) { return ball::whole_power(x, exponent); }, at[0], out);
+  }
+  void operator()(Is<Op::real_power>, const At& at, Value& out) const {
+    const auto power_of = [](const Ball<S>& x, const Ball<S>& y) {
+      const auto power = ball::power(x, y);
+      if (!power) expr::fault::not_finite(Op::real_power);
+      return *power;
+    };
+    map_balls(power_of, at[0], at[1], out);
   }
   void operator()(Is<Op::transpose>, const At& at, Value& out) const { out = transposed(at[0]); }
   void operator()(Is<Op::blocks>, const At& at, Value& out) const {
@@ -118,6 +146,18 @@ struct EnclosureRules {
   }
   void operator()(Is<Op::sign>, const At& at, Value& out) const {
     map_balls([](const Ball<S>& x) { return ball::sign(x); }, at[0], out);
+  }
+  void operator()(Is<Op::floor>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& x) { return ball::floor(x); }, at[0], out);
+  }
+  void operator()(Is<Op::mod>, const At& at, Value& out) const {
+    refuse_zeros(at[1]);
+    map_balls([](const Ball<S>& a, const Ball<S>& b) { return ball::mod(a, b); }, at[0], at[1],
+              out);
+  }
+  void operator()(Is<Op::atan2>, const At& at, Value& out) const {
+    map_balls([](const Ball<S>& y, const Ball<S>& x) { return ball::atan2(y, x); }, at[0], at[1],
+              out);
   }
   void operator()(Is<Op::minimum>, const At& at, Value& out) const {
     map_balls([](const Ball<S>& a, const Ball<S>& b) { return ball::minimum(a, b); }, at[0], at[1],
@@ -193,8 +233,34 @@ struct EnclosureRules {
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
   void operator()(Is<op>, const At&, Value&) const { expr::fault::no_error_bound(op); }
+  void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
+    const Value& a = at[0];
+    Columns<Ball<S>> columns(static_cast<std::size_t>(a.cols()));
+    for (Eigen::Index j = 0; j < a.cols(); ++j)
+      for (Eigen::Index i = 0; i < a.rows(); ++i)
+        columns[static_cast<std::size_t>(j)].push_back(a.ball(i, j));
+    const auto basis =
+        complement(std::move(columns), static_cast<std::size_t>(a.rows()),
+                   static_cast<std::size_t>(at.shape().cols), Ball<S>{S(1), 0}, BallNumbers<S>{});
+    out = nothing_known<S>(MatrixOf<S>::Zero(at.shape().rows, at.shape().cols));
+    if (!basis) return;
+    for (Eigen::Index i = 0; i < out.mid.size(); ++i)
+      out.set(i, (*basis)[static_cast<std::size_t>(i / out.rows())]
+                         [static_cast<std::size_t>(i % out.rows())]);
+  }
+  /// In double: over more digits it is right, but known to those of double alone.
+  void operator()(Is<Op::jacobian>, const At& at, Value& out) const {
+    std::vector<Enclosed<double>> operands;
+    for (const Value* operand : at.operands) operands.push_back(converted<double>(*operand));
+    out = converted<S>(enclosed_jacobian(at.instruction, operands));
+  }
 
  private:
+  static void refuse_zeros(const Value& divisor) {
+    for (Eigen::Index i = 0; i < divisor.mid.size(); ++i)
+      if (divisor.ball(i).is_zero()) expr::fault::division_by_zero();
+  }
+
   template <class Function>
   static void partly(Op op, const Function& function, const Value& x, Value& out) {
     out.resize(x.rows(), x.cols());

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "expr/evaluate.h"
 #include "numbers/ball_functions.h"
 #include "numbers/enclosed_functions.h"
 #include "numbers/enclosure.h"
@@ -163,6 +164,28 @@ Jet exponential(const Jet& x) {
 }
 
 }  // namespace jets
+
+Enclosed<double> enclosed_jacobian(const expr::Instruction& instruction,
+                                   const std::vector<Enclosed<double>>& operands) {
+  const Enclosed<double>& variable = operands.front();
+  Enclosed<double> result =
+      exactly<double>(Matrix::Zero(instruction.shape.rows, instruction.shape.cols));
+  std::vector<Jet> inputs;
+  inputs.reserve(operands.size());
+  for (const Enclosed<double>& operand : operands) inputs.push_back(constant_jet(operand));
+  inputs.front().order = 1;
+  expr::Evaluator<JetAlgebra> evaluator(*instruction.body);
+  for (std::size_t i = 0; i < inputs.size(); ++i) evaluator.set(i, inputs[i]);
+  for (Eigen::Index j = 0; j < variable.mid.size(); ++j) {
+    Matrix direction = Matrix::Zero(variable.rows(), variable.cols());
+    direction(j) = 1;
+    inputs.front().derivatives[1] = exactly<double>(direction);
+    const Enclosed<double> slope = evaluator.run().derivative(1);
+    result.mid.col(j) = slope.mid.reshaped();
+    result.rad.col(j) = slope.rad.reshaped();
+  }
+  return result;
+}
 
 void JetAlgebra::apply(const expr::Instruction& instruction, expr::Operands<Jet> operands,
                        Jet& out) const {

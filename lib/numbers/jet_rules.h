@@ -11,6 +11,7 @@
 #include "numbers/enclosure.h"
 #include "numbers/foundation.h"
 #include "numbers/jet.h"
+#include "numbers/jet_elements.h"
 
 namespace gainsmith::numbers {
 
@@ -27,14 +28,6 @@ Jet transposed_jet(const Jet& x);
 Jet inverse(const Jet& x, Enclosed<double> value);
 Jet exponential_of(const Jet::Ray& ray);
 Jet exponential(const Jet& x);
-
-using Number = Ball<double>;
-
-/// Value and derivatives of a function of one number over a ball.
-struct Taylor {
-  Number value, first, second;
-};
-constexpr Number kUnknown{0, kNothingKnown};
 
 }  // namespace jets
 
@@ -98,25 +91,24 @@ struct JetRules {
       out.derivatives[0].set(0, size);
     }
   }
-  void operator()(Is<Op::scalar_power>, const At& at, Jet& out) const {
-    const Number y = at[1].value().ball(0);
-    const auto known = ball::power(at[0].value().ball(0), y);
-    if (!known) expr::fault::not_finite(Op::scalar_power);
-    if (at[1].order == 0) {
-      const auto or_unknown = [](const Number& x, const Number& exponent) {
-        return ball::power(x, exponent).value_or(jets::kUnknown);
-      };
-      const Number one{1, 0}, two{2, 0};
-      chain(at[0], out, [&](const Number& x) {
-        return Taylor{*known, y * or_unknown(x, y - one), y * (y - one) * or_unknown(x, y - two)};
-      });
-      return;
-    }
-    Jet logarithm, exponent;
-    chain(at[0], logarithm, [](const Number& x) { return log_of(x).value_or(Taylor{}); });
-    exponent = jets::scaled_jet(at[1], logarithm);
-    chain(exponent, out, [](const Number& x) { return exp_of(x); });
-    out.derivatives[0].set(0, *known);
+  void operator()(Is<Op::elementwise_product>, const At& at, Jet& out) const {
+    out = jets::product(at[0], at[1], [](const auto& a, const auto& b) {
+      Enclosed<double> both;
+      map_balls([](const Number& x, const Number& y) { return x * y; }, a, b, both);
+      return both;
+    });
+  }
+  void operator()(Is<Op::elementwise_quotient>, const At& at, Jet& out) const {
+    each(out, {&at[0], &at[1]}, at.shape(),
+         [](const std::vector<Taylor>& x) { return jets::quotient(x[0], x[1]); });
+  }
+  void operator()(Is<Op::elementwise_power>, const At& at, Jet& out) const {
+    chain(at[0], out, [&](const Number& x) { return jets::whole_power(x, at.attribute(0)); });
+  }
+  void operator()(Is<Op::real_power>, const At& at, Jet& out) const {
+    const bool moves = at[1].order > 0;
+    each(out, {&at[0], &at[1]}, at.shape(),
+         [&](const std::vector<Taylor>& x) { return jets::real_power(x[0], x[1], moves); });
   }
 
   void operator()(Is<Op::inverse>, const At& at, Jet& out) const {
@@ -145,10 +137,10 @@ struct JetRules {
     }
   }
 
-  void operator()(Is<Op::exp>, const At& at, Jet& out) const { chain(at[0], out, exp_of); }
+  void operator()(Is<Op::exp>, const At& at, Jet& out) const { chain(at[0], out, jets::exp_of); }
   void operator()(Is<Op::log>, const At& at, Jet& out) const {
     chain(at[0], out, [&](const Number& x) {
-      const auto found = log_of(x);
+      const auto found = jets::log_of(x);
       if (!found) expr::fault::outside_domain(Op::log, x.mid);
       return *found;
     });
@@ -192,6 +184,17 @@ struct JetRules {
       if (sign.is_exact()) return Taylor{sign, {}, {}};
       return Taylor{sign, jets::kUnknown, jets::kUnknown};
     });
+  }
+  void operator()(Is<Op::floor>, const At& at, Jet& out) const {
+    chain(at[0], out, jets::floor_of);
+  }
+  void operator()(Is<Op::mod>, const At& at, Jet& out) const {
+    each(out, {&at[0], &at[1]}, at.shape(),
+         [](const std::vector<Taylor>& x) { return jets::rest_of(x[0], x[1]); });
+  }
+  void operator()(Is<Op::atan2>, const At& at, Jet& out) const {
+    each(out, {&at[0], &at[1]}, at.shape(),
+         [](const std::vector<Taylor>& x) { return jets::angle_of(x[0], x[1]); });
   }
   template <Op op>
   requires expr::OneOf<op, Op::minimum, Op::maximum>
@@ -240,7 +243,7 @@ struct JetRules {
     lipschitz(enclosed::norm_upward(magnitudes<double>(at[0].derivative(1))), out);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis>
+  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::complement_basis, Op::jacobian>
   void operator()(Is<op>, const At& at, Jet& out) const {
     coefficient(at, 0, out);
     if (at[0].order > 0) lipschitz(kNothingKnown, out);
@@ -302,29 +305,13 @@ struct JetRules {
     return result;
   }
 
-  /// f(x): f' x', f'' x'^2 + f' x''.
   template <class Function>
   static void chain(const Jet& x, Jet& out, const Function& function) {
-    each(
-        out, {&x}, {static_cast<int>(x.value().rows()), static_cast<int>(x.value().cols())},
-        [&](const std::vector<Taylor>& at) {
-          const Taylor f = function(at[0].value);
-          const Number square = at[0].first * at[0].first;
-          return Taylor{f.value, f.first * at[0].first, f.second * square + f.first * at[0].second};
-        });
+    each(out, {&x}, {static_cast<int>(x.value().rows()), static_cast<int>(x.value().cols())},
+         [&](const std::vector<Taylor>& at) {
+           return jets::composed(function(at[0].value), at[0]);
+         });
   }
-
-  static Taylor exp_of(const Number& x) {
-    const Number value = ball::exp(x);
-    return {value, value, value};
-  }
-  static std::optional<Taylor> log_of(const Number& x) {
-    const auto value = ball::log(x);
-    if (!value) return std::nullopt;
-    const Number first = Number{1, 0} / x;
-    return Taylor{*value, first, -(first * first)};
-  }
-
   static Jet reciprocal(const Jet& x) {
     Jet out;
     chain(x, out, [](const Number& at) {

@@ -111,11 +111,13 @@ struct PackRules {
 
   template <Op op>
   requires expr::OneOf<
-      op, Op::constant, Op::zeros, Op::fill, Op::identity, Op::power, Op::scalar_power, Op::blocks,
-      Op::index, Op::inverse, Op::pseudo_inverse, Op::matrix_exponential, Op::log, Op::sqrt,
-      Op::sin, Op::cos, Op::tanh, Op::abs, Op::sign, Op::minimum, Op::maximum, Op::where, Op::trace,
-      Op::norm, Op::diagonal_matrix, Op::diagonal_of, Op::range_basis, Op::kernel_basis,
-      Op::singular_values, Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
+      op, Op::constant, Op::zeros, Op::fill, Op::identity, Op::power, Op::elementwise_product,
+      Op::elementwise_quotient, Op::elementwise_power, Op::real_power, Op::floor, Op::mod,
+      Op::atan2, Op::complement_basis, Op::jacobian, Op::blocks, Op::index, Op::inverse,
+      Op::pseudo_inverse, Op::matrix_exponential, Op::log, Op::sqrt, Op::sin, Op::cos, Op::tanh,
+      Op::abs, Op::sign, Op::minimum, Op::maximum, Op::where, Op::trace, Op::norm,
+      Op::diagonal_matrix, Op::diagonal_of, Op::range_basis, Op::kernel_basis, Op::singular_values,
+      Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
   void operator()(Is<op>, const At& at, Pack& out) const {
     point_by_point(at.instruction, at.operands, out);
   }

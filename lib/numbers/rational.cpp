@@ -31,6 +31,14 @@ void check_size(const RationalMatrix& x) {
       throw expr::EvaluationError("the fraction has more than 6,000 digits");
 }
 
+Rational whole_part(const Rational& x) {
+  Rational floor(x);
+  mpz_fdiv_q(mpq_numref(floor.backend().data()), mpq_numref(x.backend().data()),
+             mpq_denref(x.backend().data()));
+  mpz_set_ui(mpq_denref(floor.backend().data()), 1);
+  return floor;
+}
+
 struct Rules {
   using Value = RationalMatrix;
   using At = expr::Step<Value>;
@@ -67,6 +75,35 @@ struct Rules {
     const Rational by = at[1](0);
     if (by == 0) expr::fault::division_by_zero();
     map([&](const Rational& a) { return Rational(a / by); }, at[0], out);
+  }
+  void operator()(Is<Op::elementwise_product>, const At& at, Value& out) const {
+    map([](const Rational& a, const Rational& b) { return Rational(a * b); }, at[0], at[1], out);
+  }
+  void operator()(Is<Op::elementwise_quotient>, const At& at, Value& out) const {
+    const auto quotient = [](const Rational& a, const Rational& b) {
+      if (b == 0) expr::fault::division_by_zero();
+      return Rational(a / b);
+    };
+    map(quotient, at[0], at[1], out);
+  }
+  void operator()(Is<Op::elementwise_power>, const At& at, Value& out) const {
+    Value square = at[0];
+    out = RationalMatrix::Constant(square.rows(), square.cols(), Rational(1));
+    for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
+      if (exponent % 2 == 1) out = Value(out.cwiseProduct(square));
+      if (exponent > 1) square = Value(square.cwiseProduct(square));
+      check_size(square);
+    }
+  }
+  void operator()(Is<Op::floor>, const At& at, Value& out) const {
+    map([](const Rational& x) { return whole_part(x); }, at[0], out);
+  }
+  void operator()(Is<Op::mod>, const At& at, Value& out) const {
+    const auto rest = [](const Rational& a, const Rational& b) {
+      if (b == 0) expr::fault::division_by_zero();
+      return Rational(a - b * whole_part(Rational(a / b)));
+    };
+    map(rest, at[0], at[1], out);
   }
   void operator()(Is<Op::power>, const At& at, Value& out) const {
     Value square = at[0];
@@ -140,8 +177,9 @@ struct Rules {
     out = Value::Identity(at[0].rows(), at[0].cols());
   }
   template <Op op>
-  requires expr::OneOf<op, Op::scalar_power, Op::log, Op::sqrt, Op::norm, Op::pseudo_inverse,
-                       Op::singular_values, Op::range_basis, Op::kernel_basis, Op::project_polytope,
+  requires expr::OneOf<op, Op::real_power, Op::log, Op::sqrt, Op::atan2, Op::norm,
+                       Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
+                       Op::complement_basis, Op::jacobian, Op::project_polytope,
                        Op::project_ellipsoid, Op::project_affine>
   void operator()(Is<op>, const At&, Value&) const { not_rational(op); }
 

@@ -11,8 +11,11 @@
 #include <utility>
 
 #include "expr/number_type.h"
+#include "numbers/dual.h"
+#include "numbers/householder.h"
 #include "numbers/projection.h"
 #include "numbers/real.h"
+#include "numbers/scalar_functions.h"
 #include "numbers/shared_rules.h"
 
 namespace gainsmith::numbers {
@@ -93,9 +96,24 @@ struct RealRules {
       }
     }
   }
-  void operator()(Is<Op::scalar_power>, const At& at, Value& out) const {
+  void operator()(Is<Op::elementwise_product>, const At& at, Value& out) const {
+    out = at[0].cwiseProduct(at[1]);
+  }
+  void operator()(Is<Op::elementwise_quotient>, const At& at, Value& out) const {
+    if ((at[1].array() == Scalar(0)).any()) expr::fault::division_by_zero();
+    out = at[0].cwiseQuotient(at[1]);
+  }
+  void operator()(Is<Op::elementwise_power>, const At& at, Value& out) const {
+    Value square = at[0];
+    out = Value::Ones(square.rows(), square.cols());
+    for (int exponent = at.attribute(0); exponent > 0; exponent /= 2) {
+      if (exponent % 2 == 1) out = Value(out.cwiseProduct(square));
+      if (exponent > 1) square = Value(square.cwiseProduct(square));
+    }
+  }
+  void operator()(Is<Op::real_power>, const At& at, Value& out) const {
     using std::pow;
-    out = Value::Constant(1, 1, pow(at[0](0, 0), at[1](0, 0)));
+    map([](const Scalar& a, const Scalar& b) { return pow(a, b); }, at, out);
   }
   void operator()(Is<Op::transpose>, const At& at, Value& out) const { out = at[0].transpose(); }
   void operator()(Is<Op::blocks>, const At& at, Value& out) const {
@@ -122,6 +140,17 @@ struct RealRules {
   void operator()(Is<Op::tanh>, const At& at, Value& out) const { out = at[0].array().tanh(); }
   void operator()(Is<Op::abs>, const At& at, Value& out) const { out = at[0].cwiseAbs(); }
   void operator()(Is<Op::sign>, const At& at, Value& out) const { out = at[0].array().sign(); }
+  void operator()(Is<Op::floor>, const At& at, Value& out) const {
+    using std::floor;
+    out = at[0].unaryExpr([](const Scalar& x) { return Scalar(floor(x)); });
+  }
+  void operator()(Is<Op::mod>, const At& at, Value& out) const {
+    if ((at[1].array() == Scalar(0)).any()) expr::fault::division_by_zero();
+    map([](const Scalar& a, const Scalar& b) { return mod(a, b); }, at, out);
+  }
+  void operator()(Is<Op::atan2>, const At& at, Value& out) const {
+    map([](const Scalar& y, const Scalar& x) { return angle(y, x); }, at, out);
+  }
   void operator()(Is<Op::minimum>, const At& at, Value& out) const { out = at[0].cwiseMin(at[1]); }
   void operator()(Is<Op::maximum>, const At& at, Value& out) const { out = at[0].cwiseMax(at[1]); }
   void operator()(Is<Op::where>, const At& at, Value& out) const {
@@ -190,6 +219,23 @@ struct RealRules {
   void operator()(Is<Op::project_affine>, const At& at, Value& out) const {
     project(at, out, [&] { return project_affine<Scalar>(at[0], at[1], at[2], at[3]); });
   }
+  void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
+    const Value& a = at[0];
+    Columns<Scalar> columns(static_cast<std::size_t>(a.cols()));
+    for (Eigen::Index j = 0; j < a.cols(); ++j)
+      for (Eigen::Index i = 0; i < a.rows(); ++i)
+        columns[static_cast<std::size_t>(j)].push_back(a(i, j));
+    const auto basis =
+        complement(std::move(columns), static_cast<std::size_t>(a.rows()),
+                   static_cast<std::size_t>(at.shape().cols), Scalar(1), PlainNumbers<Scalar>{});
+    out.resize(at.shape().rows, at.shape().cols);
+    for (Eigen::Index j = 0; j < out.cols(); ++j)
+      for (Eigen::Index i = 0; i < out.rows(); ++i)
+        out(i, j) = (*basis)[static_cast<std::size_t>(j)][static_cast<std::size_t>(i)];
+  }
+  void operator()(Is<Op::jacobian>, const At& at, Value& out) const {
+    out = jacobian<Scalar>(at.instruction, at.operands);
+  }
 
  private:
   template <class Nearest>
@@ -201,6 +247,12 @@ struct RealRules {
     } catch (const NoProjection& why) {
       expr::fault::without_result(at.instruction.op, why.what());
     }
+  }
+
+  template <class Function>
+  static void map(const Function& function, const At& at, Value& out) {
+    out.resize(at.shape().rows, at.shape().cols);
+    for (Eigen::Index i = 0; i < out.size(); ++i) out(i) = function(at[0](i), at[1](i));
   }
 
   /// Small products, by far the most frequent here, and those of other scalars than double are

@@ -51,6 +51,31 @@ TEST(ConvexFunctions, SumsAndLargestOfModuli) {
   const model::Gains middle = solve(
       head + "  minimize: \"max(x - v(1), x - v(4), v(3) - x, v(5) - x) - min(x, 5)/2\"\n", data);
   EXPECT_NEAR(*middle.objective, 5.5 - 0.75, 1e-6) << "at 1.5";
+  // One vector has one largest element, also where an unknown bounds it.
+  for (const char* text :
+       {"max([x - v; v - x])", "-min([x - v; v - x])/2 + max([x - v; v - x])/2"}) {
+    const model::Gains alike = solve(head + "  minimize: \"" + text + "\"\n", data);
+    EXPECT_NEAR(*alike.objective, 5.5, 1e-6) << text;
+    EXPECT_NEAR((*alike.find("x"))(0, 0), 1.5, 1e-5) << text;
+  }
+}
+
+/// The derivative of a text at a datum is data, enclosed like the rest; elements of unknowns are
+/// affine in them.
+TEST(ConvexFunctions, DerivativesAndElementsInRequirements) {
+  const model::Gains gains = solve(
+      "  data: {x0: 2}\n  unknowns: {P: symmetric 2, g: scalar}\n"
+      "  let: {f(x): \"[x(2); -9.81*sin(x(1)) - 0.1*x(2)]\"}\n"
+      "  require: {flow: \"He(P*jacobian(f(x0), x0)) < -eye(2)\", floor: P > 0.1*I, "
+      "weighted: \"[1, 2; 2, 1].*P < g*I\"}\n  minimize: g\n  gains: {K: P}\n",
+      "data: {x0: [0.1, 0]}\n");
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  const Matrix A{{0, 1}, {-9.81 * std::cos(0.1), -0.1}};
+  const Matrix& P = *gains.find("K");
+  EXPECT_LT(numbers::symmetric_eigenvalues(P * A + A.transpose() * P + Matrix::Identity(2, 2))(1),
+            0);
+  const Matrix weighted = Matrix{{1, 2}, {2, 1}}.cwiseProduct(P);
+  EXPECT_NEAR(*gains.objective, numbers::symmetric_eigenvalues(weighted)(1), 1e-5);
 }
 
 /// What stands in a sum over an index is bounded term by term.

@@ -3,6 +3,9 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <Eigen/QR>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -50,6 +53,66 @@ TEST_P(Functions, ElementByElement) {
   expect("abs(B)", map(B, [](double t) { return std::fabs(t); }));
   expect("sign(B)", map(B, [](double t) { return t > 0 ? 1.0 : t < 0 ? -1.0 : 0.0; }));
   EXPECT_EQ(world("sign([-2, 0, 3])"), (Matrix{{-1, 0, 1}}));
+}
+
+TEST_P(Functions, FloorModAndAngles) {
+  expect("floor(5*B)", map(5 * B, [](double t) { return std::floor(t); }));
+  expect("mod(5*v, x)", (5 * v).unaryExpr([](double t) { return t - 0.3 * std::floor(t / 0.3); }),
+         1e-12);
+  expect("mod(x, -v.^2)",
+         -v.unaryExpr([](double t) { return -0.3 + t * t * std::ceil(0.3 / (t * t)); }), 1e-12);
+  expect("atan2(B, D)", B.binaryExpr(D, [](double y, double x) { return std::atan2(y, x); }));
+  expect("atan2(v, 1)", map(v, [](double t) { return std::atan(t); }));
+  expect("[cos(atan2(x, y)); sin(atan2(x, y))]*norm([x, y])", Matrix{{-0.7}, {0.3}});
+}
+
+TEST(FunctionsOfNumbers, AtTheirEdges) {
+  const World world;
+  const auto value = [&](const std::string& text) { return world(text)(0, 0); };
+  EXPECT_EQ(value("floor(-0.5)"), -1);
+  EXPECT_EQ(value("floor(2)"), 2);
+  EXPECT_EQ(value("mod(6, 3)"), 0);
+  EXPECT_EQ(value("mod(-6, 3)"), 0);
+  EXPECT_EQ(value("mod(-1, 3)"), 2);
+  EXPECT_EQ(value("mod(1, -3)"), -2);
+  EXPECT_LT(value("mod(-1e-20, 1)"), 1);
+  EXPECT_GE(value("mod(-1e-20, 1)"), 0);
+  EXPECT_LT(value("mod(1e300, 0.1)"), 0.1);
+  EXPECT_EQ(value("atan2(0, -1)"), std::acos(-1.0));
+  EXPECT_EQ(value("atan2(-0, -1)"), std::acos(-1.0));
+  EXPECT_EQ(value("atan2(0, 0)"), 0);
+  EXPECT_NE(input_error([&] { value("mod(1, 0)"); }).message().find("division by zero"),
+            std::string::npos);
+  EXPECT_NE(input_error([&] { value("2 - [1; 2]./[1; 0]"); }).message().find("division by zero"),
+            std::string::npos);
+}
+
+TEST_P(Functions, ElementsOfVectors) {
+  expect("max(v)", v.maxCoeff());
+  expect("min(v)", v.minCoeff());
+  expect("max(v')", v.maxCoeff());
+  expect("max(abs([v; x; y]))", std::max(0.7, v.cwiseAbs().maxCoeff()));
+  expect("min(x)", 0.3);
+}
+
+TEST_P(Functions, CrossProductsAndSaturation) {
+  const Eigen::Vector3d a = v.topRows(3);
+  const Eigen::Vector3d b = A.col(1).topRows(3);
+  expect("skew(v(1:3))*A(1:3, 2)", Matrix(a.cross(b)));
+  expect("skew(v(1:3)')", world("-skew(v(1:3))'"));
+  expect("sat(v, 2)", v / std::max(1.0, v.norm() / 2));
+  expect("sat(v/10, 2)", v / 10);
+  expect("norm(sat(100*B, x))", 0.3);
+}
+
+TEST_P(Functions, ComplementsAreThoseOfTheHouseholderFactorisation) {
+  const Matrix Q = Eigen::HouseholderQR<Matrix>(B).householderQ();
+  expect("complement(B, 2)", Q.rightCols(2));
+  expect("complement(B, 1)", Q.rightCols(1));
+  expect("complement(v, 3)'*v", Matrix::Zero(3, 1));
+  expect("complement(zeros(3, 1), 2)", Matrix::Identity(3, 3).rightCols(2));
+  expect("complement(zeros(2, 0), 2)", Matrix::Identity(2, 2));
+  EXPECT_EQ(world("complement(B, 0)").cols(), 0);
 }
 
 TEST_P(Functions, MinMaxClipAndWhere) {

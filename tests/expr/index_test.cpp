@@ -53,7 +53,8 @@ TEST_F(Index, WorksOnAnyExpression) {
 }
 
 TEST_F(Index, OutsideIsRefusedWithTheRange) {
-  for (const char* text : {"A(4, 1)", "A(0, 1)", "A(-1, 1)", "A(2:4, 1)", "A(3:1, 1)", "A(5:4, 1)", "v(4)"}) {
+  for (const char* text :
+       {"A(4, 1)", "A(0, 1)", "A(-1, 1)", "A(2:4, 1)", "A(3:1, 1)", "A(5:4, 1)", "v(4)"}) {
     const InputError error = input_error([&] { world(text); });
     EXPECT_NE(error.message().find("outside 1:3"), std::string::npos) << text << error.what();
     EXPECT_EQ(error.place().column, 3) << text;

@@ -74,6 +74,20 @@ TEST(Lexer, TokensKnowTheirBytes) {
   EXPECT_EQ(tokens[3].begin, 10U);
 }
 
+TEST(Lexer, ThePointBelongsToTheOperator) {
+  for (const char* text : {"2.*v", "2.0.*v", "2 .*v", "2.* v"}) {
+    const auto tokens = tokenize({text, "f"});
+    ASSERT_EQ(tokens.size(), 4U) << text;
+    EXPECT_EQ(tokens[1].text, ".*") << text;
+  }
+  EXPECT_EQ(tokenize({"2./v", "f"})[0].text, "2");
+  EXPECT_EQ(tokenize({"2.^v", "f"})[1].kind, TokenKind::point_caret);
+  EXPECT_EQ(tokenize({"2.5./v", "f"})[0].text, "2.5");
+  EXPECT_EQ(tokenize({"2..^v", "f"})[1].kind, TokenKind::dots);
+  EXPECT_EQ(tokenize({"2.", "f"})[0].text, "2.");
+  EXPECT_EQ(tokenize({"2.+v", "f"})[0].text, "2.");
+}
+
 TEST(Lexer, NothingIsTheEndAlone) {
   EXPECT_EQ(kinds(""), std::vector{TokenKind::end});
   EXPECT_EQ(kinds(" \t\n"), std::vector{TokenKind::end});
@@ -81,10 +95,9 @@ TEST(Lexer, NothingIsTheEndAlone) {
 
 TEST(Lexer, SpellingsOfOtherLanguagesAreExplained) {
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"=", "'let'"},       {".nan", "finite"},    {".NaN", "finite"},     {".NAN", "finite"},
-      {".inf", "finite"},   {".Inf", "finite"},    {".INF", "finite"},     {".*", "diag(a)*b"},
-      {"&", "chain"},       {"\xE2\x88\x92", "-"}, {"\xE2\x89\xA4", "<="}, {"\xE2\x89\xA5", ">="},
-      {"\xE2\x80\x99", "'"}};
+      {"=", "'let'"},        {".nan", "finite"},     {".NaN", "finite"},     {".NAN", "finite"},
+      {".inf", "finite"},    {".Inf", "finite"},     {".INF", "finite"},     {"&", "chain"},
+      {"\xE2\x88\x92", "-"}, {"\xE2\x89\xA4", "<="}, {"\xE2\x89\xA5", ">="}, {"\xE2\x80\x99", "'"}};
   for (const auto& [spelling, advice] : cases) {
     const InputError error = input_error([&] { tokenize({"ab " + spelling + " c", "f"}); });
     EXPECT_EQ(error.place(), (Place{"f", 1, 4})) << error.what();

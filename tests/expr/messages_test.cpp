@@ -43,7 +43,7 @@ TEST_F(Messages, UnknownNamesComeWithTheNearest) {
 TEST_F(Messages, WhatOtherLanguagesWriteComesWithWhatToWriteHere) {
   expect("A => 0", 3, {"'=>'", "did you mean >=?"});
   expect("A =< 0", 3, {"'=<'", "did you mean <=?"});
-  expect("A ./ 2", 3, {"'./'", "divides"});
+  expect("A.'", 2, {"write ' for the transpose"});
   expect("A\\B", 2, {"inv(A)*B"});
   expect("A |", 3, {"norm(M)"});
   expect("A\"", 2, {"quotation mark that begins"});
@@ -94,9 +94,26 @@ TEST_F(Messages, BothShapesAreShown) {
   expect("1 + A*B'", 5, {"multiply A (2 x 2) by B' (3 x 2)", "2 columns meet 3 rows"});
   expect("delta*(A + B)", 8, {"cannot add A (2 x 2) and B (2 x 3)"});
   expect("A - B", 1, {"cannot subtract A (2 x 2) and B (2 x 3)"});
-  expect("A/A", 1, {"cannot divide by A (2 x 2)", "inv(...)"});
-  expect("B^2", 1, {"B (2 x 3)", "not square"});
-  expect("A^0.5", 1, {"whole powers"});
+  expect("B*B", 1, {"3 columns meet 2 rows", "element by element it is .*"});
+  expect("A/A", 1, {"cannot divide by A (2 x 2)", "inv(...)", "./ for each element"});
+  expect("B^2", 1, {"B (2 x 3)", "not square", ".^"});
+  expect("A^0.5", 1, {"whole powers", ".^"});
+  expect("A.*B", 1, {"the elementwise product of A (2 x 2) and B (2 x 3)", "equal"});
+  expect("A./B", 1, {"the elementwise quotient of A (2 x 2) and B (2 x 3)"});
+  expect("A.^B", 1, {"the elementwise power of A (2 x 2) and B (2 x 3)"});
+  expect("I.*B", 1, {"I (a multiple of I) and B (2 x 3)"});
+  expect("I.^2", 1, {"the size of the identity"});
+  expect("A + 1", 1, {"cannot add A (2 x 2) and 1 (1 x 1)", "s*I"});
+  expect("B(1, :) - 8", 1, {"cannot subtract B(1, :) (1 x 3) and 8 (1 x 1)"});
+  expect("B + 1", 1, {"cannot add B (2 x 3) and 1 (1 x 1)"});
+  expect("max(A)", 5, {"largest element of a vector, not of A (2 x 2)", "max(A, B)"});
+  expect("min(B)", 5, {"smallest element of a vector"});
+  expect("max(zeros(0, 1))", 5, {"max of an empty vector"});
+  expect("skew(A)", 6, {"a vector of 3 elements, not A (2 x 2)"});
+  expect("sat(A, B)", 8, {"B (2 x 3)", "expected 1 x 1"});
+  expect("complement(B, 1)", 1, {"of B (2 x 3) there are 0 columns, not 1"});
+  expect("complement(A(:, 1), delta)", 21, {"the number of columns must be a whole number"});
+  expect("mod(A, B)", 8, {"B (2 x 3)", "expected 2 x 2"});
   expect("2^A", 1, {"whole powers"});
   expect("1 + trace(B)", 11, {"square", "B (2 x 3)"});
   expect("inv(B)", 5, {"square", "B (2 x 3)"});
@@ -108,6 +125,17 @@ TEST_F(Messages, BothShapesAreShown) {
   expect("where(A > 0, B, 2)", 7, {"expected 2 x 3"});
   expect("clip(delta, A, 1)", 13, {"A (2 x 2)", "expected 1 x 1"});
   expect("obsv(A, B)", 1, {"2 columns", "B (2 x 3)"});
+}
+
+TEST_F(Messages, AJacobianIsByAName) {
+  world.define("f(v)", "v'*v").define("twice(v)", "jacobian(jacobian(v'*v, v), v)");
+  expect("jacobian(A*delta, 2*delta)", 19, {"needs a name x", "not '2*delta'"});
+  expect("jacobian(A, I)", 13, {"the size of the identity"});
+  expect("jacobian(A, pi)", 13, {"'pi' is a number that nothing varies"});
+  expect("jacobian(A, f)", 13, {"'f' takes 1 arguments"});
+  expect("jacobian(A, dleta)", 13, {"unknown name 'dleta'", "did you mean 'delta'?"});
+  expect("jacobian(A)", 1, {"jacobian(e, x)", "found 1 arguments"});
+  EXPECT_NE(of("twice(delta)").message().find("a jacobian of a jacobian"), std::string::npos);
 }
 
 TEST_F(Messages, AComparisonIsNoValue) {

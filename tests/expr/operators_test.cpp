@@ -84,6 +84,40 @@ TEST_P(Operators, PowersBindAsInMatlab) {
   expect("x^(1 - 3)", 1 / (x * x));
 }
 
+TEST_P(Operators, ElementByElement) {
+  expect("A.*A'", A.cwiseProduct(A.transpose()));
+  expect("2.*B", 2 * B);
+  expect("B.*x", x * B);
+  expect("B./C'", B.cwiseQuotient(C.transpose()));
+  expect("2./B", (B / 2).cwiseInverse());
+  expect("B./x", B / x);
+  expect("x./x", 1);
+  expect("B.^3", B.cwiseProduct(B).cwiseProduct(B));
+  expect("B.^0", Matrix::Ones(3, 2));
+  expect("B.^1", B);
+  expect("B.^-2", B.cwiseProduct(B).cwiseInverse());
+  expect("abs(B).^0.5", B.cwiseAbs().cwiseSqrt());
+  expect("x.^B", (std::log(x) * B).array().exp());
+  expect("abs(B).^B", (B.array() * B.array().abs().log()).exp());
+  expect("x.^2", x * x);
+  expect("x.^-0.5", 1 / std::sqrt(x));
+  expect("-B.^2", -B.cwiseProduct(B));
+  expect("A*B.*B", product({A, B}).cwiseProduct(B));
+  expect("I.*A", Matrix(A.diagonal().asDiagonal()));
+  expect("A - 2.*I", A - 2 * Matrix::Identity(3, 3));
+  expect("0.*B", Matrix::Zero(3, 2));
+}
+
+TEST_P(Operators, ANumberWithAColumnCountsForEachElement) {
+  const Matrix ones = Matrix::Ones(3, 1);
+  expect("A(:, 1) - 8", A.col(0) - 8 * ones);
+  expect("x + B(:, 2)", B.col(1) + x * ones);
+  expect("1 - A(:, 1)", ones - A.col(0));
+  expect("max(A*A(:, 1) - 0.5, 0).^2",
+         (product({A, A.col(0)}) - 0.5 * ones).cwiseMax(0).array().square());
+  expect("where(A(:, 1) > 0.2, 1, A(:, 2))", (A.col(0).array() > 0.2).select(ones, A.col(1)));
+}
+
 INSTANTIATE_TEST_SUITE_P(Seeds, Operators, testing::Values(1, 2, 3));
 
 TEST(Literals, AreKeptAsWrittenUntilANumberTypeRoundsThem) {

@@ -44,6 +44,12 @@ std::string tree(const Node& node) {
       return list("/");
     case NodeKind::power:
       return list("^");
+    case NodeKind::elementwise_multiply:
+      return list(".*");
+    case NodeKind::elementwise_divide:
+      return list("./");
+    case NodeKind::elementwise_power:
+      return list(".^");
     case NodeKind::block:
       return list("block" + std::to_string(node.columns));
     case NodeKind::mirror:
@@ -73,6 +79,11 @@ TEST(Parser, BindsAsMatlabDoes) {
   EXPECT_EQ(tree("2^-1*3"), "(* (^ 2 (neg 1)) 3)");
   EXPECT_EQ(tree("2^3^4"), "(^ (^ 2 3) 4)");
   EXPECT_EQ(tree("-a*b"), "(* (neg a) b)");
+  EXPECT_EQ(tree("a.*b*c./d"), "(./ (* (.* a b) c) d)");
+  EXPECT_EQ(tree("a + 2.*b"), "(+ a (.* 2 b))");
+  EXPECT_EQ(tree("-x.^2.*y"), "(.* (neg (.^ x 2)) y)");
+  EXPECT_EQ(tree("x.^-2'"), "(' (.^ x (neg 2)))");
+  EXPECT_EQ(tree("x.^2^3"), "(^ (.^ x 2) 3)");
   EXPECT_EQ(tree("a*-b"), "(* a (neg b))");
   EXPECT_EQ(tree("a - -b"), "(- a (neg b))");
   EXPECT_EQ(tree("+a"), "a");

@@ -30,7 +30,7 @@ class Generator {
 
   Sample make(int rows, int cols, int depth) {
     if (depth == 0) return leaf(rows, cols);
-    switch (pick(9)) {
+    switch (pick(11)) {
       case 0:
       case 1:
         return sum(rows, cols, depth - 1);
@@ -53,6 +53,19 @@ class Generator {
       case 7: {
         const Sample inner = make(rows, cols, depth - 1);
         return {guarded(inner, 2) + "/(3 + 1)", inner.value / 4, 2};
+      }
+      case 8: {
+        const Sample a = make(rows, cols, depth - 1);
+        const Sample b = make(rows, cols, depth - 1);
+        return {guarded(a, 2) + ".*" + guarded(b, 3), a.value.cwiseProduct(b.value), 2};
+      }
+      case 9: {
+        const Sample a = make(rows, cols, depth - 1);
+        const Sample b = make(rows, cols, 0);
+        const Matrix divisor = (b.value.cwiseProduct(b.value).array() + 1).matrix();
+        return {guarded(a, 2) + "./(" + guarded(b, 4) + ".^2 + ones(" + std::to_string(rows) +
+                    ", " + std::to_string(cols) + "))",
+                a.value.cwiseQuotient(divisor), 2};
       }
       default:
         return rows == cols ? square(rows, depth - 1) : blocks(rows, cols, depth - 1);

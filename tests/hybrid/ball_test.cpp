@@ -71,7 +71,20 @@ TEST(Balls, HoldTheValueInHundredDigits) {
                            "trace(x*x')",
                            "diag(x)*A",
                            "[x, A; s, x']",
-                           "sqrt(abs(s))"}) {
+                           "sqrt(abs(s))",
+                           "x.*A(:, 1) - s",
+                           "x./(3 + x.^2)",
+                           "(3 + x).^s",
+                           "floor(3*x)",
+                           "mod(x, 0.7)",
+                           "mod(x(1), s)",
+                           "atan2(x, s)",
+                           "complement(x, 1)",
+                           "sat(x, 0.5)",
+                           "max(x) - min(x)",
+                           "jacobian(sin(x)*s + max(x, s), x)",
+                           "jacobian(abs(x).*x/norm(x), x)",
+                           "jacobian(atan2(x, s) + mod(x, 0.7), s)"}) {
     SCOPED_TRACE(text);
     hold_their_values<double>(text);
     hold_their_values<DoubleDouble>(text);

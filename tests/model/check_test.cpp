@@ -32,7 +32,7 @@ TEST(Check, MistakesInTheMethodAreFound) {
                                    {"jump: {z: z/2}", "jump: {z: zz/2}", "did you mean 'z'?"},
                                    {"flow: {th: K*zh}", "flow: {th: K'}", "expected 1 x 1"},
                                    {"output: {y: b'*z}", "output: {y: b*z}", "cannot multiply"},
-                                   {"e: z - zh", "e: z - th", "cannot subtract"},
+                                   {"e: z - zh", "e: z - zh'", "cannot subtract"},
                                    {"reset: [T1, T2]", "reset: [T1, A]", "expected 1 x 1"},
                                    {"e'*P*e + s", "e*e'", "expected 1 x 1"},
                                    {"flow: y^2", "flow: e", "expected 1 x 1"},

@@ -1,6 +1,7 @@
 #include "numbers/conformance.h"
 
 #include "base/eigen_scalars.h"
+#include "numbers/dual.h"
 #include "numbers/enclosure.h"
 #include "numbers/jet.h"
 #include "numbers/pack.h"
@@ -38,7 +39,17 @@ Subject enclosure(const std::string& name, double tolerance) {
   };
   Subject result = subject<Enclosure<Scalar>>(name, tolerance, exact, moving, middle);
   result.lacks = kProjections;
+  result.of_jacobians = 1e-14;
   return result;
+}
+
+/// All that moves, moves in one direction.
+Subject dual() {
+  const auto moving = [](const Matrix& matrix) -> Dual<double> {
+    return {matrix, Matrix::Ones(matrix.size(), 1), {}};
+  };
+  const auto value = [](const Dual<double>& x) { return x.value; };
+  return subject<DualNumbers<double>>("dual", 1e-14, constant_dual<double>, moving, value);
 }
 
 /// What moves has the slope 1.
@@ -80,7 +91,7 @@ INSTANTIATE_TEST_SUITE_P(NumberTypes, Conformance,
                          testing::Values(real<double>("double", 1e-14),
                                          real<DoubleDouble>("31 digits", 1e-29),
                                          real<Decimal100>("100 digits", 1e-97), pack(), jet(),
-                                         enclosure<double>("enclosure", 1e-14),
+                                         dual(), enclosure<double>("enclosure", 1e-14),
                                          enclosure<DoubleDouble>("enclosure 31 digits", 1e-29),
                                          enclosure<Decimal100>("enclosure 100 digits", 1e-97)),
                          [](const auto& tested) {

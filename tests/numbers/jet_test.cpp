@@ -101,16 +101,43 @@ TEST(Jet, SmoothFunctionsOfEveryOperation) {
                                           "-[t, exp(t)]",
                                           "where(t >= -1, t^2, 1)",
                                           "max(t^2, -1)",
-                                          "abs(1 + t)"};
+                                          "abs(1 + t)",
+                                          "[t, t^2].*[1 - t, exp(t)]",
+                                          "[t, 1]./[2 + t, 1 + t^2]",
+                                          "[t - 2, t].^5",
+                                          "[1 + t, 2 + t].^0.37",
+                                          "[1 + t, 2].^[t, t^2]",
+                                          "atan2([t, t - 3], [1 + t^2, -t])",
+                                          "mod(t + 0.1, 3)",
+                                          "mod(-5, 8 + t)",
+                                          "floor(t/2 + 0.2)",
+                                          "skew([t; t^2; exp(t)])"};
   for (const std::string& text : texts) expect_enclosed(text, 0, 1);
 }
 
 /// Kinks and cusps: where a slope or a bend exists it is enclosed, at the kink nothing is claimed.
 TEST(Jet, KinksAndCusps) {
-  for (const char* text :
-       {"abs(t - 0.3)", "max(t, 1 - 2*t)", "min(t, 0.25)", "clip(5*t, 1, 2)",
-        "where(t > 0.3, 1, 3)*t", "sign(t - 0.6)", "abs(t - 0.3)^0.1", "sqrt(abs(t - 0.3))",
-        "norm([t - 0.3; 2*t - 0.6])", "norm([1, t; t, 0.5])", "svd([1, t; t, 0.5])"})
+  for (const char* text : {"abs(t - 0.3)",
+                           "max(t, 1 - 2*t)",
+                           "min(t, 0.25)",
+                           "clip(5*t, 1, 2)",
+                           "where(t > 0.3, 1, 3)*t",
+                           "sign(t - 0.6)",
+                           "abs(t - 0.3)^0.1",
+                           "sqrt(abs(t - 0.3))",
+                           "norm([t - 0.3; 2*t - 0.6])",
+                           "floor(3*t)",
+                           "mod(3*t, 1)",
+                           "mod(2, 0.3 + t)",
+                           "mod(-3*t, -0.7)",
+                           "atan2(t - 0.3, -1)",
+                           "atan2(0.3 - t, t - 0.5)",
+                           "[t - 0.3, t].^4",
+                           "max([t; 1 - t; 0.5])",
+                           "sat([t; 2*t], 1)",
+                           "complement([t - 0.3; 1], 1)",
+                           "norm([1, t; t, 0.5])",
+                           "svd([1, t; t, 0.5])"})
     expect_enclosed(text, 0, 1, false);
 }
 

@@ -1,0 +1,13 @@
+#include "numbers/dual.h"
+
+#include "numbers/dual_rules.h"
+#include "numbers/foundation.h"
+
+namespace gainsmith::numbers {
+
+template Dual<double> constant_dual<double>(const Matrix&);
+template Dual<double> variable_dual<double>(const Matrix&);
+template struct DualNumbers<double>;
+template Matrix jacobian<double>(const expr::Instruction&, expr::Operands<Matrix>);
+
+}  // namespace gainsmith::numbers
