@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "base/error.h"
 #include "base/number.h"
@@ -23,70 +24,58 @@ constexpr double kSharper = 1e-2;
 constexpr Index kBeside = 2;
 constexpr double kMargin = 4;
 
-numbers::Values in_double(const numbers::ValuesOf<Decimal100>& values) {
-  numbers::Values rounded;
-  for (const auto& [name, value] : values)
-    rounded[name] =
-        value.unaryExpr([](const Decimal100& element) { return static_cast<double>(element); });
-  return rounded;
-}
-
 bool is_within_range(const VectorXd& x) { return (x.array().abs() <= kLargestState).all(); }
 
 }  // namespace
 
+SharedFlows::SharedFlows(const System& system, const Scenario& scenario,
+                         const Coordinates& coordinates, std::vector<Index> integrals)
+    : coordinates_(&coordinates),
+      constants_(in_double(coordinates.constants)),
+      integrals_(std::move(integrals)),
+      longest_(std::max(system.high, system.first_high)),
+      start_(ClockedFlow::start_of(system, scenario.starts, coordinates, constants_, integrals_)) {}
+
+const ClockedFlow* SharedFlows::to(double relative) {
+  if (!start_) return nullptr;
+  const std::lock_guard lock(mutex_);
+  const auto known = made_.find(relative);
+  if (known != made_.end()) return known->second.get();
+  std::unique_ptr<const ClockedFlow>& flow = made_[relative];
+  try {
+    flow = std::make_unique<ClockedFlow>(*coordinates_, constants_, *start_, integrals_, longest_,
+                                         relative);
+  } catch (const IntegrationError&) {
+  }
+  return flow.get();
+}
+
 IntegratedSimulator::IntegratedSimulator(const System& system, const Scenario& scenario,
-                                         const Coordinates& coordinates)
+                                         const Coordinates& coordinates, SharedFlows* shared)
     : system_(&system),
       scenario_(&scenario),
       coordinates_(&coordinates),
+      shared_(shared),
       constants_(in_double(coordinates.constants)),
-      starts_(scenario.starts, system) {
+      starts_(scenario.starts, system),
+      rate_(coordinates, constants_) {
   const StateLayout& layout = coordinates.layout;
-  clock_rates_ = VectorXd::Zero(layout.size);
-  point_ = VectorXd::Zero(layout.size);
-  for (std::size_t i = 0; i < coordinates.list.size(); ++i) {
-    const Coordinate& one = coordinates.list[i];
-    const Slot& slot = layout.slots[i];
+  for (const Coordinate& one : coordinates.list) {
     begin_.emplace_back(one.start, system.layout, constants_);
-    const auto function = [&](const std::optional<expr::Program>& program) {
-      return program ? std::make_unique<PointFunction>(*program, layout, constants_) : nullptr;
-    };
-    after_.push_back(function(one.jump));
-    flow_.push_back(function(one.flow));
-    if (flow_.back() == nullptr) continue;
-    if (one.rate_is_constant(layout)) {
-      clock_rates_.segment(slot.offset, slot.shape.size()) = (*flow_.back())(point_, 0).reshaped();
-      flow_.back().reset();
-      continue;
-    }
-    for (Index e = 0; e < slot.shape.size(); ++e) elements_.push_back(slot.offset + e);
+    after_.push_back(one.jump ? std::make_unique<PointFunction>(*one.jump, layout, constants_)
+                              : nullptr);
   }
   copies_.push_back(make_copy());
   copies_.push_back(make_copy());
 }
 
 IntegratedSimulator::Copy IntegratedSimulator::make_copy() {
-  const auto moving = static_cast<Index>(elements_.size());
-  return {VectorXd::Zero(point_.size()), VectorXd::Zero(point_.size()), VectorXd::Zero(moving),
-          Integrator(moving,
-                     [this](double t, const VectorXd& x, VectorXd& slope) { rate(t, x, slope); })};
-}
-
-void IntegratedSimulator::set_moving(double t, const VectorXd& moving, VectorXd& x) const {
-  x = *flow_start_ + t * clock_rates_;
-  x(elements_) = moving;
-}
-
-void IntegratedSimulator::rate(double t, const VectorXd& moving, VectorXd& slope) {
-  set_moving(t, moving, point_);
-  Index at = 0;
-  for (const auto& entry : flow_) {
-    if (entry == nullptr) continue;
-    const numbers::Matrix& value = (*entry)(point_, flow_timer_ - t);
-    slope.segment(at, value.size()) = value.reshaped();
-    at += value.size();
-  }
+  const auto moving = static_cast<Index>(rate_.elements().size());
+  const VectorXd all = VectorXd::Zero(coordinates_->layout.size);
+  return {all, all, VectorXd::Zero(moving),
+          Integrator(moving, [this](double t, const VectorXd& x, VectorXd& slope) {
+            rate_(*flow_start_, flow_timer_, t, x, slope);
+          })};
 }
 
 VectorXd IntegratedSimulator::absolute(const VectorXd& x, double relative) const {
@@ -94,14 +83,15 @@ VectorXd IntegratedSimulator::absolute(const VectorXd& x, double relative) const
   constexpr double kOfOthers = 1e-4;
   VectorXd sizes = VectorXd::Zero(x.size());
   double largest = 0;
-  for (std::size_t i = 0; i < flow_.size(); ++i) {
-    if (flow_[i] == nullptr) continue;
+  for (std::size_t i = 0; i < coordinates_->list.size(); ++i) {
+    if (!rate_.is_integrated(i)) continue;
     const Slot& slot = coordinates_->layout.slots[i];
     const double size = x.segment(slot.offset, slot.shape.size()).lpNorm<Eigen::Infinity>();
     sizes.segment(slot.offset, slot.shape.size()).setConstant(size);
     largest = std::max(largest, size);
   }
-  return (kBelow * relative * sizes.cwiseMax(kOfOthers * largest))(elements_).cwiseMax(1e-250);
+  return (kBelow * relative * sizes.cwiseMax(kOfOthers * largest))(rate_.elements())
+      .cwiseMax(1e-250);
 }
 
 void IntegratedSimulator::append(double t, std::int64_t j, double timer, double timer_bound) {
@@ -158,9 +148,15 @@ void IntegratedSimulator::advance(double t) {
   std::vector<IntegrationError> ends;
   for (Copy& copy : copies_) {
     flow_start_ = &copy.start;
+    if (copy.shared != nullptr) {
+      (*copy.shared)(copy.start, t, copy.x);
+      copy.moving = copy.x(rate_.elements());
+      rate_.place(copy.start, t, copy.moving, copy.x);
+      continue;
+    }
     try {
       copy.integrator.advance(t, copy.moving);
-      set_moving(t, copy.moving, copy.x);
+      rate_.place(copy.start, t, copy.moving, copy.x);
     } catch (const IntegrationError& error) {
       ends.push_back(error);
     }
@@ -180,8 +176,14 @@ void IntegratedSimulator::flow(double interval, double relative) {
   double accuracy = relative;
   for (Copy& copy : copies_) {
     copy.start = copy.x;
+    copy.shared = shared_ != nullptr ? shared_->to(accuracy) : nullptr;
+    if (copy.shared != nullptr) {
+      accuracy *= kSharper;
+      continue;
+    }
     if (interval == 0) continue;
-    copy.integrator.start(0, copy.x(elements_), interval, accuracy, absolute(copy.x, accuracy));
+    copy.integrator.start(0, copy.x(rate_.elements()), interval, accuracy,
+                          absolute(copy.x, accuracy));
     accuracy *= kSharper;
   }
   for (int piece = 1; piece <= kPieces && interval > 0; ++piece) {
@@ -216,7 +218,7 @@ void IntegratedSimulator::jump(double reset_value) {
 const Track<double>& IntegratedSimulator::run(std::uint64_t seed, std::uint64_t run,
                                               double relative) {
   track_.clear();
-  track_.size = point_.size();
+  track_.size = coordinates_->layout.size;
   track_.accuracy = relative;
   flow_first_ = 0;
   RandomStream random(seed, run);

@@ -10,21 +10,47 @@
 // element of that state when a flow begins, and a state that is 0 there counts 1e-4 of the largest
 // state.
 //
-// A coordinate without a flow keeps its bits; one of a constant derivative (a clock) is start +
-// rate t, with the rounding of that alone.
+// Where a flow is linear but for clocks (clocked_flow.h), it is integrated once for all runs, to
+// both accuracies.
 #pragma once
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <vector>
 
 #include "hybrid/bounded_run.h"
+#include "hybrid/clocked_flow.h"
 #include "hybrid/coordinates.h"
 #include "hybrid/integrator.h"
 #include "hybrid/simulate.h"
 
 namespace gainsmith::hybrid {
+
+/// The flows of a system that is linear but for clocks, made when they are first asked for.
+class SharedFlows {
+ public:
+  /// `integrals`: elements of the coordinates that are integrals, of quadratic forms all. All
+  /// arguments must outlive it.
+  SharedFlows(const System& system, const Scenario& scenario, const Coordinates& coordinates,
+              std::vector<Eigen::Index> integrals);
+
+  /// To this relative accuracy; nullptr when the system is not of that kind or its flow cannot be
+  /// integrated so far. May be called from many threads.
+  const ClockedFlow* to(double relative);
+
+ private:
+  const Coordinates* coordinates_;
+  numbers::Values constants_;
+  std::vector<Eigen::Index> integrals_;
+  double longest_;
+  std::optional<Eigen::VectorXd> start_;
+  std::mutex mutex_;
+  std::map<double, std::unique_ptr<const ClockedFlow>> made_;
+};
 
 /// Simulates run after run; one for each thread. All arguments must outlive it.
 class IntegratedSimulator {
@@ -32,7 +58,7 @@ class IntegratedSimulator {
   static constexpr int kPieces = 32;
 
   IntegratedSimulator(const System& system, const Scenario& scenario,
-                      const Coordinates& coordinates);
+                      const Coordinates& coordinates, SharedFlows* shared = nullptr);
 
   /// The run of the draws that Simulator makes of the same seed and number, integrated to
   /// `relative` and `relative`/100. It ends as undefined where a map has no value or the steps of
@@ -47,11 +73,10 @@ class IntegratedSimulator {
     Eigen::VectorXd start;   ///< of the flow
     Eigen::VectorXd moving;  ///< the elements that are integrated
     Integrator integrator;
+    const ClockedFlow* shared = nullptr;
   };
 
   Copy make_copy();
-  void set_moving(double t, const Eigen::VectorXd& moving, Eigen::VectorXd& x) const;
-  void rate(double t, const Eigen::VectorXd& moving, Eigen::VectorXd& slope);
   Eigen::VectorXd absolute(const Eigen::VectorXd& x, double relative) const;
   void begin(std::uint64_t run, RandomStream& random);
   void flow(double interval, double relative);
@@ -65,16 +90,14 @@ class IntegratedSimulator {
   const System* system_;
   const Scenario* scenario_;
   const Coordinates* coordinates_;
+  SharedFlows* shared_;
   numbers::Values constants_;
   Starts starts_;
-  std::vector<PointFunction> begin_;                  ///< of the coordinates, over the states
-  std::vector<std::unique_ptr<PointFunction>> flow_;  ///< of those that are integrated
+  FlowRate rate_;
+  std::vector<PointFunction> begin_;  ///< of the coordinates, over the states
   std::vector<std::unique_ptr<PointFunction>> after_;
-  std::vector<Eigen::Index> elements_;  ///< that are integrated
-  Eigen::VectorXd clock_rates_;         ///< of all elements
   const Eigen::VectorXd* flow_start_ = nullptr;
   double flow_timer_ = 0;
-  Eigen::VectorXd point_;  ///< where the flow is evaluated
   std::vector<Copy> copies_;
   std::size_t flow_first_ = 0;  ///< the first sample since the last jump
   Track<double> track_;

@@ -56,7 +56,7 @@ RunVerdict last_verdict(const hybrid::Track<Scalar>& track,
 
 Judge::Judge(const Setup& setup) : checks_(make_checks(setup, *setup.narrow)) {
   if (!setup.steps) {
-    integrated_.emplace(setup.system, setup.scenario, setup.coordinates);
+    integrated_.emplace(setup.system, setup.scenario, setup.coordinates, setup.shared.get());
     return;
   }
   narrow_.emplace(setup.system, setup.scenario, *setup.steps, *setup.narrow);

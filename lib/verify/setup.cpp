@@ -73,6 +73,18 @@ void add_judged_claims(Setup& setup, std::vector<Wide>& forms) {
   }
 }
 
+/// Costs must be quadratic: their integrals are a part of the flow.
+void add_shared_flows(Setup& setup) {
+  std::vector<Eigen::Index> integrals;
+  for (const JudgedClaim& claim : setup.judged) {
+    if (!claim.accumulated) continue;
+    if (!claim.flow_cost->quadratic) return;
+    integrals.push_back(*claim.accumulated);
+  }
+  setup.shared = std::make_unique<hybrid::SharedFlows>(setup.system, setup.scenario,
+                                                       setup.coordinates, integrals);
+}
+
 }  // namespace
 
 std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
@@ -83,12 +95,20 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
   std::optional<hybrid::FlowSteps> steps;
   if (system.flow) steps = hybrid::make_steps(system);
   std::vector<LinkedClaim> claims = link_claims(design, system);
-  auto setup = std::make_unique<Setup>(Setup{
-      std::move(system), std::move(scenario), std::move(steps), std::move(claims), {}, {}, {}, {}});
+  auto setup = std::make_unique<Setup>(Setup{std::move(system),
+                                             std::move(scenario),
+                                             std::move(steps),
+                                             std::move(claims),
+                                             {},
+                                             {},
+                                             {},
+                                             {},
+                                             {}});
   setup->coordinates = hybrid::make_coordinates(
       setup->system, hybrid::exact_values(instance, setup->system, gains), functions_of(*setup));
   std::vector<Wide> forms;
   add_judged_claims(*setup, forms);
+  if (!setup->steps) add_shared_flows(*setup);
   std::optional<hybrid::ExactSteps> exact;
   if (setup->steps) exact = hybrid::exact_steps(setup->coordinates, *setup->steps, forms);
   setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, exact);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hybrid/bounded_run.h"
+#include "hybrid/integrated_run.h"
 #include "hybrid/simulate.h"
 #include "hybrid/system.h"
 #include "verify/claim_check.h"
@@ -24,6 +25,7 @@ struct Setup {
   std::vector<JudgedClaim> judged;  ///< the claims that are stated, in order
   std::unique_ptr<hybrid::BoundedSystem<double>> narrow;
   std::unique_ptr<hybrid::BoundedSystem<DoubleDouble>> wide;
+  std::unique_ptr<hybrid::SharedFlows> shared;  ///< of integrated flows
 };
 
 /// At an address of its own: its parts point to each other.

@@ -154,10 +154,10 @@ TEST(FamilyDesign, MistakesAreNamed) {
           "")
           .find("the indices have more than 100000 values"),
       std::string::npos);
-  for (const std::string& text : {"  unknowns: {x: scalar}\n  require: {p: x != 3}\n",
+  for (const char* const text : {"  unknowns: {x: scalar}\n  require: {p: x != 3}\n",
                                   "  data: {k: scalar}\n  assume: {c: k != 2}\n  unknowns: {x: "
                                   "scalar}\n  require: {p: x > k}\n"})
-    EXPECT_NE(message(text, text.find("data") < text.size() ? "data: {k: 1}\n" : "")
+    EXPECT_NE(message(text, std::string(text).find("data") != std::string::npos ? "data: {k: 1}\n" : "")
                   .find("'!=' stands between indices only"),
               std::string::npos)
         << text;

@@ -121,6 +121,55 @@ TEST(IntegratedRun, StaysWithinItsBoundsOfTheClosedForm) {
     }
 }
 
+/// x' = [0 1; -1 -s] x + [0; s], s since the last jump, and the integral of x'x/(1 + s): the same
+/// run by itself and with flows that all runs share.
+TEST(IntegratedRun, SharesFlowsThatAreLinearButForClocks) {
+  TextProblem problem;
+  problem.state("x", "2").state("k", "scalar").state("s", "scalar");
+  problem.flow({{"x", "[0, 1; -1, -s]*x + [k; s]"}, {"s", "1"}});
+  problem.jump({{"x", "x*exp(-s)"}, {"k", "x(1)"}, {"s", "0"}}).timer("0.1", "2", "0", "2");
+  problem.horizon("15").start("s", StartKind::expression, {"0"});
+  Made made(problem);
+  Coordinates states = made.states;
+  const Eigen::Index integral = add_integral(states, "c", problem.program("x'*x/(1 + s) + k*x(2)"));
+  SharedFlows shared(made.system, made.scenario, states, {integral});
+  ASSERT_NE(shared.to(1e-8), nullptr);
+  EXPECT_EQ(shared.to(1e-8), shared.to(1e-8));
+  EXPECT_LT(shared.to(1e-8)->pieces(), 40U);
+  IntegratedSimulator with(made.system, made.scenario, states, &shared);
+  IntegratedSimulator without(made.system, made.scenario, states);
+  for (std::uint64_t run = 0; run < 20; ++run) {
+    const Track<double>& a = with.run(5, run, 1e-8);
+    const Track<double>& b = without.run(5, run, 1e-8);
+    ASSERT_EQ(a.samples(), b.samples());
+    for (std::size_t k = 0; k < a.samples(); ++k) {
+      EXPECT_EQ(a.t[k], b.t[k]);
+      const VectorXd difference = (a.state(k) - b.state(k)).cwiseAbs();
+      EXPECT_TRUE((difference.array() <= a.bound(k).array() + b.bound(k).array()).all())
+          << run << " " << k << ": " << difference.transpose();
+    }
+  }
+}
+
+TEST(IntegratedRun, SharesNoOtherFlows) {
+  const auto is_shared = [](const char* flow, const char* jump, const char* start) {
+    TextProblem problem;
+    problem.state("x", "scalar").state("s", "scalar").flow({{"x", flow}, {"s", "1"}});
+    problem.jump({{"s", jump}}).timer("0.5", "1", "0.5", "1");
+    problem.start("s", StartKind::expression, {start});
+    Made made(problem);
+    SharedFlows shared(made.system, made.scenario, made.states, {});
+    return shared.to(1e-8) != nullptr;
+  };
+  EXPECT_TRUE(is_shared("-s*x", "0", "0"));
+  EXPECT_TRUE(is_shared("-s*x", "0.25", "1/4"));
+  EXPECT_FALSE(is_shared("-s*x", "0", "0.25"));
+  EXPECT_FALSE(is_shared("-s*x", "s", "0"));
+  EXPECT_FALSE(is_shared("-s*x", "s/2", "0"));
+  EXPECT_FALSE(is_shared("-s*x^2", "0", "0"));
+  EXPECT_FALSE(is_shared("-tau*x", "0", "0"));
+}
+
 /// The published observer, once exactly and once with a flow that only says that it moves.
 TEST(IntegratedRun, AgreesWithTheExactFlow) {
   const auto make = [](const char* nothing) {

@@ -51,7 +51,7 @@ TEST(GainBoundsTest, ScalarsAreBoundedAlike) {
 /// What two gains share keeps the smaller bound; gains that are not named have none.
 TEST(GainBoundsTest, GainsMayHaveBoundsOfTheirOwn) {
   const tests::YamlProblem yaml(
-      problem_with("L: inv(P)*Y, M: inv(P)*Y + K, G: Z*inv(P), N: inv(Q)*Z") +
+      problem_with("L: inv(P)*Y, M: inv(P)*Y - K', G: Z*inv(P), N: inv(Q)*Z") +
       "synthesis: {gain_bound: {L: 200, M: 5, G: 0.1}}\n");
   const GainBounds bounds = gain_bounds(Inequalities(yaml.instance), 200);
   EXPECT_EQ(names(bounds), (std::vector<std::string>{"inv(P)*Y", "inv(P)*Y", "Z*inv(P)"}));
