@@ -310,9 +310,9 @@ const Track<Scalar>& BoundedSimulator<Scalar>::run(std::uint64_t seed, std::uint
   for (std::size_t jumps = 0;; ++jumps) {
     const double left = scenario_->horizon - track_.t.back();
     const double timer = static_cast<double>(track_.timer.back());
-    const bool expires = timer <= left;
-    flow(expires ? timer : left);
-    if (track_.termination != Termination::horizon || !expires) return track_;
+    const bool jumps_again = expires(timer, track_.t.back(), scenario_->horizon);
+    flow(jumps_again ? timer : left);
+    if (track_.termination != Termination::horizon || !jumps_again) return track_;
     if (track_.j.back() >= scenario_->jump_limit) {
       track_.termination = Termination::jump_limit;
       return track_;

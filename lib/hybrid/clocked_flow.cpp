@@ -42,6 +42,7 @@ constexpr double kSmallestColumn = 1e-4;  ///< of the first columns
 constexpr double kResolved = 0.1;         ///< of the accuracy
 constexpr double kShortest = 1e-12;       ///< piece, of the whole
 constexpr int kFirstPieces = 32;
+constexpr double kFewestSteps = 512;  ///< of the whole: what lasts less may be stepped over
 constexpr std::size_t kMostPieces = 10000;
 
 /// Elements of a symmetric matrix of n + 1 rows.
@@ -215,7 +216,8 @@ ClockedFlow::ClockedFlow(const Coordinates& coordinates, const numbers::Values& 
     const double end = begin + length >= longest * (1 - 1e-12) ? longest : begin + length;
     stack(begin, at, rate);
     const VectorXd scale = sizes(at, rate, longest);
-    integrator.start(begin, at, end, relative, kBelow * relative * scale);
+    integrator.start(begin, at, end, relative, kBelow * relative * scale,
+                     std::min((end - begin) / kDegree, longest / kFewestSteps));
     Matrix points(at.size(), kDegree + 1);
     points.col(kDegree) = at;
     VectorXd next(at.size());

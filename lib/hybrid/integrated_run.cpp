@@ -19,10 +19,20 @@ using Eigen::VectorXd;
 
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 constexpr double kSharper = 1e-2;
+constexpr double kNoTime = 1e-14;  ///< of the time so far: a flow that only rounding made
+constexpr double kShorter = 0.25;  ///< longest step
 
 /// Where A and B happen to agree, samples beside it and a margin speak for the error.
 constexpr Index kBeside = 2;
 constexpr double kMargin = 4;
+
+/// A value that errs by its rounding, in turns up and down.
+numbers::Matrix with_rounding(const Ball<double>& value, double up) {
+  numbers::Matrix result(value.mid.rows(), value.mid.cols());
+  for (Index e = 0; e < result.size(); ++e)
+    result(e) = value.mid(e) + (e % 2 == 0 ? up : -up) * value.rad(e);
+  return result;
+}
 
 bool is_within_range(const VectorXd& x) { return (x.array().abs() <= kLargestState).all(); }
 
@@ -60,10 +70,15 @@ IntegratedSimulator::IntegratedSimulator(const System& system, const Scenario& s
       starts_(scenario.starts, system),
       rate_(coordinates, constants_) {
   const StateLayout& layout = coordinates.layout;
+  for (const auto& [name, value] : coordinates.constants)
+    balls_.emplace(name, ball_of<double>(value));
   for (const Coordinate& one : coordinates.list) {
     begin_.emplace_back(one.start, system.layout, constants_);
     after_.push_back(one.jump ? std::make_unique<PointFunction>(*one.jump, layout, constants_)
                               : nullptr);
+    begin_balls_.emplace_back(one.start, system.layout, balls_);
+    after_balls_.push_back(
+        one.jump ? std::make_unique<BallFunction<double>>(*one.jump, layout, balls_) : nullptr);
   }
   copies_.push_back(make_copy());
   copies_.push_back(make_copy());
@@ -78,7 +93,7 @@ IntegratedSimulator::Copy IntegratedSimulator::make_copy() {
           })};
 }
 
-VectorXd IntegratedSimulator::absolute(const VectorXd& x, double relative) const {
+VectorXd IntegratedSimulator::absolute(const VectorXd& x, double relative, double interval) {
   constexpr double kBelow = 1e-2;
   constexpr double kOfOthers = 1e-4;
   VectorXd sizes = VectorXd::Zero(x.size());
@@ -90,8 +105,25 @@ VectorXd IntegratedSimulator::absolute(const VectorXd& x, double relative) const
     sizes.segment(slot.offset, slot.shape.size()).setConstant(size);
     largest = std::max(largest, size);
   }
-  return (kBelow * relative * sizes.cwiseMax(kOfOthers * largest))(rate_.elements())
+  return (kBelow * relative *
+          sizes.cwiseMax(kOfOthers * std::max(largest, reach(x, interval))))(rate_.elements())
       .cwiseMax(1e-250);
+}
+
+/// How far the rates at x lead in the time of the flow.
+double IntegratedSimulator::reach(const VectorXd& x, double interval) {
+  double largest = 0;
+  VectorXd slope(static_cast<Index>(rate_.elements().size()));
+  for (const double part : {0.0, 0.5, 1.0}) {
+    try {
+      rate_(x, flow_timer_, part * interval, x(rate_.elements()), slope);
+    } catch (const InputError&) {
+      continue;  // the integration says so where it matters
+    }
+    if (slope.size() > 0 && slope.allFinite())
+      largest = std::max(largest, interval * slope.lpNorm<Eigen::Infinity>());
+  }
+  return largest;
 }
 
 void IntegratedSimulator::append(double t, std::int64_t j, double timer, double timer_bound) {
@@ -136,9 +168,11 @@ void IntegratedSimulator::begin(std::uint64_t run, RandomStream& random) {
   const VectorXd drawn = starts_(run, random);
   for (std::size_t i = 0; i < begin_.size(); ++i) {
     const Slot& slot = coordinates_->layout.slots[i];
-    copies_[0].x.segment(slot.offset, slot.shape.size()) = begin_[i](drawn, 0).reshaped();
+    copies_[1].x.segment(slot.offset, slot.shape.size()) = begin_[i](drawn, 0).reshaped();
+    copies_[0].x.segment(slot.offset, slot.shape.size()) =
+        with_rounding(begin_balls_[i](drawn, VectorXd::Zero(drawn.size()), 0, 0), rounding_)
+            .reshaped();
   }
-  copies_[1].x = copies_[0].x;
   for (Copy& copy : copies_) copy.integrator.reset();
 }
 
@@ -162,7 +196,7 @@ void IntegratedSimulator::advance(double t) {
     }
   }
   if (ends.empty()) return;
-  const bool certain = ends.size() == 2 && ends[0].collapsed && ends[1].collapsed &&
+  const bool certain = ends.size() == 2 && ends[0].escaped && ends[1].escaped &&
                        std::abs(ends[0].t - ends[1].t) <= kSame * t;
   track_.termination = certain ? Termination::undefined : Termination::lost;
   track_.message =
@@ -174,6 +208,7 @@ void IntegratedSimulator::flow(double interval, double relative) {
   const std::int64_t jumps = track_.j.back();
   flow_timer_ = track_.timer.back();
   double accuracy = relative;
+  double longest = interval / kPieces;
   for (Copy& copy : copies_) {
     copy.start = copy.x;
     copy.shared = shared_ != nullptr ? shared_->to(accuracy) : nullptr;
@@ -181,10 +216,17 @@ void IntegratedSimulator::flow(double interval, double relative) {
       accuracy *= kSharper;
       continue;
     }
-    if (interval == 0) continue;
+    if (interval <= kNoTime * start) continue;
+    flow_start_ = &copy.start;
     copy.integrator.start(0, copy.x(rate_.elements()), interval, accuracy,
-                          absolute(copy.x, accuracy));
+                          absolute(copy.x, accuracy, interval), longest);
     accuracy *= kSharper;
+    longest *= kShorter;
+  }
+  if (interval > 0 && interval <= kNoTime * start) {
+    track_.moves.push_back({false, {FlowStep::kRest, interval}});
+    append(start + interval, jumps, flow_timer_ - interval, kUnit * flow_timer_);
+    return set_bounds();
   }
   for (int piece = 1; piece <= kPieces && interval > 0; ++piece) {
     const double t = piece == kPieces ? interval : interval * piece / kPieces;
@@ -208,18 +250,32 @@ void IntegratedSimulator::jump(VectorXd& x) {
   x = after;
 }
 
+void IntegratedSimulator::jump_with_rounding(VectorXd& x) {
+  VectorXd after = x;
+  const VectorXd exact = VectorXd::Zero(x.size());
+  for (std::size_t i = 0; i < after_balls_.size(); ++i) {
+    if (after_balls_[i] == nullptr) continue;
+    const Slot& slot = coordinates_->layout.slots[i];
+    after.segment(slot.offset, slot.shape.size()) =
+        with_rounding((*after_balls_[i])(x, exact, 0, 0), rounding_).reshaped();
+  }
+  x = after;
+}
+
 void IntegratedSimulator::jump(double reset_value) {
-  for (Copy& copy : copies_) jump(copy.x);
+  jump_with_rounding(copies_[0].x);
+  jump(copies_[1].x);
   track_.moves.push_back({true, {}});
   flow_first_ = track_.samples();
   append(track_.t.back(), track_.j.back() + 1, reset_value, 0);
 }
 
 const Track<double>& IntegratedSimulator::run(std::uint64_t seed, std::uint64_t run,
-                                              double relative) {
+                                              double relative, Rounding rounding) {
   track_.clear();
   track_.size = coordinates_->layout.size;
   track_.accuracy = relative;
+  rounding_ = rounding == Rounding::up ? 2 : -2;
   flow_first_ = 0;
   RandomStream random(seed, run);
   const Law& law = scenario_->laws[run % scenario_->laws.size()];
@@ -228,16 +284,18 @@ const Track<double>& IntegratedSimulator::run(std::uint64_t seed, std::uint64_t 
     append(0, 0, first_timer(*system_, *scenario_, random), 0);
     for (std::size_t jumps = 0;; ++jumps) {
       const double left = scenario_->horizon - track_.t.back();
-      const bool expires = track_.timer.back() <= left;
-      flow(expires ? track_.timer.back() : left, relative);
-      if (track_.termination != Termination::horizon || !expires) return track_;
+      const bool jumps_again = expires(track_.timer.back(), track_.t.back(), scenario_->horizon);
+      flow(jumps_again ? track_.timer.back() : left, relative);
+      if (track_.termination != Termination::horizon || !jumps_again) return track_;
       if (track_.j.back() >= scenario_->jump_limit) {
         track_.termination = Termination::jump_limit;
         return track_;
       }
       jump(law.reset_value(jumps, track_.t.back(), random));
-      if (track_.termination != Termination::horizon || track_.t.back() >= scenario_->horizon)
+      if (track_.termination != Termination::horizon || track_.t.back() >= scenario_->horizon) {
+        set_bounds();
         return track_;
+      }
     }
   } catch (const InputError& error) {
     track_.message = error.what();

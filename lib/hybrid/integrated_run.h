@@ -3,12 +3,16 @@
 //
 //   x' = f(x, tau)   over a flow of length T from a jump on, samples at its 32 equal pieces
 //
-// The samples are those of the sharper run B. The bound of an element's error is four times the
-// largest |A - B| of its state at the sample and at two on each side, + 8 u |B|: A errs some
-// hundred times more than B, so it is an estimate that leaves a margin, and no proof. u has to stay
-// below the accuracy. An element may err by 1e-2 of its state's relative accuracy below the largest
-// element of that state when a flow begins, and a state that is 0 there counts 1e-4 of the largest
-// state.
+// A takes steps of at most a 32nd of the flow, B of a 128th: what lasts less may be stepped over. A
+// also errs by the rounding of its start and jumps, to twice the radius of their balls (ball.h), so
+// that what becomes of such errors shows in |A - B|; the rounding within flows does not.
+//
+// The samples are those of B, which is the sharper one. The bound of an element's error is four
+// times the largest |A - B| of its state at the sample and at two on each side, + 8 u |B|: A errs
+// some hundred times more than B, so it is an estimate that leaves a margin, and no proof. u has to
+// stay below the accuracy. An element may err by 1e-2 of its state's relative accuracy below the
+// largest element of that state when a flow begins; a state that is small there counts 1e-4 of the
+// largest state, or of what the rates at the start give in the time of the flow.
 //
 // Where a flow is linear but for clocks (clocked_flow.h), it is integrated once for all runs, to
 // both accuracies.
@@ -56,15 +60,18 @@ class SharedFlows {
 class IntegratedSimulator {
  public:
   static constexpr int kPieces = 32;
+  /// Where A errs by the rounding of jumps: the first element of each state up or down.
+  enum class Rounding { up, down };
 
   IntegratedSimulator(const System& system, const Scenario& scenario,
                       const Coordinates& coordinates, SharedFlows* shared = nullptr);
 
   /// The run of the draws that Simulator makes of the same seed and number, integrated to
-  /// `relative` and `relative`/100. It ends as undefined where a map has no value or the steps of
-  /// both integrations fall to nothing at the same time (to 1e-6 of the flow), as lost where the
-  /// flow cannot be continued otherwise, as diverged where a coordinate leaves [-1e150, 1e150].
-  const Track<double>& run(std::uint64_t seed, std::uint64_t run, double relative);
+  /// `relative` and `relative`/100. It ends as undefined where a jump map has no value or both
+  /// integrations escape at the same time (to 1e-6 of the flow), as lost where the flow cannot be
+  /// continued otherwise, as diverged where a coordinate leaves [-1e150, 1e150].
+  const Track<double>& run(std::uint64_t seed, std::uint64_t run, double relative,
+                           Rounding rounding = Rounding::up);
 
  private:
   /// One of the two runs.
@@ -77,12 +84,14 @@ class IntegratedSimulator {
   };
 
   Copy make_copy();
-  Eigen::VectorXd absolute(const Eigen::VectorXd& x, double relative) const;
+  Eigen::VectorXd absolute(const Eigen::VectorXd& x, double relative, double interval);
+  double reach(const Eigen::VectorXd& x, double interval);
   void begin(std::uint64_t run, RandomStream& random);
   void flow(double interval, double relative);
   void advance(double t);
   void jump(double reset_value);
   void jump(Eigen::VectorXd& x);
+  void jump_with_rounding(Eigen::VectorXd& x);
   void append(double t, std::int64_t j, double timer, double timer_bound);
   Eigen::VectorXd difference() const;
   void set_bounds();
@@ -96,8 +105,12 @@ class IntegratedSimulator {
   FlowRate rate_;
   std::vector<PointFunction> begin_;  ///< of the coordinates, over the states
   std::vector<std::unique_ptr<PointFunction>> after_;
+  BallsOf<double> balls_;  ///< the constants
+  std::vector<BallFunction<double>> begin_balls_;
+  std::vector<std::unique_ptr<BallFunction<double>>> after_balls_;
   const Eigen::VectorXd* flow_start_ = nullptr;
   double flow_timer_ = 0;
+  double rounding_ = 0;  ///< of A, in radii
   std::vector<Copy> copies_;
   std::size_t flow_first_ = 0;  ///< the first sample since the last jump
   Track<double> track_;

@@ -18,7 +18,7 @@ namespace cvode {
 
 /// Of one call of advance(): beyond the first the flow counts as stiff.
 constexpr long kMostSteps = 5000;
-constexpr long kMostStiffSteps = 500000;
+constexpr long kMostStiffSteps = 50000;
 
 /// Of what is left of the flow.
 constexpr double kShortestStep = 1e-15;
@@ -82,12 +82,16 @@ class Solver {
   }
 
   void start(double t, const Eigen::VectorXd& x, double last, double relative,
-             const Eigen::VectorXd& absolute) {
+             const Eigen::VectorXd& absolute, double longest) {
     t_ = t;
     last_ = last;
     relative_ = relative;
+    longest_ = longest;
     values(vector_) = x;
-    size_ = x.size() > 0 ? x.lpNorm<Eigen::Infinity>() : 0;
+    // What the flow does in all its time is no escape.
+    size_ = x.lpNorm<Eigen::Infinity>();
+    if (rate(t, vector_.get(), absolute_.get()) == 0)
+      size_ = std::max(size_, (last - t) * slope_.lpNorm<Eigen::Infinity>());
     values(absolute_) = absolute;
     begin();
   }
@@ -106,7 +110,7 @@ class Solver {
         begin();
         flag = integrate(t);
       }
-      if (flag < 0) throw IntegrationError(trouble(flag), t_, is_collapsed(flag));
+      if (flag < 0) throw IntegrationError(trouble(flag), t_, trouble_.empty() && has_escaped());
     }
     x = values(vector_);
   }
@@ -129,10 +133,6 @@ class Solver {
   void forgive_small_elements() {
     const double largest = values(vector_).lpNorm<Eigen::Infinity>();
     values(absolute_) = values(absolute_).cwiseMax(kSmallest * relative_ * largest);
-  }
-
-  bool is_collapsed(int flag) const {
-    return flag != CV_TOO_MUCH_WORK || !trouble_.empty() || has_escaped();
   }
 
   std::string trouble(int flag) const {
@@ -198,6 +198,7 @@ class Solver {
     require(CVodeReInit(memory_.get(), t_, vector_.get()));
     require(CVodeSVtolerances(memory_.get(), relative_, absolute_.get()));
     require(CVodeSetStopTime(memory_.get(), last_));
+    require(CVodeSetMaxStep(memory_.get(), longest_));
     // Without it steps of length 0 count as an arrival.
     require(CVodeSetMinStep(memory_.get(), kShortestStep * (last_ - t_)));
   }
@@ -206,7 +207,7 @@ class Solver {
   Eigen::VectorXd x_, slope_;
   std::string trouble_;  ///< why f had no value last
   int method_ = CV_ADAMS;
-  double t_ = 0, last_ = 0, relative_ = 0;
+  double t_ = 0, last_ = 0, relative_ = 0, longest_ = 0;
   double size_ = 0;  ///< of x at the start
   Owned<SUNContext, free_context> context_;
   Vector vector_, absolute_;
@@ -219,18 +220,22 @@ class Solver {
 }  // namespace cvode
 
 Integrator::Integrator(Eigen::Index size, Rate rate)
-    : cvode_(std::make_unique<cvode::Solver>(size, std::move(rate))) {}
+    : cvode_(size > 0 ? std::make_unique<cvode::Solver>(size, std::move(rate)) : nullptr) {}
 Integrator::Integrator(Integrator&&) noexcept = default;
 Integrator& Integrator::operator=(Integrator&&) noexcept = default;
 Integrator::~Integrator() = default;
 
-void Integrator::reset() { cvode_->reset(); }
-
-void Integrator::start(double t, const Eigen::VectorXd& x, double last, double relative,
-                       const Eigen::VectorXd& absolute) {
-  cvode_->start(t, x, last, relative, absolute);
+void Integrator::reset() {
+  if (cvode_) cvode_->reset();
 }
 
-void Integrator::advance(double t, Eigen::VectorXd& x) { cvode_->advance(t, x); }
+void Integrator::start(double t, const Eigen::VectorXd& x, double last, double relative,
+                       const Eigen::VectorXd& absolute, double longest) {
+  if (cvode_) cvode_->start(t, x, last, relative, absolute, longest);
+}
+
+void Integrator::advance(double t, Eigen::VectorXd& x) {
+  if (cvode_) cvode_->advance(t, x);
+}
 
 }  // namespace gainsmith::hybrid

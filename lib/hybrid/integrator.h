@@ -19,10 +19,10 @@ class Solver;
 
 /// A flow that cannot be continued.
 struct IntegrationError : std::runtime_error {
-  IntegrationError(const std::string& message, double at, bool collapsed_)
-      : std::runtime_error(message), t(at), collapsed(collapsed_) {}
+  IntegrationError(const std::string& message, double at, bool escaped_)
+      : std::runtime_error(message), t(at), escaped(escaped_) {}
   double t;
-  bool collapsed;  ///< no step is short enough; otherwise there were too many
+  bool escaped;  ///< x has grown while the steps fell to nothing
 };
 
 class Integrator {
@@ -31,6 +31,7 @@ class Integrator {
   /// the integration.
   using Rate = std::function<void(double t, const Eigen::VectorXd& x, Eigen::VectorXd& rate)>;
 
+  /// Of size 0 there is nothing to integrate.
   Integrator(Eigen::Index size, Rate rate);
   Integrator(Integrator&&) noexcept;
   Integrator& operator=(Integrator&&) noexcept;
@@ -40,9 +41,10 @@ class Integrator {
   void reset();
 
   /// From x at t on. `absolute`: the error of each element that counts as `relative` of it, > 0. f
-  /// is not evaluated after `last`.
+  /// is not evaluated after `last`, and no step is longer than `longest`: what lasts less may be
+  /// stepped over.
   void start(double t, const Eigen::VectorXd& x, double last, double relative,
-             const Eigen::VectorXd& absolute);
+             const Eigen::VectorXd& absolute, double longest);
 
   /// x at t, which is not before the time asked for last and not after `last`. IntegrationError
   /// where the flow ends before.

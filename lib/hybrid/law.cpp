@@ -43,12 +43,16 @@ double Law::reset_value(std::size_t jump, double t, RandomStream& random) const 
 std::vector<Law> make_laws(const model::Design::Campaign& campaign, const System& system) {
   const double low = system.low;
   const double high = system.high;
-  if (campaign.laws.empty())
-    return {{LawKind::uniform, low, high, {}},
-            {LawKind::extremes, low, high, {}},
-            {LawKind::sinusoid, low, high, {}},
-            {LawKind::constant, low, high, {low}},
-            {LawKind::constant, low, high, {high}}};
+  if (campaign.laws.empty()) {
+    std::vector<Law> usual = {{LawKind::uniform, low, high, {}},
+                              {LawKind::extremes, low, high, {}},
+                              {LawKind::sinusoid, low, high, {}},
+                              {LawKind::constant, low, high, {low}},
+                              {LawKind::constant, low, high, {high}}};
+    // Intervals of length 0 alone never reach the horizon.
+    if (low == 0) usual.erase(usual.begin() + 3);
+    return usual;
+  }
   std::vector<Law> laws;
   for (const model::Design::Law& law : campaign.laws) {
     Law result{law.kind, low, high, {}};

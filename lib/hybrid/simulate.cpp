@@ -45,6 +45,11 @@ Scenario make_scenario(const model::Design& design, const System& system) {
   return scenario;
 }
 
+bool expires(double timer, double t, double horizon) {
+  constexpr double kRounding = 1e-12;
+  return timer <= horizon - t + kRounding * horizon;
+}
+
 double first_timer(const System& system, const Scenario& scenario, RandomStream& random) {
   if (scenario.first) return *scenario.first;
   return system.first_low + (system.first_high - system.first_low) * random.uniform();
@@ -71,9 +76,9 @@ Arc Simulator::run(std::uint64_t seed, std::uint64_t run) {
 
   for (std::size_t jumps = 0;; ++jumps) {
     const double left = scenario_->horizon - arc.t.back();
-    const bool expires = arc.timer.back() <= left;
-    flow(expires ? arc.timer.back() : left, arc);
-    if (arc.termination != Termination::horizon || !expires) return arc;
+    const bool jumps_again = expires(arc.timer.back(), arc.t.back(), scenario_->horizon);
+    flow(jumps_again ? arc.timer.back() : left, arc);
+    if (arc.termination != Termination::horizon || !jumps_again) return arc;
     if (arc.j.back() >= scenario_->jump_limit) {
       arc.termination = Termination::jump_limit;
       return arc;

@@ -35,6 +35,10 @@ struct Scenario {
 /// longest intervals, so that it has the units of the timer.
 Scenario make_scenario(const model::Design& design, const System& system);
 
+/// Whether a timer that has this value at t runs down before the horizon or, to the rounding of
+/// many intervals added up, at it.
+bool expires(double timer, double t, double horizon);
+
 /// The timer's first value: one draw unless the campaign gives it.
 double first_timer(const System& system, const Scenario& scenario, RandomStream& random);
 

@@ -7,6 +7,7 @@ namespace gainsmith::verify {
 namespace {
 
 using hybrid::Termination;
+using Rounding = hybrid::IntegratedSimulator::Rounding;
 
 /// Whether the run left the range of the states for certain.
 template <class Scalar>
@@ -52,6 +53,16 @@ RunVerdict last_verdict(const hybrid::Track<Scalar>& track,
   return verdict;
 }
 
+/// What both runs say; undecided where they differ.
+RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
+  for (std::size_t i = 0; i < one.findings.size(); ++i)
+    if (one.findings[i].judgement != other.findings[i].judgement)
+      one.findings[i].judgement = Judgement::undecided;
+  if (one.judgement != other.judgement) one.judgement = Judgement::undecided;
+  one.confirmed = one.judgement == Judgement::violated;
+  return one;
+}
+
 }  // namespace
 
 Judge::Judge(const Setup& setup) : checks_(make_checks(setup, *setup.narrow)) {
@@ -65,8 +76,11 @@ Judge::Judge(const Setup& setup) : checks_(make_checks(setup, *setup.narrow)) {
 }
 
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
-  return integrated_ ? last_verdict(integrated_->run(seed, run, kRepeated), checks_)
-                     : last_verdict(wide_->run(seed, run), wide_checks_);
+  if (!integrated_) return last_verdict(wide_->run(seed, run), wide_checks_);
+  const auto rounded = [&](Rounding rounding) {
+    return last_verdict(integrated_->run(seed, run, kRepeated, rounding), checks_);
+  };
+  return agreed(rounded(Rounding::up), rounded(Rounding::down));
 }
 
 RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run) {

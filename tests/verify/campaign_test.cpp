@@ -108,6 +108,70 @@ TEST(Campaign, WhatTheIntegrationDoesNotShowIsUndecided) {
   EXPECT_EQ(report.repeated, 4U);
 }
 
+struct Integrated {
+  const char* flow_x;
+  const char* flow_y;
+  const char* jump_x;
+  const char* claim;
+  const char* horizon;
+  CampaignVerdict verdict;
+};
+
+/// Pulses between long steps, rounding that a map blows up, states that begin at 0 with terms that
+/// cancel, flows too fast to follow.
+TEST(Campaign, IntegratedFlowsAreNoCauseOfWrongVerdicts) {
+  using enum CampaignVerdict;
+  const Integrated cases[] = {
+      {"0", "where(tau < 0.7, where(tau > 0.3, 10, 0), 0) - 0.1*y", "x", "y", "1", violated},
+      {"1", "(100*exp(-((x - 0.51)/0.003)^2) - 0.1)*y", "0", "y", "1", violated},
+      {"0", "-0.01*y*abs(y)", "mod(2*x, 1)", "where(x > 1e-3, y, 3)", "101", undecided},
+      {"0", "-0.01*y*abs(y)", "x + 0.1", "where(x > 0.3, where(x < 0.35, 3*y, y), y)", "5",
+       undecided},
+      {"1 - x^2", "-0.1*y + 1e-3*(1 - cos(x))", "x", "y", "1", held},
+      {"-1e12*sin(x)", "-0.1*y*abs(y) + x - x", "x", "y + 1e-3*x^2", "1", held}};
+  for (const Integrated& one : cases) {
+    TextProblem problem;
+    problem.state("x", "scalar").state("y", "scalar").timer("1", "1", "1", "1").runs(1);
+    problem.flow({{"x", one.flow_x}, {"y", one.flow_y}}).jump({{"x", one.jump_x}});
+    problem.start("x", StartKind::expression,
+                  {one.flow_x == std::string("-1e12*sin(x)")  ? "1"
+                   : one.jump_x == std::string("mod(2*x, 1)") ? "0.1"
+                                                              : "0"});
+    problem.start("y", StartKind::expression, {"1"}).horizon(one.horizon);
+    problem.nonincreasing("claim", one.claim);
+    const Report report = run(problem);
+    EXPECT_TRUE(report.integrated);
+    EXPECT_EQ(report.verdict, one.verdict) << one.flow_y << " " << one.jump_x;
+  }
+}
+
+/// 0.1 + 0.1 + 0.1 is more than 0.3 in double.
+TEST(Campaign, AJumpAtTheHorizonBelongsToTheRun) {
+  for (const char* flow : {"-y", "-y*abs(y)"}) {
+    TextProblem problem;
+    problem.state("c", "scalar").state("y", "scalar").timer("0.1", "0.1", "0.1", "0.1").runs(1);
+    problem.flow({{"y", flow}}).jump({{"c", "c + 1"}, {"y", "where(c > 1.5, 10*y, y/2)"}});
+    problem.start("c", StartKind::expression, {"0"}).start("y", StartKind::expression, {"1"});
+    problem.horizon("0.3").nonincreasing("claim", "y");
+    EXPECT_EQ(run(problem).verdict, CampaignVerdict::violated) << flow;
+    const Replay again = replay(problem.instance(), problem.gains, 1, 0);
+    EXPECT_EQ(again.arc.j.back(), 3) << flow;
+  }
+}
+
+/// What claims do not depend on is left out, and nothing may be left.
+TEST(Campaign, NothingMayBeLeftToIntegrate) {
+  for (const char* value : {"0", "T1", "x - x", "-k", "exp(-s)", "tau - tau"}) {
+    TextProblem problem;
+    problem.data("T1", "scalar", "0.5").state("x", "scalar").state("k", "scalar");
+    problem.state("s", "scalar").flow({{"x", "-sin(x)"}, {"s", "1"}}).jump({{"k", "k + 1"}});
+    problem.timer("0.5", "1", "0", "1").runs(5).horizon("3").nonincreasing("claim", value);
+    const Report report = run(problem);
+    EXPECT_EQ(report.verdict, CampaignVerdict::held) << value;
+    EXPECT_EQ(replay(problem.instance(), problem.gains, 1, 0).claims.size(), 1U);
+  }
+}
+
 /// An error that decays in the coordinates z - zh is checked however large z is.
 TEST(Campaign, IntegratedErrorsAreCoordinates) {
   TextProblem problem;
