@@ -34,7 +34,9 @@ std::optional<Matrix> clock_start(const Coordinate& clock, const std::string& na
     return std::nullopt;
   const auto first = fixed_value(starts[state].program, system.layout, constants);
   const auto next = fixed_value(*clock.jump, coordinates.layout, constants);
-  return first && next && *first == *next ? first : std::nullopt;
+  const bool same = first && next && first->rows() == next->rows() &&
+                    first->cols() == next->cols() && *first == *next;
+  return same ? first : std::nullopt;
 }
 
 constexpr double kBelow = 1e-2;           ///< of the accuracy: absolute, of a column

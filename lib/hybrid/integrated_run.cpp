@@ -212,14 +212,10 @@ void IntegratedSimulator::flow(double interval, double relative) {
   for (Copy& copy : copies_) {
     copy.start = copy.x;
     copy.shared = shared_ != nullptr ? shared_->to(accuracy) : nullptr;
-    if (copy.shared != nullptr) {
-      accuracy *= kSharper;
-      continue;
-    }
-    if (interval <= kNoTime * start) continue;
     flow_start_ = &copy.start;
-    copy.integrator.start(0, copy.x(rate_.elements()), interval, accuracy,
-                          absolute(copy.x, accuracy, interval), longest);
+    if (copy.shared == nullptr && interval > kNoTime * start)
+      copy.integrator.start(0, copy.x(rate_.elements()), interval, accuracy,
+                            absolute(copy.x, accuracy, interval), longest);
     accuracy *= kSharper;
     longest *= kShorter;
   }
@@ -262,9 +258,21 @@ void IntegratedSimulator::jump_with_rounding(VectorXd& x) {
   x = after;
 }
 
+void IntegratedSimulator::lose(const std::string& why) {
+  track_.termination = Termination::lost;
+  track_.message = why;
+}
+
 void IntegratedSimulator::jump(double reset_value) {
-  jump_with_rounding(copies_[0].x);
   jump(copies_[1].x);
+  try {
+    jump_with_rounding(copies_[0].x);
+  } catch (const InputError& error) {
+    // The value hangs on rounding.
+    return lose(error.what());
+  }
+  if (!copies_[0].x.allFinite() && copies_[1].x.allFinite())
+    return lose("the rounding of a jump leaves nothing known");
   track_.moves.push_back({true, {}});
   flow_first_ = track_.samples();
   append(track_.t.back(), track_.j.back() + 1, reset_value, 0);

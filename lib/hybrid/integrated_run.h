@@ -24,6 +24,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hybrid/bounded_run.h"
@@ -92,6 +93,7 @@ class IntegratedSimulator {
   void jump(double reset_value);
   void jump(Eigen::VectorXd& x);
   void jump_with_rounding(Eigen::VectorXd& x);
+  void lose(const std::string& why);
   void append(double t, std::int64_t j, double timer, double timer_bound);
   Eigen::VectorXd difference() const;
   void set_bounds();

@@ -125,8 +125,11 @@ class Solver {
            trouble_.empty() && !has_escaped();
   }
 
+  /// x has grown, and at its rate would go on to grow in the time that is left.
   bool has_escaped() const {
-    return !(values(vector_).lpNorm<Eigen::Infinity>() <= kEscape * size_);
+    const double now = values(vector_).lpNorm<Eigen::Infinity>();
+    return size_ > 0 && now > kEscape * size_ &&
+           (last_ - t_) * slope_.lpNorm<Eigen::Infinity>() > kEscape * now;
   }
 
   /// An element that has died down in a stiff flow is noise of the iteration: then all count alike.
@@ -198,6 +201,8 @@ class Solver {
     require(CVodeReInit(memory_.get(), t_, vector_.get()));
     require(CVodeSVtolerances(memory_.get(), relative_, absolute_.get()));
     require(CVodeSetStopTime(memory_.get(), last_));
+    // The shortest step of the flow before may be longer than the longest of this one.
+    require(CVodeSetMinStep(memory_.get(), 0));
     require(CVodeSetMaxStep(memory_.get(), longest_));
     // Without it steps of length 0 count as an arrival.
     require(CVodeSetMinStep(memory_.get(), kShortestStep * (last_ - t_)));

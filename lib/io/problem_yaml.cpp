@@ -80,6 +80,26 @@ void read_way(const YamlFile& file, const YamlItem& item, model::SynthesisOption
   parts.finish();
 }
 
+/// "gain_bound: 10", "gain_bound: {L: 0.01, F: 10}" or "gain_bound: none".
+void read_gain_bound(const YamlFile& file, const YamlItem& item, model::SynthesisOptions& options) {
+  options.gain_bound_stated = true;
+  options.gain_bound = std::nullopt;
+  if (item.value.IsMap()) {
+    for (const YamlItem& one : items_of(file, item, "gain_bound")) {
+      options.gain_bounds.push_back({one.key, file.positive(one.value, one.key), one.place});
+      options.gain_bound =
+          std::max(options.gain_bound.value_or(0), options.gain_bounds.back().bound);
+    }
+    if (options.gain_bounds.empty())
+      throw InputError(item.place, "gain_bound: a bound for one gain at least, or none");
+    return;
+  }
+  if (!item.value.IsScalar())
+    throw InputError(file.place(item.value),
+                     "gain_bound: expected a number, {gain: number, ...} or none");
+  if (item.value.Scalar() != "none") options.gain_bound = file.positive(item.value, "gain_bound");
+}
+
 model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<YamlItem>& item) {
   model::SynthesisOptions options;
   if (!item) return options;
@@ -90,20 +110,7 @@ model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<Yaml
       throw InputError(file.place(margin->value),
                        "margin: relative to the data's scale, so below 1");
   }
-  if (const auto bound = map.find("gain_bound")) {
-    const bool off = bound->value.IsScalar() && bound->value.Scalar() == "none";
-    options.gain_bound_stated = true;
-    options.gain_bound = std::nullopt;
-    if (bound->value.IsMap()) {
-      for (const YamlItem& one : items_of(file, *bound, "gain_bound")) {
-        options.gain_bounds.push_back({one.key, file.positive(one.value, one.key), one.place});
-        options.gain_bound =
-            std::max(options.gain_bound.value_or(0), options.gain_bounds.back().bound);
-      }
-    } else if (!off) {
-      options.gain_bound = file.positive(bound->value, "gain_bound");
-    }
-  }
+  if (const auto bound = map.find("gain_bound")) read_gain_bound(file, *bound, options);
   if (const auto forall = map.find("forall")) read_way(file, *forall, options);
   map.finish();
   return options;

@@ -111,16 +111,20 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
   return tally;
 }
 
-/// Runs first, first + 1, ..., last - 1.
-Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
+/// Runs first, first + 1, ..., last - 1, or those until the campaign is stopped, one at least.
+Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, std::uint64_t last,
+                 const CampaignOptions& options) {
   Judge judge(setup);
   Tally sum;
-  for (std::uint64_t run = first; run < last; ++run) add(tally_of(run, judge(seed, run)), sum);
+  for (std::uint64_t run = first; run < last; ++run) {
+    if (run > first && options.stopped && options.stopped()) break;
+    add(tally_of(run, judge(seed, run)), sum);
+  }
   return sum;
 }
 
-/// All runs, in blocks that are handed to the threads and added up in order; those blocks that
-/// were begun when the campaign is stopped.
+/// All runs, in blocks that are handed to the threads and added up in order; those runs that
+/// are done when the campaign is stopped.
 Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
                 const CampaignOptions& options) {
   constexpr std::uint64_t kBlock = 64;
@@ -131,10 +135,10 @@ Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
     if (options.stopped && options.stopped()) return;
     const std::uint64_t first = block * kBlock;
     const std::uint64_t last = std::min(runs, first + kBlock);
-    blocks[block] = judge_runs(setup, seed, first, last);
+    blocks[block] = judge_runs(setup, seed, first, last, options);
     if (!options.progress) return;
     const std::lock_guard lock(mutex);
-    done += last - first;
+    done += blocks[block].runs;
     options.progress(done, runs);
   });
   Tally sum;

@@ -23,8 +23,8 @@ struct CampaignOptions {
   unsigned threads = 0;               ///< 0: one a core; the report does not depend on it
   /// Called with (runs done, runs in all) from the threads of the campaign, one call at a time.
   std::function<void(std::uint64_t, std::uint64_t)> progress;
-  /// Asked from all threads before each block of runs: true ends the campaign with those that are
-  /// done, and its verdict is undecided.
+  /// Asked from all threads before each run: true ends the campaign with those that are done, and
+  /// its verdict is undecided.
   std::function<bool()> stopped;
 };
 

@@ -217,6 +217,38 @@ TEST(IntegratedRun, StillAndTickingStatesHaveNoErrorOfIntegration) {
   }
 }
 
+/// Intervals that are as short as the shortest step of the one before.
+TEST(IntegratedRun, FlowsMayBeOfAnyLength) {
+  TextProblem problem;
+  problem.state("x", "scalar").flow({{"x", "-x*abs(x)"}}).timer("0", "1", "1", "1");
+  problem.law(model::LawKind::list, {"1e-13", "1", "0", "1e-9", "1e-15", "0.5"}).horizon("7");
+  problem.start("x", StartKind::expression, {"1"});
+  Made made(problem);
+  const Track<double>& track = made.simulator.run(1, 0, 1e-8);
+  EXPECT_EQ(track.termination, Termination::horizon) << track.message;
+  EXPECT_NEAR(track.state(track.samples() - 1)(0), 1.0 / 8, 1e-9);
+}
+
+/// What hangs on the rounding of a jump is not certain: 0.1 + 0.2 is 0.3.
+TEST(IntegratedRun, IsLostWhereRoundingDecidesAboutAValue) {
+  TextProblem problem;
+  problem.state("x", "scalar").flow({{"x", "-x*abs(x)"}}).timer("1", "1", "1", "1");
+  problem.jump({{"x", "1/(0.1 + 0.2 - 0.3)"}}).horizon("3");
+  problem.start("x", StartKind::expression, {"1"});
+  Made made(problem);
+  EXPECT_EQ(made.simulator.run(1, 0, 1e-8).termination, Termination::lost);
+}
+
+/// A flow that slides, after a rest, on a state that has grown, does not escape.
+TEST(IntegratedRun, SlidingIsNoEscape) {
+  TextProblem problem;
+  problem.state("x", "scalar").state("s", "scalar").timer("1", "1", "1", "1").horizon("1");
+  problem.flow({{"x", "where(s < 0.2, 0, 10*sign(1 - x))"}, {"s", "1"}});
+  problem.start("x", StartKind::expression, {"1e-9"}).start("s", StartKind::expression, {"0"});
+  Made made(problem);
+  EXPECT_NE(made.simulator.run(1, 0, 1e-8).termination, Termination::undefined);
+}
+
 TEST(IntegratedRun, EndsWhereTheFlowDoes) {
   TextProblem escape;
   escape.state("x", "scalar").flow({{"x", "x^2"}}).timer("1", "1", "10", "10");

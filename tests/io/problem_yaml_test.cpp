@@ -123,6 +123,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"margin: 1e-6", "margin: 2*3", 10, 21, "expected a number"},
         Mistake{"gain_bound: 100", "gain_bound: off", 10, 39, "expected a number"},
         Mistake{"gain_bound: 100", "gain_bound: -1", 10, 39, "positive"},
+        Mistake{"gain_bound: 100", "gain_bound: [1]", 10, 39, "{gain: number, ...}"},
+        Mistake{"gain_bound: 100", "gain_bound: {}", 10, 27, "for one gain at least"},
         Mistake{"gain_bound: 100", "gain_bound: {L: 0}", 10, 43, "positive"},
         Mistake{"runs: 20", "runs: 0", 12, 9, "from 1 to 1e15"},
         Mistake{"runs: 20", "runs: 1.5", 12, 9, "whole number"},
