@@ -27,13 +27,16 @@ enum class NodeKind {
   elementwise_multiply,
   elementwise_divide,
   elementwise_power,
-  block,   ///< children row by row, `columns` in each row
-  mirror,  ///< "*" inside a block: the transpose of the mirrored entry
-  each,    ///< "i in a..b" in a sum: text = the index, children = {from, to}
-  compare  ///< children = operands of a chain a < b <= c; relations between them
+  block,        ///< children row by row, `columns` in each row
+  mirror,       ///< "*" inside a block: the transpose of the mirrored entry
+  each,         ///< "i in a..b" in a sum: text = the index, children = {from, to}
+  compare,      ///< children = operands of a chain a < b <= c; relations between them
+  conjunction,  ///< "and" between conditions
+  disjunction,  ///< "or"
+  negation      ///< "not"
 };
 
-/// not_equal stands between whole numbers only.
+/// not_equal stands in conditions and between whole numbers only.
 enum class Relation { less, less_equal, greater, greater_equal, equal, not_equal };
 
 /// "<", "<=", ">", ">=", "==", "!=".

@@ -22,6 +22,7 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
     plain.text = *found;
     return bind_name(expression, plain);
   }
+  if (const auto found = of_event(node)) return bind_name(expression, *found);
   const bool is_value =
       environment_.contains(name) || scope_.symbols.contains(name) || name == "I" || name == "pi";
   if (is_value) {
@@ -52,6 +53,17 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
   if (const Op* op = std::get_if<Op>(&function->what))
     return bind_operation(expression, node, *function, *op);
   return bind_composed(expression, node, std::get<Composed>(function->what));
+}
+
+/// count(sample) is a name where the scope has it.
+std::optional<Node> Binder::of_event(const Node& node) const {
+  if (node.children.size() != 1 || node.children[0]->kind != NodeKind::name) return std::nullopt;
+  Node plain = node;
+  plain.kind = NodeKind::name;
+  plain.text = event_number(node.text, node.children[0]->text);
+  plain.children.clear();
+  if (!scope_.symbols.contains(plain.text)) return std::nullopt;
+  return plain;
 }
 
 std::optional<Bound> Binder::bind_derivative(const Expression& expression, const Node& node) {
@@ -218,36 +230,6 @@ Bound Binder::clip(const Expression& expression, const Node& node) {
   const int high = same_shape(expression, *node.children[2], {sized_argument(2)}, shape(x));
   const int raised = emit(expression, node, Op::maximum, {x, low}, shape(x));
   return {emit(expression, node, Op::minimum, {raised, high}, shape(x))};
-}
-
-Bound Binder::where(const Expression& expression, const Node& node) {
-  const Node& condition = *node.children[0];
-  if (condition.kind != NodeKind::compare || condition.relations.size() != 1)
-    fail(expression, condition, "where needs one comparison first, such as where(x > 0, a, b)");
-  const Relation relation = condition.relations.front();
-  if (relation == Relation::not_equal) fail(expression, condition, kNotEqual);
-  if (relation == Relation::equal)
-    fail(expression, condition, "'==' stands in requirements only; where takes < <= > >=");
-  const bool ascending = relation == Relation::less || relation == Relation::less_equal;
-  const bool strict = relation == Relation::less || relation == Relation::greater;
-  const Bound left = bind(expression, *condition.children[0]);
-  const Bound right = bind(expression, *condition.children[1]);
-  Node ordered = condition;
-  if (ascending) std::swap(ordered.children[0], ordered.children[1]);
-  const Bound difference = ascending ? subtract(expression, ordered, right, left)
-                                     : subtract(expression, ordered, left, right);
-  const Bound yes = bind(expression, *node.children[1]);
-  const Bound no = bind(expression, *node.children[2]);
-  Shape common;
-  for (const Bound& value : {difference, yes, no}) {
-    const int at = sized(expression, node, value);
-    if (!shape(at).is_scalar()) common = shape(at);
-  }
-  return {emit(expression, node, Op::where,
-               {same_shape(expression, condition, difference, common),
-                same_shape(expression, *node.children[1], yes, common),
-                same_shape(expression, *node.children[2], no, common)},
-               common, {strict ? 1 : 0})};
 }
 
 Bound Binder::constant_matrix(const Expression& expression, const Node& node, Composed function) {

@@ -118,6 +118,10 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
       fail(expression, node, "'*' alone stands only in a block");
     case NodeKind::compare:
       fail(expression, node, "a comparison stands only on its own or in where(...)");
+    case NodeKind::conjunction:
+    case NodeKind::disjunction:
+    case NodeKind::negation:
+      fail(expression, node, "'and', 'or' and 'not' join conditions: of events or in where(...)");
   }
   fail(expression, node, "unknown syntax");
 }

@@ -25,6 +25,9 @@ struct Bound {
 inline constexpr const char* kNotEqual =
     "'!=' stands between indices only, as in forall: [i in 1..N, j in 1..N, i != j]";
 
+/// Comparison k of a chain: its larger side and then the smaller one; of an equation as written.
+Node ordered_pair(const Node& chain, std::size_t k);
+
 class Binder {
  public:
   explicit Binder(const Scope& scope) : scope_(scope) {}
@@ -35,6 +38,8 @@ class Binder {
   /// The instruction of a value whose shape is known; `I` alone is an error.
   int sized(const Expression& expression, const Node& node, Bound value);
   Bound subtract(const Expression& expression, const Node& node, Bound a, Bound b);
+  /// Of the sides of a pair (ordered_pair), the first minus the second.
+  int difference(const Expression& expression, const Node& pair);
   /// [0, D; D', 0], which is >= 0 where D = 0 and nowhere else.
   int equation(const Expression& expression, const Node& node, int difference);
 
@@ -103,6 +108,7 @@ class Binder {
 
   // bind_calls.cpp: functions.
   Bound bind_call(const Expression& expression, const Node& node);
+  std::optional<Node> of_event(const Node& node) const;
   Bound bind_given_function(const Expression& expression, const Node& node, const std::string& name,
                             const Node& argument, Shape shape);
   /// derivative(P)(s), or nothing when the node is something else.
@@ -113,7 +119,6 @@ class Binder {
   Bound symmetric(const Expression& expression, const Node& node);
   Bound fold_minmax(const Expression& expression, const Node& node, Op op);
   Bound clip(const Expression& expression, const Node& node);
-  Bound where(const Expression& expression, const Node& node);
   Bound constant_matrix(const Expression& expression, const Node& node, Composed function);
   Bound diagonal(const Expression& expression, const Node& node);
   Bound block_diagonal(const Expression& expression, const Node& node);
@@ -122,6 +127,14 @@ class Binder {
   Bound extreme_eigenvalue(const Expression& expression, const Node& node, bool largest);
   Bound observability(const Expression& expression, const Node& node);
   Bound chebyshev(const Expression& expression, const Node& node);
+  // bind_where.cpp
+  Bound where(const Expression& expression, const Node& node);
+  Bound chosen(const Expression& expression, const Node& node, const Node& condition, Bound yes,
+               Bound no);
+  Bound compared(const Expression& expression, const Node& node, const Node& chain, std::size_t k,
+                 Bound yes, Bound no);
+  Bound branch(const Expression& expression, const Node& node, int difference, bool strict,
+               Bound yes, Bound no);
   // bind_gramian.cpp
   Bound gramian(const Expression& expression, const Node& node, bool backward);
   // bind_projections.cpp

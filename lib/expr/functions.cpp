@@ -1,5 +1,6 @@
 #include "expr/functions.h"
 
+#include <algorithm>
 #include <array>
 
 namespace gainsmith::expr {
@@ -36,7 +37,9 @@ const Function* find_function(std::string_view name) {
 }
 
 bool is_reserved(std::string_view name) {
-  return name == "I" || name == "pi" || name == "derivative" || find_function(name) != nullptr;
+  constexpr std::array<std::string_view, 6> kWords = {"I", "pi", "derivative", "and", "or", "not"};
+  return std::find(kWords.begin(), kWords.end(), name) != kWords.end() ||
+         find_function(name) != nullptr;
 }
 
 std::vector<std::string> function_names() {

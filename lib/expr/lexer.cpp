@@ -37,6 +37,22 @@ std::size_t number_end(std::string_view text, std::size_t at) {
   return at;
 }
 
+/// The end of a name that starts at `at`: letters, digits and _; of a part of something also with a
+/// point, "plant.x". "A.T" is a foreign transpose.
+std::size_t name_end(std::string_view text, std::size_t at) {
+  const auto part = [&](std::size_t from) {
+    while (from < text.size() && is_name_part(text[from])) ++from;
+    return from;
+  };
+  std::size_t end = part(at);
+  while (end + 1 < text.size() && text[end] == '.' && is_name_start(text[end + 1])) {
+    const std::size_t next = part(end + 1);
+    if (text.substr(end, next - end) == ".T") break;
+    end = next;
+  }
+  return end;
+}
+
 #define SYMBOL(token, spelling) Symbol{spelling, TokenKind::token},
 using Symbol = std::pair<std::string_view, TokenKind>;
 constexpr std::array kSymbols = {
@@ -122,9 +138,7 @@ std::vector<Token> tokenize(const Text& text) {
     } else if (is_digit(c) || (c == '.' && at + 1 < source.size() && is_digit(source[at + 1]))) {
       push(TokenKind::number, number_end(source, at));
     } else if (is_name_start(c)) {
-      std::size_t end = at;
-      while (end < source.size() && is_name_part(source[end])) ++end;
-      push(TokenKind::name, end);
+      push(TokenKind::name, name_end(source, at));
     } else {
       const std::string_view rest = source.substr(at);
       for (const auto& [spelling, advice] : kForeign)

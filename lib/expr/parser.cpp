@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <string_view>
 #include <utility>
 
 #include "expr/lexer.h"
@@ -53,7 +54,7 @@ class Parser {
 
   NodePtr whole() {
     if (peek() == TokenKind::end) fail("expected an expression, found nothing");
-    NodePtr root = comparison();
+    NodePtr root = condition();
     refuse_decimal_comma();
     expect(TokenKind::end, "the end of the expression or an operator");
     return root;
@@ -178,8 +179,37 @@ class Parser {
     return node;
   }
 
-  NodePtr comparison() {
+  /// A word of the language instead of a symbol.
+  bool accept(std::string_view word) {
+    if (peek() != TokenKind::name || tokens_[at_].text != word) return false;
+    ++at_;
+    return true;
+  }
+
+  NodePtr condition() {
     const Depth depth(*this);
+    const std::size_t begin = tokens_[at_].begin;
+    std::vector<NodePtr> parts = {conjunction()};
+    while (accept("or")) parts.push_back(conjunction());
+    return parts.size() == 1 ? parts.front() : make(NodeKind::disjunction, begin, std::move(parts));
+  }
+
+  NodePtr conjunction() {
+    const std::size_t begin = tokens_[at_].begin;
+    std::vector<NodePtr> parts = {negation()};
+    while (accept("and")) parts.push_back(negation());
+    return parts.size() == 1 ? parts.front() : make(NodeKind::conjunction, begin, std::move(parts));
+  }
+
+  NodePtr negation() {
+    const std::size_t begin = tokens_[at_].begin;
+    if (!accept("not")) return comparison();
+    const Depth depth(*this);
+    NodePtr inner = negation();
+    return make(NodeKind::negation, begin, {inner});
+  }
+
+  NodePtr comparison() {
     const std::size_t begin = tokens_[at_].begin;
     std::vector<NodePtr> operands = {sum()};
     std::vector<Relation> relations;
@@ -290,7 +320,7 @@ class Parser {
       each->text = found.name;
       return each;
     }
-    NodePtr from = comparison();
+    NodePtr from = condition();
     if (!accept(TokenKind::colon)) return from;
     NodePtr to = comparison();
     return make(NodeKind::range, begin, {from, to});
@@ -309,7 +339,7 @@ class Parser {
       }
       case TokenKind::open: {
         next();
-        NodePtr inner = comparison();
+        NodePtr inner = condition();
         expect(TokenKind::close, "')'");
         return inner;
       }

@@ -1,5 +1,8 @@
 // From tokens to a syntax tree.
 //
+//   condition  := conjunction ("or" conjunction)*
+//   conjunction := negation ("and" negation)*
+//   negation   := "not" negation | comparison
 //   comparison := sum (relation sum)*
 //   sum        := term (("+" | "-") term)*
 //   term       := sign (("*" | "/" | ".*" | "./") sign)*
@@ -7,10 +10,10 @@
 //   postfix    := primary ("'" | "(" arguments ")" | ("^" | ".^") exponent)*
 //                 (left to right, as in MATLAB)
 //   exponent   := ("-" | "+") exponent | primary
-//   primary    := number | name | "(" comparison ")" | "[" row (";" row)* "]"
+//   primary    := number | name | "(" condition ")" | "[" row (";" row)* "]"
 //   row        := entry ("," entry)*;   entry := "*" | sum
 //   arguments  := argument ("," argument)*
-//   argument   := ":" | comparison [":" comparison] | index
+//   argument   := ":" | condition [":" comparison] | index
 //   index      := name "in" sum ".." sum
 #pragma once
 

@@ -46,6 +46,11 @@ inline bool is_derivative(const std::string& function) {
   return function.starts_with("derivative(");
 }
 
+/// "count(sample)": under this name a scope has a number that belongs to an event.
+inline std::string event_number(const std::string& what, const std::string& event) {
+  return what + "(" + event + ")";
+}
+
 /// The ranges of the indices of a family.
 using Ranges = std::vector<std::pair<int, int>>;
 

@@ -24,25 +24,14 @@
 
 #include "base/error.h"
 #include "expr/program.h"
+#include "model/dynamics.h"
+#include "model/formula.h"
 #include "model/words.h"
 
 namespace gainsmith::model {
 
 struct Problem;  // problem.h: the texts, kept to bind again when a dimension changes
 struct Names;    // binding.h: the scopes, for formulas that a gain file brings
-
-/// A bound expression.
-struct Formula {
-  expr::Program program;
-  Place place;
-  std::string text;  ///< as written
-};
-
-struct NamedFormula {
-  std::string name;
-  Formula value;
-  Place place;
-};
 
 /// What was solved, so that a gain file stands alone.
 struct Statement {
@@ -273,6 +262,8 @@ struct Design {
   std::optional<Timer> timer;
   std::vector<NamedFormula> signals;
   std::vector<Claim> claims;
+  /// Of a design with events or several observers: instead of flow, jump and timer.
+  std::optional<Dynamics> dynamics;
 
   SynthesisOptions synthesis;
   std::optional<Search> search;

@@ -140,8 +140,9 @@ TEST_F(Messages, AJacobianIsByAName) {
 
 TEST_F(Messages, AComparisonIsNoValue) {
   expect("1 + (A > 0)", 6, {"a comparison stands only on its own or in where"});
-  expect("where(A, 1, 2)", 7, {"where needs one comparison"});
-  expect("where(0 < A < 1, 1, 2)", 7, {"where needs one comparison"});
+  expect("where(A, 1, 2)", 7, {"where needs a condition"});
+  expect("where(A > 0 and 1, 1, 2)", 17, {"expected a condition"});
+  expect("1 + (A > 0 and A < 1)", 6, {"'and', 'or' and 'not' join conditions"});
 }
 
 TEST_F(Messages, NumbersMustBeFinite) {

@@ -62,11 +62,30 @@ std::string tree(const Node& node) {
         text += " " + to_string(node.relations[i]) + " " + tree(*node.children[i + 1]);
       return text + ")";
     }
+    case NodeKind::conjunction:
+      return list("and");
+    case NodeKind::disjunction:
+      return list("or");
+    case NodeKind::negation:
+      return list("not");
   }
   return "?";
 }
 
 std::string tree(const std::string& text) { return tree(*parse({text, "f"}).root); }
+
+TEST(Parser, ConditionsBindLooserThanComparisons) {
+  EXPECT_EQ(tree("a > 0 and b <= c or not c < 1"),
+            "(or (and (compare a > 0) (compare b <= c)) (not (compare c < 1)))");
+  EXPECT_EQ(tree("not a == 1 and not (b == 1 or c == 1)"),
+            "(and (not (compare a == 1)) (not (or (compare b == 1) (compare c == 1))))");
+  EXPECT_EQ(tree("where(q == 1 and x > 0, a, b)"),
+            "(where() (and (compare q == 1) (compare x > 0)) a b)");
+}
+
+TEST(Parser, ANameMayBeThatOfAPart) {
+  EXPECT_EQ(tree("plant.x(1) + toggled.xh.^2"), "(+ (plant.x() 1) (.^ toggled.xh 2))");
+}
 
 TEST(Parser, BindsAsMatlabDoes) {
   EXPECT_EQ(tree("a + b*c"), "(+ a (* b c))");

@@ -1,0 +1,75 @@
+// A solution of Dynamics (model/dynamics.h) in hybrid time: flows with dense output, and jumps with
+// their events. What is judged, written and drawn.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "numbers/matrix.h"
+
+namespace gainsmith::hybrid {
+
+/// Why a run ended.
+enum class Ending {
+  horizon,      ///< the horizon was reached
+  escaped,      ///< a variable left every bound, or is no number any more
+  undefined,    ///< a text has no value there, and no shorter step helps
+  left,         ///< a condition under `while` is false
+  stuck,        ///< 10^6 jumps without a flow between them
+  zeno,         ///< flows that shrink by a steady factor: jumps accumulate
+  chattering,   ///< flows ever shorter without such a factor
+  sliding,      ///< at a border of `where` both branches lead back
+  passes,       ///< a loop of a jump whose `until` did not become true
+  interrupted,  ///< stopped from outside
+  lost          ///< the integration could not go on, and why is not certain
+};
+std::string to_string(Ending ending);
+
+/// The variables over one step of a flow: sums of Chebyshev polynomials of the time, exact at both
+/// ends up to rounding.
+struct DenseStep {
+  double from = 0;  ///< continuous time
+  double to = 0;
+  /// One row a variable element, column k the coefficient of T_k on [from, to].
+  numbers::Matrix coefficients;
+
+  /// All elements at t in [from, to].
+  Eigen::VectorXd operator()(double t) const;
+};
+
+/// A flow of positive length.
+struct FlowPiece {
+  std::int64_t j = 0;  ///< the number of jumps before it
+  Eigen::VectorXd start;
+  Eigen::VectorXd end;
+  std::vector<DenseStep> steps;  ///< contiguous
+
+  double from() const { return steps.front().from; }
+  double to() const { return steps.back().to; }
+};
+
+struct JumpPoint {
+  double t = 0;
+  std::int64_t j = 0;     ///< the number of jumps before it
+  std::size_t event = 0;  ///< of the dynamics
+  bool lost = false;      ///< the plant alone jumped
+  Eigen::VectorXd before;
+  Eigen::VectorXd after;
+};
+
+struct Trajectory {
+  Eigen::VectorXd start;  ///< all variables at t = 0, stacked in the order of the dynamics, columns
+                          ///< of each below each other
+  std::vector<std::variant<FlowPiece, JumpPoint>> parts;  ///< in order
+  double horizon = 0;
+  Ending ending = Ending::horizon;
+  double end = 0;           ///< its time
+  std::string message;      ///< why it ended, with time, place and values; empty at the horizon
+  double accumulation = 0;  ///< zeno: the time at which jumps accumulate
+  std::vector<std::string> notes;  ///< such as a border that came near without being reached
+};
+
+}  // namespace gainsmith::hybrid
