@@ -1,0 +1,27 @@
+// Internal to the judge (trajectory_judge.h): whether the end of a run has the cause that it names.
+//
+//   horizon      the horizon is the last time
+//   left         a condition under `while` is false there
+//   passes       the event that is due has a loop whose `until` does not become true
+//   undefined    a text has no value there, or where the flow leads at once
+//   stuck        as many jumps without a flow between them as make a run stuck
+//   escaped      a value is no number or large, or changes in no time
+//   zeno         the last lengths shrink by a steady factor, the accumulation point follows
+//   chattering   the last flows are short
+//   sliding      along the flow the rate is another one at once
+// `interrupted` and `lost` say nothing that could be checked.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "hybrid/judged_faults.h"
+#include "hybrid/judged_texts.h"
+#include "hybrid/trajectory.h"
+
+namespace gainsmith::hybrid::judging {
+
+/// `x`: the last values.
+void check_end(JudgedTexts& texts, const Trajectory& trajectory, const Eigen::VectorXd& x,
+               const JudgeQuestion& question, Faults& faults);
+
+}  // namespace gainsmith::hybrid::judging

@@ -1,0 +1,81 @@
+// Internal to the judge (trajectory_judge.h): which events are due, at instants and inside flows.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hybrid/judged_clocks.h"
+#include "hybrid/judged_faults.h"
+#include "hybrid/judged_texts.h"
+#include "hybrid/trajectory.h"
+
+namespace gainsmith::hybrid::judging {
+
+/// Follows a trajectory part by part and remembers what each event has seen.
+class EventWatch {
+ public:
+  EventWatch(JudgedTexts& texts, const Trajectory& trajectory, Faults& faults);
+
+  /// An instant with the values x, where `event` jumps next or nothing does: the events are looked
+  /// at in order.
+  void look(std::size_t part, double t, const Eigen::VectorXd& x, std::optional<std::size_t> event);
+  void jumped(std::size_t part, const JumpPoint& jump);
+  /// A flow begins, and nothing was due.
+  void flow(std::size_t part, const FlowPiece& piece);
+  void end(std::size_t part, double t);
+  /// t, since, count, left, j of the run against what was seen.
+  void check_numbers(std::size_t part, double t, const Eigen::VectorXd& x);
+
+ private:
+  struct Memory {
+    int side = 0;        ///< of a border: on which e was last, for sure; 0 after its own jump
+    bool spent = false;  ///< `when`: `if` was false when the condition became true
+    std::optional<EventClock> clock;
+    double last = 0;  ///< the time of the last jump
+    std::int64_t count = 0;
+    int lost_in_a_row = 0;
+  };
+  /// A point of a flow.
+  struct Sample {
+    double t = 0;
+    Eigen::VectorXd x;
+    Eigen::VectorXd sizes;  ///< of its step
+  };
+
+  Truth due(std::size_t event, double t, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
+  Truth without_if(std::size_t event, double t, const Eigen::VectorXd& x,
+                   const Eigen::VectorXd& rounding);
+  bool is_border(std::size_t event) const { return texts_.events[event].crossing.has_value(); }
+  bool fires(std::size_t event, int from, int to) const;
+  /// The sign of e, 0 where rounding hides it.
+  int side(std::size_t event, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
+  void remember_side(std::size_t event, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
+
+  // judged_inside.cpp: the inside of flows.
+  std::vector<Sample> samples(const FlowPiece& piece) const;
+  Sample sample(const FlowPiece& piece, double t) const;
+  Truth inside(Guard& guard, const Sample& at);
+  void watch_condition(const FlowPiece& piece, const std::vector<Sample>& all, Guard& guard,
+                       std::optional<std::size_t> event, const std::string& what);
+  void watch_border(const FlowPiece& piece, const std::vector<Sample>& all, std::size_t event);
+  void watch_clock(const FlowPiece& piece, std::size_t event);
+  /// Whether an occurrence at a point must jump: its `if` is true, for sure.
+  bool must_jump(std::size_t event, const Sample& at);
+  /// Where `value` is largest between two points on both sides of a point where it is larger; an
+  /// early stop where it is > 0.
+  double highest(double low, double high, const std::function<double(double)>& value) const;
+  /// The first point, up to rounding, of (low, high] where `is_there` is.
+  double entry(double low, double high, const std::function<bool(double)>& is_there) const;
+
+  JudgedTexts& texts_;
+  Faults& faults_;
+  std::vector<Memory> memory_;
+  std::size_t part_ = 0;
+  std::int64_t jumps_ = 0;
+};
+
+}  // namespace gainsmith::hybrid::judging

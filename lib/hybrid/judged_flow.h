@@ -1,0 +1,62 @@
+// Internal to the judge (trajectory_judge.h): flows, integrated again.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "hybrid/gauss.h"
+#include "hybrid/judged_faults.h"
+#include "hybrid/judged_texts.h"
+#include "hybrid/trajectory.h"
+
+namespace gainsmith::hybrid::judging {
+
+/// The sum of the sizes of the coefficients, the largest of each variable: a bound for its values
+/// on the step, to which rounding and accuracy are relative.
+Eigen::VectorXd step_sizes(const JudgedTexts& texts, const DenseStep& step);
+
+/// How far each element may be off at x by rounding: 1e-13 of its size and, as events lie at times
+/// that are rounded too, what it moves in a few units in the last place of t. 0 of what is exact:
+/// modes, counts, noise.
+Eigen::VectorXd rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x,
+                            const Eigen::VectorXd& sizes);
+
+class FlowCheck {
+ public:
+  FlowCheck(JudgedTexts& texts, const JudgeQuestion& question, Faults& faults);
+
+  /// The piece alone; where it begins is known to be right.
+  void operator()(std::size_t part, const FlowPiece& piece);
+
+ private:
+  /// The values at the quarters of a step: one column each.
+  using Quarters = numbers::Matrix;
+
+  void check_joint(const Eigen::VectorXd& x, double t, const Eigen::VectorXd& next,
+                   const Eigen::VectorXd& sizes, bool inner);
+  void check_rest(const DenseStep& step, const Eigen::VectorXd& x, const Eigen::VectorXd& sizes);
+  /// Adds to `sum` the difference at the end.
+  void check_step(const DenseStep& step, const Eigen::VectorXd& x, const Eigen::VectorXd& sizes,
+                  Eigen::VectorXd& sum);
+  /// In `count` Gauss steps, of which four, two or one make a quarter; none without convergence.
+  std::optional<Quarters> advance(const DenseStep& step, const Eigen::VectorXd& x, int count,
+                                  const Eigen::VectorXd& allowed);
+  std::optional<Quarters> settled(const DenseStep& step, const Eigen::VectorXd& x,
+                                  const Eigen::VectorXd& allowed);
+  Eigen::VectorXd accuracy(const Eigen::VectorXd& sizes) const;
+  Eigen::VectorXd active_part(const Eigen::VectorXd& x) const;
+  /// The worst element of each variable.
+  void report(double t, const std::string& what, const Eigen::VectorXd& size,
+              const Eigen::VectorXd& allowed);
+
+  JudgedTexts& texts_;
+  const JudgeQuestion& question_;
+  Faults& faults_;
+  std::size_t part_ = 0;
+  std::vector<bool> flowing_;         ///< by variable
+  std::vector<Eigen::Index> active_;  ///< elements that flow along a text
+  Eigen::VectorXd clocks_;            ///< the rate of each element that is a clock, else 0
+};
+
+}  // namespace gainsmith::hybrid::judging

@@ -1,0 +1,168 @@
+// The inside of flows: what must not happen there (judged_events.h).
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "hybrid/judged_events.h"
+#include "hybrid/judged_flow.h"
+
+namespace gainsmith::hybrid::judging {
+
+namespace {
+
+constexpr int kPoints = 16;  ///< inside a step
+
+/// Whether a value that is `here` <= 0 between two others may be above 0 near by: it is an
+/// extremum, and 0 is no farther than the lower of the others.
+bool may_reach(double before, double here, double after) {
+  const double rise = here - std::min(before, after);
+  return here >= before && here >= after && rise > 0 && here + rise >= 0;
+}
+
+}  // namespace
+
+EventWatch::Sample EventWatch::sample(const FlowPiece& piece, double t) const {
+  const auto after =
+      std::upper_bound(piece.steps.begin(), piece.steps.end() - 1, t,
+                       [](double time, const DenseStep& step) { return time < step.to; });
+  return {t, (*after)(t), step_sizes(texts_, *after)};
+}
+
+std::vector<EventWatch::Sample> EventWatch::samples(const FlowPiece& piece) const {
+  std::vector<Sample> all;
+  for (const DenseStep& step : piece.steps) {
+    const Eigen::VectorXd sizes = step_sizes(texts_, step);
+    all.push_back({step.from, step(step.from), sizes});
+    for (int k = 0; k < kPoints; ++k) {
+      // Close to the ends, where a second root next to an event would lie.
+      const double z = std::cos(std::numbers::pi * (k + 0.5) / kPoints);
+      const double t = step.from + (step.to - step.from) * (1 - z) / 2;
+      if (t > all.back().t && t < step.to) all.push_back({t, step(t), sizes});
+    }
+  }
+  const DenseStep& last = piece.steps.back();
+  all.push_back({last.to, last(last.to), step_sizes(texts_, last)});
+  return all;
+}
+
+bool EventWatch::must_jump(std::size_t event, const Sample& at) {
+  auto& only_if = texts_.events[event].only_if;
+  return !only_if || inside(*only_if, at) == Truth::yes;
+}
+
+Truth EventWatch::inside(Guard& guard, const Sample& at) {
+  return guard.truth(at.x, rounding_at(texts_, at.t, at.x, at.sizes));
+}
+
+double EventWatch::highest(double low, double high,
+                           const std::function<double(double)>& value) const {
+  const double share = (std::sqrt(5.0) - 1) / 2;
+  double a = high - share * (high - low);
+  double b = low + share * (high - low);
+  double at_a = value(a);
+  double at_b = value(b);
+  for (int k = 0; k < 60 && std::max(at_a, at_b) <= 0; ++k) {
+    if (at_a > at_b) {
+      high = b;
+      b = a;
+      at_b = at_a;
+      a = high - share * (high - low);
+      at_a = value(a);
+    } else {
+      low = a;
+      a = b;
+      at_a = at_b;
+      b = low + share * (high - low);
+      at_b = value(b);
+    }
+  }
+  return at_a > at_b ? a : b;
+}
+
+double EventWatch::entry(double low, double high,
+                         const std::function<bool(double)>& is_there) const {
+  for (int k = 0; k < 60; ++k) {
+    const double middle = low + (high - low) / 2;
+    if (!(low < middle && middle < high)) break;
+    (is_there(middle) ? high : low) = middle;
+  }
+  return high;
+}
+
+void EventWatch::watch_condition(const FlowPiece& piece, const std::vector<Sample>& all,
+                                 Guard& guard, std::optional<std::size_t> event,
+                                 const std::string& what) {
+  bool none = false;  // of what has no `if` nothing is ever spent
+  bool& spent = event ? memory_[*event].spent : none;
+  const auto holds = [&](double t) { return guard(sample(piece, t).x); };
+  const auto depth = [&](double t) { return guard.depth(sample(piece, t).x); };
+  std::vector<double> depths;
+  for (const Sample& one : all) depths.push_back(guard.depth(one.x));
+  // Found true at `at`, false or spent at `before`.
+  const auto found = [&](double before, const Sample& at) {
+    if (inside(guard, at) != Truth::yes) return;
+    if (event && texts_.events[*event].only_if) {
+      if (!must_jump(*event, sample(piece, entry(before, at.t, holds)))) {
+        spent = true;
+        return;
+      }
+    }
+    faults_.add(part_, at.t, what);
+  };
+  for (std::size_t k = 1; k + 1 < all.size(); ++k) {
+    if (guard(all[k].x)) {
+      if (!spent) found(all[k - 1].t, all[k]);
+      continue;
+    }
+    spent = false;
+    if (!may_reach(depths[k - 1], depths[k], depths[k + 1])) continue;
+    if (guard(all[k - 1].x) || guard(all[k + 1].x)) continue;
+    const double top = highest(all[k - 1].t, all[k + 1].t, depth);
+    const Sample peak = sample(piece, top);
+    if (guard(peak.x)) found(all[k - 1].t, peak);
+    spent = false;
+  }
+}
+
+void EventWatch::watch_border(const FlowPiece& piece, const std::vector<Sample>& all,
+                              std::size_t event) {
+  const std::string what =
+      "crosses its border inside a flow: " + texts_.dynamics.events[event].name;
+  Text& crossing = *texts_.events[event].crossing;
+  int& known = memory_[event].side;
+  const auto side_at = [&](const Sample& at) {
+    return side(event, at.x, rounding_at(texts_, at.t, at.x, at.sizes));
+  };
+  std::vector<double> values;
+  for (const Sample& one : all) values.push_back(crossing(one.x)(0, 0));
+  for (std::size_t k = 1; k + 1 < all.size(); ++k) {
+    const int now = side_at(all[k]);
+    if (now == 0) continue;
+    if (fires(event, known, now)) {
+      const auto is_there = [&](double t) { return now * crossing(sample(piece, t).x)(0, 0) > 0; };
+      const double t = entry(all[k - 1].t, all[k].t, is_there);
+      if (must_jump(event, sample(piece, t))) faults_.add(part_, t, what);
+    }
+    known = now;
+    // The value nearest to 0 between points on one side: a pair of crossings holds one of each
+    // direction.
+    if (now * values[k - 1] <= 0 || now * values[k + 1] <= 0) continue;
+    if (!may_reach(-now * values[k - 1], -now * values[k], -now * values[k + 1])) continue;
+    const auto beyond = [&](double t) { return -now * crossing(sample(piece, t).x)(0, 0); };
+    const Sample peak = sample(piece, highest(all[k - 1].t, all[k + 1].t, beyond));
+    if (side_at(peak) == -now && must_jump(event, peak)) faults_.add(part_, peak.t, what);
+  }
+}
+
+void EventWatch::watch_clock(const FlowPiece& piece, std::size_t event) {
+  EventClock& clock = *memory_[event].clock;
+  while (clock.next() < piece.to() && !same_time(clock.next(), piece.to())) {
+    const double t = clock.next();
+    if (t > piece.from() && !same_time(t, piece.from()) && must_jump(event, sample(piece, t)))
+      faults_.add(part_, t, "becomes due inside a flow: " + texts_.dynamics.events[event].name);
+    clock.spent(t);
+    if (!(clock.next() > t)) break;
+  }
+}
+
+}  // namespace gainsmith::hybrid::judging

@@ -1,0 +1,30 @@
+// Internal to the judge (trajectory_judge.h): jumps, computed again from the texts.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "hybrid/judged_faults.h"
+#include "hybrid/judged_texts.h"
+#include "hybrid/trajectory.h"
+
+namespace gainsmith::hybrid::judging {
+
+struct JumpValues {
+  Eigen::VectorXd after;
+  /// What each element may be off: 0 of what keeps its bits, infinite of what is drawn.
+  Eigen::VectorXd slack;
+  std::vector<std::int64_t> passes;  ///< of the loops, in order
+  bool exhausted = false;            ///< a loop whose `until` did not become true
+};
+
+/// The values after a jump of the event. `before` has the noise that is drawn at it.
+/// EvaluationError when a map has no value.
+JumpValues jump_values(JudgedTexts& texts, std::size_t event, bool lost,
+                       const Eigen::VectorXd& before);
+
+void check_jump(JudgedTexts& texts, std::size_t part, const JumpPoint& jump, Faults& faults);
+
+}  // namespace gainsmith::hybrid::judging

@@ -1,0 +1,199 @@
+#include "hybrid/trajectory_judge.h"
+
+#include <optional>
+#include <variant>
+
+#include "expr/number_type.h"
+#include "hybrid/judged_end.h"
+#include "hybrid/judged_events.h"
+#include "hybrid/judged_faults.h"
+#include "hybrid/judged_flow.h"
+#include "hybrid/judged_jump.h"
+#include "hybrid/judged_texts.h"
+
+namespace gainsmith::hybrid {
+
+namespace judging {
+
+namespace {
+
+using V = model::Dynamics::VariableKind;
+
+/// Whether the parts have the sizes without which nothing else can be asked.
+bool is_well_formed(const Trajectory& trajectory, const JudgedTexts& texts, Faults& faults) {
+  const Eigen::Index n = texts.layout.size;
+  const auto fits = [&](const std::variant<FlowPiece, JumpPoint>& part) {
+    if (const auto* jump = std::get_if<JumpPoint>(&part))
+      return jump->event < texts.events.size() && jump->before.size() == n &&
+             jump->after.size() == n;
+    const auto& piece = std::get<FlowPiece>(part);
+    bool fine = !piece.steps.empty() && piece.start.size() == n && piece.end.size() == n;
+    for (const DenseStep& step : piece.steps)
+      fine = fine && step.from < step.to && step.coefficients.rows() == n &&
+             step.coefficients.cols() > 0;
+    return fine;
+  };
+  if (trajectory.start.size() != n) faults.add(0, 0, "the start has another number of values");
+  for (std::size_t k = 0; k < trajectory.parts.size(); ++k)
+    if (!fits(trajectory.parts[k])) faults.add(k, 0, "the part is not well formed");
+  return faults.list().empty();
+}
+
+class Walk {
+ public:
+  Walk(const Trajectory& trajectory, JudgedTexts& texts, const JudgeQuestion& question,
+       Faults& faults)
+      : trajectory_(trajectory),
+        texts_(texts),
+        question_(question),
+        faults_(faults),
+        flows_(texts, question, faults),
+        watch_(texts, trajectory, faults),
+        x_(trajectory.start) {}
+
+  void operator()() {
+    check_start();
+    for (part_ = 0; part_ < trajectory_.parts.size(); ++part_) step_over(trajectory_.parts[part_]);
+    faults_.check(part_, trajectory_.end, "the run does not end where its last part does",
+                  std::abs(trajectory_.end - t_), 0);
+    if (trajectory_.ending == Ending::horizon) guarded([&] { watch_.look(part_, t_, x_, {}); });
+    watch_.end(part_, t_);
+    check_end(texts_, trajectory_, x_, question_, faults_);
+  }
+
+ private:
+  template <class Action>
+  void guarded(Action action) {
+    try {
+      action();
+    } catch (const expr::EvaluationError& error) {
+      faults_.add(part_, t_, "a text has no value: " + error.message());
+    }
+  }
+
+  void step_over(const std::variant<FlowPiece, JumpPoint>& part) {
+    if (const auto* jump = std::get_if<JumpPoint>(&part)) {
+      over(*jump);
+    } else {
+      over(std::get<FlowPiece>(part));
+    }
+  }
+
+  void over(const JumpPoint& jump) {
+    go_on(jump.t, jump.j, jump.before, jump.event);
+    guarded([&] { watch_.look(part_, t_, jump.before, jump.event); });
+    guarded([&] { check_jump(texts_, part_, jump, faults_); });
+    guarded([&] { watch_.jumped(part_, jump); });
+    check_noise(jump.after);
+    x_ = jump.after;
+    ++j_;
+  }
+
+  void over(const FlowPiece& piece) {
+    go_on(piece.from(), piece.j, piece.start, {});
+    guarded([&] { watch_.look(part_, t_, piece.start, {}); });
+    for (std::size_t k = 1; k < piece.steps.size(); ++k)
+      faults_.check(part_, piece.steps[k].from, "the steps of a flow are not contiguous",
+                    std::abs(piece.steps[k].from - piece.steps[k - 1].to), 0);
+    guarded([&] { flows_(part_, piece); });
+    guarded([&] { watch_.flow(part_, piece); });
+    check_noise(piece.end);
+    x_ = piece.end;
+    t_ = piece.to();
+  }
+
+  /// A part begins with these values where the one before it ended.
+  void go_on(double t, std::int64_t j, const Eigen::VectorXd& x, std::optional<std::size_t> event) {
+    faults_.check(part_, t, "does not begin where the part before it ended", std::abs(t - t_), 0);
+    faults_.check(part_, t, "has another number of jumps before it",
+                  std::abs(static_cast<double>(j - j_)), 0);
+    t_ = t;
+    for (std::size_t v = 0; v < texts_.dynamics.variables.size(); ++v) {
+      const Slot& slot = texts_.layout.slots[v];
+      if (slot.shape.size() == 0 || may_change(v, t, event)) continue;
+      faults_.check(part_, t, "does not go on from the part before it: " + slot.name,
+                    (texts_.part(x, v) - texts_.part(x_, v)).cwiseAbs().maxCoeff(), slack(v, t));
+    }
+  }
+
+  /// Clocks may be set to what they must be at an event.
+  double slack(std::size_t v, double t) const {
+    const bool clock = texts_.is(v, V::time) || texts_.is(v, V::since) || texts_.is(v, V::left);
+    return clock ? time_rounding(t, t) : 0;
+  }
+
+  /// Without a jump: noise that is drawn, a clock whose occurrence is spent.
+  bool may_change(std::size_t v, double t, std::optional<std::size_t> event) const {
+    const model::Dynamics::Variable& variable = texts_.dynamics.variables[v];
+    if (variable.kind == V::left) return texts_.dynamics.events[variable.of].only_if.has_value();
+    if (variable.kind != V::noise) return false;
+    const auto& every = texts_.noise[variable.of].every;
+    if (every) return same_time(std::round(t / *every) * *every, t);
+    return event && texts_.dynamics.noise[variable.of].event == event;
+  }
+
+  void check_start() {
+    for (std::size_t v = 0; v < texts_.dynamics.variables.size(); ++v) {
+      if (texts_.is(v, V::passes))
+        faults_.check(0, 0, "starts with another value: " + texts_.layout.slots[v].name,
+                      std::abs(texts_.part(x_, v)(0)), 0);
+      if (texts_.is(v, V::state) || texts_.is(v, V::mode)) guarded([&] { check_start_of(v); });
+    }
+    watch_.check_numbers(0, 0, x_);
+    check_noise(x_);
+  }
+
+  void check_start_of(std::size_t v) {
+    const Slot& slot = texts_.layout.slots[v];
+    const auto here = texts_.part(x_, v);
+    for (const StartRange& range : question_.starts) {
+      if (range.variable != v) continue;
+      if ((here.array() < range.low.reshaped().array()).any() ||
+          (here.array() > range.high.reshaped().array()).any() || !here.allFinite())
+        faults_.add(0, 0, "starts outside of its range: " + slot.name);
+      return;
+    }
+    const auto start = texts_.start(v, x_);
+    if (!start || slot.shape.size() == 0) return;
+    faults_.check(0, 0, "starts with another value: " + slot.name,
+                  (here - start->reshaped()).cwiseAbs().maxCoeff(),
+                  1e-13 * start->cwiseAbs().maxCoeff());
+  }
+
+  void check_noise(const Eigen::VectorXd& x) {
+    for (std::size_t v = 0; v < texts_.dynamics.variables.size(); ++v) {
+      if (!texts_.is(v, V::noise)) continue;
+      const NoiseRange& range = texts_.noise[texts_.dynamics.variables[v].of];
+      const auto here = texts_.part(x, v);
+      if (!here.allFinite() || (here.array() < range.low.reshaped().array()).any() ||
+          (here.array() > range.high.reshaped().array()).any())
+        faults_.add(part_, t_, "noise outside of its range: " + texts_.layout.slots[v].name);
+    }
+  }
+
+  const Trajectory& trajectory_;
+  JudgedTexts& texts_;
+  const JudgeQuestion& question_;
+  Faults& faults_;
+  FlowCheck flows_;
+  EventWatch watch_;
+  std::size_t part_ = 0;
+  double t_ = 0;
+  std::int64_t j_ = 0;
+  Eigen::VectorXd x_;
+};
+
+}  // namespace
+
+}  // namespace judging
+
+std::vector<Fault> judge(const Trajectory& trajectory, const model::Dynamics& dynamics,
+                         const model::Stated& stated, const JudgeQuestion& question) {
+  judging::Faults faults;
+  judging::JudgedTexts texts(dynamics, stated);
+  if (judging::is_well_formed(trajectory, texts, faults))
+    judging::Walk(trajectory, texts, question, faults)();
+  return faults.list();
+}
+
+}  // namespace gainsmith::hybrid
