@@ -197,7 +197,8 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
   for (const auto* part : {&method.plant, &method.observer})
     for (const auto& state : part->states) states.push_back(state.name);
   for (const YamlItem& entry : items_of(file, map.find("initial"), "initial")) {
-    if (std::find(states.begin(), states.end(), entry.key) == states.end())
+    const bool known = std::find(states.begin(), states.end(), entry.key) != states.end();
+    if (!known && !method.has_events)
       throw InputError(entry.place,
                        "initial: '" + entry.key + "' is no state" + suggestion(entry.key, states));
     result.initial.push_back(initial(file, entry));

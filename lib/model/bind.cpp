@@ -69,6 +69,7 @@ Instance Binding::run() {
   bind_claims();
   bind_campaign();
   bind_expectation();
+  finish_dynamics();
   design_->ranks = recorder_->ranks;
   design_->names = names_;
   return {design_, overrides_, recorder_->values};

@@ -107,7 +107,34 @@ void Binding::bind_campaign() {
       if (timer) check_within(into.values.back(), timer->low, timer->high, "the sampling interval");
     }
   }
-  for (const InitialValue& initial : campaign.initial) bound.starts.push_back(start(initial));
+  bind_starts();
+}
+
+/// Of a method with events a name stands for the state of each observer that has it, and a state
+/// that starts nowhere is an error.
+void Binding::bind_starts() {
+  auto& starts = design_->campaign.starts;
+  for (const InitialValue& initial : problem().campaign.initial) {
+    const auto names =
+        dynamics_names_ ? dynamics_names_->states(initial.state) : std::vector<std::string>{};
+    if (names.empty()) starts.push_back(start(initial));
+    for (const std::string& name : names) {
+      InitialValue one = initial;
+      one.state = name;
+      starts.push_back(start(one));
+    }
+  }
+  if (!design_->dynamics) return;
+  for (std::size_t k = 0; k < design_->states.size(); ++k) {
+    const bool drawn = std::any_of(starts.begin(), starts.end(),
+                                   [&](const Design::Start& one) { return one.state == k; });
+    const Design::State& state = design_->states[k];
+    if (!drawn && !state.start && state.shape.size() > 0)
+      throw InputError(design_->dynamics->variables[k].place,
+                       "the state '" + state.name +
+                           "' has no start: {shape: ..., start: ...}, or under campaign.initial of "
+                           "the problem");
+  }
 }
 
 }  // namespace gainsmith::model

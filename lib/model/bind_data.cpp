@@ -250,6 +250,7 @@ void Binding::add_definitions() {
   auto& definitions = names_->known.definitions;
   for (const Let& let : method().let)
     definitions[let.signature.name] = {let.signature.parameters, let.body};
+  if (method().has_events) return;  // outputs and signals come with the dynamics
   for (const Component* part : {&method().plant, &method().observer})
     for (const Named& output : part->outputs) definitions[output.name] = {{}, output.value};
   for (const Named& signal : method().signals) definitions[signal.name] = {{}, signal.value};
@@ -335,6 +336,7 @@ void Binding::add_unknown(const UnknownDeclaration& unknown) {
 }
 
 void Binding::add_states() {
+  if (method().has_events) return;
   for (const Component* part : {&method().plant, &method().observer})
     for (const Declaration& state : part->states)
       design_->states.push_back({state.name, known_shape(state, "state"), std::nullopt});
