@@ -36,6 +36,11 @@ double Law::reset_value(std::size_t jump, double t, RandomStream& random) const 
       return std::clamp((high - low) / 2 * std::sin(t / high) + (high + low) / 2, low, high);
     case LawKind::list:
       return values[jump % values.size()];
+    case LawKind::golden: {
+      constexpr double kGoldenRatio = 0.6180339887498949;
+      const double turns = static_cast<double>(jump + 1) * kGoldenRatio;
+      return low + (high - low) * (turns - std::floor(turns));
+    }
   }
   return high;
 }

@@ -102,12 +102,26 @@ void Binding::bind_campaign() {
     Design::Law& into = bound.laws.emplace_back();
     into.kind = law.kind;
     into.place = law.place;
+    if (!law.event.empty()) into.event = clock_of(law);
     for (const expr::Expression& each : law.values) {
       into.values.push_back(scalar(each, scope));
       if (timer) check_within(into.values.back(), timer->low, timer->high, "the sampling interval");
     }
   }
   bind_starts();
+}
+
+/// The event whose clock a law is for.
+std::size_t Binding::clock_of(const SamplingLaw& law) const {
+  const auto name = dynamics_names_->event(nullptr, law.event);
+  const auto& events = design_->dynamics->events;
+  for (std::size_t k = 0; name && k < events.size(); ++k)
+    if (events[k].name == *name && events[k].low) return k;
+  std::vector<std::string> clocks;
+  for (const Dynamics::Event& event : events)
+    if (event.low) clocks.push_back(event.name);
+  throw InputError(law.place, "sampling: there is no event '" + law.event + "' with 'every'" +
+                                  suggestion(law.event, clocks));
 }
 
 /// Of a method with events a name stands for the state of each observer that has it, and a state

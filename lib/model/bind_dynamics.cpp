@@ -22,8 +22,13 @@ std::vector<std::string> state_names(const Component& component) {
 }  // namespace
 
 DynamicsBinding::DynamicsBinding(const Method& method, const Dimensions& dimensions,
-                                 const DynamicsNames& names, expr::Scope& scope)
-    : method_(&method), dimensions_(&dimensions), names_(&names), scope_(&scope) {}
+                                 const DynamicsNames& names,
+                                 const std::vector<UncertainText>& uncertain, expr::Scope& scope)
+    : method_(&method),
+      dimensions_(&dimensions),
+      names_(&names),
+      uncertain_(&uncertain),
+      scope_(&scope) {}
 
 Formula DynamicsBinding::formula(const expr::Expression& text, const expr::Scope& scope,
                                  std::optional<expr::Shape> shape) const {
@@ -80,6 +85,28 @@ void DynamicsBinding::add_definitions(const Component& component) {
     if (!output.at.empty()) output_events_[name] = output.at;
     if (component.name == "plant") outputs_of_plant_.insert(name);
   }
+}
+
+/// Uncertain data as the plant has them, drawn once a run, and the definitions that use them.
+void DynamicsBinding::add_varied() {
+  for (const UncertainText& text : *uncertain_) {
+    const auto datum = scope_->symbols.find(text.name);
+    if (datum == scope_->symbols.end() || !datum->second.known)
+      throw InputError(text.place, "uncertain: '" + text.name + "' is no datum and no parameter" +
+                                       suggestion(text.name, scope_->names()));
+    Dynamics::Noise noise;
+    noise.name = "plant." + text.name;
+    noise.kind = Dynamics::NoiseKind::uniform;
+    noise.shape = datum->second.shape;
+    noise.place = text.place;
+    for (const expr::Expression& end : text.box)
+      noise.values.push_back(constant(end, datum->second.shape));
+    add_noise(std::move(noise));
+  }
+  for (const std::string& name : names_->varied())
+    if (const auto found = scope_->definitions.find(name); found != scope_->definitions.end())
+      scope_->definitions["plant." + name] = {
+          found->second.parameters, names_->of_plant(found->second.body, found->second.parameters)};
 }
 
 void DynamicsBinding::add_inputs() {
@@ -143,10 +170,11 @@ Dynamics DynamicsBinding::run() {
     add_component(*parts[at]);
     add_states(*parts[at], at);
   }
+  add_varied();
   for (const Component* part : parts) add_definitions(*part);
   add_inputs();
   add_events();
-  for (std::size_t at = 0; at < method_->noise.size(); ++at) bind_noise(method_->noise[at], at);
+  for (const NoiseText& noise : method_->noise) bind_noise(noise);
   bind_starts();
   for (std::size_t at = 0; at < parts.size(); ++at) {
     bind_flow(*parts[at], at);

@@ -224,7 +224,7 @@ void DynamicsBinding::bind_stays(const Component& component, std::size_t at) {
          stay.say, stay.place});
 }
 
-void DynamicsBinding::bind_noise(const NoiseText& text, std::size_t at) {
+void DynamicsBinding::bind_noise(const NoiseText& text) {
   Dynamics::Noise bound;
   bound.name = text.name;
   bound.kind = text.kind;
@@ -239,15 +239,19 @@ void DynamicsBinding::bind_noise(const NoiseText& text, std::size_t at) {
   if (text.every) bound.every = constant(*text.every, expr::Shape{});
   if (!is_free(text.name))
     throw InputError(text.place, "'" + text.name + "' already names something else");
+  add_noise(std::move(bound));
+}
+
+void DynamicsBinding::add_noise(Dynamics::Noise noise) {
   Dynamics::Variable variable;
   variable.kind = Kind::noise;
-  variable.name = text.name;
-  variable.of = at;
-  variable.shape = bound.shape;
-  variable.place = text.place;
-  scope_->symbols[text.name] = {bound.shape};
+  variable.name = noise.name;
+  variable.of = result_.noise.size();
+  variable.shape = noise.shape;
+  variable.place = noise.place;
+  scope_->symbols[noise.name] = {noise.shape};
   result_.variables.push_back(std::move(variable));
-  result_.noise.push_back(std::move(bound));
+  result_.noise.push_back(std::move(noise));
 }
 
 }  // namespace gainsmith::model

@@ -53,8 +53,9 @@ void Binding::bind_components() {
 /// Plant, observers and events; outputs and signals by the names under which they are shown.
 void Binding::bind_dynamics() {
   expr::Scope& scope = names_->running;
-  dynamics_names_ = std::make_unique<DynamicsNames>(method());
-  DynamicsBinding binding(method(), design_->dimensions, *dynamics_names_, scope);
+  dynamics_names_ = std::make_unique<DynamicsNames>(method(), varied());
+  DynamicsBinding binding(method(), design_->dimensions, *dynamics_names_, problem().uncertain,
+                          scope);
   design_->dynamics = binding.run();
   Dynamics& dynamics = *design_->dynamics;
   for (const Dynamics::Variable& variable : dynamics.variables)
@@ -82,6 +83,20 @@ void Binding::bind_dynamics() {
   names_->results.symbols["objective"] = {};
 }
 
+/// Uncertain data and the definitions that use them, by others too.
+std::set<std::string> Binding::varied() const {
+  std::set<std::string> names;
+  for (const UncertainText& text : problem().uncertain) names.insert(text.name);
+  if (names.empty()) return names;
+  for (std::size_t before = 0; before != names.size();) {
+    before = names.size();
+    for (const auto& [name, definition] : names_->running.definitions)
+      for (const std::string& used : names_in(definition.body))
+        if (names.contains(used)) names.insert(name);
+  }
+  return names;
+}
+
 /// What no program asks for is left out; all texts are bound.
 void Binding::finish_dynamics() {
   if (!design_->dynamics) return;
@@ -90,6 +105,14 @@ void Binding::finish_dynamics() {
     for (const expr::Input& input : program.inputs) read.insert(input.name);
   };
   for_each_program(*design_->dynamics, add);
+  const auto add_figure = [&](const Figure& figure) {
+    if (figure.value) add(figure.value->program);
+    if (figure.kind == FigureKind::passes)
+      read.insert(expr::event_number("passes", design_->dynamics->events[figure.event].name));
+  };
+  for (const Figure& figure : design_->compare) add_figure(figure);
+  if (design_->expect)
+    for (const ExpectedFigure& expected : design_->expect->run) add_figure(expected.figure);
   for (const Design::Claim& claim : design_->claims) {
     add(claim.value.program);
     for (const auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor})

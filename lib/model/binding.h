@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -120,6 +121,7 @@ class Binding {
   std::vector<NamedFormula> named(const std::vector<Named>& list, const expr::Scope& scope) const;
   void bind_timer();
   void bind_dynamics();
+  std::set<std::string> varied() const;
   void finish_dynamics();
   void bind_claims();
   Claim instantiated(Claim claim, const Member& member) const;
@@ -129,6 +131,7 @@ class Binding {
   // bind_campaign.cpp
   void bind_campaign();
   void bind_starts();
+  std::size_t clock_of(const SamplingLaw& law) const;
   Design::Start start(const InitialValue& initial) const;
   void check_box(const Design::Start& start, const InitialValue& initial) const;
   void check_within(const Formula& formula, const Formula& low, const Formula& high,
@@ -142,6 +145,9 @@ class Binding {
   Range range(const ScalarRange& range) const;
   Formula figure(const expr::Expression& text) const;
   void bind_expectation();
+  std::vector<Figure> figures(const FigureText& text) const;
+  std::size_t event_of(const FigureText& text, const std::string& observer) const;
+  void bind_comparison();
 
   Formula scalar(const expr::Expression& expression, const expr::Scope& scope) const;
   Formula formula(const expr::Expression& expression, const expr::Scope& scope,

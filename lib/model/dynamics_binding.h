@@ -19,7 +19,7 @@ class DynamicsBinding {
   /// `scope` has data, parameters, definitions, unknowns and gains; the names of plant, observers
   /// and events are added to it.
   DynamicsBinding(const Method& method, const Dimensions& dimensions, const DynamicsNames& names,
-                  expr::Scope& scope);
+                  const std::vector<UncertainText>& uncertain, expr::Scope& scope);
 
   Dynamics run();
   /// The event at which alone an output exists, by its full name.
@@ -31,6 +31,7 @@ class DynamicsBinding {
   void add_states(const Component& component, std::size_t at);
   void add_definitions(const Component& component);
   void add_inputs();
+  void add_varied();
   void bind_starts();
   void bind_flow(const Component& component, std::size_t at);
   std::size_t state(const Component& component, std::size_t at, const Named& entry,
@@ -47,7 +48,8 @@ class DynamicsBinding {
   Dynamics::Pass pass(const PassText& text, const Component& component, std::size_t at,
                       const expr::Scope& scope, std::size_t event) const;
   void bind_stays(const Component& component, std::size_t at);
-  void bind_noise(const NoiseText& text, std::size_t at);
+  void bind_noise(const NoiseText& text);
+  void add_noise(Dynamics::Noise noise);
   std::size_t event(const Component* component, const std::string& name, const Place& place) const;
   Formula constant(const expr::Expression& text, std::optional<expr::Shape> shape) const;
   expr::Condition condition(const expr::Expression& text, const Component* reader,
@@ -73,6 +75,7 @@ class DynamicsBinding {
   const Method* method_;
   const Dimensions* dimensions_;
   const DynamicsNames* names_;
+  const std::vector<UncertainText>* uncertain_;
   expr::Scope* scope_;
   Dynamics result_;
   std::map<std::string, std::size_t> events_;         ///< by full name

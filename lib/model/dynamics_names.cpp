@@ -4,6 +4,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/nearest.h"
+
 namespace gainsmith::model {
 
 namespace {
@@ -26,7 +28,8 @@ std::set<std::string> names_of(const Component& component) {
   return names;
 }
 
-DynamicsNames::DynamicsNames(const Method& method) : method_(&method) {
+DynamicsNames::DynamicsNames(const Method& method, std::set<std::string> varied)
+    : method_(&method), varied_(std::move(varied)) {
   for (const Component& observer : method.observers) own_[observer.name] = names_of(observer);
   anywhere_ = names_of(method.plant);
   for (const Named& input : method.inputs) anywhere_.insert(input.name);
@@ -36,7 +39,9 @@ DynamicsNames::DynamicsNames(const Method& method) : method_(&method) {
 /// "plant.x" is x, "plant.impact.left" is impact.left.
 std::optional<std::string> DynamicsNames::of_part(const std::string& name) const {
   if (!name.starts_with(kPlant)) return std::nullopt;
-  return name.substr(kPlant.size());
+  std::string own = name.substr(kPlant.size());
+  if (varied_.contains(own)) return std::nullopt;
+  return own;
 }
 
 std::optional<std::string> DynamicsNames::event(const Component* component,
@@ -78,12 +83,22 @@ expr::Expression DynamicsNames::within(const Component& component, const expr::E
     if (std::find(parameters.begin(), parameters.end(), name) != parameters.end())
       return std::nullopt;
     if (own.contains(name)) return full_name(component, name);
+    if (component.name == "plant" && varied_.contains(name)) return std::string(kPlant) + name;
     if (name.ends_with(kLeft))
       if (const auto of = event(&component, name.substr(0, name.size() - kLeft.size())))
         return *of + std::string(kLeft);
     if (const auto found = event(&component, name); found && !anywhere_.contains(name))
       return found;
     return of_part(name);
+  });
+}
+
+expr::Expression DynamicsNames::of_plant(const expr::Expression& text,
+                                         const std::vector<std::string>& parameters) const {
+  return expr::renamed(text, [&](const std::string& name) -> std::optional<std::string> {
+    const bool own = std::find(parameters.begin(), parameters.end(), name) != parameters.end();
+    if (own || !varied_.contains(name)) return std::nullopt;
+    return std::string(kPlant) + name;
   });
 }
 
@@ -133,6 +148,20 @@ std::vector<Reading> DynamicsNames::outside(const std::vector<expr::Expression>&
   throw InputError(texts.front().place(*texts.front().root),
                    "no observer has all of " + all + "; of a certain one it is written " +
                        method_->observers.front().name + "." + *bare.begin());
+}
+
+Reading DynamicsNames::of_observer(const std::string& observer,
+                                   const std::vector<expr::Expression>& texts,
+                                   const Place& place) const {
+  std::vector<std::string> observers;
+  for (const Component& one : method_->observers) observers.push_back(one.name);
+  if (std::find(observers.begin(), observers.end(), observer) == observers.end())
+    throw InputError(place,
+                     "there is no observer '" + observer + "'" + suggestion(observer, observers));
+  std::set<std::string> bare;
+  for (const std::string& name : bare_names(texts))
+    if (has(observer, name)) bare.insert(name);
+  return reading(observer, bare, texts);
 }
 
 expr::Expression DynamicsNames::outside(const expr::Expression& text) const {

@@ -31,14 +31,24 @@ struct Reading {
 
 class DynamicsNames {
  public:
-  explicit DynamicsNames(const Method& method);
+  /// `varied`: data of which the plant has a value of its own, plant.cf, and definitions that use
+  /// them.
+  DynamicsNames(const Method& method, std::set<std::string> varied);
 
   /// The text of a component with full names. `parameters`: names that it binds itself.
   expr::Expression within(const Component& component, const expr::Expression& text,
                           const std::vector<std::string>& parameters = {}) const;
+  /// The text of a definition, of those that are varied, as the plant has it.
+  expr::Expression of_plant(const expr::Expression& text,
+                            const std::vector<std::string>& parameters) const;
+  const std::set<std::string>& varied() const { return varied_; }
   /// Texts outside of components, that belong together: one reading, or one for each observer that
   /// has all the bare names in them. InputError when no observer has all of them.
   std::vector<Reading> outside(const std::vector<expr::Expression>& texts) const;
+  /// The texts of a certain observer, whose names need no prefix. InputError at `place` when there
+  /// is none of this name.
+  Reading of_observer(const std::string& observer, const std::vector<expr::Expression>& texts,
+                      const Place& place) const;
   /// A text that no observer by itself is meant in. InputError when there are several readings.
   expr::Expression outside(const expr::Expression& text) const;
   /// The states that a name of `initial` stands for.
@@ -61,6 +71,7 @@ class DynamicsNames {
                   const std::vector<expr::Expression>& texts) const;
 
   const Method* method_;
+  std::set<std::string> varied_;
   std::map<std::string, std::set<std::string>> own_;       ///< by observer
   std::map<std::string, std::set<std::string>> readings_;  ///< signals, by observer
   std::set<std::string> anywhere_;                         ///< names that the observers do not own
