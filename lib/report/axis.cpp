@@ -31,7 +31,7 @@ void set_ends(const Extent& values, double margin, Axis& axis) {
     half = values.whole ? std::max(1.0, size / 10) : size > 10 * smallest ? size / 10 : 1;
   else
     half = std::max({half, size * 5e-11, smallest});
-  half += std::min(half * margin, largest - half);
+  half *= 1 + margin;
   axis.low = std::max(middle - half, -largest);
   axis.high = std::min(middle + half, largest);
 }

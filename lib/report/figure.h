@@ -36,8 +36,8 @@ struct Figure {
 /// The figure, 900 wide and as high as its panels need, in colours that colour-blind people tell
 /// apart (Okabe and Ito), on white. All texts are UTF-8 and become well-formed XML, whatever they
 /// hold. The same figure gives the same bytes. Curves are drawn to a tenth of a pixel: of dense
-/// ones each column of pixels shows the first, least, greatest and last value, at most a few
-/// thousand points in all. No ids and no style sheets, so that several figures fit in one page.
+/// ones each column of pixels shows the first, least, greatest and last value, a few thousand
+/// points in all. No ids and no style sheets, so that several figures fit in one page.
 /// std::logic_error for a curve with as many values as times not.
 std::string svg(const Figure& figure);
 

@@ -61,7 +61,7 @@ std::string drawn(const Legend& legend, double left, double top) {
   std::string text;
   if (!legend.title.empty())
     text += text_at(left, top + row_height / 2 + 4.5, legend.title,
-                    fmt::format(R"( font-label_size="{}" font-weight="bold")", panel_title_size));
+                    fmt::format(R"( font-size="{}" font-weight="bold")", panel_title_size));
   for (const LegendEntry& entry : legend.entries) {
     const double x = left + entry.x, y = top + entry.y;
     text += fmt::format("<path {} d=\"M{},{}h{}\"/>\n",

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <span>
+#include <utility>
 
 namespace gainsmith::report {
 
@@ -34,17 +35,52 @@ void append_extremes(std::span<const Vertex> points, std::vector<Polyline>& line
     }
 }
 
+/// The box around points, from its upper left to its lower right corner.
+struct Extremes {
+  Point low;
+  Point high;
+
+  void join(const Extremes& other) {
+    low = {std::min(low.x, other.low.x), std::min(low.y, other.low.y)};
+    high = {std::max(high.x, other.high.x), std::max(high.y, other.high.y)};
+  }
+};
+
+/// What is left of whole lines within one column.
+void append_joined(std::span<const Vertex> points, std::vector<Polyline>& lines) {
+  constexpr int near = 20;
+  constexpr std::size_t most = 4;
+  std::vector<Extremes> boxes;
+  for (const Vertex& vertex : points)
+    if (vertex.starts)
+      boxes.push_back({vertex.at, vertex.at});
+    else
+      boxes.back().join({vertex.at, vertex.at});
+  std::sort(boxes.begin(), boxes.end(), [](const Extremes& a, const Extremes& b) {
+    return std::pair(a.low.y, a.low.x) < std::pair(b.low.y, b.low.x);
+  });
+  std::vector<Extremes> apart;
+  for (const Extremes& box : boxes)
+    if (!apart.empty() && box.low.y <= apart.back().high.y + near)
+      apart.back().join(box);
+    else
+      apart.push_back(box);
+  for (; apart.size() > most; apart.pop_back()) apart[apart.size() - 2].join(apart.back());
+  for (const Extremes& box : apart) lines.push_back({box.low, box.high});
+}
+
 /// The points of one column.
 void append_column(std::span<const Vertex> points, std::vector<Polyline>& lines) {
   const auto starts = [](const Vertex& vertex) { return vertex.starts; };
   const auto second = std::find_if(points.begin() + 1, points.end(), starts);
-  if (second != points.end() && std::none_of(second + 1, points.end(), starts)) {
-    const auto size = static_cast<std::size_t>(second - points.begin());
-    append_extremes(points.first(size), lines);
-    append_extremes(points.subspan(size), lines);
-  } else {
+  if (second == points.end()) {
     append_extremes(points, lines);
+    return;
   }
+  const auto last = std::find_if(points.rbegin(), points.rend(), starts).base() - 1;
+  append_extremes({points.begin(), second}, lines);
+  append_joined({second, last}, lines);
+  append_extremes({last, points.end()}, lines);
 }
 
 /// The slopes of the lines from one point that pass those behind it within a tenth.
