@@ -83,9 +83,10 @@ Axis logarithmic_axis(const Extent& values, int most) {
   for (auto k = shown.first; k <= shown.last; ++k)
     axis.ticks.push_back({(shown.value(k) - axis.low) / decades, "10", shown.label(k)});
   if (decades > 50) return axis;
-  for (double decade = axis.low; decade <= axis.high; ++decade)
-    for (int digit = 1; digit <= (decades <= 4 && decade < axis.high ? 9 : 1); ++digit)
-      axis.between.push_back((decade + std::log10(digit) - axis.low) / decades);
+  const int digits = decades <= 4 ? 9 : 1;
+  for (int decade = 0; decade < decades; ++decade)
+    for (int digit = 1; digit <= digits; ++digit)
+      axis.between.push_back((decade + std::log10(digit)) / decades);
   return axis;
 }
 

@@ -37,7 +37,9 @@ TEST(EscapedText, OfRandomBytesIsWellFormed) {
                                     : likely[static_cast<std::size_t>(
                                           draw.uniform() * static_cast<double>(likely.size()))];
     const std::string safe = escaped(bytes);
-    ASSERT_TRUE(test::read_xml("<a b=\"" + safe + "\">" + safe + "</a>")) << safe;
+    std::string element = "<a b=\"";
+    element.append(safe).append("\">").append(safe).append("</a>");
+    ASSERT_TRUE(test::read_xml(element)) << safe;
   }
 }
 

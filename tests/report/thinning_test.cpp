@@ -48,10 +48,12 @@ void expect_same_extremes(const std::vector<Polyline>& lines, const std::vector<
 std::vector<Polyline> walk(RandomStream& draw, double points, double breaks) {
   std::vector<Polyline> lines(1);
   int y = 500;
-  for (double x = 0; x < 2000; x += 20 / points * draw.uniform()) {
+  double x = 0;
+  while (x < 2000) {
     if (!lines.back().empty() && draw.uniform() < breaks) lines.emplace_back();
     y += static_cast<int>(std::lround(60 * (draw.uniform() - 0.5)));
     lines.back().push_back({static_cast<int>(x), y});
+    x += 20 / points * draw.uniform();
   }
   return lines;
 }
@@ -101,8 +103,8 @@ TEST(Thinned, LinesWithinAColumnKeepWhereTheyAre) {
 }
 
 TEST(Thinned, ChatteringShowsItsLevels) {
-  std::vector<Polyline> lines;
-  for (int x = 0; x < 1000; ++x) lines.push_back({{x, x % 2 == 0 ? 300 : 700}});
+  std::vector<Polyline> lines(1000);
+  for (int x = 0; x < 1000; ++x) lines[static_cast<std::size_t>(x)] = {{x, x % 2 == 0 ? 300 : 700}};
   for (const Polyline& line : thinned(lines))
     for (const Point& point : line) {
       ASSERT_EQ(line.front().y, point.y);
@@ -133,9 +135,12 @@ TEST(Straightened, StaysWithinATenthAndKeepsLocalExtremes) {
     Polyline line;
     const double size = 1 + 300 * draw.uniform(), pitch = 10 + 400 * draw.uniform();
     const double noise = k % 4 == 0 ? 5 : 0, step = 1 + 10 * draw.uniform();
-    for (double x = 0; x < 3000; x += step)
-      line.push_back({static_cast<int>(x), static_cast<int>(std::lround(size * std::sin(x / pitch) +
-                                                                        noise * draw.uniform()))});
+    double x = 0;
+    while (x < 3000) {
+      const double y = size * std::sin(x / pitch) + noise * draw.uniform();
+      line.push_back({static_cast<int>(x), static_cast<int>(std::lround(y))});
+      x += step;
+    }
     const Polyline kept = straightened(line);
     ASSERT_TRUE(is_part_of(kept, line));
     ASSERT_EQ(kept.front(), line.front());
