@@ -225,9 +225,21 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   return gains;
 }
 
+/// Gains of formulas alone: nothing is unknown and nothing required.
+model::Gains evaluated(const model::Instance& instance) {
+  model::Gains gains = stated(instance);
+  gains.verdict = model::Verdict::yes;
+  gains.solver.status = "feasible";
+  gains.solver.cause = "nothing to solve";
+  add_gains(lmi::Inequalities(instance), gains);
+  return gains;
+}
+
 }  // namespace
 
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth) {
+  const model::Design& design = *instance.design;
+  if (design.inequalities.empty() && design.unknowns.empty()) return evaluated(instance);
   if (instance.design->quotient) return smallest_quotient(instance, options, depth);
   const auto lower = with_lower_degrees(instance);
   if (!lower || depth == Depth::quick)
@@ -252,6 +264,9 @@ model::Gains synthesize_at(const model::DesignPtr& design, const model::Override
 }
 
 sdp::Problem semidefinite_program(const model::Instance& instance) {
+  if (instance.design->inequalities.empty())
+    throw InputError({instance.design->method_file, 0, 0},
+                     "the method requires nothing, so there is no semidefinite program");
   if (instance.design->quotient)
     throw InputError(instance.design->quotient->place,
                      "minimize: " + instance.design->quotient->text +
