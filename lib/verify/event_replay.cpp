@@ -37,9 +37,9 @@ struct Source {
   std::optional<std::size_t> at;  ///< the event at which alone it exists
 };
 
-class Table {
+class EventTable {
  public:
-  Table(const model::Design& design, const EventSetup& setup) : design_(design), setup_(setup) {
+  EventTable(const model::Design& design, const EventSetup& setup) : design_(design), setup_(setup) {
     const model::Dynamics& dynamics = *design.dynamics;
     for (const model::Dynamics::Component& one : dynamics.components)
       if (one.observer) observers_.push_back(one.name);
@@ -130,7 +130,7 @@ EventReplay replay_events(const model::Instance& instance, const model::Gains& g
   const EventSetup& events = *setup->events;
   EventReplay result;
   result.run = hybrid::EventSimulator(events.system, events.scenario).run(seed, run);
-  Table(*instance.design, events).fill(step, result);
+  EventTable(*instance.design, events).fill(step, result);
   if (setup->judged.empty()) return result;
   Judge judge(*setup);
   const std::vector<Finding> findings = judge(seed, run).findings;

@@ -16,7 +16,7 @@ using hybrid::FlowPiece;
 using hybrid::JumpPoint;
 using hybrid::Trajectory;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
 /// Points of a step at which a value is looked at before it is looked at more closely.
 constexpr int kLooks = 24;
@@ -100,7 +100,7 @@ double FigureOf::extreme(const DenseStep& step, double sign) {
   constexpr int kSections = 50;
   const auto at = [&](double t) { return sign * value_->number(step(t)); };
   int best = 0;
-  double most = -kInfinity;
+  double most = -kUnbounded;
   for (int k = 0; k <= kLooks; ++k)
     if (const double value = at(look(step, k)); !(value <= most)) {
       best = k;
@@ -154,7 +154,7 @@ double FigureOf::last_above(const DenseStep& step, double level) {
     }
     return high;
   }
-  return -kInfinity;
+  return -kUnbounded;
 }
 
 double FigureOf::settled(const Trajectory& run) {
@@ -162,15 +162,15 @@ double FigureOf::settled(const Trajectory& run) {
   bool last = true;
   for (std::size_t k = run.parts.size(); k-- > 0; last = false) {
     if (const auto* jump = std::get_if<JumpPoint>(&run.parts[k])) {
-      if (!(value_->number(jump->after) < level)) return last ? kInfinity : jump->t;
+      if (!(value_->number(jump->after) < level)) return last ? kUnbounded : jump->t;
       continue;
     }
     const auto& flow = std::get<FlowPiece>(run.parts[k]);
-    if (last && !(value_->number(flow.end) < level)) return kInfinity;
+    if (last && !(value_->number(flow.end) < level)) return kUnbounded;
     for (std::size_t i = flow.steps.size(); i-- > 0;)
       if (const double t = last_above(flow.steps[i], level); t >= 0) return t;
   }
-  return value_->number(run.start) < level ? 0 : (run.parts.empty() ? kInfinity : 0);
+  return value_->number(run.start) < level ? 0 : (run.parts.empty() ? kUnbounded : 0);
 }
 
 /// Gauss' rule with five nodes on pieces of each step.
