@@ -66,7 +66,7 @@ struct Planted {
 
   double residual(const std::vector<FactoredMultiplier>& multipliers) const {
     double worst = 0;
-    for (std::size_t i = 0; i < blocks[0].terms.size(); ++i) {
+    for (std::size_t i = 0; i < blocks[1].terms.size(); ++i) {
       Decimal100 sum(0);
       for (const FactoredMultiplier& one : multipliers)
         sum += inner(one.block->terms[i].second.mid, one.value());
@@ -101,6 +101,43 @@ TEST(PolishedMultipliers, LoseTheirResidualAndKeepTheirRank) {
         EXPECT_LT(std::abs(static_cast<double>(Decimal100(Y(0, 0) * Y(1, 1) - Y(0, 1) * Y(1, 0)))),
                   1e-57);
       }
+    }
+}
+
+/// A block w w' of an unknown of its own leaves only certificates with w' Y w = 0: multipliers of
+/// full rank, which are off by so much in the direction w, lose it.
+TEST(PolishedMultipliers, OfFullRankLoseADirectionThatNoCertificateHas) {
+  constexpr int kSize = 4, kUnknowns = 3;
+  for (const double off : {1e-10, 1e-13, 1e-16})
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      RandomStream random(0x903, seed);
+      Planted planted(random, kSize, kSize - 1, kUnknowns);
+      // w in the kernel of L_0' (Gram and Schmidt).
+      const Wide& L = planted.L[0];
+      Wide w = drawn(random, kSize, 1);
+      std::vector<Wide> basis;
+      for (int c = 0; c < kSize - 1; ++c) {
+        Wide q = L.col(c);
+        for (const Wide& b : basis) q -= b * inner(b, q);
+        q /= sqrt(inner(q, q));
+        basis.push_back(q);
+      }
+      for (const Wide& b : basis) w -= b * inner(b, w);
+      w /= sqrt(inner(w, w));
+      planted.blocks[0].terms.emplace_back(
+          kUnknowns + 1,
+          numbers::Enclosed<Decimal100>{gram_of(w), numbers::Matrix::Zero(kSize, kSize)});
+      std::vector<FactoredMultiplier> multipliers = planted.near(random, off * 1e-4);
+      Wide whole(kSize, kSize);
+      whole << multipliers[0].L, w * Decimal100(off);
+      multipliers[0].L = whole;
+      const auto along_w = [&] {
+        return std::abs(static_cast<double>(inner(gram_of(w), multipliers[0].value())));
+      };
+      ASSERT_GT(along_w(), 0.9 * off * off);
+      EXPECT_TRUE(polish(multipliers, kUnknowns + 1)) << off << ' ' << seed;
+      EXPECT_LT(along_w(), 1e-70) << off << ' ' << seed;
+      EXPECT_LT(planted.residual(multipliers), 1e-57) << off << ' ' << seed;
     }
 }
 
