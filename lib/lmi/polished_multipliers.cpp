@@ -256,7 +256,7 @@ numbers::MatrixOf<Decimal100> factor_above(const numbers::MatrixOf<Decimal100>& 
 }
 
 bool polish(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
-  return follow(multipliers, unknowns, {60, 3, false});
+  return follow(multipliers, unknowns, {80, 3, false});
 }
 
 bool polish_on_range(std::vector<FactoredMultiplier>& multipliers, int unknowns) {

@@ -28,6 +28,18 @@ Decimal100 inner(const Wide& a, const Wide& b) {
 
 Wide gram_of(const Wide& L) { return L.lazyProduct(L.transpose()); }
 
+/// A unit vector w with L' w = 0 (Gram and Schmidt).
+Wide beside(RandomStream& random, const Wide& L) {
+  std::vector<Wide> basis;
+  const auto add = [&](Wide q) {
+    for (const Wide& b : basis) q -= b * inner(b, q);
+    basis.push_back(q / sqrt(inner(q, q)));
+  };
+  for (Eigen::Index c = 0; c < L.cols(); ++c) add(L.col(c));
+  add(drawn(random, static_cast<int>(L.rows()), 1));
+  return basis.back();
+}
+
 /// Blocks B_ki of two blocks for which Y_k = L_k L_k' is a certificate up to 100 digits.
 struct Planted {
   std::vector<Wide> L;
@@ -112,18 +124,7 @@ TEST(PolishedMultipliers, OfFullRankLoseADirectionThatNoCertificateHas) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       RandomStream random(0x903, seed);
       Planted planted(random, kSize, kSize - 1, kUnknowns);
-      // w in the kernel of L_0' (Gram and Schmidt).
-      const Wide& L = planted.L[0];
-      Wide w = drawn(random, kSize, 1);
-      std::vector<Wide> basis;
-      for (int c = 0; c < kSize - 1; ++c) {
-        Wide q = L.col(c);
-        for (const Wide& b : basis) q -= b * inner(b, q);
-        q /= sqrt(inner(q, q));
-        basis.push_back(q);
-      }
-      for (const Wide& b : basis) w -= b * inner(b, w);
-      w /= sqrt(inner(w, w));
+      const Wide w = beside(random, planted.L[0]);
       planted.blocks[0].terms.emplace_back(
           kUnknowns + 1,
           numbers::Enclosed<Decimal100>{gram_of(w), numbers::Matrix::Zero(kSize, kSize)});
