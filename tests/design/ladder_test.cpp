@@ -137,7 +137,8 @@ TEST(Ladder, AnObjectiveWithoutConstantsHasNoMinimum) {
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_FALSE(run.gains.objective);
   EXPECT_FALSE(run.gains.objective_lower_bound);
-  EXPECT_TRUE(run.says("the objective was not used: without constant parts")) << run.message();
+  EXPECT_TRUE(run.says("the objective was not used: without constant parts"))
+      << run.message();
 }
 
 /// x > 2 and x < 1: their sum is 0 x - 1 > 0.
@@ -186,69 +187,6 @@ TEST(Ladder, WhatIsNoCertificateIsNoNo) {
     const Scripted run(any, feasible);
     EXPECT_EQ(run.gains.verdict, Verdict::undecided) << y;
   }
-}
-
-/// x > 1 and x < 1 + 1e-8, each 61 times: more than 120 rows, and multipliers that nearly exclude
-/// x.
-std::string large_window(const std::string& high) {
-  std::string require;
-  for (int k = 1; k <= 61; ++k) {
-    const std::string name = std::to_string(k);
-    require += (k > 1 ? ", " : "") + ("a" + name) + ": x > sqrt(1), b" + name + ": x < " + high;
-  }
-  return "  unknowns: {x: scalar}\n  require: {" + require + "}\n";
-}
-
-/// Of large programs 100 digits are asked for the certificate alone, where multipliers in double
-/// speak for one.
-TEST(Ladder, LargeProgramsAreTriedIn100DigitsWhereMultipliersExcludeThem) {
-  const std::vector<double> nearly(122, 1.0);
-  const Case near(large_window("1.00000001*sqrt(1)"));
-  const Scripted run(refuting(near, nearly), near);
-  EXPECT_EQ(run.tried, (Rungs{Rung::inside, Rung::in_31_digits, Rung::in_100_digits}));
-  EXPECT_EQ(run.gains.verdict, Verdict::undecided);
-  ASSERT_GE(run.efforts.size(), 2U);
-  EXPECT_EQ(run.efforts[1].precision, "100") << "before 31 digits";
-  EXPECT_TRUE(run.at(Rung::in_100_digits).question.single);
-  EXPECT_EQ(std::count_if(run.efforts.begin(), run.efforts.end(),
-                          [](const Effort& effort) { return effort.precision == "100"; }),
-            1)
-      << "one program alone";
-  // Multipliers that exclude nothing.
-  const Case far(large_window("2*sqrt(1)"));
-  const Scripted none(refuting(far, nearly), far);
-  EXPECT_EQ(none.tried, (Rungs{Rung::inside, Rung::in_31_digits}));
-  // Small programs have the largest margin in 100 digits, after 31.
-  const Case small(window("sqrt(1)", "1.00000001*sqrt(1)"));
-  const Scripted last(refuting(small, {1, 1}), small);
-  EXPECT_EQ(last.tried, (Rungs{Rung::inside, Rung::in_31_digits, Rung::in_100_digits}));
-  EXPECT_EQ(last.efforts[1].precision, "quad");
-  EXPECT_FALSE(last.at(Rung::in_100_digits).question.single);
-}
-
-/// More digits wait while points may be added, but for nothing else.
-TEST(Ladder, DigitsWaitForPoints) {
-  const Case near(large_window("1.00000001*sqrt(1)"));
-  const Case far(large_window("2*sqrt(1)"));
-  const Case small(window("sqrt(1)", "1.00000001*sqrt(1)"));
-  const auto tried = [](const Case& of, bool thin, sdp::Cause cause) {
-    Posed posed = of.posed();
-    posed.thin = thin;
-    const std::vector<double> Y(of.lmi.blocks.size(), 1.0);
-    Climb climb(posed, of.bounds, [&](const sdp::Problem& problem, const Effort&) {
-      sdp::Solution solution = refuting(of, Y)(problem);
-      solution.cause = cause;
-      return solution;
-    });
-    climb.to_end();
-    return std::make_pair(climb.waits_for_points(), climb.find(Rung::in_31_digits) != nullptr);
-  };
-  constexpr auto kConverged = sdp::Cause::converged;
-  EXPECT_EQ(tried(near, true, kConverged), std::make_pair(true, false));
-  EXPECT_EQ(tried(near, false, kConverged), std::make_pair(false, true));
-  EXPECT_EQ(tried(far, true, kConverged), std::make_pair(false, true));
-  EXPECT_EQ(tried(small, true, kConverged), std::make_pair(false, true));
-  EXPECT_EQ(tried(near, true, sdp::Cause::interrupted), std::make_pair(false, true));
 }
 
 /// What stands in the blocks themselves needs no solver, and nothing is solved where only one x is.
