@@ -187,8 +187,11 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   };
   double compile_seconds = seconds_since(start);
   double solve_seconds = 0;
+  bool thickened = false;
   for (int round = 1;; ++round) {
-    Climb climb({inequalities, plan, lmi, digits, look_of(depth)}, bounds, solve);
+    forall::Plan denser = plan;
+    const bool thin = !thickened && thicken(denser, inequalities);
+    Climb climb({inequalities, plan, lmi, digits, look_of(depth), thin}, bounds, solve);
     climb.to_point();
     const auto grown = [&] {
       const Attempt* point = climb.point();
@@ -203,6 +206,10 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
     }
     const Attempt* point = climb.point();
     const bool undecided = climb.refutation() == nullptr && (point == nullptr || !point->holds());
+    if (!again && climb.waits_for_points()) {
+      plan = std::move(denser);
+      again = thickened = true;
+    }
     // What the hull's own expansion of the functions rounded away shows at points.
     if (!again && undecided) again = plan.leave_hulls(inequalities.design());
     solve_seconds += climb.seconds();
