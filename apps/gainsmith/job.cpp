@@ -11,12 +11,12 @@
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/load.h"
 #include "gainsmith/optimizers.h"
+#include "gainsmith/run_table.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
-#include "io/csv.h"
 #include "io/gains_json.h"
 #include "verify/campaign.h"
-#include "verify/replay.h"
+#include "verify/expected_run.h"
 
 namespace gainsmith::app {
 
@@ -61,9 +61,14 @@ class Job {
     const auto campaign = verify_and_write(gains);
     result.differences = design::differences(
         instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
+    const verify::RunDifferences run = verify::run_differences(instance_, gains);
+    result.differences.insert(result.differences.end(), run.different.begin(), run.different.end());
     result.exit = judge(*instance_.design, gains, campaign, result.differences);
-    result.line =
-        verdict_line(gains) + "; " + (campaign ? campaign_line(*campaign) : "no campaign");
+    if (result.exit == ExitCode::yes && !run.undecided.empty()) result.exit = ExitCode::undecided;
+    for (const std::string& open : run.undecided)
+      result.differences.push_back(open + ": the digits do not decide");
+    result.line = verdict_line(gains) + "; " +
+                  (campaign ? campaign_line(*campaign) : "no campaign: " + why_no_campaign(gains));
     result.report = report(gains, campaign, result);
     write_atomically(folder_ / "summary.txt", summary(gains, campaign, result));
   }
@@ -96,12 +101,18 @@ class Job {
     return campaign;
   }
 
+  /// Empty when the method can be simulated and every gain has a value.
+  std::string why_no_campaign(const model::Gains& gains) const {
+    const model::Design& design = *instance_.design;
+    if (!design.timer && !design.dynamics) return "the method has no dynamics";
+    if (design.claims.empty()) return "the method makes no claims";
+    if (gains.gains.size() + gains.gain_functions.size() < design.gains.size()) return "no gains";
+    return "";
+  }
+
   /// A campaign when the method can be simulated and every gain has a value.
   std::optional<verify::Report> verify_gains(const model::Gains& gains) {
-    const model::Design& design = *instance_.design;
-    const bool simulated = design.timer && !design.claims.empty() && !design.gains.empty();
-    if (!simulated || gains.gains.size() + gains.gain_functions.size() < design.gains.size())
-      return std::nullopt;
+    if (!why_no_campaign(gains).empty()) return std::nullopt;
     verify::CampaignOptions campaign{options_.runs, options_.seed, options_.threads, {}, {}};
     campaign.stopped = interrupted;
     verify::Report report = verify::run_campaign(instance_, gains, campaign);
@@ -112,8 +123,8 @@ class Job {
   void write_campaign(const model::Gains& gains, const verify::Report& report) const {
     write_atomically(folder_ / "campaign.json", io::to_text(campaign_json(report)));
     if (report.verdict != model::CampaignVerdict::held) {
-      const verify::Replay replay = verify::replay(instance_, gains, report.seed, report.worst_run);
-      write_atomically(folder_ / "worst-run.csv", io::to_csv(replay.columns, replay.table));
+      write_atomically(folder_ / "worst-run.csv",
+                       run_csv(instance_, gains, report.seed, report.worst_run));
     }
   }
 

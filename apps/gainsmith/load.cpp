@@ -7,6 +7,7 @@
 #include "base/file.h"
 #include "base/nearest.h"
 #include "base/number.h"
+#include "design/synthesize.h"
 #include "io/gains_json.h"
 #include "methods/methods.h"
 #include "model/bind.h"
@@ -151,6 +152,19 @@ LoadedGains load_gains(const std::filesystem::path& path) {
   check_complete(gains, stated, path.string());
   refuse_without_gains(gains, *stated.design, path.string());
   return {std::move(gains), std::move(stated)};
+}
+
+LoadedGains load_run(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
+  if (begin == std::string::npos || text[begin] == '{') return load_gains(path);
+  const model::Instance instance = load_problem(path);
+  if (!instance.design->inequalities.empty() || !instance.design->unknowns.empty())
+    throw InputError({path.string()},
+                     "this is a problem whose gains are searched: 'gainsmith synth " +
+                         path.string() +
+                         " -o gains.json' first, then simulate or verify gains.json");
+  return {design::synthesize(instance, {}), instance};
 }
 
 }  // namespace gainsmith::app

@@ -27,4 +27,8 @@ struct LoadedGains {
 /// InputError for what is no gain file, and for one without gains: its verdict is no, or undecided.
 LoadedGains load_gains(const std::filesystem::path& path);
 
+/// The same, or a problem file whose gains are formulas: they are evaluated. InputError for one
+/// whose gains must be searched.
+LoadedGains load_run(const std::filesystem::path& path);
+
 }  // namespace gainsmith::app

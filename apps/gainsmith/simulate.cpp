@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
+#include "gainsmith/run_table.h"
 #include "gainsmith/terminal.h"
 #include "io/csv.h"
 #include "io/json_text.h"
@@ -24,6 +26,9 @@ struct SimulateOptions {
   std::uint64_t run = 0;
   std::optional<std::uint64_t> seed;
   std::string output;
+  std::string plot;
+  double step = 0;
+  bool compare = false;
   bool json = false;
 };
 
@@ -42,25 +47,65 @@ io::Json replay_json(const verify::Replay& replay) {
   return document;
 }
 
-ExitCode simulate(const SimulateOptions& options) {
-  refuse_overwriting(options.gains, {options.output});
-  const LoadedGains loaded = load_gains(options.gains);
-  const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
-  const verify::Replay replay = verify::replay(loaded.stated, loaded.gains, seed, options.run);
-  const std::string text =
-      options.json ? io::to_text(replay_json(replay)) : io::to_csv(replay.columns, replay.table);
-  if (options.output.empty() || options.output == "-") {
-    fmt::print("{}", text);
-  } else {
-    write_atomically(options.output, text);
-  }
-  say(fmt::format("run {} of seed {}: {} samples, {} jumps, ended by: {}\n", options.run, seed,
-                  replay.arc.samples(), replay.arc.j.back(), to_string(replay.arc.termination)));
-  if (!replay.arc.message.empty()) say("  " + replay.arc.message + "\n");
-  for (const verify::ReplayedClaim& claim : replay.claims)
+void say_claims(const std::vector<verify::ReplayedClaim>& claims) {
+  for (const verify::ReplayedClaim& claim : claims)
     say(fmt::format("  {:<12} {}: {} against {} at (t, j) = ({}, {})\n", claim.name,
                     to_string(claim.finding.judgement), brief(claim.finding.value),
                     brief(claim.finding.bound), brief(claim.finding.t), claim.finding.j));
+}
+
+void write(const SimulateOptions& options, const std::string& text) {
+  if (options.output.empty() || options.output == "-")
+    fmt::print("{}", text);
+  else
+    write_atomically(options.output, text);
+}
+
+ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& loaded,
+                         std::uint64_t seed) {
+  if (options.compare) {
+    const auto figures = verify::compared_figures(loaded.stated, loaded.gains, seed, options.run);
+    if (figures.empty())
+      throw InputError({options.gains},
+                       "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
+    write(options, comparison_text(figures));
+    return ExitCode::yes;
+  }
+  const verify::EventReplay replay =
+      verify::replay_events(loaded.stated, loaded.gains, seed, options.run, options.step);
+  if (!options.plot.empty())
+    write_atomically(options.plot, run_figure(loaded.stated.design->name, replay));
+  if (options.plot.empty() || !options.output.empty())
+    write(options, options.json ? io::to_text(events_json(replay)) : events_csv(replay));
+  const auto jumps = static_cast<std::size_t>(std::count_if(
+      replay.run.parts.begin(), replay.run.parts.end(),
+      [](const auto& part) { return std::holds_alternative<hybrid::JumpPoint>(part); }));
+  say(fmt::format("run {} of seed {}: {} samples, {} jumps, ended at t = {}: {}\n", options.run,
+                  seed, replay.table.rows(), jumps, brief(replay.run.end),
+                  to_string(replay.run.ending)));
+  if (!replay.run.message.empty()) say("  " + replay.run.message + "\n");
+  for (const std::string& note : replay.run.notes) say("  " + note + "\n");
+  say_claims(replay.claims);
+  return ExitCode::yes;
+}
+
+ExitCode simulate(const SimulateOptions& options) {
+  refuse_overwriting(options.gains, {options.output, options.plot});
+  const LoadedGains loaded = load_run(options.gains);
+  const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
+  if (loaded.stated.design->dynamics) return simulate_events(options, loaded, seed);
+  if (options.compare || !options.plot.empty() || options.step > 0)
+    throw InputError({options.gains},
+                     "--compare, --plot and --step are for methods with events; this one has a "
+                     "timer");
+  const verify::Replay replay = verify::replay(loaded.stated, loaded.gains, seed, options.run);
+  const std::string text =
+      options.json ? io::to_text(replay_json(replay)) : io::to_csv(replay.columns, replay.table);
+  write(options, text);
+  say(fmt::format("run {} of seed {}: {} samples, {} jumps, ended by: {}\n", options.run, seed,
+                  replay.arc.samples(), replay.arc.j.back(), to_string(replay.arc.termination)));
+  if (!replay.arc.message.empty()) say("  " + replay.arc.message + "\n");
+  say_claims(replay.claims);
   return ExitCode::yes;
 }
 
@@ -71,14 +116,20 @@ Command simulate_command() {
   return {
       "simulate",
       "Replay one run of a campaign as CSV",
-      {Option("gains", options->gains, "gain file (JSON)").required(),
+      {Option("gains", options->gains, "gain file (JSON), or a problem (YAML) without unknowns")
+           .required(),
        Option("--run", options->run, "the run's number"),
        Option("--seed", options->seed, "seed of the campaign (default: the problem's)"),
        Option("-o,--output", options->output, "write the table here (default: standard output)"),
+       Option("--step", options->step, "points of flows this far apart (default: as integrated)"),
+       Option("--plot", options->plot, "draw states, estimates, errors and claims (SVG)"),
+       Option("--compare", options->compare, "print the figures under 'compare' of all observers"),
        Option("--json", options->json, "write JSON instead of CSV")},
-      "Columns: t, j, the timer, the states, the signals, then the value of each claim.\n"
-      "Example:\n"
-      "  gainsmith simulate gains.json --run 17 -o run-17.csv",
+      "Columns: t, j, the timer or the event, the states, the signals, then the value of each "
+      "claim.\n"
+      "Examples:\n"
+      "  gainsmith simulate gains.json --run 17 -o run-17.csv\n"
+      "  gainsmith simulate problem.yaml --plot run.svg --step 0.01",
       [options] { return simulate(*options); }};
 }
 

@@ -27,7 +27,7 @@ void print_progress(std::uint64_t done, std::uint64_t all) {
 }
 
 ExitCode verify_gains(const VerifyOptions& options) {
-  const LoadedGains loaded = load_gains(options.gains);
+  const LoadedGains loaded = load_run(options.gains);
   catch_interrupts();
   verify::CampaignOptions campaign{options.runs, options.seed, options.threads, {}, interrupted};
   if (!options.json && progress_wanted()) campaign.progress = print_progress;
@@ -43,7 +43,8 @@ Command verify_command() {
   auto options = std::make_shared<VerifyOptions>();
   return {"verify",
           "Check a gain file's claims by Monte-Carlo simulation",
-          {Option("gains", options->gains, "gain file (JSON)").required(),
+          {Option("gains", options->gains, "gain file (JSON), or a problem (YAML) without unknowns")
+               .required(),
            Option("--runs", options->runs, "number of runs (default: the problem's)")
                .within<std::uint64_t>(1, 1000000000000000),
            Option("--seed", options->seed, "seed of the random streams (default: the problem's)"),

@@ -130,11 +130,11 @@ class Interior {
 
 /// The first round, whose multipliers are a certificate where there is no point.
 Interior::Solved solve_interior(const Posed& posed, Interior& interior, Attempt& result) {
-  constexpr int kMostRounds = 8;
+  const int most_rounds = result.question.single ? 1 : 8;
   constexpr double kRises = 1e-3;
   lmi::Round round;
   Interior::Solved first;
-  for (int k = 0; k < kMostRounds; ++k) {
+  for (int k = 0; k < most_rounds; ++k) {
     Interior::Solved solved = interior(round);
     if (k == 0) first = solved;
     const auto next = lmi::next_round(solved.formulation, solved.solution);
@@ -175,7 +175,7 @@ lmi::Refutation refutation_of(const Posed& posed, const Question& asked,
 
 /// The multipliers of the first round, and in more digits also those of the rows that they live on.
 void refute(const Posed& posed, Interior& interior, Interior::Solved solved, Attempt& result) {
-  constexpr int kMostRestrictions = 3;
+  const int most_restrictions = result.question.single ? 0 : 3;
   for (int k = 0;; ++k) {
     const lmi::Refutation found = refutation_of(posed, result.question, solved);
     const bool better = !result.refutation || found.exact || found.omega < result.refutation->omega;
@@ -185,7 +185,7 @@ void refute(const Posed& posed, Interior& interior, Interior::Solved solved, Att
       result.solution = std::move(solved.solution);
       return;
     }
-    if (!interior.is_wide() || k == kMostRestrictions) return;
+    if (!interior.is_wide() || k == most_restrictions) return;
     const auto rows = lmi::rows_of_multipliers(solved.formulation, solved.solution);
     if (rows.empty()) return;
     solved = interior({}, rows);

@@ -27,8 +27,9 @@ struct Posed {
   const lmi::Inequalities& inequalities;
   const forall::Plan& plan;
   const lmi::Lmi& lmi;
-  bool wide = true;  ///< whether 31 and 100 digits may be tried where double does not decide
-  lmi::Look look;    ///< without `describe` nothing but the verdict is asked for
+  bool wide = true;   ///< whether 31 and 100 digits may be tried where double does not decide
+  lmi::Look look;     ///< without `describe` nothing but the verdict is asked for
+  bool thin = false;  ///< an exchange may be given more points before more digits are tried
 
   const model::SynthesisOptions& choices() const { return inequalities.design().synthesis; }
 };
@@ -38,7 +39,8 @@ struct Question {
   lmi::Goal goal = lmi::Goal::objective;
   lmi::GainBounds bounds;  ///< none: gains of any size
   Effort effort;
-  double shift = 0;  ///< objective: what strict blocks keep, in balanced units
+  double shift = 0;     ///< objective: what strict blocks keep, in balanced units
+  bool single = false;  ///< interior: one program alone, for its multipliers
 };
 
 /// What came of it: why the solver stopped (solution), how good its point is (margins), and what

@@ -47,20 +47,35 @@ struct Rungs {
   static bool free_minimum_is_due(const Climb& climb) {
     return is_bounded(climb) && has_minimum(climb) && nothing_holds(climb);
   }
-  static bool digits_are_due(const Climb& climb) {
+  static bool is_large(const Climb& climb) {
+    constexpr int kMostRows = 120;
+    return climb.posed_.lmi.rows() > kMostRows;
+  }
+  static bool may_want_digits(const Climb& climb) {
     return climb.posed_.wide && climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb);
+  }
+  static bool digits_are_due(const Climb& climb) {
+    return may_want_digits(climb) && !climb.waits_for_points();
+  }
+  /// Large programs in 100 digits take their time even so: within these, a minute.
+  static bool certificate_is_due(const Climb& climb) {
+    constexpr double kMost = 1e7;
+    return digits_are_due(climb) && is_large(climb) && climb.last().relaxation_refuted() &&
+           climb.posed_.lmi.multiplications() <= kMost;
   }
   /// 100 digits of large programs take minutes, and say more only where 31 and exact multipliers
   /// (lmi/polished_multipliers.h) do not.
   static bool most_digits_are_due(const Climb& climb) {
-    constexpr int kMostRows = 120;
-    return digits_are_due(climb) && climb.posed_.lmi.rows() <= kMostRows;
+    return digits_are_due(climb) && !is_large(climb);
   }
-  /// Not for one who does not want to wait.
-  static bool faces_are_due(const Climb& climb) {
+  /// By one who does not want to wait.
+  static bool is_stopped(const Climb& climb) {
     const sdp::Cause cause = climb.last().solution.cause;
+    return cause == sdp::Cause::interrupted || cause == sdp::Cause::time_limit;
+  }
+  static bool faces_are_due(const Climb& climb) {
     return climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb) &&
-           cause != sdp::Cause::interrupted && cause != sdp::Cause::time_limit;
+           !climb.waits_for_points() && !is_stopped(climb);
   }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
@@ -114,6 +129,12 @@ struct Rungs {
     return ask(climb, objective(climb, {}));
   }
   static std::optional<Attempt> free_inside(const Climb& climb) { return ask(climb, interior({})); }
+  /// As near as it takes for the steps of lmi/polished_multipliers.h to lead to a certificate.
+  static std::optional<Attempt> certificate_in_100_digits(const Climb& climb) {
+    Question question = interior({}, {"100", 1e-40});
+    question.single = true;
+    return ask(climb, std::move(question));
+  }
   static std::optional<Attempt> in_31_digits(const Climb& climb) {
     return ask(climb, interior({}, {"quad", 1e-22}));
   }
@@ -140,13 +161,14 @@ struct Row {
   std::optional<Attempt> (*tries)(const Climb&);
 };
 
-constexpr std::array<Row, 10> kLadder = {{
+constexpr std::array<Row, 11> kLadder = {{
     {Rung::minimum, Rungs::minimum_is_due, Rungs::minimum},
     {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside},
     {Rung::inside, Rungs::nothing_holds, Rungs::inside},
     {Rung::blended, Rungs::blended_is_due, Rungs::blended},
     {Rung::free_minimum, Rungs::free_minimum_is_due, Rungs::free_minimum},
     {Rung::free_inside, Rungs::bounds_leave_nothing, Rungs::free_inside},
+    {Rung::in_100_digits, Rungs::certificate_is_due, Rungs::certificate_in_100_digits},
     {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits},
     {Rung::on_faces, Rungs::faces_are_due, Rungs::on_faces},
     {Rung::in_100_digits, Rungs::most_digits_are_due, Rungs::in_100_digits},
@@ -205,6 +227,11 @@ const Attempt& Climb::last() const {
   for (const Rung rung : {Rung::in_100_digits, Rung::in_31_digits, Rung::free_inside, Rung::inside})
     if (const Attempt* attempt = find(rung)) return *attempt;
   return tried_.begin()->second;
+}
+
+bool Climb::waits_for_points() const {
+  return posed_.thin && Rungs::may_want_digits(*this) && Rungs::is_large(*this) &&
+         !Rungs::is_stopped(*this) && last().relaxation_refuted();
 }
 
 bool Climb::is_yes(const Attempt& attempt) const {

@@ -8,6 +8,8 @@
 //   inside          the largest margin, within the bounds   nothing that holds within them
 //   blended         a point between minimum and inside      both, the minimum found but not holding
 //   free minimum    the objective, gains of any size        nothing that holds within the bounds
+//   100 digits      a certificate alone, in these digits    the same, of large programs whose
+//                                                           multipliers in double exclude them
 //   31 digits       the largest margin in these digits      nothing that holds, nothing refuted
 //   on faces        a point or a no on the face that all    the same
 //                   solutions share (on_faces.h)
@@ -16,8 +18,9 @@
 //   bounds: those
 //                                                           that shrink are limited by them alone
 //
-// (An exchange grows by the points at which a solution fails, and begins again.) Each rung is tried
-// once at most and its record stays; what they mean together is conclude(). A no comes from a rung
+// (An exchange grows by the points at which a solution fails, and begins again; so it does once, by
+// points between its own, before large programs are tried in more digits.) Each rung is tried once
+// at most and its record stays; what they mean together is conclude(). A no comes from a rung
 // without bounds.
 #pragma once
 
@@ -61,6 +64,9 @@ class Climb {
   const Attempt* refutation() const;
   /// The last attempt without gain bounds, or with them when there is no other.
   const Attempt& last() const;
+  /// Whether more digits wait for more points: Posed::thin, a large program, and multipliers in
+  /// double that exclude it but are no certificate.
+  bool waits_for_points() const;
   /// Whether the point was found without the bounds of the problem.
   bool is_free(const Attempt& attempt) const;
   /// Whether the attempt is a yes, with gains within the bound of the problem.

@@ -187,8 +187,11 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   };
   double compile_seconds = seconds_since(start);
   double solve_seconds = 0;
+  bool thickened = false;
   for (int round = 1;; ++round) {
-    Climb climb({inequalities, plan, lmi, digits, look_of(depth)}, bounds, solve);
+    forall::Plan denser = plan;
+    const bool thin = !thickened && thicken(denser, inequalities);
+    Climb climb({inequalities, plan, lmi, digits, look_of(depth), thin}, bounds, solve);
     climb.to_point();
     const auto grown = [&] {
       const Attempt* point = climb.point();
@@ -203,6 +206,10 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
     }
     const Attempt* point = climb.point();
     const bool undecided = climb.refutation() == nullptr && (point == nullptr || !point->holds());
+    if (!again && climb.waits_for_points()) {
+      plan = std::move(denser);
+      again = thickened = true;
+    }
     // What the hull's own expansion of the functions rounded away shows at points.
     if (!again && undecided) again = plan.leave_hulls(inequalities.design());
     solve_seconds += climb.seconds();
@@ -225,9 +232,21 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
   return gains;
 }
 
+/// Gains of formulas alone: nothing is unknown and nothing required.
+model::Gains evaluated(const model::Instance& instance) {
+  model::Gains gains = stated(instance);
+  gains.verdict = model::Verdict::yes;
+  gains.solver.status = "feasible";
+  gains.solver.cause = "nothing to solve";
+  add_gains(lmi::Inequalities(instance), gains);
+  return gains;
+}
+
 }  // namespace
 
 model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth) {
+  const model::Design& design = *instance.design;
+  if (design.inequalities.empty() && design.unknowns.empty()) return evaluated(instance);
   if (instance.design->quotient) return smallest_quotient(instance, options, depth);
   const auto lower = with_lower_degrees(instance);
   if (!lower || depth == Depth::quick)
@@ -252,6 +271,9 @@ model::Gains synthesize_at(const model::DesignPtr& design, const model::Override
 }
 
 sdp::Problem semidefinite_program(const model::Instance& instance) {
+  if (instance.design->inequalities.empty())
+    throw InputError({instance.design->method_file, 0, 0},
+                     "the method requires nothing, so there is no semidefinite program");
   if (instance.design->quotient)
     throw InputError(instance.design->quotient->place,
                      "minimize: " + instance.design->quotient->text +

@@ -17,6 +17,8 @@ namespace gainsmith::design {
 /// with its multipliers. verdict undecided: neither, with what is known. Then only the gains whose
 /// formulas use nothing but data are given.
 ///
+/// A method without unknowns and inequalities is a design by formula: its gains are evaluated.
+///
 /// InputError for what cannot be posed.
 enum class Depth {
   thorough,

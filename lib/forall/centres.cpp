@@ -35,12 +35,6 @@ std::vector<double> means_of_runs(const Line& line, double least) {
   return means;
 }
 
-bool has_values_of(const Point& point, const Point& element) {
-  return std::all_of(element.values.begin(), element.values.end(), [&](const auto& value) {
-    return point.values.at(value.first) == value.second;
-  });
-}
-
 }  // namespace
 
 std::vector<Point> centres(const Imposed& imposed, const Domain& domain,

@@ -58,6 +58,12 @@ Point extended(const Point& point, const std::string& name, const numbers::Matri
   return result;
 }
 
+bool has_values_of(const Point& point, const Point& other) {
+  return std::all_of(other.values.begin(), other.values.end(), [&](const auto& value) {
+    return point.values.at(value.first) == value.second;
+  });
+}
+
 Point extended(const Point& point, const std::string& name, double value) {
   return extended(point, name, numbers::Matrix::Constant(1, 1, value), name + " = " + brief(value));
 }

@@ -43,6 +43,9 @@ Point extended(const Point& point, const std::string& name, const numbers::Matri
                const std::string& label);
 Point extended(const Point& point, const std::string& name, double value);
 
+/// Whether the point has every value of the other.
+bool has_values_of(const Point& point, const Point& other);
+
 /// All combinations of the elements of the variables over that kind of domain; one empty point when
 /// there is no such variable.
 std::vector<Point> combinations(const Domain& domain, model::Over over);

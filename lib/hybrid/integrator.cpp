@@ -29,6 +29,12 @@ constexpr double kEscape = 1e4;
 /// Of the largest element, in a flow that is too stiff to follow the small ones.
 constexpr double kSmallest = 1e-2;
 
+/// Of step(): after so many, whether the flow is stiff is looked at.
+constexpr long kStepsOfAWindow = 1000;
+
+/// Fixed-point iterations that failed in a window of steps, of a flow that counts as stiff.
+constexpr long kFailuresOfStiff = kStepsOfAWindow / 20;
+
 /// Frees what CVODE made.
 template <auto free>
 struct Freed {
@@ -73,7 +79,8 @@ class Solver {
         slope_(Eigen::VectorXd::Zero(size)),
         context_(new_context()),
         vector_(made(N_VNew_Serial(size, context_.get()))),
-        absolute_(made(N_VNew_Serial(size, context_.get()))) {
+        absolute_(made(N_VNew_Serial(size, context_.get()))),
+        inner_(made(N_VNew_Serial(size, context_.get()))) {
     make(CV_ADAMS);
   }
 
@@ -110,12 +117,60 @@ class Solver {
         begin();
         flag = integrate(t);
       }
-      if (flag < 0) throw IntegrationError(trouble(flag), t_, trouble_.empty() && has_escaped());
+      if (flag < 0) fail(flag);
     }
     x = values(vector_);
   }
 
+  Integrator::Step step() {
+    const double from = t_;
+    trouble_.clear();
+    if (method_ == CV_ADAMS && has_become_stiff()) become_stiff();
+    int flag = one_step();
+    if (method_ == CV_ADAMS && is_stiff(flag)) {
+      become_stiff();
+      flag = one_step();
+    }
+    if (is_stiff(flag)) {
+      forgive_small_elements();
+      begin();
+      flag = one_step();
+    }
+    if (flag < 0) fail(flag);
+    int order = 1;
+    require(CVodeGetLastOrder(memory_.get(), &order));
+    return {from, t_, order};
+  }
+
+  void within(double t, Eigen::VectorXd& x) {
+    require(CVodeGetDky(memory_.get(), t, 0, inner_.get()));
+    x = values(inner_);
+  }
+
  private:
+  [[noreturn]] void fail(int flag) const {
+    const bool escaped = trouble_.empty() && has_escaped();
+    throw IntegrationError(trouble(flag), t_, escaped, !trouble_.empty());
+  }
+
+  int one_step() { return CVode(memory_.get(), last_, vector_.get(), &t_, CV_ONE_STEP); }
+
+  void become_stiff() {
+    make(CV_BDF);
+    begin();
+  }
+
+  /// Steps that the iteration keeps short, and not the error.
+  bool has_become_stiff() {
+    if (++steps_ < kStepsOfAWindow) return false;
+    long failures = 0;
+    require(CVodeGetNumNonlinSolvConvFails(memory_.get(), &failures));
+    const bool stiff = failures - failures_ > kFailuresOfStiff;
+    steps_ = 0;
+    failures_ = failures;
+    return stiff;
+  }
+
   int integrate(double t) { return CVode(memory_.get(), t, vector_.get(), &t_, CV_NORMAL); }
 
   /// Whether other steps may go on: not where f has no value, nor where x escapes, since an
@@ -204,6 +259,7 @@ class Solver {
     // The shortest step of the flow before may be longer than the longest of this one.
     require(CVodeSetMinStep(memory_.get(), 0));
     require(CVodeSetMaxStep(memory_.get(), longest_));
+    steps_ = failures_ = 0;
     // Without it steps of length 0 count as an arrival.
     require(CVodeSetMinStep(memory_.get(), kShortestStep * (last_ - t_)));
   }
@@ -213,9 +269,10 @@ class Solver {
   std::string trouble_;  ///< why f had no value last
   int method_ = CV_ADAMS;
   double t_ = 0, last_ = 0, relative_ = 0, longest_ = 0;
-  double size_ = 0;  ///< of x at the start
+  double size_ = 0;                ///< of x at the start
+  long steps_ = 0, failures_ = 0;  ///< of the iteration, in this window of steps and before it
   Owned<SUNContext, free_context> context_;
-  Vector vector_, absolute_;
+  Vector vector_, absolute_, inner_;
   Owned<SUNNonlinearSolver, free_iteration> iteration_;
   Owned<SUNMatrix, SUNMatDestroy> matrix_;
   Owned<SUNLinearSolver, free_solver> solver_;
@@ -236,7 +293,18 @@ void Integrator::reset() {
 
 void Integrator::start(double t, const Eigen::VectorXd& x, double last, double relative,
                        const Eigen::VectorXd& absolute, double longest) {
+  last_ = last;
+  t_ = t;
   if (cvode_) cvode_->start(t, x, last, relative, absolute, longest);
+}
+
+Integrator::Step Integrator::step() {
+  if (cvode_) return cvode_->step();
+  return {std::exchange(t_, last_), last_, 0};
+}
+
+void Integrator::within(double t, Eigen::VectorXd& x) {
+  if (cvode_) cvode_->within(t, x);
 }
 
 void Integrator::advance(double t, Eigen::VectorXd& x) {

@@ -19,10 +19,11 @@ class Solver;
 
 /// A flow that cannot be continued.
 struct IntegrationError : std::runtime_error {
-  IntegrationError(const std::string& message, double at, bool escaped_)
-      : std::runtime_error(message), t(at), escaped(escaped_) {}
+  IntegrationError(const std::string& message, double at, bool escaped_, bool undefined_ = false)
+      : std::runtime_error(message), t(at), escaped(escaped_), undefined(undefined_) {}
   double t;
-  bool escaped;  ///< x has grown while the steps fell to nothing
+  bool escaped;    ///< x has grown while the steps fell to nothing
+  bool undefined;  ///< f has no value
 };
 
 class Integrator {
@@ -50,8 +51,22 @@ class Integrator {
   /// where the flow ends before.
   void advance(double t, Eigen::VectorXd& x);
 
+  /// Over one step x is a polynomial of time.
+  struct Step {
+    double from = 0;
+    double to = 0;
+    int degree = 0;
+  };
+
+  /// Instead of advance(): the next step, of a length that the error control chooses, at most to
+  /// `last`. IntegrationError where the flow ends before.
+  Step step();
+  /// x at a time of the last step.
+  void within(double t, Eigen::VectorXd& x);
+
  private:
   std::unique_ptr<cvode::Solver> cvode_;
+  double t_ = 0, last_ = 0;  ///< of a flow of size 0
 };
 
 }  // namespace gainsmith::hybrid

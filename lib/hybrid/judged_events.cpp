@@ -23,7 +23,7 @@ std::vector<double> jump_times(const Trajectory& trajectory, std::size_t event) 
 
 }  // namespace
 
-EventWatch::EventWatch(JudgedTexts& texts, const Trajectory& trajectory, Faults& faults)
+JudgedEvents::JudgedEvents(JudgedTexts& texts, const Trajectory& trajectory, Faults& faults)
     : texts_(texts), faults_(faults), memory_(texts.events.size()) {
   const Eigen::VectorXd rounding =
       rounding_at(texts, 0, trajectory.start, texts.by_variable(trajectory.start.cwiseAbs()));
@@ -35,14 +35,15 @@ EventWatch::EventWatch(JudgedTexts& texts, const Trajectory& trajectory, Faults&
   }
 }
 
-bool EventWatch::fires(std::size_t event, int from, int to) const {
+bool JudgedEvents::fires(std::size_t event, int from, int to) const {
   const EventKind kind = texts_.dynamics.events[event].kind;
   if (kind == EventKind::rises) return from < 0 && to > 0;
   if (kind == EventKind::falls) return from > 0 && to < 0;
   return from * to < 0;
 }
 
-int EventWatch::side(std::size_t event, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding) {
+int JudgedEvents::side(std::size_t event, const Eigen::VectorXd& x,
+                       const Eigen::VectorXd& rounding) {
   Text& crossing = *texts_.events[event].crossing;
   const double value = crossing(x)(0, 0);
   const double spread = crossing.spread(x, rounding)(0, 0);
@@ -50,13 +51,13 @@ int EventWatch::side(std::size_t event, const Eigen::VectorXd& x, const Eigen::V
   return value > 0 ? 1 : -1;
 }
 
-void EventWatch::remember_side(std::size_t event, const Eigen::VectorXd& x,
-                               const Eigen::VectorXd& rounding) {
+void JudgedEvents::remember_side(std::size_t event, const Eigen::VectorXd& x,
+                                 const Eigen::VectorXd& rounding) {
   if (const int now = side(event, x, rounding); now != 0) memory_[event].side = now;
 }
 
-Truth EventWatch::without_if(std::size_t event, double t, const Eigen::VectorXd& x,
-                             const Eigen::VectorXd& rounding) {
+Truth JudgedEvents::without_if(std::size_t event, double t, const Eigen::VectorXd& x,
+                               const Eigen::VectorXd& rounding) {
   EventTexts& texts = texts_.events[event];
   const Memory& memory = memory_[event];
   if (memory.clock) {
@@ -74,8 +75,8 @@ Truth EventWatch::without_if(std::size_t event, double t, const Eigen::VectorXd&
   return near && fires(event, memory.side, -memory.side) ? Truth::unsure : Truth::no;
 }
 
-Truth EventWatch::due(std::size_t event, double t, const Eigen::VectorXd& x,
-                      const Eigen::VectorXd& rounding) {
+Truth JudgedEvents::due(std::size_t event, double t, const Eigen::VectorXd& x,
+                        const Eigen::VectorXd& rounding) {
   const Truth occurs = without_if(event, t, x, rounding);
   auto& only_if = texts_.events[event].only_if;
   if (occurs == Truth::no || !only_if) return occurs;
@@ -83,8 +84,8 @@ Truth EventWatch::due(std::size_t event, double t, const Eigen::VectorXd& x,
   return only_if->truth(x, rounding) == Truth::no ? Truth::no : Truth::unsure;
 }
 
-void EventWatch::look(std::size_t part, double t, const Eigen::VectorXd& x,
-                      std::optional<std::size_t> event) {
+void JudgedEvents::look(std::size_t part, double t, const Eigen::VectorXd& x,
+                        std::optional<std::size_t> event) {
   const Eigen::VectorXd rounding = rounding_at(texts_, t, x, texts_.by_variable(x.cwiseAbs()));
   for (std::size_t e = 0; e < memory_.size(); ++e) {
     const std::string& name = texts_.dynamics.events[e].name;
@@ -108,7 +109,7 @@ void EventWatch::look(std::size_t part, double t, const Eigen::VectorXd& x,
   }
 }
 
-void EventWatch::jumped(std::size_t part, const JumpPoint& jump) {
+void JudgedEvents::jumped(std::size_t part, const JumpPoint& jump) {
   const model::Dynamics::Event& event = texts_.dynamics.events[jump.event];
   Memory& memory = memory_[jump.event];
   ++jumps_;
@@ -132,7 +133,7 @@ void EventWatch::jumped(std::size_t part, const JumpPoint& jump) {
   check_numbers(part, jump.t, jump.after);
 }
 
-void EventWatch::flow(std::size_t part, const FlowPiece& piece) {
+void JudgedEvents::flow(std::size_t part, const FlowPiece& piece) {
   part_ = part;
   for (std::size_t e = 0; e < memory_.size(); ++e) {
     if (!memory_[e].clock) continue;
@@ -153,12 +154,12 @@ void EventWatch::flow(std::size_t part, const FlowPiece& piece) {
   check_numbers(part, piece.to(), piece.end);
 }
 
-void EventWatch::end(std::size_t part, double t) {
+void JudgedEvents::end(std::size_t part, double t) {
   for (Memory& memory : memory_)
     if (memory.clock) memory.clock->end(part, t);
 }
 
-void EventWatch::check_numbers(std::size_t part, double t, const Eigen::VectorXd& x) {
+void JudgedEvents::check_numbers(std::size_t part, double t, const Eigen::VectorXd& x) {
   const auto& variables = texts_.dynamics.variables;
   for (std::size_t v = 0; v < variables.size(); ++v) {
     double expected = 0;

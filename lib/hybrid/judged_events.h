@@ -16,9 +16,9 @@
 namespace gainsmith::hybrid::judging {
 
 /// Follows a trajectory part by part and remembers what each event has seen.
-class EventWatch {
+class JudgedEvents {
  public:
-  EventWatch(JudgedTexts& texts, const Trajectory& trajectory, Faults& faults);
+  JudgedEvents(JudgedTexts& texts, const Trajectory& trajectory, Faults& faults);
 
   /// An instant with the values x, where `event` jumps next or nothing does: the events are looked
   /// at in order.

@@ -21,14 +21,14 @@ bool may_reach(double before, double here, double after) {
 
 }  // namespace
 
-EventWatch::Sample EventWatch::sample(const FlowPiece& piece, double t) const {
+JudgedEvents::Sample JudgedEvents::sample(const FlowPiece& piece, double t) const {
   const auto after =
       std::upper_bound(piece.steps.begin(), piece.steps.end() - 1, t,
                        [](double time, const DenseStep& step) { return time < step.to; });
   return {t, (*after)(t), step_sizes(texts_, *after)};
 }
 
-std::vector<EventWatch::Sample> EventWatch::samples(const FlowPiece& piece) const {
+std::vector<JudgedEvents::Sample> JudgedEvents::samples(const FlowPiece& piece) const {
   std::vector<Sample> all;
   for (const DenseStep& step : piece.steps) {
     const Eigen::VectorXd sizes = step_sizes(texts_, step);
@@ -45,17 +45,17 @@ std::vector<EventWatch::Sample> EventWatch::samples(const FlowPiece& piece) cons
   return all;
 }
 
-bool EventWatch::must_jump(std::size_t event, const Sample& at) {
+bool JudgedEvents::must_jump(std::size_t event, const Sample& at) {
   auto& only_if = texts_.events[event].only_if;
   return !only_if || inside(*only_if, at) == Truth::yes;
 }
 
-Truth EventWatch::inside(Guard& guard, const Sample& at) {
+Truth JudgedEvents::inside(Guard& guard, const Sample& at) {
   return guard.truth(at.x, rounding_at(texts_, at.t, at.x, at.sizes));
 }
 
-double EventWatch::highest(double low, double high,
-                           const std::function<double(double)>& value) const {
+double JudgedEvents::highest(double low, double high,
+                             const std::function<double(double)>& value) const {
   const double share = (std::sqrt(5.0) - 1) / 2;
   double a = high - share * (high - low);
   double b = low + share * (high - low);
@@ -79,8 +79,8 @@ double EventWatch::highest(double low, double high,
   return at_a > at_b ? a : b;
 }
 
-double EventWatch::entry(double low, double high,
-                         const std::function<bool(double)>& is_there) const {
+double JudgedEvents::entry(double low, double high,
+                           const std::function<bool(double)>& is_there) const {
   for (int k = 0; k < 60; ++k) {
     const double middle = low + (high - low) / 2;
     if (!(low < middle && middle < high)) break;
@@ -89,9 +89,9 @@ double EventWatch::entry(double low, double high,
   return high;
 }
 
-void EventWatch::watch_condition(const FlowPiece& piece, const std::vector<Sample>& all,
-                                 Guard& guard, std::optional<std::size_t> event,
-                                 const std::string& what) {
+void JudgedEvents::watch_condition(const FlowPiece& piece, const std::vector<Sample>& all,
+                                   Guard& guard, std::optional<std::size_t> event,
+                                   const std::string& what) {
   bool none = false;  // of what has no `if` nothing is ever spent
   bool& spent = event ? memory_[*event].spent : none;
   const auto holds = [&](double t) { return guard(sample(piece, t).x); };
@@ -124,8 +124,8 @@ void EventWatch::watch_condition(const FlowPiece& piece, const std::vector<Sampl
   }
 }
 
-void EventWatch::watch_border(const FlowPiece& piece, const std::vector<Sample>& all,
-                              std::size_t event) {
+void JudgedEvents::watch_border(const FlowPiece& piece, const std::vector<Sample>& all,
+                                std::size_t event) {
   const std::string what =
       "crosses its border inside a flow: " + texts_.dynamics.events[event].name;
   Text& crossing = *texts_.events[event].crossing;
@@ -154,7 +154,7 @@ void EventWatch::watch_border(const FlowPiece& piece, const std::vector<Sample>&
   }
 }
 
-void EventWatch::watch_clock(const FlowPiece& piece, std::size_t event) {
+void JudgedEvents::watch_clock(const FlowPiece& piece, std::size_t event) {
   EventClock& clock = *memory_[event].clock;
   while (clock.next() < piece.to() && !same_time(clock.next(), piece.to())) {
     const double t = clock.next();

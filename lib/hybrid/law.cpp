@@ -12,14 +12,13 @@ namespace {
 
 using model::LawKind;
 
-double checked_value(const model::Formula& formula, const System& system) {
-  const double value = system.scalar(formula);
-  const double slack = 1e-12 * system.high;
-  if (!(value >= system.low - slack && value <= system.high + slack))
-    throw InputError(formula.place,
+double checked_value(const Place& place, double value, double low, double high) {
+  const double slack = 1e-12 * high;
+  if (!(value >= low - slack && value <= high + slack))
+    throw InputError(place,
                      fmt::format("the sampling interval {} is outside the timer's range [{}, {}]",
-                                 brief(value), brief(system.low), brief(system.high)));
-  return std::clamp(value, system.low, system.high);
+                                 brief(value), brief(low), brief(high)));
+  return std::clamp(value, low, high);
 }
 
 }  // namespace
@@ -36,13 +35,22 @@ double Law::reset_value(std::size_t jump, double t, RandomStream& random) const 
       return std::clamp((high - low) / 2 * std::sin(t / high) + (high + low) / 2, low, high);
     case LawKind::list:
       return values[jump % values.size()];
+    case LawKind::golden: {
+      constexpr double kGoldenRatio = 0.6180339887498949;
+      const double turns = static_cast<double>(jump + 1) * kGoldenRatio;
+      return low + (high - low) * (turns - std::floor(turns));
+    }
   }
   return high;
 }
 
 std::vector<Law> make_laws(const model::Design::Campaign& campaign, const System& system) {
-  const double low = system.low;
-  const double high = system.high;
+  return make_laws(campaign, system.low, system.high,
+                   [&](const model::Formula& formula) { return system.scalar(formula); });
+}
+
+std::vector<Law> make_laws(const model::Design::Campaign& campaign, double low, double high,
+                           const std::function<double(const model::Formula&)>& value) {
   if (campaign.laws.empty()) {
     std::vector<Law> usual = {{LawKind::uniform, low, high, {}},
                               {LawKind::extremes, low, high, {}},
@@ -56,8 +64,8 @@ std::vector<Law> make_laws(const model::Design::Campaign& campaign, const System
   std::vector<Law> laws;
   for (const model::Design::Law& law : campaign.laws) {
     Law result{law.kind, low, high, {}};
-    for (const model::Formula& value : law.values)
-      result.values.push_back(checked_value(value, system));
+    for (const model::Formula& one : law.values)
+      result.values.push_back(checked_value(one.place, value(one), low, high));
     const bool needs_values = law.kind == LawKind::constant || law.kind == LawKind::list;
     if (needs_values && result.values.empty())
       throw InputError(law.place, "the sampling law " + model::to_string(law.kind) +

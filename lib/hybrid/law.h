@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <vector>
 
 #include "base/random.h"
@@ -25,5 +26,9 @@ struct Law {
 /// constant high. InputError for a value outside [low, high] (1e-12 high is forgiven as rounding)
 /// and for a constant or list without a value.
 std::vector<Law> make_laws(const model::Design::Campaign& campaign, const System& system);
+
+/// The same for reset values in [low, high], with the values of formulas by `value`.
+std::vector<Law> make_laws(const model::Design::Campaign& campaign, double low, double high,
+                           const std::function<double(const model::Formula&)>& value);
 
 }  // namespace gainsmith::hybrid

@@ -1,5 +1,7 @@
 #include "hybrid/trajectory.h"
 
+#include "hybrid/chebyshev.h"
+
 namespace gainsmith::hybrid {
 
 std::string to_string(Ending ending) {
@@ -25,23 +27,17 @@ std::string to_string(Ending ending) {
     case Ending::interrupted:
       return "interrupted";
     case Ending::lost:
-      return "lost";
+      break;
   }
-  return "";
+  return "lost";
 }
 
 Eigen::VectorXd DenseStep::operator()(double t) const {
-  const Eigen::Index n = coefficients.cols();
-  // Each end is a difference of its own, so that -1 and 1 are met exactly there.
-  const double z = ((t - from) - (to - t)) / (to - from);
-  Eigen::VectorXd above = Eigen::VectorXd::Zero(coefficients.rows());  // of Clenshaw's recurrence
-  Eigen::VectorXd next = above;
-  for (Eigen::Index k = n - 1; k > 0; --k) {
-    Eigen::VectorXd here = coefficients.col(k) + 2 * z * next - above;
-    above.swap(next);
-    next.swap(here);
-  }
-  return coefficients.col(0) + z * next - above;
+  return chebyshev::at(coefficients, chebyshev::inner(t, from, to));
+}
+
+DenseStep DenseStep::until(double t) const {
+  return {from, t, chebyshev::part(coefficients, -1, chebyshev::inner(t, from, to))};
 }
 
 }  // namespace gainsmith::hybrid

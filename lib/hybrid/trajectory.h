@@ -38,6 +38,8 @@ struct DenseStep {
 
   /// All elements at t in [from, to].
   Eigen::VectorXd operator()(double t) const;
+  /// The same on [from, t], t in (from, to].
+  DenseStep until(double t) const;
 };
 
 /// A flow of positive length.
@@ -45,7 +47,8 @@ struct FlowPiece {
   std::int64_t j = 0;  ///< the number of jumps before it
   Eigen::VectorXd start;
   Eigen::VectorXd end;
-  std::vector<DenseStep> steps;  ///< contiguous
+  /// Contiguous. Noise that is drawn anew after a time of its own changes between two of them.
+  std::vector<DenseStep> steps;
 
   double from() const { return steps.front().from; }
   double to() const { return steps.back().to; }
@@ -53,10 +56,10 @@ struct FlowPiece {
 
 struct JumpPoint {
   double t = 0;
-  std::int64_t j = 0;     ///< the number of jumps before it
-  std::size_t event = 0;  ///< of the dynamics
-  bool lost = false;      ///< the plant alone jumped
-  Eigen::VectorXd before;
+  std::int64_t j = 0;      ///< the number of jumps before it
+  std::size_t event = 0;   ///< of the dynamics
+  bool lost = false;       ///< the plant alone jumped
+  Eigen::VectorXd before;  ///< what the maps saw: noise of the event is drawn anew already
   Eigen::VectorXd after;
 };
 

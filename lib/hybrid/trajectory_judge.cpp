@@ -176,7 +176,7 @@ class Walk {
   const JudgeQuestion& question_;
   Faults& faults_;
   FlowCheck flows_;
-  EventWatch watch_;
+  JudgedEvents watch_;
   std::size_t part_ = 0;
   double t_ = 0;
   std::int64_t j_ = 0;

@@ -4,6 +4,7 @@
 
 #include "base/nearest.h"
 #include "expr/parser.h"
+#include "io/figure_yaml.h"
 
 namespace gainsmith::io {
 
@@ -17,14 +18,6 @@ std::optional<std::string> word(const YamlFile& file, const std::optional<YamlIt
     throw InputError(file.place(item->value),
                      item->key + ": unknown word '" + text + "'" + suggestion(text, known));
   return text;
-}
-
-std::optional<double> tolerance(const YamlFile& file, const std::optional<YamlItem>& item) {
-  if (!item) return std::nullopt;
-  const double value = file.number(item->value, item->key);
-  if (value < 0)
-    throw InputError(file.place(item->value), item->key + ": a tolerance must not be negative");
-  return value;
 }
 
 model::ExpectedValue expected_value(const YamlFile& file, const YamlItem& item) {
@@ -44,6 +37,14 @@ model::ExpectedValue expected_value(const YamlFile& file, const YamlItem& item) 
 
 }  // namespace
 
+std::optional<double> tolerance(const YamlFile& file, const std::optional<YamlItem>& item) {
+  if (!item) return std::nullopt;
+  const double value = file.number(item->value, item->key);
+  if (value < 0)
+    throw InputError(file.place(item->value), item->key + ": a tolerance must not be negative");
+  return value;
+}
+
 model::Expectation expectation_from(const YamlFile& file, const YamlItem& item) {
   YamlMap map(file, item.value, "expect");
   model::Expectation result;
@@ -62,6 +63,7 @@ model::Expectation expectation_from(const YamlFile& file, const YamlItem& item) 
   }
   for (const YamlItem& entry : items_of(file, map.find("values"), "values"))
     result.values.push_back(expected_value(file, entry));
+  if (const auto run = map.find("run")) result.run = expected_figures(file, *run);
   map.finish();
   return result;
 }

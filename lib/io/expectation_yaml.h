@@ -7,4 +7,7 @@ namespace gainsmith::io {
 
 model::Expectation expectation_from(const YamlFile& file, const YamlItem& item);
 
+/// A tolerance, which may be left out. InputError when it is negative.
+std::optional<double> tolerance(const YamlFile& file, const std::optional<YamlItem>& item);
+
 }  // namespace gainsmith::io

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/blocks_yaml.h"
+#include "io/dynamics_yaml.h"
 #include "io/method_node.h"
 #include "io/search_yaml.h"
 #include "model/names.h"
@@ -175,39 +176,6 @@ model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
-model::Component component(const YamlFile& file, const std::optional<YamlItem>& item,
-                           const std::string& what) {
-  model::Component result;
-  if (!item) return result;
-  YamlMap map(file, item->value, what);
-  result.states = declarations(file, map.find("state"), what + ".state", "start");
-  result.outputs = named(file, map.find("output"), what + ".output");
-  result.flow = named(file, map.find("flow"), what + ".flow");
-  result.jump = named(file, map.find("jump"), what + ".jump");
-  map.finish();
-  return result;
-}
-
-std::pair<expr::Expression, expr::Expression> range(const YamlFile& file, const YamlItem& item) {
-  if (!item.value.IsSequence() || item.value.size() != 2)
-    throw InputError(file.place(item.value), item.key + ": expected [low, high]");
-  return {file.expression(item.value[0], item.key), file.expression(item.value[1], item.key)};
-}
-
-std::optional<model::Timer> timer(const YamlFile& file, const std::optional<YamlItem>& item) {
-  if (!item) return std::nullopt;
-  const auto items = items_of(file, item, "timer");
-  if (items.size() != 1)
-    throw InputError(item->place, "timer: expected one timer, such as 'tau: {reset: [T1, T2]}'");
-  YamlMap map(file, items.front().value, items.front().key);
-  const auto reset = range(file, map.require("reset"));
-  const auto first_item = map.find("first");
-  const auto first = first_item ? range(file, *first_item) : reset;
-  map.finish();
-  return model::Timer{items.front().key, reset.first,  reset.second,
-                      first.first,       first.second, items.front().place};
-}
-
 model::Claim claim(const YamlFile& file, const YamlItem& item) {
   using Kind = model::ClaimKind;
   YamlMap map(file, item.value, item.key);
@@ -321,18 +289,17 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
   for (const YamlItem& item : items_of(file, map.find("gains"), "gains"))
     method.gains.push_back(gain(file, item));
   method.report = named(file, map.find("report"), "report");
-  method.plant = component(file, map.find("plant"), "plant");
-  method.observer = component(file, map.find("observer"), "observer");
-  method.timer = timer(file, map.find("timer"));
+  read_dynamics(file, map, method);
   method.signals = named(file, map.find("signals"), "signals");
   for (const YamlItem& item : items_of(file, map.find("claims"), "claims"))
     method.claims.push_back(claim(file, item));
   map.finish({{"maximize", "write minimize: -(...)"},
               {"maximise", "write minimize: -(...)"},
               {"objective", "write minimize: ..."}});
-  if (method.require.empty() && !method.minimize)
-    throw InputError(map.place(),
-                     "the method '" + method.name + "' has no inequality under 'require'");
+  const bool runs = method.has_events || method.timer;
+  if (method.require.empty() && !method.minimize && !runs)
+    throw InputError(map.place(), "the method '" + method.name +
+                                      "' has no inequality under 'require' and no dynamics");
   model::check_names(method);
   return method;
 }

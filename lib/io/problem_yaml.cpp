@@ -5,7 +5,9 @@
 
 #include "base/nearest.h"
 #include "expr/work.h"
+#include "io/component_yaml.h"
 #include "io/expectation_yaml.h"
+#include "io/figure_yaml.h"
 #include "io/method_node.h"
 #include "io/method_yaml.h"
 #include "io/search_yaml.h"
@@ -118,8 +120,8 @@ model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<Yaml
 
 model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
   using Kind = model::LawKind;
-  static const std::vector<std::string> kWords = {"uniform", "extremes", "sinusoid", "constant",
-                                                  "list"};
+  static const std::vector<std::string> kWords = {"uniform",  "extremes", "sinusoid",
+                                                  "constant", "list",     "golden"};
   model::SamplingLaw result;
   result.place = file.place(node);
   if (node.IsScalar()) {
@@ -127,6 +129,7 @@ model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
     if (word == "uniform") return {Kind::uniform, {}, result.place};
     if (word == "extremes") return {Kind::extremes, {}, result.place};
     if (word == "sinusoid") return {Kind::sinusoid, {}, result.place};
+    if (word == "golden") return {Kind::golden, {}, result.place};
     if (word == "constant" || word == "list")
       throw InputError(result.place,
                        "sampling: '" + word + "' needs its value: {" + word + ": ...}");
@@ -175,6 +178,25 @@ model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// A law, a list of laws, or those of each event: {sample: [uniform, extremes], tick: golden}.
+void read_sampling(const YamlFile& file, const YAML::Node& node, const std::string& event,
+                   const model::Method& method, model::Campaign& result) {
+  const bool by_event =
+      method.has_events && event.empty() && node.IsMap() && !node["constant"] && !node["list"];
+  if (by_event) {
+    YamlMap map(file, node, "sampling");
+    for (const YamlItem& item : map.items())
+      read_sampling(file, item.value, item.key, method, result);
+    return;
+  }
+  const auto add = [&](const YAML::Node& entry) {
+    result.sampling.push_back(law(file, entry));
+    result.sampling.back().event = event;
+  };
+  if (!node.IsSequence()) return add(node);
+  for (const auto& entry : node) add(entry);
+}
+
 model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& item,
                          const model::Method& method) {
   model::Campaign result;
@@ -186,18 +208,14 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
   if (const auto horizon = map.find("horizon"))
     result.horizon = file.expression(horizon->value, "horizon");
   if (const auto first = map.find("first")) result.first = file.expression(first->value, "first");
-  if (const auto sampling = map.find("sampling")) {
-    if (sampling->value.IsSequence()) {
-      for (const auto& entry : sampling->value) result.sampling.push_back(law(file, entry));
-    } else {
-      result.sampling.push_back(law(file, sampling->value));
-    }
-  }
+  if (const auto sampling = map.find("sampling"))
+    read_sampling(file, sampling->value, "", method, result);
   std::vector<std::string> states;
   for (const auto* part : {&method.plant, &method.observer})
     for (const auto& state : part->states) states.push_back(state.name);
   for (const YamlItem& entry : items_of(file, map.find("initial"), "initial")) {
-    if (std::find(states.begin(), states.end(), entry.key) == states.end())
+    const bool known = std::find(states.begin(), states.end(), entry.key) != states.end();
+    if (!known && !method.has_events)
       throw InputError(entry.place,
                        "initial: '" + entry.key + "' is no state" + suggestion(entry.key, states));
     result.initial.push_back(initial(file, entry));
@@ -206,10 +224,19 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
   return result;
 }
 
+/// "cf: {box: [0.08, 0.12]}".
+model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
+  YamlMap map(file, item.value, item.key);
+  const YamlItem box = map.require("box");
+  map.finish();
+  model::UncertainText result{item.key, one_or_two(file, box), item.place};
+  if (result.box.size() != 2) throw InputError(box.place, "box: expected [low, high]");
+  return result;
+}
+
 /// What to do with keys that stand at the wrong level.
 std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
   std::map<std::string, std::string> advice;
-  advice["let"] = "a problem has no definitions: write numbers and expressions in 'data'";
   for (const auto& datum : method.data) advice[datum.name] = "it belongs under 'data'";
   for (const auto& parameter : method.parameters)
     advice[parameter.name] = "it belongs under 'parameters'";
@@ -239,6 +266,12 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.negotiable = scalar_ranges(yaml, map.find("negotiable"), "negotiable", *problem.method);
   problem.campaign = campaign(yaml, map.find("campaign"), *problem.method);
   if (const auto expect = map.find("expect")) problem.expect = expectation_from(yaml, *expect);
+  if (const auto compare = map.find("compare")) problem.compare = figures(yaml, *compare);
+  for (const YamlItem& item : items_of(yaml, map.find("let"), "let"))
+    problem.let.push_back(
+        {expr::parse_signature(item.key_text), yaml.expression(item.value, item.key), item.place});
+  for (const YamlItem& item : items_of(yaml, map.find("uncertain"), "uncertain"))
+    problem.uncertain.push_back(uncertain(yaml, item));
   map.finish(advice_on_keys(*problem.method));
   return problem;
 }

@@ -143,6 +143,17 @@ int Lmi::rows() const {
                          [](int sum, const Block& block) { return sum + block.size; });
 }
 
+double Lmi::multiplications() const {
+  const double m = unknowns;
+  double sum = m * m * m / 6;
+  for (const Block& block : blocks) {
+    const auto terms = static_cast<double>(block.terms.size());
+    const double n = block.size;
+    sum += terms * terms * n * n / 2 + 2 * terms * n * n * n;
+  }
+  return sum;
+}
+
 bool Lmi::stands_for_points() const {
   return std::all_of(blocks.begin(), blocks.end(),
                      [](const Block& block) { return block.where.has_value(); });

@@ -30,6 +30,8 @@ struct Lmi {
   bool stands_for_points() const;
   /// Of all blocks together.
   int rows() const;
+  /// Multiplications of one step of a solver, up to a factor: those of the equations for x.
+  double multiplications() const;
   /// c'x + c_0, when has_objective.
   double objective_at(const std::vector<double>& x) const;
 };

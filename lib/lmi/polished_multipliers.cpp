@@ -191,12 +191,17 @@ struct Distance {
 struct Way {
   int most_steps = 0;
   int patience = 0;       ///< steps in which the worst residual must fall tenfold
-  bool on_range = false;  ///< damped, and doubled at double roots
+  bool on_range = false;  ///< damped
+
+  /// Whether a step that left this share of the residual was one towards a double root, where it
+  /// leaves a quarter.
+  bool is_towards_double_root(double share) const {
+    return on_range ? share > 0.1 : share > 0.2 && share < 0.3;
+  }
 };
 
 bool follow(std::vector<FactoredMultiplier>& multipliers, int unknowns, const Way& way) {
   constexpr double kFalls = 0.1;
-  constexpr double kQuarter = 0.1;  // at a double root a step leaves a quarter
   constexpr double kNarrow = 1e-8;  // as far as 31 digits solve the equations of a double root
   constexpr double kDamping = 1.5;  // between |r|^2 of the scale of Y and |r| of a double root
   double last = std::numeric_limits<double>::infinity();
@@ -217,7 +222,7 @@ bool follow(std::vector<FactoredMultiplier>& multipliers, int unknowns, const Wa
                       ? step<DoubleDouble>(multipliers, residuals, distance.with_constant, damping)
                       : step<Decimal100>(multipliers, residuals, distance.with_constant, damping);
     // To a double root the steps lead half of the way: then one goes the whole way.
-    doubled = way.on_range && !doubled && k > 0 && distance.worst > kQuarter * last;
+    doubled = !doubled && k > 0 && way.is_towards_double_root(distance.worst / last);
     if (doubled)
       for (Decimal100& value : lambda) value *= 2;
     last = distance.worst;
@@ -251,7 +256,7 @@ numbers::MatrixOf<Decimal100> factor_above(const numbers::MatrixOf<Decimal100>& 
 }
 
 bool polish(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
-  return follow(multipliers, unknowns, {20, 3, false});
+  return follow(multipliers, unknowns, {80, 3, false});
 }
 
 bool polish_on_range(std::vector<FactoredMultiplier>& multipliers, int unknowns) {

@@ -69,6 +69,8 @@ Instance Binding::run() {
   bind_claims();
   bind_campaign();
   bind_expectation();
+  bind_comparison();
+  finish_dynamics();
   design_->ranks = recorder_->ranks;
   design_->names = names_;
   return {design_, overrides_, recorder_->values};

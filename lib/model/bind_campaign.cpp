@@ -102,12 +102,53 @@ void Binding::bind_campaign() {
     Design::Law& into = bound.laws.emplace_back();
     into.kind = law.kind;
     into.place = law.place;
+    if (!law.event.empty()) into.event = clock_of(law);
     for (const expr::Expression& each : law.values) {
       into.values.push_back(scalar(each, scope));
       if (timer) check_within(into.values.back(), timer->low, timer->high, "the sampling interval");
     }
   }
-  for (const InitialValue& initial : campaign.initial) bound.starts.push_back(start(initial));
+  bind_starts();
+}
+
+/// The event whose clock a law is for.
+std::size_t Binding::clock_of(const SamplingLaw& law) const {
+  const auto name = dynamics_names_->event(nullptr, law.event);
+  const auto& events = design_->dynamics->events;
+  for (std::size_t k = 0; name && k < events.size(); ++k)
+    if (events[k].name == *name && events[k].low) return k;
+  std::vector<std::string> clocks;
+  for (const Dynamics::Event& event : events)
+    if (event.low) clocks.push_back(event.name);
+  throw InputError(law.place, "sampling: there is no event '" + law.event + "' with 'every'" +
+                                  suggestion(law.event, clocks));
+}
+
+/// Of a method with events a name stands for the state of each observer that has it, and a state
+/// that starts nowhere is an error.
+void Binding::bind_starts() {
+  auto& starts = design_->campaign.starts;
+  for (const InitialValue& initial : problem().campaign.initial) {
+    const auto names =
+        dynamics_names_ ? dynamics_names_->states(initial.state) : std::vector<std::string>{};
+    if (names.empty()) starts.push_back(start(initial));
+    for (const std::string& name : names) {
+      InitialValue one = initial;
+      one.state = name;
+      starts.push_back(start(one));
+    }
+  }
+  if (!design_->dynamics) return;
+  for (std::size_t k = 0; k < design_->states.size(); ++k) {
+    const bool drawn = std::any_of(starts.begin(), starts.end(),
+                                   [&](const Design::Start& one) { return one.state == k; });
+    const Design::State& state = design_->states[k];
+    if (!drawn && !state.start && state.shape.size() > 0)
+      throw InputError(design_->dynamics->variables[k].place,
+                       "the state '" + state.name +
+                           "' has no start: {shape: ..., start: ...}, or under campaign.initial of "
+                           "the problem");
+  }
 }
 
 }  // namespace gainsmith::model

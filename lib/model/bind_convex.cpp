@@ -214,7 +214,8 @@ NodePtr Binding::bounding_unknown(const expr::Expression& text, const Node& call
     throw InputError(text.place(call),
                      "there are more than " + std::to_string(kMost) + " unknowns");
   Design::Unknown unknown;
-  if (!is_of_matrices(call) && !is_of_one_vector(call)) unknown.shape = largest(shapes_of(text, call, scope));
+  if (!is_of_matrices(call) && !is_of_one_vector(call))
+    unknown.shape = largest(shapes_of(text, call, scope));
   unknown.structure = unknown.shape.is_scalar() ? Structure::scalar : Structure::full;
   unknown.place = text.place(call);
   const auto is_taken = [&](const std::string& name) {

@@ -4,6 +4,7 @@
 
 #include "base/nearest.h"
 #include "base/number.h"
+#include "expr/functions.h"
 #include "model/binding.h"
 
 namespace gainsmith::model {
@@ -250,6 +251,13 @@ void Binding::add_definitions() {
   auto& definitions = names_->known.definitions;
   for (const Let& let : method().let)
     definitions[let.signature.name] = {let.signature.parameters, let.body};
+  for (const Let& let : problem().let) {
+    const std::string& name = let.signature.name;
+    if (names_->known.symbols.contains(name) || expr::is_reserved(name))
+      throw InputError(let.place, "'" + name + "' already has a meaning");
+    definitions[name] = {let.signature.parameters, let.body};
+  }
+  if (method().has_events) return;  // outputs and signals come with the dynamics
   for (const Component* part : {&method().plant, &method().observer})
     for (const Named& output : part->outputs) definitions[output.name] = {{}, output.value};
   for (const Named& signal : method().signals) definitions[signal.name] = {{}, signal.value};
@@ -335,6 +343,7 @@ void Binding::add_unknown(const UnknownDeclaration& unknown) {
 }
 
 void Binding::add_states() {
+  if (method().has_events) return;
   for (const Component* part : {&method().plant, &method().observer})
     for (const Declaration& state : part->states)
       design_->states.push_back({state.name, known_shape(state, "state"), std::nullopt});

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/nearest.h"
 #include "model/binding.h"
 
 namespace gainsmith::model {
@@ -78,7 +79,63 @@ void Binding::bind_expectation() {
     bound.values.push_back(
         {each.name, std::move(what), std::move(wanted), each.relative, each.absolute, each.place});
   }
+  for (const ExpectedFigureText& text : expect.run) {
+    std::vector<Figure> readings = figures(text.figure);
+    if (readings.size() != 1)
+      throw InputError(text.figure.place, "this is of one observer; say of which, 'observer: " +
+                                              readings.front().observer + "'");
+    ExpectedFigure figure{std::move(readings.front()), std::nullopt, text.ending, text.relative,
+                          text.absolute};
+    if (text.is) figure.is = scalar(*text.is, names_->known);
+    bound.run.push_back(std::move(figure));
+  }
   design_->expect = std::move(bound);
+}
+
+/// Of each observer that has the names in it, or the only one.
+std::vector<Figure> Binding::figures(const FigureText& text) const {
+  if (!dynamics_names_)
+    throw InputError(text.place,
+                     "figures of runs are of methods with events; this one has a timer");
+  std::vector<Reading> readings = {{text.observer, {}}};
+  if (text.value && !text.observer.empty())
+    readings = {dynamics_names_->of_observer(text.observer, {*text.value}, text.place)};
+  else if (text.value)
+    readings = dynamics_names_->outside(std::vector{*text.value});
+  std::vector<Figure> result;
+  for (const Reading& reading : readings) {
+    Figure bound;
+    bound.kind = text.kind;
+    bound.title = text.title;
+    bound.observer = reading.observer;
+    bound.count = text.count;
+    bound.after = text.after;
+    bound.place = text.place;
+    if (text.value) bound.value = scalar(reading.texts.front(), names_->running);
+    if (!text.event.empty()) bound.event = event_of(text, reading.observer);
+    for (const expr::Expression& number : text.numbers)
+      bound.numbers.push_back(scalar(number, names_->known));
+    result.push_back(std::move(bound));
+  }
+  return result;
+}
+
+/// An observer's own event, or one of all.
+std::size_t Binding::event_of(const FigureText& text, const std::string& observer) const {
+  const Component* component = nullptr;
+  for (const Component& one : method().observers)
+    if (one.name == observer) component = &one;
+  const auto name = dynamics_names_->event(component, text.event);
+  const auto& events = design_->dynamics->events;
+  for (std::size_t k = 0; name && k < events.size(); ++k)
+    if (events[k].name == *name) return k;
+  throw InputError(text.place, "there is no event '" + text.event + "'" +
+                                   suggestion(text.event, dynamics_names_->event_names(component)));
+}
+
+void Binding::bind_comparison() {
+  for (const FigureText& text : problem().compare)
+    for (Figure& figure : figures(text)) design_->compare.push_back(std::move(figure));
 }
 
 }  // namespace gainsmith::model

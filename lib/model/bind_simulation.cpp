@@ -1,5 +1,10 @@
 // The hybrid system: states, maps, the timer, signals, reports and claims.
+#include <set>
+#include <utility>
+
 #include "model/binding.h"
+#include "model/dynamics_binding.h"
+#include "model/dynamics_programs.h"
 
 namespace gainsmith::model {
 
@@ -28,13 +33,14 @@ std::vector<NamedFormula> Binding::named(const std::vector<Named>& list,
 }
 
 void Binding::bind_components() {
+  if (method().has_events) return bind_dynamics();
   const expr::Scope& scope = names_->running;
   for (const Component* part : {&method().plant, &method().observer}) {
     for (const Declaration& state : part->states) {
       Design::State& bound = design_->states[state_of(state.name)];
       if (state.fallback) bound.start = formula(*state.fallback, scope, bound.shape);
     }
-    named(part->outputs, scope);
+    for (const Output& output : part->outputs) formula(output.value, scope);
     for (auto [entries, bound] :
          {std::pair{&part->flow, &design_->flow}, std::pair{&part->jump, &design_->jump}})
       for (Design::MapEntry& entry : map(*entries)) bound->push_back(std::move(entry));
@@ -42,6 +48,77 @@ void Binding::bind_components() {
   design_->report = named(method().report, scope);
   design_->signals = named(method().signals, scope);
   bind_timer();
+}
+
+/// Plant, observers and events; outputs and signals by the names under which they are shown.
+void Binding::bind_dynamics() {
+  expr::Scope& scope = names_->running;
+  dynamics_names_ = std::make_unique<DynamicsNames>(method(), varied());
+  DynamicsBinding binding(method(), design_->dimensions, *dynamics_names_, problem().uncertain,
+                          scope);
+  design_->dynamics = binding.run();
+  Dynamics& dynamics = *design_->dynamics;
+  for (const Dynamics::Variable& variable : dynamics.variables)
+    if (variable.kind == Dynamics::VariableKind::state ||
+        variable.kind == Dynamics::VariableKind::mode)
+      design_->states.push_back({variable.name, variable.shape, variable.start});
+  const auto add_outputs = [&](const Component& component) {
+    for (const Output& output : component.outputs) {
+      const std::string name = full_name(component, output.name);
+      const Formula value = formula(dynamics_names_->within(component, output.value), scope);
+      dynamics.signals.push_back({name, value, binding.event_of_output(name)});
+    }
+  };
+  add_outputs(method().plant);
+  for (const Component& observer : method().observers) add_outputs(observer);
+  for (const Named& signal : method().signals)
+    for (const Reading& reading : dynamics_names_->add_signal(signal)) {
+      const std::string name =
+          reading.observer.empty() ? signal.name : reading.observer + "." + signal.name;
+      scope.definitions[name] = {{}, reading.texts.front()};
+      dynamics.signals.push_back({name, formula(reading.texts.front(), scope), std::nullopt});
+    }
+  design_->report = named(method().report, scope);
+  names_->results = scope;
+  names_->results.symbols["objective"] = {};
+}
+
+/// Uncertain data and the definitions that use them, by others too.
+std::set<std::string> Binding::varied() const {
+  std::set<std::string> names;
+  for (const UncertainText& text : problem().uncertain) names.insert(text.name);
+  if (names.empty()) return names;
+  for (std::size_t before = 0; before != names.size();) {
+    before = names.size();
+    for (const auto& [name, definition] : names_->running.definitions)
+      for (const std::string& used : names_in(definition.body))
+        if (names.contains(used)) names.insert(name);
+  }
+  return names;
+}
+
+/// What no program asks for is left out; all texts are bound.
+void Binding::finish_dynamics() {
+  if (!design_->dynamics) return;
+  std::set<std::string> read;
+  const auto add = [&](const expr::Program& program) {
+    for (const expr::Input& input : program.inputs) read.insert(input.name);
+  };
+  for_each_program(*design_->dynamics, add);
+  const auto add_figure = [&](const Figure& figure) {
+    if (figure.value) add(figure.value->program);
+    if (figure.kind == FigureKind::passes)
+      read.insert(expr::event_number("passes", design_->dynamics->events[figure.event].name));
+  };
+  for (const Figure& figure : design_->compare) add_figure(figure);
+  if (design_->expect)
+    for (const ExpectedFigure& expected : design_->expect->run) add_figure(expected.figure);
+  for (const Design::Claim& claim : design_->claims) {
+    add(claim.value.program);
+    for (const auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor})
+      if (*part) add((*part)->program);
+  }
+  drop_unread(*design_->dynamics, read);
 }
 
 void Binding::bind_timer() {
@@ -55,18 +132,46 @@ void Binding::bind_timer() {
 void Binding::bind_claims() {
   for (const Claim& claim : method().claims)
     for (const Member& member : members(claim.indices, {}, names_->running))
-      add_claim(claim, member);
+      for (const auto& [observer, one] : readings(instantiated(claim, member)))
+        add_claim(one,
+                  member.title_of(dynamics_names_ ? dynamics_names_->title(claim.name, observer)
+                                                  : claim.name));
 }
 
-void Binding::add_claim(const Claim& claim, const Member& member) {
+/// The texts of a claim, in order; those that it has.
+std::vector<expr::Expression*> texts_of(Claim& claim) {
+  std::vector<expr::Expression*> texts = {&claim.value};
+  for (auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor})
+    if (*part) texts.push_back(&**part);
+  return texts;
+}
+
+Claim Binding::instantiated(Claim claim, const Member& member) const {
+  for (expr::Expression* text : texts_of(claim))
+    *text = instantiate(*text, member, names_->running);
+  return claim;
+}
+
+/// A claim of an observer is one of each that has its names.
+std::vector<std::pair<std::string, Claim>> Binding::readings(Claim claim) const {
+  if (!dynamics_names_) return {{"", std::move(claim)}};
+  std::vector<expr::Expression> texts;
+  for (const expr::Expression* text : texts_of(claim)) texts.push_back(*text);
+  std::vector<std::pair<std::string, Claim>> result;
+  for (const Reading& reading : dynamics_names_->outside(texts)) {
+    const auto into = texts_of(claim);
+    for (std::size_t k = 0; k < into.size(); ++k) *into[k] = reading.texts[k];
+    result.emplace_back(reading.observer, claim);
+  }
+  return result;
+}
+
+void Binding::add_claim(const Claim& claim, const std::string& title) {
   const expr::Scope& scope = names_->running;
-  const auto bound = [&](const expr::Expression& part) {
-    return scalar(instantiate(part, member, scope), scope);
-  };
   const auto optional = [&](const std::optional<expr::Expression>& part) {
-    return part ? std::optional(bound(*part)) : std::nullopt;
+    return part ? std::optional(scalar(*part, scope)) : std::nullopt;
   };
-  design_->claims.push_back({member.title_of(claim.name), claim.kind, bound(claim.value),
+  design_->claims.push_back({title, claim.kind, scalar(claim.value, scope),
                              optional(claim.flow_cost), optional(claim.jump_cost),
                              optional(claim.factor), claim.place});
 }

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,7 @@
 #include "expr/scope.h"
 #include "model/bind.h"
 #include "model/convex.h"
+#include "model/dynamics_names.h"
 #include "model/families.h"
 
 namespace gainsmith::model {
@@ -118,11 +120,18 @@ class Binding {
   std::vector<Design::MapEntry> map(const std::vector<Named>& entries) const;
   std::vector<NamedFormula> named(const std::vector<Named>& list, const expr::Scope& scope) const;
   void bind_timer();
+  void bind_dynamics();
+  std::set<std::string> varied() const;
+  void finish_dynamics();
   void bind_claims();
-  void add_claim(const Claim& claim, const Member& member);
+  Claim instantiated(Claim claim, const Member& member) const;
+  std::vector<std::pair<std::string, Claim>> readings(Claim claim) const;
+  void add_claim(const Claim& claim, const std::string& title);
 
   // bind_campaign.cpp
   void bind_campaign();
+  void bind_starts();
+  std::size_t clock_of(const SamplingLaw& law) const;
   Design::Start start(const InitialValue& initial) const;
   void check_box(const Design::Start& start, const InitialValue& initial) const;
   void check_within(const Formula& formula, const Formula& low, const Formula& high,
@@ -136,6 +145,9 @@ class Binding {
   Range range(const ScalarRange& range) const;
   Formula figure(const expr::Expression& text) const;
   void bind_expectation();
+  std::vector<Figure> figures(const FigureText& text) const;
+  std::size_t event_of(const FigureText& text, const std::string& observer) const;
+  void bind_comparison();
 
   Formula scalar(const expr::Expression& expression, const expr::Scope& scope) const;
   Formula formula(const expr::Expression& expression, const expr::Scope& scope,
@@ -150,6 +162,7 @@ class Binding {
   std::shared_ptr<Design> design_;
   std::shared_ptr<Names> names_;
   std::shared_ptr<Recorder> recorder_;
+  std::unique_ptr<DynamicsNames> dynamics_names_;  ///< of a method with events
 };
 
 /// The value of a datum or parameter from those declared before it.

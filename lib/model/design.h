@@ -25,6 +25,7 @@
 #include "base/error.h"
 #include "expr/program.h"
 #include "model/dynamics.h"
+#include "model/figure.h"
 #include "model/formula.h"
 #include "model/words.h"
 
@@ -183,6 +184,7 @@ struct Design {
     LawKind kind = LawKind::uniform;
     std::vector<Formula> values;  ///< constant: one; list: all
     Place place;
+    std::optional<std::size_t> event{};  ///< of dynamics; none: of each that has a clock
   };
 
   struct Start {
@@ -217,6 +219,7 @@ struct Design {
     std::optional<std::string> verdict, status, campaign;
     std::optional<std::vector<std::string>> active_bounds;
     std::vector<ExpectedValue> values;
+    std::vector<ExpectedFigure> run;  ///< of the first run
     Place place;
   };
 
@@ -273,6 +276,7 @@ struct Design {
   std::vector<NamedFormula> figures;  ///< scalars of the command line, shown of each result
   Campaign campaign;
   std::optional<Expectation> expect;
+  std::vector<Figure> compare;  ///< figures shown for all observers side by side
 
   std::vector<Rank> ranks;
   std::shared_ptr<const Problem> source;

@@ -9,21 +9,10 @@
 
 #include "expr/ast.h"
 #include "expr/parser.h"
-#include "model/shape_text.h"
+#include "model/component.h"
+#include "model/declaration.h"
 
 namespace gainsmith::model {
-
-/// Something with a name and a shape: a datum, an unknown, a state. With indices it is a family:
-/// "for: i in 1..N".
-struct Declaration {
-  std::string name;
-  ShapeText shape;
-  std::vector<expr::Index> indices;
-  /// A datum's default or a state's start, used when the problem gives none.
-  std::optional<expr::Expression> fallback;
-  std::string help;
-  Place place;
-};
 
 /// A scalar and the range in which it is looked for: "T2: [0.5, 1.1]".
 struct ScalarRange {
@@ -48,20 +37,6 @@ struct Parameter {
   Place place;
   /// Where synthesis looks for it when the problem gives no value.
   std::optional<ScalarRange> search{};
-};
-
-/// A name and its expression, in the order of the file.
-struct Named {
-  std::string name;
-  expr::Expression value;
-  Place place;
-};
-
-/// An entry of `let`: "mu: ..." or "E(tau): ...".
-struct Let {
-  expr::Signature signature;
-  expr::Expression body;
-  Place place;
 };
 
 /// A gain: a matrix or, with `variable`, a function of a scalar: "F(tau): inv(P)*Z(tau)"; with
@@ -93,15 +68,6 @@ struct Requirement {
   Place place;
 };
 
-/// A part of the hybrid system: the plant or the observer.
-struct Component {
-  std::vector<Declaration> states;
-  std::vector<Named> outputs;  ///< definitions in terms of the states, e.g. y = C z
-  std::vector<Named> flow;     ///< derivatives; a state without an entry stays constant
-  std::vector<Named> jump;     ///< values after a jump from values before; a state without an entry
-                               ///< keeps its value
-};
-
 /// A timer that runs down to 0, where a jump happens and it is reset to a value in [low, high]. Its
 /// first value lies in [first_low, first_high].
 struct Timer {
@@ -127,6 +93,10 @@ struct Claim {
 };
 
 struct Method {
+  /// Whether its dynamics are written with events (dynamics.h), and not as the short form: plant,
+  /// observer and one timer.
+  bool has_events = false;
+
   std::string name;
   std::string source;   ///< paper, theorem, equations
   std::string summary;  ///< one line
@@ -146,6 +116,13 @@ struct Method {
   Component plant;
   Component observer;
   std::optional<Timer> timer;
+  /// Of the form with events: instead of `observer` and `timer`.
+  std::vector<Component> observers;
+  std::vector<EventText> events;
+  std::vector<std::string> order;  ///< of the events, when it is not that of the file
+  std::vector<Named> inputs;       ///< functions of the time t
+  std::vector<NoiseText> noise;
+  Place dynamics_place;        ///< where the form with events begins
   std::vector<Named> signals;  ///< e.g. the errors e = z - zh
   std::vector<Claim> claims;
 };

@@ -130,6 +130,28 @@ void check_maps(const Component& component, const std::vector<Named>& map,
   }
 }
 
+void add_component(const Component& component, NameCheck& names) {
+  for (const Declaration& state : component.states) names.add(state.name, "state", state.place);
+  for (const Declaration& mode : component.modes) names.add(mode.name, "mode", mode.place);
+  for (const Output& output : component.outputs) names.add(output.name, "output", output.place);
+  for (const Let& let : component.let) names.add(let.signature.name, "definition", let.place);
+}
+
+/// Each observer has names of its own, which hide those of data, gains and definitions; names of
+/// the plant it reads.
+void check_observers(const Method& method) {
+  NameCheck all;
+  all.add("plant", "component", method.plant.place);
+  for (const Component& observer : method.observers) {
+    all.add(observer.name, "observer", observer.place);
+    NameCheck names;
+    add_component(method.plant, names);
+    for (const Named& input : method.inputs) names.add(input.name, "input", input.place);
+    for (const NoiseText& noise : method.noise) names.add(noise.name, "noise", noise.place);
+    add_component(observer, names);
+  }
+}
+
 }  // namespace
 
 bool is_numbered(const std::string& name, const std::string& owner) {
@@ -166,11 +188,13 @@ void check_names(const Method& method) {
     names.add(unknown.name, "unknown", unknown.place);
   for (const Let& let : method.let) names.add(let.signature.name, "definition", let.place);
   for (const Component* part : {&method.plant, &method.observer}) {
-    for (const Declaration& state : part->states) names.add(state.name, "state", state.place);
-    for (const Named& output : part->outputs) names.add(output.name, "output", output.place);
+    add_component(*part, names);
     check_maps(*part, part->flow, "the flow");
     check_maps(*part, part->jump, "the jump");
   }
+  for (const Named& input : method.inputs) names.add(input.name, "input", input.place);
+  for (const NoiseText& noise : method.noise) names.add(noise.name, "noise", noise.place);
+  check_observers(method);
   if (method.timer) names.add(method.timer->name, "timer", method.timer->place);
   for (const Named& signal : method.signals) names.add(signal.name, "signal", signal.place);
   for (const Gain& gain : method.gains) {

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "expr/ast.h"
+#include "model/figure.h"
 #include "model/method.h"
 
 namespace gainsmith::model {
@@ -30,6 +31,7 @@ struct SamplingLaw {
   LawKind kind = LawKind::uniform;
   std::vector<expr::Expression> values;  ///< constant: one; list: all
   Place place;
+  std::string event{};  ///< of which it is the law; empty: of each that has a clock
 };
 
 /// Where a state starts.
@@ -67,7 +69,8 @@ struct Expectation {
   std::optional<std::string> status;    ///< optimal, infeasible, undecided
   std::optional<std::string> campaign;  ///< held, violated
   std::optional<std::vector<std::string>> active_bounds;
-  std::vector<ExpectedValue> values;  ///< `objective` may be used as a name here
+  std::vector<ExpectedValue> values;    ///< `objective` may be used as a name here
+  std::vector<ExpectedFigureText> run;  ///< of the first run
   Place place;
 };
 
@@ -103,6 +106,9 @@ struct Problem {
   std::vector<ScalarRange> negotiable;  ///< scalars along which `explain` says how far one must go
   Campaign campaign;
   std::optional<Expectation> expect;
+  std::vector<FigureText> compare;  ///< figures shown for all observers side by side
+  std::vector<Let> let;             ///< definitions of the problem, beside those of the method
+  std::vector<UncertainText> uncertain;
   Questions questions;
 };
 

@@ -52,6 +52,8 @@ std::string to_string(LawKind kind) {
       return "sinusoid";
     case LawKind::list:
       return "list";
+    case LawKind::golden:
+      return "golden";
   }
   return "?";
 }

@@ -53,7 +53,8 @@ enum class LawKind {
   uniform,   ///< independent, uniform in [low, high]
   extremes,  ///< independent, low or high with probability one half
   sinusoid,  ///< (high - low)/2 sin(t/high) + (high + low)/2 at a jump at time t
-  list       ///< the values in turn, again from the start when they are used up
+  list,      ///< the values in turn, again from the start when they are used up
+  golden     ///< low + (high - low) frac((k + 1) 0.6180339887498949) at jump k = 0, 1, ...
 };
 std::string to_string(LawKind kind);
 

@@ -65,7 +65,12 @@ RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
 
 }  // namespace
 
-Judge::Judge(const Setup& setup) : checks_(make_checks(setup, *setup.narrow)) {
+Judge::Judge(const Setup& setup)
+    : checks_(make_checks(setup, setup.events ? *setup.events->narrow : *setup.narrow)) {
+  if (setup.events) {
+    events_.emplace(*setup.events);
+    return;
+  }
   if (!setup.steps) {
     integrated_.emplace(setup.system, setup.scenario, setup.coordinates, setup.shared.get());
     return;
@@ -76,6 +81,7 @@ Judge::Judge(const Setup& setup) : checks_(make_checks(setup, *setup.narrow)) {
 }
 
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
+  if (events_) return last_verdict(events_->run(seed, run, kRepeated), checks_);
   if (!integrated_) return last_verdict(wide_->run(seed, run), wide_checks_);
   const auto rounded = [&](Rounding rounding) {
     return last_verdict(integrated_->run(seed, run, kRepeated, rounding), checks_);

@@ -43,11 +43,13 @@ class Judge {
 
   /// In double, until the next call.
   const hybrid::Track<double>& track(std::uint64_t seed, std::uint64_t run) {
+    if (events_) return events_->run(seed, run, kUsual);
     return integrated_ ? integrated_->run(seed, run, kUsual) : narrow_->run(seed, run);
   }
   std::vector<ClaimCheck<double>>& checks() { return checks_; }
 
  private:
+  std::optional<EventTracks> events_;
   std::optional<hybrid::IntegratedSimulator> integrated_;  ///< otherwise the two below
   std::optional<hybrid::BoundedSimulator<double>> narrow_;
   std::optional<hybrid::BoundedSimulator<DoubleDouble>> wide_;

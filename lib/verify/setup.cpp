@@ -85,11 +85,21 @@ void add_shared_flows(Setup& setup) {
                                                        setup.coordinates, integrals);
 }
 
+std::unique_ptr<const Setup> setup_of(std::unique_ptr<const EventSetup> events) {
+  auto setup = std::make_unique<Setup>();
+  setup->scenario.horizon = events->scenario.horizon;
+  setup->claims = events->claims;
+  setup->judged = events->judged;
+  setup->events = std::move(events);
+  return setup;
+}
+
 }  // namespace
 
 std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
                                         const model::Gains& gains) {
   const model::Design& design = *instance.design;
+  if (design.dynamics) return setup_of(make_event_setup(instance, gains));
   hybrid::System system = hybrid::make_system(instance, gains);
   hybrid::Scenario scenario = hybrid::make_scenario(design, system);
   std::optional<hybrid::FlowSteps> steps;
@@ -99,6 +109,7 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
                                              std::move(scenario),
                                              std::move(steps),
                                              std::move(claims),
+                                             {},
                                              {},
                                              {},
                                              {},

@@ -11,6 +11,7 @@
 #include "hybrid/system.h"
 #include "verify/claim_check.h"
 #include "verify/claims.h"
+#include "verify/event_setup.h"
 
 namespace gainsmith::verify {
 
@@ -26,6 +27,8 @@ struct Setup {
   std::unique_ptr<hybrid::BoundedSystem<double>> narrow;
   std::unique_ptr<hybrid::BoundedSystem<DoubleDouble>> wide;
   std::unique_ptr<hybrid::SharedFlows> shared;  ///< of integrated flows
+  /// Of dynamics with events: then `system`, `coordinates` and `narrow` are not used.
+  std::unique_ptr<const EventSetup> events;
 };
 
 /// At an address of its own: its parts point to each other.

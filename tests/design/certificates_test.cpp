@@ -174,5 +174,23 @@ TEST(CertificatesTest, SingularCertificatesAreFound) {
   }
 }
 
+/// Functions of degree 9 nearly satisfy the inequalities at any few points, and every certificate
+/// is singular in the direction [C, -1] of each flow: neither double nor 31 digits know one. Found
+/// at more points in 100 digits; at T2 = 2.5 there are gains.
+TEST(CertificatesTest, HighDegreesAreRefutedAtMorePoints) {
+  const auto at = [](const std::string& T2) {
+    return solve(
+        "problem: p\nmethod: clock-dependent\ndata: {A: [[0.2, -1.01], [1, 0]], C: "
+        "[[0.5, -1]], T1: 0.5, T2: " +
+        T2 + "}\nparameters: {degree: 9}\n");
+  };
+  const model::Gains gains = at("2.7");
+  EXPECT_EQ(gains.verdict, model::Verdict::no) << gains.solver.message;
+  ASSERT_TRUE(gains.certificate);
+  EXPECT_LE(gains.certificate->omega, lmi::kNothing);
+  EXPECT_EQ(gains.certificate->digits, 100);
+  EXPECT_EQ(at("2.5").verdict, model::Verdict::yes);
+}
+
 }  // namespace
 }  // namespace gainsmith::design

@@ -28,6 +28,18 @@ Decimal100 inner(const Wide& a, const Wide& b) {
 
 Wide gram_of(const Wide& L) { return L.lazyProduct(L.transpose()); }
 
+/// A unit vector w with L' w = 0 (Gram and Schmidt).
+Wide beside(RandomStream& random, const Wide& L) {
+  std::vector<Wide> basis;
+  const auto add = [&](Wide q) {
+    for (const Wide& b : basis) q -= b * inner(b, q);
+    basis.push_back(q / sqrt(inner(q, q)));
+  };
+  for (Eigen::Index c = 0; c < L.cols(); ++c) add(L.col(c));
+  add(drawn(random, static_cast<int>(L.rows()), 1));
+  return basis.back();
+}
+
 /// Blocks B_ki of two blocks for which Y_k = L_k L_k' is a certificate up to 100 digits.
 struct Planted {
   std::vector<Wide> L;
@@ -66,7 +78,7 @@ struct Planted {
 
   double residual(const std::vector<FactoredMultiplier>& multipliers) const {
     double worst = 0;
-    for (std::size_t i = 0; i < blocks[0].terms.size(); ++i) {
+    for (std::size_t i = 0; i < blocks[1].terms.size(); ++i) {
       Decimal100 sum(0);
       for (const FactoredMultiplier& one : multipliers)
         sum += inner(one.block->terms[i].second.mid, one.value());
@@ -101,6 +113,32 @@ TEST(PolishedMultipliers, LoseTheirResidualAndKeepTheirRank) {
         EXPECT_LT(std::abs(static_cast<double>(Decimal100(Y(0, 0) * Y(1, 1) - Y(0, 1) * Y(1, 0)))),
                   1e-57);
       }
+    }
+}
+
+/// A block w w' of an unknown of its own leaves only certificates with w' Y w = 0: multipliers of
+/// full rank, which are off by so much in the direction w, lose it.
+TEST(PolishedMultipliers, OfFullRankLoseADirectionThatNoCertificateHas) {
+  constexpr int kSize = 4, kUnknowns = 3;
+  for (const double off : {1e-10, 1e-13, 1e-16})
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+      RandomStream random(0x903, seed);
+      Planted planted(random, kSize, kSize - 1, kUnknowns);
+      const Wide w = beside(random, planted.L[0]);
+      planted.blocks[0].terms.emplace_back(
+          kUnknowns + 1,
+          numbers::Enclosed<Decimal100>{gram_of(w), numbers::Matrix::Zero(kSize, kSize)});
+      std::vector<FactoredMultiplier> multipliers = planted.near(random, off * 1e-4);
+      Wide whole(kSize, kSize);
+      whole << multipliers[0].L, w * Decimal100(off);
+      multipliers[0].L = whole;
+      const auto along_w = [&] {
+        return std::abs(static_cast<double>(inner(gram_of(w), multipliers[0].value())));
+      };
+      ASSERT_GT(along_w(), 0.9 * off * off);
+      EXPECT_TRUE(polish(multipliers, kUnknowns + 1)) << off << ' ' << seed;
+      EXPECT_LT(along_w(), 1e-70) << off << ' ' << seed;
+      EXPECT_LT(planted.residual(multipliers), 1e-57) << off << ' ' << seed;
     }
 }
 

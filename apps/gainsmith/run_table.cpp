@@ -1,0 +1,103 @@
+#include "gainsmith/run_table.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.h"
+#include "io/csv.h"
+#include "verify/replay.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+using Kind = verify::Column::Kind;
+
+/// t, j, then the event, which is no number.
+std::vector<std::string> names_of(const verify::EventReplay& replay) {
+  std::vector<std::string> names;
+  for (const verify::Column& column : replay.columns) {
+    names.push_back(column.name);
+    if (column.kind == Kind::jumps) names.emplace_back("event");
+  }
+  return names;
+}
+
+}  // namespace
+
+std::string run_csv(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
+                    std::uint64_t run) {
+  if (instance.design->dynamics)
+    return events_csv(verify::replay_events(instance, gains, seed, run, 0));
+  const verify::Replay replay = verify::replay(instance, gains, seed, run);
+  return io::to_csv(replay.columns, replay.table);
+}
+
+std::string events_csv(const verify::EventReplay& replay) {
+  std::string text;
+  io::add_csv_line(names_of(replay), text);
+  std::vector<std::string> cells;
+  for (Eigen::Index row = 0; row < replay.table.rows(); ++row) {
+    cells.clear();
+    for (std::size_t k = 0; k < replay.columns.size(); ++k) {
+      const double value = replay.table(row, static_cast<Eigen::Index>(k));
+      cells.push_back(std::isfinite(value) ? decimal17(value) : "");
+      if (replay.columns[k].kind == Kind::jumps)
+        cells.push_back(replay.events[static_cast<std::size_t>(row)]);
+    }
+    io::add_csv_line(cells, text);
+  }
+  return text;
+}
+
+io::Json events_json(const verify::EventReplay& replay) {
+  io::Json rows = io::Json::array();
+  for (Eigen::Index row = 0; row < replay.table.rows(); ++row) {
+    io::Json cells = io::Json::array();
+    for (std::size_t k = 0; k < replay.columns.size(); ++k) {
+      cells.push_back(io::finite_or_null(replay.table(row, static_cast<Eigen::Index>(k))));
+      if (replay.columns[k].kind == Kind::jumps)
+        cells.push_back(replay.events[static_cast<std::size_t>(row)]);
+    }
+    rows.push_back(std::move(cells));
+  }
+  io::Json document = {{"ending", to_string(replay.run.ending)}, {"end", replay.run.end}};
+  if (!replay.run.message.empty()) document["message"] = replay.run.message;
+  if (!replay.run.notes.empty()) document["notes"] = replay.run.notes;
+  document["columns"] = names_of(replay);
+  document["rows"] = rows;
+  return document;
+}
+
+std::string comparison_text(const std::vector<verify::FoundFigure>& figures) {
+  std::vector<std::string> observers;
+  std::vector<std::string> titles;
+  const auto add = [](std::vector<std::string>& list, const std::string& one) {
+    if (std::find(list.begin(), list.end(), one) == list.end()) list.push_back(one);
+  };
+  for (const verify::FoundFigure& figure : figures) {
+    add(observers, figure.observer);
+    add(titles, figure.title);
+  }
+  std::size_t width = 10;
+  for (const std::string& title : titles) width = std::max(width, title.size() + 2);
+  std::string text = fmt::format("{:<{}}", "", width);
+  for (const std::string& observer : observers)
+    text += fmt::format("{:>15}", observer.empty() ? "all" : observer);
+  text += '\n';
+  for (const std::string& title : titles) {
+    text += fmt::format("{:<{}}", title, width);
+    for (const std::string& observer : observers) {
+      const auto found = std::find_if(figures.begin(), figures.end(), [&](const auto& one) {
+        return one.title == title && one.observer == observer;
+      });
+      const bool known = found != figures.end() && found->value;
+      text += fmt::format("{:>15}", known ? brief(*found->value) : "-");
+    }
+    text += '\n';
+  }
+  return text;
+}
+
+}  // namespace gainsmith::app

@@ -1,0 +1,30 @@
+// Runs as tables and pictures.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "io/json_text.h"
+#include "model/gains.h"
+#include "model/instance.h"
+#include "verify/event_replay.h"
+#include "verify/expected_run.h"
+
+namespace gainsmith::app {
+
+/// One run of a campaign as CSV, with points of its flows as the integration went.
+std::string run_csv(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
+                    std::uint64_t run);
+
+/// Columns t, j, event, variables, signals, claims; what is no number is an empty cell.
+std::string events_csv(const verify::EventReplay& replay);
+io::Json events_json(const verify::EventReplay& replay);
+
+/// States with their estimates, errors and claims over time (SVG).
+std::string run_figure(const std::string& title, const verify::EventReplay& replay);
+
+/// Figures of observers side by side.
+std::string comparison_text(const std::vector<verify::FoundFigure>& figures);
+
+}  // namespace gainsmith::app

@@ -1,0 +1,49 @@
+// Internal to hybrid: all places on a step where a function of time comes to be positive or ceases
+// to be.
+//
+//   side(t) = g(t) > 0,  or g(t) >= 0
+//
+// g is interpolated at the Chebyshev points of an interval, which is halved until the interpolant
+// agrees with g to 1e-13 of the largest |g| on the step or to rounding; across a corner of g the
+// halves end at rounding. Of the interpolant every part is left out on which its coefficients
+// exclude a root, and the rest is halved until it is monotone or has one extremum. There the sides
+// of g itself decide, at the ends and at the extremum: so pairs of roots and touches are found down
+// to the rounding of g, and no root is made up.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace gainsmith::hybrid {
+
+/// side(left) != side(right), and not more than some units in the last place between them.
+struct Root {
+  double left = 0;
+  double right = 0;
+};
+
+/// Where |g| has a minimum below 1e-10 of its largest value on the step and no root.
+struct Grazing {
+  double t = 0;
+  double value = 0;  ///< of g
+};
+
+struct Border {
+  std::function<double(double)> value;  ///< g; deterministic
+  bool strict = false;                  ///< side: > 0; otherwise >= 0
+  double noise = 0;                     ///< how far rounding may lead g astray
+};
+
+struct Found {
+  std::vector<Root> roots;  ///< in rising order
+  std::vector<Grazing> grazings;
+};
+
+/// What `value` throws leaves it.
+Found find_roots(const Border& border, double from, double to);
+
+/// The points of [from, to] at which find_roots evaluates g first, in rising order; for callers
+/// that keep values.
+std::vector<double> first_points(double from, double to);
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,171 @@
+#include "hybrid/event_function.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/number.h"
+#include "hybrid/affine.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+using expr::Instruction;
+using expr::Op;
+using ConditionKind = expr::Condition::Kind;
+using Eigen::VectorXd;
+
+/// The instructions that the result is a sum of, with any signs.
+void collect_terms(const expr::Program& program, int at, std::vector<int>& terms) {
+  const Instruction& instruction = program.code[static_cast<std::size_t>(at)];
+  const bool is_sum =
+      instruction.op == Op::add || instruction.op == Op::subtract || instruction.op == Op::negate;
+  if (!is_sum) {
+    terms.push_back(at);
+    return;
+  }
+  for (const int operand : instruction.operands) collect_terms(program, operand, terms);
+}
+
+/// The sum of the absolute values of the terms of a program.
+expr::Program absolute_terms(expr::Program program) {
+  std::vector<int> terms;
+  collect_terms(program, program.result, terms);
+  const Instruction like = program.code[static_cast<std::size_t>(program.result)];
+  const auto add = [&](Op op, std::vector<int> operands) {
+    program.code.push_back({op, std::move(operands), like.shape, {}, {}, like.origin, like.offset});
+    return static_cast<int>(program.code.size()) - 1;
+  };
+  int sum = -1;
+  for (const int term : terms) {
+    const int size = add(Op::abs, {term});
+    sum = sum < 0 ? size : add(Op::add, {sum, size});
+  }
+  program.result = sum;
+  return program;
+}
+
+}  // namespace
+
+EventFunction::EventFunction(const expr::Program& program, const EventSystem& system)
+    : evaluator_(program) {
+  used_.reserve(program.inputs.size());
+  bool flows = false;
+  for (const expr::Input& input : program.inputs) {
+    const auto slot = system.slot(input.name);
+    if (!slot) {
+      evaluator_.fix(input.name, system.constants.find(input.name)->second);
+      continue;
+    }
+    rests_ = rests_ && system.moves[*slot] == Moves::rests;
+    flows = flows || system.moves[*slot] == Moves::flows;
+    used_.push_back({system.layout.slots[*slot].offset,
+                     numbers::Matrix::Zero(input.shape.rows, input.shape.cols)});
+    evaluator_.set(input.name, used_.back().value);
+  }
+  is_line_ = !rests_ && !flows && first_not_affine(program, [&](const std::string& name) {
+                                    return system.is_moving(name);
+                                  }) == nullptr;
+}
+
+const numbers::Matrix& EventFunction::operator()(const VectorXd& values) {
+  for (Used& used : used_) used.value.reshaped() = values.segment(used.offset, used.value.size());
+  return evaluator_.run();
+}
+
+EventBorder::EventBorder(const expr::Program& program, const EventSystem& system)
+    : size_(program.shape().size()),
+      value_(program, system),
+      terms_program_(std::make_unique<const expr::Program>(absolute_terms(program))),
+      terms_(*terms_program_, system) {}
+
+EventCondition::EventCondition(const expr::Condition& condition, const EventSystem& system)
+    : text_(condition.text), place_(condition.place) {
+  whole_ = make(condition, system);
+}
+
+EventCondition::Part EventCondition::make(const expr::Condition& condition,
+                                          const EventSystem& system) {
+  Part part;
+  part.kind = condition.kind;
+  if (condition.is_comparison()) {
+    part.comparison = comparisons_.size();
+    comparisons_.push_back(
+        {EventBorder(condition.difference, system), condition.kind, condition.text});
+  }
+  for (const expr::Condition& one : condition.parts) part.parts.push_back(make(one, system));
+  return part;
+}
+
+/// `any` and `all` look at their parts in order and stop where they are decided, so that a part may
+/// guard a later one against having no value.
+template <class Compare>
+Truth EventCondition::truth(const Part& part, const Compare& compare) {
+  if (part.kind == ConditionKind::none) {
+    const Truth inner = truth(part.parts.front(), compare);
+    if (inner == Truth::open) return inner;
+    return inner == Truth::yes ? Truth::no : Truth::yes;
+  }
+  if (part.kind != ConditionKind::all && part.kind != ConditionKind::any)
+    return compare(part.comparison);
+  const Truth decides = part.kind == ConditionKind::all ? Truth::no : Truth::yes;
+  Truth result = part.kind == ConditionKind::all ? Truth::yes : Truth::no;
+  for (const Part& one : part.parts) {
+    const Truth inner = truth(one, compare);
+    if (inner == decides) return decides;
+    if (inner == Truth::open) result = Truth::open;
+  }
+  return result;
+}
+
+bool EventCondition::holds(std::size_t comparison, const VectorXd& values) {
+  Comparison& one = comparisons_[comparison];
+  const auto difference = one.border(values).array();
+  if (one.kind == ConditionKind::positive) return (difference > 0).all();
+  if (one.kind == ConditionKind::nonnegative) return (difference >= 0).all();
+  return (difference == 0).all();
+}
+
+bool EventCondition::operator()(const VectorXd& values) {
+  return truth(whole_, [&](std::size_t comparison) {
+           return holds(comparison, values) ? Truth::yes : Truth::no;
+         }) == Truth::yes;
+}
+
+Truth EventCondition::at_rest(const VectorXd& values) {
+  return truth(whole_, [&](std::size_t comparison) {
+    if (!comparisons_[comparison].border.rests()) return Truth::open;
+    return holds(comparison, values) ? Truth::yes : Truth::no;
+  });
+}
+
+bool EventCondition::if_changed(const VectorXd& values, std::size_t comparison) {
+  return truth(whole_, [&](std::size_t one) {
+           return holds(one, values) != (one == comparison) ? Truth::yes : Truth::no;
+         }) == Truth::yes;
+}
+
+bool EventCondition::nearly(const VectorXd& values, double slack) {
+  return truth(whole_, [&](std::size_t comparison) {
+           Comparison& one = comparisons_[comparison];
+           if (holds(comparison, values)) return Truth::yes;
+           const auto room = slack * one.border.terms(values).array();
+           const auto difference = one.border(values).array();
+           const bool near = one.kind == ConditionKind::zero ? (difference.abs() <= room).all()
+                                                             : (difference >= -room).all();
+           return near ? Truth::yes : Truth::no;
+         }) == Truth::yes;
+}
+
+std::string EventCondition::differences(const VectorXd& values) {
+  std::string result;
+  for (Comparison& one : comparisons_) {
+    const numbers::Matrix& difference = one.border(values);
+    if (difference.size() == 0) continue;
+    if (!result.empty()) result += ", ";
+    result += one.text + ": " + brief(difference.minCoeff(), 17);
+  }
+  return result;
+}
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,109 @@
+// Internal to hybrid: texts of an EventSystem as functions of the stacked values, one point at a
+// time. The system must outlive them; names are resolved when they are made.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "expr/condition.h"
+#include "expr/evaluate.h"
+#include "hybrid/event_system.h"
+#include "numbers/real.h"
+
+namespace gainsmith::hybrid {
+
+class EventFunction {
+ public:
+  EventFunction(const expr::Program& program, const EventSystem& system);
+  EventFunction(EventFunction&&) = default;  // a copy's evaluator would point into the original
+  EventFunction& operator=(EventFunction&&) = default;
+
+  /// The value; it stands until the next call. EvaluationError when an operation has no result.
+  const numbers::Matrix& operator()(const Eigen::VectorXd& values);
+
+  /// Whether it is the same all along a flow.
+  bool rests() const { return rests_; }
+  /// Whether it is affine in t and other variables of steady rate, and uses no other that move.
+  bool is_line() const { return is_line_; }
+
+ private:
+  struct Used {
+    Eigen::Index offset = 0;
+    numbers::Matrix value;
+  };
+  std::vector<Used> used_;
+  bool rests_ = true;
+  bool is_line_ = false;
+  expr::Evaluator<numbers::RealAlgebra> evaluator_;
+};
+
+/// A function whose sign matters, with the sizes of the terms that it is the sum of: its rounding
+/// is that of its terms.
+class EventBorder {
+ public:
+  EventBorder(const expr::Program& program, const EventSystem& system);
+
+  const numbers::Matrix& operator()(const Eigen::VectorXd& values) { return value_(values); }
+  /// The sums of the terms' absolute values, element by element.
+  const numbers::Matrix& terms(const Eigen::VectorXd& values) { return terms_(values); }
+  bool rests() const { return value_.rests(); }
+  bool is_line() const { return value_.is_line(); }
+  Eigen::Index size() const { return size_; }
+
+ private:
+  Eigen::Index size_;
+  EventFunction value_;
+  std::unique_ptr<const expr::Program> terms_program_;
+  EventFunction terms_;
+};
+
+enum class Truth { no, yes, open };
+
+class EventCondition {
+ public:
+  struct Comparison {
+    EventBorder border;
+    expr::Condition::Kind kind;
+    std::string text;
+
+    /// Which difference is on the side of the truth, alone: > 0, or >= 0.
+    bool strict() const { return kind == expr::Condition::Kind::positive; }
+  };
+
+  EventCondition(const expr::Condition& condition, const EventSystem& system);
+
+  bool operator()(const Eigen::VectorXd& values);
+  /// What a flow from these values on cannot change.
+  Truth at_rest(const Eigen::VectorXd& values);
+  /// Whether it were true if that comparison were as it is not.
+  bool if_changed(const Eigen::VectorXd& values, std::size_t comparison);
+
+  std::vector<Comparison>& comparisons() { return comparisons_; }
+  /// Whether it is true but for `slack` times the sizes of the terms that are compared.
+  bool nearly(const Eigen::VectorXd& values, double slack);
+  const std::string& text() const { return text_; }
+  const Place& place() const { return place_; }
+  /// "x(1) = 0.25, q = 1": the differences, for messages.
+  std::string differences(const Eigen::VectorXd& values);
+
+ private:
+  struct Part {
+    expr::Condition::Kind kind = expr::Condition::Kind::all;
+    std::size_t comparison = 0;
+    std::vector<Part> parts;
+  };
+  Part make(const expr::Condition& condition, const EventSystem& system);
+  template <class Compare>
+  static Truth truth(const Part& part, const Compare& compare);
+  bool holds(std::size_t comparison, const Eigen::VectorXd& values);
+
+  std::vector<Comparison> comparisons_;
+  Part whole_;
+  std::string text_;
+  Place place_;
+};
+
+}  // namespace gainsmith::hybrid

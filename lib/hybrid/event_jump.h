@@ -1,0 +1,56 @@
+// Internal to hybrid: the maps of the jumps of an EventSystem.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "hybrid/event_function.h"
+#include "hybrid/trajectory.h"
+
+namespace gainsmith::hybrid {
+
+/// The run ends here. The message is without time and place of the run.
+struct RunEnd : std::runtime_error {
+  RunEnd(Ending why, const std::string& message) : std::runtime_error(message), ending(why) {}
+  Ending ending;
+};
+
+class JumpMaps {
+ public:
+  explicit JumpMaps(const EventSystem& system);
+
+  /// The values after the event's reactions, of the plant alone when it is lost. Each component
+  /// sees its own states as its map before left them, everything else as in `before`. Of the run's
+  /// own variables j, count(event) and passes(event) are new: passes of the loops of the jump
+  /// together. RunEnd for a loop whose `until` does not become true; EvaluationError where a map
+  /// has no value; InputError for a mode that is no whole number and a symmetric state that is not.
+  Eigen::VectorXd operator()(std::size_t event, bool lost, const Eigen::VectorXd& before);
+
+ private:
+  struct MapEntry {
+    std::size_t variable = 0;
+    EventFunction value;
+    Place place;
+  };
+  struct Map {
+    std::vector<MapEntry> entries;
+    std::optional<EventCondition> until;
+  };
+  using Maps = std::vector<Map>;  ///< of one reaction
+
+  std::int64_t react(std::size_t reaction, const Eigen::VectorXd& before, Eigen::VectorXd& after);
+  std::int64_t repeat(const model::Dynamics::Pass& pass, std::int64_t most, Map& map,
+                      Eigen::VectorXd& own);
+  void apply(Map& map, Eigen::VectorXd& own);
+  void check(const MapEntry& entry, const Eigen::VectorXd& own, numbers::Matrix& value) const;
+  void count(std::size_t event, std::int64_t passes, Eigen::VectorXd& after) const;
+
+  const EventSystem* system_;
+  std::vector<Maps> maps_;                ///< by reaction
+  std::vector<numbers::Matrix> results_;  ///< of one map
+};
+
+}  // namespace gainsmith::hybrid

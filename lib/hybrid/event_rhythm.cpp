@@ -1,0 +1,58 @@
+#include "hybrid/event_rhythm.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+constexpr std::size_t kLongestPeriod = 3;
+constexpr std::size_t kRatios = 12;
+constexpr std::size_t kKept = kRatios + kLongestPeriod;
+constexpr double kSteadyFactor = 3e-3;  ///< of 1 - r
+constexpr double kLeftOver = 1e-7;
+constexpr double kShortFlow = 1e-10;
+
+}  // namespace
+
+void EventRhythm::push(double t, double length, std::size_t event) {
+  t_ = t;
+  short_flows_ = length < kShortFlow * horizon_ ? short_flows_ + 1 : 0;
+  lengths_.push_back(length);
+  events_.push_back(event);
+  if (lengths_.size() <= kKept) return;
+  lengths_.erase(lengths_.begin());
+  events_.erase(events_.begin());
+}
+
+std::optional<double> EventRhythm::accumulation() const {
+  for (std::size_t period = 1; period <= kLongestPeriod; ++period) {
+    if (lengths_.size() < kRatios + period) return std::nullopt;
+    double smallest = 2;
+    double largest = 0;
+    for (std::size_t k = lengths_.size() - kRatios; k < lengths_.size(); ++k) {
+      const double ratio = lengths_[k] / lengths_[k - period];
+      smallest = std::min(smallest, ratio);
+      largest = std::max(largest, ratio);
+    }
+    if (!(largest < 1) || largest - smallest > kSteadyFactor * (1 - largest)) continue;
+    // The last ratio errs by rounding most: the mean over all of them.
+    const double all = lengths_.back() / lengths_[lengths_.size() - 1 - kRatios / period * period];
+    const double r = std::pow(all, 1 / static_cast<double>(kRatios / period));
+    double last = 0;
+    for (std::size_t k = 1; k <= period; ++k) last += lengths_[lengths_.size() - k];
+    const double left = last * r / (1 - r);
+    if (left <= kLeftOver * t_) return t_ + left;
+  }
+  return std::nullopt;
+}
+
+std::vector<std::size_t> EventRhythm::events() const {
+  std::vector<std::size_t> result;
+  for (const std::size_t event : events_)
+    if (std::find(result.begin(), result.end(), event) == result.end()) result.push_back(event);
+  return result;
+}
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,40 @@
+// Internal to hybrid: whether the jumps of a run accumulate.
+//
+//   Zeno         over the last flows each length is r times that of a period of 1 to 3 flows
+//   before,
+//                r < 1, and what is left, sum of the last period * r/(1 - r), is below 1e-7 of the
+//                time so far: the jumps accumulate there
+//   chattering   a hundred flows in a row below 1e-10 of the horizon without such an r
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gainsmith::hybrid {
+
+class EventRhythm {
+ public:
+  explicit EventRhythm(double horizon) : horizon_(horizon) {}
+
+  /// A flow of positive length has ended at t with this event.
+  void push(double t, double length, std::size_t event);
+
+  /// The time at which jumps accumulate, when lengths shrink by a steady factor.
+  std::optional<double> accumulation() const;
+  bool chatters() const { return short_flows_ >= kShortFlows; }
+  /// The events of the last flows, each once, in order.
+  std::vector<std::size_t> events() const;
+
+ private:
+  static constexpr int kShortFlows = 100;
+
+  double horizon_;
+  double t_ = 0;
+  int short_flows_ = 0;  ///< in a row
+  std::vector<double> lengths_;
+  std::vector<std::size_t> events_;
+};
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,420 @@
+#include "hybrid/event_run.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/number.h"
+#include "hybrid/event_jump.h"
+#include "hybrid/event_rhythm.h"
+#include "hybrid/event_watch.h"
+#include "hybrid/integrator.h"
+#include "hybrid/simulate.h"
+
+namespace gainsmith::hybrid {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+/// What is compiled once for all runs.
+struct EventSimulator::Texts {
+  explicit Texts(const EventSystem& system) : movement(system), watch(system), maps(system) {}
+  Movement movement;
+  EventWatch watch;
+  JumpMaps maps;
+};
+
+namespace {
+
+using EventKind = model::Dynamics::EventKind;
+
+constexpr std::int64_t kLongestChain = 1000000;
+constexpr std::size_t kKeptOfChain = 1000;
+constexpr std::size_t kMostNotes = 100;
+constexpr std::int64_t kMostStepsOfRun = 5000000;
+constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
+/// Of the horizon: a clock that runs down so shortly after it is due at it, to the rounding of many
+/// lengths added up.
+constexpr double kAtHorizon = 1e-12;
+/// Of the terms of `while`: what a jump may leave it by, to rounding.
+constexpr double kOutside = 1e-9;
+constexpr std::size_t kSlidingSwitches = 8;
+constexpr double kSlidingTime = 1e-10;  ///< of the horizon
+
+class EventRun {
+ public:
+  EventRun(const EventSystem& system, const EventScenario& scenario, Movement& movement,
+           EventWatch& watch, JumpMaps& maps, const std::function<bool()>& stopped,
+           std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy)
+      : system_(system),
+        movement_(movement),
+        watch_(watch),
+        maps_(maps),
+        stopped_(stopped),
+        horizon_(scenario.horizon),
+        clocks_(system, scenario, seed, run),
+        noise_(system, seed, run),
+        flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
+        rhythm_(scenario.horizon),
+        marks_(system.dynamics.events.size()),
+        inside_(watch.stays.size(), true) {
+    values_ = draw_start(system, scenario, seed, run);
+  }
+
+  Trajectory trajectory() {
+    result_.horizon = horizon_;
+    try {
+      begin();
+      while (true) {
+        instant();
+        if (t_ >= horizon_) break;
+        flow();
+      }
+    } catch (const RunEnd& end) {
+      finish(end.ending, end.what());
+    } catch (const IntegrationError& error) {
+      finish(error.escaped     ? Ending::escaped
+             : error.undefined ? Ending::undefined
+                               : Ending::lost,
+             error.what());
+    } catch (const expr::EvaluationError& error) {
+      finish(Ending::undefined, error.what());
+    }
+    close_piece();
+    result_.end = t_;
+    return std::move(result_);
+  }
+
+ private:
+  /// What is known of an event besides its text.
+  struct Mark {
+    bool spent = false;    ///< `when`: not due until its condition has been false
+    int sign = 0;          ///< the last of e that was not 0
+    bool crossed = false;  ///< in the direction of the event, and due
+  };
+
+  // --- The start and the end. ---
+
+  void begin() {
+    movement_.reset();
+    for (std::size_t e = 0; e < marks_.size(); ++e) movement_.set_due(e, clocks_.due(e));
+    for (std::size_t k = 0; k < system_.noise.size(); ++k) noise_.draw(k, values_);
+    movement_.fill(0, values_);
+    hold_branches_at(values_, false);
+    result_.start = variables(values_);
+    for (std::size_t e = 0; e < marks_.size(); ++e)
+      if (watch_.crossing[e]) marks_[e].sign = sign_of(e, values_);
+    require_range();
+  }
+
+  VectorXd variables(const VectorXd& values) const { return values.head(system_.size); }
+
+  void finish(Ending ending, const std::string& why) {
+    result_.ending = ending;
+    result_.message = fmt::format("t = {}, j = {}: {}", brief(t_, 17), j_, why);
+  }
+
+  void close_piece() {
+    if (piece_.steps.empty()) return;
+    piece_.end = flow_end_;
+    result_.parts.emplace_back(std::move(piece_));
+    piece_ = {};
+  }
+
+  void require_range() const {
+    for (Index k = 0; k < system_.size; ++k)
+      if (!(std::abs(values_(k)) <= kLargestState))
+        throw RunEnd(Ending::escaped,
+                     fmt::format("{} = {}", system_.element_name(k), brief(values_(k))));
+  }
+
+  // --- Instants. ---
+
+  void instant() {
+    while (const auto event = first_due(values_, t_)) occurrence(*event);
+    for (std::size_t s = 0; s < watch_.stays.size(); ++s) {
+      EventWatch::Stay& stay = watch_.stays[s];
+      inside_[s] = stay.where(values_);
+      if (!inside_[s] && !stay.where.nearly(values_, kOutside)) leave(stay, values_);
+    }
+  }
+
+  [[noreturn]] static void leave(EventWatch::Stay& stay, const VectorXd& values) {
+    throw RunEnd(Ending::left, fmt::format("{} ('{}' is false, {})", stay.say, stay.where.text(),
+                                           stay.where.differences(values)));
+  }
+
+  std::optional<std::size_t> first_due(const VectorXd& values, double t) {
+    for (std::size_t e = 0; e < marks_.size(); ++e)
+      if (is_due(e, values, t)) return e;
+    return std::nullopt;
+  }
+
+  bool is_due(std::size_t event, const VectorXd& values, double t) {
+    Mark& mark = marks_[event];
+    switch (system_.dynamics.events[event].kind) {
+      case EventKind::when:
+        if ((*watch_.when[event])(values)) return !mark.spent;
+        mark.spent = false;
+        return false;
+      case EventKind::every:
+      case EventKind::at:
+        return clocks_.is_due(event, t >= horizon_ ? t + kAtHorizon * horizon_ : t);
+      default:
+        look_at_sign(event, sign_of(event, values));
+        return mark.crossed;
+    }
+  }
+
+  int sign_of(std::size_t event, const VectorXd& values) {
+    const double value = (*watch_.crossing[event])(values)(0);
+    return value > 0 ? 1 : value < 0 ? -1 : 0;
+  }
+
+  void look_at_sign(std::size_t event, int sign) {
+    Mark& mark = marks_[event];
+    if (sign == 0 || sign == mark.sign) return;
+    const EventKind kind = system_.dynamics.events[event].kind;
+    const bool wanted = kind == EventKind::crosses || (kind == EventKind::rises) == (sign > 0);
+    mark.crossed = mark.sign != 0 && wanted;
+    mark.sign = sign;
+  }
+
+  void occurrence(std::size_t event) {
+    const auto& noise = system_.dynamics.noise;
+    for (std::size_t k = 0; k < noise.size(); ++k)
+      if (noise[k].event == event) noise_.draw(k, values_);
+    const bool goes = !watch_.only_if[event] || (*watch_.only_if[event])(values_);
+    if (goes) {
+      jump(event);
+    } else {
+      spend(event);
+      movement_.fill(t_, values_);
+    }
+    hold_branches_at(values_, false);
+  }
+
+  /// The occurrence at this instant is over.
+  void spend(std::size_t event) {
+    const EventKind kind = system_.dynamics.events[event].kind;
+    marks_[event].spent = kind == EventKind::when;
+    marks_[event].crossed = false;
+    if (kind != EventKind::every && kind != EventKind::at) return;
+    clocks_.advance(event, t_);
+    movement_.set_due(event, clocks_.due(event));
+  }
+
+  void jump(std::size_t event) {
+    ask_whether_stopped();
+    if (chain_ == 0) watch_rhythm(event);
+    const VectorXd before = values_;
+    const bool lost = system_.dynamics.events[event].lost > 0 && clocks_.loses(event);
+    values_ = maps_(event, lost, before);
+    close_piece();
+    spend(event);
+    marks_[event].spent = false;
+    movement_.set_since(event, t_);
+    movement_.fill(t_, values_);
+    if (watch_.crossing[event]) marks_[event].sign = sign_of(event, values_);
+    result_.parts.emplace_back(
+        JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
+    ++j_;
+    require_range();
+    if (++chain_ >= kLongestChain) end_chain(event);
+  }
+
+  [[noreturn]] void end_chain(std::size_t event) {
+    result_.parts.resize(result_.parts.size() - static_cast<std::size_t>(kLongestChain) +
+                         kKeptOfChain);
+    const auto next = first_due(values_, t_);
+    const std::size_t due = next.value_or(event);
+    const model::Dynamics::Event& one = system_.dynamics.events[due];
+    std::string value;
+    if (watch_.when[due])
+      value = fmt::format(" ('{}' is true, {})", watch_.when[due]->text(),
+                          watch_.when[due]->differences(values_));
+    throw RunEnd(Ending::stuck,
+                 fmt::format("{} jumps without a flow between them: after its own map the event {} "
+                             "is due again{}",
+                             kLongestChain, one.name, value));
+  }
+
+  void watch_rhythm(std::size_t event) {
+    if (piece_.steps.empty()) return;
+    rhythm_.push(t_, piece_.to() - piece_.from(), event);
+    std::string names;
+    for (const std::size_t one : rhythm_.events())
+      names += (names.empty() ? "" : ", ") + system_.dynamics.events[one].name;
+    if (const auto accumulation = rhythm_.accumulation()) {
+      result_.accumulation = *accumulation;
+      throw RunEnd(Ending::zeno,
+                   fmt::format("the flows between the jumps of {} shrink by a steady factor; they "
+                               "accumulate at t = {}",
+                               names, brief(*accumulation, 12)));
+    }
+    if (rhythm_.chatters())
+      throw RunEnd(Ending::chattering, "flows of hardly any length between the jumps of " + names);
+  }
+
+  // --- Flows. ---
+
+  void flow() {
+    double stop = std::min({horizon_, clocks_.next(), noise_.next()});
+    movement_.begin(t_, values_);
+    stop = watch_.next_line(movement_, t_, stop, values_);
+    flow_->start(t_, values_, stop);
+    if (piece_.steps.empty()) {
+      piece_.j = j_;
+      piece_.start = variables(values_);
+    }
+    bool goes_on = true;
+    while (goes_on && t_ < stop) {
+      ask_whether_stopped();
+      if (++steps_ > kMostStepsOfRun)
+        throw RunEnd(Ending::lost, fmt::format("more than {} steps", kMostStepsOfRun));
+      goes_on = take(flow_->next());
+    }
+    if (noise_.draw_due(t_, values_)) hold_branches_at(values_, false);
+  }
+
+  /// Goes along a step up to where something happens; whether nothing did.
+  bool take(const DenseStep& step) {
+    const StepValues inside(movement_, values_, step);
+    const auto crossings = watch_.crossings(
+        inside, values_, [&](double t, const std::string& text) { note(t, text); });
+    for (const EventWatch::Crossing& one : crossings) {
+      VectorXd values = inside.at(one.t);
+      const bool due = first_due(values, one.t).has_value();
+      const bool left = !due && leaves(values);
+      const bool turns = !due && !left && one.branch && hold_branches_at(values, true);
+      if (!due && !left && !turns) continue;
+      arrive(one.t < step.to ? step.until(one.t) : step, std::move(values));
+      if (left) leave_first();
+      if (turns) watch_sliding(*one.branch);
+      return false;
+    }
+    arrive(step, inside.at(step.to));
+    for (std::size_t s = 0; s < inside_.size(); ++s) {
+      inside_[s] = inside_[s] || watch_.stays[s].where(values_);
+      if (!inside_[s]) leave(watch_.stays[s], values_);
+    }
+    return !first_due(values_, t_);
+  }
+
+  void arrive(const DenseStep& step, VectorXd values) {
+    values_ = std::move(values);
+    t_ = step.to;
+    chain_ = 0;
+    piece_.steps.push_back(step);
+    flow_end_ = variables(values_);
+    require_range();
+  }
+
+  /// Whether a condition of `while` that was true is not any more.
+  bool leaves(const VectorXd& values) {
+    for (std::size_t s = 0; s < inside_.size(); ++s) {
+      const bool now = watch_.stays[s].where(values);
+      if (inside_[s] && !now) return true;
+      inside_[s] = now;
+    }
+    return false;
+  }
+
+  void leave_first() {
+    for (EventWatch::Stay& stay : watch_.stays)
+      if (!stay.where(values_)) leave(stay, values_);
+  }
+
+  void note(double t, const std::string& text) {
+    if (result_.notes.size() >= kMostNotes) return;
+    result_.notes.push_back(
+        fmt::format("t = {}: '{}' comes near without being reached", brief(t, 12), text));
+  }
+
+  void ask_whether_stopped() const {
+    if (stopped_ && stopped_()) throw RunEnd(Ending::interrupted, "interrupted");
+  }
+
+  // --- Branches. ---
+
+  /// Sets the branches for these values; whether one changes. `crossing`: at a border of one, where
+  /// a sign of exactly 0 goes on to the other side.
+  bool hold_branches_at(VectorXd& values, bool crossing) {
+    bool changes = false;
+    for (std::size_t k = 0; k < watch_.switches.size(); ++k) {
+      const Switch& one = system_.switches[k];
+      const numbers::Matrix& difference = watch_.switches[k](values);
+      const Index offset = system_.layout.slots[system_.dynamics.variables.size() + k].offset;
+      for (Index e = 0; e < difference.size(); ++e) {
+        double& held = values(offset + e);
+        const double before = held;
+        const double d = difference(e);
+        if (one.is_sign) {
+          held = d > 0 ? 1 : d < 0 ? -1 : crossing ? -before : 0;
+        } else {
+          held = (one.strict ? d > 0 : d >= 0) ? 1 : -1;
+        }
+        changes = changes || held != before;
+      }
+    }
+    return changes;
+  }
+
+  void watch_sliding(std::size_t branch) {
+    switched_.push_back(t_);
+    if (switched_.size() < kSlidingSwitches) return;
+    const double first = switched_[switched_.size() - kSlidingSwitches];
+    if (t_ - first > kSlidingTime * horizon_) return;
+    throw RunEnd(Ending::sliding,
+                 fmt::format("sliding along the border of the {} at {}: both branches lead back to "
+                             "it",
+                             system_.switches[branch].is_sign ? "sign" : "where",
+                             to_string(system_.switches[branch].place)));
+  }
+
+  const EventSystem& system_;
+  Movement& movement_;
+  EventWatch& watch_;
+  JumpMaps& maps_;
+  const std::function<bool()>& stopped_;
+  double horizon_;
+  EventClocks clocks_;
+  NoiseDraws noise_;
+  std::unique_ptr<Flow> flow_;
+  EventRhythm rhythm_;
+  std::vector<Mark> marks_;   ///< by event
+  std::vector<bool> inside_;  ///< by `while`: whether its condition has been true in this flow
+  std::vector<double> switched_;
+  VectorXd values_;    ///< variables and branches
+  VectorXd flow_end_;  ///< the variables where the flow ended last
+  double t_ = 0;
+  std::int64_t j_ = 0;
+  std::int64_t chain_ = 0;  ///< jumps without a flow between them
+  std::int64_t steps_ = 0;
+  FlowPiece piece_;
+  Trajectory result_;
+};
+
+}  // namespace
+
+EventSimulator::EventSimulator(const EventSystem& system, const EventScenario& scenario,
+                               std::function<bool()> stopped)
+    : system_(&system),
+      scenario_(&scenario),
+      stopped_(std::move(stopped)),
+      texts_(std::make_unique<Texts>(system)) {}
+EventSimulator::EventSimulator(EventSimulator&&) noexcept = default;
+EventSimulator& EventSimulator::operator=(EventSimulator&&) noexcept = default;
+EventSimulator::~EventSimulator() = default;
+
+Trajectory EventSimulator::run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy) {
+  return EventRun(*system_, *scenario_, texts_->movement, texts_->watch, texts_->maps, stopped_,
+                  seed, run, accuracy)
+      .trajectory();
+}
+
+}  // namespace gainsmith::hybrid

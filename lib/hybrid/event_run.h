@@ -1,0 +1,58 @@
+// The event-driven simulator: runs of an EventSystem, each a function of (seed, run) alone.
+//
+//   At an instant the events are looked at in their order; the first that is due jumps, alone, and
+//   all are looked at again. When none is due the flow goes on, to the first time at which one is:
+//   clocks and borders that are affine in time are stepped to, all other borders are searched along
+//   the dense output (borders.h). At each root in turn all events are looked at just after it. The
+//   start is an instant like any other, and so is the horizon.
+//
+//   when      due while its condition is true
+//   rises, falls, crosses
+//             due once when the sign of e has changed in that direction, by flow or by a jump of
+//             another event; the last sign counts that was not 0
+//   every, at due at their times; times of several clocks that differ by rounding alone are one
+//             instant
+//
+// Noise of an event is drawn anew when it is due, before `if` and the maps; all noise is drawn once
+// at the start. An occurrence that `if` rejects is spent: the clock goes on, a crossing is over,
+// and `when` is due again once its condition has been false. `lost` is asked for each jump.
+//
+// Between borders `where` and `sign` in a flow hold their branch (switches.h); at one the flow
+// starts again with the new branch. A `sign` of exactly 0 there goes on to the other side.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+
+#include "hybrid/event_scenario.h"
+#include "hybrid/event_system.h"
+#include "hybrid/flow.h"
+#include "hybrid/trajectory.h"
+
+namespace gainsmith::hybrid {
+
+/// Simulates run after run; one for each thread. System and scenario must outlive it.
+class EventSimulator {
+ public:
+  /// `stopped` is asked at each step and jump: true ends the run as interrupted.
+  EventSimulator(const EventSystem& system, const EventScenario& scenario,
+                 std::function<bool()> stopped = {});
+  EventSimulator(EventSimulator&&) noexcept;
+  EventSimulator& operator=(EventSimulator&&) noexcept;
+  ~EventSimulator();
+
+  /// The solution on [0, horizon], or to where it ends before, with the reason. InputError for what
+  /// is wrong in the text whatever the run: a symmetric state that jumps or flows out of symmetry,
+  /// a mode that is no whole number.
+  Trajectory run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy = {});
+
+ private:
+  struct Texts;
+  const EventSystem* system_;
+  const EventScenario* scenario_;
+  std::function<bool()> stopped_;
+  std::unique_ptr<Texts> texts_;
+};
+
+}  // namespace gainsmith::hybrid

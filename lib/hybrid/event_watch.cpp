@@ -1,0 +1,169 @@
+#include "hybrid/event_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hybrid/borders.h"
+
+namespace gainsmith::hybrid {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+constexpr double kTermRounding = 16 * std::numeric_limits<double>::epsilon();
+
+/// One border on a step: all its elements at the points that are always looked at, others as asked.
+class BorderOnStep {
+ public:
+  BorderOnStep(EventBorder& border, const StepValues& inside, const std::vector<double>& times,
+               const std::vector<VectorXd>& points)
+      : border_(border), inside_(inside), times_(times), values_(border.size(), 0) {
+    values_.resize(border.size(), static_cast<Index>(times.size()));
+    for (std::size_t k = 0; k < times.size(); ++k)
+      values_.col(static_cast<Index>(k)) = border(points[k]).reshaped();
+    noise_ = border.terms(points.front()).reshaped();
+    for (const VectorXd* point : {&points[points.size() / 2], &points.back()})
+      noise_ = noise_.cwiseMax(border.terms(*point).reshaped());
+    noise_ *= kTermRounding;
+  }
+
+  Found roots(Index element, bool strict) {
+    const auto value = [&](double t) {
+      const auto known = std::lower_bound(times_.begin(), times_.end(), t);
+      if (known != times_.end() && *known == t) return values_(element, known - times_.begin());
+      return border_(inside_.at(t))(element);
+    };
+    return find_roots({value, strict, noise_(element)}, inside_.from(), inside_.to());
+  }
+
+ private:
+  EventBorder& border_;
+  const StepValues& inside_;
+  const std::vector<double>& times_;
+  numbers::Matrix values_;  ///< elements x times
+  VectorXd noise_;
+};
+
+/// The first time after t at which the side of an affine function differs, found for its root and
+/// moved on by units in the last place.
+double line_root(const std::function<double(double)>& g, bool strict, double t, double last) {
+  const auto side = [&](double value) { return strict ? value > 0 : value >= 0; };
+  const double first = g(t);
+  const double end = g(last);
+  if (side(first) == side(end) || first == end) return last;
+  double root = std::clamp(t + (last - t) * (first / (first - end)), std::nextafter(t, last), last);
+  double unit = std::max(std::abs(root), last - t) * std::numeric_limits<double>::epsilon();
+  while (root < last && side(g(root)) == side(first)) {
+    root = std::min(root + unit, last);
+    unit *= 2;
+  }
+  return root;
+}
+
+}  // namespace
+
+VectorXd StepValues::at(double t) const {
+  VectorXd values = *start_;
+  if (t == step_->from) return values;
+  values.head(movement_->system().size) = (*step_)(t);
+  movement_->fill(t, values);
+  return values;
+}
+
+EventWatch::EventWatch(const EventSystem& system) : system_(&system) {
+  const auto bound = [&](const std::optional<expr::Condition>& text) {
+    return text ? std::optional<EventCondition>(std::in_place, *text, system) : std::nullopt;
+  };
+  for (const model::Dynamics::Event& event : system.dynamics.events) {
+    when.push_back(bound(event.condition));
+    only_if.push_back(bound(event.only_if));
+    crossing.emplace_back();
+    if (event.crossing) crossing.back().emplace(event.crossing->program, system);
+  }
+  for (const model::Dynamics::Component& one : system.dynamics.components)
+    for (const auto& stay : one.stays)
+      stays.push_back({EventCondition(stay.where, system), stay.say, stay.place});
+  for (const Switch& one : system.switches) switches.emplace_back(one.difference, system);
+}
+
+void EventWatch::comparisons_of(EventCondition& condition, const VectorXd& values, bool is_event,
+                                const Visit& visit) {
+  if (condition.at_rest(values) != Truth::open) return;
+  using Kind = expr::Condition::Kind;
+  for (std::size_t k = 0; k < condition.comparisons().size(); ++k) {
+    EventCondition::Comparison& one = condition.comparisons()[k];
+    if (one.border.rests()) continue;
+    visit(one.border, {one.kind != Kind::nonnegative, one.kind != Kind::positive}, std::nullopt,
+          is_event ? &condition : nullptr, k);
+  }
+}
+
+void EventWatch::active_borders(const VectorXd& values, const Visit& visit) {
+  for (std::size_t e = 0; e < when.size(); ++e) {
+    if (when[e]) comparisons_of(*when[e], values, true, visit);
+    if (crossing[e] && !crossing[e]->rests())
+      visit(*crossing[e], {true, true}, std::nullopt, nullptr, 0);
+  }
+  for (Stay& stay : stays) comparisons_of(stay.where, values, false, visit);
+  for (std::size_t k = 0; k < switches.size(); ++k) {
+    const Switch& one = system_->switches[k];
+    if (!switches[k].rests())
+      visit(switches[k], {one.strict, one.is_sign || !one.strict}, k, nullptr, 0);
+  }
+}
+
+std::vector<EventWatch::Crossing> EventWatch::crossings(
+    const StepValues& inside, const VectorXd& values,
+    const std::function<void(double, const std::string&)>& graze) {
+  std::vector<Crossing> result;
+  std::vector<double> times;
+  std::vector<VectorXd> points;
+  active_borders(values, [&](EventBorder& border, Sides sides, std::optional<std::size_t> branch,
+                             EventCondition* condition, std::size_t comparison) {
+    if (times.empty()) {
+      times = first_points(inside.from(), inside.to());
+      for (const double t : times) points.push_back(inside.at(t));
+    }
+    if (border.size() == 0) return;
+    BorderOnStep on_step(border, inside, times, points);
+    for (Index element = 0; element < border.size(); ++element)
+      for (const bool strict : {true, false}) {
+        if (!(strict ? sides.above : sides.at_least)) continue;
+        const Found found = on_step.roots(element, strict);
+        for (const Root& root : found.roots) result.push_back({root.right, branch});
+        if (condition == nullptr) continue;
+        for (const Grazing& one : found.grazings)
+          if (condition->if_changed(inside.at(one.t), comparison))
+            graze(one.t, condition->comparisons()[comparison].text);
+      }
+  });
+  std::stable_sort(result.begin(), result.end(),
+                   [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+  return result;
+}
+
+double EventWatch::next_line(const Movement& movement, double t, double last,
+                             const VectorXd& values) {
+  double first = last;
+  VectorXd point = values;
+  active_borders(values, [&](EventBorder& border, Sides sides, std::optional<std::size_t>,
+                             EventCondition*, std::size_t) {
+    if (!border.is_line()) return;
+    for (Index element = 0; element < border.size(); ++element)
+      for (const bool strict : {true, false}) {
+        if (!(strict ? sides.above : sides.at_least)) continue;
+        const auto g = [&](double at) {
+          point = values;
+          if (at != t) movement.fill(at, point);
+          return border(point)(element);
+        };
+        first = std::min(first, line_root(g, strict, t, first));
+      }
+  });
+  return first;
+}
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,81 @@
+// Internal to hybrid: the texts of an EventSystem that decide when something happens, and their
+// borders on a step.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hybrid/event_function.h"
+#include "hybrid/movement.h"
+
+namespace gainsmith::hybrid {
+
+/// All values at times of one step.
+class StepValues {
+ public:
+  /// `start`: the values at step.from, which a jump may have left on a border.
+  StepValues(const Movement& movement, const Eigen::VectorXd& start, const DenseStep& step)
+      : movement_(&movement), start_(&start), step_(&step) {}
+
+  Eigen::VectorXd at(double t) const;
+  double from() const { return step_->from; }
+  double to() const { return step_->to; }
+
+ private:
+  const Movement* movement_;
+  const Eigen::VectorXd* start_;
+  const DenseStep* step_;
+};
+
+class EventWatch {
+ public:
+  struct Stay {
+    EventCondition where;
+    std::string say;
+    Place place;
+  };
+
+  /// A border that is crossed: just after it its text is evaluated.
+  struct Crossing {
+    double t = 0;
+    std::optional<std::size_t> branch;  ///< of a switch
+  };
+
+  explicit EventWatch(const EventSystem& system);
+
+  // By event: `when`, `if`, and e of rises, falls and crosses.
+  std::vector<std::optional<EventCondition>> when, only_if;
+  std::vector<std::optional<EventBorder>> crossing;
+  std::vector<Stay> stays;
+  std::vector<EventBorder> switches;
+
+  /// All crossings on a step, in order, of borders that may decide about something from `values`
+  /// on, those at the start of the step. `graze` is told of borders of `when` that come near
+  /// without being reached, where reaching them would have been the event.
+  std::vector<Crossing> crossings(
+      const StepValues& inside, const Eigen::VectorXd& values,
+      const std::function<void(double t, const std::string& text)>& graze);
+
+  /// The first time in (t, last] at which a border that is affine in what is steady is crossed;
+  /// `last` when there is none.
+  double next_line(const Movement& movement, double t, double last, const Eigen::VectorXd& values);
+
+ private:
+  struct Sides {
+    bool above = false;     ///< > 0
+    bool at_least = false;  ///< >= 0
+  };
+  using Visit = std::function<void(EventBorder&, Sides, std::optional<std::size_t> branch,
+                                   EventCondition*, std::size_t comparison)>;
+
+  void active_borders(const Eigen::VectorXd& values, const Visit& visit);
+  static void comparisons_of(EventCondition& condition, const Eigen::VectorXd& values,
+                             bool is_event, const Visit& visit);
+
+  const EventSystem* system_;
+};
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,209 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/number.h"
+#include "hybrid/chebyshev.h"
+#include "hybrid/flow.h"
+#include "hybrid/integrator.h"
+#include "numbers/balance.h"
+#include "numbers/dense.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using numbers::Matrix;
+
+// Squaring multiplies the rounding of a short step; the wider type pays for it.
+using WideMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+constexpr int kExactDegree = 12;
+constexpr int kMostDoublings = 60;
+constexpr double kStepNorm = 0.5;
+/// Of the sizes that are added up at a point: what the last terms of a series may amount to.
+constexpr double kSeriesRounding = 64 * std::numeric_limits<double>::epsilon();
+
+/// expm(length G) where length ||G|| <= 1/2 in balanced units; 24 terms leave less than 1e-31.
+WideMatrix short_step(const WideMatrix& G, long double length) {
+  constexpr int kTerms = 24;
+  WideMatrix term = WideMatrix::Identity(G.rows(), G.cols());
+  WideMatrix sum = term;
+  for (int k = 1; k <= kTerms; ++k) {
+    term = (term.lazyProduct(G) * (length / k)).eval();
+    sum += term;
+  }
+  return sum;
+}
+
+class ExactFlow : public Flow {
+ public:
+  ExactFlow(Movement& movement, double longest) : movement_(&movement), longest_(longest) {}
+
+  void start(double t, const VectorXd& values, double last) override {
+    t_ = t;
+    last_ = last;
+    level_ = 0;
+    read_generator(values);
+    z_ = VectorXd::Ones(size_);
+    z_.head(movement_->size()) = movement_->gathered(values);
+    const auto& steady = movement_->steady_inputs();
+    for (std::size_t k = 0; k < steady.size(); ++k)
+      z_(movement_->size() + static_cast<Index>(k)) = values(steady[k]);
+  }
+
+  DenseStep next() override {
+    while (true) {
+      const Level& level = level_at(level_);
+      bool agrees = false;
+      const Matrix series = series_over(level, agrees);
+      if (!agrees && level_ > 0) {
+        --level_;
+        grows_ = false;
+        continue;
+      }
+      const double end = t_ + level.length;
+      if (!series.allFinite()) throw IntegrationError("the flow is not finite", t_, true);
+      if (end <= t_)
+        throw IntegrationError("the flow is too fast to be followed at this time", t_, false);
+      return end < last_ ? whole_step(level, series, end) : last_step(series, end);
+    }
+  }
+
+ private:
+  struct Level {
+    double length = 0;
+    std::vector<WideMatrix> wide;  ///< to each point of the series
+    std::vector<Matrix> maps;
+  };
+
+  /// z = (y, what is steady in y', 1),  z' = G z.
+  void read_generator(const VectorXd& values) {
+    const Index n = movement_->size();
+    const auto& steady = movement_->steady_inputs();
+    const auto m = static_cast<Index>(steady.size());
+    const VectorXd parameters = movement_->parameters(values);
+    VectorXd key(parameters.size() + m);
+    key.head(parameters.size()) = parameters;
+    for (Index k = 0; k < m; ++k)
+      key(key.size() - m + k) = movement_->steady_rate(steady[static_cast<std::size_t>(k)]);
+    if (known_ && key == key_) return;
+    key_ = key;
+    known_ = true;
+    size_ = n + m + 1;
+    generator_ = Matrix::Zero(size_, size_);
+    VectorXd constant(n), rate(n);
+    movement_->rate_at(VectorXd::Zero(n), VectorXd::Zero(m), constant);
+    for (Index k = 0; k < n + m; ++k) {
+      const VectorXd unit = VectorXd::Unit(n + m, k);
+      movement_->rate_at(unit.head(n), unit.tail(m), rate);
+      generator_.col(k).head(n) = rate - constant;
+    }
+    generator_.col(n + m).head(n) = constant;
+    generator_.col(n + m).segment(n, m) = key.tail(m);
+    set_lengths();
+  }
+
+  void set_lengths() {
+    const Index n = size_ - 1;
+    const Matrix M = generator_.topLeftCorner(n, n);
+    levels_.clear();
+    if (!generator_.allFinite()) throw IntegrationError("the flow is not finite", t_, false);
+    double norm = 0;
+    double rate = 0;
+    if (n > 0) {
+      const auto scale = [](double x, int exponent) { return std::ldexp(x, exponent); };
+      const Matrix balanced = numbers::in_units(M, numbers::balance(M.cwiseAbs()), scale);
+      norm = balanced.cwiseAbs().colwise().sum().maxCoeff();
+      for (const auto& lambda : numbers::eigenvalues(M))
+        rate = std::max({rate, std::abs(lambda.imag()), lambda.real()});
+    }
+    const double top = rate > 0 ? std::min(longest_, 1 / rate) : longest_;
+    shortest_ = norm > 0 ? std::min(top, kStepNorm / norm) : top;
+    top_ = 0;
+    while (top_ < kMostDoublings && std::ldexp(shortest_, top_ + 1) <= top) ++top_;
+  }
+
+  const Level& level_at(int number) {
+    const VectorXd& points = chebyshev::points(kExactDegree);
+    while (static_cast<int>(levels_.size()) <= number) {
+      Level level;
+      level.length = std::ldexp(shortest_, static_cast<int>(levels_.size()));
+      for (Index k = 0; k < points.size(); ++k) {
+        if (levels_.empty()) {
+          const long double part = (1 + static_cast<long double>(points(k))) / 2;
+          level.wide.push_back(short_step(generator_.cast<long double>(), part * shortest_));
+        } else {
+          const WideMatrix& half = levels_.back().wide[static_cast<std::size_t>(k)];
+          level.wide.push_back(half.lazyProduct(half));
+        }
+        level.maps.push_back(level.wide.back().cast<double>());
+      }
+      levels_.push_back(std::move(level));
+    }
+    return levels_[static_cast<std::size_t>(number)];
+  }
+
+  Matrix series_over(const Level& level, bool& agrees) const {
+    const Index n = movement_->size();
+    Matrix values(n, kExactDegree + 1);
+    VectorXd sizes = VectorXd::Zero(n);
+    for (std::size_t k = 0; k < level.maps.size(); ++k) {
+      const auto map = level.maps[k].topRows(n);
+      values.col(static_cast<Index>(k)) = map.lazyProduct(z_);
+      sizes = sizes.cwiseMax(map.cwiseAbs().lazyProduct(z_.cwiseAbs()));
+    }
+    Matrix series = chebyshev::coefficients(values);
+    const VectorXd tail = series.rightCols(2).cwiseAbs().rowwise().sum();
+    agrees = (tail.array() <= kSeriesRounding * sizes.array()).all();
+    return series;
+  }
+
+  DenseStep whole_step(const Level& level, const Matrix& series, double end) {
+    DenseStep step = movement_->step(t_, end, series);
+    z_ = (level.maps.back() * z_).eval();
+    t_ = end;
+    if (grows_ && level_ < top_) ++level_;
+    grows_ = true;
+    return step;
+  }
+
+  DenseStep last_step(const Matrix& series, double end) {
+    const double inside = chebyshev::inner(last_, t_, end);
+    const Matrix part = end == last_ ? series : chebyshev::part(series, -1, inside);
+    DenseStep step = movement_->step(t_, last_, part);
+    z_.head(movement_->size()) = chebyshev::at(part, 1);
+    t_ = last_;
+    return step;
+  }
+
+  Movement* movement_;
+  double longest_;
+  double t_ = 0, last_ = 0;
+  bool known_ = false;
+  VectorXd key_;  ///< what the generator was read for
+  Index size_ = 1;
+  Matrix generator_;
+  double shortest_ = 0;
+  int top_ = 0;
+  std::vector<Level> levels_;
+  int level_ = 0;
+  bool grows_ = true;  ///< false: the last try of a longer step failed
+  VectorXd z_;
+};
+
+}  // namespace
+
+std::unique_ptr<Flow> exact_flow(Movement& movement, double longest) {
+  return std::make_unique<ExactFlow>(movement, longest);
+}
+
+std::unique_ptr<Flow> make_flow(Movement& movement, const Accuracy& accuracy, double longest) {
+  return movement.system().affine ? exact_flow(movement, longest)
+                                  : integrated_flow(movement, accuracy, longest);
+}
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,43 @@
+// Internal to hybrid: one flow of an EventSystem after the other, in steps with dense output.
+//
+//   exact        x' = M x + b: at the Chebyshev points of a step, E(s) x + f(s) with [E f; 0 1] =
+//                expm(s [M b; 0 0]). Steps have the lengths s_0 2^k, s_0 = 1/(2 ||M||) in units
+//                that balance M (numbers/balance.h): after a start they grow as long as the series
+//                of degree 12 agrees to rounding, up to 1/w with w the largest |Im| or Re of an
+//                eigenvalue, so that nothing is stepped over.
+//   integrated   CVODE (integrator.h); the polynomial of each of its own steps.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "hybrid/movement.h"
+#include "hybrid/trajectory.h"
+
+namespace gainsmith::hybrid {
+
+struct Accuracy {
+  double relative = 1e-10;
+  double absolute = 1e-10;
+};
+
+class Flow {
+ public:
+  virtual ~Flow() = default;
+
+  /// Begins at t, after Movement::begin there. Nothing is evaluated after `last` but by exact
+  /// flows.
+  virtual void start(double t, const Eigen::VectorXd& values, double last) = 0;
+  /// The step from where the last one ended, at most to `last`. IntegrationError (integrator.h)
+  /// where the flow ends before.
+  virtual DenseStep next() = 0;
+};
+
+/// The flow of the system of a movement, which must outlive it; no step is longer than `longest`.
+std::unique_ptr<Flow> make_flow(Movement& movement, const Accuracy& accuracy, double longest);
+
+/// The two kinds, for tests; the exact one for affine systems only.
+std::unique_ptr<Flow> exact_flow(Movement& movement, double longest);
+std::unique_ptr<Flow> integrated_flow(Movement& movement, const Accuracy& accuracy, double longest);
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,217 @@
+#include "hybrid/movement.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/number.h"
+
+namespace gainsmith::hybrid {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Of the largest rate in a run: what counts as rounding in the flow of a symmetric state.
+constexpr double kAsymmetryOfRate = 1e-9;
+
+bool is_symmetric(const model::Dynamics::Variable& variable) {
+  return variable.structure == model::Structure::symmetric;
+}
+
+}  // namespace
+
+Movement::Movement(const EventSystem& system)
+    : system_(&system), largest_rate_(system.dynamics.variables.size(), 0) {
+  using Kind = model::Dynamics::VariableKind;
+  const auto& variables = system.dynamics.variables;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const Kind kind = variables[i].kind;
+    if (kind != Kind::time && kind != Kind::since && kind != Kind::left) continue;
+    clocks_.push_back(i);
+    lines_.push_back(
+        {system.layout.slots[i].offset, 0, 0, kind == Kind::left ? -1.0 : 1.0, kind == Kind::left});
+  }
+  for (const model::Dynamics::Assignment& one : system.dynamics.flow) add_flow(one);
+  for (const model::Dynamics::Component& one : system.dynamics.components)
+    frozen_.push_back(one.frozen ? std::optional<EventCondition>(std::in_place, *one.frozen, system)
+                                 : std::nullopt);
+  is_frozen_.assign(frozen_.size(), false);
+}
+
+void Movement::add_flow(const model::Dynamics::Assignment& one) {
+  const Slot& slot = system_->layout.slots[one.variable];
+  const bool symmetric = is_symmetric(system_->dynamics.variables[one.variable]);
+  EventFunction value(one.value.program, *system_);
+  if (system_->moves[one.variable] == Moves::steady) {
+    steady_.push_back({one.variable, std::move(value), static_cast<Index>(lines_.size())});
+    for (Index k = 0; k < slot.shape.size(); ++k) lines_.push_back({slot.offset + k});
+    return;
+  }
+  note_inputs(one.value.program);
+  flows_.push_back({one.variable, std::move(value), size()});
+  const Index rows = slot.shape.rows;
+  for (Index column = 0; column < slot.shape.cols; ++column)
+    for (Index row = symmetric ? column : 0; row < rows; ++row) {
+      elements_.push_back(slot.offset + column * rows + row);
+      mirrors_.push_back(symmetric ? slot.offset + row * rows + column : elements_.back());
+    }
+}
+
+void Movement::note_inputs(const expr::Program& program) {
+  for (const expr::Input& input : program.inputs) {
+    const auto at = system_->slot(input.name);
+    if (!at || system_->moves[*at] == Moves::flows) continue;
+    std::vector<Index>& list =
+        system_->moves[*at] == Moves::steady ? steady_inputs_ : resting_inputs_;
+    const Slot& slot = system_->layout.slots[*at];
+    if (std::find(list.begin(), list.end(), slot.offset) != list.end()) continue;
+    for (Index k = 0; k < slot.shape.size(); ++k) list.push_back(slot.offset + k);
+  }
+}
+
+void Movement::reset() {
+  for (Line& line : lines_) line.base = line.time = 0;
+  for (std::size_t k = clocks_.size(); k < lines_.size(); ++k) lines_[k].rate = 0;
+  std::fill(largest_rate_.begin(), largest_rate_.end(), 0);
+}
+
+void Movement::set_since(std::size_t event, double t) {
+  for (std::size_t k = 0; k < clocks_.size(); ++k) {
+    const auto& variable = system_->dynamics.variables[clocks_[k]];
+    if (variable.kind == model::Dynamics::VariableKind::since && variable.of == event)
+      lines_[k].time = t;
+  }
+}
+
+void Movement::set_due(std::size_t event, double due) {
+  for (std::size_t k = 0; k < clocks_.size(); ++k) {
+    const auto& variable = system_->dynamics.variables[clocks_[k]];
+    if (variable.kind == model::Dynamics::VariableKind::left && variable.of == event)
+      lines_[k].time = due;
+  }
+}
+
+void Movement::begin(double t, const VectorXd& values) {
+  values_ = values;
+  for (std::size_t c = 0; c < frozen_.size(); ++c)
+    is_frozen_[c] = frozen_[c] && (*frozen_[c])(values);
+  for (Entry& entry : steady_) set_steady(entry, t);
+  for (Entry& entry : flows_)
+    if (is_symmetric(system_->dynamics.variables[entry.variable]))
+      require_symmetric(entry, entry.value(values_));
+}
+
+/// A line goes on as it was where nothing has changed it.
+void Movement::set_steady(Entry& entry, double t) {
+  const numbers::Matrix& rate = value_of(entry, values_);
+  for (Index k = 0; k < rate.size(); ++k) {
+    Line& line = lines_[static_cast<std::size_t>(entry.first + k)];
+    const double now = values_(line.element);
+    if (line.rate == rate(k) && line.at(t) == now) continue;
+    line.base = now;
+    line.time = t;
+    line.rate = rate(k);
+  }
+}
+
+void Movement::require_symmetric(Entry& entry, const numbers::Matrix& rate) {
+  double& largest = largest_rate_[entry.variable];
+  if (rate.size() > 0) largest = std::max(largest, rate.cwiseAbs().maxCoeff());
+  const double asymmetry = rate.size() > 0 ? (rate - rate.transpose()).cwiseAbs().maxCoeff() : 0;
+  if (!(asymmetry > kAsymmetryOfRate * largest)) return;
+  const auto& flow = system_->dynamics.flow;
+  const auto found = std::find_if(flow.begin(), flow.end(),
+                                  [&](const auto& one) { return one.variable == entry.variable; });
+  throw InputError(found->place, "the state " + system_->layout.slots[entry.variable].name +
+                                     " is symmetric and its flow is not: elements differ by " +
+                                     brief(asymmetry));
+}
+
+/// The rate of a variable: 0 in a frozen component, of a symmetric one its symmetric part.
+const numbers::Matrix& Movement::value_of(Entry& entry, const VectorXd& values) {
+  const auto& variable = system_->dynamics.variables[entry.variable];
+  if (is_frozen_[variable.component]) {
+    symmetric_ = numbers::Matrix::Zero(variable.shape.rows, variable.shape.cols);
+    return symmetric_;
+  }
+  const numbers::Matrix& value = entry.value(values);
+  if (!is_symmetric(variable)) return value;
+  symmetric_ = (value + value.transpose()) / 2;
+  return symmetric_;
+}
+
+void Movement::fill(double t, VectorXd& values) const {
+  for (const Line& line : lines_) values(line.element) = line.at(t);
+}
+
+VectorXd Movement::gathered(const VectorXd& values) const {
+  VectorXd y(size());
+  for (std::size_t k = 0; k < elements_.size(); ++k)
+    y(static_cast<Index>(k)) = values(elements_[k]);
+  return y;
+}
+
+void Movement::spread(const VectorXd& y, VectorXd& values) const {
+  for (std::size_t k = 0; k < elements_.size(); ++k)
+    values(elements_[k]) = values(mirrors_[k]) = y(static_cast<Index>(k));
+}
+
+void Movement::rates(VectorXd& rate) {
+  for (Entry& entry : flows_) {
+    const numbers::Matrix& value = value_of(entry, values_);
+    const Slot& slot = system_->layout.slots[entry.variable];
+    for (Index k = entry.first; k < size(); ++k) {
+      const Index within = elements_[static_cast<std::size_t>(k)] - slot.offset;
+      if (within < 0 || within >= slot.shape.size()) break;
+      rate(k) = value(within);
+    }
+  }
+}
+
+void Movement::rate(double t, const VectorXd& y, VectorXd& rate) {
+  spread(y, values_);
+  fill(t, values_);
+  rates(rate);
+}
+
+void Movement::rate_at(const VectorXd& y, const VectorXd& steady, VectorXd& rate) {
+  spread(y, values_);
+  for (std::size_t k = 0; k < steady_inputs_.size(); ++k)
+    values_(steady_inputs_[k]) = steady(static_cast<Index>(k));
+  rates(rate);
+}
+
+double Movement::steady_rate(Index element) const {
+  const auto found = std::find_if(lines_.begin(), lines_.end(),
+                                  [&](const Line& line) { return line.element == element; });
+  return found == lines_.end() ? 0 : found->rate;
+}
+
+VectorXd Movement::parameters(const VectorXd& values) const {
+  VectorXd result(static_cast<Index>(resting_inputs_.size() + is_frozen_.size()));
+  Index k = 0;
+  for (const Index element : resting_inputs_) result(k++) = values(element);
+  for (const bool frozen : is_frozen_) result(k++) = frozen ? 1 : 0;
+  return result;
+}
+
+DenseStep Movement::step(double from, double to, const numbers::Matrix& series) const {
+  const Index terms = std::max<Index>(series.cols(), lines_.empty() ? 1 : 2);
+  DenseStep made{from, to, numbers::Matrix::Zero(system_->size, terms)};
+  numbers::Matrix& c = made.coefficients;
+  c.col(0) = values_.head(system_->size);
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const auto row = series.row(static_cast<Index>(k));
+    c.row(elements_[k]).head(series.cols()) = row;
+    c.row(mirrors_[k]).head(series.cols()) = row;
+  }
+  for (const Line& line : lines_) {
+    c(line.element, 0) = (line.at(from) + line.at(to)) / 2;
+    c(line.element, 1) = (line.at(to) - line.at(from)) / 2;
+  }
+  return made;
+}
+
+}  // namespace gainsmith::hybrid

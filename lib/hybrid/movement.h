@@ -1,0 +1,95 @@
+// Internal to hybrid: what the variables of an EventSystem do within one flow.
+//
+// The elements that flow are y: those of states that are neither resting nor steady, of symmetric
+// ones the lower triangle. Everything that is steady is a line
+//
+//   value(t) = max(base + rate*(t - time), least)
+//
+// whose base is kept over events that leave it alone, so that no rounding adds up.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "hybrid/event_function.h"
+#include "hybrid/event_system.h"
+#include "hybrid/trajectory.h"
+
+namespace gainsmith::hybrid {
+
+class Movement {
+ public:
+  explicit Movement(const EventSystem& system);
+
+  /// At the start of a run: t, and the times since events, are 0.
+  void reset();
+  /// since(event) runs from t on.
+  void set_since(std::size_t event, double t);
+  /// event.left runs down to 0 at `due`.
+  void set_due(std::size_t event, double due);
+
+  /// Begins a flow: reads which components are frozen and the steady rates. InputError for a
+  /// symmetric state whose flow is not.
+  void begin(double t, const Eigen::VectorXd& values);
+  /// Gives everything steady its value at t.
+  void fill(double t, Eigen::VectorXd& values) const;
+
+  /// Of y.
+  Eigen::Index size() const { return static_cast<Eigen::Index>(elements_.size()); }
+  Eigen::VectorXd gathered(const Eigen::VectorXd& values) const;
+  void spread(const Eigen::VectorXd& y, Eigen::VectorXd& values) const;
+  /// y' at (t, y). EvaluationError where it has no value.
+  void rate(double t, const Eigen::VectorXd& y, Eigen::VectorXd& rate);
+  /// Elements of the lines on which y' may depend.
+  const std::vector<Eigen::Index>& steady_inputs() const { return steady_inputs_; }
+  double steady_rate(Eigen::Index element) const;
+  /// y' where everything that is steady has the values given, whatever the time.
+  void rate_at(const Eigen::VectorXd& y, const Eigen::VectorXd& steady, Eigen::VectorXd& rate);
+  /// The resting values that y' uses.
+  Eigen::VectorXd parameters(const Eigen::VectorXd& values) const;
+
+  /// All variables over [from, to] from a series for y.
+  DenseStep step(double from, double to, const numbers::Matrix& series) const;
+  const EventSystem& system() const { return *system_; }
+
+ private:
+  struct Line {
+    Eigen::Index element = 0;
+    double base = 0, time = 0, rate = 0;
+    bool not_below_zero = false;
+
+    double at(double t) const {
+      const double value = base + rate * (t - time);
+      return not_below_zero && value < 0 ? 0 : value;
+    }
+  };
+  struct Entry {
+    std::size_t variable = 0;
+    EventFunction value;
+    Eigen::Index first = 0;  ///< of its elements in y, or of its lines
+  };
+
+  void add_flow(const model::Dynamics::Assignment& one);
+  void note_inputs(const expr::Program& program);
+  Line& clock(std::size_t variable);
+  const numbers::Matrix& value_of(Entry& entry, const Eigen::VectorXd& values);
+  void set_steady(Entry& entry, double t);
+  void require_symmetric(Entry& entry, const numbers::Matrix& rate);
+  void rates(Eigen::VectorXd& rate);
+
+  const EventSystem* system_;
+  std::vector<Line> lines_;
+  std::vector<std::size_t> clocks_;     ///< their variables: the first lines
+  std::vector<Eigen::Index> elements_;  ///< of y among the values
+  std::vector<Eigen::Index> mirrors_;   ///< the transposed ones
+  std::vector<Entry> flows_, steady_;
+  std::vector<Eigen::Index> steady_inputs_, resting_inputs_;
+  std::vector<std::optional<EventCondition>> frozen_;  ///< by component
+  std::vector<bool> is_frozen_;
+  std::vector<double> largest_rate_;  ///< by variable, in this run
+  numbers::Matrix symmetric_;
+  Eigen::VectorXd values_;
+};
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,245 @@
+#include "io/component_yaml.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "base/nearest.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+using model::Component;
+
+/// One `like` another takes "none" for what it does not have.
+bool is_none(const YamlItem& item) {
+  return item.value.IsScalar() && item.value.Scalar() == "none";
+}
+
+/// The names of a mapping that stand for nothing.
+using Removed = std::set<std::string>;
+
+std::vector<YamlItem> items_without(const YamlFile& file, const std::optional<YamlItem>& item,
+                                    const std::string& what, bool like, Removed& removed) {
+  std::vector<YamlItem> items = items_of(file, item, what);
+  if (!like) return items;
+  for (const YamlItem& one : items)
+    if (is_none(one)) removed.insert(one.key);
+  std::erase_if(items, is_none);
+  return items;
+}
+
+std::string name_of(const model::Let& let) { return let.signature.name; }
+std::string name_of(const model::ReactionText& reaction) { return reaction.event; }
+template <class Entry>
+std::string name_of(const Entry& entry) {
+  return entry.name;
+}
+
+/// What stands in `own` takes the place of what has its name; the rest comes after.
+template <class Entry>
+void overlay(std::vector<Entry>& copied, std::vector<Entry> own, const Removed& removed) {
+  std::erase_if(copied, [&](const Entry& entry) { return removed.contains(name_of(entry)); });
+  for (Entry& entry : own) {
+    const auto found = std::find_if(copied.begin(), copied.end(), [&](const Entry& old) {
+      return name_of(old) == name_of(entry);
+    });
+    if (found == copied.end())
+      copied.push_back(std::move(entry));
+    else
+      *found = std::move(entry);
+  }
+}
+
+model::Declaration state(const YamlFile& file, const YamlItem& item) {
+  model::Declaration result;
+  result.name = item.key;
+  result.place = item.place;
+  if (item.value.IsScalar()) {
+    result.shape = model::parse_shape(file.scalar(item.value, item.key));
+    return result;
+  }
+  YamlMap map(file, item.value, item.key);
+  result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
+  if (const auto start = map.find("start"))
+    result.fallback = file.expression(start->value, "start");
+  if (const auto help = map.find("help")) result.help = file.string(help->value, "help");
+  map.finish();
+  return result;
+}
+
+/// "q: 1": where it starts.
+model::Declaration mode(const YamlFile& file, const YamlItem& item) {
+  model::Declaration result;
+  result.name = item.key;
+  result.place = item.place;
+  result.shape = model::parse_shape(expr::Text::generated("scalar", item.place));
+  result.fallback = file.expression(item.value, item.key);
+  return result;
+}
+
+/// "y: C*x" or "y: {value: C*x + w, at: sample}".
+model::Output output(const YamlFile& file, const YamlItem& item) {
+  if (!item.value.IsMap()) return {{item.key, file.expression(item.value, item.key), item.place}};
+  YamlMap map(file, item.value, item.key);
+  model::Output result{
+      {item.key, file.expression(map.require("value").value, item.key), item.place}};
+  if (const auto at = map.find("at")) result.at = file.string(at->value, "at");
+  map.finish();
+  return result;
+}
+
+std::vector<model::Let> definitions(const YamlFile& file, const std::vector<YamlItem>& items) {
+  std::vector<model::Let> result;
+  for (const YamlItem& item : items)
+    result.push_back(
+        {expr::parse_signature(item.key_text), file.expression(item.value, item.key), item.place});
+  return result;
+}
+
+std::vector<model::Named> assignments(const YamlFile& file, const std::vector<YamlItem>& items) {
+  std::vector<model::Named> result;
+  for (const YamlItem& item : items)
+    result.push_back({item.key, file.expression(item.value, item.key), item.place});
+  return result;
+}
+
+/// "{xh: ...}" or "{repeat: {xh: ...}, until: c, at_most: N, else: go on}".
+model::PassText pass(const YamlFile& file, const YamlItem& item) {
+  model::PassText result;
+  result.place = item.place;
+  if (!item.value.IsMap() || !item.value["repeat"]) {
+    result.map = assignments(file, items_of(file, item, item.key));
+    return result;
+  }
+  YamlMap map(file, item.value, item.key);
+  result.repeats = true;
+  const YamlItem repeated = map.require("repeat");
+  result.map = assignments(file, items_of(file, repeated, "repeat"));
+  const auto until = map.find("until");
+  const auto at_most = map.find("at_most");
+  const auto times = map.find("times");
+  const auto otherwise = map.find("else");
+  map.finish();
+  if (at_most.has_value() == times.has_value() || until.has_value() != at_most.has_value())
+    throw InputError(item.place,
+                     "a loop is {repeat: map, until: condition, at_most: N} or {repeat: map, "
+                     "times: N}");
+  if (until) result.until = file.expression(until->value, "until");
+  result.at_most =
+      at_most ? file.expression(at_most->value, "at_most") : file.expression(times->value, "times");
+  if (!otherwise) return result;
+  const std::string word = file.string(otherwise->value, "else");
+  if (word != "go on" || !until)
+    throw InputError(file.place(otherwise->value),
+                     "else: 'go on', after 'until', is all that may stand here; without it the "
+                     "run ends when the condition does not become true");
+  result.go_on = true;
+  return result;
+}
+
+/// A map, with `let` before it, or a list of maps.
+model::ReactionText reaction(const YamlFile& file, const YamlItem& item) {
+  model::ReactionText result;
+  result.event = item.key;
+  result.place = item.place;
+  if (item.value.IsSequence()) {
+    for (const auto& entry : item.value)
+      result.passes.push_back(pass(file, {item.key, item.key_text, file.place(entry), entry}));
+    return result;
+  }
+  if (!item.value.IsMap() || !item.value["let"]) {
+    result.passes.push_back(pass(file, item));
+    return result;
+  }
+  YamlMap map(file, item.value, item.key);
+  const YamlItem let = map.require("let");
+  result.let = definitions(file, items_of(file, let, "let"));
+  YAML::Node rest(YAML::NodeType::Map);
+  model::PassText own;
+  own.place = item.place;
+  for (const YamlItem& entry : map.items()) {
+    if (entry.key == "let") continue;
+    if (entry.key == "repeat")
+      throw InputError(entry.place, "with 'let' a loop stands in the component's own 'let'");
+    own.map.push_back({entry.key, file.expression(entry.value, entry.key), entry.place});
+  }
+  result.passes.push_back(std::move(own));
+  return result;
+}
+
+std::vector<model::StayText> stays(const YamlFile& file, const std::optional<YamlItem>& item) {
+  std::vector<model::StayText> result;
+  if (!item) return result;
+  YamlMap map(file, item->value, "while");
+  model::StayText stay;
+  stay.place = item->place;
+  stay.condition = file.expression(map.require("c").value, "c");
+  stay.say = file.string(map.require("say").value, "say");
+  map.finish();
+  result.push_back(std::move(stay));
+  return result;
+}
+
+Component copied(const YamlFile& file, const std::optional<YamlItem>& like,
+                 const std::vector<Component>& before) {
+  if (!like) return {};
+  const std::string name = file.string(like->value, "like");
+  std::vector<std::string> names;
+  for (const Component& one : before) {
+    if (one.name == name) return one;
+    names.push_back(one.name);
+  }
+  throw InputError(file.place(like->value), "like: there is no observer '" + name +
+                                                "' before this one" + suggestion(name, names));
+}
+
+}  // namespace
+
+Component component(const YamlFile& file, const YamlItem& item,
+                    const std::vector<Component>& before) {
+  YamlMap map(file, item.value, item.key);
+  const auto source = map.find("like");
+  const bool like = source.has_value();
+  Component result = copied(file, source, before);
+  result.name = item.key;
+  result.place = item.place;
+  const auto read = [&](const char* key, auto& list, auto&& one) {
+    Removed removed;
+    std::vector<std::decay_t<decltype(list.front())>> own;
+    for (const YamlItem& entry :
+         items_without(file, map.find(key), item.key + "." + key, like, removed))
+      own.push_back(one(file, entry));
+    overlay(list, std::move(own), removed);
+  };
+  const auto assigned = [](const YamlFile& from, const YamlItem& entry) {
+    return model::Named{entry.key, from.expression(entry.value, entry.key), entry.place};
+  };
+  read("state", result.states, state);
+  read("mode", result.modes, mode);
+  read("output", result.outputs, output);
+  read("let", result.let, [](const YamlFile& from, const YamlItem& entry) {
+    return definitions(from, {entry}).front();
+  });
+  read("flow", result.flow, assigned);
+  read("jump", result.jump, assigned);
+  read("at", result.at, reaction);
+  Removed removed;
+  const auto own_events = map.find("events");
+  overlay(result.events, events(file, own_events, item.key + ".events"), removed);
+  if (const auto frozen = map.find("frozen"))
+    result.frozen = file.expression(frozen->value, "frozen");
+  if (const auto stay = map.find("while")) result.stays = stays(file, stay);
+  map.finish();
+  return result;
+}
+
+bool has_events(const Component& component) {
+  return !component.events.empty() || !component.at.empty() || !component.modes.empty() ||
+         !component.let.empty() || component.frozen || !component.stays.empty() ||
+         std::any_of(component.outputs.begin(), component.outputs.end(),
+                     [](const model::Output& output) { return !output.at.empty(); });
+}
+
+}  // namespace gainsmith::io

@@ -1,0 +1,27 @@
+// Internal to io: one plant or observer, and its events.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "io/yaml.h"
+#include "model/component.h"
+
+namespace gainsmith::io {
+
+/// The component of a key "plant", "observer" or of one of several; `before`: those that it may be
+/// `like`.
+model::Component component(const YamlFile& file, const YamlItem& item,
+                           const std::vector<model::Component>& before);
+
+/// The events of a mapping.
+std::vector<model::EventText> events(const YamlFile& file, const std::optional<YamlItem>& item,
+                                     const std::string& what);
+
+/// One expression, or the two of a list [low, high].
+std::vector<expr::Expression> one_or_two(const YamlFile& file, const YamlItem& item);
+
+/// Whether it says more than the short form can: plant, observer and timer.
+bool has_events(const model::Component& component);
+
+}  // namespace gainsmith::io

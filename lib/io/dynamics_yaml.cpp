@@ -1,0 +1,120 @@
+#include "io/dynamics_yaml.h"
+
+#include <utility>
+
+#include "io/component_yaml.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+std::optional<model::Timer> timer(const YamlFile& file, const std::optional<YamlItem>& item) {
+  if (!item) return std::nullopt;
+  const auto items = items_of(file, item, "timer");
+  if (items.size() != 1)
+    throw InputError(item->place, "timer: expected one timer, such as 'tau: {reset: [T1, T2]}'");
+  YamlMap map(file, items.front().value, items.front().key);
+  const auto range = [&](const YamlItem& ends) {
+    if (!ends.value.IsSequence() || ends.value.size() != 2)
+      throw InputError(file.place(ends.value), ends.key + ": expected [low, high]");
+    return one_or_two(file, ends);
+  };
+  const auto reset = range(map.require("reset"));
+  const auto first_item = map.find("first");
+  const auto first = first_item ? range(*first_item) : reset;
+  map.finish();
+  return model::Timer{items.front().key, reset[0], reset[1],
+                      first[0],          first[1], items.front().place};
+}
+
+/// "w: {normal: 0.03, new at: sample}", "w: {uniform: [-1, 1], every: 0.1}".
+model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
+  using Kind = model::Dynamics::NoiseKind;
+  YamlMap map(file, item.value, item.key);
+  model::NoiseText result;
+  result.name = item.key;
+  result.place = item.place;
+  const auto normal = map.find("normal");
+  const auto uniform = map.find("uniform");
+  const auto event = map.find("new at");
+  const auto every = map.find("every");
+  map.finish();
+  if (normal.has_value() == uniform.has_value())
+    throw InputError(item.place, "noise: expected {normal: deviation} or {uniform: [low, high]}");
+  if (event && every)
+    throw InputError(every->place, "noise: drawn anew at an event or every so often, not both");
+  if (normal) result.values = {file.expression(normal->value, "normal")};
+  if (uniform) {
+    result.kind = Kind::uniform;
+    result.values = one_or_two(file, *uniform);
+    if (result.values.size() != 2)
+      throw InputError(file.place(uniform->value), "uniform: expected [low, high]");
+  }
+  if (event) result.event = file.string(event->value, "new at");
+  if (every) result.every = file.expression(every->value, "every");
+  return result;
+}
+
+void read_observers(const YamlFile& file, const std::optional<YamlItem>& one,
+                    const std::optional<YamlItem>& several, model::Method& method) {
+  if (one && several)
+    throw InputError(several->place, "either 'observer' or 'observers', not both");
+  if (one) method.observer = component(file, *one, {});
+  if (!several) return;
+  for (const YamlItem& item : items_of(file, several, "observers"))
+    method.observers.push_back(component(file, item, method.observers));
+}
+
+std::vector<std::string> names(const YamlFile& file, const std::optional<YamlItem>& item) {
+  std::vector<std::string> result;
+  if (!item) return result;
+  if (!item->value.IsSequence())
+    throw InputError(item->place, item->key + ": expected a list of events");
+  for (const auto& entry : item->value) result.push_back(file.string(entry, item->key));
+  return result;
+}
+
+}  // namespace
+
+void read_dynamics(const YamlFile& file, YamlMap& map, model::Method& method) {
+  const auto plant = map.find("plant");
+  const auto observer = map.find("observer");
+  const auto observers = map.find("observers");
+  const auto event_list = map.find("events");
+  const auto order = map.find("order");
+  const auto inputs = map.find("inputs");
+  const auto noises = map.find("noise");
+  if (plant) method.plant = component(file, *plant, {});
+  method.plant.name = "plant";
+  read_observers(file, observer, observers, method);
+  method.timer = timer(file, map.find("timer"));
+  method.events = events(file, event_list, "events");
+  method.order = names(file, order);
+  for (const YamlItem& item : items_of(file, inputs, "inputs"))
+    method.inputs.push_back({item.key, file.expression(item.value, item.key), item.place});
+  for (const YamlItem& item : items_of(file, noises, "noise"))
+    method.noise.push_back(noise(file, item));
+
+  for (const auto& item : {observers, event_list, order, inputs, noises, plant, observer})
+    if (item && method.dynamics_place.line == 0) method.dynamics_place = item->place;
+  const bool asks_for_events = observers || event_list || order || inputs || noises ||
+                               has_events(method.plant) || has_events(method.observer);
+  if (method.timer && asks_for_events)
+    throw InputError(method.timer->place,
+                     "timer: the short form has one timer and nothing else; beside events, inputs, "
+                     "noise or several observers write it as an event, 'sample: {every: [T1, "
+                     "T2]}', and jumps as 'at: {sample: {...}}'");
+  method.has_events = asks_for_events || (!method.timer && (plant || observer));
+  if (!method.has_events) return;
+  for (model::Component* part : {&method.plant, &method.observer})
+    if (!part->jump.empty())
+      throw InputError(part->jump.front().place,
+                       "jump: of the short form with a timer; here a jump stands under its event, "
+                       "'at: {" +
+                           (method.events.empty() ? "sample" : method.events.front().name) +
+                           ": {...}}'");
+  if (observer) method.observers.push_back(std::move(method.observer));
+  method.observer = {};
+}
+
+}  // namespace gainsmith::io

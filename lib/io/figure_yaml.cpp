@@ -1,0 +1,152 @@
+#include "io/figure_yaml.h"
+
+#include <array>
+#include <utility>
+
+#include "io/expectation_yaml.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+using model::FigureKind;
+using model::FigureText;
+
+constexpr const char* kForms =
+    "a figure is one of {at: {event: ..., count: ..., side: before}, value: v}, {at: {t: ...}, "
+    "value: v}, {peak: v}, {least: v}, {settles: v, below: b}, {rms: v, over: [a, b]}, {count: "
+    "event}, {passes: event}, {ended: why}";
+
+/// "at: {event: leave, count: 1, side: before}" or "at: {t: 10}".
+void read_moment(const YamlFile& file, const YamlItem& item, FigureText& figure) {
+  YamlMap map(file, item.value, "at");
+  const auto event = map.find("event");
+  const auto t = map.find("t");
+  const auto count = map.find("count");
+  const auto side = map.find("side");
+  map.finish();
+  if (event.has_value() == t.has_value() || (t && (count || side)))
+    throw InputError(item.place, "at: expected {event: ..., count: 1, side: before} or {t: ...}");
+  if (t) {
+    figure.kind = FigureKind::at_time;
+    figure.numbers = {file.expression(t->value, "t")};
+    figure.title = "at t = " + figure.numbers.front().text->str();
+    return;
+  }
+  figure.kind = FigureKind::at_event;
+  figure.event = file.string(event->value, "event");
+  if (count) {
+    const double number = file.number(count->value, "count");
+    figure.count = static_cast<std::int64_t>(number);
+    if (!(number >= 1 && number <= 1e15 && number == static_cast<double>(figure.count)))
+      throw InputError(file.place(count->value), "count: a whole number, 1 or more");
+  }
+  if (side) {
+    const std::string word = file.string(side->value, "side");
+    if (word != "before" && word != "after")
+      throw InputError(file.place(side->value), "side: before or after");
+    figure.after = word == "after";
+  }
+  figure.title = std::string(figure.after ? "after " : "before ") + figure.event + " " +
+                 std::to_string(figure.count);
+}
+
+/// The figure of a mapping of which `expect` takes other keys besides.
+FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
+  static const std::array<std::pair<const char*, FigureKind>, 6> kOfValues = {
+      {{"peak", FigureKind::peak},
+       {"least", FigureKind::least},
+       {"settles", FigureKind::settles},
+       {"rms", FigureKind::rms},
+       {"count", FigureKind::count},
+       {"passes", FigureKind::passes}}};
+  FigureText result;
+  result.place = map.place();
+  int found = 0;
+  if (const auto observer = map.find("observer"))
+    result.observer = file.string(observer->value, "observer");
+  const auto value = map.find("value");
+  const auto below = map.find("below");
+  const auto over = map.find("over");
+  if (const auto at = map.find("at")) {
+    ++found;
+    read_moment(file, *at, result);
+    if (!value) throw InputError(at->place, "at: with the value that is looked up, 'value: ...'");
+    result.value = file.expression(value->value, "value");
+    result.title = result.value->text->str() + " " + result.title;
+  }
+  for (const auto& [key, kind] : kOfValues)
+    if (const auto item = map.find(key)) {
+      ++found;
+      result.kind = kind;
+      const bool of_event = kind == FigureKind::count || kind == FigureKind::passes;
+      if (of_event)
+        result.event = file.string(item->value, key);
+      else
+        result.value = file.expression(item->value, key);
+      result.title = std::string(key) + " " + (of_event ? result.event : result.value->text->str());
+    }
+  if (const auto ended = map.find("ended")) {
+    ++found;
+    result.kind = FigureKind::ended;
+    result.title = "ended";
+    if (ending != nullptr) *ending = file.string(ended->value, "ended");
+  }
+  if (found != 1) throw InputError(map.place(), kForms);
+  if ((result.kind == FigureKind::settles) != below.has_value() ||
+      (result.kind == FigureKind::rms) != over.has_value())
+    throw InputError(map.place(), kForms);
+  if (below) {
+    result.numbers = {file.expression(below->value, "below")};
+    result.title += " below " + result.numbers.front().text->str();
+  }
+  if (!over) return result;
+  if (!over->value.IsSequence() || over->value.size() != 2)
+    throw InputError(over->place, "over: expected [from, to]");
+  for (const auto& end : over->value) result.numbers.push_back(file.expression(end, "over"));
+  return result;
+}
+
+model::ExpectedFigureText expected(const YamlFile& file, const YAML::Node& node) {
+  YamlMap map(file, node, "run");
+  model::ExpectedFigureText result;
+  result.figure = figure(file, map, &result.ending);
+  const auto is = map.find("is");
+  result.relative = tolerance(file, map.find("relative"));
+  result.absolute = tolerance(file, map.find("absolute"));
+  map.finish();
+  const bool word = result.figure.kind == FigureKind::ended;
+  if (word == is.has_value() || word == (result.relative || result.absolute))
+    throw InputError(map.place(), word ? "ended: the word is all"
+                                       : "expected 'is: value' with a tolerance, 'relative' or "
+                                         "'absolute'");
+  if (is) result.is = file.expression(is->value, "is");
+  return result;
+}
+
+const YAML::Node& list_of(const YamlItem& item) {
+  if (!item.value.IsSequence())
+    throw InputError(item.place, item.key + ": expected a list of figures; " + kForms);
+  return item.value;
+}
+
+}  // namespace
+
+std::vector<FigureText> figures(const YamlFile& file, const YamlItem& item) {
+  std::vector<FigureText> result;
+  for (const auto& entry : list_of(item)) {
+    YamlMap map(file, entry, item.key);
+    result.push_back(figure(file, map, nullptr));
+    map.finish();
+  }
+  return result;
+}
+
+std::vector<model::ExpectedFigureText> expected_figures(const YamlFile& file,
+                                                        const YamlItem& item) {
+  std::vector<model::ExpectedFigureText> result;
+  for (const auto& entry : list_of(item)) result.push_back(expected(file, entry));
+  return result;
+}
+
+}  // namespace gainsmith::io

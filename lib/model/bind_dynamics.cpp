@@ -1,0 +1,231 @@
+// Components, their states, definitions and flows.
+#include <algorithm>
+#include <utility>
+
+#include "base/nearest.h"
+#include "expr/compile.h"
+#include "model/dynamics_binding.h"
+
+namespace gainsmith::model {
+
+namespace {
+
+using Kind = Dynamics::VariableKind;
+
+std::vector<std::string> state_names(const Component& component) {
+  std::vector<std::string> names;
+  for (const auto* list : {&component.states, &component.modes})
+    for (const Declaration& state : *list) names.push_back(state.name);
+  return names;
+}
+
+}  // namespace
+
+DynamicsBinding::DynamicsBinding(const Method& method, const Dimensions& dimensions,
+                                 const DynamicsNames& names,
+                                 const std::vector<UncertainText>& uncertain, expr::Scope& scope)
+    : method_(&method),
+      dimensions_(&dimensions),
+      names_(&names),
+      uncertain_(&uncertain),
+      scope_(&scope) {}
+
+Formula DynamicsBinding::formula(const expr::Expression& text, const expr::Scope& scope,
+                                 std::optional<expr::Shape> shape) const {
+  return {expr::compile(text, scope, shape), text.place(*text.root), text.text->str()};
+}
+
+bool DynamicsBinding::is_moving(const std::string& name) const {
+  return std::any_of(result_.variables.begin(), result_.variables.end(),
+                     [&](const Dynamics::Variable& variable) { return variable.name == name; });
+}
+
+bool DynamicsBinding::is_free(const std::string& name) const {
+  return !scope_->symbols.contains(name) && !scope_->definitions.contains(name) &&
+         !scope_->functions.contains(name);
+}
+
+expr::Shape DynamicsBinding::shape_of(const Declaration& state) const {
+  if (const auto shape = resolve(state.shape, *dimensions_)) return *shape;
+  throw InputError(state.place, "the size of the state " + state.name + " (" + state.shape.text +
+                                    ") does not follow from the data; a shape is n x p, n, scalar, "
+                                    "symmetric n or diagonal n, with sizes that the data have");
+}
+
+void DynamicsBinding::add_component(const Component& component) {
+  Dynamics::Component bound;
+  bound.name = component.name;
+  bound.observer = component.name != "plant";
+  bound.place = component.place;
+  result_.components.push_back(std::move(bound));
+}
+
+void DynamicsBinding::add_states(const Component& component, std::size_t at) {
+  for (const auto* list : {&component.states, &component.modes})
+    for (const Declaration& state : *list) {
+      Dynamics::Variable bound;
+      bound.kind = list == &component.modes ? Kind::mode : Kind::state;
+      bound.name = full_name(component, state.name);
+      bound.component = at;
+      bound.shape = shape_of(state);
+      bound.structure = state.shape.structure;
+      bound.place = state.place;
+      scope_->symbols[bound.name] = {bound.shape};
+      result_.variables.push_back(std::move(bound));
+    }
+}
+
+void DynamicsBinding::add_definitions(const Component& component) {
+  for (const Let& let : component.let)
+    scope_->definitions[full_name(component, let.signature.name)] = {
+        let.signature.parameters, names_->within(component, let.body, let.signature.parameters)};
+  for (const Output& output : component.outputs) {
+    const std::string name = full_name(component, output.name);
+    scope_->definitions[name] = {{}, names_->within(component, output.value)};
+    if (!output.at.empty()) output_events_[name] = output.at;
+    if (component.name == "plant") outputs_of_plant_.insert(name);
+  }
+}
+
+/// Uncertain data as the plant has them, drawn once a run, and the definitions that use them.
+void DynamicsBinding::add_varied() {
+  for (const UncertainText& text : *uncertain_) {
+    const auto datum = scope_->symbols.find(text.name);
+    if (datum == scope_->symbols.end() || !datum->second.known)
+      throw InputError(text.place, "uncertain: '" + text.name + "' is no datum and no parameter" +
+                                       suggestion(text.name, scope_->names()));
+    Dynamics::Noise noise;
+    noise.name = "plant." + text.name;
+    noise.kind = Dynamics::NoiseKind::uniform;
+    noise.shape = datum->second.shape;
+    noise.place = text.place;
+    for (const expr::Expression& end : text.box)
+      noise.values.push_back(constant(end, datum->second.shape));
+    add_noise(std::move(noise));
+  }
+  for (const std::string& name : names_->varied())
+    if (const auto found = scope_->definitions.find(name); found != scope_->definitions.end())
+      scope_->definitions["plant." + name] = {
+          found->second.parameters, names_->of_plant(found->second.body, found->second.parameters)};
+}
+
+void DynamicsBinding::add_inputs() {
+  for (const Named& input : method_->inputs) scope_->definitions[input.name] = {{}, input.value};
+  for (const char* name : {"t", "j"}) {
+    if (!is_free(name)) continue;
+    Dynamics::Variable number;
+    number.kind = name == std::string("t") ? Kind::time : Kind::jumps;
+    number.name = name;
+    scope_->symbols[name] = {};
+    result_.variables.push_back(std::move(number));
+  }
+}
+
+/// A start may name what has a value before: data, gains, and the states before it.
+void DynamicsBinding::bind_starts() {
+  std::size_t at = 0;
+  const auto bind = [&](const Component& component) {
+    for (const auto* list : {&component.states, &component.modes})
+      for (const Declaration& state : *list) {
+        Dynamics::Variable& bound = result_.variables[at++];
+        if (state.fallback)
+          bound.start = formula(names_->within(component, *state.fallback), *scope_, bound.shape);
+      }
+  };
+  bind(method_->plant);
+  for (const Component& observer : method_->observers) bind(observer);
+}
+
+std::size_t DynamicsBinding::state(const Component& component, std::size_t at, const Named& entry,
+                                   const char* what) const {
+  const std::string name = full_name(component, entry.name);
+  for (std::size_t k = 0; k < result_.variables.size(); ++k) {
+    const Dynamics::Variable& variable = result_.variables[k];
+    const bool own = variable.kind == Kind::state || variable.kind == Kind::mode;
+    if (own && variable.component == at && variable.name == name) return k;
+  }
+  throw InputError(entry.place, std::string(what) + " of '" + entry.name +
+                                    "', which is no state of " + component.name +
+                                    suggestion(entry.name, state_names(component)));
+}
+
+void DynamicsBinding::bind_flow(const Component& component, std::size_t at) {
+  for (const Named& entry : component.flow) {
+    const std::size_t of = state(component, at, entry, "the flow");
+    const Dynamics::Variable& variable = result_.variables[of];
+    if (variable.kind == Kind::mode)
+      throw InputError(entry.place, "the mode '" + entry.name +
+                                        "' does not flow; what flows is a "
+                                        "state");
+    const expr::Expression text = names_->within(component, entry.value);
+    check_reads({&component, std::nullopt}, text, *scope_);
+    result_.flow.push_back({of, formula(text, *scope_, variable.shape), entry.place});
+  }
+}
+
+Dynamics DynamicsBinding::run() {
+  std::vector<const Component*> parts = {&method_->plant};
+  for (const Component& observer : method_->observers) parts.push_back(&observer);
+  for (std::size_t at = 0; at < parts.size(); ++at) {
+    add_component(*parts[at]);
+    add_states(*parts[at], at);
+  }
+  add_varied();
+  for (const Component* part : parts) add_definitions(*part);
+  add_inputs();
+  add_events();
+  for (const NoiseText& noise : method_->noise) bind_noise(noise);
+  bind_starts();
+  for (std::size_t at = 0; at < parts.size(); ++at) {
+    bind_flow(*parts[at], at);
+    bind_stays(*parts[at], at);
+  }
+  for (std::size_t at = 0; at < result_.events.size(); ++at) {
+    const auto of = result_.events[at].component;
+    bind_event(*event_texts_[at], of ? parts[*of] : nullptr, at);
+  }
+  for (std::size_t at = 0; at < parts.size(); ++at)
+    for (const ReactionText& reaction : parts[at]->at) bind_reaction(reaction, *parts[at], at);
+  return result_;
+}
+
+std::optional<std::size_t> DynamicsBinding::event_of_output(const std::string& output) const {
+  const auto found = output_events_.find(output);
+  if (found == output_events_.end()) return std::nullopt;
+  return events_.at(*names_->event(nullptr, found->second));
+}
+
+namespace {
+
+bool is_used(const Dynamics& dynamics, std::size_t event) {
+  const auto at = [&](const auto& list) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const auto& one) { return one.event == event; });
+  };
+  const auto number = [&](const Dynamics::Variable& variable) {
+    return (variable.kind == Kind::count || variable.kind == Kind::since ||
+            variable.kind == Kind::passes || variable.kind == Kind::left) &&
+           variable.of == event;
+  };
+  const auto signal = [&](const Dynamics::Signal& one) { return one.at == event; };
+  return at(dynamics.reactions) || at(dynamics.noise) ||
+         std::any_of(dynamics.variables.begin(), dynamics.variables.end(), number) ||
+         std::any_of(dynamics.signals.begin(), dynamics.signals.end(), signal);
+}
+
+}  // namespace
+
+void drop_unread(Dynamics& dynamics, const std::set<std::string>& read) {
+  std::erase_if(dynamics.variables, [&](const Dynamics::Variable& variable) {
+    const bool asked =
+        variable.kind != Kind::state && variable.kind != Kind::mode && variable.kind != Kind::noise;
+    return asked && !read.contains(variable.name);
+  });
+  for (std::size_t k = 0; k < dynamics.events.size(); ++k)
+    if (!is_used(dynamics, k))
+      throw InputError(dynamics.events[k].place,
+                       "nothing happens at the event '" + dynamics.events[k].own +
+                           "': no component has it under 'at', and no text asks for it");
+}
+
+}  // namespace gainsmith::model

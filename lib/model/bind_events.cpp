@@ -1,0 +1,257 @@
+// Events, what components do at them, noise.
+#include <algorithm>
+#include <functional>
+#include <tuple>
+#include <utility>
+
+#include "base/nearest.h"
+#include "expr/compile.h"
+#include "model/dynamics_binding.h"
+
+namespace gainsmith::model {
+
+namespace {
+
+using EventKind = Dynamics::EventKind;
+using Kind = Dynamics::VariableKind;
+
+}  // namespace
+
+void DynamicsBinding::add_events() {
+  const auto add = [&](const std::vector<EventText>& texts, const Component* component,
+                       std::optional<std::size_t> at) {
+    for (const EventText& text : texts) {
+      Dynamics::Event event;
+      event.own = text.name;
+      event.name = component == nullptr ? text.name : full_name(*component, text.name);
+      event.kind = text.kind;
+      event.component = at;
+      event.lost = text.lost;
+      event.lost_in_a_row = text.lost_in_a_row;
+      event.place = text.place;
+      if (!events_.emplace(event.name, 0).second)
+        throw InputError(text.place, "there already is an event '" + text.name + "'");
+      result_.events.push_back(std::move(event));
+      event_texts_.push_back(&text);
+    }
+  };
+  add(method_->events, nullptr, std::nullopt);
+  add(method_->plant.events, &method_->plant, 0);
+  for (std::size_t k = 0; k < method_->observers.size(); ++k)
+    add(method_->observers[k].events, &method_->observers[k], k + 1);
+  sort_events();
+  for (std::size_t k = 0; k < result_.events.size(); ++k) events_[result_.events[k].name] = k;
+  add_moments();
+}
+
+/// Those that `order` names come first, in its order.
+void DynamicsBinding::sort_events() {
+  const std::vector<std::string>& order = method_->order;
+  const auto rank = [&](const Dynamics::Event& event) {
+    return std::find(order.begin(), order.end(), event.name) - order.begin();
+  };
+  for (const std::string& name : order)
+    if (!events_.contains(name))
+      throw InputError(method_->dynamics_place, "order: there is no event '" + name + "'" +
+                                                    suggestion(name, names_->event_names(nullptr)));
+  std::vector<std::size_t> at(result_.events.size());
+  for (std::size_t k = 0; k < at.size(); ++k) at[k] = k;
+  std::stable_sort(at.begin(), at.end(), [&](std::size_t a, std::size_t b) {
+    return rank(result_.events[a]) < rank(result_.events[b]);
+  });
+  std::vector<Dynamics::Event> events;
+  std::vector<const EventText*> texts;
+  for (const std::size_t k : at) {
+    events.push_back(std::move(result_.events[k]));
+    texts.push_back(event_texts_[k]);
+  }
+  result_.events = std::move(events);
+  event_texts_ = std::move(texts);
+}
+
+/// The numbers that texts may ask of events.
+void DynamicsBinding::add_moments() {
+  const auto add = [&](Kind kind, const std::string& name, std::size_t event) {
+    Dynamics::Variable number;
+    number.kind = kind;
+    number.name = name;
+    number.of = event;
+    number.place = result_.events[event].place;
+    scope_->symbols[name] = {};
+    result_.variables.push_back(std::move(number));
+  };
+  for (std::size_t k = 0; k < result_.events.size(); ++k) {
+    const Dynamics::Event& event = result_.events[k];
+    add(Kind::count, expr::event_number("count", event.name), k);
+    add(Kind::since, expr::event_number("since", event.name), k);
+    add(Kind::passes, expr::event_number("passes", event.name), k);
+    if (event.kind == EventKind::every) add(Kind::left, event.name + ".left", k);
+  }
+}
+
+std::size_t DynamicsBinding::event(const Component* component, const std::string& name,
+                                   const Place& place) const {
+  if (const auto found = names_->event(component, name)) return events_.at(*found);
+  throw InputError(
+      place, "there is no event '" + name + "'" + suggestion(name, names_->event_names(component)));
+}
+
+/// A value that does not change along a run.
+Formula DynamicsBinding::constant(const expr::Expression& text,
+                                  std::optional<expr::Shape> shape) const {
+  Formula bound = formula(text, *scope_, shape);
+  for (const expr::Input& input : bound.program.inputs)
+    if (is_moving(input.name))
+      throw InputError(bound.place, "'" + input.name +
+                                        "' changes along a run; here stands what data, parameters "
+                                        "and gains give");
+  return bound;
+}
+
+expr::Condition DynamicsBinding::condition(const expr::Expression& text, const Component* reader,
+                                           std::optional<std::size_t> event,
+                                           const expr::Scope& scope) const {
+  check_reads({reader, event}, text, scope);
+  return expr::compile_condition(text, scope);
+}
+
+namespace {
+
+bool any_input(const expr::Condition& condition,
+               const std::function<bool(const std::string&)>& is) {
+  if (!condition.is_comparison())
+    return std::any_of(condition.parts.begin(), condition.parts.end(),
+                       [&](const expr::Condition& part) { return any_input(part, is); });
+  return std::any_of(condition.difference.inputs.begin(), condition.difference.inputs.end(),
+                     [&](const expr::Input& input) { return is(input.name); });
+}
+
+}  // namespace
+
+void DynamicsBinding::bind_event(const EventText& text, const Component* component,
+                                 std::size_t at) {
+  const auto read = [&](const expr::Expression& one) {
+    return component != nullptr ? names_->within(*component, one) : names_->outside(one);
+  };
+  Dynamics::Event& event = result_.events[at];
+  const auto moves = [&](const std::string& name) { return is_moving(name); };
+  if (text.kind == EventKind::when) {
+    event.condition = condition(read(*text.what), component, std::nullopt, *scope_);
+    if (!any_input(*event.condition, moves))
+      throw InputError(event.condition->place,
+                       "the condition of the event '" + text.name +
+                           "' never changes: nothing that it compares moves");
+  } else if (text.what) {
+    const expr::Expression what = read(*text.what);
+    check_reads({component, std::nullopt}, what, *scope_);
+    event.crossing = formula(what, *scope_, expr::Shape{});
+    const auto& inputs = event.crossing->program.inputs;
+    if (std::none_of(inputs.begin(), inputs.end(),
+                     [&](const expr::Input& input) { return is_moving(input.name); }))
+      throw InputError(event.crossing->place, "the event '" + text.name +
+                                                  "' never is due: nothing in '" +
+                                                  event.crossing->text + "' moves");
+  }
+  const auto ends = [&](const std::vector<expr::Expression>& list) {
+    return std::pair{constant(read(list.front()), expr::Shape{}),
+                     constant(read(list.back()), expr::Shape{})};
+  };
+  if (text.kind == EventKind::every) {
+    std::tie(event.low, event.high) = ends(text.numbers);
+    if (!text.first.empty()) std::tie(event.first_low, event.first_high) = ends(text.first);
+  }
+  if (text.kind == EventKind::at)
+    for (const expr::Expression& one : text.numbers)
+      event.times.push_back(constant(read(one), std::nullopt));
+  if (text.only_if) event.only_if = condition(read(*text.only_if), component, at, *scope_);
+}
+
+Dynamics::Pass DynamicsBinding::pass(const PassText& text, const Component& component,
+                                     std::size_t at, const expr::Scope& scope,
+                                     std::size_t event) const {
+  Dynamics::Pass bound;
+  bound.repeats = text.repeats;
+  bound.go_on = text.go_on;
+  bound.place = text.place;
+  for (const Named& entry : text.map) {
+    const std::size_t of = state(component, at, entry, "the jump");
+    const expr::Expression value = names_->within(component, entry.value);
+    check_reads({&component, event}, value, scope);
+    bound.map.push_back({of, formula(value, scope, result_.variables[of].shape), entry.place});
+  }
+  if (text.until)
+    bound.until = condition(names_->within(component, *text.until), &component, event, scope);
+  if (text.at_most)
+    bound.at_most = constant(names_->within(component, *text.at_most), expr::Shape{});
+  return bound;
+}
+
+void DynamicsBinding::bind_reaction(const ReactionText& text, const Component& component,
+                                    std::size_t at) {
+  Dynamics::Reaction bound;
+  bound.event = event(&component, text.event, text.place);
+  bound.component = at;
+  bound.place = text.place;
+  expr::Scope scope = *scope_;
+  Component names = component;  // the names of `let` hide those of the component
+  for (const Let& let : text.let) names.let.push_back(let);
+  for (const Let& let : text.let)
+    scope.definitions[full_name(component, let.signature.name)] = {
+        let.signature.parameters, names_->within(names, let.body, let.signature.parameters)};
+  for (const PassText& one : text.passes)
+    bound.passes.push_back(pass(one, names, at, scope, bound.event));
+  result_.reactions.push_back(std::move(bound));
+}
+
+void DynamicsBinding::bind_stays(const Component& component, std::size_t at) {
+  Dynamics::Component& bound = result_.components[at];
+  const auto is_mode = [&](const std::string& name) {
+    return std::any_of(result_.variables.begin(), result_.variables.end(),
+                       [&](const Dynamics::Variable& variable) {
+                         return variable.name == name && variable.kind == Kind::mode;
+                       });
+  };
+  if (component.frozen) {
+    bound.frozen =
+        condition(names_->within(component, *component.frozen), &component, std::nullopt, *scope_);
+    if (any_input(*bound.frozen,
+                  [&](const std::string& name) { return is_moving(name) && !is_mode(name); }))
+      throw InputError(bound.frozen->place, "frozen: a condition of modes, which do not flow");
+  }
+  for (const StayText& stay : component.stays)
+    bound.stays.push_back(
+        {condition(names_->within(component, stay.condition), &component, std::nullopt, *scope_),
+         stay.say, stay.place});
+}
+
+void DynamicsBinding::bind_noise(const NoiseText& text) {
+  Dynamics::Noise bound;
+  bound.name = text.name;
+  bound.kind = text.kind;
+  bound.place = text.place;
+  for (const expr::Expression& value : text.values)
+    bound.values.push_back(constant(value, std::nullopt));
+  bound.shape = bound.values.front().program.shape();
+  if (bound.values.back().program.shape() != bound.shape)
+    throw InputError(bound.values.back().place,
+                     "both ends of the noise " + text.name + " must have one shape");
+  if (!text.event.empty()) bound.event = event(nullptr, text.event, text.place);
+  if (text.every) bound.every = constant(*text.every, expr::Shape{});
+  if (!is_free(text.name))
+    throw InputError(text.place, "'" + text.name + "' already names something else");
+  add_noise(std::move(bound));
+}
+
+void DynamicsBinding::add_noise(Dynamics::Noise noise) {
+  Dynamics::Variable variable;
+  variable.kind = Kind::noise;
+  variable.name = noise.name;
+  variable.of = result_.noise.size();
+  variable.shape = noise.shape;
+  variable.place = noise.place;
+  scope_->symbols[noise.name] = {noise.shape};
+  result_.variables.push_back(std::move(variable));
+  result_.noise.push_back(std::move(noise));
+}
+
+}  // namespace gainsmith::model

@@ -1,0 +1,87 @@
+// The plant or an observer as read: states, flows, and what happens at events. The records that a
+// design holds of them are in dynamics.h.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/declaration.h"
+#include "model/dynamics.h"
+
+namespace gainsmith::model {
+
+/// A definition in terms of the states, such as y = C z.
+struct Output : Named {
+  std::string at{};  ///< the event at which alone it exists; empty: always
+};
+
+/// "sample: {every: [T1, T2], first: T1, if: q == 1, lost: 0.1}".
+struct EventText {
+  std::string name;
+  Dynamics::EventKind kind = Dynamics::EventKind::when;
+  std::optional<expr::Expression> what;   ///< the condition, or what rises, falls or crosses
+  std::vector<expr::Expression> numbers;  ///< the lengths of `every`, the times of `at`
+  std::vector<expr::Expression> first;    ///< a value or the ends of a range
+  std::optional<expr::Expression> only_if;
+  double lost = 0;
+  std::optional<int> lost_in_a_row;
+  Place place;
+};
+
+/// New values of states, and how often the map runs.
+struct PassText {
+  std::vector<Named> map;
+  bool repeats = false;
+  std::optional<expr::Expression> until;
+  std::optional<expr::Expression> at_most;
+  bool go_on = false;
+  Place place;
+};
+
+/// What a component does at an event.
+struct ReactionText {
+  std::string event;
+  std::vector<Let> let;
+  std::vector<PassText> passes;
+  Place place;
+};
+
+struct StayText {
+  expr::Expression condition;
+  std::string say;
+  Place place;
+};
+
+struct Component {
+  std::string name{};  ///< "plant", "observer" or that of one of several
+  std::vector<Declaration> states{};
+  std::vector<Declaration> modes{};  ///< whole numbers that never flow
+  std::vector<Output> outputs{};
+  std::vector<Let> let{};
+  std::vector<Named> flow{};  ///< derivatives; a state without an entry stays constant
+  std::vector<Named> jump{};  ///< of the short form: values when the timer has run down
+  std::vector<EventText> events{};
+  std::vector<ReactionText> at{};
+  std::optional<expr::Expression> frozen{};
+  std::vector<StayText> stays{};
+  Place place{};
+};
+
+struct NoiseText {
+  std::string name;
+  Dynamics::NoiseKind kind = Dynamics::NoiseKind::normal;
+  std::vector<expr::Expression> values;  ///< the deviation; or the ends
+  std::string event;                     ///< of `new at`
+  std::optional<expr::Expression> every;
+  Place place;
+};
+
+/// Data of which the plant sees another value than the observers, drawn once a run.
+struct UncertainText {
+  std::string name;
+  std::vector<expr::Expression> box;  ///< low, high
+  Place place;
+};
+
+}  // namespace gainsmith::model

@@ -1,0 +1,40 @@
+// Names and what they are given, as read.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "expr/ast.h"
+#include "expr/parser.h"
+#include "model/shape_text.h"
+
+namespace gainsmith::model {
+
+/// Something with a name and a shape: a datum, an unknown, a state. With indices it is a family:
+/// "for: i in 1..N".
+struct Declaration {
+  std::string name;
+  ShapeText shape;
+  std::vector<expr::Index> indices;
+  /// A datum's default or a state's start, used when the problem gives none.
+  std::optional<expr::Expression> fallback;
+  std::string help;
+  Place place;
+};
+
+/// A name and its expression, in the order of the file.
+struct Named {
+  std::string name;
+  expr::Expression value;
+  Place place;
+};
+
+/// An entry of `let`: "mu: ..." or "E(tau): ...".
+struct Let {
+  expr::Signature signature;
+  expr::Expression body;
+  Place place;
+};
+
+}  // namespace gainsmith::model

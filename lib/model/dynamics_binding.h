@@ -1,0 +1,91 @@
+// Internal to model: plant, observers and events bound to Dynamics.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "expr/scope.h"
+#include "model/dynamics.h"
+#include "model/dynamics_names.h"
+#include "model/method.h"
+
+namespace gainsmith::model {
+
+class DynamicsBinding {
+ public:
+  /// `scope` has data, parameters, definitions, unknowns and gains; the names of plant, observers
+  /// and events are added to it.
+  DynamicsBinding(const Method& method, const Dimensions& dimensions, const DynamicsNames& names,
+                  const std::vector<UncertainText>& uncertain, expr::Scope& scope);
+
+  Dynamics run();
+  /// The event at which alone an output exists, by its full name.
+  std::optional<std::size_t> event_of_output(const std::string& output) const;
+
+ private:
+  // bind_dynamics.cpp: components, states, flows.
+  void add_component(const Component& component);
+  void add_states(const Component& component, std::size_t at);
+  void add_definitions(const Component& component);
+  void add_inputs();
+  void add_varied();
+  void bind_starts();
+  void bind_flow(const Component& component, std::size_t at);
+  std::size_t state(const Component& component, std::size_t at, const Named& entry,
+                    const char* what) const;
+  expr::Shape shape_of(const Declaration& state) const;
+  bool is_free(const std::string& name) const;
+
+  // bind_events.cpp: what is due, and what happens then.
+  void add_events();
+  void sort_events();
+  void add_moments();
+  void bind_event(const EventText& text, const Component* component, std::size_t at);
+  void bind_reaction(const ReactionText& text, const Component& component, std::size_t at);
+  Dynamics::Pass pass(const PassText& text, const Component& component, std::size_t at,
+                      const expr::Scope& scope, std::size_t event) const;
+  void bind_stays(const Component& component, std::size_t at);
+  void bind_noise(const NoiseText& text);
+  void add_noise(Dynamics::Noise noise);
+  std::size_t event(const Component* component, const std::string& name, const Place& place) const;
+  Formula constant(const expr::Expression& text, std::optional<expr::Shape> shape) const;
+  expr::Condition condition(const expr::Expression& text, const Component* reader,
+                            std::optional<std::size_t> event, const expr::Scope& scope) const;
+
+  // dynamics_reads.cpp: who may read what.
+  struct Reader {
+    const Component* component = nullptr;  ///< none: outside
+    std::optional<std::size_t> event;      ///< at which it reads
+  };
+  /// `text` has full names. InputError for an observer that reads states of the plant or another
+  /// observer, and for an output where it does not exist.
+  void check_reads(const Reader& reader, const expr::Expression& text,
+                   const expr::Scope& scope) const;
+  void check_name(const Reader& reader, const expr::Expression& top, const expr::Node& node,
+                  const std::string& name, bool states, const expr::Scope& scope,
+                  std::set<std::string>& seen) const;
+
+  Formula formula(const expr::Expression& text, const expr::Scope& scope,
+                  std::optional<expr::Shape> shape) const;
+  bool is_moving(const std::string& name) const;
+
+  const Method* method_;
+  const Dimensions* dimensions_;
+  const DynamicsNames* names_;
+  const std::vector<UncertainText>* uncertain_;
+  expr::Scope* scope_;
+  Dynamics result_;
+  std::map<std::string, std::size_t> events_;         ///< by full name
+  std::map<std::string, std::string> output_events_;  ///< the event's name as written, by output
+  std::set<std::string> outputs_of_plant_;
+  std::vector<const EventText*> event_texts_;  ///< of result_.events, in order
+};
+
+/// Drops the numbers of events, t and j, where no program reads them. InputError for an event at
+/// which nothing happens and that nothing reads.
+void drop_unread(Dynamics& dynamics, const std::set<std::string>& read);
+
+}  // namespace gainsmith::model

@@ -1,0 +1,93 @@
+#include "report/axis.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/number.h"
+#include "report/ticks.h"
+
+namespace gainsmith::report {
+
+namespace {
+
+/// The greatest d with 10^d <= value.
+int decade_below(double value) {
+  const auto power = [](int d) {
+    return parse_decimal("1e" + std::to_string(d)).value_or(HUGE_VAL);
+  };
+  int decade = static_cast<int>(std::floor(std::log10(value)));
+  if (power(decade) > value) --decade;
+  if (power(decade + 1) <= value) ++decade;
+  return decade;
+}
+
+void set_ends(const Extent& values, double margin, Axis& axis) {
+  if (values.empty()) return;
+  constexpr double smallest = 1e-300, largest = std::numeric_limits<double>::max();
+  const double size = std::max(std::abs(values.low), std::abs(values.high));
+  const double middle = values.low / 2 + values.high / 2;
+  double half = values.high / 2 - values.low / 2;
+  if (half == 0)
+    half = values.whole ? std::max(1.0, size / 10) : size > 10 * smallest ? size / 10 : 1;
+  else
+    half = std::max({half, size * 5e-11, smallest});
+  half *= 1 + margin;
+  axis.low = std::max(middle - half, -largest);
+  axis.high = std::min(middle + half, largest);
+}
+
+/// The power of 1000 that keeps the labels short, 0 for numbers that are short themselves.
+int shared_factor(const Ticks& shown) {
+  const double size =
+      std::max(std::abs(shown.value(shown.first)), std::abs(shown.value(shown.last)));
+  if (size >= 1e-3 && size < 1e5) return 0;
+  return 3 * static_cast<int>(std::floor(decade_below(size) / 3.0));
+}
+
+}  // namespace
+
+void Extent::add(double value) {
+  low = std::min(low, value);
+  high = std::max(high, value);
+  whole = whole && value == std::floor(value);
+}
+
+bool Axis::shows(double value) const { return std::isfinite(value) && (!logarithmic || value > 0); }
+
+double Axis::share(double value) const {
+  const double at = logarithmic ? std::log10(value) : value;
+  return (at / 2 - low / 2) / (high / 2 - low / 2);
+}
+
+Axis linear_axis(const Extent& values, double margin, int most) {
+  Axis axis;
+  set_ends(values, margin, axis);
+  const Ticks shown = ticks(axis.low, axis.high, most, values.whole && !values.empty() ? 0 : -310);
+  axis.factor = shared_factor(shown);
+  for (auto k = shown.first; k <= shown.last; ++k)
+    axis.ticks.push_back({axis.share(shown.value(k)), shown.label(k, axis.factor), {}});
+  return axis;
+}
+
+Axis logarithmic_axis(const Extent& values, int most) {
+  Axis axis;
+  axis.logarithmic = true;
+  if (!values.empty()) {
+    axis.low = decade_below(values.low);
+    axis.high = decade_below(values.high);
+    if (values.high > *parse_decimal("1e" + brief(axis.high))) ++axis.high;
+    if (axis.low == axis.high) --axis.low, ++axis.high;
+  }
+  const double decades = axis.high - axis.low;
+  const Ticks shown = ticks(axis.low, axis.high, most, 0);
+  for (auto k = shown.first; k <= shown.last; ++k)
+    axis.ticks.push_back({(shown.value(k) - axis.low) / decades, "10", shown.label(k)});
+  if (decades > 50) return axis;
+  const int digits = decades <= 4 ? 9 : 1;
+  for (int decade = 0; decade < decades; ++decade)
+    for (int digit = 1; digit <= digits; ++digit)
+      axis.between.push_back((decade + std::log10(digit)) / decades);
+  return axis;
+}
+
+}  // namespace gainsmith::report

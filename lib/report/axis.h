@@ -1,0 +1,48 @@
+// Axes: which values they show, where, and what stands beside them.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace gainsmith::report {
+
+/// The least and the greatest of some values.
+struct Extent {
+  double low = std::numeric_limits<double>::infinity();
+  double high = -std::numeric_limits<double>::infinity();
+  bool whole = true;  ///< all are whole numbers
+
+  bool empty() const { return low > high; }
+  void add(double value);
+};
+
+struct Tick {
+  double share = 0;  ///< of the axis, from its low end
+  std::string text;
+  std::string power;  ///< raised behind the text
+};
+
+struct Axis {
+  bool logarithmic = false;
+  double low = 0;  ///< ends; of a logarithmic axis their decimal logarithms
+  double high = 1;
+  std::vector<Tick> ticks;
+  std::vector<double> between;  ///< shares of the lines without label
+  int factor = 0;               ///< what the labels say is to be multiplied by 10^factor
+
+  bool shows(double value) const;    ///< is it finite, and positive on a logarithmic axis?
+  double share(double value) const;  ///< 0 at the low end, 1 at the high end, of a value shown
+};
+
+/// The values and a margin at both ends, as a share of their half; with at most `most` >= 5 ticks.
+/// A single value stands in the middle, and what differs in its last digits alone looks constant:
+/// the ends differ by 1e-10 of their size and by 2e-300 at least. Whole numbers, such as modes, are
+/// labelled with whole numbers. Without values: from 0 to 1.
+Axis linear_axis(const Extent& values, double margin, int most);
+
+/// Whole decades that hold the positive values, labelled with at most `most` >= 5 powers of ten.
+Axis logarithmic_axis(const Extent& values, int most);
+
+}  // namespace gainsmith::report

@@ -1,0 +1,75 @@
+#include "report/legend.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/drawing.h"
+#include "report/text.h"
+
+namespace gainsmith::report {
+
+namespace {
+
+constexpr double row_height = 18, sample_width = 24, to_label = 6, to_next = 18;
+
+double width_of(const LegendEntry& entry) {
+  return sample_width + to_label + text_width(entry.label, label_size);
+}
+
+/// Entries into rows from left to right; the middle of the first row at y. The last row_height's
+/// middle.
+double fill_rows(double y, double width, std::vector<LegendEntry>& entries) {
+  double x = 0;
+  for (LegendEntry& entry : entries) {
+    if (x > 0 && x + width_of(entry) > width) {
+      x = 0;
+      y += row_height;
+    }
+    entry.x = x;
+    entry.y = y;
+    x += width_of(entry) + to_next;
+  }
+  return y;
+}
+
+}  // namespace
+
+Legend legend(const Panel& panel, double width) {
+  Legend made;
+  made.title = shortened(panel.title, panel_title_size * bold_widening, width);
+  double total = 0;
+  for (const Curve& curve : panel.curves)
+    if (!curve.label.empty()) {
+      const double room = width - sample_width - to_label;
+      made.entries.push_back({0, 0, shortened(curve.label, label_size, room), &curve});
+      total += width_of(made.entries.back()) + to_next;
+    }
+  const double beside =
+      made.title.empty() ? 0 : text_width(made.title, panel_title_size * bold_widening) + to_next;
+  const bool one_row = total - to_next + beside <= width;
+  double last = fill_rows(row_height / 2 + (one_row || made.title.empty() ? 0 : row_height), width,
+                          made.entries);
+  if (one_row)
+    for (LegendEntry& entry : made.entries) entry.x += width - total + to_next;
+  if (made.entries.empty()) last = row_height / 2;
+  made.height = last + row_height / 2 + 4;
+  return made;
+}
+
+std::string drawn(const Legend& legend, double left, double top) {
+  std::string text;
+  if (!legend.title.empty())
+    text += text_at(left, top + row_height / 2 + 4.5, legend.title,
+                    fmt::format(R"( font-size="{}" font-weight="bold")", panel_title_size));
+  for (const LegendEntry& entry : legend.entries) {
+    const double x = left + entry.x, y = top + entry.y;
+    text += fmt::format("<path {} d=\"M{},{}h{}\"/>\n",
+                        stroke({entry.curve->colour, entry.curve->dashed, false}), pixels(x),
+                        pixels(y), pixels(sample_width));
+    text += text_at(x + sample_width + to_label, y + 4, entry.label, "");
+  }
+  return text;
+}
+
+}  // namespace gainsmith::report

@@ -1,0 +1,163 @@
+#include "report/panel.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "report/drawing.h"
+#include "report/text.h"
+
+namespace gainsmith::report {
+
+namespace {
+
+constexpr double to_labels = 7;
+
+std::string power_of_ten(int factor) {
+  return (factor < 0 ? "\xE2\x88\x92" : "") + std::to_string(std::abs(factor));
+}
+
+/// "10" and its power raised; empty for the power 0.
+std::string raised(std::string_view text, std::string_view power) {
+  std::string element = escaped(text);
+  if (!power.empty())
+    element +=
+        fmt::format(R"(<tspan dy="-5" font-size="{}">{}</tspan>)", power_size, escaped(power));
+  return element;
+}
+
+std::string label_at(double x, double y, const Tick& tick, std::string_view anchor) {
+  return fmt::format("<text x=\"{}\" y=\"{}\" text-anchor=\"{}\">{}</text>\n", pixels(x), pixels(y),
+                     anchor, raised(tick.text, tick.power));
+}
+
+Tick factor_label(int factor) {
+  return {0,
+          "\xC3\x97"
+          "10",
+          power_of_ten(factor)};
+}
+
+std::string grid(const Axis& time, const Axis& values, const Box& box) {
+  std::string strong, light;
+  const auto across = [&](double share) {
+    return "M" + pixels(box.left) + "," + pixels(box.bottom() - share * box.height) + "h" +
+           pixels(box.width);
+  };
+  for (const double share : values.between) light += across(share);
+  for (const Tick& tick : values.ticks) strong += across(tick.share);
+  for (const Tick& tick : time.ticks)
+    strong += "M" + pixels(box.left + tick.share * box.width) + "," + pixels(box.top) + "v" +
+              pixels(box.height);
+  std::string text;
+  if (!light.empty())
+    text += fmt::format("<path fill=\"none\" stroke=\"#f0f0f0\" d=\"{}\"/>\n", light);
+  text += fmt::format("<path fill=\"none\" stroke=\"#dcdcdc\" d=\"{}\"/>\n", strong);
+  return text;
+}
+
+std::string frame(const Box& box) {
+  return fmt::format(
+      "<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"{}\" fill=\"none\" stroke=\"#606060\"/>\n",
+      pixels(box.left), pixels(box.top), pixels(box.width), pixels(box.height));
+}
+
+std::string beside(const Panel& panel, const Axis& values, const Box& box) {
+  std::string text;
+  for (const Tick& tick : values.ticks)
+    text += label_at(box.left - to_labels, box.bottom() - tick.share * box.height + 4, tick, "end");
+  if (values.factor != 0)
+    text += label_at(box.left - to_labels, box.top - 8, factor_label(values.factor), "end");
+  if (!panel.axis.empty()) {
+    const std::string name = shortened(panel.axis, label_size, box.height + 30);
+    text +=
+        text_at(0, 0, name,
+                fmt::format(R"-( text-anchor="middle" transform="translate(20,{}) rotate(-90)")-",
+                            pixels(box.top + box.height / 2)));
+  }
+  return text;
+}
+
+std::string circle(const Point& at, std::string_view radius, std::string_view fill) {
+  return fmt::format("<circle cx=\"{}\" cy=\"{}\" r=\"{}\" fill=\"{}\"/>\n", pixels(at.x),
+                     pixels(at.y), radius, fill);
+}
+
+int length(const JumpTrace& jump) { return std::abs(jump.after.y - jump.before.y); }
+
+/// Open where a jump begins and filled where it ends. Of short jumps, whose circles would overlap,
+/// none, and none at all where most of the jumps that one sees are short.
+std::string circles(const std::vector<JumpTrace>& jumps, std::string_view colour) {
+  constexpr int seen = 20, clear = 45;
+  const auto longer = [&](int least) {
+    return std::count_if(jumps.begin(), jumps.end(),
+                         [&](const JumpTrace& jump) { return length(jump) >= least; });
+  };
+  if (2 * longer(clear) <= longer(seen)) return {};
+  std::string text;
+  for (const JumpTrace& jump : jumps)
+    if (length(jump) >= clear) text += circle(jump.before, "2", "white");
+  for (const JumpTrace& jump : jumps)
+    if (length(jump) >= clear) text += circle(jump.after, "2", colour);
+  return fmt::format("<g stroke=\"{}\">\n{}</g>\n", colour, text);
+}
+
+std::string lines(const Trace& trace, const Style& style) {
+  std::string jumps, flows, text;
+  for (const JumpTrace& jump : trace.jumps) jumps += path({jump.before, jump.after});
+  for (const Polyline& flow : trace.flows) flows += path(flow);
+  if (!jumps.empty())
+    text += fmt::format(
+        "<path fill=\"none\" stroke=\"{}\" stroke-width=\"0.9\" stroke-dasharray=\"1 2\" "
+        "d=\"{}\"/>\n",
+        colour_name(style.colour), jumps);
+  if (!flows.empty())
+    text += fmt::format("<path {} stroke-linejoin=\"round\" d=\"{}\"/>\n", stroke(style), flows);
+  for (const Point& dot : trace.dots) text += circle(dot, "2", colour_name(style.colour));
+  return text;
+}
+
+}  // namespace
+
+double label_width(const Axis& axis) {
+  const auto width = [](const Tick& tick) {
+    return text_width(tick.text, label_size) + text_width(tick.power, power_size);
+  };
+  double widest = axis.factor != 0 ? width(factor_label(axis.factor)) : 0;
+  for (const Tick& tick : axis.ticks) widest = std::max(widest, width(tick));
+  return widest + to_labels;
+}
+
+std::string drawn(const Panel& panel, const Axis& time, const Axis& values, const Box& box) {
+  std::string text = grid(time, values, box) + frame(box) + beside(panel, values, box);
+  std::vector<Trace> traces;
+  bool few_jumps = true, anything = false;
+  for (const Curve& curve : panel.curves) {
+    traces.push_back(trace(curve, time, values, box));
+    few_jumps = few_jumps && curve.jumps.size() <= single_jumps;
+    anything = anything || !traces.back().flows.empty() || !traces.back().dots.empty();
+  }
+  if (!anything)
+    return text + text_at(box.left + box.width / 2, box.top + box.height / 2 + 4, "no data",
+                          R"( text-anchor="middle" fill="#8a8a8a")");
+  for (std::size_t k = 0; k < traces.size(); ++k)
+    text += lines(traces[k], {panel.curves[k].colour, panel.curves[k].dashed,
+                              panel.curves[k].jumps.size() > single_jumps});
+  if (few_jumps)
+    for (std::size_t k = 0; k < traces.size(); ++k)
+      text += circles(traces[k].jumps, colour_name(panel.curves[k].colour));
+  return text;
+}
+
+std::string drawn_below(const Axis& time, const std::string& name, const Box& box) {
+  std::string text;
+  for (const Tick& tick : time.ticks)
+    text += label_at(box.left + tick.share * box.width, box.bottom() + 17, tick, "middle");
+  if (time.factor != 0)
+    text += label_at(box.right(), box.bottom() + 36, factor_label(time.factor), "end");
+  text += text_at(box.left + box.width / 2, box.bottom() + 36,
+                  shortened(name, label_size, box.width - 100), R"( text-anchor="middle")");
+  return text;
+}
+
+}  // namespace gainsmith::report

@@ -1,0 +1,21 @@
+// One panel of a figure.
+#pragma once
+
+#include <string>
+
+#include "report/axis.h"
+#include "report/figure.h"
+#include "report/trace.h"
+
+namespace gainsmith::report {
+
+/// The room that the labels beside this axis need.
+double label_width(const Axis& axis);
+
+/// Grid, frame, labels at the left and curves, the frame around the box.
+std::string drawn(const Panel& panel, const Axis& time, const Axis& values, const Box& box);
+
+/// The labels of the time axis and its name, below a box.
+std::string drawn_below(const Axis& time, const std::string& name, const Box& box);
+
+}  // namespace gainsmith::report

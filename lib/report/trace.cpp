@@ -1,0 +1,73 @@
+#include "report/trace.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace gainsmith::report {
+
+namespace {
+
+/// Verticals that hold the jumps of each column of pixels.
+std::vector<JumpTrace> joined(const std::vector<JumpTrace>& jumps) {
+  std::vector<JumpTrace> verticals;
+  for (const JumpTrace& jump : jumps) {
+    if (verticals.empty() || verticals.back().before.x / 10 != jump.before.x / 10) {
+      verticals.push_back(jump);
+      continue;
+    }
+    JumpTrace& vertical = verticals.back();
+    const auto [least, greatest] =
+        std::minmax({vertical.before.y, vertical.after.y, jump.before.y, jump.after.y});
+    vertical.before.y = least;
+    vertical.after = {vertical.before.x, greatest};
+  }
+  return verticals;
+}
+
+/// The parts of a curve as they are, sample by sample.
+class Parts {
+ public:
+  void add(std::optional<Point> point, bool behind_jump) {
+    const bool joins = point && last_;
+    if (joins && behind_jump && *point != *last_) jumps.push_back({*last_, *point});
+    if (point && (!joins || (behind_jump && *point != *last_))) lines.emplace_back();
+    if (point) lines.back().push_back(*point);
+    last_ = point;
+  }
+
+  std::vector<Polyline> lines;
+  std::vector<JumpTrace> jumps;
+
+ private:
+  std::optional<Point> last_;
+};
+
+}  // namespace
+
+Trace trace(const Curve& curve, const Axis& time, const Axis& values, const Box& box) {
+  const auto place = [&](std::size_t k) -> std::optional<Point> {
+    if (!time.shows(curve.t[k]) || !values.shows(curve.value[k])) return std::nullopt;
+    const double x = box.left + time.share(curve.t[k]) * box.width;
+    const double y = box.bottom() - values.share(curve.value[k]) * box.height;
+    return Point{static_cast<int>(std::lround(10 * x)), static_cast<int>(std::lround(10 * y))};
+  };
+  Parts parts;
+  auto jump = curve.jumps.begin();
+  for (std::size_t k = 0; k < curve.t.size(); ++k) {
+    while (jump != curve.jumps.end() && *jump + 1 < k) ++jump;
+    parts.add(place(k), jump != curve.jumps.end() && *jump + 1 == k);
+  }
+  Trace drawn;
+  for (const Polyline& part : thinned(parts.lines)) {
+    const Polyline line = straightened(part);
+    if (line.size() > 1)
+      drawn.flows.push_back(line);
+    else
+      drawn.dots.push_back(line.front());
+  }
+  drawn.jumps = curve.jumps.size() > single_jumps ? joined(parts.jumps) : std::move(parts.jumps);
+  return drawn;
+}
+
+}  // namespace gainsmith::report

@@ -1,0 +1,142 @@
+#include "verify/event_replay.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "verify/judge.h"
+#include "verify/run_values.h"
+
+namespace gainsmith::verify {
+
+namespace {
+
+using Eigen::Index;
+using VariableKind = model::Dynamics::VariableKind;
+
+Column::Kind kind_of(VariableKind kind) {
+  if (kind == VariableKind::state) return Column::Kind::state;
+  return kind == VariableKind::mode ? Column::Kind::mode : Column::Kind::other;
+}
+
+/// "xh1", "P2_1"; a number has no indices.
+std::string element(const std::string& name, expr::Shape shape, int at) {
+  std::string label = name;
+  if (!shape.is_scalar()) label += std::to_string(at % shape.rows + 1);
+  if (shape.cols > 1) label += "_" + std::to_string(at / shape.rows + 1);
+  return label;
+}
+
+/// What makes the columns of one name.
+struct Source {
+  Column column;
+  expr::Shape shape;
+  std::optional<Index> offset;    ///< of a variable
+  std::optional<RunValue> value;  ///< of a signal or claim
+  std::optional<std::size_t> at;  ///< the event at which alone it exists
+};
+
+class EventTable {
+ public:
+  EventTable(const model::Design& design, const EventSetup& setup) : design_(design), setup_(setup) {
+    const model::Dynamics& dynamics = *design.dynamics;
+    for (const model::Dynamics::Component& one : dynamics.components)
+      if (one.observer) observers_.push_back(one.name);
+    for (std::size_t k = 0; k < dynamics.variables.size(); ++k) {
+      const model::Dynamics::Variable& variable = dynamics.variables[k];
+      if (variable.kind == VariableKind::time || variable.kind == VariableKind::jumps) continue;
+      const hybrid::Slot& slot = setup.system.layout.slots[k];
+      sources_.push_back({column(variable.name, kind_of(variable.kind)), slot.shape, slot.offset,
+                          std::nullopt, std::nullopt});
+    }
+    for (const model::Dynamics::Signal& signal : dynamics.signals)
+      add(signal.name, signal.value.program, Column::Kind::signal, signal.at);
+    for (const LinkedClaim& claim : setup.claims)
+      if (claim.stated()) add(claim.name, claim.value, Column::Kind::claim, std::nullopt);
+  }
+
+  void fill(double step, EventReplay& replay) {
+    replay.columns = {{"t", "t", "", Column::Kind::time}, {"j", "j", "", Column::Kind::jumps}};
+    for (const Source& source : sources_)
+      for (int e = 0; e < source.shape.size(); ++e) {
+        replay.columns.push_back(source.column);
+        replay.columns.back().name = element(source.column.name, source.shape, e);
+      }
+    std::vector<double> values;
+    visit(replay.run, step, [&](const Moment& moment) {
+      values.push_back(moment.t);
+      values.push_back(static_cast<double>(moment.j));
+      replay.events.push_back(
+          moment.jump == nullptr ? "" : design_.dynamics->events[moment.jump->event].name);
+      for (Source& source : sources_) add_values(source, moment, values);
+    });
+    const auto columns = static_cast<Index>(replay.columns.size());
+    replay.table =
+        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+            values.data(), static_cast<Index>(replay.events.size()), columns);
+  }
+
+ private:
+  void add(const std::string& name, const expr::Program& program, Column::Kind kind,
+           std::optional<std::size_t> at) {
+    expr::Program linked = setup_.system.bodies.link(program);
+    for (const expr::Input& input : linked.inputs)
+      if (!setup_.system.slot(input.name) && !setup_.system.constants.contains(input.name)) return;
+    programs_.push_back(std::make_unique<expr::Program>(std::move(linked)));
+    const expr::Program& own = *programs_.back();
+    sources_.push_back({column(name, kind), own.shape(), std::nullopt,
+                        RunValue(own, setup_.system.layout, setup_.system.constants), at});
+  }
+
+  /// Of the only observer a name needs no prefix.
+  Column column(const std::string& name, Column::Kind kind) const {
+    for (const std::string& observer : observers_)
+      if (name.starts_with(observer + ".")) {
+        const std::string own = name.substr(observer.size() + 1);
+        return {observers_.size() == 1 ? own : name, own, observer, kind};
+      }
+    return {name, name, "", kind};
+  }
+
+  static void add_values(Source& source, const Moment& moment, std::vector<double>& values) {
+    const int size = source.shape.size();
+    if (source.offset) {
+      for (int e = 0; e < size; ++e) values.push_back(moment.x(*source.offset + e));
+      return;
+    }
+    const bool exists = !source.at || (moment.jump != nullptr && moment.jump->event == *source.at);
+    if (!exists) {
+      values.insert(values.end(), static_cast<std::size_t>(size),
+                    std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    const numbers::Matrix& value = (*source.value)(source.at ? moment.jump->before : moment.x);
+    values.insert(values.end(), value.data(), value.data() + value.size());
+  }
+
+  const model::Design& design_;
+  const EventSetup& setup_;
+  std::vector<std::string> observers_;
+  std::vector<std::unique_ptr<expr::Program>> programs_;
+  std::vector<Source> sources_;
+};
+
+}  // namespace
+
+EventReplay replay_events(const model::Instance& instance, const model::Gains& gains,
+                          std::uint64_t seed, std::uint64_t run, double step) {
+  const std::unique_ptr<const Setup> setup = make_setup(instance, gains);
+  const EventSetup& events = *setup->events;
+  EventReplay result;
+  result.run = hybrid::EventSimulator(events.system, events.scenario).run(seed, run);
+  EventTable(*instance.design, events).fill(step, result);
+  if (setup->judged.empty()) return result;
+  Judge judge(*setup);
+  const std::vector<Finding> findings = judge(seed, run).findings;
+  for (std::size_t k = 0; k < findings.size(); ++k)
+    result.claims.push_back({setup->judged[k].name, findings[k]});
+  return result;
+}
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,37 @@
+// One run of dynamics with events, with everything that a person wants to see of it.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hybrid/trajectory.h"
+#include "model/gains.h"
+#include "model/instance.h"
+#include "verify/replay.h"
+
+namespace gainsmith::verify {
+
+/// A quantity along a run: an element of a variable or of a signal, or the value of a claim.
+struct Column {
+  std::string name;  ///< as it is shown, "xh1"; of several observers with the name, "nominal.xh1"
+  std::string stem;  ///< without observer and element: "xh"
+  std::string observer;  ///< empty: of the plant, of all
+  enum class Kind { time, jumps, state, mode, other, signal, claim } kind = Kind::other;
+};
+
+/// Rows: the start, points of each flow and its end, the values after each jump.
+struct EventReplay {
+  hybrid::Trajectory run;
+  std::vector<Column> columns;
+  numbers::Matrix table;              ///< not a number where there is none
+  std::vector<std::string> events;    ///< of each row: the jump that it comes after, or empty
+  std::vector<ReplayedClaim> claims;  ///< exactly what the campaign found in this run
+};
+
+/// `step`: of the points of flows; 0: as the integration went. Without claims when `claims` is not
+/// set.
+EventReplay replay_events(const model::Instance& instance, const model::Gains& gains,
+                          std::uint64_t seed, std::uint64_t run, double step);
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,64 @@
+// What the runs of a campaign share when the dynamics have events (model/dynamics.h).
+//
+// A claim is judged by its own values along a run: they are the coordinates of the judgement. The
+// integral of a flow cost is a state beside those of the plant and the observers.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hybrid/bounded_system.h"
+#include "hybrid/event_run.h"
+#include "verify/claim_check.h"
+#include "verify/claims.h"
+#include "verify/run_values.h"
+
+namespace gainsmith::verify {
+
+struct EventSetup {
+  hybrid::EventSystem system;
+  hybrid::EventScenario scenario;
+  std::vector<LinkedClaim> claims;
+  std::vector<expr::Program> functions;  ///< of the claims that are stated: the coordinates
+  hybrid::Coordinates coordinates;
+  std::vector<JudgedClaim> judged;  ///< the claims that are stated, in order
+  std::unique_ptr<hybrid::BoundedSystem<double>> narrow;
+};
+
+/// At an address of its own: its parts point to each other.
+std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instance,
+                                                   const model::Gains& gains);
+
+/// The runs of one (seed, number), to a relative accuracy and to a hundredth of it, as the samples
+/// of the functions; one for each thread. The setup must outlive it.
+///
+///   samples   the ends of 32 equal parts of each flow, and the values after each jump
+///   bound     four times the largest difference between the two runs at a sample and two on each
+///             side of it, + 8 u |value|: an estimate that leaves a margin, and no proof
+///
+/// Where the two runs take other events, or end otherwise, it hangs on the accuracy: the run is
+/// lost. A run that ends by accumulating jumps is complete.
+class EventTracks {
+ public:
+  static constexpr int kPieces = 32;
+
+  explicit EventTracks(const EventSetup& setup);
+
+  const hybrid::Track<double>& run(std::uint64_t seed, std::uint64_t run, double relative);
+
+ private:
+  void append(double t, std::int64_t j, const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine);
+  void add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPiece& fine);
+  void add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
+  void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
+  void widen(std::size_t first);
+  Eigen::VectorXd values(const Eigen::VectorXd& x);
+
+  const EventSetup* setup_;
+  hybrid::EventSimulator simulator_;
+  std::vector<RunValue> functions_;
+  hybrid::Track<double> track_;
+};
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,117 @@
+#include "verify/expected_run.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "base/number.h"
+#include "verify/event_setup.h"
+#include "verify/run_figures.h"
+
+namespace gainsmith::verify {
+
+namespace {
+
+/// The first run to two accuracies, and figures of both.
+class TwoRuns {
+ public:
+  TwoRuns(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
+          std::uint64_t run)
+      : setup_(make_event_setup(instance, gains)) {
+    constexpr hybrid::Accuracy kUsual{1e-10, 1e-10};
+    constexpr hybrid::Accuracy kSharper{1e-12, 1e-12};
+    hybrid::EventSimulator simulator(setup_->system, setup_->scenario);
+    usual_ = simulator.run(seed, run, kUsual);
+    sharper_ = simulator.run(seed, run, kSharper);
+  }
+
+  hybrid::Ending ending() const { return sharper_.ending; }
+  bool same_ending() const { return usual_.ending == sharper_.ending; }
+  const std::string& message() const { return sharper_.message; }
+
+  FoundFigure find(const model::Figure& figure) {
+    FoundFigure found{figure.title, figure.observer, std::nullopt, 0};
+    const auto [usual, sharper] = numbers(figure);
+    found.value = sharper;
+    if (usual && sharper) found.difference = *usual == *sharper ? 0 : std::abs(*usual - *sharper);
+    if (usual.has_value() != sharper.has_value())
+      found.difference = std::numeric_limits<double>::infinity();
+    return found;
+  }
+
+ private:
+  std::pair<std::optional<double>, std::optional<double>> numbers(const model::Figure& figure) {
+    std::optional<expr::Program> program;
+    std::optional<RunValue> value;
+    if (figure.value) {
+      program = setup_->system.bodies.link(figure.value->program);
+      for (const expr::Input& input : program->inputs)
+        if (!setup_->system.slot(input.name) && !setup_->system.constants.contains(input.name))
+          throw InputError(figure.value->place, "there is no value for " + input.name);
+      value.emplace(*program, setup_->system.layout, setup_->system.constants);
+    }
+    std::vector<double> constants;
+    for (const model::Formula& number : figure.numbers)
+      constants.push_back(setup_->system.scalar(number));
+    std::optional<Eigen::Index> passes;
+    const std::string& event = setup_->system.dynamics.events[figure.event].name;
+    if (const auto slot = setup_->system.slot(expr::event_number("passes", event));
+        slot && figure.kind == model::FigureKind::passes)
+      passes = setup_->system.layout.slots[*slot].offset;
+    FigureOf of(figure.kind, std::move(value), std::move(constants), figure.event, figure.count,
+                figure.after, passes);
+    const auto usual = of(usual_);
+    return {usual, of(sharper_)};
+  }
+
+  std::unique_ptr<const EventSetup> setup_;
+  hybrid::Trajectory usual_;
+  hybrid::Trajectory sharper_;
+};
+
+std::string said(const std::optional<double>& value) { return value ? brief(*value, 9) : "none"; }
+
+}  // namespace
+
+std::vector<FoundFigure> compared_figures(const model::Instance& instance,
+                                          const model::Gains& gains, std::uint64_t seed,
+                                          std::uint64_t run) {
+  if (instance.design->compare.empty()) return {};
+  TwoRuns runs(instance, gains, seed, run);
+  std::vector<FoundFigure> found;
+  for (const model::Figure& figure : instance.design->compare) found.push_back(runs.find(figure));
+  return found;
+}
+
+RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains) {
+  RunDifferences result;
+  const auto& expect = instance.design->expect;
+  if (!expect || expect->run.empty()) return result;
+  TwoRuns runs(instance, gains, instance.design->campaign.seed, 0);
+  for (const model::ExpectedFigure& expected : expect->run) {
+    ++result.figures;
+    const model::Figure& figure = expected.figure;
+    const std::string who = figure.observer.empty() ? "" : figure.observer + ": ";
+    const std::string what = to_string(figure.place) + ": " + who + figure.title + ": expected ";
+    if (figure.kind == model::FigureKind::ended) {
+      if (to_string(runs.ending()) != expected.ending)
+        result.different.push_back(what + expected.ending + ", found " + to_string(runs.ending()) +
+                                   (runs.message().empty() ? "" : " (" + runs.message() + ")"));
+      continue;
+    }
+    const FoundFigure found = runs.find(figure);
+    const double wanted = numbers::evaluate(expected.is->program, instance.values)(0, 0);
+    const double allowed =
+        std::max(expected.absolute.value_or(0), expected.relative.value_or(0) * std::abs(wanted));
+    const std::string text = what + fmt::format("{} within {}, found {}", brief(wanted, 9),
+                                                brief(allowed), said(found.value));
+    if (!found.value || !(std::abs(*found.value - wanted) <= allowed))
+      result.different.push_back(text);
+    else if (!(found.difference <= allowed))
+      result.undecided.push_back(text + " +- " + brief(found.difference));
+  }
+  return result;
+}
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,35 @@
+// Figures of the first run of dynamics with events: expected ones, and those that are compared.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/gains.h"
+#include "model/instance.h"
+
+namespace gainsmith::verify {
+
+struct FoundFigure {
+  std::string title;
+  std::string observer;         ///< empty: of none
+  std::optional<double> value;  ///< none: the run has no such number
+  /// How far it is from that of a run integrated to a hundredth of the tolerance.
+  double difference = 0;
+};
+
+/// The figures under `compare`, of the run of this seed and number.
+std::vector<FoundFigure> compared_figures(const model::Instance& instance,
+                                          const model::Gains& gains, std::uint64_t seed,
+                                          std::uint64_t run);
+
+struct RunDifferences {
+  std::vector<std::string> different;  ///< place: figure: expected ..., found ...
+  std::vector<std::string> undecided;  ///< those whose digits do not decide
+  std::size_t figures = 0;             ///< that were expected
+};
+
+/// What is expected of the first run (number 0) and is not found there.
+RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains);
+
+}  // namespace gainsmith::verify

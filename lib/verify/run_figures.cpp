@@ -1,0 +1,211 @@
+#include "verify/run_figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+namespace gainsmith::verify {
+
+namespace {
+
+using hybrid::DenseStep;
+using hybrid::FlowPiece;
+using hybrid::JumpPoint;
+using hybrid::Trajectory;
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// Points of a step at which a value is looked at before it is looked at more closely.
+constexpr int kLooks = 24;
+
+double look(const DenseStep& step, int k) {
+  return k == kLooks ? step.to : step.from + (step.to - step.from) * k / kLooks;
+}
+
+}  // namespace
+
+FigureOf::FigureOf(model::FigureKind kind, std::optional<RunValue> value,
+                   std::vector<double> numbers, std::size_t event, std::int64_t count, bool after,
+                   std::optional<Eigen::Index> passes)
+    : kind_(kind),
+      value_(std::move(value)),
+      numbers_(std::move(numbers)),
+      event_(event),
+      count_(count),
+      after_(after),
+      passes_(passes) {}
+
+std::optional<double> FigureOf::operator()(const Trajectory& run) {
+  using Kind = model::FigureKind;
+  const auto finite = [](std::optional<double> value) {
+    return value && std::isnan(*value) ? std::nullopt : value;
+  };
+  switch (kind_) {
+    case Kind::at_event:
+      return finite(at_event(run));
+    case Kind::at_time:
+      return finite(at_time(run));
+    case Kind::peak:
+      return finite(extreme(run, 1));
+    case Kind::least:
+      return finite(extreme(run, -1));
+    case Kind::settles:
+      return finite(settled(run));
+    case Kind::rms:
+      return finite(root_mean_square(run));
+    case Kind::count:
+      return number_of(run, false);
+    case Kind::passes:
+      return number_of(run, true);
+    case Kind::ended:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> FigureOf::at_event(const Trajectory& run) {
+  std::int64_t found = 0;
+  for (const auto& part : run.parts) {
+    const auto* jump = std::get_if<JumpPoint>(&part);
+    if (jump == nullptr || jump->event != event_ || ++found < count_) continue;
+    return value_->number(after_ ? jump->after : jump->before);
+  }
+  return std::nullopt;
+}
+
+std::optional<double> FigureOf::at_time(const Trajectory& run) {
+  const double t = numbers_.front();
+  if (!(t >= 0 && t <= run.end)) return std::nullopt;
+  double value = value_->number(run.start);
+  for (const auto& part : run.parts) {
+    if (const auto* jump = std::get_if<JumpPoint>(&part)) {
+      if (jump->t > t) break;
+      value = value_->number(jump->after);
+      continue;
+    }
+    const auto& flow = std::get<FlowPiece>(part);
+    if (flow.from() > t) break;
+    const auto step = std::find_if(flow.steps.begin(), flow.steps.end(),
+                                   [&](const DenseStep& one) { return t <= one.to; });
+    value = value_->number(step == flow.steps.end() ? flow.end : (*step)(t));
+  }
+  return value;
+}
+
+/// The largest value of a step times `sign`, by golden section around the best look.
+double FigureOf::extreme(const DenseStep& step, double sign) {
+  constexpr int kSections = 50;
+  const auto at = [&](double t) { return sign * value_->number(step(t)); };
+  int best = 0;
+  double most = -kUnbounded;
+  for (int k = 0; k <= kLooks; ++k)
+    if (const double value = at(look(step, k)); !(value <= most)) {
+      best = k;
+      most = value;
+    }
+  double low = look(step, std::max(best - 1, 0));
+  double high = look(step, std::min(best + 1, kLooks));
+  const double ratio = std::numbers::phi - 1;
+  double a = high - ratio * (high - low);
+  double b = low + ratio * (high - low);
+  double at_a = at(a);
+  double at_b = at(b);
+  for (int k = 0; k < kSections && low < a && a < b && b < high; ++k) {
+    if (at_a >= at_b) {
+      high = std::exchange(b, std::exchange(a, b - ratio * (b - low)));
+      at_b = std::exchange(at_a, at(a));
+    } else {
+      low = std::exchange(a, std::exchange(b, a + ratio * (high - a)));
+      at_a = std::exchange(at_b, at(b));
+    }
+    most = std::max({most, at_a, at_b});
+  }
+  return most;
+}
+
+double FigureOf::extreme(const Trajectory& run, double sign) {
+  double most = sign * value_->number(run.start);
+  for (const auto& part : run.parts) {
+    if (const auto* jump = std::get_if<JumpPoint>(&part)) {
+      most = std::max(most, sign * value_->number(jump->after));
+      continue;
+    }
+    for (const DenseStep& step : std::get<FlowPiece>(part).steps)
+      most = std::max(most, extreme(step, sign));
+  }
+  return sign * most;
+}
+
+/// The last time of a step at which the value is not below a level; minus infinity: never.
+double FigureOf::last_above(const DenseStep& step, double level) {
+  constexpr int kHalvings = 60;
+  const auto above = [&](double t) { return !(value_->number(step(t)) < level); };
+  for (int k = kLooks; k >= 0; --k) {
+    double high = look(step, k);
+    if (!above(high)) continue;
+    if (k == kLooks) return step.to;
+    double below = look(step, k + 1);
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = high + (below - high) / 2;
+      (above(middle) ? high : below) = middle;
+    }
+    return high;
+  }
+  return -kUnbounded;
+}
+
+double FigureOf::settled(const Trajectory& run) {
+  const double level = numbers_.front();
+  bool last = true;
+  for (std::size_t k = run.parts.size(); k-- > 0; last = false) {
+    if (const auto* jump = std::get_if<JumpPoint>(&run.parts[k])) {
+      if (!(value_->number(jump->after) < level)) return last ? kUnbounded : jump->t;
+      continue;
+    }
+    const auto& flow = std::get<FlowPiece>(run.parts[k]);
+    if (last && !(value_->number(flow.end) < level)) return kUnbounded;
+    for (std::size_t i = flow.steps.size(); i-- > 0;)
+      if (const double t = last_above(flow.steps[i], level); t >= 0) return t;
+  }
+  return value_->number(run.start) < level ? 0 : (run.parts.empty() ? kUnbounded : 0);
+}
+
+/// Gauss' rule with five nodes on pieces of each step.
+std::optional<double> FigureOf::root_mean_square(const Trajectory& run) {
+  constexpr std::array<std::pair<double, double>, 5> kRule = {
+      {{-0.906179845938664, 0.236926885056189},
+       {-0.538469310105683, 0.478628670499366},
+       {0, 0.568888888888889},
+       {0.538469310105683, 0.478628670499366},
+       {0.906179845938664, 0.236926885056189}}};
+  constexpr int kPieces = 4;
+  const double from = numbers_.front();
+  const double to = numbers_.back();
+  if (!(0 <= from && from < to && to <= run.end * (1 + 1e-12))) return std::nullopt;
+  double sum = 0;
+  visit_steps(run, [&](const DenseStep& step) {
+    const double low = std::max(from, step.from);
+    const double high = std::min(to, step.to);
+    if (!(low < high)) return;
+    const double half = (high - low) / (2 * kPieces);
+    for (int piece = 0; piece < kPieces; ++piece)
+      for (const auto& [node, weight] : kRule) {
+        const double value = value_->number(step(low + half * (2 * piece + 1 + node)));
+        sum += half * weight * value * value;
+      }
+  });
+  return std::sqrt(sum / (to - from));
+}
+
+double FigureOf::number_of(const Trajectory& run, bool passes) const {
+  double count = 0;
+  for (const auto& part : run.parts)
+    if (const auto* jump = std::get_if<JumpPoint>(&part); jump != nullptr && jump->event == event_)
+      count += passes ? (passes_ ? jump->after(*passes_) : 0) : 1;
+  return count;
+}
+
+}  // namespace gainsmith::verify

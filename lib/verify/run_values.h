@@ -1,0 +1,48 @@
+// Values of texts along a run of dynamics with events.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "hybrid/state_layout.h"
+#include "hybrid/trajectory.h"
+#include "model/stated.h"
+
+namespace gainsmith::verify {
+
+/// A text as a function of all variables. The layout, the constants and the program must outlive
+/// it.
+class RunValue {
+ public:
+  /// `program` without calls.
+  RunValue(const expr::Program& program, const hybrid::StateLayout& layout,
+           const numbers::Values& constants);
+
+  /// Not a number where it has no value.
+  const numbers::Matrix& operator()(const Eigen::VectorXd& x);
+  double number(const Eigen::VectorXd& x) { return (*this)(x)(0, 0); }
+
+ private:
+  hybrid::PointFunction function_;
+  numbers::Matrix none_;
+};
+
+/// A moment of a run.
+struct Moment {
+  double t = 0;
+  std::int64_t j = 0;
+  const hybrid::JumpPoint* jump = nullptr;  ///< just after it
+  Eigen::VectorXd x;
+};
+
+/// Visits the start, the ends of all flows, points between them and the states after jumps, in
+/// order: the points that are multiples of `step`, or, when it is 0, the ends of the steps of the
+/// integration and their middles.
+void visit(const hybrid::Trajectory& run, double step,
+           const std::function<void(const Moment&)>& seen);
+
+/// Visits the steps of all flows in order.
+void visit_steps(const hybrid::Trajectory& run,
+                 const std::function<void(const hybrid::DenseStep&)>& seen);
+
+}  // namespace gainsmith::verify

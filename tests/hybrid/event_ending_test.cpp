@@ -1,0 +1,177 @@
+// How runs with events end, and branches of flows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "hybrid/event_problem.h"
+#include "support/input_error.h"
+
+namespace gainsmith::hybrid {
+namespace {
+
+using tests::EventProblem;
+using tests::input_error;
+using tests::jumps_of;
+using tests::part_of;
+using tests::value_at;
+
+Trajectory simulate(const EventSystem& system, double horizon) {
+  const EventScenario scenario = make_event_scenario(horizon, system);
+  return EventSimulator(system, scenario).run(1, 0);
+}
+
+void expect_says(const Trajectory& run, const std::string& text) {
+  EXPECT_NE(run.message.find(text), std::string::npos) << run.message;
+}
+
+TEST(EventEnding, AChainOfJumpsWithoutFlowNamesTheEventAndItsValue) {
+  EventProblem problem;
+  problem.state("x", {}, "0").flow("x", "1").when("over", "x >= 1").jump("over", {{"x", "x + 1"}});
+  const Trajectory run = simulate(problem.system(), 5);
+  EXPECT_EQ(run.ending, Ending::stuck);
+  EXPECT_NEAR(run.end, 1, 1e-15);
+  expect_says(run, "the event over is due again");
+  expect_says(run, "x >= 1");
+  EXPECT_LT(jumps_of(run).size(), 2000U);
+}
+
+TEST(EventEnding, EscapesNameTheirTime) {
+  EventProblem problem;
+  problem.state("x", {}, "1").flow("x", "x^2");
+  const Trajectory run = simulate(problem.system(), 5);
+  EXPECT_EQ(run.ending, Ending::escaped) << run.message;
+  EXPECT_NEAR(run.end, 1, 1e-3);
+  EventProblem linear;
+  linear.state("x", {}, "1").flow("x", "1000*x");
+  const Trajectory far = simulate(linear.system(), 5);
+  EXPECT_EQ(far.ending, Ending::escaped);
+  EXPECT_NEAR(far.end, 0.345, 0.01);
+  expect_says(far, "x = ");
+}
+
+TEST(EventEnding, TextsWithoutAValueNameTheirPlace) {
+  EventProblem flow;
+  flow.state("x", {}, "1").flow("x", "-sqrt(x)/x");
+  const Trajectory run = simulate(flow.system(), 5);
+  EXPECT_EQ(run.ending, Ending::undefined) << run.message;
+  EXPECT_NEAR(run.end, 2.0 / 3, 1e-3);
+  expect_says(run, "sqrt");
+  EventProblem jump;
+  jump.state("x", {}, "1").at("go", {"1"}).jump("go", {{"x", "log(x - 2)"}});
+  const Trajectory at = simulate(jump.system(), 5);
+  EXPECT_EQ(at.ending, Ending::undefined);
+  EXPECT_EQ(at.end, 1);
+  expect_says(at, "test:1:1");
+}
+
+TEST(EventEnding, LeavingTheFlowSetSaysWhy) {
+  EventProblem problem;
+  problem.state("x", {}, "0").flow("x", "cos(t)").stay("x <= 0.5", "too far");
+  const Trajectory run = simulate(problem.system(), 5);
+  EXPECT_EQ(run.ending, Ending::left);
+  EXPECT_NEAR(run.end, std::asin(0.5), 1e-9);
+  expect_says(run, "too far");
+  EventProblem ball;
+  ball.state("x", {2, 1}, "[1; 0]").flow("x", "[x(2); -10]").stay("x(1) >= 0", "below ground");
+  ball.when("impact", "x(1) <= 0 and x(2) < 0").jump("impact", {{"x", "[x(1); -x(2)]"}});
+  const Trajectory bounces = simulate(ball.system(), 5);
+  EXPECT_EQ(bounces.ending, Ending::horizon) << bounces.message;
+  EXPECT_EQ(jumps_of(bounces).size(), 6U);
+  EventProblem out;
+  out.state("x", {}, "0").stay("x <= 1", "out").at("go", {"1"}).jump("go", {{"x", "2"}});
+  EXPECT_EQ(simulate(out.system(), 5).end, 1);
+}
+
+TEST(EventEnding, ARelayWithoutHysteresisChatters) {
+  EventProblem problem;
+  problem.state("x", {}, "1").flow("x", "-q").mode("q", "1");
+  problem.when("plus", "x > 0 and q == -1").jump("plus", {{"q", "1"}});
+  problem.when("minus", "x < 0 and q == 1").jump("minus", {{"q", "-1"}});
+  const Trajectory run = simulate(problem.system(), 5);
+  EXPECT_EQ(run.ending, Ending::chattering) << run.message;
+  EXPECT_NEAR(run.end, 1, 1e-9);
+  expect_says(run, "plus");
+  expect_says(run, "minus");
+}
+
+TEST(EventEnding, StoppedFromOutside) {
+  EventProblem problem;
+  problem.state("x", {}, "1").flow("x", "-x").every("tick", "1", "1");
+  const EventSystem system = problem.system();
+  const EventScenario scenario = make_event_scenario(1e6, system);
+  int asked = 0;
+  EventSimulator simulator(system, scenario, [&] { return ++asked > 50; });
+  EXPECT_EQ(simulator.run(1, 0).ending, Ending::interrupted);
+}
+
+TEST(EventEnding, StatesThatAreNoneOfTheirKindAreErrors) {
+  EventProblem mode;
+  mode.mode("q", "0").at("go", {"1"}).jump("go", {{"q", "0.5"}});
+  const EventSystem halves = mode.system();
+  EXPECT_NE(input_error([&] { simulate(halves, 2); }).message().find("whole number"),
+            std::string::npos);
+  EventProblem matrix;
+  matrix.symmetric("P", 2, "[1, 0; 0, 1]").flow("P", "[1, 2; 3, 4]*P");
+  const EventSystem skew = matrix.system();
+  EXPECT_NE(input_error([&] { simulate(skew, 2); }).message().find("P is symmetric"),
+            std::string::npos);
+  EventProblem jump;
+  jump.symmetric("P", 2, "[1, 0; 0, 1]").at("go", {"1"});
+  jump.jump("go", {{"P", "[1, 1e-6; 0, 1]*P"}});
+  const EventSystem other = jump.system();
+  EXPECT_NE(input_error([&] { simulate(other, 2); }).message().find("P is symmetric"),
+            std::string::npos);
+}
+
+TEST(EventSwitch, BranchesAreHeldAndChangeAtTheirBorder) {
+  for (const bool exact : {true, false}) {
+    EventProblem problem;
+    problem.state("x", {}, "1")
+        .flow("x", exact ? "where(x > 0.5, -1, -x)" : "where(x > 0.5, -1, -sin(x))");
+    problem.state("z", {}, "-1").flow("z", "sign(z + 0.5) + 1.5");
+    const EventSystem system = problem.system();
+    EXPECT_EQ(system.affine, exact);
+    EXPECT_EQ(system.switches.size(), 2U);
+    const Trajectory run = simulate(system, 3);
+    EXPECT_EQ(run.ending, Ending::horizon) << run.message;
+    EXPECT_TRUE(jumps_of(run).empty());
+    ASSERT_EQ(run.parts.size(), 1U);
+    const double x = exact ? 0.5 * std::exp(-1.5) : 2 * std::atan(std::tan(0.25) * std::exp(-1.5));
+    EXPECT_NEAR(value_at(system, run, "x", 2)(0), x, exact ? 1e-14 : 1e-9);
+    // 0.5 up to t = 1, where z = -0.5, then 2.5.
+    EXPECT_NEAR(value_at(system, run, "z", 2)(0), 2, 1e-14);
+  }
+}
+
+TEST(EventSwitch, BranchesThatBothLeadBackSlide) {
+  EventProblem problem;
+  problem.state("x", {2, 1}, "[1; 0]").flow("x", "[-sign(x(1)) + 0.25; 1]");
+  const Trajectory run = simulate(problem.system(), 5);
+  EXPECT_EQ(run.ending, Ending::sliding) << run.message;
+  EXPECT_NEAR(run.end, 4.0 / 3, 1e-9);
+  EventProblem relay;
+  relay.state("x", {}, "1").flow("x", "where(x >= 0.3, -1 - x^2, 1)");
+  EXPECT_EQ(simulate(relay.system(), 5).ending, Ending::sliding);
+}
+
+TEST(EventSwitch, BranchesOfTimeAreSteppedTo) {
+  EventProblem problem;
+  problem.state("x", {}, "0").flow("x", "where(t >= 1, where(t < 2, 3, 0), sin(x))");
+  const EventSystem system = problem.system();
+  const Trajectory run = simulate(system, 3);
+  EXPECT_NEAR(value_at(system, run, "x", 3)(0), 3, 1e-13);
+}
+
+TEST(EventFlow, StiffFlowsAreFollowed) {
+  EventProblem problem;
+  problem.state("x", {2, 1}, "[2; 0]").flow("x", "[x(2); 1000*((1 - x(1)^2)*x(2)) - x(1)]");
+  problem.crossing(model::Dynamics::EventKind::falls, "fall", "x(1)");
+  const EventSystem system = problem.system();
+  const Trajectory run = simulate(system, 2000);
+  EXPECT_EQ(run.ending, Ending::horizon) << run.message;
+  ASSERT_EQ(jumps_of(run).size(), 1U);
+  EXPECT_NEAR(jumps_of(run)[0].t, 807.0, 1.0);
+}
+
+}  // namespace
+}  // namespace gainsmith::hybrid
