@@ -65,7 +65,7 @@ Truth JudgedEvents::without_if(std::size_t event, double t, const Eigen::VectorX
     return same_time(t, memory.clock->next()) ? Truth::unsure : Truth::no;
   }
   if (texts.condition) {
-    if ((*texts.condition)(x)) return Truth::yes;
+    if ((*texts.condition)(x)) return memory.spent ? Truth::no : Truth::yes;
     return texts.condition->truth(x, rounding) == Truth::no ? Truth::no : Truth::unsure;
   }
   const double value = (*texts.crossing)(x)(0, 0);
@@ -101,9 +101,10 @@ void JudgedEvents::look(std::size_t part, double t, const Eigen::VectorXd& x,
     else if (is_due == Truth::yes)
       faults_.add(part, t, "is due, but does not jump: " + name);
     Memory& memory = memory_[e];
-    const bool was_spent = is_due == Truth::no && without_if(e, t, x, rounding) == Truth::yes;
-    if (was_spent && memory.clock) memory.clock->spent(t);
-    if (texts_.events[e].condition) memory.spent = was_spent;
+    const bool is_spent = is_due == Truth::no && without_if(e, t, x, rounding) == Truth::yes;
+    if (is_spent && memory.clock) memory.clock->spent(t);
+    if (auto& condition = texts_.events[e].condition)
+      memory.spent = (*condition)(x) && (memory.spent || is_spent);
     if (is_border(e) && (is_due == Truth::no || is_due == Truth::yes))
       remember_side(e, x, rounding);
   }

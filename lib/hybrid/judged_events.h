@@ -33,7 +33,7 @@ class JudgedEvents {
  private:
   struct Memory {
     int side = 0;        ///< of a border: on which e was last, for sure; 0 after its own jump
-    bool spent = false;  ///< `when`: `if` was false when the condition became true
+    bool spent = false;  ///< `when`: rejected by `if`, not due until its condition has been false
     std::optional<EventClock> clock;
     double last = 0;  ///< the time of the last jump
     std::int64_t count = 0;
@@ -56,6 +56,7 @@ class JudgedEvents {
   void remember_side(std::size_t event, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
 
   // judged_inside.cpp: the inside of flows.
+  static std::vector<double> sample_times(const FlowPiece& piece);
   std::vector<Sample> samples(const FlowPiece& piece) const;
   Sample sample(const FlowPiece& piece, double t) const;
   Truth inside(Guard& guard, const Sample& at);

@@ -16,13 +16,8 @@ using V = model::Dynamics::VariableKind;
 constexpr double kRounding = 1e-13;
 constexpr double kJoint = 1e-12;  ///< between a sum of polynomials and a recorded value
 constexpr double kFactor = 100;   ///< of the accuracy
-constexpr int kFinest = 64;       ///< Gauss steps in one step
+constexpr int kFinest = 256;      ///< Gauss steps in one step
 constexpr int kInner = 16;        ///< points in a step
-
-bool is_exact(V kind) {
-  return kind == V::mode || kind == V::jumps || kind == V::count || kind == V::passes ||
-         kind == V::noise;
-}
 
 bool is_clock(V kind) { return kind == V::time || kind == V::since || kind == V::left; }
 
@@ -41,8 +36,9 @@ Eigen::VectorXd rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd&
     rate.setZero();  // then only the values are rounded
   }
   Eigen::VectorXd result = kRounding * sizes + time_rounding(t, t) * rate.cwiseAbs();
-  for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v)
-    if (is_exact(texts.dynamics.variables[v].kind)) texts.part(result, v).setZero();
+  const std::vector<bool> flowing = texts.flowing(x);
+  for (std::size_t v = 0; v < flowing.size(); ++v)
+    if (!flowing[v] && !is_clock(texts.dynamics.variables[v].kind)) texts.part(result, v).setZero();
   return result;
 }
 
@@ -82,9 +78,10 @@ void FlowCheck::operator()(std::size_t part, const FlowPiece& piece) {
   for (const DenseStep& step : piece.steps) {
     const Eigen::VectorXd sizes = step_sizes(texts_, step);
     largest = largest.cwiseMax(sizes);
-    const Eigen::VectorXd from = step(step.from);
+    Eigen::VectorXd from = step(step.from);
     check_joint(x, step.from, from, sizes, &step != &piece.steps.front());
     check_rest(step, from, sizes);
+    texts_.settle(piece.start, from);
     check_step(step, from, sizes, sum);
     x = step(step.to);
   }

@@ -17,8 +17,7 @@ namespace gainsmith::hybrid::judging {
 Eigen::VectorXd step_sizes(const JudgedTexts& texts, const DenseStep& step);
 
 /// How far each element may be off at x by rounding: 1e-13 of its size and, as events lie at times
-/// that are rounded too, what it moves in a few units in the last place of t. 0 of what is exact:
-/// modes, counts, noise.
+/// that are rounded too, what it moves in a few units in the last place of t. 0 of what rests.
 Eigen::VectorXd rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x,
                             const Eigen::VectorXd& sizes);
 

@@ -11,6 +11,7 @@ namespace gainsmith::hybrid::judging {
 namespace {
 
 constexpr int kPoints = 16;  ///< inside a step
+constexpr int kCloser = 24;  ///< next to each end of a flow: down to 4^-24 of a step
 
 /// Whether a value that is `here` <= 0 between two others may be above 0 near by: it is an
 /// extremum, and 0 is no farther than the lower of the others.
@@ -25,23 +26,37 @@ JudgedEvents::Sample JudgedEvents::sample(const FlowPiece& piece, double t) cons
   const auto after =
       std::upper_bound(piece.steps.begin(), piece.steps.end() - 1, t,
                        [](double time, const DenseStep& step) { return time < step.to; });
-  return {t, (*after)(t), step_sizes(texts_, *after)};
+  Sample result{t, (*after)(t), step_sizes(texts_, *after)};
+  texts_.settle(piece.start, result.x);
+  return result;
+}
+
+std::vector<double> JudgedEvents::sample_times(const FlowPiece& piece) {
+  std::vector<double> times;
+  for (const DenseStep& step : piece.steps) {
+    times.push_back(step.from);
+    for (int k = 0; k < kPoints; ++k) {
+      const double z = std::cos(std::numbers::pi * (k + 0.5) / kPoints);
+      times.push_back(step.from + (step.to - step.from) * (1 - z) / 2);
+    }
+  }
+  // Ever closer to where the flow begins and ends: what comes too late comes near an end.
+  const DenseStep& first = piece.steps.front();
+  const DenseStep& last = piece.steps.back();
+  double share = 0.25;
+  for (int k = 0; k < kCloser; ++k, share /= 4) {
+    times.push_back(first.from + share * (first.to - first.from));
+    times.push_back(last.to - share * (last.to - last.from));
+  }
+  times.push_back(last.to);
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
 }
 
 std::vector<JudgedEvents::Sample> JudgedEvents::samples(const FlowPiece& piece) const {
   std::vector<Sample> all;
-  for (const DenseStep& step : piece.steps) {
-    const Eigen::VectorXd sizes = step_sizes(texts_, step);
-    all.push_back({step.from, step(step.from), sizes});
-    for (int k = 0; k < kPoints; ++k) {
-      // Close to the ends, where a second root next to an event would lie.
-      const double z = std::cos(std::numbers::pi * (k + 0.5) / kPoints);
-      const double t = step.from + (step.to - step.from) * (1 - z) / 2;
-      if (t > all.back().t && t < step.to) all.push_back({t, step(t), sizes});
-    }
-  }
-  const DenseStep& last = piece.steps.back();
-  all.push_back({last.to, last(last.to), step_sizes(texts_, last)});
+  for (const double t : sample_times(piece)) all.push_back(sample(piece, t));
   return all;
 }
 

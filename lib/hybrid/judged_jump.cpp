@@ -46,7 +46,7 @@ void apply_reaction(JudgedTexts& texts, ReactionTexts& reaction, Eigen::VectorXd
       ++passes;
       done = pass.until && (*pass.until)(x);
     }
-    result.passes.push_back(passes);
+    result.passes += passes;
     if (pass.until && !done && !pass.go_on) result.exhausted = true;
   }
 }
@@ -59,8 +59,8 @@ void count_jump(const JudgedTexts& texts, std::size_t event, JumpValues& result)
       texts.part(result.after, v).array() += 1;
     if (variable.kind == V::since && own) texts.part(result.after, v).setZero();
     if (variable.kind == V::left && own) texts.part(result.slack, v).setConstant(kInfinite);
-    if (variable.kind == V::passes && own && !result.passes.empty())
-      texts.part(result.after, v).setConstant(static_cast<double>(result.passes.back()));
+    if (variable.kind == V::passes && own)
+      texts.part(result.after, v).setConstant(static_cast<double>(result.passes));
   }
 }
 
@@ -94,7 +94,7 @@ std::string complaint(const JudgedTexts& texts, std::size_t variable, bool react
 
 JumpValues jump_values(JudgedTexts& texts, std::size_t event, bool lost,
                        const Eigen::VectorXd& before) {
-  JumpValues result{before, Eigen::VectorXd::Zero(before.size()), {}, false};
+  JumpValues result{before, Eigen::VectorXd::Zero(before.size()), 0, false};
   for (ReactionTexts& reaction : texts.reactions) {
     if (reaction.event != event) continue;
     if (lost && texts.dynamics.components[reaction.component].observer) continue;

@@ -3,8 +3,6 @@
 
 #include <Eigen/Core>
 #include <cstdint>
-#include <optional>
-#include <vector>
 
 #include "hybrid/judged_faults.h"
 #include "hybrid/judged_texts.h"
@@ -16,8 +14,8 @@ struct JumpValues {
   Eigen::VectorXd after;
   /// What each element may be off: 0 of what keeps its bits, infinite of what is drawn.
   Eigen::VectorXd slack;
-  std::vector<std::int64_t> passes;  ///< of the loops, in order
-  bool exhausted = false;            ///< a loop whose `until` did not become true
+  std::int64_t passes = 0;  ///< of all loops together
+  bool exhausted = false;   ///< a loop whose `until` did not become true
 };
 
 /// The values after a jump of the event. `before` has the noise that is drawn at it.

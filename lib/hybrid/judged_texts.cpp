@@ -241,6 +241,16 @@ void JudgedTexts::rate(const Eigen::VectorXd& x, Eigen::VectorXd& out) {
   }
 }
 
+void JudgedTexts::settle(const Eigen::VectorXd& start, Eigen::VectorXd& x) {
+  using V = Dynamics::VariableKind;
+  const std::vector<bool> flows = flowing(start);
+  for (std::size_t v = 0; v < dynamics.variables.size(); ++v) {
+    const bool is_clock = is(v, V::time) || is(v, V::since) || is(v, V::left);
+    const bool changes = is(v, V::noise) && noise[dynamics.variables[v].of].every;
+    if (!flows[v] && !is_clock && !changes) part(x, v) = part(start, v);
+  }
+}
+
 Eigen::VectorXd JudgedTexts::by_variable(const Eigen::VectorXd& sizes) const {
   Eigen::VectorXd result = sizes;
   for (const Slot& slot : layout.slots)

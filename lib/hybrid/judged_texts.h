@@ -101,6 +101,9 @@ class JudgedTexts {
   void rate(const Eigen::VectorXd& x, Eigen::VectorXd& out);
   /// Whether the states of each variable flow with the modes of x.
   std::vector<bool> flowing(const Eigen::VectorXd& x);
+  /// Gives what rests in a flow from `start` the bits that it has there: a sum of polynomials has
+  /// rounded them, and `==` would see it. Not so noise that may change within a flow.
+  void settle(const Eigen::VectorXd& start, Eigen::VectorXd& x);
   /// The largest element of each variable's part of `sizes`, for each of its elements.
   Eigen::VectorXd by_variable(const Eigen::VectorXd& sizes) const;
   auto part(Eigen::VectorXd& x, std::size_t variable) const {

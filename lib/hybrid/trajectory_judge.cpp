@@ -122,14 +122,15 @@ class Walk {
     return clock ? time_rounding(t, t) : 0;
   }
 
-  /// Without a jump: noise that is drawn, a clock whose occurrence is spent.
+  /// Noise that is drawn, at a jump or where its occurrence is spent; a clock that starts again.
   bool may_change(std::size_t v, double t, std::optional<std::size_t> event) const {
     const model::Dynamics::Variable& variable = texts_.dynamics.variables[v];
     if (variable.kind == V::left) return texts_.dynamics.events[variable.of].only_if.has_value();
     if (variable.kind != V::noise) return false;
     const auto& every = texts_.noise[variable.of].every;
     if (every) return same_time(std::round(t / *every) * *every, t);
-    return event && texts_.dynamics.noise[variable.of].event == event;
+    const auto& at = texts_.dynamics.noise[variable.of].event;
+    return at && (event == at || texts_.dynamics.events[*at].only_if);
   }
 
   void check_start() {
