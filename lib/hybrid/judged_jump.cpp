@@ -64,16 +64,6 @@ void count_jump(const JudgedTexts& texts, std::size_t event, JumpValues& result)
   }
 }
 
-/// The values before a jump with the noise that was drawn at it.
-Eigen::VectorXd with_drawn_noise(const JudgedTexts& texts, const JumpPoint& jump) {
-  Eigen::VectorXd before = jump.before;
-  for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v)
-    if (texts.is(v, V::noise) &&
-        texts.dynamics.noise[texts.dynamics.variables[v].of].event == jump.event)
-      texts.part(before, v) = texts.part(jump.after, v);
-  return before;
-}
-
 std::string complaint(const JudgedTexts& texts, std::size_t variable, bool reacts,
                       const std::string& event) {
   const model::Dynamics::Variable& one = texts.dynamics.variables[variable];
@@ -84,7 +74,7 @@ std::string complaint(const JudgedTexts& texts, std::size_t variable, bool react
       return "changes in the jump " + event +
              ", to which its component does not react: " + one.name;
     case V::noise:
-      return "noise changes in the jump " + event + ", at which it is not drawn: " + one.name;
+      return "noise changes in the jump " + event + ", not before it: " + one.name;
     default:
       return "wrong after the jump " + event + ": " + one.name;
   }
@@ -110,8 +100,7 @@ JumpValues jump_values(JudgedTexts& texts, std::size_t event, bool lost,
 
 void check_jump(JudgedTexts& texts, std::size_t part, const JumpPoint& jump, Faults& faults) {
   const std::string& event = texts.dynamics.events[jump.event].name;
-  const Eigen::VectorXd before = with_drawn_noise(texts, jump);
-  const JumpValues again = jump_values(texts, jump.event, jump.lost, before);
+  const JumpValues again = jump_values(texts, jump.event, jump.lost, jump.before);
   if (again.exhausted) faults.add(part, jump.t, "a loop of " + event + " ends without its `until`");
   for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v) {
     const Slot& slot = texts.layout.slots[v];

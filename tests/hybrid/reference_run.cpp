@@ -55,6 +55,11 @@ ReferenceRun& ReferenceRun::flow(double to, const Values& values, int steps) {
   return *this;
 }
 
+ReferenceRun& ReferenceRun::draw(Eigen::Index element, double value) {
+  x_(element) = value;
+  return *this;
+}
+
 ReferenceRun& ReferenceRun::jump(std::size_t event, const Eigen::VectorXd& after, bool lost) {
   trajectory_.parts.emplace_back(hybrid::JumpPoint{t_, j_, event, lost, x_, after});
   x_ = after;

@@ -20,6 +20,8 @@ class ReferenceRun {
 
   /// A flow up to `to` in so many steps, from the values at their Chebyshev points.
   ReferenceRun& flow(double to, const Values& values, int steps = 4);
+  /// Noise that is drawn for the next jump.
+  ReferenceRun& draw(Eigen::Index element, double value);
   ReferenceRun& jump(std::size_t event, const Eigen::VectorXd& after, bool lost = false);
   hybrid::Trajectory end(hybrid::Ending ending = hybrid::Ending::horizon,
                          const std::string& message = "") const;

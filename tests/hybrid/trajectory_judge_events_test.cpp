@@ -66,7 +66,6 @@ struct Sampled {
   VectorXd jump(const VectorXd& x, const Sample& sample) const {
     VectorXd y = x;
     y(1) += 1;
-    y(3) = sample.noise;
     if (sample.seen) y(2) = x(2) + 0.75 * (x(0) + sample.noise - x(2));
     y(4) += 1;
     y(5) = 0;
@@ -83,6 +82,7 @@ struct Sampled {
     double t = first;
     for (const Sample& sample : samples) {
       reference.flow(t, flow(reference.x(), reference.t()), 1);
+      reference.draw(3, sample.noise);
       reference.jump(0, jump(reference.x(), sample), sample.lost);
       t += sample.length;
     }
