@@ -218,6 +218,7 @@ class EventRun {
     spend(event);
     marks_[event].spent = false;
     movement_.set_since(event, t_);
+    movement_.set_states(t_, values_);
     movement_.fill(t_, values_);
     if (watch_.crossing[event]) marks_[event].sign = sign_of(event, values_);
     result_.parts.emplace_back(

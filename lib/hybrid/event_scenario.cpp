@@ -117,6 +117,20 @@ EventScenario make_event_scenario(double horizon, const EventSystem& system) {
   return scenario;
 }
 
+namespace {
+
+/// The campaign with the laws of one event: its own, otherwise those of all.
+model::Design::Campaign with_laws_of(std::size_t event, model::Design::Campaign campaign) {
+  const auto is_own = [&](const model::Design::Law& law) { return law.event == event; };
+  const bool own = std::any_of(campaign.laws.begin(), campaign.laws.end(), is_own);
+  std::erase_if(campaign.laws, [&](const model::Design::Law& law) {
+    return own ? !is_own(law) : law.event.has_value();
+  });
+  return campaign;
+}
+
+}  // namespace
+
 EventScenario make_event_scenario(const model::Design::Campaign& campaign,
                                   const EventSystem& system) {
   if (!campaign.horizon) throw InputError(campaign.place, "the campaign has no horizon");
@@ -131,7 +145,7 @@ EventScenario make_event_scenario(const model::Design::Campaign& campaign,
     scenario.laws.emplace_back();
     if (!clock || clock->low == clock->high) continue;
     scenario.laws.back() =
-        make_laws(campaign, clock->low, clock->high,
+        make_laws(with_laws_of(scenario.laws.size() - 1, campaign), clock->low, clock->high,
                   [&](const model::Formula& formula) { return system.scalar(formula); });
     if (campaign.first) scenario.first.back() = system.scalar(*campaign.first);
   }

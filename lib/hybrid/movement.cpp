@@ -85,6 +85,15 @@ void Movement::set_since(std::size_t event, double t) {
   }
 }
 
+void Movement::set_states(double t, const VectorXd& values) {
+  for (std::size_t k = clocks_.size(); k < lines_.size(); ++k) {
+    Line& line = lines_[k];
+    if (line.at(t) == values(line.element)) continue;
+    line.base = values(line.element);
+    line.time = t;
+  }
+}
+
 void Movement::set_due(std::size_t event, double due) {
   for (std::size_t k = 0; k < clocks_.size(); ++k) {
     const auto& variable = system_->dynamics.variables[clocks_[k]];

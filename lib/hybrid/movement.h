@@ -29,6 +29,9 @@ class Movement {
   /// event.left runs down to 0 at `due`.
   void set_due(std::size_t event, double due);
 
+  /// What a jump gave to states of steady rate.
+  void set_states(double t, const Eigen::VectorXd& values);
+
   /// Begins a flow: reads which components are frozen and the steady rates. InputError for a
   /// symmetric state whose flow is not.
   void begin(double t, const Eigen::VectorXd& values);

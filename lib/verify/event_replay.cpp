@@ -39,7 +39,8 @@ struct Source {
 
 class EventTable {
  public:
-  EventTable(const model::Design& design, const EventSetup& setup) : design_(design), setup_(setup) {
+  EventTable(const model::Design& design, const EventSetup& setup)
+      : design_(design), setup_(setup) {
     const model::Dynamics& dynamics = *design.dynamics;
     for (const model::Dynamics::Component& one : dynamics.components)
       if (one.observer) observers_.push_back(one.name);

@@ -65,7 +65,8 @@ TEST(Dynamics, NumbersOfEventsAreVariablesWhereTheyAreRead) {
   const std::string text =
       replaced(kPendulum, "V: e'*e", "V: e'*e + count(sample) + since(sample)");
   std::vector<std::string> names;
-  for (const Dynamics::Variable& variable : bound(text)->dynamics->variables)
+  const model::DesignPtr design = bound(text);
+  for (const Dynamics::Variable& variable : design->dynamics->variables)
     names.push_back(variable.name);
   EXPECT_NE(std::find(names.begin(), names.end(), "count(sample)"), names.end());
   EXPECT_NE(std::find(names.begin(), names.end(), "since(sample)"), names.end());
@@ -74,7 +75,8 @@ TEST(Dynamics, NumbersOfEventsAreVariablesWhereTheyAreRead) {
 
 TEST(Dynamics, ThePlantMayHaveDataThatObserversDoNotKnow) {
   const std::string text = kPendulum + "uncertain: {m: {box: [1.5, 2.5]}}\n";
-  const Dynamics& dynamics = *bound(text)->dynamics;
+  const model::DesignPtr design = bound(text);
+  const Dynamics& dynamics = *design->dynamics;
   ASSERT_EQ(dynamics.noise.size(), 2U);
   const auto reads = [&](const std::string& state) {
     for (const Dynamics::Assignment& entry : dynamics.flow)
@@ -127,7 +129,8 @@ TEST(Dynamics, LoopsHaveAnEnd) {
   const std::string loop = "{repeat: {xh: xh/2}, until: norm(xh) <= 1, at_most: 9, else: go on}";
   const std::string text =
       replaced(kPendulum, "{let: {k: 0.5}, xh: k*xh, q: 1}", "[{q: 1}, " + loop + "]");
-  const Dynamics::Reaction& reaction = bound(text)->dynamics->reactions.back();
+  const model::DesignPtr design = bound(text);
+  const Dynamics::Reaction& reaction = design->dynamics->reactions.back();
   ASSERT_EQ(reaction.passes.size(), 2U);
   EXPECT_FALSE(reaction.passes[0].repeats);
   EXPECT_TRUE(reaction.passes[1].repeats && reaction.passes[1].go_on);
