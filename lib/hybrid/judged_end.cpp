@@ -150,8 +150,7 @@ bool is_outside(JudgedTexts& texts, double t, const Eigen::VectorXd& x) {
   });
 }
 
-bool has_its_cause(JudgedTexts& texts, const Trajectory& trajectory, const Eigen::VectorXd& x,
-                   const JudgeQuestion& question) {
+bool has_its_cause(JudgedTexts& texts, const Trajectory& trajectory, const Eigen::VectorXd& x) {
   const double t = trajectory.end;
   switch (trajectory.ending) {
     case Ending::horizon:
@@ -163,7 +162,7 @@ bool has_its_cause(JudgedTexts& texts, const Trajectory& trajectory, const Eigen
     case Ending::undefined:
       return is_undefined(texts, t, x);
     case Ending::stuck:
-      return last_chain(trajectory) >= question.most_jumps;
+      return last_chain(trajectory) >= texts.question.least_chain;
     case Ending::escaped:
       return has_escaped(texts, trajectory, x);
     case Ending::zeno:
@@ -182,7 +181,7 @@ bool has_its_cause(JudgedTexts& texts, const Trajectory& trajectory, const Eigen
 }  // namespace
 
 void check_end(JudgedTexts& texts, const Trajectory& trajectory, const Eigen::VectorXd& x,
-               const JudgeQuestion& question, Faults& faults) {
+               Faults& faults) {
   const std::size_t part = trajectory.parts.size();
   const double t = trajectory.end;
   const std::string ending = to_string(trajectory.ending);
@@ -191,7 +190,7 @@ void check_end(JudgedTexts& texts, const Trajectory& trajectory, const Eigen::Ve
   if (trajectory.ending != Ending::horizon && trajectory.message.empty())
     faults.add(part, t, "the end has no message: " + ending);
   try {
-    if (!has_its_cause(texts, trajectory, x, question))
+    if (!has_its_cause(texts, trajectory, x))
       faults.add(part, t, "the end is not that of its cause: " + ending);
   } catch (const expr::EvaluationError& error) {
     faults.add(part, t, "a text has no value at the end: " + error.message());

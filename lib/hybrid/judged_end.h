@@ -4,7 +4,7 @@
 //   left         a condition under `while` is false there
 //   passes       the event that is due has a loop whose `until` does not become true
 //   undefined    a text has no value there, or where the flow leads at once
-//   stuck        as many jumps without a flow between them as make a run stuck
+//   stuck        many jumps without a flow between them
 //   escaped      a value is no number or large, or changes in no time
 //   zeno         the last lengths shrink by a steady factor, the accumulation point follows
 //   chattering   the last flows are short
@@ -22,6 +22,6 @@ namespace gainsmith::hybrid::judging {
 
 /// `x`: the last values.
 void check_end(JudgedTexts& texts, const Trajectory& trajectory, const Eigen::VectorXd& x,
-               const JudgeQuestion& question, Faults& faults);
+               Faults& faults);
 
 }  // namespace gainsmith::hybrid::judging

@@ -13,6 +13,9 @@ namespace {
 using EventKind = model::Dynamics::EventKind;
 using V = model::Dynamics::VariableKind;
 
+/// Of the horizon: what is due so soon after it may belong to it.
+constexpr double kAtHorizon = 1e-12;
+
 std::vector<double> jump_times(const Trajectory& trajectory, std::size_t event) {
   std::vector<double> times;
   for (const auto& part : trajectory.parts)
@@ -24,7 +27,7 @@ std::vector<double> jump_times(const Trajectory& trajectory, std::size_t event) 
 }  // namespace
 
 JudgedEvents::JudgedEvents(JudgedTexts& texts, const Trajectory& trajectory, Faults& faults)
-    : texts_(texts), faults_(faults), memory_(texts.events.size()) {
+    : texts_(texts), faults_(faults), horizon_(trajectory.horizon), memory_(texts.events.size()) {
   const Eigen::VectorXd rounding =
       rounding_at(texts, 0, trajectory.start, texts.by_variable(trajectory.start.cwiseAbs()));
   for (std::size_t e = 0; e < memory_.size(); ++e) {
@@ -62,7 +65,9 @@ Truth JudgedEvents::without_if(std::size_t event, double t, const Eigen::VectorX
   const Memory& memory = memory_[event];
   if (memory.clock) {
     if (t >= memory.clock->next()) return Truth::yes;
-    return same_time(t, memory.clock->next()) ? Truth::unsure : Truth::no;
+    const double early = t == horizon_ ? kAtHorizon * horizon_ : 0;
+    const bool near = same_time(t, memory.clock->next()) || memory.clock->next() - t <= early;
+    return near ? Truth::unsure : Truth::no;
   }
   if (texts.condition) {
     if ((*texts.condition)(x)) return memory.spent ? Truth::no : Truth::yes;

@@ -59,7 +59,8 @@ class JudgedEvents {
   static std::vector<double> sample_times(const FlowPiece& piece);
   std::vector<Sample> samples(const FlowPiece& piece) const;
   Sample sample(const FlowPiece& piece, double t) const;
-  Truth inside(Guard& guard, const Sample& at);
+  /// What holds at a point up to so many times its rounding.
+  Truth inside(Guard& guard, const Sample& at, double times = 1);
   void watch_condition(const FlowPiece& piece, const std::vector<Sample>& all, Guard& guard,
                        std::optional<std::size_t> event, const std::string& what);
   void watch_border(const FlowPiece& piece, const std::vector<Sample>& all, std::size_t event);
@@ -74,6 +75,7 @@ class JudgedEvents {
 
   JudgedTexts& texts_;
   Faults& faults_;
+  double horizon_;
   std::vector<Memory> memory_;
   std::size_t part_ = 0;
   std::int64_t jumps_ = 0;

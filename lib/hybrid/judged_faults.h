@@ -44,6 +44,7 @@ inline double time_rounding(double a, double b) {
   return 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
 }
 
-inline bool same_time(double a, double b) { return std::abs(a - b) <= time_rounding(a, b); }
+/// Whether rounding may have made two times of one, such as sums of lengths.
+inline bool same_time(double a, double b) { return std::abs(a - b) <= 8 * time_rounding(a, b); }
 
 }  // namespace gainsmith::hybrid::judging

@@ -14,6 +14,7 @@ namespace {
 using V = model::Dynamics::VariableKind;
 
 constexpr double kRounding = 1e-13;
+constexpr double kRoundingOfAccuracy = 1e-4;
 constexpr double kJoint = 1e-12;  ///< between a sum of polynomials and a recorded value
 constexpr double kFactor = 100;   ///< of the accuracy
 constexpr int kFinest = 256;      ///< Gauss steps in one step
@@ -27,33 +28,31 @@ Eigen::VectorXd step_sizes(const JudgedTexts& texts, const DenseStep& step) {
   return texts.by_variable(step.coefficients.cwiseAbs().rowwise().sum());
 }
 
-Eigen::VectorXd rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x,
-                            const Eigen::VectorXd& sizes) {
-  Eigen::VectorXd rate = Eigen::VectorXd::Zero(x.size());
+Eigen::VectorXd time_rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x) {
+  Eigen::VectorXd rate;
   try {
     texts.rate(x, rate);
   } catch (const expr::EvaluationError&) {
-    rate.setZero();  // then only the values are rounded
+    return Eigen::VectorXd::Zero(x.size());
   }
-  Eigen::VectorXd result = kRounding * sizes + time_rounding(t, t) * rate.cwiseAbs();
+  return time_rounding(t, t) * rate.cwiseAbs();
+}
+
+Eigen::VectorXd rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x,
+                            const Eigen::VectorXd& sizes) {
+  Eigen::VectorXd result = kRounding * sizes + kRoundingOfAccuracy * texts.accuracy(sizes) +
+                           time_rounding_at(texts, t, x);
   const std::vector<bool> flowing = texts.flowing(x);
   for (std::size_t v = 0; v < flowing.size(); ++v)
     if (!flowing[v] && !is_clock(texts.dynamics.variables[v].kind)) texts.part(result, v).setZero();
   return result;
 }
 
-FlowCheck::FlowCheck(JudgedTexts& texts, const JudgeQuestion& question, Faults& faults)
-    : texts_(texts),
-      question_(question),
-      faults_(faults),
-      clocks_(Eigen::VectorXd::Zero(texts.layout.size)) {
+FlowCheck::FlowCheck(JudgedTexts& texts, Faults& faults)
+    : texts_(texts), faults_(faults), clocks_(Eigen::VectorXd::Zero(texts.layout.size)) {
   for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v)
     if (is_clock(texts.dynamics.variables[v].kind))
       texts.part(clocks_, v).setConstant(texts.is(v, V::left) ? -1 : 1);
-}
-
-Eigen::VectorXd FlowCheck::accuracy(const Eigen::VectorXd& sizes) const {
-  return (question_.relative * sizes.array() + question_.absolute).matrix();
 }
 
 Eigen::VectorXd FlowCheck::active_part(const Eigen::VectorXd& x) const { return x(active_); }
@@ -88,7 +87,8 @@ void FlowCheck::operator()(std::size_t part, const FlowPiece& piece) {
   check_joint(x, piece.to(), piece.end, largest, false);
   const double steps = static_cast<double>(piece.steps.size());
   report(piece.to(), "a flow drifts away from its text", sum.cwiseAbs(),
-         (kFactor + 10 * steps) * accuracy(largest));
+         (kFactor + 10 * steps) * texts_.accuracy(largest) +
+             time_rounding_at(texts_, piece.to(), piece.end));
 }
 
 void FlowCheck::check_joint(const Eigen::VectorXd& x, double t, const Eigen::VectorXd& next,
@@ -100,7 +100,9 @@ void FlowCheck::check_joint(const Eigen::VectorXd& x, double t, const Eigen::Vec
       if (every && same_time(std::round(t / *every) * *every, t))
         texts_.part(difference, v).setZero();
     }
-  report(t, "the steps of a flow do not join", difference, kJoint * sizes);
+  report(t, "the steps of a flow do not join", difference,
+         kJoint * sizes + kRoundingOfAccuracy * texts_.accuracy(sizes) +
+             time_rounding_at(texts_, t, next));
 }
 
 void FlowCheck::check_rest(const DenseStep& step, const Eigen::VectorXd& x,
@@ -170,7 +172,8 @@ std::optional<FlowCheck::Quarters> FlowCheck::settled(const DenseStep& step,
 void FlowCheck::check_step(const DenseStep& step, const Eigen::VectorXd& x,
                            const Eigen::VectorXd& sizes, Eigen::VectorXd& sum) {
   if (active_.empty()) return;
-  const Eigen::VectorXd allowed = kFactor * accuracy(sizes);
+  const Eigen::VectorXd allowed =
+      kFactor * texts_.accuracy(sizes) + time_rounding_at(texts_, step.to, step(step.to));
   const std::optional<Quarters> again = settled(step, x, active_part(allowed));
   if (!again) {
     faults_.add(part_, step.from, "a step of the flow could not be integrated again");

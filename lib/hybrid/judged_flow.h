@@ -16,14 +16,18 @@ namespace gainsmith::hybrid::judging {
 /// on the step, to which rounding and accuracy are relative.
 Eigen::VectorXd step_sizes(const JudgedTexts& texts, const DenseStep& step);
 
-/// How far each element may be off at x by rounding: 1e-13 of its size and, as events lie at times
-/// that are rounded too, what it moves in a few units in the last place of t. 0 of what rests.
+/// What each element moves at x in a few units in the last place of t. 0 where there is no rate.
+Eigen::VectorXd time_rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x);
+
+/// How far each element may be off at x by rounding: 1e-13 of its size, a ten-thousandth of the
+/// accuracy (a step that ends at an event was cut from a longer one, of larger values) and, as
+/// events lie at times that are rounded too, time_rounding_at. 0 of what rests.
 Eigen::VectorXd rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x,
                             const Eigen::VectorXd& sizes);
 
 class FlowCheck {
  public:
-  FlowCheck(JudgedTexts& texts, const JudgeQuestion& question, Faults& faults);
+  FlowCheck(JudgedTexts& texts, Faults& faults);
 
   /// The piece alone; where it begins is known to be right.
   void operator()(std::size_t part, const FlowPiece& piece);
@@ -43,14 +47,12 @@ class FlowCheck {
                                   const Eigen::VectorXd& allowed);
   std::optional<Quarters> settled(const DenseStep& step, const Eigen::VectorXd& x,
                                   const Eigen::VectorXd& allowed);
-  Eigen::VectorXd accuracy(const Eigen::VectorXd& sizes) const;
   Eigen::VectorXd active_part(const Eigen::VectorXd& x) const;
   /// The worst element of each variable.
   void report(double t, const std::string& what, const Eigen::VectorXd& size,
               const Eigen::VectorXd& allowed);
 
   JudgedTexts& texts_;
-  const JudgeQuestion& question_;
   Faults& faults_;
   std::size_t part_ = 0;
   std::vector<bool> flowing_;         ///< by variable

@@ -10,8 +10,9 @@ namespace gainsmith::hybrid::judging {
 
 namespace {
 
-constexpr int kPoints = 16;  ///< inside a step
-constexpr int kCloser = 24;  ///< next to each end of a flow: down to 4^-24 of a step
+constexpr int kPoints = 16;    ///< inside a step
+constexpr int kCloser = 24;    ///< next to each end of a flow: down to 4^-24 of a step
+constexpr double kStay = 1e4;  ///< times rounding: a flow along a border of `while` may be off
 
 /// Whether a value that is `here` <= 0 between two others may be above 0 near by: it is an
 /// extremum, and 0 is no farther than the lower of the others.
@@ -65,8 +66,8 @@ bool JudgedEvents::must_jump(std::size_t event, const Sample& at) {
   return !only_if || inside(*only_if, at) == Truth::yes;
 }
 
-Truth JudgedEvents::inside(Guard& guard, const Sample& at) {
-  return guard.truth(at.x, rounding_at(texts_, at.t, at.x, at.sizes));
+Truth JudgedEvents::inside(Guard& guard, const Sample& at, double times) {
+  return guard.truth(at.x, times * rounding_at(texts_, at.t, at.x, at.sizes));
 }
 
 double JudgedEvents::highest(double low, double high,
@@ -115,7 +116,7 @@ void JudgedEvents::watch_condition(const FlowPiece& piece, const std::vector<Sam
   for (const Sample& one : all) depths.push_back(guard.depth(one.x));
   // Found true at `at`, false or spent at `before`.
   const auto found = [&](double before, const Sample& at) {
-    if (inside(guard, at) != Truth::yes) return;
+    if (inside(guard, at, event ? 1 : kStay) != Truth::yes) return;
     if (event && texts_.events[*event].only_if) {
       if (!must_jump(*event, sample(piece, entry(before, at.t, holds)))) {
         spent = true;

@@ -136,8 +136,12 @@ double Guard::depth(const Eigen::VectorXd& x) {
   return result;
 }
 
-JudgedTexts::JudgedTexts(const Dynamics& dynamics_given, const model::Stated& stated_given)
-    : dynamics(dynamics_given), stated(stated_given), layout(layout_of(dynamics_given)) {
+JudgedTexts::JudgedTexts(const Dynamics& dynamics_given, const model::Stated& stated_given,
+                         const JudgeQuestion& question_given)
+    : dynamics(dynamics_given),
+      stated(stated_given),
+      question(question_given),
+      layout(layout_of(dynamics_given)) {
   for (const Dynamics::Assignment& entry : dynamics.flow)
     flow_.emplace_back(entry.variable, Text(entry.value.program, entry.place, layout, stated));
   for (const Dynamics::Component& component : dynamics.components) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "hybrid/state_layout.h"
+#include "hybrid/trajectory_judge.h"
 #include "model/dynamics.h"
 #include "model/stated.h"
 
@@ -93,10 +94,15 @@ struct StayText {
 
 class JudgedTexts {
  public:
-  /// Both must outlive it. InputError for a text that uses what has no value, and for constants
+  /// All must outlive it. InputError for a text that uses what has no value, and for constants
   /// that do not fit.
-  JudgedTexts(const model::Dynamics& dynamics, const model::Stated& stated);
+  JudgedTexts(const model::Dynamics& dynamics, const model::Stated& stated,
+              const JudgeQuestion& question);
 
+  /// What counts as right of elements of these sizes.
+  Eigen::VectorXd accuracy(const Eigen::VectorXd& sizes) const {
+    return (question.relative * sizes.array() + question.absolute).matrix();
+  }
   /// The rates of all elements at x: flows, clocks, 0 for what rests.
   void rate(const Eigen::VectorXd& x, Eigen::VectorXd& out);
   /// Whether the states of each variable flow with the modes of x.
@@ -124,6 +130,7 @@ class JudgedTexts {
 
   const model::Dynamics& dynamics;
   const model::Stated& stated;
+  const JudgeQuestion& question;
   StateLayout layout;  ///< one slot a variable
   std::vector<EventTexts> events;
   std::vector<ReactionTexts> reactions;

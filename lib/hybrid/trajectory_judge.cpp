@@ -41,13 +41,11 @@ bool is_well_formed(const Trajectory& trajectory, const JudgedTexts& texts, Faul
 
 class Walk {
  public:
-  Walk(const Trajectory& trajectory, JudgedTexts& texts, const JudgeQuestion& question,
-       Faults& faults)
+  Walk(const Trajectory& trajectory, JudgedTexts& texts, Faults& faults)
       : trajectory_(trajectory),
         texts_(texts),
-        question_(question),
         faults_(faults),
-        flows_(texts, question, faults),
+        flows_(texts, faults),
         watch_(texts, trajectory, faults),
         x_(trajectory.start) {}
 
@@ -58,7 +56,7 @@ class Walk {
                   std::abs(trajectory_.end - t_), 0);
     if (trajectory_.ending == Ending::horizon) guarded([&] { watch_.look(part_, t_, x_, {}); });
     watch_.end(part_, t_);
-    check_end(texts_, trajectory_, x_, question_, faults_);
+    check_end(texts_, trajectory_, x_, faults_);
   }
 
  private:
@@ -147,7 +145,7 @@ class Walk {
   void check_start_of(std::size_t v) {
     const Slot& slot = texts_.layout.slots[v];
     const auto here = texts_.part(x_, v);
-    for (const StartRange& range : question_.starts) {
+    for (const StartRange& range : texts_.question.starts) {
       if (range.variable != v) continue;
       if ((here.array() < range.low.reshaped().array()).any() ||
           (here.array() > range.high.reshaped().array()).any() || !here.allFinite())
@@ -174,7 +172,6 @@ class Walk {
 
   const Trajectory& trajectory_;
   JudgedTexts& texts_;
-  const JudgeQuestion& question_;
   Faults& faults_;
   FlowCheck flows_;
   JudgedEvents watch_;
@@ -191,9 +188,9 @@ class Walk {
 std::vector<Fault> judge(const Trajectory& trajectory, const model::Dynamics& dynamics,
                          const model::Stated& stated, const JudgeQuestion& question) {
   judging::Faults faults;
-  judging::JudgedTexts texts(dynamics, stated);
+  judging::JudgedTexts texts(dynamics, stated, question);
   if (judging::is_well_formed(trajectory, texts, faults))
-    judging::Walk(trajectory, texts, question, faults)();
+    judging::Walk(trajectory, texts, faults)();
   return faults.list();
 }
 

@@ -46,8 +46,9 @@ struct StartRange {
 struct JudgeQuestion {
   double relative = 1e-10;  ///< the accuracy of the run
   double absolute = 1e-10;
-  std::vector<StartRange> starts;     ///< of the variables to which a campaign gives one
-  std::int64_t most_jumps = 1000000;  ///< without a flow between them, of a run that is stuck
+  std::vector<StartRange> starts;  ///< of the variables to which a campaign gives one
+  /// Jumps without a flow between them that a run which is stuck shows at least.
+  std::int64_t least_chain = 1000;
 };
 
 /// Of each kind of fault the worst in each part, in order of the parts. InputError for texts that

@@ -90,7 +90,7 @@ TEST(JudgedEnds, StuckMeansManyJumps) {
   ReferenceRun run(column({0}), 10);
   for (int k = 1; k <= 20; ++k) run.jump(0, column({static_cast<double>(k)}));
   JudgeQuestion question;
-  question.most_jumps = 20;
+  question.least_chain = 20;
   const Trajectory trajectory = run.end(Ending::stuck, "on is still due");
   EXPECT_TRUE(judge(trajectory, dynamics, text.stated(), question).empty());
   EXPECT_TRUE(has_fault(judge(trajectory, dynamics, text.stated()), 20, kCause));
