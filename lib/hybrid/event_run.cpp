@@ -40,8 +40,11 @@ constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
 /// Of the horizon: a clock that runs down so shortly after it is due at it, to the rounding of many
 /// lengths added up.
 constexpr double kAtHorizon = 1e-12;
-/// Of the terms of `while`: what a jump may leave it by, to rounding.
+/// Of the horizon: how long a flow may be outside of `while` after a jump to its border.
 constexpr double kOutside = 1e-9;
+constexpr double kEarly = 0.1;            ///< of a step
+constexpr double kShorterStep = 1.5;      ///< of the time up to an event
+constexpr double kShortestAgain = 1e-13;  ///< of the time
 constexpr std::size_t kSlidingSwitches = 8;
 constexpr double kSlidingTime = 1e-10;  ///< of the horizon
 
@@ -90,6 +93,8 @@ class EventRun {
   }
 
  private:
+  enum class Went { on, stopped };
+
   /// What is known of an event besides its text.
   struct Mark {
     bool spent = false;    ///< `when`: not due until its condition has been false
@@ -103,7 +108,7 @@ class EventRun {
     movement_.reset();
     for (std::size_t e = 0; e < marks_.size(); ++e) movement_.set_due(e, clocks_.due(e));
     for (std::size_t k = 0; k < system_.noise.size(); ++k) noise_.draw(k, values_);
-    movement_.fill(0, values_);
+    movement_.fill_clocks(0, values_);
     hold_branches_at(values_, false);
     result_.start = variables(values_);
     for (std::size_t e = 0; e < marks_.size(); ++e)
@@ -136,11 +141,7 @@ class EventRun {
 
   void instant() {
     while (const auto event = first_due(values_, t_)) occurrence(*event);
-    for (std::size_t s = 0; s < watch_.stays.size(); ++s) {
-      EventWatch::Stay& stay = watch_.stays[s];
-      inside_[s] = stay.where(values_);
-      if (!inside_[s] && !stay.where.nearly(values_, kOutside)) leave(stay, values_);
-    }
+    for (std::size_t s = 0; s < inside_.size(); ++s) inside_[s] = watch_.stays[s].where(values_);
   }
 
   [[noreturn]] static void leave(EventWatch::Stay& stay, const VectorXd& values) {
@@ -193,7 +194,7 @@ class EventRun {
       jump(event);
     } else {
       spend(event);
-      movement_.fill(t_, values_);
+      movement_.fill_clocks(t_, values_);
     }
     hold_branches_at(values_, false);
   }
@@ -218,7 +219,7 @@ class EventRun {
     spend(event);
     marks_[event].spent = false;
     movement_.set_since(event, t_);
-    movement_.fill(t_, values_);
+    movement_.fill_clocks(t_, values_);
     if (watch_.crossing[event]) marks_[event].sign = sign_of(event, values_);
     result_.parts.emplace_back(
         JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
@@ -271,38 +272,65 @@ class EventRun {
       piece_.j = j_;
       piece_.start = variables(values_);
     }
-    bool goes_on = true;
-    while (goes_on && t_ < stop) {
+    Went went = Went::on;
+    while (went == Went::on && t_ < stop) {
       ask_whether_stopped();
       if (++steps_ > kMostStepsOfRun)
         throw RunEnd(Ending::lost, fmt::format("more than {} steps", kMostStepsOfRun));
-      goes_on = take(flow_->next());
+      went = take(flow_->next());
     }
     if (noise_.draw_due(t_, values_)) hold_branches_at(values_, false);
   }
 
-  /// Goes along a step up to where something happens; whether nothing did.
-  bool take(const DenseStep& step) {
+  /// Goes along a step up to where something happens.
+  Went take(const DenseStep& step) {
     const StepValues inside(movement_, values_, step);
+    require_inside(inside);
     const auto crossings = watch_.crossings(
         inside, values_, [&](double t, const std::string& text) { note(t, text); });
+    const std::vector<Mark> marks = marks_;
+    const std::vector<bool> was_inside = inside_;
     for (const EventWatch::Crossing& one : crossings) {
       VectorXd values = inside.at(one.t);
       const bool due = first_due(values, one.t).has_value();
       const bool left = !due && leaves(values);
       const bool turns = !due && !left && one.branch && hold_branches_at(values, true);
       if (!due && !left && !turns) continue;
+      if (is_coarse(step, one.t)) {
+        marks_ = marks;
+        inside_ = was_inside;
+        return take_shorter(step.from + kShorterStep * (one.t - step.from));
+      }
       arrive(one.t < step.to ? step.until(one.t) : step, std::move(values));
       if (left) leave_first();
       if (turns) watch_sliding(*one.branch);
-      return false;
+      return Went::stopped;
     }
     arrive(step, inside.at(step.to));
-    for (std::size_t s = 0; s < inside_.size(); ++s) {
-      inside_[s] = inside_[s] || watch_.stays[s].where(values_);
-      if (!inside_[s]) leave(watch_.stays[s], values_);
-    }
-    return !first_due(values_, t_);
+    if (leaves(values_)) leave_first();
+    return first_due(values_, t_) ? Went::stopped : Went::on;
+  }
+
+  /// Whether something happens so early in a step that its rounding, which is that of all of it,
+  /// tells in what is short: the flights of a ball that comes to rest.
+  static bool is_coarse(const DenseStep& step, double t) {
+    const double length = t - step.from;
+    return length < kEarly * (step.to - step.from) && length > kShortestAgain * std::abs(t);
+  }
+
+  /// The same flow in steps up to `last` at most.
+  Went take_shorter(double last) {
+    flow_->start(t_, values_, last);
+    Went went = Went::on;
+    while (went == Went::on && t_ < last) went = take(flow_->next());
+    return Went::stopped;
+  }
+
+  /// A jump to a border of `while` may miss it by rounding: the flow has to lead inside at once.
+  void require_inside(const StepValues& inside) {
+    const double soon = std::min(inside.to(), inside.from() + kOutside * horizon_);
+    for (std::size_t s = 0; s < inside_.size(); ++s)
+      if (!inside_[s] && !watch_.stays[s].where(inside.at(soon))) leave(watch_.stays[s], values_);
   }
 
   void arrive(const DenseStep& step, VectorXd values) {

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "base/number.h"
@@ -57,7 +58,7 @@ class ExactFlow : public Flow {
 
   DenseStep next() override {
     while (true) {
-      const Level& level = level_at(level_);
+      const Level& level = level_at(std::min(level_, level_of(last_ - t_)));
       bool agrees = false;
       const Matrix series = series_over(level, agrees);
       if (!agrees && level_ > 0) {
@@ -127,24 +128,32 @@ class ExactFlow : public Flow {
     while (top_ < kMostDoublings && std::ldexp(shortest_, top_ + 1) <= top) ++top_;
   }
 
+  /// The shortest level that covers a length, below 0 where s_0 is longer than it has to be: the
+  /// rounding of a series is that of the interval that it is made for.
+  int level_of(double length) const {
+    int exponent = 0;
+    std::frexp(length / shortest_, &exponent);
+    return std::max(exponent, -kMostDoublings);
+  }
+
   const Level& level_at(int number) {
+    const auto known = levels_.find(number);
+    if (known != levels_.end()) return known->second;
+    const Level* half = number > 0 ? &level_at(number - 1) : nullptr;
     const VectorXd& points = chebyshev::points(kExactDegree);
-    while (static_cast<int>(levels_.size()) <= number) {
-      Level level;
-      level.length = std::ldexp(shortest_, static_cast<int>(levels_.size()));
-      for (Index k = 0; k < points.size(); ++k) {
-        if (levels_.empty()) {
-          const long double part = (1 + static_cast<long double>(points(k))) / 2;
-          level.wide.push_back(short_step(generator_.cast<long double>(), part * shortest_));
-        } else {
-          const WideMatrix& half = levels_.back().wide[static_cast<std::size_t>(k)];
-          level.wide.push_back(half.lazyProduct(half));
-        }
-        level.maps.push_back(level.wide.back().cast<double>());
+    Level level;
+    level.length = std::ldexp(shortest_, number);
+    for (Index k = 0; k < points.size(); ++k) {
+      if (half != nullptr) {
+        const WideMatrix& map = half->wide[static_cast<std::size_t>(k)];
+        level.wide.push_back(map.lazyProduct(map));
+      } else {
+        const long double part = (1 + static_cast<long double>(points(k))) / 2;
+        level.wide.push_back(short_step(generator_.cast<long double>(), part * level.length));
       }
-      levels_.push_back(std::move(level));
+      level.maps.push_back(level.wide.back().cast<double>());
     }
-    return levels_[static_cast<std::size_t>(number)];
+    return levels_.emplace(number, std::move(level)).first->second;
   }
 
   Matrix series_over(const Level& level, bool& agrees) const {
@@ -189,7 +198,7 @@ class ExactFlow : public Flow {
   Matrix generator_;
   double shortest_ = 0;
   int top_ = 0;
-  std::vector<Level> levels_;
+  std::map<int, Level> levels_;
   int level_ = 0;
   bool grows_ = true;  ///< false: the last try of a longer step failed
   VectorXd z_;

@@ -146,6 +146,10 @@ void Movement::fill(double t, VectorXd& values) const {
   for (const Line& line : lines_) values(line.element) = line.at(t);
 }
 
+void Movement::fill_clocks(double t, VectorXd& values) const {
+  for (std::size_t k = 0; k < clocks_.size(); ++k) values(lines_[k].element) = lines_[k].at(t);
+}
+
 VectorXd Movement::gathered(const VectorXd& values) const {
   VectorXd y(size());
   for (std::size_t k = 0; k < elements_.size(); ++k)
