@@ -35,7 +35,7 @@ using EventKind = model::Dynamics::EventKind;
 constexpr std::int64_t kLongestChain = 1000000;
 constexpr std::size_t kKeptOfChain = 1000;
 constexpr std::size_t kMostNotes = 100;
-constexpr std::int64_t kMostStepsOfRun = 5000000;
+constexpr std::int64_t kMostStepsOfRun = 2000000;
 constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
 /// Of the horizon: a clock that runs down so shortly after it is due at it, to the rounding of many
 /// lengths added up.
@@ -246,7 +246,10 @@ class EventRun {
 
   void watch_rhythm(std::size_t event) {
     if (piece_.steps.empty()) return;
-    rhythm_.push(t_, piece_.to() - piece_.from(), event);
+    const EventKind kind = system_.dynamics.events[event].kind;
+    const bool has_clock = kind == EventKind::every || kind == EventKind::at;
+    rhythm_.push(t_, piece_.to() - piece_.from(), event, has_clock);
+    flow_->sharpen(rhythm_.shrinkage() * rhythm_.shrinkage());
     std::string names;
     for (const std::size_t one : rhythm_.events())
       names += (names.empty() ? "" : ", ") + system_.dynamics.events[one].name;
