@@ -27,6 +27,8 @@ constexpr int kMostDoublings = 60;
 constexpr double kStepNorm = 0.5;
 /// Of the sizes that are added up at a point: what the last terms of a series may amount to.
 constexpr double kSeriesRounding = 64 * std::numeric_limits<double>::epsilon();
+/// Of the largest value in a flow: what has died down so far is followed no more.
+constexpr double kDied = 1e-20;
 
 /// expm(length G) where length ||G|| <= 1/2 in balanced units; 24 terms leave less than 1e-31.
 WideMatrix short_step(const WideMatrix& G, long double length) {
@@ -48,6 +50,7 @@ class ExactFlow : public Flow {
     t_ = t;
     last_ = last;
     level_ = 0;
+    peaks_ = VectorXd::Zero(movement_->size());
     read_generator(values);
     z_ = VectorXd::Ones(size_);
     z_.head(movement_->size()) = movement_->gathered(values);
@@ -156,7 +159,7 @@ class ExactFlow : public Flow {
     return levels_.emplace(number, std::move(level)).first->second;
   }
 
-  Matrix series_over(const Level& level, bool& agrees) const {
+  Matrix series_over(const Level& level, bool& agrees) {
     const Index n = movement_->size();
     Matrix values(n, kExactDegree + 1);
     VectorXd sizes = VectorXd::Zero(n);
@@ -167,7 +170,8 @@ class ExactFlow : public Flow {
     }
     Matrix series = chebyshev::coefficients(values);
     const VectorXd tail = series.rightCols(2).cwiseAbs().rowwise().sum();
-    agrees = (tail.array() <= kSeriesRounding * sizes.array()).all();
+    peaks_ = peaks_.cwiseMax(sizes);
+    agrees = (tail.array() <= kSeriesRounding * sizes.array() + kDied * peaks_.array()).all();
     return series;
   }
 
@@ -202,6 +206,7 @@ class ExactFlow : public Flow {
   int level_ = 0;
   bool grows_ = true;  ///< false: the last try of a longer step failed
   VectorXd z_;
+  VectorXd peaks_;  ///< the largest sizes of this flow
 };
 
 }  // namespace
