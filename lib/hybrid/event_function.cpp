@@ -145,18 +145,6 @@ bool EventCondition::if_changed(const VectorXd& values, std::size_t comparison) 
          }) == Truth::yes;
 }
 
-bool EventCondition::nearly(const VectorXd& values, double slack) {
-  return truth(whole_, [&](std::size_t comparison) {
-           Comparison& one = comparisons_[comparison];
-           if (holds(comparison, values)) return Truth::yes;
-           const auto room = slack * one.border.terms(values).array();
-           const auto difference = one.border(values).array();
-           const bool near = one.kind == ConditionKind::zero ? (difference.abs() <= room).all()
-                                                             : (difference >= -room).all();
-           return near ? Truth::yes : Truth::no;
-         }) == Truth::yes;
-}
-
 std::string EventCondition::differences(const VectorXd& values) {
   std::string result;
   for (Comparison& one : comparisons_) {

@@ -82,8 +82,6 @@ class EventCondition {
   bool if_changed(const Eigen::VectorXd& values, std::size_t comparison);
 
   std::vector<Comparison>& comparisons() { return comparisons_; }
-  /// Whether it is true but for `slack` times the sizes of the terms that are compared.
-  bool nearly(const Eigen::VectorXd& values, double slack);
   const std::string& text() const { return text_; }
   const Place& place() const { return place_; }
   /// "x(1) = 0.25, q = 1": the differences, for messages.

@@ -12,13 +12,19 @@ constexpr std::size_t kRatios = 12;
 constexpr std::size_t kKept = kRatios + kLongestPeriod;
 constexpr double kSteadyFactor = 3e-3;  ///< of 1 - r
 constexpr double kLeftOver = 1e-7;
-constexpr double kShortFlow = 1e-10;
+constexpr double kShortFlow = 1e-6;  ///< of the horizon
+constexpr double kShortestFlow = 1e-10;
 
 }  // namespace
 
-void EventRhythm::push(double t, double length, std::size_t event) {
+void EventRhythm::push(double t, double length, std::size_t event, bool has_clock) {
   t_ = t;
-  short_flows_ = length < kShortFlow * horizon_ ? short_flows_ + 1 : 0;
+  longest_ = std::max(longest_, length);
+  const auto in_a_row = [&](double part, int before) {
+    return length < part * horizon_ && !has_clock ? before + 1 : 0;
+  };
+  short_flows_ = in_a_row(kShortFlow, short_flows_);
+  shortest_flows_ = in_a_row(kShortestFlow, shortest_flows_);
   lengths_.push_back(length);
   events_.push_back(event);
   if (lengths_.size() <= kKept) return;

@@ -4,7 +4,8 @@
 //   before,
 //                r < 1, and what is left, sum of the last period * r/(1 - r), is below 1e-7 of the
 //                time so far: the jumps accumulate there
-//   chattering   a hundred flows in a row below 1e-10 of the horizon without such an r
+//   chattering   a hundred flows in a row below 1e-10 of the horizon, or ten thousand below 1e-6,
+//                without such an r; the clock of an event ends the row
 #pragma once
 
 #include <cstddef>
@@ -19,20 +20,21 @@ class EventRhythm {
   explicit EventRhythm(double horizon) : horizon_(horizon) {}
 
   /// A flow of positive length has ended at t with this event.
-  void push(double t, double length, std::size_t event);
+  void push(double t, double length, std::size_t event, bool has_clock);
 
   /// The time at which jumps accumulate, when lengths shrink by a steady factor.
   std::optional<double> accumulation() const;
-  bool chatters() const { return short_flows_ >= kShortFlows; }
+  bool chatters() const { return shortest_flows_ >= 100 || short_flows_ >= 10000; }
+  /// The length of the last flow, as a part of the longest one.
+  double shrinkage() const { return lengths_.empty() ? 1 : lengths_.back() / longest_; }
   /// The events of the last flows, each once, in order.
   std::vector<std::size_t> events() const;
 
  private:
-  static constexpr int kShortFlows = 100;
-
   double horizon_;
   double t_ = 0;
-  int short_flows_ = 0;  ///< in a row
+  double longest_ = 0;
+  int short_flows_ = 0, shortest_flows_ = 0;  ///< in a row
   std::vector<double> lengths_;
   std::vector<std::size_t> events_;
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/number.h"
+#include "hybrid/event_due.h"
 #include "hybrid/event_jump.h"
 #include "hybrid/event_rhythm.h"
 #include "hybrid/event_watch.h"
@@ -30,18 +31,16 @@ struct EventSimulator::Texts {
 
 namespace {
 
-using EventKind = model::Dynamics::EventKind;
-
 constexpr std::int64_t kLongestChain = 1000000;
 constexpr std::size_t kKeptOfChain = 1000;
 constexpr std::size_t kMostNotes = 100;
-constexpr std::int64_t kMostStepsOfRun = 5000000;
+constexpr std::int64_t kMostStepsOfRun = 2000000;
 constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
-/// Of the horizon: a clock that runs down so shortly after it is due at it, to the rounding of many
-/// lengths added up.
-constexpr double kAtHorizon = 1e-12;
-/// Of the terms of `while`: what a jump may leave it by, to rounding.
+/// Of the horizon: how long a flow may be outside of `while` after a jump to its border.
 constexpr double kOutside = 1e-9;
+constexpr double kEarly = 0.1;            ///< of a step
+constexpr double kShorterStep = 1.5;      ///< of the time up to an event
+constexpr double kShortestAgain = 1e-13;  ///< of the time
 constexpr std::size_t kSlidingSwitches = 8;
 constexpr double kSlidingTime = 1e-10;  ///< of the horizon
 
@@ -56,11 +55,10 @@ class EventRun {
         maps_(maps),
         stopped_(stopped),
         horizon_(scenario.horizon),
-        clocks_(system, scenario, seed, run),
+        due_(system, watch, EventClocks(system, scenario, seed, run), scenario.horizon),
         noise_(system, seed, run),
         flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
         rhythm_(scenario.horizon),
-        marks_(system.dynamics.events.size()),
         inside_(watch.stays.size(), true) {
     values_ = draw_start(system, scenario, seed, run);
   }
@@ -90,24 +88,17 @@ class EventRun {
   }
 
  private:
-  /// What is known of an event besides its text.
-  struct Mark {
-    bool spent = false;    ///< `when`: not due until its condition has been false
-    int sign = 0;          ///< the last of e that was not 0
-    bool crossed = false;  ///< in the direction of the event, and due
-  };
+  enum class Went { on, stopped };
 
   // --- The start and the end. ---
 
   void begin() {
     movement_.reset();
-    for (std::size_t e = 0; e < marks_.size(); ++e) movement_.set_due(e, clocks_.due(e));
     for (std::size_t k = 0; k < system_.noise.size(); ++k) noise_.draw(k, values_);
-    movement_.fill(0, values_);
+    due_.begin(values_, movement_);
+    movement_.fill_clocks(0, values_);
     hold_branches_at(values_, false);
     result_.start = variables(values_);
-    for (std::size_t e = 0; e < marks_.size(); ++e)
-      if (watch_.crossing[e]) marks_[e].sign = sign_of(e, values_);
     require_range();
   }
 
@@ -135,53 +126,13 @@ class EventRun {
   // --- Instants. ---
 
   void instant() {
-    while (const auto event = first_due(values_, t_)) occurrence(*event);
-    for (std::size_t s = 0; s < watch_.stays.size(); ++s) {
-      EventWatch::Stay& stay = watch_.stays[s];
-      inside_[s] = stay.where(values_);
-      if (!inside_[s] && !stay.where.nearly(values_, kOutside)) leave(stay, values_);
-    }
+    while (const auto event = due_.first(values_, t_)) occurrence(*event);
+    for (std::size_t s = 0; s < inside_.size(); ++s) inside_[s] = watch_.stays[s].where(values_);
   }
 
   [[noreturn]] static void leave(EventWatch::Stay& stay, const VectorXd& values) {
     throw RunEnd(Ending::left, fmt::format("{} ('{}' is false, {})", stay.say, stay.where.text(),
                                            stay.where.differences(values)));
-  }
-
-  std::optional<std::size_t> first_due(const VectorXd& values, double t) {
-    for (std::size_t e = 0; e < marks_.size(); ++e)
-      if (is_due(e, values, t)) return e;
-    return std::nullopt;
-  }
-
-  bool is_due(std::size_t event, const VectorXd& values, double t) {
-    Mark& mark = marks_[event];
-    switch (system_.dynamics.events[event].kind) {
-      case EventKind::when:
-        if ((*watch_.when[event])(values)) return !mark.spent;
-        mark.spent = false;
-        return false;
-      case EventKind::every:
-      case EventKind::at:
-        return clocks_.is_due(event, t >= horizon_ ? t + kAtHorizon * horizon_ : t);
-      default:
-        look_at_sign(event, sign_of(event, values));
-        return mark.crossed;
-    }
-  }
-
-  int sign_of(std::size_t event, const VectorXd& values) {
-    const double value = (*watch_.crossing[event])(values)(0);
-    return value > 0 ? 1 : value < 0 ? -1 : 0;
-  }
-
-  void look_at_sign(std::size_t event, int sign) {
-    Mark& mark = marks_[event];
-    if (sign == 0 || sign == mark.sign) return;
-    const EventKind kind = system_.dynamics.events[event].kind;
-    const bool wanted = kind == EventKind::crosses || (kind == EventKind::rises) == (sign > 0);
-    mark.crossed = mark.sign != 0 && wanted;
-    mark.sign = sign;
   }
 
   void occurrence(std::size_t event) {
@@ -192,35 +143,23 @@ class EventRun {
     if (goes) {
       jump(event);
     } else {
-      spend(event);
-      movement_.fill(t_, values_);
+      due_.spend(event, t_, movement_);
+      movement_.fill_clocks(t_, values_);
     }
     hold_branches_at(values_, false);
-  }
-
-  /// The occurrence at this instant is over.
-  void spend(std::size_t event) {
-    const EventKind kind = system_.dynamics.events[event].kind;
-    marks_[event].spent = kind == EventKind::when;
-    marks_[event].crossed = false;
-    if (kind != EventKind::every && kind != EventKind::at) return;
-    clocks_.advance(event, t_);
-    movement_.set_due(event, clocks_.due(event));
   }
 
   void jump(std::size_t event) {
     ask_whether_stopped();
     if (chain_ == 0) watch_rhythm(event);
     const VectorXd before = values_;
-    const bool lost = system_.dynamics.events[event].lost > 0 && clocks_.loses(event);
+    const bool lost = system_.dynamics.events[event].lost > 0 && due_.clocks().loses(event);
     values_ = maps_(event, lost, before);
     close_piece();
-    spend(event);
-    marks_[event].spent = false;
+    due_.spend(event, t_, movement_);
     movement_.set_since(event, t_);
-    movement_.set_states(t_, values_);
-    movement_.fill(t_, values_);
-    if (watch_.crossing[event]) marks_[event].sign = sign_of(event, values_);
+    movement_.fill_clocks(t_, values_);
+    due_.jumped(event, values_);
     result_.parts.emplace_back(
         JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
     ++j_;
@@ -231,7 +170,7 @@ class EventRun {
   [[noreturn]] void end_chain(std::size_t event) {
     result_.parts.resize(result_.parts.size() - static_cast<std::size_t>(kLongestChain) +
                          kKeptOfChain);
-    const auto next = first_due(values_, t_);
+    const auto next = due_.first(values_, t_);
     const std::size_t due = next.value_or(event);
     const model::Dynamics::Event& one = system_.dynamics.events[due];
     std::string value;
@@ -246,7 +185,8 @@ class EventRun {
 
   void watch_rhythm(std::size_t event) {
     if (piece_.steps.empty()) return;
-    rhythm_.push(t_, piece_.to() - piece_.from(), event);
+    rhythm_.push(t_, piece_.to() - piece_.from(), event, due_.has_clock(event));
+    flow_->sharpen(rhythm_.shrinkage() * rhythm_.shrinkage());
     std::string names;
     for (const std::size_t one : rhythm_.events())
       names += (names.empty() ? "" : ", ") + system_.dynamics.events[one].name;
@@ -264,7 +204,7 @@ class EventRun {
   // --- Flows. ---
 
   void flow() {
-    double stop = std::min({horizon_, clocks_.next(), noise_.next()});
+    double stop = std::min({horizon_, due_.clocks().next(), noise_.next()});
     movement_.begin(t_, values_);
     stop = watch_.next_line(movement_, t_, stop, values_);
     flow_->start(t_, values_, stop);
@@ -272,38 +212,68 @@ class EventRun {
       piece_.j = j_;
       piece_.start = variables(values_);
     }
-    bool goes_on = true;
-    while (goes_on && t_ < stop) {
+    Went went = Went::on;
+    while (went == Went::on && t_ < stop) {
       ask_whether_stopped();
       if (++steps_ > kMostStepsOfRun)
         throw RunEnd(Ending::lost, fmt::format("more than {} steps", kMostStepsOfRun));
-      goes_on = take(flow_->next());
+      went = take(flow_->next());
     }
     if (noise_.draw_due(t_, values_)) hold_branches_at(values_, false);
   }
 
-  /// Goes along a step up to where something happens; whether nothing did.
-  bool take(const DenseStep& step) {
+  /// Goes along a step up to where something happens.
+  Went take(const DenseStep& step) {
     const StepValues inside(movement_, values_, step);
+    require_inside(inside);
+    std::vector<std::pair<double, std::string>> near;
     const auto crossings = watch_.crossings(
-        inside, values_, [&](double t, const std::string& text) { note(t, text); });
+        inside, values_, [&](double t, const std::string& text) { near.emplace_back(t, text); });
+    const std::vector<DueEvents::Mark> marks = due_.marks();
+    const std::vector<bool> was_inside = inside_;
     for (const EventWatch::Crossing& one : crossings) {
       VectorXd values = inside.at(one.t);
-      const bool due = first_due(values, one.t).has_value();
+      const bool due = due_.first(values, one.t).has_value();
       const bool left = !due && leaves(values);
       const bool turns = !due && !left && one.branch && hold_branches_at(values, true);
       if (!due && !left && !turns) continue;
+      if (is_coarse(step, one.t)) {
+        due_.set_marks(marks);
+        inside_ = was_inside;
+        return take_shorter(step.from + kShorterStep * (one.t - step.from));
+      }
+      note(near, one.t);
       arrive(one.t < step.to ? step.until(one.t) : step, std::move(values));
       if (left) leave_first();
       if (turns) watch_sliding(*one.branch);
-      return false;
+      return Went::stopped;
     }
+    note(near, step.to);
     arrive(step, inside.at(step.to));
-    for (std::size_t s = 0; s < inside_.size(); ++s) {
-      inside_[s] = inside_[s] || watch_.stays[s].where(values_);
-      if (!inside_[s]) leave(watch_.stays[s], values_);
-    }
-    return !first_due(values_, t_);
+    if (leaves(values_)) leave_first();
+    return due_.first(values_, t_) ? Went::stopped : Went::on;
+  }
+
+  /// Whether something happens so early in a step that its rounding, which is that of all of it,
+  /// tells in what is short: the flights of a ball that comes to rest.
+  static bool is_coarse(const DenseStep& step, double t) {
+    const double length = t - step.from;
+    return length < kEarly * (step.to - step.from) && length > kShortestAgain * std::abs(t);
+  }
+
+  /// The same flow in steps up to `last` at most.
+  Went take_shorter(double last) {
+    flow_->start(t_, values_, last);
+    Went went = Went::on;
+    while (went == Went::on && t_ < last) went = take(flow_->next());
+    return Went::stopped;
+  }
+
+  /// A jump to a border of `while` may miss it by rounding: the flow has to lead inside at once.
+  void require_inside(const StepValues& inside) {
+    const double soon = std::min(inside.to(), inside.from() + kOutside * horizon_);
+    for (std::size_t s = 0; s < inside_.size(); ++s)
+      if (!inside_[s] && !watch_.stays[s].where(inside.at(soon))) leave(watch_.stays[s], values_);
   }
 
   void arrive(const DenseStep& step, VectorXd values) {
@@ -330,10 +300,12 @@ class EventRun {
       if (!stay.where(values_)) leave(stay, values_);
   }
 
-  void note(double t, const std::string& text) {
-    if (result_.notes.size() >= kMostNotes) return;
-    result_.notes.push_back(
-        fmt::format("t = {}: '{}' comes near without being reached", brief(t, 12), text));
+  /// Borders that came near up to a time.
+  void note(const std::vector<std::pair<double, std::string>>& near, double until) {
+    for (const auto& [t, text] : near)
+      if (t <= until && result_.notes.size() < kMostNotes)
+        result_.notes.push_back(
+            fmt::format("t = {}: '{}' comes near without being reached", brief(t, 12), text));
   }
 
   void ask_whether_stopped() const {
@@ -383,11 +355,10 @@ class EventRun {
   JumpMaps& maps_;
   const std::function<bool()>& stopped_;
   double horizon_;
-  EventClocks clocks_;
+  DueEvents due_;
   NoiseDraws noise_;
   std::unique_ptr<Flow> flow_;
   EventRhythm rhythm_;
-  std::vector<Mark> marks_;   ///< by event
   std::vector<bool> inside_;  ///< by `while`: whether its condition has been true in this flow
   std::vector<double> switched_;
   VectorXd values_;    ///< variables and branches

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <vector>
 
 #include "base/number.h"
@@ -26,6 +27,8 @@ constexpr int kMostDoublings = 60;
 constexpr double kStepNorm = 0.5;
 /// Of the sizes that are added up at a point: what the last terms of a series may amount to.
 constexpr double kSeriesRounding = 64 * std::numeric_limits<double>::epsilon();
+/// Of the largest value in a flow: what has died down so far is followed no more.
+constexpr double kDied = 1e-20;
 
 /// expm(length G) where length ||G|| <= 1/2 in balanced units; 24 terms leave less than 1e-31.
 WideMatrix short_step(const WideMatrix& G, long double length) {
@@ -47,6 +50,7 @@ class ExactFlow : public Flow {
     t_ = t;
     last_ = last;
     level_ = 0;
+    peaks_ = VectorXd::Zero(movement_->size());
     read_generator(values);
     z_ = VectorXd::Ones(size_);
     z_.head(movement_->size()) = movement_->gathered(values);
@@ -57,7 +61,7 @@ class ExactFlow : public Flow {
 
   DenseStep next() override {
     while (true) {
-      const Level& level = level_at(level_);
+      const Level& level = level_at(std::min(level_, level_of(last_ - t_)));
       bool agrees = false;
       const Matrix series = series_over(level, agrees);
       if (!agrees && level_ > 0) {
@@ -127,27 +131,35 @@ class ExactFlow : public Flow {
     while (top_ < kMostDoublings && std::ldexp(shortest_, top_ + 1) <= top) ++top_;
   }
 
-  const Level& level_at(int number) {
-    const VectorXd& points = chebyshev::points(kExactDegree);
-    while (static_cast<int>(levels_.size()) <= number) {
-      Level level;
-      level.length = std::ldexp(shortest_, static_cast<int>(levels_.size()));
-      for (Index k = 0; k < points.size(); ++k) {
-        if (levels_.empty()) {
-          const long double part = (1 + static_cast<long double>(points(k))) / 2;
-          level.wide.push_back(short_step(generator_.cast<long double>(), part * shortest_));
-        } else {
-          const WideMatrix& half = levels_.back().wide[static_cast<std::size_t>(k)];
-          level.wide.push_back(half.lazyProduct(half));
-        }
-        level.maps.push_back(level.wide.back().cast<double>());
-      }
-      levels_.push_back(std::move(level));
-    }
-    return levels_[static_cast<std::size_t>(number)];
+  /// The shortest level that covers a length, below 0 where s_0 is longer than it has to be: the
+  /// rounding of a series is that of the interval that it is made for.
+  int level_of(double length) const {
+    int exponent = 0;
+    std::frexp(length / shortest_, &exponent);
+    return std::max(exponent, -kMostDoublings);
   }
 
-  Matrix series_over(const Level& level, bool& agrees) const {
+  const Level& level_at(int number) {
+    const auto known = levels_.find(number);
+    if (known != levels_.end()) return known->second;
+    const Level* half = number > 0 ? &level_at(number - 1) : nullptr;
+    const VectorXd& points = chebyshev::points(kExactDegree);
+    Level level;
+    level.length = std::ldexp(shortest_, number);
+    for (Index k = 0; k < points.size(); ++k) {
+      if (half != nullptr) {
+        const WideMatrix& map = half->wide[static_cast<std::size_t>(k)];
+        level.wide.push_back(map.lazyProduct(map));
+      } else {
+        const long double part = (1 + static_cast<long double>(points(k))) / 2;
+        level.wide.push_back(short_step(generator_.cast<long double>(), part * level.length));
+      }
+      level.maps.push_back(level.wide.back().cast<double>());
+    }
+    return levels_.emplace(number, std::move(level)).first->second;
+  }
+
+  Matrix series_over(const Level& level, bool& agrees) {
     const Index n = movement_->size();
     Matrix values(n, kExactDegree + 1);
     VectorXd sizes = VectorXd::Zero(n);
@@ -158,7 +170,8 @@ class ExactFlow : public Flow {
     }
     Matrix series = chebyshev::coefficients(values);
     const VectorXd tail = series.rightCols(2).cwiseAbs().rowwise().sum();
-    agrees = (tail.array() <= kSeriesRounding * sizes.array()).all();
+    peaks_ = peaks_.cwiseMax(sizes);
+    agrees = (tail.array() <= kSeriesRounding * sizes.array() + kDied * peaks_.array()).all();
     return series;
   }
 
@@ -189,10 +202,11 @@ class ExactFlow : public Flow {
   Matrix generator_;
   double shortest_ = 0;
   int top_ = 0;
-  std::vector<Level> levels_;
+  std::map<int, Level> levels_;
   int level_ = 0;
   bool grows_ = true;  ///< false: the last try of a longer step failed
   VectorXd z_;
+  VectorXd peaks_;  ///< the largest sizes of this flow
 };
 
 }  // namespace

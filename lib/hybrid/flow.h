@@ -28,6 +28,9 @@ class Flow {
   /// Begins at t, after Movement::begin there. Nothing is evaluated after `last` but by exact
   /// flows.
   virtual void start(double t, const Eigen::VectorXd& values, double last) = 0;
+  /// From the next start on errors count as absolute below `part` of the accuracy's: flows that
+  /// shrink lead to values that shrink with them.
+  virtual void sharpen(double part) { (void)part; }
   /// The step from where the last one ended, at most to `last`. IntegrationError (integrator.h)
   /// where the flow ends before.
   virtual DenseStep next() = 0;

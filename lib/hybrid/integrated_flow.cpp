@@ -29,9 +29,11 @@ class IntegratedFlow : public Flow {
     y_ = movement_->gathered(values);
     instant_ = last - t <= kInstant * std::max(std::abs(t), std::abs(last));
     if (instant_) return;
-    const auto absolute = Eigen::VectorXd::Constant(y_.size(), accuracy_.absolute);
+    const auto absolute = Eigen::VectorXd::Constant(y_.size(), accuracy_.absolute * part_);
     integrator_.start(t, y_, last, accuracy_.relative, absolute, longest_);
   }
+
+  void sharpen(double part) override { part_ = part; }
 
   DenseStep next() override {
     if (instant_) return straight();
@@ -59,6 +61,7 @@ class IntegratedFlow : public Flow {
   Movement* movement_;
   Accuracy accuracy_;
   double longest_;
+  double part_ = 1;
   double t_ = 0, last_ = 0;
   bool instant_ = false;  ///< from t_ to last_
   Integrator integrator_;

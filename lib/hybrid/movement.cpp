@@ -85,15 +85,6 @@ void Movement::set_since(std::size_t event, double t) {
   }
 }
 
-void Movement::set_states(double t, const VectorXd& values) {
-  for (std::size_t k = clocks_.size(); k < lines_.size(); ++k) {
-    Line& line = lines_[k];
-    if (line.at(t) == values(line.element)) continue;
-    line.base = values(line.element);
-    line.time = t;
-  }
-}
-
 void Movement::set_due(std::size_t event, double due) {
   for (std::size_t k = 0; k < clocks_.size(); ++k) {
     const auto& variable = system_->dynamics.variables[clocks_[k]];
@@ -153,6 +144,10 @@ const numbers::Matrix& Movement::value_of(Entry& entry, const VectorXd& values) 
 
 void Movement::fill(double t, VectorXd& values) const {
   for (const Line& line : lines_) values(line.element) = line.at(t);
+}
+
+void Movement::fill_clocks(double t, VectorXd& values) const {
+  for (std::size_t k = 0; k < clocks_.size(); ++k) values(lines_[k].element) = lines_[k].at(t);
 }
 
 VectorXd Movement::gathered(const VectorXd& values) const {

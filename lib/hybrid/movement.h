@@ -22,21 +22,20 @@ class Movement {
  public:
   explicit Movement(const EventSystem& system);
 
-  /// At the start of a run: t, and the times since events, are 0.
+  /// At the start of a run: the times since events are 0.
   void reset();
   /// since(event) runs from t on.
   void set_since(std::size_t event, double t);
   /// event.left runs down to 0 at `due`.
   void set_due(std::size_t event, double due);
 
-  /// What a jump gave to states of steady rate.
-  void set_states(double t, const Eigen::VectorXd& values);
-
   /// Begins a flow: reads which components are frozen and the steady rates. InputError for a
   /// symmetric state whose flow is not.
   void begin(double t, const Eigen::VectorXd& values);
-  /// Gives everything steady its value at t.
+  /// Gives everything steady its value at t, in the flow that has begun.
   void fill(double t, Eigen::VectorXd& values) const;
+  /// Gives t and the clocks of events their values.
+  void fill_clocks(double t, Eigen::VectorXd& values) const;
 
   /// Of y.
   Eigen::Index size() const { return static_cast<Eigen::Index>(elements_.size()); }

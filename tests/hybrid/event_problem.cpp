@@ -26,6 +26,9 @@ class EventCompiler {
 
   Dynamics compile() {
     add_variables();
+    for (std::size_t i = 0; i < starts_.size(); ++i)
+      if (!starts_[i].empty())
+        made_.variables[i].start = formula(starts_[i], made_.variables[i].shape);
     for (const auto& part : problem_.components_) add_component(part);
     for (const auto& [name, text] : problem_.flows_) made_.flow.push_back(assignment(name, text));
     for (const auto& event : problem_.events_) add_event(event);
@@ -36,8 +39,8 @@ class EventCompiler {
 
  private:
   void add_variable(Dynamics::Variable variable, const std::string& start) {
-    if (!start.empty()) variable.start = formula(start, variable.shape);
     scope_.symbols[variable.name] = {variable.shape};
+    starts_.push_back(start);
     made_.variables.push_back(std::move(variable));
   }
 
@@ -151,6 +154,7 @@ class EventCompiler {
 
   const EventProblem& problem_;
   expr::Scope scope_;
+  std::vector<std::string> starts_;  ///< by variable
   Dynamics made_;
 };
 
