@@ -169,12 +169,33 @@ std::optional<FlowCheck::Quarters> FlowCheck::settled(const DenseStep& step,
   return std::nullopt;
 }
 
+std::optional<FlowCheck::Quarters> FlowCheck::straight(const DenseStep& step,
+                                                       const Eigen::VectorXd& x,
+                                                       const Eigen::VectorXd& allowed) {
+  const double h = step.to - step.from;
+  Eigen::VectorXd rate, middle;
+  try {
+    texts_.rate(step(step.from + h / 2), middle);
+    for (const double t : {step.from, step.to}) {
+      texts_.rate(step(t), rate);
+      if ((h * active_part(rate).array().abs() > 0.1 * allowed.array()).any()) return std::nullopt;
+    }
+  } catch (const expr::EvaluationError&) {
+    return std::nullopt;
+  }
+  Quarters result(active_.size(), 4);
+  for (int k = 1; k <= 4; ++k)
+    result.col(k - 1) = active_part(x) + 0.25 * k * h * active_part(middle);
+  return result;
+}
+
 void FlowCheck::check_step(const DenseStep& step, const Eigen::VectorXd& x,
                            const Eigen::VectorXd& sizes, Eigen::VectorXd& sum) {
   if (active_.empty()) return;
   const Eigen::VectorXd allowed =
       kFactor * texts_.accuracy(sizes) + time_rounding_at(texts_, step.to, step(step.to));
-  const std::optional<Quarters> again = settled(step, x, active_part(allowed));
+  std::optional<Quarters> again = settled(step, x, active_part(allowed));
+  if (!again) again = straight(step, x, active_part(allowed));
   if (!again) {
     faults_.add(part_, step.from, "a step of the flow could not be integrated again");
     return;

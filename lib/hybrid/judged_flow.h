@@ -47,6 +47,10 @@ class FlowCheck {
                                   const Eigen::VectorXd& allowed);
   std::optional<Quarters> settled(const DenseStep& step, const Eigen::VectorXd& x,
                                   const Eigen::VectorXd& allowed);
+  /// Of a step so short that nothing moves by more than a tenth of what is allowed, next to a
+  /// switch of the flow, say, where no method converges.
+  std::optional<Quarters> straight(const DenseStep& step, const Eigen::VectorXd& x,
+                                   const Eigen::VectorXd& allowed);
   Eigen::VectorXd active_part(const Eigen::VectorXd& x) const;
   /// The worst element of each variable.
   void report(double t, const std::string& what, const Eigen::VectorXd& size,
