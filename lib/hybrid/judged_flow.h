@@ -42,9 +42,11 @@ class FlowCheck {
   /// Adds to `sum` the difference at the end.
   void check_step(const DenseStep& step, const Eigen::VectorXd& x, const Eigen::VectorXd& sizes,
                   Eigen::VectorXd& sum);
-  /// In `count` Gauss steps, of which four, two or one make a quarter; none without convergence.
+  /// In `count` Gauss steps, a power of two: of two the first and the third quarter stay open. None
+  /// where a step does not converge.
   std::optional<Quarters> advance(const DenseStep& step, const Eigen::VectorXd& x, int count,
                                   const Eigen::VectorXd& allowed);
+  /// In ever more Gauss steps, until twice as many change nothing by a tenth of what is allowed.
   std::optional<Quarters> settled(const DenseStep& step, const Eigen::VectorXd& x,
                                   const Eigen::VectorXd& allowed);
   /// Of a step so short that nothing moves by more than a tenth of what is allowed, next to a

@@ -148,7 +148,7 @@ class JudgedTexts {
   std::vector<std::optional<Guard>> frozen_;  ///< by component
 };
 
-/// (M + M')/2 of a square matrix stacked to a column; anything else as it is.
+/// (M + M')/2.
 void make_symmetric(numbers::Matrix& value);
 
 }  // namespace gainsmith::hybrid::judging
