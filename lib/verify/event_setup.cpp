@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/number.h"
-#include "expr/compile.h"
 #include "model/stated.h"
 
 namespace gainsmith::verify {
@@ -22,13 +21,21 @@ using hybrid::Termination;
 
 std::string integral_name(const std::string& claim) { return "integral of " + claim; }
 
+expr::Program zero() {
+  expr::Instruction constant;
+  constant.op = expr::Op::constant;
+  constant.text = "0";
+  expr::Program program;
+  program.code.push_back(std::move(constant));
+  program.result = 0;
+  return program;
+}
+
 /// A state whose rate is the flow cost of a claim.
 void add_integral(const model::Design::Claim& claim, model::Dynamics& dynamics) {
-  expr::Scope nothing;
-  const expr::Expression zero = expr::parse(expr::Text::generated("0", claim.place));
   model::Dynamics::Variable variable;
   variable.name = integral_name(claim.name);
-  variable.start = {expr::compile(zero, nothing, expr::Shape{}), claim.place, "0"};
+  variable.start = {zero(), claim.place, "0"};
   variable.place = claim.place;
   dynamics.flow.push_back({dynamics.variables.size(), *claim.flow_cost, claim.place});
   dynamics.variables.push_back(std::move(variable));
