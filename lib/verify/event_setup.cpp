@@ -126,6 +126,7 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
     if (claim.flow_cost) add_integral(claim, dynamics);
   model::Stated stated = model::state(instance, gains);
   auto setup = std::make_unique<EventSetup>();
+  setup->flow = dynamics.flow;
   setup->system =
       hybrid::make_event_system(dynamics, std::move(stated.values), std::move(stated.bodies));
   setup->scenario = hybrid::make_event_scenario(design.campaign, setup->system);
