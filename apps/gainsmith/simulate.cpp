@@ -29,6 +29,7 @@ struct SimulateOptions {
   std::string plot;
   double step = 0;
   bool compare = false;
+  bool judge = false;
   bool json = false;
 };
 
@@ -71,8 +72,8 @@ ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& load
     write(options, comparison_text(figures));
     return ExitCode::yes;
   }
-  const verify::EventReplay replay =
-      verify::replay_events(loaded.stated, loaded.gains, seed, options.run, options.step);
+  const verify::EventReplay replay = verify::replay_events(
+      loaded.stated, loaded.gains, seed, options.run, options.step, options.judge);
   if (!options.plot.empty())
     write_atomically(options.plot, run_figure(loaded.stated.design->name, replay));
   if (options.plot.empty() || !options.output.empty())
@@ -86,7 +87,12 @@ ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& load
   if (!replay.run.message.empty()) say("  " + replay.run.message + "\n");
   for (const std::string& note : replay.run.notes) say("  " + note + "\n");
   say_claims(replay.claims);
-  return ExitCode::yes;
+  if (!options.judge) return ExitCode::yes;
+  for (const hybrid::Fault& fault : replay.faults)
+    say(fmt::format("  judged: t = {}: {} ({} > {})\n", brief(fault.t), fault.what,
+                    brief(fault.size), brief(fault.allowed)));
+  if (replay.faults.empty()) say("  judged: the run satisfies the texts\n");
+  return replay.faults.empty() ? ExitCode::yes : ExitCode::no;
 }
 
 ExitCode simulate(const SimulateOptions& options) {
@@ -94,10 +100,11 @@ ExitCode simulate(const SimulateOptions& options) {
   const LoadedGains loaded = load_run(options.gains);
   const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
   if (loaded.stated.design->dynamics) return simulate_events(options, loaded, seed);
-  if (options.compare || !options.plot.empty() || options.step > 0)
-    throw InputError({options.gains},
-                     "--compare, --plot and --step are for methods with events; this one has a "
-                     "timer");
+  if (options.compare || options.judge || !options.plot.empty() || options.step > 0)
+    throw InputError(
+        {options.gains},
+        "--compare, --judge, --plot and --step are for methods with events; this one has a "
+        "timer");
   const verify::Replay replay = verify::replay(loaded.stated, loaded.gains, seed, options.run);
   const std::string text =
       options.json ? io::to_text(replay_json(replay)) : io::to_csv(replay.columns, replay.table);
@@ -124,6 +131,9 @@ Command simulate_command() {
        Option("--step", options->step, "points of flows this far apart (default: as integrated)"),
        Option("--plot", options->plot, "draw states, estimates, errors and claims (SVG)"),
        Option("--compare", options->compare, "print the figures under 'compare' of all observers"),
+       Option("--judge", options->judge,
+              "check the run against the texts, by computations of its own; exit code 1 if it "
+              "finds a fault"),
        Option("--json", options->json, "write JSON instead of CSV")},
       "Columns: t, j, the timer or the event, the states, the signals, then the value of each "
       "claim.\n"

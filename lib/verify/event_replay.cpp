@@ -123,15 +123,31 @@ class EventTable {
   std::vector<Source> sources_;
 };
 
+/// Starts that the campaign gives are not asked about.
+std::vector<hybrid::Fault> faults_of(const hybrid::Trajectory& run, const model::Instance& instance,
+                                     const model::Gains& gains, const EventSetup& setup) {
+  hybrid::JudgeQuestion question;
+  for (const model::Design::Start& start : instance.design->campaign.starts) {
+    const hybrid::Slot& slot = setup.system.layout.slots[start.state];
+    const numbers::Matrix value = run.start.segment(slot.offset, slot.shape.size())
+                                      .reshaped(slot.shape.rows, slot.shape.cols);
+    question.starts.push_back({start.state, value, value});
+  }
+  model::Dynamics dynamics = setup.system.dynamics;
+  dynamics.flow = setup.flow;
+  return hybrid::judge(run, dynamics, model::state(instance, gains), question);
+}
+
 }  // namespace
 
 EventReplay replay_events(const model::Instance& instance, const model::Gains& gains,
-                          std::uint64_t seed, std::uint64_t run, double step) {
+                          std::uint64_t seed, std::uint64_t run, double step, bool judged) {
   const std::unique_ptr<const Setup> setup = make_setup(instance, gains);
   const EventSetup& events = *setup->events;
   EventReplay result;
   result.run = hybrid::EventSimulator(events.system, events.scenario).run(seed, run);
   EventTable(*instance.design, events).fill(step, result);
+  if (judged) result.faults = faults_of(result.run, instance, gains, events);
   if (setup->judged.empty()) return result;
   Judge judge(*setup);
   const std::vector<Finding> findings = judge(seed, run).findings;

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "hybrid/trajectory.h"
+#include "hybrid/trajectory_judge.h"
 #include "model/gains.h"
 #include "model/instance.h"
 #include "verify/replay.h"
@@ -27,11 +27,12 @@ struct EventReplay {
   numbers::Matrix table;              ///< not a number where there is none
   std::vector<std::string> events;    ///< of each row: the jump that it comes after, or empty
   std::vector<ReplayedClaim> claims;  ///< exactly what the campaign found in this run
+  std::vector<hybrid::Fault> faults;  ///< that the judge of runs found
 };
 
-/// `step`: of the points of flows; 0: as the integration went. Without claims when `claims` is not
-/// set.
+/// `step`: of the points of flows; 0: as the integration went. `judged`: whether the run is checked
+/// against the texts.
 EventReplay replay_events(const model::Instance& instance, const model::Gains& gains,
-                          std::uint64_t seed, std::uint64_t run, double step);
+                          std::uint64_t seed, std::uint64_t run, double step, bool judged = false);
 
 }  // namespace gainsmith::verify

@@ -8,7 +8,6 @@
 #include <utility>
 
 #include "base/number.h"
-#include "expr/compile.h"
 #include "model/stated.h"
 
 namespace gainsmith::verify {
@@ -22,13 +21,21 @@ using hybrid::Termination;
 
 std::string integral_name(const std::string& claim) { return "integral of " + claim; }
 
+expr::Program zero() {
+  expr::Instruction constant;
+  constant.op = expr::Op::constant;
+  constant.text = "0";
+  expr::Program program;
+  program.code.push_back(std::move(constant));
+  program.result = 0;
+  return program;
+}
+
 /// A state whose rate is the flow cost of a claim.
 void add_integral(const model::Design::Claim& claim, model::Dynamics& dynamics) {
-  expr::Scope nothing;
-  const expr::Expression zero = expr::parse(expr::Text::generated("0", claim.place));
   model::Dynamics::Variable variable;
   variable.name = integral_name(claim.name);
-  variable.start = {expr::compile(zero, nothing, expr::Shape{}), claim.place, "0"};
+  variable.start = {zero(), claim.place, "0"};
   variable.place = claim.place;
   dynamics.flow.push_back({dynamics.variables.size(), *claim.flow_cost, claim.place});
   dynamics.variables.push_back(std::move(variable));
@@ -119,6 +126,7 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
     if (claim.flow_cost) add_integral(claim, dynamics);
   model::Stated stated = model::state(instance, gains);
   auto setup = std::make_unique<EventSetup>();
+  setup->flow = dynamics.flow;
   setup->system =
       hybrid::make_event_system(dynamics, std::move(stated.values), std::move(stated.bodies));
   setup->scenario = hybrid::make_event_scenario(design.campaign, setup->system);

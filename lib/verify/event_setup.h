@@ -19,6 +19,7 @@ namespace gainsmith::verify {
 struct EventSetup {
   hybrid::EventSystem system;
   hybrid::EventScenario scenario;
+  std::vector<model::Dynamics::Assignment> flow;  ///< as written, before branches are held
   std::vector<LinkedClaim> claims;
   std::vector<expr::Program> functions;  ///< of the claims that are stated: the coordinates
   hybrid::Coordinates coordinates;
