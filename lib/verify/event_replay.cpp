@@ -87,7 +87,7 @@ class EventTable {
     programs_.push_back(std::make_unique<expr::Program>(std::move(linked)));
     const expr::Program& own = *programs_.back();
     sources_.push_back({column(name, kind), own.shape(), std::nullopt,
-                        RunValue(own, setup_.system.layout, setup_.system.constants), at});
+                        RunValue(own, setup_.layout, setup_.system.constants), at});
   }
 
   /// Of the only observer a name needs no prefix.

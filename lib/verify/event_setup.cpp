@@ -129,9 +129,12 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
   setup->flow = dynamics.flow;
   setup->system =
       hybrid::make_event_system(dynamics, std::move(stated.values), std::move(stated.bodies));
+  setup->layout = setup->system.layout;
+  setup->layout.slots.resize(dynamics.variables.size());
+  setup->layout.size = setup->system.size;
   setup->scenario = hybrid::make_event_scenario(design.campaign, setup->system);
   hybrid::System plain;
-  plain.layout = setup->system.layout;
+  plain.layout = setup->layout;
   plain.constants = setup->system.constants;
   plain.bodies = setup->system.bodies;
   setup->claims = link_claims(design, plain);
@@ -144,7 +147,7 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
 EventTracks::EventTracks(const EventSetup& setup)
     : setup_(&setup), simulator_(setup.system, setup.scenario) {
   for (const expr::Program& function : setup.functions)
-    functions_.emplace_back(function, setup.system.layout, setup.system.constants);
+    functions_.emplace_back(function, setup.layout, setup.system.constants);
 }
 
 VectorXd EventTracks::values(const VectorXd& x) {

@@ -18,6 +18,7 @@ namespace gainsmith::verify {
 
 struct EventSetup {
   hybrid::EventSystem system;
+  hybrid::StateLayout layout;  ///< of the variables: without branches that flows hold
   hybrid::EventScenario scenario;
   std::vector<model::Dynamics::Assignment> flow;  ///< as written, before branches are held
   std::vector<LinkedClaim> claims;

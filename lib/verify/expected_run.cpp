@@ -49,7 +49,7 @@ class TwoRuns {
       for (const expr::Input& input : program->inputs)
         if (!setup_->system.slot(input.name) && !setup_->system.constants.contains(input.name))
           throw InputError(figure.value->place, "there is no value for " + input.name);
-      value.emplace(*program, setup_->system.layout, setup_->system.constants);
+      value.emplace(*program, setup_->layout, setup_->system.constants);
     }
     std::vector<double> constants;
     for (const model::Formula& number : figure.numbers)
