@@ -35,7 +35,9 @@ constexpr std::int64_t kLongestChain = 1000000;
 constexpr std::size_t kKeptOfChain = 1000;
 constexpr std::size_t kMostNotes = 100;
 constexpr std::int64_t kMostStepsOfRun = 2000000;
-constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
+constexpr double kLongestStep = 1.0 / 16;       ///< of the horizon
+constexpr double kLongestWithTime = 1.0 / 256;  ///< the same where texts read the time: pulses
+constexpr double kOfHorizon = 1e-6;             ///< a time near 0 counts as so much of it
 /// Of the horizon: how long a flow may be outside of `while` after a jump to its border.
 constexpr double kOutside = 1e-9;
 constexpr double kEarly = 0.1;            ///< of a step
@@ -57,7 +59,8 @@ class EventRun {
         horizon_(scenario.horizon),
         due_(system, watch, EventClocks(system, scenario, seed, run), scenario.horizon),
         noise_(system, seed, run),
-        flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
+        flow_(make_flow(movement, accuracy,
+                        (system.slot("t") ? kLongestWithTime : kLongestStep) * scenario.horizon)),
         rhythm_(scenario.horizon),
         inside_(watch.stays.size(), true) {
     values_ = draw_start(system, scenario, seed, run);
@@ -256,9 +259,10 @@ class EventRun {
 
   /// Whether something happens so early in a step that its rounding, which is that of all of it,
   /// tells in what is short: the flights of a ball that comes to rest.
-  static bool is_coarse(const DenseStep& step, double t) {
+  bool is_coarse(const DenseStep& step, double t) const {
     const double length = t - step.from;
-    return length < kEarly * (step.to - step.from) && length > kShortestAgain * std::abs(t);
+    return length < kEarly * (step.to - step.from) &&
+           length > kShortestAgain * std::max(std::abs(t), kOfHorizon * horizon_);
   }
 
   /// The same flow in steps up to `last` at most.

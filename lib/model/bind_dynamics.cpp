@@ -110,7 +110,14 @@ void DynamicsBinding::add_varied() {
 }
 
 void DynamicsBinding::add_inputs() {
-  for (const Named& input : method_->inputs) scope_->definitions[input.name] = {{}, input.value};
+  for (const Named& input : method_->inputs) {
+    expr::visit_names(input.value, [&](const expr::Node& node) {
+      if (is_moving(node.text))
+        throw InputError(input.value.place(node),
+                         "an input is a function of the time t; '" + node.text + "' is a state");
+    });
+    scope_->definitions[input.name] = {{}, input.value};
+  }
   for (const char* name : {"t", "j"}) {
     if (!is_free(name)) continue;
     Dynamics::Variable number;

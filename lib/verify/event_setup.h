@@ -37,7 +37,8 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
 ///
 ///   samples   the ends of 32 equal parts of each flow, and the values after each jump
 ///   bound     four times the largest difference between the two runs at a sample and two on each
-///             side of it, + 8 u |value|: an estimate that leaves a margin, and no proof
+///             side of it, or what a rounding for each step and jump so far makes of the value, + 8
+///             u |value|: an estimate that leaves a margin, and no proof
 ///
 /// Where the two runs take other events, or end otherwise, it hangs on the accuracy: the run is
 /// lost. A run that ends by accumulating jumps is complete.
@@ -56,11 +57,13 @@ class EventTracks {
   void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
   void widen(std::size_t first);
   Eigen::VectorXd values(const Eigen::VectorXd& x);
+  Eigen::VectorXd with_rounding(const Eigen::VectorXd& x) const;
 
   const EventSetup* setup_;
   hybrid::EventSimulator simulator_;
   std::vector<RunValue> functions_;
   hybrid::Track<double> track_;
+  double rounded_ = 0;  ///< steps and jumps so far
 };
 
 }  // namespace gainsmith::verify
