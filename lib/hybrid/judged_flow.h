@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "hybrid/gauss.h"
 #include "hybrid/judged_faults.h"
+#include "hybrid/judged_step.h"
 #include "hybrid/judged_texts.h"
 #include "hybrid/trajectory.h"
 
@@ -33,27 +33,12 @@ class FlowCheck {
   void operator()(std::size_t part, const FlowPiece& piece);
 
  private:
-  /// The values at the quarters of a step: one column each.
-  using Quarters = numbers::Matrix;
-
   void check_joint(const Eigen::VectorXd& x, double t, const Eigen::VectorXd& next,
                    const Eigen::VectorXd& sizes, bool inner);
   void check_rest(const DenseStep& step, const Eigen::VectorXd& x, const Eigen::VectorXd& sizes);
   /// Adds to `sum` the difference at the end.
   void check_step(const DenseStep& step, const Eigen::VectorXd& x, const Eigen::VectorXd& sizes,
                   Eigen::VectorXd& sum);
-  /// In `count` Gauss steps, a power of two: of two the first and the third quarter stay open. None
-  /// where a step does not converge.
-  std::optional<Quarters> advance(const DenseStep& step, const Eigen::VectorXd& x, int count,
-                                  const Eigen::VectorXd& allowed);
-  /// In ever more Gauss steps, until twice as many change nothing by a tenth of what is allowed.
-  std::optional<Quarters> settled(const DenseStep& step, const Eigen::VectorXd& x,
-                                  const Eigen::VectorXd& allowed);
-  /// Of a step so short that nothing moves by more than a tenth of what is allowed, next to a
-  /// switch of the flow, say, where no method converges.
-  std::optional<Quarters> straight(const DenseStep& step, const Eigen::VectorXd& x,
-                                   const Eigen::VectorXd& allowed);
-  Eigen::VectorXd active_part(const Eigen::VectorXd& x) const;
   /// The worst element of each variable.
   void report(double t, const std::string& what, const Eigen::VectorXd& size,
               const Eigen::VectorXd& allowed);
@@ -61,9 +46,8 @@ class FlowCheck {
   JudgedTexts& texts_;
   Faults& faults_;
   std::size_t part_ = 0;
-  std::vector<bool> flowing_;         ///< by variable
-  std::vector<Eigen::Index> active_;  ///< elements that flow along a text
-  Eigen::VectorXd clocks_;            ///< the rate of each element that is a clock, else 0
+  std::vector<bool> flowing_;  ///< by variable
+  MovingElements moving_;
 };
 
 }  // namespace gainsmith::hybrid::judging

@@ -29,6 +29,15 @@ std::unique_ptr<const expr::Program> linked(const expr::Program& program, const 
   return result;
 }
 
+/// The variables that a program uses, where they stand: no others need be copied at each point.
+StateLayout used_part(const StateLayout& layout, const expr::Program& program) {
+  StateLayout used;
+  used.size = layout.size;
+  for (const Slot& slot : layout.slots)
+    if (program.uses(slot.name)) used.slots.push_back(slot);
+  return used;
+}
+
 /// Of differences that may each be off by their spread.
 Truth compare(Kind kind, const numbers::Matrix& difference, const numbers::Matrix& spread) {
   const auto d = difference.array();
@@ -54,10 +63,10 @@ Truth opposite(Truth truth) {
 
 Text::Text(const expr::Program& program, const Place& place, const StateLayout& layout,
            const model::Stated& stated)
-    : program_(linked(program, place, layout, stated)), value_(*program_, layout, stated.values) {
-  for (const Slot& slot : layout.slots)
-    if (program_->uses(slot.name))
-      for (Eigen::Index i = 0; i < slot.shape.size(); ++i) elements_.push_back(slot.offset + i);
+    : program_(linked(program, place, layout, stated)),
+      value_(*program_, used_part(layout, *program_), stated.values) {
+  for (const Slot& slot : used_part(layout, *program_).slots)
+    for (Eigen::Index i = 0; i < slot.shape.size(); ++i) elements_.push_back(slot.offset + i);
 }
 
 numbers::Matrix Text::spread(const Eigen::VectorXd& x, const Eigen::VectorXd& rounding) {
