@@ -35,9 +35,8 @@ constexpr std::int64_t kLongestChain = 1000000;
 constexpr std::size_t kKeptOfChain = 1000;
 constexpr std::size_t kMostNotes = 100;
 constexpr std::int64_t kMostStepsOfRun = 2000000;
-constexpr double kLongestStep = 1.0 / 16;       ///< of the horizon
-constexpr double kLongestWithTime = 1.0 / 256;  ///< the same where texts read the time: pulses
-constexpr double kOfHorizon = 1e-6;             ///< a time near 0 counts as so much of it
+constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
+constexpr double kOfHorizon = 1e-6;        ///< a time near 0 counts as so much of it
 /// Of the horizon: how long a flow may be outside of `while` after a jump to its border.
 constexpr double kOutside = 1e-9;
 constexpr double kEarly = 0.1;            ///< of a step
@@ -59,8 +58,7 @@ class EventRun {
         horizon_(scenario.horizon),
         due_(system, watch, EventClocks(system, scenario, seed, run), scenario.horizon),
         noise_(system, seed, run),
-        flow_(make_flow(movement, accuracy,
-                        (system.slot("t") ? kLongestWithTime : kLongestStep) * scenario.horizon)),
+        flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
         rhythm_(scenario.horizon),
         inside_(watch.stays.size(), true) {
     values_ = draw_start(system, scenario, seed, run);

@@ -22,11 +22,13 @@ using Removed = std::set<std::string>;
 
 std::vector<YamlItem> items_without(const YamlFile& file, const std::optional<YamlItem>& item,
                                     const std::string& what, bool like, Removed& removed) {
-  std::vector<YamlItem> items = items_of(file, item, what);
-  if (!like) return items;
-  for (const YamlItem& one : items)
-    if (is_none(one)) removed.insert(one.key);
-  std::erase_if(items, is_none);
+  // A YAML::Node that is assigned to changes what it stood for: items are copied, never moved.
+  std::vector<YamlItem> items;
+  for (const YamlItem& one : items_of(file, item, what))
+    if (like && is_none(one))
+      removed.insert(one.key);
+    else
+      items.push_back(one);
   return items;
 }
 

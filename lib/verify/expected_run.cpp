@@ -55,10 +55,11 @@ class TwoRuns {
     for (const model::Formula& number : figure.numbers)
       constants.push_back(setup_->system.scalar(number));
     std::optional<Eigen::Index> passes;
-    const std::string& event = setup_->system.dynamics.events[figure.event].name;
-    if (const auto slot = setup_->system.slot(expr::event_number("passes", event));
-        slot && figure.kind == model::FigureKind::passes)
-      passes = setup_->system.layout.slots[*slot].offset;
+    if (figure.kind == model::FigureKind::passes) {
+      const std::string& event = setup_->system.dynamics.events[figure.event].name;
+      if (const auto slot = setup_->system.slot(expr::event_number("passes", event)))
+        passes = setup_->system.layout.slots[*slot].offset;
+    }
     FigureOf of(figure.kind, std::move(value), std::move(constants), figure.event, figure.count,
                 figure.after, passes);
     const auto usual = of(usual_);

@@ -31,8 +31,8 @@ void visit_flow(const hybrid::FlowPiece& flow, double step,
   for (std::size_t k = 0; k < flow.steps.size(); ++k) {
     const hybrid::DenseStep& in = flow.steps[k];
     if (step > 0) {
-      for (; next < in.to; next = static_cast<double>(++count) * step)
-        if (next > in.from) see(in, next);
+      for (; next <= in.to && next < flow.to(); next = static_cast<double>(++count) * step)
+        if (next > flow.from()) see(in, next);
       continue;
     }
     see(in, in.from + (in.to - in.from) / 2);

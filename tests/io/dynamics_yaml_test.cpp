@@ -5,6 +5,7 @@
 
 #include "io/problem_text.h"
 #include "model/bind.h"
+#include "numbers/real.h"
 
 namespace gainsmith::io {
 namespace {
@@ -123,6 +124,19 @@ TEST(Dynamics, MistakesAreNamedAtTheirPlace) {
         << mistake.by << ": " << error.what();
     EXPECT_GT(error.place().line, 0) << mistake.by;
   }
+}
+
+TEST(Dynamics, WhatIsLeftOutOfACopyLeavesTheRestAsItIs) {
+  const std::string text = replaced(kPendulum, "let: {L: \"[0.2; 0.4]\"}",
+                                    "let: {L: none, K: 2, M: 3, N: \"[5; 7]\"}\n      flow: {xh: "
+                                    "K*M*N}\n      at: {sample: {xh: N}}");
+  const std::string once = replaced(text, "      at: {far: {let: {k: 0.5}, xh: k*xh, q: 1}}\n", "");
+  const model::DesignPtr design = bound(
+      replaced(once, "at: {sample: {xh: N}}", "at: {sample: {xh: N}, far: {xh: K*xh, q: 1}}"));
+  const auto& flow = design->dynamics->flow.back().value.program;
+  const numbers::Matrix rate = numbers::evaluate(flow, {});
+  EXPECT_EQ(rate(0), 30);
+  EXPECT_EQ(rate(1), 42);
 }
 
 TEST(Dynamics, LoopsHaveAnEnd) {
