@@ -61,7 +61,8 @@ class Job {
     const auto campaign = verify_and_write(gains);
     result.differences = design::differences(
         instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
-    const verify::RunDifferences run = verify::run_differences(instance_, gains);
+    const verify::RunDifferences run = verify::run_differences(instance_, gains, interrupted);
+    if (interrupted()) throw Interrupted("interrupted while figures of the first run were found");
     result.differences.insert(result.differences.end(), run.different.begin(), run.different.end());
     result.exit = judge(*instance_.design, gains, campaign, result.differences);
     if (result.exit == ExitCode::yes && !run.undecided.empty()) result.exit = ExitCode::undecided;

@@ -55,7 +55,6 @@ void add_states(const EventReplay& replay, report::Figure& figure) {
       panel.curves.back().dashed = true;
       panel.curves.back().colour = ++colour;
     }
-    if (colour == 1) panel.curves.back().colour = 0;
     figure.panels.push_back(std::move(panel));
   }
 }
@@ -83,7 +82,7 @@ void add_errors(const EventReplay& replay, report::Figure& figure) {
   for (std::size_t k = 0; k < order.size(); ++k) {
     report::Curve one = sizes.at(order[k]);
     one.label = "|" + order[k] + "|";
-    one.colour = static_cast<int>(k) + (order.size() > 1 ? 1 : 0);
+    one.colour = static_cast<int>(k) + 1;
     panel.curves.push_back(std::move(one));
   }
   figure.panels.push_back(std::move(panel));
@@ -96,7 +95,7 @@ void add_claims(const EventReplay& replay, report::Figure& figure) {
   for (std::size_t k = 0; k < replay.columns.size(); ++k) {
     if (replay.columns[k].kind != Kind::claim) continue;
     panel.curves.push_back(curve(replay, k));
-    panel.curves.back().colour = static_cast<int>(panel.curves.size()) - 1;
+    panel.curves.back().colour = static_cast<int>(panel.curves.size());
   }
   if (!panel.curves.empty()) figure.panels.push_back(std::move(panel));
 }

@@ -82,9 +82,12 @@ std::string comparison_text(const std::vector<verify::FoundFigure>& figures) {
   }
   std::size_t width = 10;
   for (const std::string& title : titles) width = std::max(width, title.size() + 2);
+  std::size_t column = 13;
+  for (const std::string& observer : observers) column = std::max(column, observer.size());
+  column += 2;
   std::string text = fmt::format("{:<{}}", "", width);
   for (const std::string& observer : observers)
-    text += fmt::format("{:>15}", observer.empty() ? "all" : observer);
+    text += fmt::format("{:>{}}", observer.empty() ? "all" : observer, column);
   text += '\n';
   for (const std::string& title : titles) {
     text += fmt::format("{:<{}}", title, width);
@@ -93,7 +96,7 @@ std::string comparison_text(const std::vector<verify::FoundFigure>& figures) {
         return one.title == title && one.observer == observer;
       });
       const bool known = found != figures.end() && found->value;
-      text += fmt::format("{:>15}", known ? brief(*found->value) : "-");
+      text += fmt::format("{:>{}}", known ? brief(*found->value) : "-", column);
     }
     text += '\n';
   }

@@ -62,9 +62,21 @@ void write(const SimulateOptions& options, const std::string& text) {
     write_atomically(options.output, text);
 }
 
+/// Steps of exact flows are long: a picture shows what lies between their ends.
+verify::EventReplay for_plot(const SimulateOptions& options, const LoadedGains& loaded,
+                             std::uint64_t seed, const verify::EventReplay& replay) {
+  constexpr double kPoints = 1500;
+  if (options.step > 0 || replay.run.end <= 0) return replay;
+  return verify::replay_events(loaded.stated, loaded.gains, seed, options.run,
+                               replay.run.end / kPoints);
+}
+
 ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& loaded,
                          std::uint64_t seed) {
   if (options.compare) {
+    if (options.json || options.judge || !options.plot.empty() || options.step > 0)
+      throw InputError({options.gains},
+                       "--compare prints figures alone, without --json, --plot, --judge or --step");
     const auto figures = verify::compared_figures(loaded.stated, loaded.gains, seed, options.run);
     if (figures.empty())
       throw InputError({options.gains},
@@ -75,8 +87,9 @@ ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& load
   const verify::EventReplay replay = verify::replay_events(
       loaded.stated, loaded.gains, seed, options.run, options.step, options.judge);
   if (!options.plot.empty())
-    write_atomically(options.plot, run_figure(loaded.stated.design->name, replay));
-  if (options.plot.empty() || !options.output.empty())
+    write_atomically(options.plot, run_figure(loaded.stated.design->name,
+                                              for_plot(options, loaded, seed, replay)));
+  if (options.plot.empty() || !options.output.empty() || options.json)
     write(options, options.json ? io::to_text(events_json(replay)) : events_csv(replay));
   const auto jumps = static_cast<std::size_t>(std::count_if(
       replay.run.parts.begin(), replay.run.parts.end(),

@@ -14,6 +14,8 @@ std::string to_string(Termination termination) {
       return "a flow that could not be integrated further";
     case Termination::undefined:
       return "a map without a value";
+    case Termination::broken_off:
+      return "an end before the horizon";
   }
   return "?";
 }

@@ -18,7 +18,8 @@ enum class Termination {
   diverged,    ///< an element of the state left [-1e150, 1e150] or is not a number
   lost,        ///< the integration of the flow could not go on, and why is not certain
   jump_limit,  ///< more jumps than allowed before the horizon: intervals that shrink to nothing
-  undefined    ///< a map has no value at the state, such as a division by zero, or a flow escapes
+  undefined,   ///< a map has no value at the state, such as a division by zero, or a flow escapes
+  broken_off   ///< a run of dynamics with events ended before: the message says why
 };
 std::string to_string(Termination termination);
 

@@ -11,14 +11,18 @@ constexpr std::size_t kLongestPeriod = 3;
 constexpr std::size_t kRatios = 12;
 constexpr std::size_t kKept = kRatios + kLongestPeriod;
 constexpr double kSteadyFactor = 3e-3;  ///< of 1 - r
-constexpr double kLeftOver = 1e-7;
+constexpr double kLeftOver = 1e-7;      ///< of the time
+constexpr double kNothingLeft = 1e-8;
+constexpr double kStillMoving = 1e-4;
 constexpr double kShortFlow = 1e-6;  ///< of the horizon
 constexpr double kShortestFlow = 1e-10;
 
 }  // namespace
 
-void EventRhythm::push(double t, double length, std::size_t event, bool has_clock) {
+void EventRhythm::push(double t, double length, std::size_t event, bool has_clock,
+                       const Eigen::VectorXd& states, const Eigen::VectorXd& largest) {
   t_ = t;
+  sizes_ = sizes_.size() == 0 ? largest : sizes_.cwiseMax(largest).eval();
   longest_ = std::max(longest_, length);
   const auto in_a_row = [&](double part, int before) {
     return length < part * horizon_ && !has_clock ? before + 1 : 0;
@@ -27,9 +31,16 @@ void EventRhythm::push(double t, double length, std::size_t event, bool has_cloc
   shortest_flows_ = in_a_row(kShortestFlow, shortest_flows_);
   lengths_.push_back(length);
   events_.push_back(event);
+  states_.push_back(states);
   if (lengths_.size() <= kKept) return;
+  states_.erase(states_.begin());
   lengths_.erase(lengths_.begin());
   events_.erase(events_.begin());
+}
+
+bool EventRhythm::settles(std::size_t period) const {
+  const Eigen::VectorXd change = states_.back() - states_[states_.size() - 1 - period];
+  return (change.array().abs() <= kStillMoving * sizes_.array()).all();
 }
 
 std::optional<double> EventRhythm::accumulation() const {
@@ -49,7 +60,7 @@ std::optional<double> EventRhythm::accumulation() const {
     double last = 0;
     for (std::size_t k = 1; k <= period; ++k) last += lengths_[lengths_.size() - k];
     const double left = last * r / (1 - r);
-    if (left <= kLeftOver * t_) return t_ + left;
+    if (left <= kNothingLeft * t_ || (left <= kLeftOver * t_ && settles(period))) return t_ + left;
   }
   return std::nullopt;
 }

@@ -3,11 +3,14 @@
 //   Zeno         over the last flows each length is r times that of a period of 1 to 3 flows
 //   before,
 //                r < 1, and what is left, sum of the last period * r/(1 - r), is below 1e-7 of the
-//                time so far: the jumps accumulate there
+//                time so far, and over the last period no state changed by more than 1e-4 of its
+//                largest size: the jumps accumulate there. While a state counts, what is left is
+//                to be below 1e-8
 //   chattering   a hundred flows in a row below 1e-10 of the horizon, or ten thousand below 1e-6,
 //                without such an r; the clock of an event ends the row
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -19,8 +22,10 @@ class EventRhythm {
  public:
   explicit EventRhythm(double horizon) : horizon_(horizon) {}
 
-  /// A flow of positive length has ended at t with this event.
-  void push(double t, double length, std::size_t event, bool has_clock);
+  /// A flow of positive length has ended at t with this event, at these values of states and modes;
+  /// `largest`: how large they were along it, at most.
+  void push(double t, double length, std::size_t event, bool has_clock,
+            const Eigen::VectorXd& states, const Eigen::VectorXd& largest);
 
   /// The time at which jumps accumulate, when lengths shrink by a steady factor.
   std::optional<double> accumulation() const;
@@ -31,12 +36,16 @@ class EventRhythm {
   std::vector<std::size_t> events() const;
 
  private:
+  bool settles(std::size_t period) const;
+
   double horizon_;
   double t_ = 0;
   double longest_ = 0;
   int short_flows_ = 0, shortest_flows_ = 0;  ///< in a row
   std::vector<double> lengths_;
   std::vector<std::size_t> events_;
+  std::vector<Eigen::VectorXd> states_;
+  Eigen::VectorXd sizes_;  ///< the largest of each state so far
 };
 
 }  // namespace gainsmith::hybrid

@@ -20,6 +20,7 @@ namespace gainsmith::hybrid {
 
 using Eigen::Index;
 using Eigen::VectorXd;
+using VariableKind = model::Dynamics::VariableKind;
 
 /// What is compiled once for all runs.
 struct EventSimulator::Texts {
@@ -45,6 +46,18 @@ constexpr double kShortestAgain = 1e-13;  ///< of the time
 constexpr std::size_t kSlidingSwitches = 8;
 constexpr double kSlidingTime = 1e-10;  ///< of the horizon
 
+/// Elements of states and modes among all values.
+std::vector<Index> rows_of_states(const EventSystem& system) {
+  std::vector<Index> rows;
+  for (std::size_t k = 0; k < system.dynamics.variables.size(); ++k) {
+    const model::Dynamics::Variable& variable = system.dynamics.variables[k];
+    if (variable.kind != VariableKind::state && variable.kind != VariableKind::mode) continue;
+    for (Index e = 0; e < variable.shape.size(); ++e)
+      rows.push_back(system.layout.slots[k].offset + e);
+  }
+  return rows;
+}
+
 class EventRun {
  public:
   EventRun(const EventSystem& system, const EventScenario& scenario, Movement& movement,
@@ -60,6 +73,7 @@ class EventRun {
         noise_(system, seed, run),
         flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
         rhythm_(scenario.horizon),
+        state_rows_(rows_of_states(system)),
         inside_(watch.stays.size(), true) {
     values_ = draw_start(system, scenario, seed, run);
   }
@@ -186,7 +200,11 @@ class EventRun {
 
   void watch_rhythm(std::size_t event) {
     if (piece_.steps.empty()) return;
-    rhythm_.push(t_, piece_.to() - piece_.from(), event, due_.has_clock(event));
+    VectorXd largest = VectorXd::Zero(static_cast<Index>(state_rows_.size()));
+    for (const DenseStep& step : piece_.steps)
+      largest = largest.cwiseMax(step.coefficients.cwiseAbs().rowwise().sum()(state_rows_));
+    rhythm_.push(t_, piece_.to() - piece_.from(), event, due_.has_clock(event),
+                 values_(state_rows_), largest);
     flow_->sharpen(rhythm_.shrinkage() * rhythm_.shrinkage());
     std::string names;
     for (const std::size_t one : rhythm_.events())
@@ -361,6 +379,7 @@ class EventRun {
   NoiseDraws noise_;
   std::unique_ptr<Flow> flow_;
   EventRhythm rhythm_;
+  std::vector<Index> state_rows_;
   std::vector<bool> inside_;  ///< by `while`: whether its condition has been true in this flow
   std::vector<double> switched_;
   VectorXd values_;    ///< variables and branches

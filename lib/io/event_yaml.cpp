@@ -66,10 +66,14 @@ model::EventText event(const YamlFile& file, const YamlItem& item) {
     result.numbers = one_or_two(file, due);
   else if (result.kind == EventKind::at && due.value.IsSequence())
     for (const auto& entry : due.value) result.numbers.push_back(file.expression(entry, "at"));
+  else if (due.value.IsSequence())
+    throw InputError(due.place, due.key + ": expected one expression, found a list");
   else if (result.kind == EventKind::at)
     result.numbers.push_back(file.expression(due.value, "at"));
   else
     result.what = file.expression(due.value, due.key);
+  if (result.kind == EventKind::at && result.numbers.empty())
+    throw InputError(due.place, "at: expected a time at least");
   if (first && result.kind != EventKind::every)
     throw InputError(first->place, "first: only of an event with 'every'");
   if (first) result.first = one_or_two(file, *first);

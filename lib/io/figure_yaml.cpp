@@ -1,8 +1,10 @@
 #include "io/figure_yaml.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
+#include "base/nearest.h"
 #include "io/expectation_yaml.h"
 
 namespace gainsmith::io {
@@ -90,7 +92,15 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
     ++found;
     result.kind = FigureKind::ended;
     result.title = "ended";
-    if (ending != nullptr) *ending = file.string(ended->value, "ended");
+    if (ending == nullptr)
+      throw InputError(ended->place, "ended: of 'expect.run'; all observers end with the run");
+    *ending = file.string(ended->value, "ended");
+    const std::vector<std::string> known = {"horizon", "escaped",     "undefined",  "left",
+                                            "stuck",   "zeno",        "chattering", "sliding",
+                                            "passes",  "interrupted", "lost"};
+    if (std::find(known.begin(), known.end(), *ending) == known.end())
+      throw InputError(file.place(ended->value),
+                       "ended: unknown word '" + *ending + "'" + suggestion(*ending, known));
   }
   if (found != 1) throw InputError(map.place(), kForms);
   if ((result.kind == FigureKind::settles) != below.has_value() ||

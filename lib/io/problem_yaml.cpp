@@ -194,6 +194,7 @@ void read_sampling(const YamlFile& file, const YAML::Node& node, const std::stri
     result.sampling.back().event = event;
   };
   if (!node.IsSequence()) return add(node);
+  if (node.size() == 0) throw InputError(file.place(node), "sampling: expected a law at least");
   for (const auto& entry : node) add(entry);
 }
 

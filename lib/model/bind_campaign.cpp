@@ -139,6 +139,12 @@ void Binding::bind_starts() {
     }
   }
   if (!design_->dynamics) return;
+  const bool runs = !method().claims.empty() || !problem().compare.empty() ||
+                    (problem().expect && !problem().expect->run.empty());
+  if (runs && !problem().campaign.horizon)
+    throw InputError(
+        problem().campaign.place.line > 0 ? problem().campaign.place : Place{problem().file},
+        "a method with events needs 'campaign: {horizon: ...}': how long a run is");
   for (std::size_t k = 0; k < design_->states.size(); ++k) {
     const bool drawn = std::any_of(starts.begin(), starts.end(),
                                    [&](const Design::Start& one) { return one.state == k; });

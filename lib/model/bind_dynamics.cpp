@@ -222,14 +222,15 @@ bool is_used(const Dynamics& dynamics, std::size_t event) {
 
 }  // namespace
 
-void drop_unread(Dynamics& dynamics, const std::set<std::string>& read) {
+void drop_unread(Dynamics& dynamics, const std::set<std::string>& read,
+                 const std::set<std::size_t>& counted) {
   std::erase_if(dynamics.variables, [&](const Dynamics::Variable& variable) {
     const bool asked =
         variable.kind != Kind::state && variable.kind != Kind::mode && variable.kind != Kind::noise;
     return asked && !read.contains(variable.name);
   });
   for (std::size_t k = 0; k < dynamics.events.size(); ++k)
-    if (!is_used(dynamics, k))
+    if (!counted.contains(k) && !is_used(dynamics, k))
       throw InputError(dynamics.events[k].place,
                        "nothing happens at the event '" + dynamics.events[k].own +
                            "': no component has it under 'at', and no text asks for it");

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/nearest.h"
+#include "base/number.h"
 #include "expr/compile.h"
 #include "model/dynamics_binding.h"
 
@@ -50,6 +51,9 @@ void DynamicsBinding::sort_events() {
   const auto rank = [&](const Dynamics::Event& event) {
     return std::find(order.begin(), order.end(), event.name) - order.begin();
   };
+  for (const std::string& name : order)
+    if (std::count(order.begin(), order.end(), name) > 1)
+      throw InputError(method_->dynamics_place, "order: '" + name + "' stands there twice");
   for (const std::string& name : order)
     if (!events_.contains(name))
       throw InputError(method_->dynamics_place, "order: there is no event '" + name + "'" +
@@ -128,6 +132,25 @@ bool any_input(const expr::Condition& condition,
 
 }  // namespace
 
+/// Of what has a value beforehand; the rest is checked when a run begins.
+void DynamicsBinding::check_ends(const std::string& event, const Formula& low,
+                                 const Formula& high) const {
+  const auto is_known = [&](const Formula& end) {
+    return end.program.functions.empty() &&
+           std::all_of(end.program.inputs.begin(), end.program.inputs.end(),
+                       [&](const expr::Input& input) {
+                         const auto found = scope_->symbols.find(input.name);
+                         return found != scope_->symbols.end() && found->second.known;
+                       });
+  };
+  if (!is_known(low) || !is_known(high)) return;
+  const double least = scope_->known->number(low.program);
+  const double most = scope_->known->number(high.program);
+  if (0 <= least && least <= most) return;
+  throw InputError(low.place, "the event '" + event + "' comes after a time in [" + brief(least) +
+                                  ", " + brief(most) + "]: expected 0 <= low <= high");
+}
+
 void DynamicsBinding::bind_event(const EventText& text, const Component* component,
                                  std::size_t at) {
   const auto read = [&](const expr::Expression& one) {
@@ -158,7 +181,11 @@ void DynamicsBinding::bind_event(const EventText& text, const Component* compone
   };
   if (text.kind == EventKind::every) {
     std::tie(event.low, event.high) = ends(text.numbers);
-    if (!text.first.empty()) std::tie(event.first_low, event.first_high) = ends(text.first);
+    check_ends(text.name, *event.low, *event.high);
+    if (!text.first.empty()) {
+      std::tie(event.first_low, event.first_high) = ends(text.first);
+      check_ends(text.name, *event.first_low, *event.first_high);
+    }
   }
   if (text.kind == EventKind::at)
     for (const expr::Expression& one : text.numbers)

@@ -105,7 +105,10 @@ void Binding::finish_dynamics() {
     for (const expr::Input& input : program.inputs) read.insert(input.name);
   };
   for_each_program(*design_->dynamics, add);
+  std::set<std::size_t> counted;
   const auto add_figure = [&](const Figure& figure) {
+    if (figure.kind == FigureKind::count || figure.kind == FigureKind::at_event)
+      counted.insert(figure.event);
     if (figure.value) add(figure.value->program);
     if (figure.kind == FigureKind::passes)
       read.insert(expr::event_number("passes", design_->dynamics->events[figure.event].name));
@@ -118,7 +121,7 @@ void Binding::finish_dynamics() {
     for (const auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor})
       if (*part) add((*part)->program);
   }
-  drop_unread(*design_->dynamics, read);
+  drop_unread(*design_->dynamics, read, counted);
 }
 
 void Binding::bind_timer() {

@@ -51,6 +51,7 @@ class DynamicsBinding {
   void bind_noise(const NoiseText& text);
   void add_noise(Dynamics::Noise noise);
   std::size_t event(const Component* component, const std::string& name, const Place& place) const;
+  void check_ends(const std::string& event, const Formula& low, const Formula& high) const;
   Formula constant(const expr::Expression& text, std::optional<expr::Shape> shape) const;
   expr::Condition condition(const expr::Expression& text, const Component* reader,
                             std::optional<std::size_t> event, const expr::Scope& scope) const;
@@ -86,6 +87,8 @@ class DynamicsBinding {
 
 /// Drops the numbers of events, t and j, where no program reads them. InputError for an event at
 /// which nothing happens and that nothing reads.
-void drop_unread(Dynamics& dynamics, const std::set<std::string>& read);
+/// `counted`: events that figures name.
+void drop_unread(Dynamics& dynamics, const std::set<std::string>& read,
+                 const std::set<std::size_t>& counted);
 
 }  // namespace gainsmith::model

@@ -111,14 +111,17 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
   return tally;
 }
 
-/// Runs first, first + 1, ..., last - 1, or those until the campaign is stopped, one at least.
+/// Runs first, first + 1, ..., last - 1, or those until the campaign is stopped.
 Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, std::uint64_t last,
                  const CampaignOptions& options) {
-  Judge judge(setup);
+  Judge judge(setup, options.stopped);
+  const auto stops = [&] { return options.stopped && options.stopped(); };
   Tally sum;
   for (std::uint64_t run = first; run < last; ++run) {
-    if (run > first && options.stopped && options.stopped()) break;
-    add(tally_of(run, judge(seed, run)), sum);
+    if (run > first && stops()) break;
+    const RunVerdict verdict = judge(seed, run);
+    if (setup.events && stops()) break;  // perhaps amid the run
+    add(tally_of(run, verdict), sum);
   }
   return sum;
 }

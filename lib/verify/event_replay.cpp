@@ -68,8 +68,7 @@ class EventTable {
     visit(replay.run, step, [&](const Moment& moment) {
       values.push_back(moment.t);
       values.push_back(static_cast<double>(moment.j));
-      replay.events.push_back(
-          moment.jump == nullptr ? "" : design_.dynamics->events[moment.jump->event].name);
+      replay.events.push_back(moment.jump == nullptr ? "" : event_of(*moment.jump));
       for (Source& source : sources_) add_values(source, moment, values);
     });
     const auto columns = static_cast<Index>(replay.columns.size());
@@ -88,6 +87,11 @@ class EventTable {
     const expr::Program& own = *programs_.back();
     sources_.push_back({column(name, kind), own.shape(), std::nullopt,
                         RunValue(own, setup_.layout, setup_.system.constants), at});
+  }
+
+  std::string event_of(const hybrid::JumpPoint& jump) const {
+    const std::string& name = design_.dynamics->events[jump.event].name;
+    return jump.lost ? name + " (lost)" : name;
   }
 
   /// Of the only observer a name needs no prefix.

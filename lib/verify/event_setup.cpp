@@ -144,8 +144,8 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
   return setup;
 }
 
-EventTracks::EventTracks(const EventSetup& setup)
-    : setup_(&setup), simulator_(setup.system, setup.scenario) {
+EventTracks::EventTracks(const EventSetup& setup, std::function<bool()> stopped)
+    : setup_(&setup), simulator_(setup.system, setup.scenario, std::move(stopped)) {
   for (const expr::Program& function : setup.functions)
     functions_.emplace_back(function, setup.layout, setup.system.constants);
 }
@@ -250,7 +250,7 @@ void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory
   if (same && complete) {
     track_.termination = Termination::horizon;
   } else if (same && breaks) {
-    track_.termination = Termination::undefined;
+    track_.termination = Termination::broken_off;
   } else {
     track_.termination = Termination::lost;
     if (!same)

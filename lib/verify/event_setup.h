@@ -4,6 +4,7 @@
 // integral of a flow cost is a state beside those of the plant and the observers.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -46,7 +47,8 @@ class EventTracks {
  public:
   static constexpr int kPieces = 32;
 
-  explicit EventTracks(const EventSetup& setup);
+  /// `stopped` is asked along the runs: true ends them.
+  explicit EventTracks(const EventSetup& setup, std::function<bool()> stopped = {});
 
   const hybrid::Track<double>& run(std::uint64_t seed, std::uint64_t run, double relative);
 

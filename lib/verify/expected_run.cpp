@@ -17,17 +17,16 @@ namespace {
 class TwoRuns {
  public:
   TwoRuns(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
-          std::uint64_t run)
+          std::uint64_t run, const std::function<bool()>& stopped)
       : setup_(make_event_setup(instance, gains)) {
     constexpr hybrid::Accuracy kUsual{1e-10, 1e-10};
     constexpr hybrid::Accuracy kSharper{1e-12, 1e-12};
-    hybrid::EventSimulator simulator(setup_->system, setup_->scenario);
+    hybrid::EventSimulator simulator(setup_->system, setup_->scenario, stopped);
     usual_ = simulator.run(seed, run, kUsual);
     sharper_ = simulator.run(seed, run, kSharper);
   }
 
   hybrid::Ending ending() const { return sharper_.ending; }
-  bool same_ending() const { return usual_.ending == sharper_.ending; }
   const std::string& message() const { return sharper_.message; }
 
   FoundFigure find(const model::Figure& figure) {
@@ -79,17 +78,18 @@ std::vector<FoundFigure> compared_figures(const model::Instance& instance,
                                           const model::Gains& gains, std::uint64_t seed,
                                           std::uint64_t run) {
   if (instance.design->compare.empty()) return {};
-  TwoRuns runs(instance, gains, seed, run);
+  TwoRuns runs(instance, gains, seed, run, {});
   std::vector<FoundFigure> found;
   for (const model::Figure& figure : instance.design->compare) found.push_back(runs.find(figure));
   return found;
 }
 
-RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains) {
+RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains,
+                               const std::function<bool()>& stopped) {
   RunDifferences result;
   const auto& expect = instance.design->expect;
   if (!expect || expect->run.empty()) return result;
-  TwoRuns runs(instance, gains, instance.design->campaign.seed, 0);
+  TwoRuns runs(instance, gains, instance.design->campaign.seed, 0, stopped);
   for (const model::ExpectedFigure& expected : expect->run) {
     ++result.figures;
     const model::Figure& figure = expected.figure;

@@ -1,6 +1,7 @@
 // Figures of the first run of dynamics with events: expected ones, and those that are compared.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -29,7 +30,9 @@ struct RunDifferences {
   std::size_t figures = 0;             ///< that were expected
 };
 
-/// What is expected of the first run (number 0) and is not found there.
-RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains);
+/// What is expected of the first run (number 0) and is not found there. `stopped` is asked along
+/// the run: true ends it, and then the result says nothing.
+RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains,
+                               const std::function<bool()>& stopped = {});
 
 }  // namespace gainsmith::verify

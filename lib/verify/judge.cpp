@@ -1,6 +1,7 @@
 #include "verify/judge.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gainsmith::verify {
 
@@ -65,10 +66,10 @@ RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
 
 }  // namespace
 
-Judge::Judge(const Setup& setup)
+Judge::Judge(const Setup& setup, std::function<bool()> stopped)
     : checks_(make_checks(setup, setup.events ? *setup.events->narrow : *setup.narrow)) {
   if (setup.events) {
-    events_.emplace(*setup.events);
+    events_.emplace(*setup.events, std::move(stopped));
     return;
   }
   if (!setup.steps) {

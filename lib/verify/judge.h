@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -31,7 +32,9 @@ class Judge {
   static constexpr double kUsual = 1e-8;
   static constexpr double kRepeated = 1e-10;
 
-  explicit Judge(const Setup& setup);
+  /// `stopped` is asked along runs of dynamics with events, which may be long: true ends them, and
+  /// then their verdict says nothing.
+  explicit Judge(const Setup& setup, std::function<bool()> stopped = {});
 
   /// What double decides is decided; a run with a claim that it does not decide, or that does not
   /// reach the horizon, is repeated. Of a run that diverges there with less than half of its last
