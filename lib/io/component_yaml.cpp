@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/nearest.h"
+#include "io/declaration_yaml.h"
 
 namespace gainsmith::io {
 
@@ -52,23 +53,6 @@ void overlay(std::vector<Entry>& copied, std::vector<Entry> own, const Removed& 
     else
       *found = std::move(entry);
   }
-}
-
-model::Declaration state(const YamlFile& file, const YamlItem& item) {
-  model::Declaration result;
-  result.name = item.key;
-  result.place = item.place;
-  if (item.value.IsScalar()) {
-    result.shape = model::parse_shape(file.scalar(item.value, item.key));
-    return result;
-  }
-  YamlMap map(file, item.value, item.key);
-  result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
-  if (const auto start = map.find("start"))
-    result.fallback = file.expression(start->value, "start");
-  if (const auto help = map.find("help")) result.help = file.string(help->value, "help");
-  map.finish();
-  return result;
 }
 
 /// "q: 1": where it starts.
@@ -218,7 +202,9 @@ Component component(const YamlFile& file, const YamlItem& item,
   const auto assigned = [](const YamlFile& from, const YamlItem& entry) {
     return model::Named{entry.key, from.expression(entry.value, entry.key), entry.place};
   };
-  read("state", result.states, state);
+  read("state", result.states, [](const YamlFile& from, const YamlItem& entry) {
+    return declaration(from, entry, "start");
+  });
   read("mode", result.modes, mode);
   read("output", result.outputs, output);
   read("let", result.let, [](const YamlFile& from, const YamlItem& entry) {

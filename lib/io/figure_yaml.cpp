@@ -125,11 +125,14 @@ model::ExpectedFigureText expected(const YamlFile& file, const YAML::Node& node)
   result.relative = tolerance(file, map.find("relative"));
   result.absolute = tolerance(file, map.find("absolute"));
   map.finish();
-  const bool word = result.figure.kind == FigureKind::ended;
-  if (word == is.has_value() || word == (result.relative || result.absolute))
-    throw InputError(map.place(), word ? "ended: the word is all"
-                                       : "expected 'is: value' with a tolerance, 'relative' or "
-                                         "'absolute'");
+  const FigureKind kind = result.figure.kind;
+  const bool bounded = result.relative || result.absolute;
+  if (kind == FigureKind::ended && (is || bounded))
+    throw InputError(map.place(), "ended: the word is all");
+  if (kind != FigureKind::ended && !is) throw InputError(map.place(), "expected 'is: value'");
+  const bool is_whole = kind == FigureKind::count || kind == FigureKind::passes;
+  if (is && !bounded && !is_whole)
+    throw InputError(is->place, "expected a tolerance, 'relative' or 'absolute'");
   if (is) result.is = file.expression(is->value, "is");
   return result;
 }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/blocks_yaml.h"
+#include "io/declaration_yaml.h"
 #include "io/dynamics_yaml.h"
 #include "io/method_node.h"
 #include "io/search_yaml.h"
@@ -14,55 +15,6 @@
 namespace gainsmith::io {
 
 namespace {
-
-std::optional<expr::Expression> optional_expression(const YamlFile& file,
-                                                    const std::optional<YamlItem>& item) {
-  if (!item) return std::nullopt;
-  return file.expression(item->value, item->key);
-}
-
-std::string optional_string(const YamlFile& file, const std::optional<YamlItem>& item) {
-  return item ? file.string(item->value, item->key) : "";
-}
-
-/// The texts of a key that takes one or a list of them.
-std::vector<expr::Text> texts_of(const YamlFile& file, const YamlItem& item) {
-  std::vector<expr::Text> texts;
-  if (item.value.IsSequence()) {
-    for (const auto& entry : item.value) texts.push_back(file.scalar(entry, item.key));
-  } else {
-    texts.push_back(file.scalar(item.value, item.key));
-  }
-  return texts;
-}
-
-/// "for: i in 1..N" or "for: [i in 1..N, j in 1..M]"
-std::vector<expr::Index> indices(const YamlFile& file, const std::optional<YamlItem>& item) {
-  std::vector<expr::Index> result;
-  if (!item) return result;
-  for (expr::Text& text : texts_of(file, *item))
-    result.push_back(expr::parse_index(std::move(text)));
-  return result;
-}
-
-/// "A: n x n" or "A: {shape: n x n, default: ..., help: ...}"; `fallback` is the key of the value
-/// without a given one: "default" of a datum, "start" of a state.
-model::Declaration declaration(const YamlFile& file, const YamlItem& item, const char* fallback) {
-  model::Declaration result;
-  result.name = item.key;
-  result.place = item.place;
-  if (item.value.IsScalar()) {
-    result.shape = model::parse_shape(file.scalar(item.value, item.key));
-    return result;
-  }
-  YamlMap map(file, item.value, item.key);
-  result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
-  result.fallback = optional_expression(file, map.find(fallback));
-  result.help = optional_string(file, map.find("help"));
-  if (std::string_view(fallback) == "default") result.indices = indices(file, map.find("for"));
-  map.finish();
-  return result;
-}
 
 /// "Y: n x p", "Y: {shape: n x p, help: ...}" or "Y: {shape: n x p, of: tau, degree: 2}".
 model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {

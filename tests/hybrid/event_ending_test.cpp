@@ -94,6 +94,14 @@ TEST(EventEnding, ARelayWithoutHysteresisChatters) {
   expect_says(run, "minus");
 }
 
+TEST(EventEnding, ACounterThatEndsShrinkingIsNoZeno) {
+  EventProblem problem;
+  problem.state("s", {}, "0").flow("s", "1").state("k", {}, "1");
+  problem.when("g", "s >= 0.5^k").jump("g", {{"s", "0"}, {"k", "where(k > 20, -3, k + 1)"}});
+  const Trajectory run = simulate(problem.system(), 20);
+  EXPECT_EQ(run.ending, Ending::horizon) << run.message;
+}
+
 TEST(EventEnding, StoppedFromOutside) {
   EventProblem problem;
   problem.state("x", {}, "1").flow("x", "-x").every("tick", "1", "1");

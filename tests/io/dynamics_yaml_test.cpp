@@ -117,6 +117,11 @@ TEST(Dynamics, MistakesAreNamedAtTheirPlace) {
       {"plant:\n", "timer: {tau: {reset: [1, 2]}}\n  plant:\n", "the short form has one timer"},
       {"flow: {x: f(x)}", "flow: {x: f(x)}\n    jump: {x: x}", "a jump stands under its event"},
       {"new at: sample", "new at: simple", "there is no event 'simple'"},
+      {"every: [0.1, 0.2]", "every: [0.2, 0.1]", "expected 0 <= low <= high"},
+      {"every: [0.1, 0.2]", "every: -1", "expected 0 <= low <= high"},
+      {"every: [0.1, 0.2]", "at: []", "expected a time at least"},
+      {"when: q == 0 and norm(xh) >= 3", "when: [q == 0]", "expected one expression, found a list"},
+      {"sampling: {sample: golden}", "sampling: {sample: []}", "sampling"},
   };
   for (const Mistake& mistake : mistakes) {
     const auto error = input_error([&] { bound(replaced(kPendulum, mistake.what, mistake.by)); });
@@ -170,6 +175,17 @@ TEST(Dynamics, FiguresAreBoundToObserversAndEvents) {
             })
                 .message()
                 .find("say of which"),
+            std::string::npos);
+  const auto message = [](const std::string& more) {
+    return input_error([&] { bound(kPendulum + more); }).message();
+  };
+  EXPECT_NE(message("expect: {run: [{ended: hrizon}]}\n").find("did you mean 'horizon'?"),
+            std::string::npos);
+  EXPECT_NE(
+      message("expect: {run: [{observer: careful, peak: norm(e), is: 1}]}\n").find("tolerance"),
+      std::string::npos);
+  EXPECT_NO_THROW(bound(kPendulum + "expect: {run: [{count: sample, is: 3}]}\n"));
+  EXPECT_NE(message("compare: [{ended: horizon}]\n").find("all observers end with the run"),
             std::string::npos);
 }
 
