@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "gainsmith/commands.h"
@@ -43,13 +44,44 @@ io::Json description(const model::Instance& instance) {
   const lmi::Lmi lmi = lmi::compile(lmi::Inequalities(instance));
   io::Json sizes = io::Json::object();
   for (const auto& [name, size] : instance.design->dimensions) sizes[name] = size;
-  return {{"valid", true},
-          {"problem", instance.design->name},
-          {"method", instance.design->method},
-          {"dimensions", sizes},
-          {"unknown_scalars", lmi.unknowns},
-          {"blocks", lmi.blocks.size()},
-          {"campaign_defaults", campaign_defaults(*instance.design)}};
+  io::Json result = {{"valid", true},
+                     {"problem", instance.design->name},
+                     {"method", instance.design->method},
+                     {"dimensions", sizes},
+                     {"unknown_scalars", lmi.unknowns},
+                     {"blocks", lmi.blocks.size()},
+                     {"campaign_defaults", campaign_defaults(*instance.design)}};
+  if (const auto& dynamics = instance.design->dynamics) {
+    io::Json observers = io::Json::array();
+    io::Json events = io::Json::array();
+    for (const auto& component : dynamics->components)
+      if (component.observer) observers.push_back(component.name);
+    for (const auto& event : dynamics->events) events.push_back(event.name);
+    result["observers"] = std::move(observers);
+    result["events"] = std::move(events);
+  }
+  return result;
+}
+
+/// "plain, careful", or "none".
+std::string listed(const io::Json& names) {
+  std::string text;
+  for (const auto& name : names) text += (text.empty() ? "" : ", ") + name.get<std::string>();
+  return text.empty() ? "none" : text;
+}
+
+void print(const std::string& path, const io::Json& found) {
+  const int unknowns = found["unknown_scalars"].get<int>();
+  const int blocks = found["blocks"].get<int>();
+  fmt::print("{}: valid: method {}, {}\n", path, found["method"].get<std::string>(),
+             unknowns + blocks == 0
+                 ? "a design by formula"
+                 : fmt::format("{} unknown scalars, {} inequality blocks", unknowns, blocks));
+  if (found.contains("events"))
+    fmt::print("  observers   {}\n  events      {}\n", listed(found["observers"]),
+               listed(found["events"]));
+  for (const auto& word : found["campaign_defaults"])
+    fmt::print("  by default  {}\n", word.get<std::string>());
 }
 
 ExitCode check(const CheckOptions& options) {
@@ -59,13 +91,7 @@ ExitCode check(const CheckOptions& options) {
     const std::string path = problem.path.string();
     try {
       io::Json found = description(load_problem(path));
-      if (!options.json)
-        fmt::print("{}: valid: method {}, {} unknown scalars, {} inequality blocks\n", path,
-                   found["method"].get<std::string>(), found["unknown_scalars"].get<int>(),
-                   found["blocks"].get<int>());
-      if (!options.json)
-        for (const auto& word : found["campaign_defaults"])
-          fmt::print("  by default  {}\n", word.get<std::string>());
+      if (!options.json) print(path, found);
       found["file"] = path;
       results.push_back(std::move(found));
     } catch (const InputError& error) {
