@@ -55,8 +55,9 @@ std::optional<double> EventRhythm::accumulation() const {
     }
     if (!(largest < 1) || largest - smallest > kSteadyFactor * (1 - largest)) continue;
     // The last ratio errs by rounding most: the mean over all of them.
-    const double all = lengths_.back() / lengths_[lengths_.size() - 1 - kRatios / period * period];
-    const double r = std::pow(all, 1 / static_cast<double>(kRatios / period));
+    const std::size_t turns = kRatios / period;
+    const double all = lengths_.back() / lengths_[lengths_.size() - 1 - turns * period];
+    const double r = std::pow(all, 1 / static_cast<double>(turns));
     double last = 0;
     for (std::size_t k = 1; k <= period; ++k) last += lengths_[lengths_.size() - k];
     const double left = last * r / (1 - r);
