@@ -34,6 +34,7 @@ namespace {
 
 constexpr std::int64_t kLongestChain = 1000000;
 constexpr std::size_t kKeptOfChain = 1000;
+constexpr std::size_t kLastOfChain = 100;
 constexpr std::size_t kMostNotes = 100;
 constexpr std::int64_t kMostStepsOfRun = 2000000;
 constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
@@ -182,7 +183,23 @@ class EventRun {
     if (++chain_ >= kLongestChain) end_chain(event);
   }
 
+  /// "a, b": what the last jumps were of.
+  std::string last_events() const {
+    std::vector<std::size_t> events;
+    const std::size_t kept = std::min(kLastOfChain, result_.parts.size());
+    for (auto part = result_.parts.end() - static_cast<Index>(kept); part != result_.parts.end();
+         ++part)
+      if (const auto* jump = std::get_if<JumpPoint>(&*part))
+        if (std::find(events.begin(), events.end(), jump->event) == events.end())
+          events.push_back(jump->event);
+    std::string names;
+    for (const std::size_t event : events)
+      names += (names.empty() ? "" : ", ") + system_.dynamics.events[event].name;
+    return names;
+  }
+
   [[noreturn]] void end_chain(std::size_t event) {
+    const std::string names = last_events();
     result_.parts.resize(result_.parts.size() - static_cast<std::size_t>(kLongestChain) +
                          kKeptOfChain);
     const auto next = due_.first(values_, t_);
@@ -192,10 +209,11 @@ class EventRun {
     if (watch_.when[due])
       value = fmt::format(" ('{}' is true, {})", watch_.when[due]->text(),
                           watch_.when[due]->differences(values_));
-    throw RunEnd(Ending::stuck,
-                 fmt::format("{} jumps without a flow between them: after its own map the event {} "
-                             "is due again{}",
-                             kLongestChain, one.name, value));
+    throw RunEnd(
+        Ending::stuck,
+        fmt::format("{} jumps without a flow between them, of {}: then the event {} is due "
+                    "again{}",
+                    kLongestChain, names, one.name, value));
   }
 
   void watch_rhythm(std::size_t event) {

@@ -33,6 +33,14 @@ TEST(EventEnding, AChainOfJumpsWithoutFlowNamesTheEventAndItsValue) {
   expect_says(run, "the event over is due again");
   expect_says(run, "x >= 1");
   EXPECT_LT(jumps_of(run).size(), 2000U);
+
+  EventProblem two;
+  two.state("x", {}, "1").flow("x", "1");
+  two.when("up", "x >= 2").jump("up", {{"x", "0"}});
+  two.when("down", "x <= 0").jump("down", {{"x", "2"}});
+  const Trajectory both = simulate(two.system(), 5);
+  EXPECT_EQ(both.ending, Ending::stuck);
+  expect_says(both, "of up, down");
 }
 
 TEST(EventEnding, EscapesNameTheirTime) {
