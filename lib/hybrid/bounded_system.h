@@ -21,8 +21,8 @@ class BallFunction {
  public:
   BallFunction(const expr::Program& program, const StateLayout& layout,
                const BallsOf<Scalar>& constants);
-  BallFunction(BallFunction&&) = default;
-  BallFunction& operator=(BallFunction&&) = default;
+  BallFunction(BallFunction&&) noexcept = default;
+  BallFunction& operator=(BallFunction&&) noexcept = default;
 
   const Ball<Scalar>& operator()(const Eigen::Ref<const ColumnOf<Scalar>>& x,
                                  const Eigen::Ref<const Eigen::VectorXd>& r, const Scalar& tau,

@@ -23,8 +23,8 @@ template <class Scalar>
 class FlowIntegral {
  public:
   FlowIntegral(const JudgedFunction& function, const hybrid::BoundedSystem<Scalar>& system);
-  FlowIntegral(FlowIntegral&&) = default;
-  FlowIntegral& operator=(FlowIntegral&&) = default;
+  FlowIntegral(FlowIntegral&&) noexcept = default;
+  FlowIntegral& operator=(FlowIntegral&&) noexcept = default;
 
   /// Over a move of the track that is a flow. Its bound is infinite where none is known.
   hybrid::Bounded<Scalar> operator()(const hybrid::Track<Scalar>& track, std::size_t move);

@@ -47,8 +47,8 @@ template <class Scalar>
 class Value {
  public:
   Value(const JudgedFunction& function, const hybrid::BoundedSystem<Scalar>& system);
-  Value(Value&&) = default;
-  Value& operator=(Value&&) = default;
+  Value(Value&&) noexcept = default;
+  Value& operator=(Value&&) noexcept = default;
 
   hybrid::Bounded<Scalar> operator()(const hybrid::Track<Scalar>& track, std::size_t sample);
 
