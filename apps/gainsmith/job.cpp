@@ -105,8 +105,10 @@ class Job {
   /// Empty when the method can be simulated and every gain has a value.
   std::string why_no_campaign(const model::Gains& gains) const {
     const model::Design& design = *instance_.design;
+    if (!design.no_campaign.empty()) return design.no_campaign;
     if (!design.timer && !design.dynamics) return "the method has no dynamics";
     if (design.claims.empty()) return "the method makes no claims";
+    if (design.dynamics && !design.campaign.horizon) return "the problem gives none";
     if (gains.gains.size() + gains.gain_functions.size() < design.gains.size()) return "no gains";
     return "";
   }
@@ -138,6 +140,7 @@ class Job {
                          {"status", gains.solver.status}};
     if (gains.objective) document["objective"] = *gains.objective;
     document["campaign"] = campaign ? io::Json(to_string(campaign->verdict)) : io::Json();
+    if (!campaign) document["no_campaign"] = why_no_campaign(gains);
     document["differences"] = result.differences;
     return document;
   }

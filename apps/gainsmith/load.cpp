@@ -71,6 +71,16 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
   }
 }
 
+/// InputError when problem or method say why nothing is simulated, or not for how long.
+void refuse_without_campaign(const model::Design& design, const std::string& file) {
+  if (!design.no_campaign.empty())
+    throw InputError({file}, "there is no campaign: " + design.no_campaign);
+  if (design.dynamics && !design.campaign.horizon)
+    throw InputError({file},
+                     "the problem gives no campaign; a method with events needs 'campaign: "
+                     "{horizon: ...}': how long a run is");
+}
+
 /// InputError when a file whose verdict is not yes has no gains.
 void refuse_without_gains(const model::Gains& gains, const model::Design& design,
                           const std::string& file) {
@@ -157,13 +167,18 @@ LoadedGains load_gains(const std::filesystem::path& path) {
 LoadedGains load_run(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
-  if (begin == std::string::npos || text[begin] == '{') return load_gains(path);
+  if (begin == std::string::npos || text[begin] == '{') {
+    LoadedGains loaded = load_gains(path);
+    refuse_without_campaign(*loaded.stated.design, path.string());
+    return loaded;
+  }
   const model::Instance instance = load_problem(path);
   if (!instance.design->inequalities.empty() || !instance.design->unknowns.empty())
     throw InputError({path.string()},
                      "this is a problem whose gains are searched: 'gainsmith synth " +
                          path.string() +
                          " -o gains.json' first, then simulate or verify gains.json");
+  refuse_without_campaign(*instance.design, path.string());
   return {design::synthesize(instance, {}), instance};
 }
 

@@ -135,6 +135,10 @@ void Binder::unknown_name(const Expression& expression, const Node& node) const 
   for (const std::string_view word : {"T", "t", "H", "top"})
     if (is_exponent && node.text == word)
       fail(expression, node, "unexpected '^" + node.text + "': write ' for the transpose");
+  // Of a component it is a state, "in_z.T"; a foreign transpose otherwise.
+  if (constexpr std::string_view kTransposed = ".T"; node.text.ends_with(kTransposed))
+    throw InputError(expression.text->place(node.begin + node.text.size() - kTransposed.size()),
+                     "unexpected '.T': write ' for the transpose");
   if (node.text == "transpose" || node.text == "ctranspose")
     fail(expression, node, "unknown function '" + node.text + "': write A' for the transpose of A");
   std::vector<std::string> candidates = scope_.names();

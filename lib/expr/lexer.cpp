@@ -38,7 +38,7 @@ std::size_t number_end(std::string_view text, std::size_t at) {
 }
 
 /// The end of a name that starts at `at`: letters, digits and _; of a part of something also with a
-/// point, "plant.x". "A.T" is a foreign transpose.
+/// point, "plant.x".
 std::size_t name_end(std::string_view text, std::size_t at) {
   const auto part = [&](std::size_t from) {
     while (from < text.size() && is_name_part(text[from])) ++from;
@@ -46,9 +46,7 @@ std::size_t name_end(std::string_view text, std::size_t at) {
   };
   std::size_t end = part(at);
   while (end + 1 < text.size() && text[end] == '.' && is_name_start(text[end + 1])) {
-    const std::size_t next = part(end + 1);
-    if (text.substr(end, next - end) == ".T") break;
-    end = next;
+    end = part(end + 1);
   }
   return end;
 }

@@ -9,6 +9,9 @@ namespace gainsmith::io {
 
 model::Method method_from(const YamlFile& file, const YAML::Node& node);
 
+/// The reason of "no campaign", which is not empty.
+std::string reason(const YamlFile& file, const YamlItem& item);
+
 /// "tau in [a, b]", "k in {a, b, c}", "h in v" with a vector v, or "A in conv{A1, A2}".
 model::Forall parse_forall(const expr::Text& text);
 

@@ -167,7 +167,23 @@ model::Claim claim(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+void read_no_campaign(const YamlFile& file, const YamlItem& item, model::Method& method) {
+  method.no_campaign = reason(file, item);
+  const bool moves = method.has_events || method.timer || !method.plant.states.empty() ||
+                     !method.observer.states.empty() || !method.claims.empty();
+  if (moves)
+    throw InputError(item.place,
+                     "no campaign: the method has dynamics or claims; the reason stands where "
+                     "nothing moves. A problem may have one of its own");
+}
+
 }  // namespace
+
+std::string reason(const YamlFile& file, const YamlItem& item) {
+  std::string text = file.string(item.value, item.key);
+  if (text.empty()) throw InputError(item.place, item.key + ": expected the reason, as a text");
+  return text;
+}
 
 std::vector<expr::Expression> parse_list(const expr::Text& text) {
   std::vector<expr::Expression> parts;
@@ -245,6 +261,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
   method.signals = named(file, map.find("signals"), "signals");
   for (const YamlItem& item : items_of(file, map.find("claims"), "claims"))
     method.claims.push_back(claim(file, item));
+  if (const auto reason = map.find("no campaign")) read_no_campaign(file, *reason, method);
   map.finish({{"maximize", "write minimize: -(...)"},
               {"maximise", "write minimize: -(...)"},
               {"objective", "write minimize: ..."}});

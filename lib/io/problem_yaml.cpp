@@ -265,7 +265,15 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   if (const auto search = map.find("search"))
     problem.search = search_from(yaml, *search, *problem.method);
   problem.negotiable = scalar_ranges(yaml, map.find("negotiable"), "negotiable", *problem.method);
-  problem.campaign = campaign(yaml, map.find("campaign"), *problem.method);
+  const auto reason_item = map.find("no campaign");
+  const auto campaign_item = map.find("campaign");
+  if (reason_item && campaign_item)
+    throw InputError(reason_item->place, "either 'campaign' or 'no campaign', not both");
+  if (reason_item) problem.no_campaign = reason(yaml, *reason_item);
+  if (campaign_item && !problem.method->no_campaign.empty())
+    throw InputError(campaign_item->place, "the method " + problem.method_name +
+                                               " has no campaign: " + problem.method->no_campaign);
+  problem.campaign = campaign(yaml, campaign_item, *problem.method);
   if (const auto expect = map.find("expect")) problem.expect = expectation_from(yaml, *expect);
   if (const auto compare = map.find("compare")) problem.compare = figures(yaml, *compare);
   for (const YamlItem& item : items_of(yaml, map.find("let"), "let"))

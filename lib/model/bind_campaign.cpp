@@ -86,6 +86,8 @@ void Binding::bind_campaign() {
   bound.runs = campaign.runs;
   bound.seed = campaign.seed;
   bound.place = campaign.place;
+  design_->no_campaign =
+      problem().no_campaign.empty() ? method().no_campaign : problem().no_campaign;
   if (campaign.horizon) {
     bound.horizon = scalar(*campaign.horizon, scope);
     const auto horizon = known_scalar(*bound.horizon);
@@ -124,6 +126,14 @@ std::size_t Binding::clock_of(const SamplingLaw& law) const {
                                   suggestion(law.event, clocks));
 }
 
+/// Whether runs are wanted: of a design that has inequalities the gains may be all that is.
+bool Binding::is_run() const {
+  const bool wanted = !method().claims.empty() || !problem().compare.empty() ||
+                      (problem().expect && !problem().expect->run.empty());
+  const bool gains_alone = problem().campaign.place.line == 0 && !method().require.empty();
+  return wanted && !gains_alone && design_->no_campaign.empty();
+}
+
 /// Of a method with events a name stands for the state of each observer that has it, and a state
 /// that starts nowhere is an error.
 void Binding::bind_starts() {
@@ -139,9 +149,7 @@ void Binding::bind_starts() {
     }
   }
   if (!design_->dynamics) return;
-  const bool runs = !method().claims.empty() || !problem().compare.empty() ||
-                    (problem().expect && !problem().expect->run.empty());
-  if (runs && !problem().campaign.horizon)
+  if (is_run() && !problem().campaign.horizon)
     throw InputError(
         problem().campaign.place.line > 0 ? problem().campaign.place : Place{problem().file},
         "a method with events needs 'campaign: {horizon: ...}': how long a run is");
@@ -149,7 +157,8 @@ void Binding::bind_starts() {
     const bool drawn = std::any_of(starts.begin(), starts.end(),
                                    [&](const Design::Start& one) { return one.state == k; });
     const Design::State& state = design_->states[k];
-    if (!drawn && !state.start && state.shape.size() > 0)
+    const bool rests = design_->campaign.place.line == 0 && !is_run();
+    if (!drawn && !state.start && state.shape.size() > 0 && !rests)
       throw InputError(design_->dynamics->variables[k].place,
                        "the state '" + state.name +
                            "' has no start: {shape: ..., start: ...}, or under campaign.initial of "

@@ -65,7 +65,7 @@ void DynamicsBinding::add_states(const Component& component, std::size_t at) {
     for (const Declaration& state : *list) {
       Dynamics::Variable bound;
       bound.kind = list == &component.modes ? Kind::mode : Kind::state;
-      bound.name = full_name(component, state.name);
+      bound.name = names_->full(component, state.name);
       bound.component = at;
       bound.shape = shape_of(state);
       bound.structure = state.shape.structure;
@@ -77,10 +77,10 @@ void DynamicsBinding::add_states(const Component& component, std::size_t at) {
 
 void DynamicsBinding::add_definitions(const Component& component) {
   for (const Let& let : component.let)
-    scope_->definitions[full_name(component, let.signature.name)] = {
+    scope_->definitions[names_->full(component, let.signature.name)] = {
         let.signature.parameters, names_->within(component, let.body, let.signature.parameters)};
   for (const Output& output : component.outputs) {
-    const std::string name = full_name(component, output.name);
+    const std::string name = names_->full(component, output.name);
     scope_->definitions[name] = {{}, names_->within(component, output.value)};
     if (!output.at.empty()) output_events_[name] = output.at;
     if (component.name == "plant") outputs_of_plant_.insert(name);
@@ -96,6 +96,8 @@ void DynamicsBinding::add_varied() {
                                        suggestion(text.name, scope_->names()));
     Dynamics::Noise noise;
     noise.name = "plant." + text.name;
+    if (!is_free(noise.name))
+      throw InputError(text.place, "uncertain: '" + text.name + "' also names a part of the plant");
     noise.kind = Dynamics::NoiseKind::uniform;
     noise.shape = datum->second.shape;
     noise.place = text.place;
@@ -145,7 +147,7 @@ void DynamicsBinding::bind_starts() {
 
 std::size_t DynamicsBinding::state(const Component& component, std::size_t at, const Named& entry,
                                    const char* what) const {
-  const std::string name = full_name(component, entry.name);
+  const std::string name = names_->full(component, entry.name);
   for (std::size_t k = 0; k < result_.variables.size(); ++k) {
     const Dynamics::Variable& variable = result_.variables[k];
     const bool own = variable.kind == Kind::state || variable.kind == Kind::mode;

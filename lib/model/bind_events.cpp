@@ -223,7 +223,7 @@ void DynamicsBinding::bind_reaction(const ReactionText& text, const Component& c
   Component names = component;  // the names of `let` hide those of the component
   for (const Let& let : text.let) names.let.push_back(let);
   for (const Let& let : text.let)
-    scope.definitions[full_name(component, let.signature.name)] = {
+    scope.definitions[names_->full(component, let.signature.name)] = {
         let.signature.parameters, names_->within(names, let.body, let.signature.parameters)};
   for (const PassText& one : text.passes)
     bound.passes.push_back(pass(one, names, at, scope, bound.event));

@@ -64,7 +64,7 @@ void Binding::bind_dynamics() {
       design_->states.push_back({variable.name, variable.shape, variable.start});
   const auto add_outputs = [&](const Component& component) {
     for (const Output& output : component.outputs) {
-      const std::string name = full_name(component, output.name);
+      const std::string name = dynamics_names_->full(component, output.name);
       const Formula value = formula(dynamics_names_->within(component, output.value), scope);
       dynamics.signals.push_back({name, value, binding.event_of_output(name)});
     }

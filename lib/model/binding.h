@@ -131,6 +131,7 @@ class Binding {
   // bind_campaign.cpp
   void bind_campaign();
   void bind_starts();
+  bool is_run() const;
   std::size_t clock_of(const SamplingLaw& law) const;
   Design::Start start(const InitialValue& initial) const;
   void check_box(const Design::Start& start, const InitialValue& initial) const;

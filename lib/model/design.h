@@ -275,6 +275,7 @@ struct Design {
   std::vector<Range> asked;           ///< ranges of the command line
   std::vector<NamedFormula> figures;  ///< scalars of the command line, shown of each result
   Campaign campaign;
+  std::string no_campaign;  ///< why there is none, as problem or method say; empty: there may be
   std::optional<Expectation> expect;
   std::vector<Figure> compare;  ///< figures shown for all observers side by side
 

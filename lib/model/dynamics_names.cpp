@@ -10,13 +10,14 @@ namespace gainsmith::model {
 
 namespace {
 
+constexpr std::string_view kPlantName = "plant";
 constexpr std::string_view kPlant = "plant.";
 constexpr std::string_view kLeft = ".left";
 
 }  // namespace
 
 std::string full_name(const Component& component, const std::string& name) {
-  return component.name == "plant" ? name : component.name + "." + name;
+  return component.name == kPlantName ? name : component.name + "." + name;
 }
 
 std::set<std::string> names_of(const Component& component) {
@@ -28,19 +29,48 @@ std::set<std::string> names_of(const Component& component) {
   return names;
 }
 
+namespace {
+
+/// The names that the plant hides within its own texts.
+std::set<std::string> names_of_method(const Method& method) {
+  std::set<std::string> names;
+  for (const Declaration& datum : method.data) names.insert(datum.name);
+  for (const Parameter& parameter : method.parameters) names.insert(parameter.name);
+  for (const UnknownDeclaration& unknown : method.unknowns) names.insert(unknown.name);
+  for (const Let& let : method.let) names.insert(let.signature.name);
+  for (const Gain& gain : method.gains) names.insert(gain.name);
+  return names;
+}
+
+}  // namespace
+
 DynamicsNames::DynamicsNames(const Method& method, std::set<std::string> varied)
     : method_(&method), varied_(std::move(varied)) {
+  const std::set<std::string> of_method = names_of_method(method);
+  for (const std::string& name : names_of(method.plant))
+    if (of_method.contains(name)) shared_.insert(name);
   for (const Component& observer : method.observers) own_[observer.name] = names_of(observer);
   anywhere_ = names_of(method.plant);
   for (const Named& input : method.inputs) anywhere_.insert(input.name);
   for (const NoiseText& noise : method.noise) anywhere_.insert(noise.name);
 }
 
-/// "plant.x" is x, "plant.impact.left" is impact.left.
+std::string DynamicsNames::full(const Component& component, const std::string& name) const {
+  const bool shared = component.name == kPlantName && shared_.contains(name);
+  return shared ? std::string(kPlant) + name : full_name(component, name);
+}
+
+bool DynamicsNames::is_output_of_plant(const std::string& name) const {
+  const auto& outputs = method_->plant.outputs;
+  return std::any_of(outputs.begin(), outputs.end(),
+                     [&](const Output& output) { return output.name == name; });
+}
+
+/// "plant.x" is x, "plant.impact.left" is impact.left; what has a value under "plant.x" stays.
 std::optional<std::string> DynamicsNames::of_part(const std::string& name) const {
   if (!name.starts_with(kPlant)) return std::nullopt;
   std::string own = name.substr(kPlant.size());
-  if (varied_.contains(own)) return std::nullopt;
+  if (varied_.contains(own) || shared_.contains(own)) return std::nullopt;
   return own;
 }
 
@@ -82,8 +112,9 @@ expr::Expression DynamicsNames::within(const Component& component, const expr::E
   return expr::renamed(text, [&](const std::string& name) -> std::optional<std::string> {
     if (std::find(parameters.begin(), parameters.end(), name) != parameters.end())
       return std::nullopt;
-    if (own.contains(name)) return full_name(component, name);
-    if (component.name == "plant" && varied_.contains(name)) return std::string(kPlant) + name;
+    if (own.contains(name)) return full(component, name);
+    if (shared_.contains(name) && is_output_of_plant(name)) return std::string(kPlant) + name;
+    if (component.name == kPlantName && varied_.contains(name)) return std::string(kPlant) + name;
     if (name.ends_with(kLeft))
       if (const auto of = event(&component, name.substr(0, name.size() - kLeft.size())))
         return *of + std::string(kLeft);
@@ -189,8 +220,8 @@ std::vector<std::string> DynamicsNames::states(const std::string& name) const {
         if (state.name == one) return true;
     return false;
   };
-  const std::string own = of_part(name).value_or(name);
-  if (has(method_->plant, own)) return {own};
+  const std::string own = name.starts_with(kPlant) ? name.substr(kPlant.size()) : name;
+  if (has(method_->plant, own)) return {full(method_->plant, own)};
   std::vector<std::string> found;
   for (const Component& observer : method_->observers) {
     const std::string prefix = observer.name + ".";

@@ -2,7 +2,8 @@
 //
 // Programs know the states of the plant by their own names and those of an observer with its name,
 // "nominal.xh". Within an observer its own names need none. Outside, a bare name that only
-// observers have stands for each that has it, in turn.
+// observers have stands for each that has it, in turn; one that plant and method share is the
+// method's.
 #pragma once
 
 #include <map>
@@ -16,7 +17,7 @@
 
 namespace gainsmith::model {
 
-/// "nominal.xh"; of the plant the name alone.
+/// "nominal.outside"; of the plant the name alone. So events are called.
 std::string full_name(const Component& component, const std::string& name);
 
 /// The names of states, modes, definitions and outputs.
@@ -35,6 +36,9 @@ class DynamicsNames {
   /// them.
   DynamicsNames(const Method& method, std::set<std::string> varied);
 
+  /// "nominal.xh"; of the plant the name alone, with "plant." where data, definitions, unknowns or
+  /// gains of the method have it too.
+  std::string full(const Component& component, const std::string& name) const;
   /// The text of a component with full names. `parameters`: names that it binds itself.
   expr::Expression within(const Component& component, const expr::Expression& text,
                           const std::vector<std::string>& parameters = {}) const;
@@ -65,6 +69,7 @@ class DynamicsNames {
 
  private:
   std::optional<std::string> of_part(const std::string& name) const;
+  bool is_output_of_plant(const std::string& name) const;
   std::set<std::string> bare_names(const std::vector<expr::Expression>& texts) const;
   bool has(const std::string& observer, const std::string& name) const;
   Reading reading(const std::string& observer, const std::set<std::string>& bare,
@@ -72,6 +77,7 @@ class DynamicsNames {
 
   const Method* method_;
   std::set<std::string> varied_;
+  std::set<std::string> shared_;                           ///< by plant and method
   std::map<std::string, std::set<std::string>> own_;       ///< by observer
   std::map<std::string, std::set<std::string>> readings_;  ///< signals, by observer
   std::set<std::string> anywhere_;                         ///< names that the observers do not own

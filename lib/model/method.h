@@ -125,6 +125,7 @@ struct Method {
   Place dynamics_place;        ///< where the form with events begins
   std::vector<Named> signals;  ///< e.g. the errors e = z - zh
   std::vector<Claim> claims;
+  std::string no_campaign;  ///< why nothing is simulated: nothing moves; empty: it may be
 };
 
 /// The names of the scalar data and the parameters of a method, in its order: what may be

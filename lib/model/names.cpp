@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cctype>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -92,6 +93,15 @@ class NameCheck {
                                         owner + ", which is a " + kind);
   }
 
+  /// Adds a name of the plant of a method with events: what the method has under it is hidden in
+  /// the plant.
+  void add_hiding(const std::string& name, const std::string& what, const Place& place) {
+    static const std::set<std::string> kHidden = {"datum", "parameter", "unknown", "definition",
+                                                  "gain"};
+    const auto found = known_.find(name);
+    if (found == known_.end() || !kHidden.contains(found->second)) add(name, what, place);
+  }
+
   void check_parameter(const std::string& name, const Place& place) const {
     if (!is_name(name))
       throw InputError(place,
@@ -130,16 +140,30 @@ void check_maps(const Component& component, const std::vector<Named>& map,
   }
 }
 
-void add_component(const Component& component, NameCheck& names) {
-  for (const Declaration& state : component.states) names.add(state.name, "state", state.place);
-  for (const Declaration& mode : component.modes) names.add(mode.name, "mode", mode.place);
-  for (const Output& output : component.outputs) names.add(output.name, "output", output.place);
-  for (const Let& let : component.let) names.add(let.signature.name, "definition", let.place);
+using Add = void (NameCheck::*)(const std::string&, const std::string&, const Place&);
+
+void add_component(const Component& component, NameCheck& names, Add add = &NameCheck::add) {
+  for (const Declaration& state : component.states) (names.*add)(state.name, "state", state.place);
+  for (const Declaration& mode : component.modes) (names.*add)(mode.name, "mode", mode.place);
+  for (const Output& output : component.outputs) (names.*add)(output.name, "output", output.place);
+  for (const Let& let : component.let) (names.*add)(let.signature.name, "definition", let.place);
 }
 
-/// Each observer has names of its own, which hide those of data, gains and definitions; names of
-/// the plant it reads.
+void add_gains(const Method& method, NameCheck& names) {
+  for (const Gain& gain : method.gains) {
+    // "L: L": the gain is the datum (an analysis of given gains) or the unknown itself.
+    const expr::Node& root = *gain.value.root;
+    const bool is_itself =
+        gain.variable.empty() && root.kind == expr::NodeKind::name && root.text == gain.name;
+    if (!is_itself) names.add(gain.name, "gain", gain.place);
+  }
+}
+
+/// Plant and observers have names of their own, which hide those of data, gains and definitions;
+/// an observer reads names of the plant.
 void check_observers(const Method& method) {
+  NameCheck plant;
+  add_component(method.plant, plant);
   NameCheck all;
   all.add("plant", "component", method.plant.place);
   for (const Component& observer : method.observers) {
@@ -187,8 +211,12 @@ void check_names(const Method& method) {
   for (const UnknownDeclaration& unknown : method.unknowns)
     names.add(unknown.name, "unknown", unknown.place);
   for (const Let& let : method.let) names.add(let.signature.name, "definition", let.place);
+  if (method.has_events) {
+    add_gains(method, names);
+    add_component(method.plant, names, &NameCheck::add_hiding);
+  }
   for (const Component* part : {&method.plant, &method.observer}) {
-    add_component(*part, names);
+    if (!method.has_events) add_component(*part, names);
     check_maps(*part, part->flow, "the flow");
     check_maps(*part, part->jump, "the jump");
   }
@@ -197,13 +225,7 @@ void check_names(const Method& method) {
   check_observers(method);
   if (method.timer) names.add(method.timer->name, "timer", method.timer->place);
   for (const Named& signal : method.signals) names.add(signal.name, "signal", signal.place);
-  for (const Gain& gain : method.gains) {
-    // "L: L": the gain is the datum (an analysis of given gains) or the unknown itself.
-    const expr::Node& root = *gain.value.root;
-    const bool is_itself =
-        gain.variable.empty() && root.kind == expr::NodeKind::name && root.text == gain.name;
-    if (!is_itself) names.add(gain.name, "gain", gain.place);
-  }
+  if (!method.has_events) add_gains(method, names);
   for (const UnknownDeclaration& unknown : method.unknowns) {
     if (unknown.variable.empty()) continue;
     names.check_parameter(unknown.variable, unknown.place);

@@ -105,6 +105,7 @@ struct Problem {
   std::optional<Search> search;
   std::vector<ScalarRange> negotiable;  ///< scalars along which `explain` says how far one must go
   Campaign campaign;
+  std::string no_campaign;  ///< why there is none; empty: see the method's
   std::optional<Expectation> expect;
   std::vector<FigureText> compare;  ///< figures shown for all observers side by side
   std::vector<Let> let;             ///< definitions of the problem, beside those of the method

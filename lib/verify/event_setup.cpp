@@ -19,6 +19,8 @@ using Eigen::VectorXd;
 using hybrid::Ending;
 using hybrid::Termination;
 
+constexpr int kAround = 5;  ///< samples from which the bound of one is taken
+
 std::string integral_name(const std::string& claim) { return "integral of " + claim; }
 
 expr::Program zero() {
@@ -51,6 +53,23 @@ expr::Program input_of(const std::string& name) {
   program.inputs.push_back({name, {}});
   program.result = 0;
   return program;
+}
+
+bool is_whole(model::Dynamics::VariableKind kind) {
+  using Kind = model::Dynamics::VariableKind;
+  return kind == Kind::mode || kind == Kind::jumps || kind == Kind::count || kind == Kind::passes;
+}
+
+/// Whether a value keeps its bits along flows. Noise may be drawn anew within one.
+bool is_still(const expr::Program& program, const hybrid::EventSystem& system) {
+  return std::none_of(program.inputs.begin(), program.inputs.end(), [&](const expr::Input& input) {
+    if (system.is_moving(input.name)) return true;
+    const auto slot = system.slot(input.name);
+    if (!slot || *slot >= system.dynamics.variables.size()) return false;
+    const auto& variable = system.dynamics.variables[*slot];
+    return variable.kind == model::Dynamics::VariableKind::noise &&
+           system.noise[variable.of].every.has_value();
+  });
 }
 
 /// The functions of the claims that are stated, and the claims over them.
@@ -104,7 +123,8 @@ class Functions {
     coordinates.layout.slots.push_back({name, {}, static_cast<Index>(at)});
     coordinates.layout.size = static_cast<Index>(at) + 1;
     const expr::Program own = input_of(name);
-    coordinates.list.push_back({own, own, own, false});
+    const bool still = is_still(program, setup_.system);
+    coordinates.list.push_back({own, still ? std::nullopt : std::optional(own), own, false});
     return at;
   }
 
@@ -145,7 +165,15 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
 }
 
 EventTracks::EventTracks(const EventSetup& setup, std::function<bool()> stopped)
-    : setup_(&setup), simulator_(setup.system, setup.scenario, std::move(stopped)) {
+    : setup_(&setup),
+      simulator_(setup.system, setup.scenario, std::move(stopped)),
+      rounds_(static_cast<std::size_t>(setup.system.whole), false) {
+  const auto& variables = setup.system.dynamics.variables;
+  for (std::size_t k = 0; k < variables.size(); ++k) {
+    const hybrid::Slot& slot = setup.system.layout.slots[k];
+    const auto first = rounds_.begin() + slot.offset;
+    std::fill(first, first + slot.shape.size(), !is_whole(variables[k].kind));
+  }
   for (const expr::Program& function : setup.functions)
     functions_.emplace_back(function, setup.layout, setup.system.constants);
 }
@@ -157,22 +185,26 @@ VectorXd EventTracks::values(const VectorXd& x) {
   return result;
 }
 
-/// x as rounding may have left it: exact flows and jumps round in both runs alike.
-VectorXd EventTracks::with_rounding(const VectorXd& x) const {
+/// x as rounding may have left it: exact flows and jumps round in both runs alike. Elements whose
+/// numbers differ in the bit are rounded apart, so that a difference of two shows it.
+VectorXd EventTracks::with_rounding(const VectorXd& x, int bit) const {
   constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
   VectorXd result = x;
   for (Index e = 0; e < x.size(); ++e) {
-    const bool up = (static_cast<std::size_t>(e) + track_.samples()) % 2 == 0;
+    if (!rounds_[static_cast<std::size_t>(e)]) continue;
+    const bool up = ((e >> bit) & 1) == 0;
     result(e) += (up ? 1 : -1) * (4 + rounded_) * kUnit * std::abs(x(e));
   }
   return result;
 }
 
-void EventTracks::append(double t, std::int64_t j, const VectorXd& coarse, const VectorXd& fine) {
+/// The bits `pattern`, `pattern` + `stride`, ... of the numbers of elements are rounded apart.
+void EventTracks::append(double t, std::int64_t j, const VectorXd& coarse, const VectorXd& fine,
+                         int pattern, int stride) {
   const VectorXd value = values(fine);
-  const VectorXd difference = (values(coarse) - value)
-                                  .cwiseAbs()
-                                  .cwiseMax((values(with_rounding(fine)) - value).cwiseAbs());
+  VectorXd difference = (values(coarse) - value).cwiseAbs();
+  for (int bit = pattern; bit == 0 || (fine.size() - 1) >> bit > 0; bit += stride)
+    difference = difference.cwiseMax((values(with_rounding(fine, bit)) - value).cwiseAbs());
   track_.t.push_back(t);
   track_.j.push_back(j);
   track_.timer.push_back(0);
@@ -194,13 +226,14 @@ void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPi
   rounded_ += static_cast<double>(fine.steps.size());
   for (int piece = 1; piece <= kPieces; ++piece) {
     track_.moves.push_back({false, {hybrid::FlowStep::kRest, length / kPieces}});
-    append(fine.from() + length * piece / kPieces, fine.j, at(coarse, piece), at(fine, piece));
+    append(fine.from() + length * piece / kPieces, fine.j, at(coarse, piece), at(fine, piece),
+           piece % kAround, kAround);
   }
 }
 
 /// What the two runs have in common.
 void EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
-  append(0, 0, coarse.start, fine.start);
+  append(0, 0, coarse.start, fine.start, 0, 1);
   std::size_t first = 0;
   const std::size_t parts = std::min(coarse.parts.size(), fine.parts.size());
   for (std::size_t k = 0; k < parts; ++k) {
@@ -216,14 +249,13 @@ void EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Traj
     first = track_.samples();
     rounded_ += 1;
     track_.moves.push_back({true, {}});
-    append(jump.t, jump.j + 1, other.after, jump.after);
+    append(jump.t, jump.j + 1, other.after, jump.after, 0, 1);
   }
   widen(first);
 }
 
 /// Of the samples of one flow, once all are there.
 void EventTracks::widen(std::size_t first) {
-  constexpr Index kBeside = 2;
   constexpr double kMargin = 4;
   constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
   const auto size = track_.size;
@@ -232,8 +264,8 @@ void EventTracks::widen(std::size_t first) {
                                      count);
   const numbers::Matrix own = bounds;
   for (Index k = 0; k < count; ++k) {
-    const Index from = std::max<Index>(k - kBeside, 0);
-    const Index to = std::min<Index>(k + kBeside, count - 1);
+    const Index from = std::max<Index>(std::min<Index>(k - kAround / 2, count - kAround), 0);
+    const Index to = std::min<Index>(from + kAround, count) - 1;
     bounds.col(k) = kMargin * own.middleCols(from, to - from + 1).rowwise().maxCoeff() +
                     8 * kUnit * track_.state(first + static_cast<std::size_t>(k)).cwiseAbs();
   }

@@ -37,9 +37,10 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
 /// of the functions; one for each thread. The setup must outlive it.
 ///
 ///   samples   the ends of 32 equal parts of each flow, and the values after each jump
-///   bound     four times the largest difference between the two runs at a sample and two on each
-///             side of it, or what a rounding for each step and jump so far makes of the value, + 8
-///             u |value|: an estimate that leaves a margin, and no proof
+///   bound     four times the largest difference between the two runs at five samples around it, or
+///             what a rounding for each step and jump so far makes of the value, up for some
+///             elements and down for the others, + 8 u |value|: an estimate that leaves a margin,
+///             and no proof
 ///
 /// Where the two runs take other events, or end otherwise, it hangs on the accuracy: the run is
 /// lost. A run that ends by accumulating jumps is complete.
@@ -53,17 +54,19 @@ class EventTracks {
   const hybrid::Track<double>& run(std::uint64_t seed, std::uint64_t run, double relative);
 
  private:
-  void append(double t, std::int64_t j, const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine);
+  void append(double t, std::int64_t j, const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine,
+              int pattern, int stride);
   void add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPiece& fine);
   void add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
   void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
   void widen(std::size_t first);
   Eigen::VectorXd values(const Eigen::VectorXd& x);
-  Eigen::VectorXd with_rounding(const Eigen::VectorXd& x) const;
+  Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
 
   const EventSetup* setup_;
   hybrid::EventSimulator simulator_;
   std::vector<RunValue> functions_;
+  std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
   hybrid::Track<double> track_;
   double rounded_ = 0;  ///< steps and jumps so far
 };

@@ -47,6 +47,28 @@ bool has_many_runs(const std::string& file) {
   return std::stoll(runs[1]) > 100;
 }
 
+/// The texts of a problem file and of the built-in method that it names.
+std::string texts_of(const std::string& file) {
+  std::string text = text_of(problem(file));
+  std::smatch name;
+  if (std::regex_search(text, name, std::regex("\\nmethod: ([a-z0-9-]+)\\n")))
+    text += gainsmith({"methods", name[1]}).out;
+  return text;
+}
+
+/// A line of `run` ends with what the campaign found, or with why there is none in the words of the
+/// problem or its method.
+void expect_campaign_or_reason(const std::string& line, const std::string& file) {
+  const std::string none = "; no campaign: ";
+  const std::size_t at = line.find(none);
+  if (at == std::string::npos) {
+    EXPECT_TRUE(std::regex_search(line, std::regex("; (held|violated|undecided)"))) << line;
+    return;
+  }
+  const std::string reason = line.substr(at + none.size(), line.find('\n') - at - none.size());
+  EXPECT_NE(texts_of(file).find("\nno campaign: \"" + reason + "\"\n"), std::string::npos) << line;
+}
+
 TEST_P(Problems, IsAsExpected) {
   const Folder folder;
   std::vector<std::string> arguments = {"run", problem(GetParam()), "-o", folder.path("out")};
@@ -54,6 +76,7 @@ TEST_P(Problems, IsAsExpected) {
   const Outcome outcome = gainsmith(arguments);
   EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
   EXPECT_EQ(outcome.out.substr(0, 3), "ok ") << outcome.out;
+  expect_campaign_or_reason(outcome.out, GetParam());
   const std::string name = std::filesystem::path(GetParam()).stem().string();
   EXPECT_NE(text_of(folder.path("out/" + name + "/summary.txt")).find("all as expected"),
             std::string::npos);
