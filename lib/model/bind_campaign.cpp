@@ -141,7 +141,7 @@ void Binding::bind_starts() {
   if (!design_->dynamics) return;
   const bool runs = !method().claims.empty() || !problem().compare.empty() ||
                     (problem().expect && !problem().expect->run.empty());
-  if (runs && !problem().campaign.horizon)
+  if (runs && !problem().campaign.horizon && method().measured.empty())
     throw InputError(
         problem().campaign.place.line > 0 ? problem().campaign.place : Place{problem().file},
         "a method with events needs 'campaign: {horizon: ...}': how long a run is");
