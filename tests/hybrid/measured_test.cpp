@@ -99,9 +99,9 @@ TEST(Measured, FlowsThatAreNotAffineFollowToo) {
     DynamicsText text;
     text.measured("u", between, kRows).state("x", 1, "-u*x", "1").state("i", 1, "u", "0");
     const Simulated run(text, 1.5);
-    EXPECT_FALSE(run.system.affine);
+    EXPECT_EQ(run.system.affine, between == Between::hold);
     for (const double t : {0.2, 0.31, 1.1, 1.5})
-      EXPECT_NEAR(run.value("x", t), std::exp(-run.value("i", t)), 1e-8) << t;
+      EXPECT_NEAR(run.value("x", t), std::exp(-run.value("i", t)), 1e-7) << t;
     expect_accepted(run);
   }
 }
@@ -186,7 +186,7 @@ TEST(Measured, TheJudgeKnowsTheRows) {
   const auto text = [](const Rows& rows) {
     DynamicsText one;
     one.measured("u", Between::line, rows).measured("v", Between::hold, rows);
-    one.state("x", 1, "u + v - x*x", "0").every("tick", "0.25").reacts("tick", {{"x", "x + u"}});
+    one.state("x", 1, "u + v - x*x*x", "0").every("tick", "0.25").reacts("tick", {{"x", "x + u"}});
     return one;
   };
   const Simulated run(text(kRows), 1.5);
@@ -203,8 +203,8 @@ TEST(Measured, TheJudgeKnowsTheRows) {
 
 TEST(Measured, TheJudgeFindsARowThatWasLeftOut) {
   DynamicsText full, gap;
-  full.measured("u", Between::hold, {{0, 1}, {0.5, 2}, {1, 1}}).state("x", 1, "u - x*x", "0");
-  gap.measured("u", Between::hold, {{0, 1}, {1, 1}}).state("x", 1, "u - x*x", "0");
+  full.measured("u", Between::hold, {{0, 1}, {0.5, 2}, {1, 1}}).state("x", 1, "u - x*x*x", "0");
+  gap.measured("u", Between::hold, {{0, 1}, {1, 1}}).state("x", 1, "u - x*x*x", "0");
   const Simulated run(gap, 1);
   expect_accepted(run);
   const auto faults = judge(run.trajectory, full.dynamics(), run.stated, {});
