@@ -177,6 +177,8 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return saturated(expression, node);
     case Composed::jacobian:
       return jacobian(expression, node);
+    case Composed::flow_map:
+      return flow_map(expression, node);
     case Composed::lambda_max:
     case Composed::lambda_min:
       return extreme_eigenvalue(expression, node, function == Composed::lambda_max);

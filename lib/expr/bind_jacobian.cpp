@@ -1,8 +1,5 @@
 // jacobian(e, x): e as a program of its own in x and in what does not depend on x.
-#include <algorithm>
-#include <map>
 #include <memory>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -11,93 +8,19 @@
 namespace gainsmith::expr {
 
 Bound Binder::jacobian(const Expression& expression, const Node& node) {
-  const Node& value_node = *node.children[0];
-  const Node& variable_node = *node.children[1];
-  const std::string& name = variable_node.text;
-  const auto definition = scope_.definitions.find(name);
-  const bool is_parameter = environment_.contains(name);
-  const bool is_symbol = scope_.symbols.contains(name);
-  const bool is_definition =
-      definition != scope_.definitions.end() && definition->second.parameters.empty();
-  if (variable_node.kind != NodeKind::name)
-    fail(expression, variable_node,
-         "jacobian(e, x) needs a name x - a state, an output, a datum, a definition or one of its "
-         "parameters -, not '" +
-             expression.quote(variable_node) + "'");
-  const int point = sized(expression, variable_node, bind_name(expression, variable_node));
-  if (!is_parameter && !is_symbol && !is_definition)
-    fail(expression, variable_node, "'" + name + "' is a number that nothing varies");
-  const auto value = [&] { return sized(expression, value_node, bind(expression, value_node)); };
-  if (!is_parameter && is_symbol) return derivative_by(expression, node, value(), point, point);
-
-  // A parameter may stand for the value of any expression, also of one that e holds elsewhere: an
-  // input of its own takes its place. So it is with a definition, in all others that use it.
-  Instruction like;
-  like.origin = expression.text;
-  like.offset = variable_node.begin;
-  const int variable = assembly_.add_input(name + " of jacobian " + std::to_string(++jacobians_),
-                                           shape(point), like);
-  auto environment = environment_;
-  auto defined = defined_;
-  if (is_parameter) {
-    environment_[name] = {variable};
-  } else {
-    defined_ = {{name, {variable}}};
-  }
-  const int of = value();
-  environment_ = std::move(environment);
-  defined_ = std::move(defined);
-  return derivative_by(expression, node, of, variable, point);
-}
-
-/// `variable`: the instruction that `value` is a function of; `point`: the one with its value.
-Bound Binder::derivative_by(const Expression& expression, const Node& node, int value, int variable,
-                            int point) {
+  const auto [value, variable, point] = varied(expression, node, false);
   const Shape result{shape(value).size(), shape(variable).size()};
-  const auto end = static_cast<std::size_t>(value) + 1;
-  std::vector<bool> depends(std::max(end, static_cast<std::size_t>(variable) + 1));
-  depends[static_cast<std::size_t>(variable)] = true;
-  for (std::size_t i = 0; i < end; ++i)
-    for (const int operand : assembly_[static_cast<int>(i)].operands)
-      if (depends[static_cast<std::size_t>(operand)]) depends[i] = true;
-  if (!depends[static_cast<std::size_t>(value)])
+  if (!depending_on({variable}, value)[static_cast<std::size_t>(value)])
     return {emit(expression, node, Op::zeros, {}, result)};
-  std::vector<bool> needed(depends.size());
-  needed[static_cast<std::size_t>(value)] = true;
-  for (std::size_t i = end; i-- > 0;)
-    if (needed[i] && depends[i])
-      for (const int operand : assembly_[static_cast<int>(i)].operands)
-        needed[static_cast<std::size_t>(operand)] = true;
-
-  Assembly body;
+  const Body body = body_of(value, {{variable, "the variable"}}, 1);
+  if (body.operations.contains(Op::jacobian))
+    fail(expression, node, "a jacobian of a jacobian by the same variable is not computed");
+  if (!body.call.empty())
+    fail(expression, node,
+         "'" + body.call + "' is a call of an unknown or a gain, which has no jacobian here");
   std::vector<int> operands = {point};
-  std::vector<int> moved(depends.size(), -1);
-  moved[static_cast<std::size_t>(variable)] =
-      body.add_input("the variable", shape(variable), assembly_[variable]);
-  const auto inside = [&](int operand) {
-    int& to = moved[static_cast<std::size_t>(operand)];
-    if (to < 0) {
-      to = body.add_input("operand " + std::to_string(operands.size()), shape(operand),
-                          assembly_[operand]);
-      operands.push_back(operand);
-    }
-    return to;
-  };
-  for (std::size_t i = 0; i < end; ++i) {
-    if (!needed[i] || !depends[i] || moved[i] >= 0) continue;
-    Instruction instruction = assembly_[static_cast<int>(i)];
-    if (instruction.op == Op::jacobian)
-      fail(expression, node, "a jacobian of a jacobian by the same variable is not computed");
-    if (instruction.op == Op::call)
-      fail(expression, node,
-           "'" + instruction.text +
-               "' is a call of an unknown or a gain, which has no jacobian "
-               "here");
-    for (int& operand : instruction.operands) operand = inside(operand);
-    moved[i] = body.add(std::move(instruction));
-  }
-  auto program =
-      std::make_shared<const Program>(body.extract(moved[static_cast<std::size_t>(value)]));
+  operands.insert(operands.end(), body.outside.begin(), body.outside.end());
+  auto program = std::make_shared<const Program>(body.assembly.extract(body.result));
   return {emit(expression, node, Op::jacobian, std::move(operands), result, {}, {},
                std::move(program))};
 }

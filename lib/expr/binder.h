@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -74,10 +75,36 @@ class Binder {
   Bound skew(const Expression& expression, const Node& node);
   Bound saturated(const Expression& expression, const Node& node);
 
+  // bind_bodies.cpp: expressions as functions of a name.
+  /// e of a call f(e, x, ...): `value` depends on the instruction `variable`, which stands for the
+  /// value of the instruction `point`.
+  struct Varied {
+    int value = -1;
+    int variable = -1;
+    int point = -1;
+  };
+  /// `rate`: e has the shape of x.
+  Varied varied(const Expression& expression, const Node& node, bool rate);
+  /// What depends on some instructions, as a program of its own.
+  struct Body {
+    Assembly assembly;
+    int result = -1;
+    std::vector<int> outside;  ///< what it uses besides: its inputs "operand k", ...
+    std::set<Op> operations;
+    std::string call;  ///< of an unknown or a gain
+  };
+  /// `inputs`: the instructions that vary and what the inputs in their place are called; `first`: k
+  /// of the first instruction outside.
+  Body body_of(int value, const std::vector<std::pair<int, std::string>>& inputs,
+               std::size_t first) const;
+  /// By instruction, up to `until` at least.
+  std::vector<bool> depending_on(const std::vector<int>& variables, int until) const;
   // bind_jacobian.cpp
   Bound jacobian(const Expression& expression, const Node& node);
-  Bound derivative_by(const Expression& expression, const Node& node, int value, int variable,
-                      int point);
+  // bind_flow_map.cpp
+  Bound flow_map(const Expression& expression, const Node& node);
+  void require_past(const Expression& expression, const Node& node,
+                    const std::vector<int>& outside) const;
 
   bool is_zero(Bound value) const;
   [[noreturn]] void unknown_name(const Expression& expression, const Node& node) const;
@@ -166,7 +193,7 @@ class Binder {
   int depth_ = 0;                              ///< of calls of bind()
   int steps_ = 0;                              ///< calls of bind() within definitions and sums
   int open_sums_ = 0;                          ///< over indices, being bound now
-  int jacobians_ = 0;                          ///< that stand for a parameter or a definition
+  int varied_ = 0;                             ///< parameters and definitions that vary
   Environment environment_;                    ///< parameters of the definition being bound
 };
 

@@ -34,9 +34,8 @@
 //     EvaluationError too, and the type lists it. In a pack a point without a result is not a
 //     number and the other points go on.
 //  5. Empty matrices are values like others.
-//  6. Projections (project_...) are computed by Real and what goes back to it. A type that bounds
-//  errors
-//     may lack them: it throws fault::no_error_bound, whatever moves.
+//  6. Projections (project_...) and flow_map are computed by Real and what goes back to it. A type
+//     that bounds errors may lack them: it throws fault::no_error_bound, whatever moves.
 //  7. The operands of Op::jacobian are the inputs of its body, which the type differentiates by the
 //     first of them; Dual (numbers/dual.h) does so over the reals.
 #pragma once

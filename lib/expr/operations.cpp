@@ -118,6 +118,8 @@ std::optional<Shape> result_shape(Op op, std::span<const Shape> operands,
       return when(a.cols + wanted.cols <= a.rows, {a.rows, wanted.cols});
     case ShapeRule::jacobian:
       return when(!operands.empty() && wanted.cols == a.size(), wanted);
+    case ShapeRule::flow_map:
+      return when(operands.size() >= 2 && b.is_scalar(), a);
   }
   return std::nullopt;
 }

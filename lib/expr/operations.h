@@ -46,7 +46,8 @@ enum class ShapeRule {
   nearest_to_rows,   ///< n x 1, n x n, m x n, m x 1 -> n x 1
   nearest_to_form,   ///< n x 1, n x n, n x 1, n x n, s -> n x 1
   complement_basis,  ///< A -> r x k, c + k <= r given
-  jacobian           ///< A, B, ... -> any number of rows x rc
+  jacobian,          ///< A, B, ... -> any number of rows x rc
+  flow_map           ///< A, s, ... -> r x c
 };
 
 using Attributes = std::array<int, 4>;

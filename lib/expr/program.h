@@ -22,7 +22,7 @@ struct Instruction {
   std::string text;  ///< constant: the decimal as written; inverse: of what; call: as written
   std::shared_ptr<const Text> origin;
   std::size_t offset = 0;  ///< where in the origin it was written
-  /// jacobian: what is differentiated; its inputs are the operands.
+  /// jacobian: what is differentiated; its inputs are the operands. flow_map: the rate.
   std::shared_ptr<const Program> body = nullptr;
 
   Place place() const { return origin ? origin->place(offset) : Place{}; }

@@ -67,6 +67,11 @@ struct Scope {
   /// Names with indices: P(2) is the symbol or function P_2.
   std::map<std::string, Ranges> families;
   std::shared_ptr<const KnownValues> known;  ///< none: nothing is known beforehand
+  /// The symbol that is the time, along which a flow_map moves it; empty: none is.
+  std::string time{};
+  /// Symbols whose past is not kept, so that no flow_map can have them in its rate, with what to
+  /// say of them.
+  std::map<std::string, std::string> without_past{};
 
   /// All names, for suggestions.
   std::vector<std::string> names() const;

@@ -14,6 +14,7 @@
 #include "hybrid/event_rhythm.h"
 #include "hybrid/event_watch.h"
 #include "hybrid/integrator.h"
+#include "hybrid/measured_rows.h"
 #include "hybrid/simulate.h"
 
 namespace gainsmith::hybrid {
@@ -72,6 +73,7 @@ class EventRun {
         horizon_(scenario.horizon),
         due_(system, watch, EventClocks(system, scenario, seed, run), scenario.horizon),
         noise_(system, seed, run),
+        rows_(system),
         flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
         rhythm_(scenario.horizon),
         state_rows_(rows_of_states(system)),
@@ -111,6 +113,7 @@ class EventRun {
   void begin() {
     movement_.reset();
     for (std::size_t k = 0; k < system_.noise.size(); ++k) noise_.draw(k, values_);
+    rows_.begin(values_);
     due_.begin(values_, movement_);
     movement_.fill_clocks(0, values_);
     hold_branches_at(values_, false);
@@ -241,7 +244,8 @@ class EventRun {
   // --- Flows. ---
 
   void flow() {
-    double stop = std::min({horizon_, due_.clocks().next(), noise_.next()});
+    if (rows_.leave(t_, values_)) hold_branches_at(values_, false);
+    double stop = std::min({horizon_, due_.clocks().next(), noise_.next(), rows_.next()});
     movement_.begin(t_, values_);
     stop = watch_.next_line(movement_, t_, stop, values_);
     flow_->start(t_, values_, stop);
@@ -256,7 +260,8 @@ class EventRun {
         throw RunEnd(Ending::lost, fmt::format("more than {} steps", kMostStepsOfRun));
       went = take(flow_->next());
     }
-    if (noise_.draw_due(t_, values_)) hold_branches_at(values_, false);
+    const bool drawn = noise_.draw_due(t_, values_);
+    if (rows_.arrive(t_, values_) || drawn) hold_branches_at(values_, false);
   }
 
   /// Goes along a step up to where something happens.
@@ -395,6 +400,7 @@ class EventRun {
   double horizon_;
   DueEvents due_;
   NoiseDraws noise_;
+  MeasuredRows rows_;
   std::unique_ptr<Flow> flow_;
   EventRhythm rhythm_;
   std::vector<Index> state_rows_;

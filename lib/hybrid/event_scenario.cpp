@@ -129,16 +129,31 @@ model::Design::Campaign with_laws_of(std::size_t event, model::Design::Campaign 
   return campaign;
 }
 
+/// Where no horizon is given a run of measured data goes to their end.
+double horizon_of(const model::Design::Campaign& campaign, const EventSystem& system) {
+  const auto& measured = system.dynamics.measured;
+  double end = kNever;
+  for (const Dynamics::Measured& one : measured) end = std::min(end, one.series->times.back());
+  if (!campaign.horizon && measured.empty())
+    throw InputError(campaign.place, "the campaign has no horizon");
+  const double horizon = campaign.horizon ? system.scalar(*campaign.horizon) : end;
+  const Place& place = campaign.horizon ? campaign.horizon->place : campaign.place;
+  if (!(horizon > 0 && std::isfinite(horizon)))
+    throw InputError(place, "the horizon is " + brief(horizon) + ": expected a positive time");
+  for (const Dynamics::Measured& one : measured)
+    if (one.between == model::Between::line && horizon > one.series->times.back())
+      throw InputError(place, "the horizon " + brief(horizon) + " lies after the last row of " +
+                                  one.name + ", t = " + brief(one.series->times.back()) + " in " +
+                                  one.series->file);
+  return horizon;
+}
+
 }  // namespace
 
 EventScenario make_event_scenario(const model::Design::Campaign& campaign,
                                   const EventSystem& system) {
-  if (!campaign.horizon) throw InputError(campaign.place, "the campaign has no horizon");
   EventScenario scenario;
-  scenario.horizon = system.scalar(*campaign.horizon);
-  if (!(scenario.horizon > 0 && std::isfinite(scenario.horizon)))
-    throw InputError(campaign.horizon->place,
-                     "the horizon is " + brief(scenario.horizon) + ": expected a positive time");
+  scenario.horizon = horizon_of(campaign, system);
   scenario.starts = rules_of(campaign.starts, system);
   for (const auto& clock : system.clocks) {
     scenario.first.emplace_back();

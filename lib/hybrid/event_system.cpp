@@ -137,6 +137,7 @@ std::vector<double> times_of(const Dynamics::Event& event, const EventSystem& sy
       times.push_back(values(k));
     }
   }
+  times.insert(times.end(), event.rows.begin(), event.rows.end());
   std::sort(times.begin(), times.end());
   times.erase(std::unique(times.begin(), times.end()), times.end());
   return times;
@@ -171,6 +172,26 @@ void read_noise(EventSystem& system) {
       throw InputError(noise.every->place, noise.name + " is drawn anew after " +
                                                brief(*made.every) + ": expected a positive time");
     system.noise.push_back(std::move(made));
+  }
+}
+
+/// What a run looks at has to be in the files.
+void check_measured(const EventSystem& system) {
+  for (const Dynamics::Measured& one : system.dynamics.measured) {
+    const model::Series& series = *one.series;
+    if (series.times.front() > 0)
+      throw InputError(one.place, fmt::format("{} has no value at t = 0, where a run begins: the "
+                                              "first row of {} is at {}; `from` says where in "
+                                              "the file a run begins",
+                                              one.name, series.file, brief(series.times.front())));
+    if (!one.event) continue;
+    for (const double t : system.dynamics.events[*one.event].rows)
+      if (!std::binary_search(series.times.begin(), series.times.end(), t))
+        throw InputError(
+            one.place, fmt::format("{} has no row at t = {}, where the event {} is "
+                                   "due: {}",
+                                   one.name, brief(t, 17), system.dynamics.events[*one.event].name,
+                                   series.file));
   }
 }
 
@@ -236,6 +257,7 @@ EventSystem make_event_system(const model::Dynamics& dynamics, numbers::Values c
   read_events(system);
   read_noise(system);
   read_passes(system);
+  check_measured(system);
   return system;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "expr/number_type.h"
+#include "hybrid/judged_measured.h"
 
 namespace gainsmith::hybrid::judging {
 
@@ -74,6 +75,7 @@ void FlowCheck::operator()(std::size_t part, const FlowPiece& piece) {
     Eigen::VectorXd from = step(step.from);
     check_joint(x, step.from, from, sizes, &step != &piece.steps.front());
     check_rest(step, from, sizes);
+    check_measured(texts_, part_, step, faults_);
     texts_.settle(piece.start, from);
     check_step(step, from, sizes, sum);
     x = step(step.to);
@@ -89,7 +91,9 @@ void FlowCheck::check_joint(const Eigen::VectorXd& x, double t, const Eigen::Vec
                             const Eigen::VectorXd& sizes, bool inner) {
   Eigen::VectorXd difference = (next - x).cwiseAbs();
   for (std::size_t v = 0; inner && v < flowing_.size(); ++v)
-    if (texts_.is(v, V::noise)) {
+    if (texts_.is_measured(v)) {
+      if (texts_.has_row(v, t)) texts_.part(difference, v).setZero();
+    } else if (texts_.is(v, V::noise)) {
       const auto& every = texts_.noise[texts_.dynamics.variables[v].of].every;
       if (every && same_time(std::round(t / *every) * *every, t))
         texts_.part(difference, v).setZero();

@@ -189,6 +189,7 @@ EventTexts JudgedTexts::event_texts(const Dynamics::Event& event) const {
     const numbers::Matrix value = constant(formula);
     texts.times.insert(texts.times.end(), value.reshaped().begin(), value.reshaped().end());
   }
+  texts.times.insert(texts.times.end(), event.rows.begin(), event.rows.end());
   std::sort(texts.times.begin(), texts.times.end());
   texts.times.erase(std::unique(texts.times.begin(), texts.times.end()), texts.times.end());
   return texts;
@@ -233,7 +234,8 @@ std::vector<bool> JudgedTexts::flowing(const Eigen::VectorXd& x) {
   for (auto& condition : frozen_) frozen.push_back(condition && (*condition)(x));
   std::vector<bool> result(dynamics.variables.size(), false);
   for (const auto& [variable, text] : flow_)
-    result[variable] = !frozen[dynamics.variables[variable].component];
+    result[variable] = !is(variable, Dynamics::VariableKind::state) ||
+                       !frozen[dynamics.variables[variable].component];
   return result;
 }
 
@@ -259,7 +261,8 @@ void JudgedTexts::settle(const Eigen::VectorXd& start, Eigen::VectorXd& x) {
   const std::vector<bool> flows = flowing(start);
   for (std::size_t v = 0; v < dynamics.variables.size(); ++v) {
     const bool is_clock = is(v, V::time) || is(v, V::since) || is(v, V::left);
-    const bool changes = is(v, V::noise) && noise[dynamics.variables[v].of].every;
+    const bool changes =
+        (is(v, V::noise) && noise[dynamics.variables[v].of].every) || is_measured(v);
     if (!flows[v] && !is_clock && !changes) part(x, v) = part(start, v);
   }
 }

@@ -123,6 +123,12 @@ class JudgedTexts {
   bool is(std::size_t variable, model::Dynamics::VariableKind kind) const {
     return dynamics.variables[variable].kind == kind;
   }
+  bool is_measured(std::size_t variable) const {
+    return is(variable, model::Dynamics::VariableKind::measured) ||
+           is(variable, model::Dynamics::VariableKind::measured_rate);
+  }
+  /// Whether a file has a row of what is measured at t, where it may change.
+  bool has_row(std::size_t variable, double t) const;
   /// The variable of a kind that belongs to an event or a noise, if there is one.
   std::optional<std::size_t> find(model::Dynamics::VariableKind kind, std::size_t of) const;
   /// The value of a start; none without one.

@@ -132,7 +132,7 @@ void Movement::require_symmetric(Entry& entry, const numbers::Matrix& rate) {
 /// The rate of a variable: 0 in a frozen component, of a symmetric one its symmetric part.
 const numbers::Matrix& Movement::value_of(Entry& entry, const VectorXd& values) {
   const auto& variable = system_->dynamics.variables[entry.variable];
-  if (is_frozen_[variable.component]) {
+  if (variable.kind == model::Dynamics::VariableKind::state && is_frozen_[variable.component]) {
     symmetric_ = numbers::Matrix::Zero(variable.shape.rows, variable.shape.cols);
     return symmetric_;
   }

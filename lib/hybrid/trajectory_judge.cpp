@@ -9,6 +9,7 @@
 #include "hybrid/judged_faults.h"
 #include "hybrid/judged_flow.h"
 #include "hybrid/judged_jump.h"
+#include "hybrid/judged_measured.h"
 #include "hybrid/judged_texts.h"
 
 namespace gainsmith::hybrid {
@@ -83,6 +84,7 @@ class Walk {
     guarded([&] { check_jump(texts_, part_, jump, faults_); });
     guarded([&] { watch_.jumped(part_, jump); });
     check_noise(jump.after);
+    check_measured(texts_, part_, t_, jump.before, faults_);
     x_ = jump.after;
     ++j_;
   }
@@ -124,6 +126,7 @@ class Walk {
   bool may_change(std::size_t v, double t, std::optional<std::size_t> event) const {
     const model::Dynamics::Variable& variable = texts_.dynamics.variables[v];
     if (variable.kind == V::left) return texts_.dynamics.events[variable.of].only_if.has_value();
+    if (texts_.is_measured(v)) return texts_.has_row(v, t);
     if (variable.kind != V::noise) return false;
     const auto& every = texts_.noise[variable.of].every;
     if (every) return same_time(std::round(t / *every) * *every, t);
@@ -140,6 +143,7 @@ class Walk {
     }
     watch_.check_numbers(0, 0, x_);
     check_noise(x_);
+    check_measured(texts_, 0, 0, x_, faults_);
   }
 
   void check_start_of(std::size_t v) {

@@ -6,6 +6,7 @@
 
 #include "base/nearest.h"
 #include "io/declaration_yaml.h"
+#include "io/measured_yaml.h"
 
 namespace gainsmith::io {
 
@@ -168,6 +169,21 @@ std::vector<model::StayText> stays(const YamlFile& file, const std::optional<Yam
   return result;
 }
 
+/// A plant that is a log.
+Component logged(const YamlFile& file, const YamlItem& item, YamlMap& map,
+                 std::vector<model::MeasuredText>& measured) {
+  Component result;
+  result.name = item.key;
+  result.place = item.place;
+  read_log(file, map, result, measured);
+  result.events = events(file, map.find("events"), item.key + ".events");
+  std::map<std::string, std::string> advice;
+  for (const char* key : {"state", "mode", "let", "flow", "at", "jump", "frozen", "while"})
+    advice[key] = "a plant that is a log has outputs and events, and nothing else";
+  map.finish(advice);
+  return result;
+}
+
 Component copied(const YamlFile& file, const std::optional<YamlItem>& like,
                  const std::vector<Component>& before) {
   if (!like) return {};
@@ -184,8 +200,10 @@ Component copied(const YamlFile& file, const std::optional<YamlItem>& like,
 }  // namespace
 
 Component component(const YamlFile& file, const YamlItem& item,
-                    const std::vector<Component>& before) {
+                    const std::vector<Component>& before,
+                    std::vector<model::MeasuredText>* measured) {
   YamlMap map(file, item.value, item.key);
+  if (measured != nullptr && item.value["log"]) return logged(file, item, map, *measured);
   const auto source = map.find("like");
   const bool like = source.has_value();
   Component result = copied(file, source, before);

@@ -6,13 +6,15 @@
 
 #include "io/yaml.h"
 #include "model/component.h"
+#include "model/measured.h"
 
 namespace gainsmith::io {
 
 /// The component of a key "plant", "observer" or of one of several; `before`: those that it may be
-/// `like`.
+/// `like`. `measured`: of a plant, which may be a log.
 model::Component component(const YamlFile& file, const YamlItem& item,
-                           const std::vector<model::Component>& before);
+                           const std::vector<model::Component>& before,
+                           std::vector<model::MeasuredText>* measured = nullptr);
 
 /// The events of a mapping.
 std::vector<model::EventText> events(const YamlFile& file, const std::optional<YamlItem>& item,

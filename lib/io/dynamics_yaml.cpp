@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "io/component_yaml.h"
+#include "io/measured_yaml.h"
 
 namespace gainsmith::io {
 
@@ -84,21 +85,25 @@ void read_dynamics(const YamlFile& file, YamlMap& map, model::Method& method) {
   const auto order = map.find("order");
   const auto inputs = map.find("inputs");
   const auto noises = map.find("noise");
-  if (plant) method.plant = component(file, *plant, {});
+  if (plant) method.plant = component(file, *plant, {}, &method.measured);
   method.plant.name = "plant";
   read_observers(file, observer, observers, method);
   method.timer = timer(file, map.find("timer"));
   method.events = events(file, event_list, "events");
   method.order = names(file, order);
   for (const YamlItem& item : items_of(file, inputs, "inputs"))
-    method.inputs.push_back({item.key, file.expression(item.value, item.key), item.place});
+    if (is_measured(item))
+      method.measured.push_back(measured_input(file, item));
+    else
+      method.inputs.push_back({item.key, file.expression(item.value, item.key), item.place});
   for (const YamlItem& item : items_of(file, noises, "noise"))
     method.noise.push_back(noise(file, item));
 
   for (const auto& item : {observers, event_list, order, inputs, noises, plant, observer})
     if (item && method.dynamics_place.line == 0) method.dynamics_place = item->place;
   const bool asks_for_events = observers || event_list || order || inputs || noises ||
-                               has_events(method.plant) || has_events(method.observer);
+                               !method.measured.empty() || has_events(method.plant) ||
+                               has_events(method.observer);
   if (method.timer && asks_for_events)
     throw InputError(method.timer->place,
                      "timer: the short form has one timer and nothing else; beside events, inputs, "

@@ -4,6 +4,7 @@
 
 #include "base/nearest.h"
 #include "io/component_yaml.h"
+#include "io/measured_yaml.h"
 
 namespace gainsmith::io {
 
@@ -64,6 +65,8 @@ model::EventText event(const YamlFile& file, const YamlItem& item) {
   result.kind = found.front().second;
   if (result.kind == EventKind::every)
     result.numbers = one_or_two(file, due);
+  else if (result.kind == EventKind::at && due.value.IsMap())
+    result.rows = measured_times(file, due);
   else if (result.kind == EventKind::at && due.value.IsSequence())
     for (const auto& entry : due.value) result.numbers.push_back(file.expression(entry, "at"));
   else if (due.value.IsSequence())
@@ -72,7 +75,7 @@ model::EventText event(const YamlFile& file, const YamlItem& item) {
     result.numbers.push_back(file.expression(due.value, "at"));
   else
     result.what = file.expression(due.value, due.key);
-  if (result.kind == EventKind::at && result.numbers.empty())
+  if (result.kind == EventKind::at && result.numbers.empty() && result.rows.empty())
     throw InputError(due.place, "at: expected a time at least");
   if (first && result.kind != EventKind::every)
     throw InputError(first->place, "first: only of an event with 'every'");

@@ -149,7 +149,7 @@ void Binding::bind_starts() {
     }
   }
   if (!design_->dynamics) return;
-  if (is_run() && !problem().campaign.horizon)
+  if (is_run() && !problem().campaign.horizon && method().measured.empty())
     throw InputError(
         problem().campaign.place.line > 0 ? problem().campaign.place : Place{problem().file},
         "a method with events needs 'campaign: {horizon: ...}': how long a run is");

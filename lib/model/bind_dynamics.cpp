@@ -4,6 +4,7 @@
 
 #include "base/nearest.h"
 #include "expr/compile.h"
+#include "expr/rewrite.h"
 #include "model/dynamics_binding.h"
 
 namespace gainsmith::model {
@@ -124,9 +125,42 @@ void DynamicsBinding::add_inputs() {
     if (!is_free(name)) continue;
     Dynamics::Variable number;
     number.kind = name == std::string("t") ? Kind::time : Kind::jumps;
+    if (number.kind == Kind::time) scope_->time = name;
     number.name = name;
     scope_->symbols[name] = {};
     result_.variables.push_back(std::move(number));
+  }
+}
+
+/// The quantity is a variable that rests, or one whose rate is another variable that rests.
+void DynamicsBinding::add_measured(const MeasuredText& text) {
+  if (!is_free(text.name))
+    throw InputError(text.place, "'" + text.name + "' already names something else");
+  Dynamics::Variable variable;
+  variable.kind = Kind::measured;
+  variable.name = text.name;
+  variable.of = result_.measured.size();
+  variable.shape = {static_cast<int>(text.series->values.cols()), 1};
+  variable.place = text.place;
+  const std::size_t at = result_.variables.size();
+  scope_->symbols[variable.name] = {variable.shape};
+  result_.variables.push_back(variable);
+  result_.measured.push_back(
+      {text.name, text.between, text.series, text.output, std::nullopt, text.place});
+  if (text.between == Between::hold) return;
+  variable.kind = Kind::measured_rate;
+  variable.name = "rate of " + text.name;
+  scope_->symbols[variable.name] = {variable.shape};
+  result_.variables.push_back(variable);
+  expr::Composer rate(text.place);
+  const int input = rate.input(variable.name, variable.shape);
+  result_.flow.push_back({at, {rate.take(input), text.place, variable.name}, text.place});
+}
+
+void DynamicsBinding::bind_measured_events() {
+  for (std::size_t k = 0; k < method_->measured.size(); ++k) {
+    const MeasuredText& text = method_->measured[k];
+    if (!text.at.empty()) result_.measured[k].event = event(&method_->plant, text.at, text.place);
   }
 }
 
@@ -182,19 +216,26 @@ Dynamics DynamicsBinding::run() {
   add_varied();
   for (const Component* part : parts) add_definitions(*part);
   add_inputs();
+  for (const MeasuredText& text : method_->measured) add_measured(text);
   add_events();
+  bind_measured_events();
   for (const NoiseText& noise : method_->noise) bind_noise(noise);
   bind_starts();
   for (std::size_t at = 0; at < parts.size(); ++at) {
+    set_reader(parts[at]);
     bind_flow(*parts[at], at);
     bind_stays(*parts[at], at);
   }
   for (std::size_t at = 0; at < result_.events.size(); ++at) {
     const auto of = result_.events[at].component;
+    set_reader(of ? parts[*of] : nullptr);
     bind_event(*event_texts_[at], of ? parts[*of] : nullptr, at);
   }
-  for (std::size_t at = 0; at < parts.size(); ++at)
+  for (std::size_t at = 0; at < parts.size(); ++at) {
+    set_reader(parts[at]);
     for (const ReactionText& reaction : parts[at]->at) bind_reaction(reaction, *parts[at], at);
+  }
+  set_reader(nullptr);
   return result_;
 }
 
@@ -227,8 +268,9 @@ bool is_used(const Dynamics& dynamics, std::size_t event) {
 void drop_unread(Dynamics& dynamics, const std::set<std::string>& read,
                  const std::set<std::size_t>& counted) {
   std::erase_if(dynamics.variables, [&](const Dynamics::Variable& variable) {
-    const bool asked =
-        variable.kind != Kind::state && variable.kind != Kind::mode && variable.kind != Kind::noise;
+    const bool asked = variable.kind != Kind::state && variable.kind != Kind::mode &&
+                       variable.kind != Kind::noise && variable.kind != Kind::measured &&
+                       variable.kind != Kind::measured_rate;
     return asked && !read.contains(variable.name);
   });
   for (std::size_t k = 0; k < dynamics.events.size(); ++k)

@@ -27,6 +27,7 @@ void DynamicsBinding::add_events() {
       event.name = component == nullptr ? text.name : full_name(*component, text.name);
       event.kind = text.kind;
       event.component = at;
+      event.rows = text.rows;
       event.lost = text.lost;
       event.lost_in_a_row = text.lost_in_a_row;
       event.place = text.place;

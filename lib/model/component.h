@@ -22,6 +22,7 @@ struct EventText {
   Dynamics::EventKind kind = Dynamics::EventKind::when;
   std::optional<expr::Expression> what;   ///< the condition, or what rises, falls or crosses
   std::vector<expr::Expression> numbers;  ///< the lengths of `every`, the times of `at`
+  std::vector<double> rows;               ///< times of `at` that a file says
   std::vector<expr::Expression> first;    ///< a value or the ends of a range
   std::optional<expr::Expression> only_if;
   double lost = 0;

@@ -20,6 +20,7 @@
 
 #include "expr/condition.h"
 #include "model/formula.h"
+#include "model/measured.h"
 #include "model/words.h"
 
 namespace gainsmith::model {
@@ -50,14 +51,16 @@ struct Dynamics {
     since,   ///< since(event): the time since its last jump; since the start before the first
     left,    ///< event.left: what is left of the clock of an event with `every`
     passes,  ///< passes(event): of the loop of its last jump
-    noise
+    noise,
+    measured,      ///< what a file says; `of` a Measured
+    measured_rate  ///< its rate, where it runs along lines
   };
 
   struct Variable {
     VariableKind kind = VariableKind::state;
     std::string name;           ///< under which programs know it
     std::size_t component = 0;  ///< of a state or mode
-    std::size_t of = 0;         ///< the event of count, since, left, passes; the noise
+    std::size_t of = 0;  ///< the event of count, since, left, passes; the noise, the measured
     expr::Shape shape;
     Structure structure = Structure::full;  ///< symmetric: kept equal to its transpose
     std::optional<Formula> start;           ///< of a state or mode: when the campaign gives none
@@ -84,6 +87,7 @@ struct Dynamics {
     /// low = high occurrence k is at first + k low.
     std::optional<Formula> low, high, first_low, first_high;
     std::vector<Formula> times;              ///< of `at`: columns or numbers, of constants
+    std::vector<double> rows;                ///< of `at`: times that a file says
     std::optional<expr::Condition> only_if;  ///< `if`: false spends the occurrence
     double lost = 0;                         ///< the probability that no observer sees it
     std::optional<int> lost_in_a_row;        ///< at most
@@ -127,6 +131,17 @@ struct Dynamics {
     Place place;
   };
 
+  /// A quantity of which a file says the values. It and, of lines, its rate change at the rows,
+  /// without a jump: a switch of the flow.
+  struct Measured {
+    std::string name;
+    Between between = Between::hold;
+    std::shared_ptr<const Series> series;
+    bool output = false;               ///< shown by an output of the plant
+    std::optional<std::size_t> event;  ///< at which alone it is looked at
+    Place place;
+  };
+
   /// A name for a value along a run, to be written, drawn or compared.
   struct Signal {
     std::string name;  ///< "y", "e", "nominal.e"
@@ -140,6 +155,7 @@ struct Dynamics {
   std::vector<Event> events;  ///< in the order in which they are looked at
   std::vector<Reaction> reactions;
   std::vector<Noise> noise;
+  std::vector<Measured> measured;
   std::vector<Signal> signals;  ///< outputs of the components, then signals
 };
 

@@ -31,6 +31,8 @@ class DynamicsBinding {
   void add_states(const Component& component, std::size_t at);
   void add_definitions(const Component& component);
   void add_inputs();
+  void add_measured(const MeasuredText& text);
+  void bind_measured_events();
   void add_varied();
   void bind_starts();
   void bind_flow(const Component& component, std::size_t at);
@@ -65,6 +67,8 @@ class DynamicsBinding {
   /// observer, and for an output where it does not exist.
   void check_reads(const Reader& reader, const expr::Expression& text,
                    const expr::Scope& scope) const;
+  /// What no flow_map in the texts of a component, or outside (nullptr), may have in its rate.
+  void set_reader(const Component* component);
   void check_name(const Reader& reader, const expr::Expression& top, const expr::Node& node,
                   const std::string& name, bool states, const expr::Scope& scope,
                   std::set<std::string>& seen) const;

@@ -52,6 +52,7 @@ DynamicsNames::DynamicsNames(const Method& method, std::set<std::string> varied)
   for (const Component& observer : method.observers) own_[observer.name] = names_of(observer);
   anywhere_ = names_of(method.plant);
   for (const Named& input : method.inputs) anywhere_.insert(input.name);
+  for (const MeasuredText& input : method.measured) anywhere_.insert(input.name);
   for (const NoiseText& noise : method.noise) anywhere_.insert(noise.name);
 }
 

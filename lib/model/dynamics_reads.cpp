@@ -45,4 +45,24 @@ void DynamicsBinding::check_name(const Reader& reader, const expr::Expression& t
   });
 }
 
+void DynamicsBinding::set_reader(const Component* component) {
+  using Kind = Dynamics::VariableKind;
+  const bool by_observer = component != nullptr && component->name != "plant";
+  scope_->without_past.clear();
+  for (const Dynamics::Variable& one : result_.variables) {
+    const bool measured = one.kind == Kind::measured || one.kind == Kind::measured_rate;
+    const bool drawn =
+        one.kind == Kind::noise && (result_.noise[one.of].event || result_.noise[one.of].every);
+    const bool of_plant = by_observer && one.kind == Kind::state && one.component == 0;
+    if (of_plant)
+      scope_->without_past[one.name] =
+          "e has what the observer measures of '" + one.name +
+          "', and the past of measurements is not kept; it may have the observer's own states, the "
+          "time and inputs that are functions of it";
+    else if (measured || drawn)
+      scope_->without_past[one.name] =
+          "e has '" + one.name + "', whose past is not kept; it may have functions of the time";
+  }
+}
+
 }  // namespace gainsmith::model

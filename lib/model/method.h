@@ -11,6 +11,7 @@
 #include "expr/parser.h"
 #include "model/component.h"
 #include "model/declaration.h"
+#include "model/measured.h"
 
 namespace gainsmith::model {
 
@@ -119,8 +120,9 @@ struct Method {
   /// Of the form with events: instead of `observer` and `timer`.
   std::vector<Component> observers;
   std::vector<EventText> events;
-  std::vector<std::string> order;  ///< of the events, when it is not that of the file
-  std::vector<Named> inputs;       ///< functions of the time t
+  std::vector<std::string> order;      ///< of the events, when it is not that of the file
+  std::vector<Named> inputs;           ///< functions of the time t
+  std::vector<MeasuredText> measured;  ///< inputs and outputs of the plant that files say
   std::vector<NoiseText> noise;
   Place dynamics_place;        ///< where the form with events begins
   std::vector<Named> signals;  ///< e.g. the errors e = z - zh

@@ -159,6 +159,13 @@ void add_gains(const Method& method, NameCheck& names) {
   }
 }
 
+/// Outputs of a plant that is a log have names already.
+void add_inputs(const Method& method, NameCheck& names) {
+  for (const Named& input : method.inputs) names.add(input.name, "input", input.place);
+  for (const MeasuredText& input : method.measured)
+    if (!input.output) names.add(input.name, "input", input.place);
+}
+
 /// Plant and observers have names of their own, which hide those of data, gains and definitions;
 /// an observer reads names of the plant.
 void check_observers(const Method& method) {
@@ -170,7 +177,7 @@ void check_observers(const Method& method) {
     all.add(observer.name, "observer", observer.place);
     NameCheck names;
     add_component(method.plant, names);
-    for (const Named& input : method.inputs) names.add(input.name, "input", input.place);
+    add_inputs(method, names);
     for (const NoiseText& noise : method.noise) names.add(noise.name, "noise", noise.place);
     add_component(observer, names);
   }
@@ -220,7 +227,7 @@ void check_names(const Method& method) {
     check_maps(*part, part->flow, "the flow");
     check_maps(*part, part->jump, "the jump");
   }
-  for (const Named& input : method.inputs) names.add(input.name, "input", input.place);
+  add_inputs(method, names);
   for (const NoiseText& noise : method.noise) names.add(noise.name, "noise", noise.place);
   check_observers(method);
   if (method.timer) names.add(method.timer->name, "timer", method.timer->place);

@@ -9,5 +9,6 @@ template Dual<double> constant_dual<double>(const Matrix&);
 template Dual<double> variable_dual<double>(const Matrix&);
 template struct DualNumbers<double>;
 template Matrix jacobian<double>(const expr::Instruction&, expr::Operands<Matrix>);
+template Matrix flow_map<double>(const expr::Instruction&, expr::Operands<Matrix>);
 
 }  // namespace gainsmith::numbers

@@ -8,5 +8,7 @@ template Dual<DoubleDouble> variable_dual<DoubleDouble>(const MatrixOf<DoubleDou
 template struct DualNumbers<DoubleDouble>;
 template MatrixOf<DoubleDouble> jacobian<DoubleDouble>(const expr::Instruction&,
                                                        expr::Operands<MatrixOf<DoubleDouble>>);
+template MatrixOf<DoubleDouble> flow_map<DoubleDouble>(const expr::Instruction&,
+                                                       expr::Operands<MatrixOf<DoubleDouble>>);
 
 }  // namespace gainsmith::numbers

@@ -9,6 +9,7 @@
 
 #include "expr/evaluate.h"
 #include "numbers/dual.h"
+#include "numbers/flow_map_rules.h"
 #include "numbers/householder.h"
 #include "numbers/real_rules.h"
 #include "numbers/tangent.h"
@@ -255,6 +256,10 @@ struct DualRules {
                        Op::project_ellipsoid, Op::project_affine>
   void operator()(Is<op>, const At& at, Value& out) const {
     for (const Value* operand : at.operands) no_slope(*operand, out, op);
+  }
+  /// By the variational equation.
+  void operator()(Is<Op::flow_map>, const At& at, Value& out) const {
+    flow_map_slope<Scalar>(at.instruction, at.operands, out);
   }
   void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
     const M& A = at[0].value;

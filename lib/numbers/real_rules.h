@@ -12,6 +12,7 @@
 
 #include "expr/number_type.h"
 #include "numbers/dual.h"
+#include "numbers/flow_map.h"
 #include "numbers/householder.h"
 #include "numbers/projection.h"
 #include "numbers/real.h"
@@ -235,6 +236,9 @@ struct RealRules {
   }
   void operator()(Is<Op::jacobian>, const At& at, Value& out) const {
     out = jacobian<Scalar>(at.instruction, at.operands);
+  }
+  void operator()(Is<Op::flow_map>, const At& at, Value& out) const {
+    out = flow_map<Scalar>(at.instruction, at.operands);
   }
 
  private:

@@ -28,6 +28,13 @@ std::string element(const std::string& name, expr::Shape shape, int at) {
   return label;
 }
 
+/// t and j have columns of their own, what a log says is an output.
+bool is_shown_otherwise(const model::Dynamics& dynamics, const model::Dynamics::Variable& one) {
+  return one.kind == VariableKind::time || one.kind == VariableKind::jumps ||
+         one.kind == VariableKind::measured_rate ||
+         (one.kind == VariableKind::measured && dynamics.measured[one.of].output);
+}
+
 /// What makes the columns of one name.
 struct Source {
   Column column;
@@ -46,7 +53,7 @@ class EventTable {
       if (one.observer) observers_.push_back(one.name);
     for (std::size_t k = 0; k < dynamics.variables.size(); ++k) {
       const model::Dynamics::Variable& variable = dynamics.variables[k];
-      if (variable.kind == VariableKind::time || variable.kind == VariableKind::jumps) continue;
+      if (is_shown_otherwise(dynamics, variable)) continue;
       const hybrid::Slot& slot = setup.system.layout.slots[k];
       sources_.push_back({column(variable.name, kind_of(variable.kind)), slot.shape, slot.offset,
                           std::nullopt, std::nullopt});

@@ -308,6 +308,30 @@ DynamicsText& DynamicsText::repeats(const std::string& event, const Pairs& entri
   return *this;
 }
 
+DynamicsText& DynamicsText::measured(const std::string& name, model::Between between,
+                                     const std::vector<std::pair<double, double>>& rows) {
+  auto series = std::make_shared<model::Series>();
+  series->file = "log.csv";
+  series->values.resize(static_cast<Eigen::Index>(rows.size()), 1);
+  for (const auto& [time, value] : rows) {
+    series->values(static_cast<Eigen::Index>(series->times.size()), 0) = value;
+    series->times.push_back(time);
+  }
+  Dynamics::Variable variable;
+  variable.name = name;
+  variable.of = unbound_.measured.size();
+  unbound_.measured.push_back({name, between, std::move(series), false, std::nullopt, kPlace});
+  const bool line = between == model::Between::line;
+  if (line) {
+    variable.kind = Kind::measured_rate;
+    variable.name = name + "_rate";
+    add(variable, "", "");
+  }
+  variable.kind = Kind::measured;
+  variable.name = name;
+  return add(variable, line ? name + "_rate" : "", "");
+}
+
 DynamicsText& DynamicsText::noise(const std::string& name, Dynamics::NoiseKind kind,
                                   const std::vector<std::string>& values) {
   Dynamics::Noise noise;

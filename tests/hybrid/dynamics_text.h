@@ -14,6 +14,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hybrid/text_problem.h"
@@ -64,6 +65,10 @@ class DynamicsText {
   /// Of the last noise: drawn anew at an event, or after each such time.
   DynamicsText& drawn_at(const std::string& event);
   DynamicsText& drawn_every(const std::string& length);
+
+  /// Rows of (time, value); of lines the rate has the name with "_rate".
+  DynamicsText& measured(const std::string& name, model::Between between,
+                         const std::vector<std::pair<double, double>>& rows);
 
   /// `at`: the event at which alone it exists.
   DynamicsText& signal(const std::string& name, const std::string& value,

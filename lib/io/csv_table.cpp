@@ -1,0 +1,153 @@
+#include "io/csv_table.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "base/file.h"
+#include "base/nearest.h"
+#include "base/number.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 28U;
+
+std::string read_bounded(const std::string& path) {
+  std::error_code none;
+  const std::uintmax_t size = std::filesystem::file_size(path, none);
+  if (!none && size > kLargestFile)
+    throw InputError({path, 0, 0}, "the file has " + std::to_string(size >> 20U) +
+                                       " MB; a log may have " +
+                                       std::to_string(kLargestFile >> 20U));
+  return read_text(path);
+}
+
+bool is_blank_cell(char c) { return c == ' ' || c == '\t'; }
+
+}  // namespace
+
+CsvTable::CsvTable(const std::string& path) : CsvTable(read_bounded(path), path) {}
+
+CsvTable::CsvTable(std::string text, std::string path)
+    : text_(std::move(text)), path_(std::move(path)) {
+  if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
+  read();
+}
+
+void CsvTable::read() {
+  std::size_t at = 0;
+  int number = 1;
+  while (at < text_.size()) {
+    const Line start{number, at};
+    const std::vector<Cell> cells = line(at, number);
+    if (cells.size() == 1 && cells[0].begin == cells[0].end && !cells[0].quoted) continue;
+    if (names_.empty()) {
+      read_header(cells);
+      continue;
+    }
+    if (cells.size() != names_.size())
+      throw InputError({path_, start.number, 1}, "the row has " + std::to_string(cells.size()) +
+                                                     " cells, the first line " +
+                                                     std::to_string(names_.size()));
+    lines_.push_back(start);
+    cells_.insert(cells_.end(), cells.begin(), cells.end());
+  }
+  if (names_.empty())
+    throw InputError({path_, 1, 1}, "the file is empty; expected a line of column names");
+  if (lines_.empty()) throw InputError({path_, 1, 1}, "there is no row below the column names");
+}
+
+std::vector<CsvTable::Cell> CsvTable::line(std::size_t& at, int& number) const {
+  const std::size_t begin = at;
+  std::vector<Cell> cells;
+  while (true) {
+    cells.push_back(cell(at, number, begin));
+    if (at >= text_.size()) return cells;
+    const char c = text_[at++];
+    if (c == ',') continue;
+    if (c == '\r' && at < text_.size() && text_[at] == '\n') ++at;
+    ++number;
+    return cells;
+  }
+}
+
+/// Up to the comma or the end of the line, at which `at` stands then.
+CsvTable::Cell CsvTable::cell(std::size_t& at, int& number, std::size_t line_begin) const {
+  const auto is_end = [&](char c) { return c == ',' || c == '\n' || c == '\r'; };
+  while (at < text_.size() && is_blank_cell(text_[at])) ++at;
+  Cell found{at, at, false};
+  if (at < text_.size() && text_[at] == '"') {
+    const Place open{path_, number, static_cast<int>(at - line_begin) + 1};
+    found = {++at, at, true};
+    while (at < text_.size() && !(text_[at] == '"' && text_.compare(at, 2, "\"\"") != 0)) {
+      if (text_[at] == '\n') ++number;
+      at += text_[at] == '"' ? 2U : 1U;
+    }
+    if (at >= text_.size()) throw InputError(open, "this quotation mark is not closed");
+    found.end = at++;
+    while (at < text_.size() && is_blank_cell(text_[at])) ++at;
+    if (at < text_.size() && !is_end(text_[at]))
+      throw InputError({path_, number, static_cast<int>(at - line_begin) + 1},
+                       "expected a comma or the end of the line after a quoted cell");
+    return found;
+  }
+  while (at < text_.size() && !is_end(text_[at])) ++at;
+  found.end = at;
+  while (found.end > found.begin && is_blank_cell(text_[found.end - 1])) --found.end;
+  return found;
+}
+
+void CsvTable::read_header(const std::vector<Cell>& cells) {
+  for (const Cell& one : cells) {
+    const std::string name = text(one);
+    const Place place{path_, 1, static_cast<int>(one.begin) + 1};
+    if (parse_decimal(name))
+      throw InputError(place, "expected a line of column names, found the number " + name);
+    if (std::find(names_.begin(), names_.end(), name) != names_.end())
+      throw InputError(place, "there are two columns '" + name + "'");
+    names_.push_back(name);
+  }
+  if (names_.size() == 1 && names_[0].find(';') != std::string::npos)
+    throw InputError({path_, 1, 1}, "the columns are separated by semicolons; expected commas");
+}
+
+std::string CsvTable::text(const Cell& cell) const {
+  std::string result = text_.substr(cell.begin, cell.end - cell.begin);
+  if (!cell.quoted) return result;
+  for (std::size_t k = 0; (k = result.find("\"\"", k)) != std::string::npos; ++k)
+    result.erase(k, 1);
+  return result;
+}
+
+std::optional<std::size_t> CsvTable::find(const std::string& column) const {
+  const auto found = std::find(names_.begin(), names_.end(), column);
+  if (found == names_.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - names_.begin());
+}
+
+std::size_t CsvTable::column(const std::string& name, const Place& place) const {
+  if (const auto found = find(name)) return *found;
+  throw InputError(place, path_ + " has no column '" + name + "'" + suggestion(name, names_));
+}
+
+std::string CsvTable::text(std::size_t row, std::size_t column) const {
+  return text(cell(row, column));
+}
+
+std::optional<double> CsvTable::number(std::size_t row, std::size_t column) const {
+  const std::string word = text(row, column);
+  if (word.empty()) return std::nullopt;
+  if (const auto value = parse_decimal(word)) return value;
+  throw InputError(place(row, column), "the column " + names_[column] +
+                                           " needs finite decimal numbers, not '" + word + "'");
+}
+
+Place CsvTable::place(std::size_t row, std::size_t column) const {
+  const Cell& one = cell(row, column);
+  const std::size_t begin = one.begin - (one.quoted ? 1U : 0U);
+  return {path_, lines_[row].number, static_cast<int>(begin - lines_[row].begin) + 1};
+}
+
+}  // namespace gainsmith::io

@@ -1,0 +1,61 @@
+// Reading tables of CSV (RFC 4180): a line of column names, then rows of cells.
+//
+// Lines end with LF or CRLF; cells are separated by commas, may be quoted, and spaces around them
+// do not count. Empty lines are left out. Errors name file, line and column of the CSV itself.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/error.h"
+
+namespace gainsmith::io {
+
+class CsvTable {
+ public:
+  /// InputError when the file cannot be read, is empty or too large, has no rows, two columns of
+  /// one name, a row of another length than the first, or a quotation mark that is not closed.
+  explicit CsvTable(const std::string& path);
+  /// Of a text, for tests; `path` stands in messages.
+  CsvTable(std::string text, std::string path);
+
+  const std::string& path() const { return path_; }
+  std::size_t rows() const { return lines_.size(); }
+  /// The position of a column; none.
+  std::optional<std::size_t> find(const std::string& column) const;
+  /// InputError at `place`, which names the column, when there is none, with the nearest spelling.
+  std::size_t column(const std::string& name, const Place& place) const;
+  std::string text(std::size_t row, std::size_t column) const;
+  /// None of an empty cell. InputError for what is no finite decimal number.
+  std::optional<double> number(std::size_t row, std::size_t column) const;
+  Place place(std::size_t row, std::size_t column) const;
+
+ private:
+  /// Within the text, quotation marks included.
+  struct Cell {
+    std::size_t begin = 0, end = 0;
+    bool quoted = false;
+  };
+  struct Line {
+    int number = 0;
+    std::size_t begin = 0;
+  };
+
+  void read();
+  /// The cells of the line that begins at `at`, which is moved behind it.
+  std::vector<Cell> line(std::size_t& at, int& number) const;
+  Cell cell(std::size_t& at, int& number, std::size_t line_begin) const;
+  void read_header(const std::vector<Cell>& cells);
+  std::string text(const Cell& cell) const;
+  const Cell& cell(std::size_t row, std::size_t column) const {
+    return cells_[row * names_.size() + column];
+  }
+
+  std::string text_, path_;
+  std::vector<std::string> names_;
+  std::vector<Line> lines_;  ///< of the rows
+  std::vector<Cell> cells_;  ///< row by row
+};
+
+}  // namespace gainsmith::io

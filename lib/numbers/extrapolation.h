@@ -1,0 +1,178 @@
+// Internal to numbers: y' = f(q, y) from q = 0 to 1 by extrapolation of the midpoint rule (Gragg
+// 1965; Bulirsch and Stoer 1966), over any real scalar.
+//
+//   z_1 = y + h f(y),   z_{i+1} = z_{i-1} + 2 h f(z_i),   h = H/n,   D_k = z_n - y,  n = 2 k
+//   T_{k,1} = D_k,      T_{k,i+1} = T_{k,i} + (T_{k,i} - T_{k-1,i}) / ((n_k / n_{k-i})^2 - 1)
+//
+// D_k errs in even powers of h, so that each column of the table gains two orders. A step of the
+// length H ends with the first k for which T_{k,k} and T_{k,k-1} agree.
+#pragma once
+
+#include <algorithm>
+#include <functional>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "expr/number_type.h"
+#include "numbers/matrix.h"
+
+namespace gainsmith::numbers {
+
+/// Why an integration ended before 1.
+struct Unreached {
+  double at = 0;  ///< q
+  std::string why;
+};
+
+template <class Scalar>
+class Extrapolation {
+ public:
+  using M = MatrixOf<Scalar>;
+  /// EvaluationError where there is no rate; such a step is shortened.
+  using Rate = std::function<void(const Scalar& q, const M& y, M& rate)>;
+
+  explicit Extrapolation(Rate rate) : rate_(std::move(rate)), table_(kColumns) {}
+
+  /// y(1). Unreached is thrown where it ends before.
+  M operator()(M y) {
+    if (y.size() == 0) return y;
+    const Scalar beyond = kEscaped * (Scalar(1) + y.cwiseAbs().maxCoeff());
+    Scalar q(0), step(1);
+    start_known_ = false;
+    while (q < Scalar(1)) {
+      const bool last = step >= Scalar(1) - q;
+      if (last) step = Scalar(1) - q;
+      const int columns = attempt(q, step, y);
+      if (columns > 0) {
+        y += table_[static_cast<std::size_t>(columns - 1)];
+        q = last ? Scalar(1) : Scalar(q + step);
+        start_known_ = false;
+        fault_.clear();
+        step = step * growth(columns);
+        continue;
+      }
+      step = step / Scalar(columns == kGaveUp ? 2 : 4);
+      if (!(step > kShortest)) stop(q, y.cwiseAbs().maxCoeff() > beyond);
+    }
+    return y;
+  }
+
+ private:
+  static constexpr int kColumns = 6 + std::min(std::numeric_limits<Scalar>::digits10, 105) / 3;
+  static constexpr int kGaveUp = 0;     ///< all columns were tried
+  static constexpr int kFailed = -1;    ///< they do not converge
+  static constexpr int kMost = 400000;  ///< evaluations
+  const Scalar kShortest{0x1p-44};
+  const Scalar kEscaped{1e6};
+  /// Of what is computed: Decimal100 has digits to spare.
+  const Scalar kError =
+      std::max(Scalar(16) * std::numeric_limits<Scalar>::epsilon(), Scalar(1e-105));
+  const Scalar kClose{1e-4};
+  const Scalar kRounding = Scalar(4096) * kError;  ///< where columns do not agree better
+
+  static Scalar growth(int columns) {
+    if (columns <= 4) return Scalar(4);
+    if (columns < 2 * kColumns / 3) return Scalar(2);
+    return columns + 1 < kColumns ? Scalar(1) : Scalar(0.75);
+  }
+
+  [[noreturn]] void stop(const Scalar& q, bool escaped) const {
+    const auto at = static_cast<double>(q);
+    if (escaped) throw Unreached{at, "it leaves every bound there"};
+    if (!fault_.empty()) throw Unreached{at, fault_};
+    throw Unreached{at, "the steps become too short"};
+  }
+
+  /// The columns that a step took, which is in the last of them; otherwise kGaveUp or kFailed.
+  int attempt(const Scalar& q, const Scalar& step, const M& y) {
+    try {
+      if (!start_known_) evaluate(q, y, start_);
+      start_known_ = true;
+      return columns(q, step, y);
+    } catch (const expr::EvaluationError& error) {
+      fault_ = error.message();
+      return kFailed;
+    }
+  }
+
+  int columns(const Scalar& q, const Scalar& step, const M& y) {
+    Scalar before(0);
+    for (int k = 1; k <= kColumns; ++k) {
+      midpoint(q, step, y, 2 * k);
+      if (!extrapolate(k)) return kFailed;
+      if (k == 1) continue;
+      const Scalar error = disagreement(k, step, y);
+      // Where the rate jumps two columns may agree by chance.
+      const bool settled = k > 2 && before <= kClose;
+      if (settled && error <= kError) return k;
+      if (k > 3 && error > before / Scalar(4)) return error <= kRounding ? k : kFailed;
+      before = error;
+    }
+    return kGaveUp;
+  }
+
+  void evaluate(const Scalar& q, const M& y, M& rate) {
+    if (++evaluations_ > kMost)
+      throw Unreached{static_cast<double>(q), "it takes too many steps: the rate is stiff there"};
+    rate_(q, y, rate);
+    if (!rate.allFinite()) throw expr::EvaluationError("the rate is not a finite number");
+  }
+
+  /// z_n - y to difference_.
+  void midpoint(const Scalar& q, const Scalar& step, const M& y, int n) {
+    const Scalar h = step / Scalar(n);
+    M before = M::Zero(y.rows(), y.cols());
+    difference_ = h * start_;
+    for (int i = 1; i < n; ++i) {
+      point_ = y + difference_;
+      evaluate(Scalar(q + h * Scalar(i)), point_, slope_);
+      before += (h + h) * slope_;
+      before.swap(difference_);
+    }
+  }
+
+  /// Row k of the table, in the place of row k - 1; whether it is finite.
+  bool extrapolate(int k) {
+    for (int i = 1; i < k; ++i) {
+      M& old = table_[static_cast<std::size_t>(i - 1)];
+      const Scalar ratio = Scalar(k) / Scalar(k - i);
+      const M next = difference_ + (difference_ - old) / (ratio * ratio - Scalar(1));
+      old = difference_;
+      difference_ = next;
+    }
+    table_[static_cast<std::size_t>(k - 1)] = difference_;
+    return difference_.allFinite();
+  }
+
+  /// Of T_{k,k} and T_{k,k-1}, for each element in parts of what it is and may become in the step,
+  /// or of its column.
+  Scalar disagreement(int k, const Scalar& step, const M& y) {
+    const M& best = table_[static_cast<std::size_t>(k - 1)];
+    const M& second = table_[static_cast<std::size_t>(k - 2)];
+    const M size =
+        y.cwiseAbs().cwiseMax((y + best).cwiseAbs()).cwiseMax(M((step * start_).cwiseAbs()));
+    Scalar worst(0);
+    for (Eigen::Index j = 0; j < y.cols(); ++j) {
+      const Scalar column = size.col(j).maxCoeff() / Scalar(32);
+      for (Eigen::Index i = 0; i < y.rows(); ++i) {
+        const Scalar difference = best(i, j) - second(i, j);
+        if (difference == Scalar(0)) continue;
+        const Scalar part = std::max(size(i, j), column);
+        worst = std::max(worst, Scalar((difference < Scalar(0) ? -difference : difference) / part));
+      }
+    }
+    return worst;
+  }
+
+  Rate rate_;
+  std::vector<M> table_;
+  M start_;  ///< the rate at y
+  M difference_, point_, slope_;
+  bool start_known_ = false;
+  int evaluations_ = 0;
+  std::string fault_;  ///< since the last step
+};
+
+}  // namespace gainsmith::numbers
