@@ -1,7 +1,8 @@
 // Internal to numbers: y' = f(q, y) from q = 0 to 1 by extrapolation of the midpoint rule (Gragg
 // 1965; Bulirsch and Stoer 1966), over any real scalar.
 //
-//   z_1 = y + h f(y),   z_{i+1} = z_{i-1} + 2 h f(z_i),   h = H/n,   D_k = z_n - y,  n = 2 k
+//   z_1 = y + h f(y),   z_{i+1} = z_{i-1} + 2 h f(z_i),   h = H/n,   n = 2 k
+//   D_k = (z_{n-1} + z_n + h f(z_n))/2 - y
 //   T_{k,1} = D_k,      T_{k,i+1} = T_{k,i} + (T_{k,i} - T_{k-1,i}) / ((n_k / n_{k-i})^2 - 1)
 //
 // D_k errs in even powers of h, so that each column of the table gains two orders. A step of the
@@ -70,7 +71,7 @@ class Extrapolation {
   const Scalar kError =
       std::max(Scalar(16) * std::numeric_limits<Scalar>::epsilon(), Scalar(1e-105));
   const Scalar kClose{1e-4};
-  const Scalar kRounding = Scalar(4096) * kError;  ///< where columns do not agree better
+  const Scalar kRounding = Scalar(256) * kError;  ///< where columns do not agree better
 
   static Scalar growth(int columns) {
     if (columns <= 4) return Scalar(4);
@@ -120,7 +121,7 @@ class Extrapolation {
     if (!rate.allFinite()) throw expr::EvaluationError("the rate is not a finite number");
   }
 
-  /// z_n - y to difference_.
+  /// D of n parts to difference_.
   void midpoint(const Scalar& q, const Scalar& step, const M& y, int n) {
     const Scalar h = step / Scalar(n);
     M before = M::Zero(y.rows(), y.cols());
@@ -131,6 +132,9 @@ class Extrapolation {
       before += (h + h) * slope_;
       before.swap(difference_);
     }
+    point_ = y + difference_;
+    evaluate(Scalar(q + step), point_, slope_);
+    difference_ = M((before + difference_ + h * slope_) / Scalar(2));
   }
 
   /// Row k of the table, in the place of row k - 1; whether it is finite.
