@@ -78,6 +78,11 @@ class Binder {
   Bound jacobian(const Expression& expression, const Node& node);
   Bound derivative_by(const Expression& expression, const Node& node, int value, int variable,
                       int point);
+  // bind_rate.cpp
+  Bound rate(const Expression& expression, const Node& node);
+  std::map<int, int> rates_of(const Expression& expression, const Node& node, int value);
+  Bound derivative_along(const Expression& expression, const Node& node, int value,
+                         const std::map<int, int>& rates);
 
   bool is_zero(Bound value) const;
   [[noreturn]] void unknown_name(const Expression& expression, const Node& node) const;
