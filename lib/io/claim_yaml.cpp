@@ -6,7 +6,7 @@ namespace gainsmith::io {
 
 namespace {
 
-using Kind = model::ClaimKind;
+using model::ClaimKind;
 
 void read_cost(const YamlFile& file, const YamlItem& cost, const YamlItem& below,
                model::Claim& claim) {
@@ -39,16 +39,16 @@ void read_kind(const YamlFile& file, const YamlItem& item, YamlMap& map, model::
   if (to && !shrinks) throw InputError(to->place, "to: of the claim shrinks");
   if (nonincreasing) claim.value = file.expression(nonincreasing->value, item.key);
   if (cost) {
-    claim.kind = Kind::cost;
+    claim.kind = ClaimKind::cost;
     read_cost(file, *cost, map.require("below"), claim);
   }
   if (shrinks) {
-    claim.kind = Kind::shrinks;
+    claim.kind = ClaimKind::shrinks;
     claim.value = file.expression(shrinks->value, item.key);
     claim.factor = file.expression(map.require("to").value, "to");
   }
   if (bounded) {
-    claim.kind = above ? Kind::above : Kind::below;
+    claim.kind = above ? ClaimKind::above : ClaimKind::below;
     claim.value = file.expression((above ? above : below)->value, item.key);
     claim.bound = file.expression(map.require("bound").value, "bound");
   }
@@ -71,7 +71,7 @@ model::Claim claim(const YamlFile& file, const YamlItem& item) {
   result.indices = signature.indices;
   result.place = item.place;
   for (const auto& part : {after, over})
-    if (part && (result.kind == Kind::cost || result.kind == Kind::shrinks))
+    if (part && (result.kind == ClaimKind::cost || result.kind == ClaimKind::shrinks))
       throw InputError(part->place, part->key + ": of the claims nonincreasing, below and above");
   if (after) result.after = file.expression(after->value, "after");
   if (over) {
