@@ -17,6 +17,10 @@ std::string kind_text(model::ClaimKind kind) {
       return "cost stays below";
     case model::ClaimKind::shrinks:
       return "shrinks";
+    case model::ClaimKind::below:
+      return "stays below";
+    case model::ClaimKind::above:
+      return "stays above";
   }
   return "?";
 }

@@ -88,16 +88,25 @@ void add_errors(const EventReplay& replay, report::Figure& figure) {
   figure.panels.push_back(std::move(panel));
 }
 
+/// On a logarithmic axis those that are never negative; the others, such as dissipation
+/// inequalities, on one of their own.
 void add_claims(const EventReplay& replay, report::Figure& figure) {
-  report::Panel panel;
-  panel.title = "claims";
-  panel.logarithmic = true;
+  report::Panel sizes;
+  sizes.title = "claims";
+  sizes.logarithmic = true;
+  report::Panel signed_ones;
+  signed_ones.title = "claims of either sign";
   for (std::size_t k = 0; k < replay.columns.size(); ++k) {
     if (replay.columns[k].kind != Kind::claim) continue;
-    panel.curves.push_back(curve(replay, k));
-    panel.curves.back().colour = static_cast<int>(panel.curves.size());
+    report::Curve one = curve(replay, k);
+    const bool negative =
+        std::any_of(one.value.begin(), one.value.end(), [](double value) { return value < 0; });
+    report::Panel& panel = negative ? signed_ones : sizes;
+    one.colour = static_cast<int>(panel.curves.size()) + 1;
+    panel.curves.push_back(std::move(one));
   }
-  if (!panel.curves.empty()) figure.panels.push_back(std::move(panel));
+  for (report::Panel* panel : {&sizes, &signed_ones})
+    if (!panel->curves.empty()) figure.panels.push_back(std::move(*panel));
 }
 
 }  // namespace

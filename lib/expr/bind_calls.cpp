@@ -43,6 +43,7 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
            "'" + name + "' takes 1 arguments, not " + std::to_string(node.children.size()));
     return bind_given_function(expression, node, name, *node.children.front(), found->second);
   }
+  if (name == "rate" && node.children.size() == 1) return rate(expression, node);
   const Function* function = find_function(name);
   if (function == nullptr) unknown_name(expression, node);
   const int count = static_cast<int>(node.children.size());

@@ -101,10 +101,17 @@ class Binder {
   std::vector<bool> depending_on(const std::vector<int>& variables, int until) const;
   // bind_jacobian.cpp
   Bound jacobian(const Expression& expression, const Node& node);
+  Bound derivative_by(const Expression& expression, const Node& node, int value, int variable,
+                      int point);
   // bind_flow_map.cpp
   Bound flow_map(const Expression& expression, const Node& node);
   void require_past(const Expression& expression, const Node& node,
                     const std::vector<int>& outside) const;
+  // bind_rate.cpp
+  Bound rate(const Expression& expression, const Node& node);
+  std::map<int, int> rates_of(const Expression& expression, const Node& node, int value);
+  Bound derivative_along(const Expression& expression, const Node& node, int value,
+                         const std::map<int, int>& rates);
 
   bool is_zero(Bound value) const;
   [[noreturn]] void unknown_name(const Expression& expression, const Node& node) const;

@@ -51,6 +51,11 @@ inline std::string event_number(const std::string& what, const std::string& even
   return what + "(" + event + ")";
 }
 
+/// "rate(x)": under this name a scope has the definition of the derivative of a symbol along flows;
+/// "frozen(x)": of a number that is positive where the symbol rests nevertheless.
+inline std::string rate_name(const std::string& symbol) { return "rate(" + symbol + ")"; }
+inline std::string frozen_name(const std::string& symbol) { return "frozen(" + symbol + ")"; }
+
 /// The ranges of the indices of a family.
 using Ranges = std::vector<std::pair<int, int>>;
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -26,7 +27,8 @@ std::string to_string(Termination termination);
 /// How one sample follows from the one before it.
 struct Move {
   bool jump = false;
-  FlowStep step;  ///< of the flow, when it is no jump
+  FlowStep step;          ///< of the flow, when it is no jump
+  std::size_t event = 0;  ///< of dynamics with events, whose jump it is
 };
 
 /// The samples of one run, in order. At a jump the sample before (t, j) and the one after (t, j +

@@ -55,6 +55,7 @@ StartRule rule_of(const model::Design::Start& start, const EventSystem& system) 
   }
   if (start.kind == StartKind::box && (rule.values[0].array() > rule.values[1].array()).any())
     throw InputError(start.place, "the box of " + slot.name + " is empty: low > high");
+  if (start.kind == StartKind::ellipsoid) read_ellipsoid(rule, slot.name);
   return rule;
 }
 
@@ -187,6 +188,9 @@ VectorXd draw_start(const EventSystem& system, const EventScenario& scenario, st
       value = EventFunction(rule.program, system)(values);
     } else if (rule.kind == StartKind::list) {
       value = rule.values[run % rule.values.size()];
+    } else if (rule.kind == StartKind::ellipsoid) {
+      RandomStream random = event_stream(seed, run, Purpose::start, i);
+      value = draw_ellipsoid(rule, random);
     } else {
       RandomStream random = event_stream(seed, run, Purpose::start, i);
       value = box_value(rule, variable.structure == model::Structure::symmetric, random);
@@ -262,14 +266,16 @@ bool EventClocks::loses(std::size_t event) {
 }
 
 NoiseDraws::NoiseDraws(const EventSystem& system, std::uint64_t seed, std::uint64_t run)
-    : system_(&system), times_(system.noise.size(), 0) {
+    : system_(&system), run_(run), times_(system.noise.size(), 0) {
   for (std::size_t i = 0; i < system.noise.size(); ++i)
     random_.push_back(event_stream(seed, run, Purpose::noise, i));
 }
 
-void NoiseDraws::draw(std::size_t noise, VectorXd& values) {
+VectorXd NoiseDraws::next_value(std::size_t noise) {
   const Dynamics::Noise& one = system_->dynamics.noise[noise];
   const std::vector<numbers::Matrix>& rule = system_->noise[noise].values;
+  if (one.kind == Dynamics::NoiseKind::vertices || one.kind == Dynamics::NoiseKind::corners)
+    return rule[run_ / system_->noise[noise].stride % rule.size()].reshaped();
   RandomStream& random = random_[noise];
   VectorXd value(one.shape.size());
   for (Eigen::Index k = 0; k < value.size(); ++k) {
@@ -281,6 +287,11 @@ void NoiseDraws::draw(std::size_t noise, VectorXd& values) {
       value(k) = rule[0](k) * std::sqrt(-2 * std::log1p(-u)) * std::cos(angle);
     }
   }
+  return value;
+}
+
+void NoiseDraws::draw(std::size_t noise, VectorXd& values) {
+  const VectorXd value = next_value(noise);
   const auto& variables = system_->dynamics.variables;
   for (std::size_t i = 0; i < variables.size(); ++i)
     if (variables[i].kind == Dynamics::VariableKind::noise && variables[i].of == noise)

@@ -9,12 +9,13 @@
 //
 //   purpose  index     draws
 //   start    variable  one for each element of a box, column by column; of a symmetric state of its
-//                      lower triangle
+//                      lower triangle; of an ellipsoid those of initial.h
 //   first    event     one: the first time within the range of `first`
 //   length   event     one a length, of the laws that draw
 //   lost     event     draw k at occurrence k = 0, 1, ...
 //   noise    noise     two an element and drawing of normal noise, sqrt(-2 log(1 - u)) cos(2 pi v);
-//                      one of uniform noise
+//                      one of uniform noise; none of vertices and corners, where run k takes one
+//                      by its number
 #pragma once
 
 #include <cstdint>
@@ -107,7 +108,10 @@ class NoiseDraws {
   bool draw_due(double t, Eigen::VectorXd& values);
 
  private:
+  Eigen::VectorXd next_value(std::size_t noise);
+
   const EventSystem* system_;
+  std::uint64_t run_;
   std::vector<RandomStream> random_;
   std::vector<std::uint64_t> times_;  ///< drawn by time so far
 };

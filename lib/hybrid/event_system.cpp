@@ -152,26 +152,63 @@ void read_events(EventSystem& system) {
   }
 }
 
+/// The corners of a box [low, high]: elements whose ends differ are low or high, the first turns
+/// fastest.
+std::vector<numbers::Matrix> corners_of(const numbers::Matrix& low, const numbers::Matrix& high,
+                                        const Dynamics::Noise& noise) {
+  constexpr std::size_t kMost = 16;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < low.size(); ++k)
+    if (low(k) != high(k)) free.push_back(k);
+  if (free.size() > kMost)
+    throw InputError(noise.place, fmt::format("the box of {} has 2^{} corners; at most 2^{} are "
+                                              "taken, otherwise give a list of vertices",
+                                              noise.name, free.size(), kMost));
+  std::vector<numbers::Matrix> corners;
+  for (std::size_t corner = 0; corner < std::size_t{1} << free.size(); ++corner) {
+    corners.push_back(low);
+    for (std::size_t k = 0; k < free.size(); ++k)
+      if ((corner >> k & 1U) != 0) corners.back()(free[k]) = high(free[k]);
+  }
+  return corners;
+}
+
+EventSystem::NoiseValues noise_values(const Dynamics::Noise& noise, const EventSystem& system) {
+  using NoiseKind = Dynamics::NoiseKind;
+  EventSystem::NoiseValues made;
+  for (const model::Formula& formula : noise.values) {
+    numbers::Matrix value = system.value(formula);
+    if (value.size() == 1)
+      value = numbers::Matrix::Constant(noise.shape.rows, noise.shape.cols, value(0, 0));
+    made.values.push_back(std::move(value));
+  }
+  const auto& values = made.values;
+  if (noise.kind == NoiseKind::normal && (values.front().array() < 0).any())
+    throw InputError(noise.place, "the deviation of " + noise.name + " is negative");
+  const bool box = noise.kind == NoiseKind::uniform || noise.kind == NoiseKind::corners;
+  if (box && (values.front().array() > values.back().array()).any())
+    throw InputError(noise.place, "the range of " + noise.name + " has low > high");
+  if (noise.kind == NoiseKind::corners)
+    made.values = corners_of(values.front(), values.back(), noise);
+  if (noise.every) made.every = system.scalar(*noise.every);
+  if (made.every && !(*made.every > 0))
+    throw InputError(noise.every->place, noise.name + " is drawn anew after " + brief(*made.every) +
+                                             ": expected a positive time");
+  return made;
+}
+
 void read_noise(EventSystem& system) {
+  constexpr std::uint64_t kMostTogether = 1'000'000'000'000'000;
+  std::uint64_t stride = 1;
   for (const Dynamics::Noise& noise : system.dynamics.noise) {
-    EventSystem::NoiseValues made;
-    for (const model::Formula& formula : noise.values) {
-      numbers::Matrix value = system.value(formula);
-      if (value.size() == 1)
-        value = numbers::Matrix::Constant(noise.shape.rows, noise.shape.cols, value(0, 0));
-      made.values.push_back(std::move(value));
-    }
-    const auto& values = made.values;
-    const bool normal = noise.kind == Dynamics::NoiseKind::normal;
-    if (normal ? (values.front().array() < 0).any()
-               : (values.front().array() > values.back().array()).any())
-      throw InputError(noise.place, normal ? "the deviation of " + noise.name + " is negative"
-                                           : "the range of " + noise.name + " has low > high");
-    if (noise.every) made.every = system.scalar(*noise.every);
-    if (made.every && !(*made.every > 0))
-      throw InputError(noise.every->place, noise.name + " is drawn anew after " +
-                                               brief(*made.every) + ": expected a positive time");
-    system.noise.push_back(std::move(made));
+    system.noise.push_back(noise_values(noise, system));
+    EventSystem::NoiseValues& made = system.noise.back();
+    if (noise.kind != Dynamics::NoiseKind::vertices && noise.kind != Dynamics::NoiseKind::corners)
+      continue;
+    made.stride = stride;
+    if (made.values.size() > kMostTogether / stride)
+      throw InputError(noise.place, "there are more than 1e15 vertices together");
+    stride *= made.values.size();
   }
 }
 

@@ -35,9 +35,11 @@ struct EventSystem {
     std::optional<std::pair<double, double>> first;  ///< none: one length after the start
   };
 
-  /// Of one noise: normal: the deviation; uniform: low and high. All of its shape.
+  /// Of one noise: normal: the deviation; uniform: low and high; vertices and corners: the list, of
+  /// which run k takes element k/stride modulo their number. All of its shape.
   struct NoiseValues {
     std::vector<numbers::Matrix> values;
+    std::uint64_t stride = 1;
     std::optional<double> every;
   };
 

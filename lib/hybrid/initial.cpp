@@ -1,7 +1,12 @@
 #include "hybrid/initial.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <utility>
+
+#include "base/number.h"
 
 namespace gainsmith::hybrid {
 
@@ -45,6 +50,7 @@ StartRule make_rule(const model::Design::Start& start, const System& system) {
                                                        : system.value(formula));
   if (start.kind == StartKind::box && (rule.values[0].array() > rule.values[1].array()).any())
     throw InputError(start.place, "the box of " + slot.name + " is empty: low > high");
+  if (start.kind == StartKind::ellipsoid) read_ellipsoid(rule, slot.name);
   return rule;
 }
 
@@ -55,6 +61,38 @@ StartRule unit_box(expr::Shape shape) {
 }
 
 }  // namespace
+
+void read_ellipsoid(StartRule& rule, const std::string& state) {
+  constexpr double kAsymmetry = 1e-9;
+  const numbers::Matrix Q = rule.values[1];
+  const double level = rule.values[2](0, 0);
+  const auto fail = [&](const std::string& why) {
+    throw InputError(rule.place, "the ellipsoid of " + state + ": " + why);
+  };
+  const double size = Q.size() > 0 ? Q.cwiseAbs().maxCoeff() : 0;
+  const double asymmetry = Q.size() > 0 ? (Q - Q.transpose()).cwiseAbs().maxCoeff() : 0;
+  if (asymmetry > kAsymmetry * size) fail("its matrix is not symmetric");
+  if (!(level >= 0 && std::isfinite(level)))
+    fail("its level is " + brief(level) + ": expected a number from 0 on");
+  const Eigen::LLT<numbers::Matrix> factors((Q + Q.transpose()) / 2);
+  if (!Q.allFinite() || factors.info() != Eigen::Success)
+    fail("its matrix is not positive definite");
+  const numbers::Matrix unit = numbers::Matrix::Identity(Q.rows(), Q.cols());
+  rule.values = {rule.values[0], std::sqrt(level) * factors.matrixU().solve(unit)};
+}
+
+Eigen::VectorXd draw_ellipsoid(const StartRule& rule, RandomStream& random) {
+  const Eigen::Index n = rule.values[0].size();
+  Eigen::VectorXd z(n);
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const double u = random.uniform();
+    z(k) = std::sqrt(-2 * std::log1p(-u)) * std::cos(2 * std::numbers::pi * random.uniform());
+  }
+  const double u = random.uniform();
+  const double length = z.norm();
+  if (length > 0) z *= std::pow(u, 1 / static_cast<double>(n)) / length;
+  return rule.values[0].col(0) + rule.values[1] * z;
+}
 
 std::vector<StartRule> make_start_rules(const model::Design& design, const System& system) {
   const std::vector<model::Design::Start>& starts = design.campaign.starts;
@@ -94,6 +132,9 @@ Eigen::VectorXd Starts::operator()(std::uint64_t run, RandomStream& random) {
         break;
       case StartKind::list:
         part = rule.values[run % rule.values.size()].reshaped();
+        break;
+      case StartKind::ellipsoid:
+        part = draw_ellipsoid(rule, random);
         break;
       case StartKind::box: {
         const Eigen::VectorXd low = rule.values[0].reshaped();

@@ -218,9 +218,12 @@ NoiseRange JudgedTexts::noise_range(const Dynamics::Noise& one) const {
   };
   NoiseRange range;
   if (one.every) range.every = scalar(*one.every);
-  if (one.kind == Dynamics::NoiseKind::uniform) {
-    range.low = fitted(one.values[0]);
-    range.high = fitted(one.values[1]);
+  if (one.kind != Dynamics::NoiseKind::normal) {
+    range.low = range.high = fitted(one.values[0]);
+    for (const model::Formula& formula : one.values) {
+      range.low = range.low.cwiseMin(fitted(formula));
+      range.high = range.high.cwiseMax(fitted(formula));
+    }
     return range;
   }
   // A draw from 53 random bits lies within 8.6 deviations.

@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "expr/parser.h"
 #include "io/component_yaml.h"
 #include "io/measured_yaml.h"
 
@@ -28,6 +29,21 @@ std::optional<model::Timer> timer(const YamlFile& file, const std::optional<Yaml
                       first[0],          first[1], items.front().place};
 }
 
+/// "{amplitude: 0.1, frequency: [1, 2], phase: [0, 2*pi]}", each a value or [low, high].
+void read_sinusoid(const YamlFile& file, const YamlItem& item, model::NoiseText& noise) {
+  YamlMap map(file, item.value, "sinusoid");
+  const YamlItem amplitude = map.require("amplitude");
+  const YamlItem frequency = map.require("frequency");
+  const auto phase = map.find("phase");
+  map.finish();
+  for (const YamlItem& part : {amplitude, frequency})
+    noise.sinusoid.emplace_back(part.key, one_or_two(file, part));
+  if (phase) noise.sinusoid.emplace_back("phase", one_or_two(file, *phase));
+  if (!phase)
+    noise.sinusoid.emplace_back("phase",
+                                std::vector{expr::parse(expr::Text::generated("0", item.place))});
+}
+
 /// "w: {normal: 0.03, new at: sample}", "w: {uniform: [-1, 1], every: 0.1}".
 model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
   using Kind = model::Dynamics::NoiseKind;
@@ -37,11 +53,19 @@ model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
   result.place = item.place;
   const auto normal = map.find("normal");
   const auto uniform = map.find("uniform");
+  const auto sinusoid = map.find("sinusoid");
   const auto event = map.find("new at");
   const auto every = map.find("every");
   map.finish();
-  if (normal.has_value() == uniform.has_value())
-    throw InputError(item.place, "noise: expected {normal: deviation} or {uniform: [low, high]}");
+  if (static_cast<int>(normal.has_value()) + static_cast<int>(uniform.has_value()) +
+          static_cast<int>(sinusoid.has_value()) !=
+      1)
+    throw InputError(item.place,
+                     "noise: expected {normal: deviation}, {uniform: [low, high]} or {sinusoid: "
+                     "{amplitude: ..., frequency: ..., phase: ...}}");
+  if (sinusoid && (event || every))
+    throw InputError((event ? event : every)->place, "noise: a sinusoid is drawn once a run");
+  if (sinusoid) read_sinusoid(file, *sinusoid, result);
   if (event && every)
     throw InputError(every->place, "noise: drawn anew at an event or every so often, not both");
   if (normal) result.values = {file.expression(normal->value, "normal")};

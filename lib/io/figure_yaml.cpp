@@ -17,7 +17,7 @@ using model::FigureText;
 constexpr const char* kForms =
     "a figure is one of {at: {event: ..., count: ..., side: before}, value: v}, {at: {t: ...}, "
     "value: v}, {peak: v}, {least: v}, {settles: v, below: b}, {rms: v, over: [a, b]}, {count: "
-    "event}, {passes: event}, {ended: why}";
+    "event}, {passes: event}, {lost: event}, {ended: why}";
 
 /// "at: {event: leave, count: 1, side: before}" or "at: {t: 10}".
 void read_moment(const YamlFile& file, const YamlItem& item, FigureText& figure) {
@@ -55,13 +55,14 @@ void read_moment(const YamlFile& file, const YamlItem& item, FigureText& figure)
 
 /// The figure of a mapping of which `expect` takes other keys besides.
 FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
-  static const std::array<std::pair<const char*, FigureKind>, 6> kOfValues = {
+  static const std::array<std::pair<const char*, FigureKind>, 7> kOfValues = {
       {{"peak", FigureKind::peak},
        {"least", FigureKind::least},
        {"settles", FigureKind::settles},
        {"rms", FigureKind::rms},
        {"count", FigureKind::count},
-       {"passes", FigureKind::passes}}};
+       {"passes", FigureKind::passes},
+       {"lost", FigureKind::lost}}};
   FigureText result;
   result.place = map.place();
   int found = 0;
@@ -81,7 +82,8 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
     if (const auto item = map.find(key)) {
       ++found;
       result.kind = kind;
-      const bool of_event = kind == FigureKind::count || kind == FigureKind::passes;
+      const bool of_event =
+          kind == FigureKind::count || kind == FigureKind::passes || kind == FigureKind::lost;
       if (of_event)
         result.event = file.string(item->value, key);
       else

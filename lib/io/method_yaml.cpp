@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/blocks_yaml.h"
+#include "io/claim_yaml.h"
 #include "io/declaration_yaml.h"
 #include "io/dynamics_yaml.h"
 #include "io/method_node.h"
@@ -125,45 +126,6 @@ model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
   if (!result.conditions.empty() && result.indices.empty())
     throw InputError(result.conditions.front().place(*result.conditions.front().root),
                      "a condition chooses among indices, such as i in 1..N: there are none here");
-  return result;
-}
-
-model::Claim claim(const YamlFile& file, const YamlItem& item) {
-  using Kind = model::ClaimKind;
-  YamlMap map(file, item.value, item.key);
-  const auto nonincreasing = map.find("nonincreasing");
-  const auto cost = map.find("cost");
-  const auto shrinks = map.find("shrinks");
-  if (static_cast<int>(nonincreasing.has_value()) + static_cast<int>(cost.has_value()) +
-          static_cast<int>(shrinks.has_value()) !=
-      1) {
-    map.finish();
-    throw InputError(item.place,
-                     "the claim '" + item.key + "' needs one of nonincreasing, cost, shrinks");
-  }
-  const expr::Signature signature = expr::parse_signature(item.key_text);
-  if (!signature.parameters.empty())
-    throw InputError(item.place, "a claim has no variables; one of a family is written " +
-                                     signature.name + "(i in 1..N)");
-  model::Claim result;
-  result.name = signature.name;
-  result.indices = signature.indices;
-  result.place = item.place;
-  if (nonincreasing) result.value = file.expression(nonincreasing->value, item.key);
-  if (cost) {
-    result.kind = Kind::cost;
-    YamlMap parts(file, cost->value, "cost");
-    result.flow_cost = optional_expression(file, parts.find("flow"));
-    result.jump_cost = optional_expression(file, parts.find("jump"));
-    parts.finish();
-    result.value = file.expression(map.require("below").value, "below");
-  }
-  if (shrinks) {
-    result.kind = Kind::shrinks;
-    result.value = file.expression(shrinks->value, item.key);
-    result.factor = file.expression(map.require("to").value, "to");
-  }
-  map.finish();
   return result;
 }
 

@@ -154,6 +154,21 @@ model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
   return result;
 }
 
+/// "{center: [1, 0], matrix: P, level: 2}": center, matrix, level.
+std::vector<model::Value> ellipsoid_of(const YamlFile& file, const YamlItem& item) {
+  YamlMap map(file, item.value, "ellipsoid");
+  const auto center = map.find("center");
+  const auto level = map.find("level");
+  const YamlItem matrix = map.require("matrix");
+  map.finish();
+  const auto value = [&](const std::optional<YamlItem>& given, const char* otherwise) {
+    if (given) return value_of(file, *given);
+    const expr::Text text = expr::Text::generated(otherwise, item.place);
+    return model::Value{item.key, expr::parse(text), false, item.place};
+  };
+  return {value(center, "0"), value_of(file, matrix), value(level, "1")};
+}
+
 model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
   using Kind = model::StartKind;
   model::InitialValue result{item.key, Kind::expression, {}, item.place};
@@ -164,10 +179,19 @@ model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
   YamlMap map(file, item.value, item.key);
   const auto box = map.find("box");
   const auto list = map.find("list");
+  const auto ellipsoid = map.find("ellipsoid");
   map.finish();
-  if (box.has_value() == list.has_value())
-    throw InputError(item.place,
-                     item.key + ": expected a value, {box: [low, high]} or {list: [values]}");
+  if (static_cast<int>(box.has_value()) + static_cast<int>(list.has_value()) +
+          static_cast<int>(ellipsoid.has_value()) !=
+      1)
+    throw InputError(item.place, item.key +
+                                     ": expected a value, {box: [low, high]}, {list: [values]} or "
+                                     "{ellipsoid: {center: ..., matrix: ...}}");
+  if (ellipsoid) {
+    result.kind = Kind::ellipsoid;
+    result.values = ellipsoid_of(file, *ellipsoid);
+    return result;
+  }
   result.kind = box ? Kind::box : Kind::list;
   const YamlItem& source = box ? *box : *list;
   if (!source.value.IsSequence() || source.value.size() == 0 || (box && source.value.size() != 2))
@@ -225,13 +249,42 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
   return result;
 }
 
-/// "cf: {box: [0.08, 0.12]}".
+/// "cf: {box: [0.08, 0.12]}", "cf: {box: [0.08, 0.12], sampling: vertices}", "A: {vertices: [A1,
+/// A2]}", or of a family "A: {vertices: As}".
 model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
   YamlMap map(file, item.value, item.key);
-  const YamlItem box = map.require("box");
+  const auto box = map.find("box");
+  const auto vertices = map.find("vertices");
+  const auto sampling = map.find("sampling");
   map.finish();
-  model::UncertainText result{item.key, one_or_two(file, box), item.place};
-  if (result.box.size() != 2) throw InputError(box.place, "box: expected [low, high]");
+  if (box.has_value() == vertices.has_value())
+    throw InputError(item.place,
+                     item.key + ": expected {box: [low, high]} or {vertices: [values]}");
+  model::UncertainText result;
+  result.name = item.key;
+  result.place = item.place;
+  if (box) result.box = one_or_two(file, *box);
+  if (box && result.box.size() != 2) throw InputError(box->place, "box: expected [low, high]");
+  if (sampling) {
+    const std::string word = file.string(sampling->value, "sampling");
+    const Place place = file.place(sampling->value);
+    if (vertices) throw InputError(place, "sampling: of a box");
+    if (word != "uniform" && word != "vertices")
+      throw InputError(place, "sampling: unknown word '" + word + "'" +
+                                  suggestion(word, {"uniform", "vertices"}));
+    result.corners = word == "vertices";
+  }
+  if (!vertices) return result;
+  const auto add = [&](const YAML::Node& node) {
+    result.vertices.push_back(value_of(file, {item.key, item.key_text, file.place(node), node}));
+  };
+  if (!vertices->value.IsSequence()) {
+    add(vertices->value);
+    return result;
+  }
+  if (vertices->value.size() == 0)
+    throw InputError(vertices->place, "vertices: expected a value at least");
+  for (const auto& entry : vertices->value) add(entry);
   return result;
 }
 

@@ -55,6 +55,10 @@ Design::Start Binding::start(const InitialValue& initial) const {
                                         suggestion(initial.state, names));
   }
   const expr::Shape state = design_->states[bound.state].shape;
+  if (initial.kind == StartKind::ellipsoid) {
+    bound.values = ellipsoid(initial, state);
+    return bound;
+  }
   for (const Value& given : initial.values) {
     if (initial.kind != StartKind::box) {
       bound.values.push_back(value(given, scope, state));
@@ -76,6 +80,19 @@ Design::Start Binding::start(const InitialValue& initial) const {
     throw InputError(initial.place, "the initial value of " + initial.state + " is incomplete");
   if (initial.kind == StartKind::box) check_box(bound, initial);
   return bound;
+}
+
+/// Center, matrix and level.
+std::vector<Formula> Binding::ellipsoid(const InitialValue& initial, expr::Shape state) const {
+  const expr::Scope& scope = names_->running;
+  if (initial.values.size() != 3)
+    throw InputError(initial.place, "the initial value of " + initial.state + " is incomplete");
+  if (state.cols != 1)
+    throw InputError(initial.place, "an ellipsoid is of a column or a number; the state " +
+                                        initial.state + " is " + to_string(state));
+  return {value(initial.values[0], scope, state),
+          value(initial.values[1], scope, expr::Shape{state.rows, state.rows}),
+          value(initial.values[2], scope, expr::Shape{})};
 }
 
 void Binding::bind_campaign() {

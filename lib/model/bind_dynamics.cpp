@@ -1,10 +1,12 @@
 // Components, their states, definitions and flows.
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "base/nearest.h"
 #include "expr/compile.h"
 #include "expr/rewrite.h"
+#include "model/binding.h"
 #include "model/dynamics_binding.h"
 
 namespace gainsmith::model {
@@ -88,23 +90,55 @@ void DynamicsBinding::add_definitions(const Component& component) {
   }
 }
 
-/// Uncertain data as the plant has them, drawn once a run, and the definitions that use them.
+/// The vertices of a list, or the members of the family that it names.
+std::vector<expr::Expression> DynamicsBinding::vertices_of(const UncertainText& text,
+                                                           expr::Shape shape) const {
+  std::vector<expr::Expression> vertices;
+  if (text.vertices.size() == 1) {
+    const expr::Expression& only = text.vertices.front().value;
+    const auto family = scope_->families.find(only.root->text);
+    if (only.root->kind == expr::NodeKind::name && family != scope_->families.end()) {
+      if (family->second.size() != 1)
+        throw InputError(text.place, "vertices: the family " + family->first +
+                                         " has several indices; list its members");
+      for (int k = family->second[0].first; k <= family->second[0].second; ++k) {
+        auto member = std::make_shared<expr::Node>(*only.root);
+        member->text = expr::member_name(family->first, {k});
+        vertices.push_back({only.text, member});
+      }
+      return vertices;
+    }
+  }
+  const bool column = shape.cols == 1 && shape.rows > 1;
+  for (const Value& value : text.vertices) vertices.push_back(oriented(value, column));
+  return vertices;
+}
+
+/// How the plant's value of uncertain data is chosen.
+Dynamics::Noise DynamicsBinding::varied_noise(const UncertainText& text, expr::Shape shape) const {
+  Dynamics::Noise noise;
+  noise.name = "plant." + text.name;
+  noise.kind = Dynamics::NoiseKind::uniform;
+  noise.shape = shape;
+  noise.place = text.place;
+  if (text.corners) noise.kind = Dynamics::NoiseKind::corners;
+  if (!text.vertices.empty()) noise.kind = Dynamics::NoiseKind::vertices;
+  const std::vector<expr::Expression> values =
+      text.vertices.empty() ? text.box : vertices_of(text, shape);
+  for (const expr::Expression& value : values) noise.values.push_back(constant(value, shape));
+  return noise;
+}
+
+/// Uncertain data as the plant has them, chosen once a run, and the definitions that use them.
 void DynamicsBinding::add_varied() {
   for (const UncertainText& text : *uncertain_) {
     const auto datum = scope_->symbols.find(text.name);
     if (datum == scope_->symbols.end() || !datum->second.known)
       throw InputError(text.place, "uncertain: '" + text.name + "' is no datum and no parameter" +
                                        suggestion(text.name, scope_->names()));
-    Dynamics::Noise noise;
-    noise.name = "plant." + text.name;
-    if (!is_free(noise.name))
+    if (!is_free("plant." + text.name))
       throw InputError(text.place, "uncertain: '" + text.name + "' also names a part of the plant");
-    noise.kind = Dynamics::NoiseKind::uniform;
-    noise.shape = datum->second.shape;
-    noise.place = text.place;
-    for (const expr::Expression& end : text.box)
-      noise.values.push_back(constant(end, datum->second.shape));
-    add_noise(std::move(noise));
+    add_noise(varied_noise(text, datum->second.shape));
   }
   for (const std::string& name : names_->varied())
     if (const auto found = scope_->definitions.find(name); found != scope_->definitions.end())

@@ -252,7 +252,45 @@ void DynamicsBinding::bind_stays(const Component& component, std::size_t at) {
          stay.say, stay.place});
 }
 
+/// The name of the time; a method may name something else t.
+std::string DynamicsBinding::time_of(const std::string& noise) {
+  for (const Dynamics::Variable& variable : result_.variables)
+    if (variable.kind == Kind::time) return variable.name;
+  Dynamics::Variable time;
+  time.kind = Kind::time;
+  time.name = noise + ".time";
+  scope_->symbols[time.name] = {};
+  result_.variables.push_back(time);
+  return time.name;
+}
+
+/// amplitude*sin(frequency*t + phase), a definition over three numbers that are drawn once a run.
+void DynamicsBinding::bind_sinusoid(const NoiseText& text) {
+  const std::string& w = text.name;
+  for (const auto& [part, ends] : text.sinusoid) {
+    Dynamics::Noise bound;
+    bound.name = w + "." + part;
+    bound.kind = Dynamics::NoiseKind::uniform;
+    bound.place = text.place;
+    for (const expr::Expression& end : {ends.front(), ends.back()})
+      bound.values.push_back(constant(end, std::nullopt));
+    bound.shape = bound.values.front().program.shape();
+    if (bound.values.back().program.shape() != bound.shape)
+      throw InputError(bound.values.back().place,
+                       "both ends of the " + part + " of the noise " + w + " must have one shape");
+    add_noise(std::move(bound));
+  }
+  const std::string sinusoid =
+      "(" + w + ".amplitude) .* sin((" + w + ".frequency)*(" + time_of(w) + ") + " + w + ".phase)";
+  const expr::Expression body = expr::parse(expr::Text::generated(sinusoid, text.place));
+  result_.signals.push_back({w, formula(body, *scope_, std::nullopt), std::nullopt});
+  scope_->definitions[w] = {{}, body};
+}
+
 void DynamicsBinding::bind_noise(const NoiseText& text) {
+  if (!is_free(text.name))
+    throw InputError(text.place, "'" + text.name + "' already names something else");
+  if (!text.sinusoid.empty()) return bind_sinusoid(text);
   Dynamics::Noise bound;
   bound.name = text.name;
   bound.kind = text.kind;
@@ -265,8 +303,6 @@ void DynamicsBinding::bind_noise(const NoiseText& text) {
                      "both ends of the noise " + text.name + " must have one shape");
   if (!text.event.empty()) bound.event = event(nullptr, text.event, text.place);
   if (text.every) bound.every = constant(*text.every, expr::Shape{});
-  if (!is_free(text.name))
-    throw InputError(text.place, "'" + text.name + "' already names something else");
   add_noise(std::move(bound));
 }
 

@@ -120,15 +120,24 @@ std::vector<Figure> Binding::figures(const FigureText& text) const {
   return result;
 }
 
-/// An observer's own event, or one of all.
-std::size_t Binding::event_of(const FigureText& text, const std::string& observer) const {
+/// The event that a name means for an observer: its own, or one of all.
+std::optional<std::size_t> Binding::find_event(const std::string& name,
+                                               const std::string& observer) const {
   const Component* component = nullptr;
   for (const Component& one : method().observers)
     if (one.name == observer) component = &one;
-  const auto name = dynamics_names_->event(component, text.event);
+  const auto found = dynamics_names_->event(component, name);
   const auto& events = design_->dynamics->events;
-  for (std::size_t k = 0; name && k < events.size(); ++k)
-    if (events[k].name == *name) return k;
+  for (std::size_t k = 0; found && k < events.size(); ++k)
+    if (events[k].name == *found) return k;
+  return std::nullopt;
+}
+
+std::size_t Binding::event_of(const FigureText& text, const std::string& observer) const {
+  if (const auto found = find_event(text.event, observer)) return *found;
+  const Component* component = nullptr;
+  for (const Component& one : method().observers)
+    if (one.name == observer) component = &one;
   throw InputError(text.place, "there is no event '" + text.event + "'" +
                                    suggestion(text.event, dynamics_names_->event_names(component)));
 }

@@ -1,4 +1,5 @@
-// The hybrid system: states, maps, the timer, signals, reports and claims.
+// The hybrid system: states, maps, the timer, signals and reports.
+#include <memory>
 #include <set>
 #include <utility>
 
@@ -7,6 +8,26 @@
 #include "model/dynamics_programs.h"
 
 namespace gainsmith::model {
+
+namespace {
+
+/// where(condition, 1, 0).
+expr::Expression one_where(const expr::Expression& condition) {
+  const auto made = [&](expr::NodeKind kind, const char* text) {
+    auto node = std::make_shared<expr::Node>();
+    node->kind = kind;
+    node->text = text;
+    node->begin = condition.root->begin;
+    node->end = condition.root->end;
+    return node;
+  };
+  auto whole = made(expr::NodeKind::call, "where");
+  whole->children = {condition.root, made(expr::NodeKind::number, "1"),
+                     made(expr::NodeKind::number, "0")};
+  return {condition.text, whole};
+}
+
+}  // namespace
 
 std::size_t Binding::state_of(const std::string& name) const {
   std::size_t at = 0;
@@ -71,6 +92,7 @@ void Binding::bind_dynamics() {
   };
   add_outputs(method().plant);
   for (const Component& observer : method().observers) add_outputs(observer);
+  add_rates();
   for (const Named& signal : method().signals)
     for (const Reading& reading : dynamics_names_->add_signal(signal)) {
       const std::string name =
@@ -81,6 +103,32 @@ void Binding::bind_dynamics() {
   design_->report = named(method().report, scope);
   names_->results = scope;
   names_->results.symbols["objective"] = {};
+}
+
+/// What rate(v) is made of: the flows of the states, and those of t and of the clocks.
+void Binding::add_rates() {
+  using Kind = Dynamics::VariableKind;
+  expr::Scope& scope = names_->running;
+  const auto add = [&](const std::string& name, const char* rate) {
+    scope.definitions[expr::rate_name(name)] = {
+        {}, expr::parse(expr::Text::generated(rate, method().dynamics_place))};
+  };
+  for (const Dynamics::Variable& variable : design_->dynamics->variables) {
+    if (variable.kind == Kind::time || variable.kind == Kind::since) add(variable.name, "1");
+    if (variable.kind == Kind::left) add(variable.name, "-1");
+  }
+  const auto add_flows = [&](const Component& component) {
+    for (const Named& entry : component.flow) {
+      const std::string name = full_name(component, entry.name);
+      scope.definitions[expr::rate_name(name)] = {{},
+                                                  dynamics_names_->within(component, entry.value)};
+      if (component.frozen)
+        scope.definitions[expr::frozen_name(name)] = {
+            {}, one_where(dynamics_names_->within(component, *component.frozen))};
+    }
+  };
+  add_flows(method().plant);
+  for (const Component& observer : method().observers) add_flows(observer);
 }
 
 /// Uncertain data and the definitions that use them, by others too.
@@ -107,7 +155,8 @@ void Binding::finish_dynamics() {
   for_each_program(*design_->dynamics, add);
   std::set<std::size_t> counted;
   const auto add_figure = [&](const Figure& figure) {
-    if (figure.kind == FigureKind::count || figure.kind == FigureKind::at_event)
+    if (figure.kind == FigureKind::count || figure.kind == FigureKind::at_event ||
+        figure.kind == FigureKind::lost)
       counted.insert(figure.event);
     if (figure.value) add(figure.value->program);
     if (figure.kind == FigureKind::passes)
@@ -120,6 +169,7 @@ void Binding::finish_dynamics() {
     add(claim.value.program);
     for (const auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor})
       if (*part) add((*part)->program);
+    if (claim.over) counted.insert(*claim.over);
   }
   drop_unread(*design_->dynamics, read, counted);
 }
@@ -130,53 +180,6 @@ void Binding::bind_timer() {
   const auto end = [&](const expr::Expression& text) { return scalar(text, names_->known); };
   design_->timer = {timer.name,           end(timer.low),        end(timer.high),
                     end(timer.first_low), end(timer.first_high), timer.place};
-}
-
-void Binding::bind_claims() {
-  for (const Claim& claim : method().claims)
-    for (const Member& member : members(claim.indices, {}, names_->running))
-      for (const auto& [observer, one] : readings(instantiated(claim, member)))
-        add_claim(one,
-                  member.title_of(dynamics_names_ ? dynamics_names_->title(claim.name, observer)
-                                                  : claim.name));
-}
-
-/// The texts of a claim, in order; those that it has.
-std::vector<expr::Expression*> texts_of(Claim& claim) {
-  std::vector<expr::Expression*> texts = {&claim.value};
-  for (auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor})
-    if (*part) texts.push_back(&**part);
-  return texts;
-}
-
-Claim Binding::instantiated(Claim claim, const Member& member) const {
-  for (expr::Expression* text : texts_of(claim))
-    *text = instantiate(*text, member, names_->running);
-  return claim;
-}
-
-/// A claim of an observer is one of each that has its names.
-std::vector<std::pair<std::string, Claim>> Binding::readings(Claim claim) const {
-  if (!dynamics_names_) return {{"", std::move(claim)}};
-  std::vector<expr::Expression> texts;
-  for (const expr::Expression* text : texts_of(claim)) texts.push_back(*text);
-  std::vector<std::pair<std::string, Claim>> result;
-  for (const Reading& reading : dynamics_names_->outside(texts)) {
-    const auto into = texts_of(claim);
-    for (std::size_t k = 0; k < into.size(); ++k) *into[k] = reading.texts[k];
-    result.emplace_back(reading.observer, claim);
-  }
-  return result;
-}
-
-void Binding::add_claim(const Claim& claim, const std::string& title) {
-  const expr::Scope& scope = names_->running;
-  const auto optional = [&](const std::optional<expr::Expression>& part) {
-    return part ? std::optional(scalar(*part, scope)) : std::nullopt;
-  };
-  design_->claims.push_back({title, claim.kind, scalar(claim.value, scope),
-                             optional(claim.flow_cost), optional(claim.jump_cost),
-                             optional(claim.factor), claim.place});
 }
 
 }  // namespace gainsmith::model

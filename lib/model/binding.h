@@ -121,12 +121,16 @@ class Binding {
   std::vector<NamedFormula> named(const std::vector<Named>& list, const expr::Scope& scope) const;
   void bind_timer();
   void bind_dynamics();
+  void add_rates();
   std::set<std::string> varied() const;
   void finish_dynamics();
+
+  // bind_claims.cpp
   void bind_claims();
   Claim instantiated(Claim claim, const Member& member) const;
   std::vector<std::pair<std::string, Claim>> readings(Claim claim) const;
-  void add_claim(const Claim& claim, const std::string& title);
+  Formula constant_of_claim(const expr::Expression& text, const std::string& key) const;
+  void add_claim(const Claim& claim, const std::string& title, std::optional<std::size_t> over);
 
   // bind_campaign.cpp
   void bind_campaign();
@@ -134,6 +138,7 @@ class Binding {
   bool is_run() const;
   std::size_t clock_of(const SamplingLaw& law) const;
   Design::Start start(const InitialValue& initial) const;
+  std::vector<Formula> ellipsoid(const InitialValue& initial, expr::Shape state) const;
   void check_box(const Design::Start& start, const InitialValue& initial) const;
   void check_within(const Formula& formula, const Formula& low, const Formula& high,
                     const std::string& what) const;
@@ -147,6 +152,7 @@ class Binding {
   Formula figure(const expr::Expression& text) const;
   void bind_expectation();
   std::vector<Figure> figures(const FigureText& text) const;
+  std::optional<std::size_t> find_event(const std::string& name, const std::string& observer) const;
   std::size_t event_of(const FigureText& text, const std::string& observer) const;
   void bind_comparison();
 

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "model/declaration.h"
@@ -75,13 +76,9 @@ struct NoiseText {
   std::vector<expr::Expression> values;  ///< the deviation; or the ends
   std::string event;                     ///< of `new at`
   std::optional<expr::Expression> every;
-  Place place;
-};
-
-/// Data of which the plant sees another value than the observers, drawn once a run.
-struct UncertainText {
-  std::string name;
-  std::vector<expr::Expression> box;  ///< low, high
+  /// amplitude*sin(frequency*t + phase), each a value or the ends of a range from which it is drawn
+  /// once a run; empty: it is no sinusoid.
+  std::vector<std::pair<std::string, std::vector<expr::Expression>>> sinusoid{};
   Place place;
 };
 

@@ -178,6 +178,9 @@ struct Design {
     std::optional<Formula> jump_cost;  ///< cost
     std::optional<Formula> factor;     ///< shrinks
     Place place;
+    std::optional<Formula> bound{};     ///< below, above: of constants
+    std::optional<Formula> after{};     ///< the time from which on it is claimed; none: the start
+    std::optional<std::size_t> over{};  ///< the event of the dynamics just after whose jumps it is
   };
 
   struct Law {
@@ -190,7 +193,8 @@ struct Design {
   struct Start {
     std::size_t state = 0;
     StartKind kind = StartKind::expression;
-    /// One value; low and high, scalar or of the state's shape; or the elements.
+    /// One value; low and high, scalar or of the state's shape; the elements; or of an ellipsoid
+    /// center, matrix and level.
     std::vector<Formula> values;
     Place place;
   };

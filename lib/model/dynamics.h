@@ -119,12 +119,19 @@ struct Dynamics {
     Place place;
   };
 
-  enum class NoiseKind { normal, uniform };
+  enum class NoiseKind {
+    normal,
+    uniform,
+    vertices,  ///< nothing is drawn: with all noises of this kind and the next, run k takes element
+               ///< k, modulo their number, of the product of their lists; the first turns fastest
+    corners  ///< the same of the corners of a box: elements of low or high, the first turns fastest
+  };
   struct Noise {
     std::string name;
     NoiseKind kind = NoiseKind::normal;
     expr::Shape shape;
-    /// normal: the deviation; uniform: low, high; scalars or of its shape, of constants.
+    /// normal: the deviation; uniform, corners: low, high; vertices: the list. Scalars or of its
+    /// shape, of constants.
     std::vector<Formula> values;
     std::optional<std::size_t> event;  ///< drawn anew at it, before its maps; none: see `every`
     std::optional<Formula> every;      ///< drawn anew after each such time; none: once a run
@@ -156,7 +163,7 @@ struct Dynamics {
   std::vector<Reaction> reactions;
   std::vector<Noise> noise;
   std::vector<Measured> measured;
-  std::vector<Signal> signals;  ///< outputs of the components, then signals
+  std::vector<Signal> signals;  ///< sinusoids, outputs of the components, then signals
 };
 
 }  // namespace gainsmith::model

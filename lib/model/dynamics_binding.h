@@ -10,7 +10,7 @@
 #include "expr/scope.h"
 #include "model/dynamics.h"
 #include "model/dynamics_names.h"
-#include "model/method.h"
+#include "model/problem.h"
 
 namespace gainsmith::model {
 
@@ -34,6 +34,8 @@ class DynamicsBinding {
   void add_measured(const MeasuredText& text);
   void bind_measured_events();
   void add_varied();
+  Dynamics::Noise varied_noise(const UncertainText& text, expr::Shape shape) const;
+  std::vector<expr::Expression> vertices_of(const UncertainText& text, expr::Shape shape) const;
   void bind_starts();
   void bind_flow(const Component& component, std::size_t at);
   std::size_t state(const Component& component, std::size_t at, const Named& entry,
@@ -51,6 +53,8 @@ class DynamicsBinding {
                       const expr::Scope& scope, std::size_t event) const;
   void bind_stays(const Component& component, std::size_t at);
   void bind_noise(const NoiseText& text);
+  void bind_sinusoid(const NoiseText& text);
+  std::string time_of(const std::string& noise);
   void add_noise(Dynamics::Noise noise);
   std::size_t event(const Component* component, const std::string& name, const Place& place) const;
   void check_ends(const std::string& event, const Formula& low, const Formula& high) const;

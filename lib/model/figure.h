@@ -6,6 +6,7 @@
 //   {settles: v, below: b}     the time from which on v stays below b; infinite when it does not
 //   {rms: v, over: [a, b]}     the root of the mean of v^2 over these times
 //   {count: event}, {passes: event}   how often it jumped; how often its loops ran in all
+//   {lost: event}              how many of these jumps no observer saw
 //   {ended: zeno}              why the run ended
 #pragma once
 
@@ -19,7 +20,7 @@
 
 namespace gainsmith::model {
 
-enum class FigureKind { at_event, at_time, peak, least, settles, rms, count, passes, ended };
+enum class FigureKind { at_event, at_time, peak, least, settles, rms, count, passes, lost, ended };
 
 /// A figure as read.
 struct FigureText {

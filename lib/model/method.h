@@ -91,6 +91,10 @@ struct Claim {
   std::optional<expr::Expression> factor;     ///< shrinks
   Place place;
   std::vector<expr::Index> indices{};
+  std::optional<expr::Expression> bound{};  ///< below, above: of constants
+  std::optional<expr::Expression> after{};  ///< the time from which on it is claimed
+  std::string over{};                       ///< the event just after whose jumps alone it is
+  Place over_place{};
 };
 
 struct Method {

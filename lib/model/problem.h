@@ -38,7 +38,8 @@ struct SamplingLaw {
 struct InitialValue {
   std::string state;
   StartKind kind = StartKind::expression;
-  std::vector<Value> values;  ///< one expression; low and high; or the elements
+  /// One expression; low and high; the elements; or center, matrix and level.
+  std::vector<Value> values;
   Place place;
 };
 
@@ -90,6 +91,15 @@ struct Search {
 struct Questions {
   std::vector<ScalarRange> ranges;
   std::vector<expr::Expression> figures;  ///< scalars that are shown of each result
+};
+
+/// Data of which the plant sees another value than the observers, chosen once a run.
+struct UncertainText {
+  std::string name;
+  std::vector<expr::Expression> box;  ///< low, high
+  bool corners = false;               ///< of the box, one after the other; otherwise drawn in it
+  std::vector<Value> vertices;        ///< one after the other; one that names a family: its members
+  Place place;
 };
 
 struct Problem {

@@ -66,6 +66,10 @@ std::string to_string(ClaimKind kind) {
       return "cost";
     case ClaimKind::shrinks:
       return "shrinks";
+    case ClaimKind::below:
+      return "below";
+    case ClaimKind::above:
+      return "above";
   }
   return "?";
 }

@@ -38,12 +38,15 @@ enum class Way {
 };
 std::string to_string(Way way);
 
-/// What a simulation can check of the gains.
+/// What a simulation can check of the gains: from a time on, or just after the jumps of an event
+/// alone, where a claim says so.
 enum class ClaimKind {
   nonincreasing,  ///< value never increases, along flows and over jumps
   cost,           ///< int flow_cost dt + sum over jumps of jump_cost (before the jump) <= value at
                   ///< the start
-  shrinks         ///< value at the end of the run <= factor * value at the start
+  shrinks,        ///< value at the end of the run <= factor * value at the start
+  below,          ///< value <= bound
+  above           ///< value >= bound
 };
 std::string to_string(ClaimKind kind);
 
@@ -63,7 +66,8 @@ enum class StartKind {
   expression,  ///< may use data, gains and the states declared before it
   box,         ///< uniform in [low, high], element by element; low and high scalar or of the
                ///< state's shape
-  list         ///< run i takes element i modulo their number
+  list,        ///< run i takes element i modulo their number
+  ellipsoid    ///< uniform in {x: (x - center)' matrix (x - center) <= level}; of a column
 };
 
 struct BoundOfGain {

@@ -110,7 +110,8 @@ ClaimCheck<Scalar>::ClaimCheck(const JudgedClaim& claim,
       system_(&system),
       value_(claim.value, system),
       jump_cost_(make_value(claim.jump_cost, system)),
-      factor_(make_value(claim.factor, system)) {
+      factor_(make_value(claim.factor, system)),
+      bound_(make_value(claim.bound, system)) {
   if (claim.flow_cost && !claim.integral && !claim.accumulated)
     flow_cost_.emplace(*claim.flow_cost, system);
 }
@@ -124,8 +125,19 @@ Finding ClaimCheck<Scalar>::operator()(const Track& track) {
       return cost(track);
     case model::ClaimKind::shrinks:
       return shrinks(track);
+    case model::ClaimKind::below:
+    case model::ClaimKind::above:
+      return bounded(track);
   }
   return {};
+}
+
+template <class Scalar>
+bool ClaimCheck<Scalar>::counts(const Track& track, std::size_t sample) const {
+  if (track.t[sample] < claim_->after) return false;
+  if (!claim_->over) return true;
+  return sample > 0 && track.moves[sample - 1].jump &&
+         track.moves[sample - 1].event == *claim_->over;
 }
 
 template <class Scalar>
@@ -137,21 +149,35 @@ std::vector<Bounded<Scalar>> ClaimCheck<Scalar>::values(const Track& track) {
   return values;
 }
 
+/// Whether the value at a sample may differ from that at the one before.
+template <class Scalar>
+bool ClaimCheck<Scalar>::may_change(const Track& track, std::size_t sample,
+                                    const std::vector<Bounded>& v) const {
+  if (claim_->over) return true;
+  const bool jump = track.moves[sample - 1].jump;
+  if (!claim_->value.varies(jump)) return false;
+  // Jumps of others leave it bit by bit.
+  return !(jump && track.accuracy > 0 && v[sample].value == v[sample - 1].value);
+}
+
 template <class Scalar>
 Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
   const std::vector<Bounded> v = values(track);
-  const double scale = static_cast<double>(v[0].value);
+  std::size_t first = 0;
+  while (first < v.size() && !counts(track, first)) ++first;
+  if (first == v.size()) return nothing_counts(track);
+  const double scale = static_cast<double>(v[first].value);
   const double floor =
       (track.accuracy > 0 ? kOfAccuracy * track.accuracy : kFloor<Scalar>)*std::abs(scale);
-  Bounded low = v[0];   // with the smallest value - bound
-  Bounded high = v[0];  // with the smallest value + bound
+  Bounded low = v[first];   // with the smallest value - bound
+  Bounded high = v[first];  // with the smallest value + bound
+  std::size_t last = first;
   std::optional<Finding> worst;
   double noise = 0;
-  for (std::size_t k = 1; k < v.size(); ++k) {
-    const bool jump = track.moves[k - 1].jump;
-    if (!claim_->value.varies(jump)) continue;
-    // Jumps of others leave it bit by bit.
-    if (jump && track.accuracy > 0 && v[k].value == v[k - 1].value) continue;
+  for (std::size_t k = first + 1; k < v.size(); ++k) {
+    if (!counts(track, k)) continue;
+    last = k;
+    if (!may_change(track, k, v)) continue;
     Judgement judgement = compare(v[k], high);
     if (judgement != Judgement::violated) {
       judgement = compare(v[k], low);
@@ -173,9 +199,52 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
     if (v[k].value - low.value < Scalar(v[k].bound - low.bound)) low = v[k];
     if (v[k].value - high.value < Scalar(high.bound - v[k].bound)) high = v[k];
   }
-  if (!worst && !is_number(v[0]))
-    worst = finding_at(track, 0, v[0], v[0], scale, compare(v[0], v[0]));
-  if (!worst) worst = finding_at(track, v.size() - 1, v.back(), v.front(), scale, Judgement::held);
+  if (!worst && !is_number(v[first]))
+    worst = finding_at(track, first, v[first], v[first], scale, compare(v[first], v[first]));
+  if (!worst) worst = finding_at(track, last, v[last], v[first], scale, Judgement::held);
+  worst->floor = noise;
+  return *worst;
+}
+
+template <class Scalar>
+Finding ClaimCheck<Scalar>::nothing_counts(const Track& track) const {
+  Finding finding;
+  finding.t = track.t.back();
+  finding.j = track.j.back();
+  finding.digits = kDigits<Scalar>;
+  finding.estimated = track.accuracy > 0;
+  return finding;
+}
+
+/// The value against the bound b at every sample that counts; `above` is `below` of what is
+/// negated.
+template <class Scalar>
+Finding ClaimCheck<Scalar>::bounded(const Track& track) {
+  const std::vector<Bounded> v = values(track);
+  const Bounded b = (*bound_)(track, 0);
+  const bool above = claim_->kind == model::ClaimKind::above;
+  double scale = hybrid::size_of(b.value);
+  for (std::size_t k = 0; k < v.size(); ++k)
+    if (counts(track, k) && is_number(v[k])) scale = std::max(scale, hybrid::size_of(v[k].value));
+  const double floor = (track.accuracy > 0 ? kOfAccuracy * track.accuracy : 0) * scale;
+  std::optional<Finding> worst;
+  double noise = 0;
+  const auto rank = [](const Finding& one) {
+    return std::tuple(one.violated(), one.undecided(), one.score);
+  };
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    if (!counts(track, k)) continue;
+    const Judgement judgement = above ? compare(b, v[k]) : compare(v[k], b);
+    Finding found = finding_at(track, k, above ? b : v[k], above ? v[k] : b, scale, judgement);
+    if (above) std::swap(found.value, found.bound);
+    const double top = hybrid::size_of(Scalar(v[k].value - b.value)) + v[k].bound + b.bound;
+    const bool drowned =
+        track.accuracy > 0 && found.undecided() && is_number(v[k]) && top <= kNothing * scale;
+    const bool nothing = judgement != Judgement::held && scale > 0 && (top <= floor || drowned);
+    if (nothing) noise = std::max(noise, top / scale);
+    if (!nothing && (!worst || rank(found) > rank(*worst))) worst = found;
+  }
+  if (!worst) worst = nothing_counts(track);
   worst->floor = noise;
   return *worst;
 }

@@ -6,6 +6,10 @@
 //   cost            c(k) <= v(0)                     at every sample; c(k) is the cost so far,
 //                   int flow_cost dt + sum of jump_cost at the samples before jumps
 //   shrinks         v(end) <= factor v(0)            held at once when v(0) = 0
+//   below, above    v(k) <= b, v(k) >= b             at every sample; b a constant
+//
+// `after` a time, the samples before it do not count; `over` an event, only those just after its
+// jumps do. Then v(0) is the first that counts.
 //
 // The comparison is that of real numbers. Each value comes with a bound of its error
 // (hybrid/bounded_run.h), which says what of it is certain; nothing else is forgiven:
@@ -21,7 +25,8 @@
 // says so. kFloor is 1e-24 in 31 digits, of which the last are rounding, and the range of the
 // numbers, 1e-200, in double. The bounds of a flow that is integrated to a relative accuracy a are
 // estimates: below a/1e4 of v(0) nothing is compared, nor below 1e-8 of it what lies in its own
-// error.
+// error. In a comparison with a bound b it is v - b that falls to nothing, and the scale is the
+// largest of |b| and |v| over the run.
 //
 // The integral of a quadratic form over a flow is a quadratic form of its start (step_maps.h). That
 // of any other is bounded over pieces of the flow (flow_integral.h).
@@ -44,7 +49,8 @@ std::string to_string(Judgement judgement);
 /// How near a run came to violating a claim.
 struct Finding {
   Judgement judgement = Judgement::held;
-  /// (value - bound) / |scale|, the scale being v(0) or, for `shrinks`, factor v(0). While
+  /// (value - bound) / |scale|, the scale being v(0) or, for `shrinks`, factor v(0), for `below`
+  /// the largest of |bound| and |value| over the run; (bound - value) / scale for `above`. While
   /// `nonincreasing` holds, value and bound are v(end) and v(0): what is left at the end. Infinite
   /// when a value is no number or the scale of a violation is 0; -1 when the scale is 0 and the
   /// claim holds.
@@ -72,6 +78,9 @@ struct JudgedClaim {
   std::optional<JudgedFunction> flow_cost;
   std::optional<JudgedFunction> jump_cost;
   std::optional<JudgedFunction> factor;
+  std::optional<JudgedFunction> bound;
+  double after = 0;                   ///< the time from which on samples count
+  std::optional<std::size_t> over{};  ///< the event just after whose jumps alone they do
   /// Which integrals of the step maps are those of the flow cost.
   std::optional<std::size_t> integral;
   /// The coordinate that is the integral of the flow cost, when the flow is integrated.
@@ -100,6 +109,10 @@ class ClaimCheck {
   Finding nonincreasing(const Track& track);
   Finding cost(const Track& track);
   Finding shrinks(const Track& track);
+  Finding bounded(const Track& track);
+  Finding nothing_counts(const Track& track) const;
+  bool counts(const Track& track, std::size_t sample) const;
+  bool may_change(const Track& track, std::size_t sample, const std::vector<Bounded>& v) const;
   Bounded step_cost(const Track& track, std::size_t move);
   Bounded rest_cost(const Track& track, std::size_t move);
 
@@ -108,6 +121,7 @@ class ClaimCheck {
   Value<Scalar> value_;
   std::optional<Value<Scalar>> jump_cost_;
   std::optional<Value<Scalar>> factor_;
+  std::optional<Value<Scalar>> bound_;
   std::optional<FlowIntegral<Scalar>> flow_cost_;  ///< when it is no quadratic form
   hybrid::Form<Scalar> rest_form_;                 ///< the integral over a rest
 };

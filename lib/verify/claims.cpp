@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "base/number.h"
+
 namespace gainsmith::verify {
 
 namespace {
@@ -21,8 +23,19 @@ LinkedClaim link_claim(const model::Design::Claim& claim, const hybrid::System& 
   if (claim.flow_cost) linked.flow_cost = link(*claim.flow_cost);
   if (claim.jump_cost) linked.jump_cost = link(*claim.jump_cost);
   if (claim.factor) linked.factor = link(*claim.factor);
+  if (claim.bound) linked.bound = link(*claim.bound);
+  if (claim.after) link(*claim.after);
+  linked.over = claim.over;
   if (claim.kind == model::ClaimKind::shrinks && !claim.factor)
     throw InputError(claim.place, "the claim '" + claim.name + "' has no factor");
+  const bool bounded =
+      claim.kind == model::ClaimKind::below || claim.kind == model::ClaimKind::above;
+  if (bounded && !claim.bound)
+    throw InputError(claim.place, "the claim '" + claim.name + "' has no bound");
+  if (!linked.stated() || !claim.after) return linked;
+  linked.after = system.scalar(*claim.after);
+  if (!(linked.after >= 0))
+    throw InputError(claim.after->place, "after: a time from 0 on, found " + brief(linked.after));
   return linked;
 }
 
@@ -36,6 +49,14 @@ std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::
       claims.back().missing.emplace_back("campaign.horizon");
   }
   return claims;
+}
+
+void check_times(const model::Design& design, const std::vector<LinkedClaim>& claims,
+                 double horizon) {
+  for (std::size_t k = 0; k < claims.size(); ++k)
+    if (claims[k].stated() && claims[k].after >= horizon)
+      throw InputError(design.claims[k].after->place,
+                       "after: the runs end at " + brief(horizon) + ", before the claim begins");
 }
 
 }  // namespace gainsmith::verify

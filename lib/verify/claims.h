@@ -21,11 +21,19 @@ struct LinkedClaim {
   std::optional<expr::Program> flow_cost;
   std::optional<expr::Program> jump_cost;
   std::optional<expr::Program> factor;
+  std::optional<expr::Program> bound;
+  double after = 0;                   ///< the time from which on it is claimed
+  std::optional<std::size_t> over{};  ///< the event just after whose jumps alone it is
 
   bool stated() const { return missing.empty(); }
 };
 
-/// All claims, in the method's order. InputError for `shrinks` without a factor.
+/// All claims, in the method's order. InputError for `shrinks` without a factor, a bound that is
+/// missing, and a time `after` that is no number from 0 on.
 std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::System& system);
+
+/// InputError for a claim that begins at the end of the runs or later. `claims`: of the design.
+void check_times(const model::Design& design, const std::vector<LinkedClaim>& claims,
+                 double horizon);
 
 }  // namespace gainsmith::verify

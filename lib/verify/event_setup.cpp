@@ -83,12 +83,15 @@ class Functions {
       JudgedClaim judged;
       judged.name = claim.name;
       judged.kind = claim.kind;
-      const std::size_t value = add(claim.value);
-      std::optional<std::size_t> parts[3];
-      if (claim.flow_cost) parts[0] = add_integral_of(claim);
-      if (claim.jump_cost) parts[1] = add(*claim.jump_cost);
-      if (claim.factor) parts[2] = add(*claim.factor);
-      plans_.push_back({std::move(judged), value, {parts[0], parts[1], parts[2]}});
+      judged.after = claim.after;
+      judged.over = claim.over;
+      Plan plan{std::move(judged), add(claim.value), {}};
+      if (claim.flow_cost) plan.parts[0] = add_integral_of(claim);
+      if (claim.jump_cost) plan.parts[1] = add(*claim.jump_cost);
+      if (claim.factor) plan.parts[2] = add(*claim.factor);
+      if (claim.bound) plan.parts[3] = add(*claim.bound);
+      add_looks(claim, plan.value);
+      plans_.push_back(std::move(plan));
     }
     for (Plan& plan : plans_) {
       JudgedClaim& judged = plan.judged;
@@ -99,6 +102,7 @@ class Functions {
       }
       if (plan.parts[1]) judged.jump_cost = function(*plan.parts[1]);
       if (plan.parts[2]) judged.factor = function(*plan.parts[2]);
+      if (plan.parts[3]) judged.bound = function(*plan.parts[3]);
       setup_.judged.push_back(std::move(judged));
     }
   }
@@ -107,8 +111,16 @@ class Functions {
   struct Plan {
     JudgedClaim judged;
     std::size_t value;
-    std::array<std::optional<std::size_t>, 3> parts;
+    std::array<std::optional<std::size_t>, 4> parts;
   };
+
+  /// Where along flows the value of a claim is looked at besides.
+  void add_looks(const LinkedClaim& claim, std::size_t value) {
+    if (claim.after > 0) setup_.looks.times.push_back(claim.after);
+    const bool above = claim.kind == model::ClaimKind::above;
+    if ((above || claim.kind == model::ClaimKind::below) && !claim.over)
+      setup_.looks.peaks.push_back({value, above ? -1.0 : 1.0, claim.after});
+  }
 
   std::size_t add_integral_of(const LinkedClaim& claim) {
     const std::string name = integral_name(claim.name);
@@ -158,6 +170,7 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
   plain.constants = setup->system.constants;
   plain.bodies = setup->system.bodies;
   setup->claims = link_claims(design, plain);
+  check_times(design, setup->claims, setup->scenario.horizon);
   setup->coordinates.affine = false;
   Functions(*setup).add_all();
   setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, std::nullopt);
@@ -215,19 +228,14 @@ void EventTracks::append(double t, std::int64_t j, const VectorXd& coarse, const
 }
 
 void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPiece& fine) {
-  const auto at = [](const hybrid::FlowPiece& flow, int piece) {
-    if (piece == kPieces) return flow.end;
-    const double t = flow.from() + (flow.to() - flow.from()) * piece / kPieces;
-    const auto step = std::find_if(flow.steps.begin(), flow.steps.end() - 1,
-                                   [&](const hybrid::DenseStep& one) { return t <= one.to; });
-    return (*step)(t);
-  };
-  const double length = fine.to() - fine.from();
   rounded_ += static_cast<double>(fine.steps.size());
-  for (int piece = 1; piece <= kPieces; ++piece) {
-    track_.moves.push_back({false, {hybrid::FlowStep::kRest, length / kPieces}});
-    append(fine.from() + length * piece / kPieces, fine.j, at(coarse, piece), at(fine, piece),
-           piece % kAround, kAround);
+  double before = fine.from();
+  int number = 0;
+  for (const FlowLook& look : looks_along(fine, setup_->looks, functions_)) {
+    track_.moves.push_back({false, {hybrid::FlowStep::kRest, look.t - before}});
+    append(look.t, fine.j, state_at(coarse, look.share), state_at(fine, look.share),
+           ++number % kAround, kAround);
+    before = look.t;
   }
 }
 
@@ -248,7 +256,7 @@ void EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Traj
     widen(first);
     first = track_.samples();
     rounded_ += 1;
-    track_.moves.push_back({true, {}});
+    track_.moves.push_back({true, {}, jump.event});
     append(jump.t, jump.j + 1, other.after, jump.after, 0, 1);
   }
   widen(first);

@@ -13,6 +13,7 @@
 #include "hybrid/event_run.h"
 #include "verify/claim_check.h"
 #include "verify/claims.h"
+#include "verify/flow_looks.h"
 #include "verify/run_values.h"
 
 namespace gainsmith::verify {
@@ -26,6 +27,7 @@ struct EventSetup {
   std::vector<expr::Program> functions;  ///< of the claims that are stated: the coordinates
   hybrid::Coordinates coordinates;
   std::vector<JudgedClaim> judged;  ///< the claims that are stated, in order
+  FlowLooks looks;                  ///< that the claims ask for
   std::unique_ptr<hybrid::BoundedSystem<double>> narrow;
 };
 
@@ -36,7 +38,7 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
 /// The runs of one (seed, number), to a relative accuracy and to a hundredth of it, as the samples
 /// of the functions; one for each thread. The setup must outlive it.
 ///
-///   samples   the ends of 32 equal parts of each flow, and the values after each jump
+///   samples   the looks along each flow (flow_looks.h), and the values after each jump
 ///   bound     four times the largest difference between the two runs at five samples around it, or
 ///             what a rounding for each step and jump so far makes of the value, up for some
 ///             elements and down for the others, + 8 u |value|: an estimate that leaves a margin,
@@ -46,8 +48,6 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
 /// lost. A run that ends by accumulating jumps is complete.
 class EventTracks {
  public:
-  static constexpr int kPieces = 32;
-
   /// `stopped` is asked along the runs: true ends them.
   explicit EventTracks(const EventSetup& setup, std::function<bool()> stopped = {});
 

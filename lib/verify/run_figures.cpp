@@ -57,9 +57,9 @@ std::optional<double> FigureOf::operator()(const Trajectory& run) {
     case Kind::rms:
       return finite(root_mean_square(run));
     case Kind::count:
-      return number_of(run, false);
     case Kind::passes:
-      return number_of(run, true);
+    case Kind::lost:
+      return number_of(run);
     case Kind::ended:
       break;
   }
@@ -200,11 +200,17 @@ std::optional<double> FigureOf::root_mean_square(const Trajectory& run) {
   return std::sqrt(sum / (to - from));
 }
 
-double FigureOf::number_of(const Trajectory& run, bool passes) const {
+double FigureOf::number_of(const Trajectory& run) const {
+  using Kind = model::FigureKind;
   double count = 0;
-  for (const auto& part : run.parts)
-    if (const auto* jump = std::get_if<JumpPoint>(&part); jump != nullptr && jump->event == event_)
-      count += passes ? (passes_ ? jump->after(*passes_) : 0) : 1;
+  for (const auto& part : run.parts) {
+    const auto* jump = std::get_if<JumpPoint>(&part);
+    if (jump == nullptr || jump->event != event_) continue;
+    if (kind_ == Kind::passes)
+      count += passes_ ? jump->after(*passes_) : 0;
+    else
+      count += kind_ == Kind::count || jump->lost ? 1 : 0;
+  }
   return count;
 }
 

@@ -28,7 +28,7 @@ class FigureOf {
   double settled(const hybrid::Trajectory& run);
   double last_above(const hybrid::DenseStep& step, double level);
   std::optional<double> root_mean_square(const hybrid::Trajectory& run);
-  double number_of(const hybrid::Trajectory& run, bool passes) const;
+  double number_of(const hybrid::Trajectory& run) const;
 
   model::FigureKind kind_;
   std::optional<RunValue> value_;

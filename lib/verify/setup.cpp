@@ -22,7 +22,7 @@ std::vector<expr::Program> functions_of(const Setup& setup) {
   std::vector<expr::Program> functions;
   for (const LinkedClaim* claim : stated_claims(setup)) {
     functions.push_back(claim->value);
-    for (const auto* part : {&claim->flow_cost, &claim->jump_cost, &claim->factor})
+    for (const auto* part : {&claim->flow_cost, &claim->jump_cost, &claim->factor, &claim->bound})
       if (*part) functions.push_back(**part);
   }
   return functions;
@@ -42,7 +42,8 @@ std::vector<std::optional<Eigen::Index>> add_integrals(Setup& setup) {
         added.back() = hybrid::add_integral(setup.coordinates, "integral of " + claim->name, cost);
     }
     next += static_cast<std::size_t>(claim->jump_cost.has_value()) +
-            static_cast<std::size_t>(claim->factor.has_value());
+            static_cast<std::size_t>(claim->factor.has_value()) +
+            static_cast<std::size_t>(claim->bound.has_value());
   }
   return added;
 }
@@ -62,6 +63,9 @@ void add_judged_claims(Setup& setup, std::vector<Wide>& forms) {
     if (claim->flow_cost) judged.flow_cost = take();
     if (claim->jump_cost) judged.jump_cost = take();
     if (claim->factor) judged.factor = take();
+    if (claim->bound) judged.bound = take();
+    judged.after = claim->after;
+    judged.over = claim->over;
     const Eigen::Index n = setup.coordinates.layout.size;
     judged.accumulated = *accumulated++;
     if (setup.steps && judged.flow_cost && judged.flow_cost->is_form()) {
@@ -105,6 +109,7 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
   std::optional<hybrid::FlowSteps> steps;
   if (system.flow) steps = hybrid::make_steps(system);
   std::vector<LinkedClaim> claims = link_claims(design, system);
+  check_times(design, claims, scenario.horizon);
   auto setup = std::make_unique<Setup>(Setup{std::move(system),
                                              std::move(scenario),
                                              std::move(steps),

@@ -1,0 +1,123 @@
+// Claims, starts, noise and uncertain data as texts: what they mean, and where they are wrong.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "io/problem_text.h"
+#include "model/bind.h"
+
+namespace gainsmith::io {
+namespace {
+
+using model::ClaimKind;
+using tests::input_error;
+
+const std::string kBall = R"(problem: ball
+method:
+  method: ball
+  data: {m: {shape: scalar, default: 2}, Q: {shape: 2 x 2, default: I}}
+  events: {impact: {when: plant.x(1) <= 0 and plant.x(2) < 0}}
+  noise: {w: {sinusoid: {amplitude: 0.1, frequency: [1, 2]}}}
+  plant:
+    state: {x: 2}
+    output: {y: x(1) + w}
+    flow: {x: "[x(2); -m]"}
+    at: {impact: {x: "[0; -0.8*x(2)]"}}
+  observer:
+    state: {xh: {shape: 2, start: 0}}
+    flow: {xh: "[xh(2); -m]"}
+  signals: {V: "(x - xh)'*(x - xh)"
+}
+claims : falls : {nonincreasing : V, over : impact} small
+    : {below : rate(V) + V, bound : 2 * m, after : 5} campaign : {
+horizon:
+  10, initial : {
+  x : {
+  ellipsoid : {
+  center:
+    [ 1, 0 ], matrix : Q
+  }
+  }
+  }
+}
+uncertain: {m: {vertices: [1, 2, 3]}}
+)";
+
+model::DesignPtr bound(const std::string& text) {
+  return model::bind(read_problem(text)).design;
+}
+
+TEST(Claims, BoundsTimesAndEventsAreBound) {
+  const model::DesignPtr design = bound(kBall);
+  ASSERT_EQ(design->claims.size(), 2U);
+  EXPECT_EQ(design->claims[0].kind, ClaimKind::nonincreasing);
+  EXPECT_EQ(design->claims[0].over, 0U);
+  EXPECT_FALSE(design->claims[0].after);
+  EXPECT_EQ(design->claims[1].kind, ClaimKind::below);
+  EXPECT_FALSE(design->claims[1].over);
+  EXPECT_EQ(design->claims[1].bound->text, "2*m");
+  EXPECT_EQ(design->claims[1].after->text, "5");
+}
+
+TEST(Claims, AnEventThatOnlyAClaimNamesIsOne) {
+  const std::string text = replaced(kBall, "  events: {", "  events: {look: {every: 1}, ");
+  EXPECT_NE(input_error([&] { bound(text); }).message().find("nothing happens at the event 'look'"),
+            std::string::npos);
+  EXPECT_EQ(bound(replaced(text, "over: impact", "over: look"))->claims[0].over, 0U);
+}
+
+TEST(Claims, TheShortFormHasBoundsAndTimes) {
+  const std::string text =
+      "problem: p\nmethod:\n  method: m\n  plant: {state: {z: scalar}, flow: {z: -z}}\n"
+      "  timer: {tau: {reset: [1, 2]}}\n"
+      "  claims: {c: {above: z, bound: -1, after: 3}, d: {nonincreasing: abs(z)}}\n";
+  EXPECT_EQ(bound(text)->claims[0].kind, ClaimKind::above);
+  const auto refused = [&](const std::string& by) {
+    return input_error([&] { bound(replaced(text, "abs(z)", by)); }).message();
+  };
+  EXPECT_NE(refused("z, over: tau").find("over: of methods with events"), std::string::npos);
+  EXPECT_NE(refused("rate(z)").find("of methods with events"), std::string::npos);
+}
+
+TEST(Claims, MistakesAreNamedAtTheirPlace) {
+  const std::vector<Mistake> mistakes = {
+      {"over: impact", "over: inpact", 18, 37,
+       "there is no event 'inpact'; did you mean 'impact'?"},
+      {"over: impact", "ower: impact", 18, 31, "did you mean 'over'?"},
+      {"bound: 2*m, ", "", 19, 12, "bound"},
+      {"nonincreasing: V, over: impact", "nonincreasing: V, bound: 1", 18, 31,
+       "bound: of the claims below and above"},
+      {"nonincreasing: V, over: impact", "shrinks: V, to: 1, over: impact", 18, 32,
+       "over: of the claims nonincreasing, below and above"},
+      {"nonincreasing: V, over: impact", "above: V, below: V, bound: 1", 18, 5,
+       "needs one of nonincreasing, cost, shrinks, below, above"},
+      {"bound: 2*m", "bound: x(1)", 19, 41, "'x' changes along a run"},
+      {"after: 5", "after: t", 19, 53, "'t' changes along a run"},
+      {"rate(V)", "rate(x*x')", 19, 25, "rate(v) is of a number or a column, not x*x'"},
+      {"rate(V)", "rate(rate(V))", 19, 20, "what holds a jacobian or a rate has none"},
+      {"-m]\"}\n    at", "-rate(m)]\"}\n    at", 10, 24,
+       "it stands in signals, claims and figures"},
+      {"{center: [1, 0], matrix: Q}", "{center: [1, 0]}", 20, 57, "matrix"},
+      {"center: [1, 0]", "centre: [1, 0]", 20, 58, "did you mean 'center'?"},
+      {"center: [1, 0]", "center: [1, 0, 0]", 20, 58, "wrong shape"},
+      {"{ellipsoid:", "{elipsoid:", 20, 46, "did you mean 'ellipsoid'?"},
+      {"frequency: [1, 2]", "phase: 0", 6, 24, "frequency"},
+      {"frequency: [1, 2]", "frequenzy: 1", 6, 41, "frequency"},
+      {"{sinusoid:", "{new at: impact, sinusoid:", 6, 15, "a sinusoid is drawn once a run"},
+      {"vertices: [1, 2, 3]", "vertices: [1, 2], box: [1, 2]", 21, 13, "expected {box:"},
+      {"vertices: [1, 2, 3]", "box: [1, 2], sampling: corners", 21, 40, "unknown word 'corners'"},
+      {"vertices: [1, 2, 3]", "vertices: [1, [1, 2]]", 21, 29, "wrong shape"},
+      {"vertices: [1, 2, 3]", "vertices: [1, x(1)]", 21, 29, "changes along a run"},
+  };
+  for (const Mistake& mistake : mistakes) {
+    const auto error = input_error([&] { bound(replaced(kBall, mistake.from, mistake.to)); });
+    EXPECT_NE(error.message().find(mistake.message), std::string::npos)
+        << mistake.to << ": " << error.what();
+    EXPECT_EQ(error.place().line, mistake.line) << mistake.to << ": " << error.what();
+    EXPECT_EQ(error.place().column, mistake.column) << mistake.to << ": " << error.what();
+  }
+}
+
+}  // namespace
+}  // namespace gainsmith::io
