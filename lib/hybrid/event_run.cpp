@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/number.h"
+#include "hybrid/branches.h"
 #include "hybrid/event_due.h"
 #include "hybrid/event_jump.h"
 #include "hybrid/event_rhythm.h"
@@ -43,6 +44,8 @@ constexpr double kOutside = 1e-9;
 constexpr double kEarly = 0.1;            ///< of a step
 constexpr double kShorterStep = 1.5;      ///< of the time up to an event
 constexpr double kShortestAgain = 1e-13;  ///< of the time
+/// At one time, before a kink counts as one that does not matter.
+constexpr int kMostTurns = 8;
 constexpr std::size_t kSlidingSwitches = 8;
 constexpr double kSlidingTime = 1e-10;  ///< of the horizon
 
@@ -71,6 +74,7 @@ class EventRun {
         horizon_(scenario.horizon),
         due_(system, watch, EventClocks(system, scenario, seed, run), scenario.horizon),
         noise_(system, seed, run),
+        branches_(system, watch, accuracy),
         flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
         rhythm_(scenario.horizon),
         state_rows_(rows_of_states(system)),
@@ -112,7 +116,7 @@ class EventRun {
     for (std::size_t k = 0; k < system_.noise.size(); ++k) noise_.draw(k, values_);
     due_.begin(values_, movement_);
     movement_.fill_clocks(0, values_);
-    hold_branches_at(values_, false);
+    branches_.hold(values_, false);
     result_.start = variables(values_);
     require_range();
   }
@@ -161,7 +165,7 @@ class EventRun {
       due_.spend(event, t_, movement_);
       movement_.fill_clocks(t_, values_);
     }
-    hold_branches_at(values_, false);
+    branches_.hold(values_, false);
   }
 
   void jump(std::size_t event) {
@@ -205,7 +209,9 @@ class EventRun {
       largest = largest.cwiseMax(step.coefficients.cwiseAbs().rowwise().sum()(state_rows_));
     rhythm_.push(t_, piece_.to() - piece_.from(), event, due_.has_clock(event),
                  values_(state_rows_), largest);
-    flow_->sharpen(rhythm_.shrinkage() * rhythm_.shrinkage());
+    const double part = rhythm_.shrinkage() * rhythm_.shrinkage();
+    flow_->sharpen(part);
+    branches_.sharpen(part);
     std::string names;
     for (const std::size_t one : rhythm_.events())
       names += (names.empty() ? "" : ", ") + system_.dynamics.events[one].name;
@@ -223,6 +229,7 @@ class EventRun {
   // --- Flows. ---
 
   void flow() {
+    branches_.hold_kinks(values_);
     double stop = std::min({horizon_, due_.clocks().next(), noise_.next()});
     movement_.begin(t_, values_);
     stop = watch_.next_line(movement_, t_, stop, values_);
@@ -238,11 +245,25 @@ class EventRun {
         throw RunEnd(Ending::lost, fmt::format("more than {} steps", kMostStepsOfRun));
       went = take(flow_->next());
     }
-    if (noise_.draw_due(t_, values_)) hold_branches_at(values_, false);
+    if (noise_.draw_due(t_, values_)) branches_.hold(values_, false);
   }
 
   /// Goes along a step up to where something happens.
-  Went take(const DenseStep& step) {
+  Went take(const DenseStep& whole) {
+    const auto turn = branches_.first_turn(StepValues(movement_, values_, whole), values_);
+    if (turn && turn->t == whole.from && ++turned_back_ < kMostTurns) {
+      values_(turn->held) *= -1;
+      return Went::stopped;
+    }
+    const bool turns = turn && turn->t > whole.from;
+    const Went went = along(turns && turn->t < whole.to ? movement_.until(whole, turn->t) : whole);
+    if (!turns || t_ != turn->t) return went;
+    values_(turn->held) *= -1;
+    return Went::stopped;
+  }
+
+  /// The same of a step on which no kink turns.
+  Went along(const DenseStep& step) {
     const StepValues inside(movement_, values_, step);
     require_inside(inside);
     std::vector<std::pair<double, std::string>> near;
@@ -254,7 +275,7 @@ class EventRun {
       VectorXd values = inside.at(one.t);
       const bool due = due_.first(values, one.t).has_value();
       const bool left = !due && leaves(values);
-      const bool turns = !due && !left && one.branch && hold_branches_at(values, true);
+      const bool turns = !due && !left && one.branch && branches_.hold(values, true);
       if (!due && !left && !turns) continue;
       if (is_coarse(step, one.t)) {
         due_.set_marks(marks);
@@ -262,7 +283,7 @@ class EventRun {
         return take_shorter(step.from + kShorterStep * (one.t - step.from));
       }
       note(near, one.t);
-      arrive(one.t < step.to ? step.until(one.t) : step, std::move(values));
+      arrive(one.t < step.to ? movement_.until(step, one.t) : step, std::move(values));
       if (left) leave_first();
       if (turns) watch_sliding(*one.branch);
       return Went::stopped;
@@ -302,6 +323,7 @@ class EventRun {
     chain_ = 0;
     piece_.steps.push_back(step);
     flow_end_ = variables(values_);
+    turned_back_ = 0;
     require_range();
   }
 
@@ -334,29 +356,6 @@ class EventRun {
 
   // --- Branches. ---
 
-  /// Sets the branches for these values; whether one changes. `crossing`: at a border of one, where
-  /// a sign of exactly 0 goes on to the other side.
-  bool hold_branches_at(VectorXd& values, bool crossing) {
-    bool changes = false;
-    for (std::size_t k = 0; k < watch_.switches.size(); ++k) {
-      const Switch& one = system_.switches[k];
-      const numbers::Matrix& difference = watch_.switches[k](values);
-      const Index offset = system_.layout.slots[system_.dynamics.variables.size() + k].offset;
-      for (Index e = 0; e < difference.size(); ++e) {
-        double& held = values(offset + e);
-        const double before = held;
-        const double d = difference(e);
-        if (one.is_sign) {
-          held = d > 0 ? 1 : d < 0 ? -1 : crossing ? -before : 0;
-        } else {
-          held = (one.strict ? d > 0 : d >= 0) ? 1 : -1;
-        }
-        changes = changes || held != before;
-      }
-    }
-    return changes;
-  }
-
   void watch_sliding(std::size_t branch) {
     switched_.push_back(t_);
     if (switched_.size() < kSlidingSwitches) return;
@@ -365,7 +364,7 @@ class EventRun {
     throw RunEnd(Ending::sliding,
                  fmt::format("sliding along the border of the {} at {}: both branches lead back to "
                              "it",
-                             system_.switches[branch].is_sign ? "sign" : "where",
+                             system_.switches[branch].kind == Switch::Kind::sign ? "sign" : "where",
                              to_string(system_.switches[branch].place)));
   }
 
@@ -377,6 +376,7 @@ class EventRun {
   double horizon_;
   DueEvents due_;
   NoiseDraws noise_;
+  Branches branches_;
   std::unique_ptr<Flow> flow_;
   EventRhythm rhythm_;
   std::vector<Index> state_rows_;
@@ -388,6 +388,7 @@ class EventRun {
   std::int64_t j_ = 0;
   std::int64_t chain_ = 0;  ///< jumps without a flow between them
   std::int64_t steps_ = 0;
+  int turned_back_ = 0;  ///< turns of kinks at this time
   FlowPiece piece_;
   Trajectory result_;
 };
