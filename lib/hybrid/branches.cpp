@@ -57,7 +57,9 @@ Branches::Branches(const EventSystem& system, EventWatch& watch, const Accuracy&
     : system_(&system),
       watch_(&watch),
       relative_(system.affine ? 0 : kOfAccuracy * accuracy.relative),
-      absolute_(system.affine ? 0 : kOfAccuracy * accuracy.absolute) {}
+      absolute_(system.affine                     ? 0
+                : accuracy.absolute_of.size() > 0 ? kOfAccuracy * accuracy.absolute_of.minCoeff()
+                                                  : kOfAccuracy * accuracy.absolute) {}
 
 Index Branches::offset(std::size_t one) const {
   return system_->layout.slots[system_->dynamics.variables.size() + one].offset;

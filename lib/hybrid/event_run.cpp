@@ -15,6 +15,7 @@
 #include "hybrid/event_rhythm.h"
 #include "hybrid/event_watch.h"
 #include "hybrid/integrator.h"
+#include "hybrid/run_record.h"
 #include "hybrid/simulate.h"
 
 namespace gainsmith::hybrid {
@@ -35,7 +36,6 @@ namespace {
 
 constexpr std::int64_t kLongestChain = 1000000;
 constexpr std::size_t kKeptOfChain = 1000;
-constexpr std::size_t kMostNotes = 100;
 constexpr std::int64_t kMostStepsOfRun = 2000000;
 constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
 constexpr double kOfHorizon = 1e-6;        ///< a time near 0 counts as so much of it
@@ -65,7 +65,8 @@ class EventRun {
  public:
   EventRun(const EventSystem& system, const EventScenario& scenario, Movement& movement,
            EventWatch& watch, JumpMaps& maps, const std::function<bool()>& stopped,
-           std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy)
+           std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy,
+           const RecordLimits& limits)
       : system_(system),
         movement_(movement),
         watch_(watch),
@@ -78,12 +79,12 @@ class EventRun {
         flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
         rhythm_(scenario.horizon),
         state_rows_(rows_of_states(system)),
-        inside_(watch.stays.size(), true) {
+        inside_(watch.stays.size(), true),
+        record_(system, scenario.horizon, limits) {
     values_ = draw_start(system, scenario, seed, run);
   }
 
   Trajectory trajectory() {
-    result_.horizon = horizon_;
     try {
       begin();
       while (true) {
@@ -92,18 +93,16 @@ class EventRun {
         flow();
       }
     } catch (const RunEnd& end) {
-      finish(end.ending, end.what());
+      record_.ends(end.ending, end.what(), t_, j_);
     } catch (const IntegrationError& error) {
-      finish(error.escaped     ? Ending::escaped
-             : error.undefined ? Ending::undefined
-                               : Ending::lost,
-             error.what());
+      const Ending ending = error.escaped     ? Ending::escaped
+                            : error.undefined ? Ending::undefined
+                                              : Ending::lost;
+      record_.ends(ending, error.what(), t_, j_);
     } catch (const expr::EvaluationError& error) {
-      finish(Ending::undefined, error.what());
+      record_.ends(Ending::undefined, error.what(), t_, j_);
     }
-    close_piece();
-    result_.end = t_;
-    return std::move(result_);
+    return record_.take(t_);
   }
 
  private:
@@ -117,23 +116,11 @@ class EventRun {
     due_.begin(values_, movement_);
     movement_.fill_clocks(0, values_);
     branches_.hold(values_, false);
-    result_.start = variables(values_);
+    record_.start(variables(values_));
     require_range();
   }
 
   VectorXd variables(const VectorXd& values) const { return values.head(system_.size); }
-
-  void finish(Ending ending, const std::string& why) {
-    result_.ending = ending;
-    result_.message = fmt::format("t = {}, j = {}: {}", brief(t_, 17), j_, why);
-  }
-
-  void close_piece() {
-    if (piece_.steps.empty()) return;
-    piece_.end = flow_end_;
-    result_.parts.emplace_back(std::move(piece_));
-    piece_ = {};
-  }
 
   void require_range() const {
     for (Index k = 0; k < system_.size; ++k)
@@ -174,21 +161,19 @@ class EventRun {
     const VectorXd before = values_;
     const bool lost = system_.dynamics.events[event].lost > 0 && due_.clocks().loses(event);
     values_ = maps_(event, lost, before);
-    close_piece();
+    record_.flow_ends();
     due_.spend(event, t_, movement_);
     movement_.set_since(event, t_);
     movement_.fill_clocks(t_, values_);
     due_.jumped(event, values_);
-    result_.parts.emplace_back(
-        JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
+    record_.add(JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
     ++j_;
     require_range();
     if (++chain_ >= kLongestChain) end_chain(event);
   }
 
   [[noreturn]] void end_chain(std::size_t event) {
-    result_.parts.resize(result_.parts.size() - static_cast<std::size_t>(kLongestChain) +
-                         kKeptOfChain);
+    record_.shorten_chain(kLongestChain, kKeptOfChain);
     const auto next = due_.first(values_, t_);
     const std::size_t due = next.value_or(event);
     const model::Dynamics::Event& one = system_.dynamics.events[due];
@@ -203,12 +188,13 @@ class EventRun {
   }
 
   void watch_rhythm(std::size_t event) {
-    if (piece_.steps.empty()) return;
+    const FlowPiece& flow = record_.flow();
+    if (flow.steps.empty()) return;
     VectorXd largest = VectorXd::Zero(static_cast<Index>(state_rows_.size()));
-    for (const DenseStep& step : piece_.steps)
+    for (const DenseStep& step : flow.steps)
       largest = largest.cwiseMax(step.coefficients.cwiseAbs().rowwise().sum()(state_rows_));
-    rhythm_.push(t_, piece_.to() - piece_.from(), event, due_.has_clock(event),
-                 values_(state_rows_), largest);
+    rhythm_.push(t_, flow.to() - flow.from(), event, due_.has_clock(event), values_(state_rows_),
+                 largest);
     const double part = rhythm_.shrinkage() * rhythm_.shrinkage();
     flow_->sharpen(part);
     branches_.sharpen(part);
@@ -216,7 +202,7 @@ class EventRun {
     for (const std::size_t one : rhythm_.events())
       names += (names.empty() ? "" : ", ") + system_.dynamics.events[one].name;
     if (const auto accumulation = rhythm_.accumulation()) {
-      result_.accumulation = *accumulation;
+      record_.accumulates(*accumulation);
       throw RunEnd(Ending::zeno,
                    fmt::format("the flows between the jumps of {} shrink by a steady factor; they "
                                "accumulate at t = {}",
@@ -234,10 +220,7 @@ class EventRun {
     movement_.begin(t_, values_);
     stop = watch_.next_line(movement_, t_, stop, values_);
     flow_->start(t_, values_, stop);
-    if (piece_.steps.empty()) {
-      piece_.j = j_;
-      piece_.start = variables(values_);
-    }
+    record_.flow_begins(j_, variables(values_));
     Went went = Went::on;
     while (went == Went::on && t_ < stop) {
       ask_whether_stopped();
@@ -318,11 +301,10 @@ class EventRun {
   }
 
   void arrive(const DenseStep& step, VectorXd values) {
+    record_.add(step, variables(values));
     values_ = std::move(values);
     t_ = step.to;
     chain_ = 0;
-    piece_.steps.push_back(step);
-    flow_end_ = variables(values_);
     turned_back_ = 0;
     require_range();
   }
@@ -345,8 +327,8 @@ class EventRun {
   /// Borders that came near up to a time.
   void note(const std::vector<std::pair<double, std::string>>& near, double until) {
     for (const auto& [t, text] : near)
-      if (t <= until && result_.notes.size() < kMostNotes)
-        result_.notes.push_back(
+      if (t <= until)
+        record_.note(
             fmt::format("t = {}: '{}' comes near without being reached", brief(t, 12), text));
   }
 
@@ -382,15 +364,13 @@ class EventRun {
   std::vector<Index> state_rows_;
   std::vector<bool> inside_;  ///< by `while`: whether its condition has been true in this flow
   std::vector<double> switched_;
-  VectorXd values_;    ///< variables and branches
-  VectorXd flow_end_;  ///< the variables where the flow ended last
+  VectorXd values_;  ///< variables and branches
   double t_ = 0;
   std::int64_t j_ = 0;
   std::int64_t chain_ = 0;  ///< jumps without a flow between them
   std::int64_t steps_ = 0;
   int turned_back_ = 0;  ///< turns of kinks at this time
-  FlowPiece piece_;
-  Trajectory result_;
+  RunRecord record_;
 };
 
 }  // namespace
@@ -405,9 +385,10 @@ EventSimulator::EventSimulator(EventSimulator&&) noexcept = default;
 EventSimulator& EventSimulator::operator=(EventSimulator&&) noexcept = default;
 EventSimulator::~EventSimulator() = default;
 
-Trajectory EventSimulator::run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy) {
+Trajectory EventSimulator::run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy,
+                               const RecordLimits& limits) {
   return EventRun(*system_, *scenario_, texts_->movement, texts_->watch, texts_->maps, stopped_,
-                  seed, run, accuracy)
+                  seed, run, accuracy, limits)
       .trajectory();
 }
 

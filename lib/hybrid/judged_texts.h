@@ -101,6 +101,7 @@ class JudgedTexts {
 
   /// What counts as right of elements of these sizes.
   Eigen::VectorXd accuracy(const Eigen::VectorXd& sizes) const {
+    if (question.absolute_of.size() > 0) return question.relative * sizes + question.absolute_of;
     return (question.relative * sizes.array() + question.absolute).matrix();
   }
   /// The rates of all elements at x: flows, clocks, 0 for what rests.

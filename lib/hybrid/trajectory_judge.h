@@ -46,6 +46,7 @@ struct StartRange {
 struct JudgeQuestion {
   double relative = 1e-10;  ///< the accuracy of the run
   double absolute = 1e-10;
+  Eigen::VectorXd absolute_of;      ///< of each element of the variables; empty: `absolute` of all
   std::vector<StartRange> starts;  ///< of the variables to which a campaign gives one
   /// Jumps without a flow between them that a run which is stuck shows at least.
   std::int64_t least_chain = 1000;

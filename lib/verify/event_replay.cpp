@@ -130,7 +130,8 @@ class EventTable {
 /// Starts that the campaign gives are not asked about.
 std::vector<hybrid::Fault> faults_of(const hybrid::Trajectory& run, const model::Instance& instance,
                                      const model::Gains& gains, const EventSetup& setup) {
-  hybrid::JudgeQuestion question;
+  const hybrid::Accuracy accuracy = setup.accuracy(kUsualOfOne);
+  hybrid::JudgeQuestion question{accuracy.relative, accuracy.absolute, accuracy.absolute_of, {}};
   for (const model::Design::Start& start : instance.design->campaign.starts) {
     const hybrid::Slot& slot = setup.system.layout.slots[start.state];
     const numbers::Matrix value = run.start.segment(slot.offset, slot.shape.size())
@@ -149,7 +150,8 @@ EventReplay replay_events(const model::Instance& instance, const model::Gains& g
   const std::unique_ptr<const Setup> setup = make_setup(instance, gains);
   const EventSetup& events = *setup->events;
   EventReplay result;
-  result.run = hybrid::EventSimulator(events.system, events.scenario).run(seed, run);
+  result.run = hybrid::EventSimulator(events.system, events.scenario)
+                   .run(seed, run, events.accuracy(kUsualOfOne));
   EventTable(*instance.design, events).fill(step, result);
   if (judged) result.faults = faults_of(result.run, instance, gains, events);
   if (setup->judged.empty()) return result;
