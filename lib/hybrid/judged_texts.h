@@ -126,6 +126,8 @@ class JudgedTexts {
   }
   /// The variable of a kind that belongs to an event or a noise, if there is one.
   std::optional<std::size_t> find(model::Dynamics::VariableKind kind, std::size_t of) const;
+  /// The value of a formula of constants. InputError where it has none.
+  numbers::Matrix constant(const model::Formula& formula) const;
   /// The value of a start; none without one.
   std::optional<numbers::Matrix> start(std::size_t variable, const Eigen::VectorXd& x) const;
 
@@ -140,7 +142,6 @@ class JudgedTexts {
 
  private:
   double scalar(const model::Formula& formula) const;
-  numbers::Matrix constant(const model::Formula& formula) const;
   EventTexts event_texts(const model::Dynamics::Event& event) const;
   ReactionTexts reaction_texts(const model::Dynamics::Reaction& reaction) const;
   NoiseRange noise_range(const model::Dynamics::Noise& noise) const;

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "expr/number_type.h"
+#include "hybrid/judged_draws.h"
 #include "hybrid/judged_end.h"
 #include "hybrid/judged_events.h"
 #include "hybrid/judged_faults.h"
@@ -140,6 +141,8 @@ class Walk {
     }
     watch_.check_numbers(0, 0, x_);
     check_noise(x_);
+    if (texts_.question.drawn)
+      guarded([&] { check_draws(texts_, trajectory_, *texts_.question.drawn, faults_); });
   }
 
   void check_start_of(std::size_t v) {

@@ -47,6 +47,17 @@ bool has_many_runs(const std::string& file) {
   return std::stoll(runs[1]) > 100;
 }
 
+bool has_events(const std::string& file) {
+  return std::regex_search(text_of(problem(file)), std::regex("\n *(events|observers):"));
+}
+
+/// Its first run satisfies the texts.
+void judge_first_run(const std::string& gains) {
+  const Outcome outcome = gainsmith({"simulate", gains, "--judge"});
+  EXPECT_NE(outcome.err.find("judged: the run satisfies the texts"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_P(Problems, IsAsExpected) {
   const Folder folder;
   std::vector<std::string> arguments = {"run", problem(GetParam()), "-o", folder.path("out")};
@@ -59,6 +70,7 @@ TEST_P(Problems, IsAsExpected) {
             std::string::npos);
   const auto gains = nlohmann::json::parse(text_of(folder.path("out/" + name + "/gains.json")),
                                            nullptr, /*allow_exceptions=*/false);
+  if (has_events(GetParam())) judge_first_run(folder.path("out/" + name + "/gains.json"));
   if (!gains.contains("objective_lower_bound")) return;
   const double least = gains["objective_lower_bound"];
   const double found = gains["objective"];
