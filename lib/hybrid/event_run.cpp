@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "base/number.h"
+#include "hybrid/branches.h"
 #include "hybrid/event_due.h"
 #include "hybrid/event_jump.h"
 #include "hybrid/event_rhythm.h"
 #include "hybrid/event_watch.h"
 #include "hybrid/integrator.h"
 #include "hybrid/measured_rows.h"
+#include "hybrid/run_record.h"
 #include "hybrid/simulate.h"
 
 namespace gainsmith::hybrid {
@@ -35,8 +37,6 @@ namespace {
 
 constexpr std::int64_t kLongestChain = 1000000;
 constexpr std::size_t kKeptOfChain = 1000;
-constexpr std::size_t kLastOfChain = 100;
-constexpr std::size_t kMostNotes = 100;
 constexpr std::int64_t kMostStepsOfRun = 2000000;
 constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
 constexpr double kOfHorizon = 1e-6;        ///< a time near 0 counts as so much of it
@@ -45,6 +45,8 @@ constexpr double kOutside = 1e-9;
 constexpr double kEarly = 0.1;            ///< of a step
 constexpr double kShorterStep = 1.5;      ///< of the time up to an event
 constexpr double kShortestAgain = 1e-13;  ///< of the time
+/// At one time, before a kink counts as one that does not matter.
+constexpr int kMostTurns = 8;
 constexpr std::size_t kSlidingSwitches = 8;
 constexpr double kSlidingTime = 1e-10;  ///< of the horizon
 
@@ -64,7 +66,8 @@ class EventRun {
  public:
   EventRun(const EventSystem& system, const EventScenario& scenario, Movement& movement,
            EventWatch& watch, JumpMaps& maps, const std::function<bool()>& stopped,
-           std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy)
+           std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy,
+           const RecordLimits& limits)
       : system_(system),
         movement_(movement),
         watch_(watch),
@@ -74,15 +77,16 @@ class EventRun {
         due_(system, watch, EventClocks(system, scenario, seed, run), scenario.horizon),
         noise_(system, seed, run),
         rows_(system),
+        branches_(system, watch, accuracy),
         flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
         rhythm_(scenario.horizon),
         state_rows_(rows_of_states(system)),
-        inside_(watch.stays.size(), true) {
+        inside_(watch.stays.size(), true),
+        record_(system, scenario.horizon, limits) {
     values_ = draw_start(system, scenario, seed, run);
   }
 
   Trajectory trajectory() {
-    result_.horizon = horizon_;
     try {
       begin();
       while (true) {
@@ -91,18 +95,16 @@ class EventRun {
         flow();
       }
     } catch (const RunEnd& end) {
-      finish(end.ending, end.what());
+      record_.ends(end.ending, end.what(), t_, j_);
     } catch (const IntegrationError& error) {
-      finish(error.escaped     ? Ending::escaped
-             : error.undefined ? Ending::undefined
-                               : Ending::lost,
-             error.what());
+      const Ending ending = error.escaped     ? Ending::escaped
+                            : error.undefined ? Ending::undefined
+                                              : Ending::lost;
+      record_.ends(ending, error.what(), t_, j_);
     } catch (const expr::EvaluationError& error) {
-      finish(Ending::undefined, error.what());
+      record_.ends(Ending::undefined, error.what(), t_, j_);
     }
-    close_piece();
-    result_.end = t_;
-    return std::move(result_);
+    return record_.take(t_);
   }
 
  private:
@@ -116,24 +118,12 @@ class EventRun {
     rows_.begin(values_);
     due_.begin(values_, movement_);
     movement_.fill_clocks(0, values_);
-    hold_branches_at(values_, false);
-    result_.start = variables(values_);
+    branches_.hold(values_, false);
+    record_.start(variables(values_));
     require_range();
   }
 
   VectorXd variables(const VectorXd& values) const { return values.head(system_.size); }
-
-  void finish(Ending ending, const std::string& why) {
-    result_.ending = ending;
-    result_.message = fmt::format("t = {}, j = {}: {}", brief(t_, 17), j_, why);
-  }
-
-  void close_piece() {
-    if (piece_.steps.empty()) return;
-    piece_.end = flow_end_;
-    result_.parts.emplace_back(std::move(piece_));
-    piece_ = {};
-  }
 
   void require_range() const {
     for (Index k = 0; k < system_.size; ++k)
@@ -165,7 +155,7 @@ class EventRun {
       due_.spend(event, t_, movement_);
       movement_.fill_clocks(t_, values_);
     }
-    hold_branches_at(values_, false);
+    branches_.hold(values_, false);
   }
 
   void jump(std::size_t event) {
@@ -174,37 +164,20 @@ class EventRun {
     const VectorXd before = values_;
     const bool lost = system_.dynamics.events[event].lost > 0 && due_.clocks().loses(event);
     values_ = maps_(event, lost, before);
-    close_piece();
+    record_.flow_ends();
     due_.spend(event, t_, movement_);
     movement_.set_since(event, t_);
     movement_.fill_clocks(t_, values_);
     due_.jumped(event, values_);
-    result_.parts.emplace_back(
-        JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
+    record_.add(JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
     ++j_;
     require_range();
     if (++chain_ >= kLongestChain) end_chain(event);
   }
 
-  /// "a, b": what the last jumps were of.
-  std::string last_events() const {
-    std::vector<std::size_t> events;
-    const std::size_t kept = std::min(kLastOfChain, result_.parts.size());
-    for (auto part = result_.parts.end() - static_cast<Index>(kept); part != result_.parts.end();
-         ++part)
-      if (const auto* jump = std::get_if<JumpPoint>(&*part))
-        if (std::find(events.begin(), events.end(), jump->event) == events.end())
-          events.push_back(jump->event);
-    std::string names;
-    for (const std::size_t event : events)
-      names += (names.empty() ? "" : ", ") + system_.dynamics.events[event].name;
-    return names;
-  }
-
   [[noreturn]] void end_chain(std::size_t event) {
-    const std::string names = last_events();
-    result_.parts.resize(result_.parts.size() - static_cast<std::size_t>(kLongestChain) +
-                         kKeptOfChain);
+    const std::string names = record_.last_events();
+    record_.shorten_chain(kLongestChain, kKeptOfChain);
     const auto next = due_.first(values_, t_);
     const std::size_t due = next.value_or(event);
     const model::Dynamics::Event& one = system_.dynamics.events[due];
@@ -220,18 +193,21 @@ class EventRun {
   }
 
   void watch_rhythm(std::size_t event) {
-    if (piece_.steps.empty()) return;
+    const FlowPiece& flow = record_.flow();
+    if (flow.steps.empty()) return;
     VectorXd largest = VectorXd::Zero(static_cast<Index>(state_rows_.size()));
-    for (const DenseStep& step : piece_.steps)
+    for (const DenseStep& step : flow.steps)
       largest = largest.cwiseMax(step.coefficients.cwiseAbs().rowwise().sum()(state_rows_));
-    rhythm_.push(t_, piece_.to() - piece_.from(), event, due_.has_clock(event),
-                 values_(state_rows_), largest);
-    flow_->sharpen(rhythm_.shrinkage() * rhythm_.shrinkage());
+    rhythm_.push(t_, flow.to() - flow.from(), event, due_.has_clock(event), values_(state_rows_),
+                 largest);
+    const double part = rhythm_.shrinkage() * rhythm_.shrinkage();
+    flow_->sharpen(part);
+    branches_.sharpen(part);
     std::string names;
     for (const std::size_t one : rhythm_.events())
       names += (names.empty() ? "" : ", ") + system_.dynamics.events[one].name;
     if (const auto accumulation = rhythm_.accumulation()) {
-      result_.accumulation = *accumulation;
+      record_.accumulates(*accumulation);
       throw RunEnd(Ending::zeno,
                    fmt::format("the flows between the jumps of {} shrink by a steady factor; they "
                                "accumulate at t = {}",
@@ -244,15 +220,13 @@ class EventRun {
   // --- Flows. ---
 
   void flow() {
-    if (rows_.leave(t_, values_)) hold_branches_at(values_, false);
+    if (rows_.leave(t_, values_)) branches_.hold(values_, false);
+    branches_.hold_kinks(values_);
     double stop = std::min({horizon_, due_.clocks().next(), noise_.next(), rows_.next()});
     movement_.begin(t_, values_);
     stop = watch_.next_line(movement_, t_, stop, values_);
     flow_->start(t_, values_, stop);
-    if (piece_.steps.empty()) {
-      piece_.j = j_;
-      piece_.start = variables(values_);
-    }
+    record_.flow_begins(j_, variables(values_));
     Went went = Went::on;
     while (went == Went::on && t_ < stop) {
       ask_whether_stopped();
@@ -261,11 +235,25 @@ class EventRun {
       went = take(flow_->next());
     }
     const bool drawn = noise_.draw_due(t_, values_);
-    if (rows_.arrive(t_, values_) || drawn) hold_branches_at(values_, false);
+    if (rows_.arrive(t_, values_) || drawn) branches_.hold(values_, false);
   }
 
   /// Goes along a step up to where something happens.
-  Went take(const DenseStep& step) {
+  Went take(const DenseStep& whole) {
+    const auto turn = branches_.first_turn(StepValues(movement_, values_, whole), values_);
+    if (turn && turn->t == whole.from && ++turned_back_ < kMostTurns) {
+      values_(turn->held) *= -1;
+      return Went::stopped;
+    }
+    const bool turns = turn && turn->t > whole.from;
+    const Went went = along(turns && turn->t < whole.to ? movement_.until(whole, turn->t) : whole);
+    if (!turns || t_ != turn->t) return went;
+    values_(turn->held) *= -1;
+    return Went::stopped;
+  }
+
+  /// The same of a step on which no kink turns.
+  Went along(const DenseStep& step) {
     const StepValues inside(movement_, values_, step);
     require_inside(inside);
     std::vector<std::pair<double, std::string>> near;
@@ -277,7 +265,7 @@ class EventRun {
       VectorXd values = inside.at(one.t);
       const bool due = due_.first(values, one.t).has_value();
       const bool left = !due && leaves(values);
-      const bool turns = !due && !left && one.branch && hold_branches_at(values, true);
+      const bool turns = !due && !left && one.branch && branches_.hold(values, true);
       if (!due && !left && !turns) continue;
       if (is_coarse(step, one.t)) {
         due_.set_marks(marks);
@@ -285,7 +273,7 @@ class EventRun {
         return take_shorter(step.from + kShorterStep * (one.t - step.from));
       }
       note(near, one.t);
-      arrive(one.t < step.to ? step.until(one.t) : step, std::move(values));
+      arrive(one.t < step.to ? movement_.until(step, one.t) : step, std::move(values));
       if (left) leave_first();
       if (turns) watch_sliding(*one.branch);
       return Went::stopped;
@@ -320,11 +308,11 @@ class EventRun {
   }
 
   void arrive(const DenseStep& step, VectorXd values) {
+    record_.add(step, variables(values));
     values_ = std::move(values);
     t_ = step.to;
     chain_ = 0;
-    piece_.steps.push_back(step);
-    flow_end_ = variables(values_);
+    turned_back_ = 0;
     require_range();
   }
 
@@ -346,8 +334,8 @@ class EventRun {
   /// Borders that came near up to a time.
   void note(const std::vector<std::pair<double, std::string>>& near, double until) {
     for (const auto& [t, text] : near)
-      if (t <= until && result_.notes.size() < kMostNotes)
-        result_.notes.push_back(
+      if (t <= until)
+        record_.note(
             fmt::format("t = {}: '{}' comes near without being reached", brief(t, 12), text));
   }
 
@@ -357,29 +345,6 @@ class EventRun {
 
   // --- Branches. ---
 
-  /// Sets the branches for these values; whether one changes. `crossing`: at a border of one, where
-  /// a sign of exactly 0 goes on to the other side.
-  bool hold_branches_at(VectorXd& values, bool crossing) {
-    bool changes = false;
-    for (std::size_t k = 0; k < watch_.switches.size(); ++k) {
-      const Switch& one = system_.switches[k];
-      const numbers::Matrix& difference = watch_.switches[k](values);
-      const Index offset = system_.layout.slots[system_.dynamics.variables.size() + k].offset;
-      for (Index e = 0; e < difference.size(); ++e) {
-        double& held = values(offset + e);
-        const double before = held;
-        const double d = difference(e);
-        if (one.is_sign) {
-          held = d > 0 ? 1 : d < 0 ? -1 : crossing ? -before : 0;
-        } else {
-          held = (one.strict ? d > 0 : d >= 0) ? 1 : -1;
-        }
-        changes = changes || held != before;
-      }
-    }
-    return changes;
-  }
-
   void watch_sliding(std::size_t branch) {
     switched_.push_back(t_);
     if (switched_.size() < kSlidingSwitches) return;
@@ -388,7 +353,7 @@ class EventRun {
     throw RunEnd(Ending::sliding,
                  fmt::format("sliding along the border of the {} at {}: both branches lead back to "
                              "it",
-                             system_.switches[branch].is_sign ? "sign" : "where",
+                             system_.switches[branch].kind == Switch::Kind::sign ? "sign" : "where",
                              to_string(system_.switches[branch].place)));
   }
 
@@ -401,19 +366,19 @@ class EventRun {
   DueEvents due_;
   NoiseDraws noise_;
   MeasuredRows rows_;
+  Branches branches_;
   std::unique_ptr<Flow> flow_;
   EventRhythm rhythm_;
   std::vector<Index> state_rows_;
   std::vector<bool> inside_;  ///< by `while`: whether its condition has been true in this flow
   std::vector<double> switched_;
-  VectorXd values_;    ///< variables and branches
-  VectorXd flow_end_;  ///< the variables where the flow ended last
+  VectorXd values_;  ///< variables and branches
   double t_ = 0;
   std::int64_t j_ = 0;
   std::int64_t chain_ = 0;  ///< jumps without a flow between them
   std::int64_t steps_ = 0;
-  FlowPiece piece_;
-  Trajectory result_;
+  int turned_back_ = 0;  ///< turns of kinks at this time
+  RunRecord record_;
 };
 
 }  // namespace
@@ -428,9 +393,10 @@ EventSimulator::EventSimulator(EventSimulator&&) noexcept = default;
 EventSimulator& EventSimulator::operator=(EventSimulator&&) noexcept = default;
 EventSimulator::~EventSimulator() = default;
 
-Trajectory EventSimulator::run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy) {
+Trajectory EventSimulator::run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy,
+                               const RecordLimits& limits) {
   return EventRun(*system_, *scenario_, texts_->movement, texts_->watch, texts_->maps, stopped_,
-                  seed, run, accuracy)
+                  seed, run, accuracy, limits)
       .trajectory();
 }
 

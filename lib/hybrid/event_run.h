@@ -17,8 +17,9 @@
 // at the start. An occurrence that `if` rejects is spent: the clock goes on, a crossing is over,
 // and `when` is due again once its condition has been false. `lost` is asked for each jump.
 //
-// Between borders `where` and `sign` in a flow hold their branch (switches.h); at one the flow
-// starts again with the new branch. A `sign` of exactly 0 there goes on to the other side.
+// Between borders `where`, `sign`, `abs`, `max` and `min` in a flow hold their branch (switches.h,
+// branches.h); at one the flow starts again with the new branch. A `sign` of exactly 0 there goes
+// on to the other side.
 #pragma once
 
 #include <cstdint>
@@ -28,6 +29,7 @@
 #include "hybrid/event_scenario.h"
 #include "hybrid/event_system.h"
 #include "hybrid/flow.h"
+#include "hybrid/run_record.h"
 #include "hybrid/trajectory.h"
 
 namespace gainsmith::hybrid {
@@ -45,7 +47,8 @@ class EventSimulator {
   /// The solution on [0, horizon], or to where it ends before, with the reason. InputError for what
   /// is wrong in the text whatever the run: a symmetric state that jumps or flows out of symmetry,
   /// a mode that is no whole number.
-  Trajectory run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy = {});
+  Trajectory run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy = {},
+                 const RecordLimits& limits = {});
 
  private:
   struct Texts;

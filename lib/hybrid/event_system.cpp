@@ -79,8 +79,15 @@ void hold_flows(EventSystem& system) {
   for (const Dynamics::Assignment& one : system.dynamics.flow)
     system.moves[one.variable] = Moves::flows;
   const auto moves = [&](const std::string& name) { return system.is_moving(name); };
-  for (Dynamics::Assignment& one : system.dynamics.flow)
-    one.value.program = hold_branches(one.value.program, moves, system.switches);
+  for (Dynamics::Assignment& one : system.dynamics.flow) {
+    expr::Program held = hold_branches(one.value.program, moves, system.switches);
+    const auto is_branch = [&](const expr::Input& input) {
+      return !one.value.program.uses(input.name);
+    };
+    const bool holds = std::any_of(held.inputs.begin(), held.inputs.end(), is_branch);
+    system.free_flow.push_back(holds ? std::optional(std::move(one.value.program)) : std::nullopt);
+    one.value.program = std::move(held);
+  }
   for (const Switch& one : system.switches) {
     system.layout.slots.push_back({one.input, one.difference.shape(), system.whole});
     system.whole += one.difference.shape().size();

@@ -50,6 +50,8 @@ struct EventSystem {
   Eigen::Index size = 0;   ///< of the variables
   Eigen::Index whole = 0;  ///< of variables and branches
   std::vector<Switch> switches;
+  /// By flow: its text as it is, where branches of it are held.
+  std::vector<std::optional<expr::Program>> free_flow;
   std::vector<Moves> moves;                            ///< of each slot of the layout
   bool affine = false;                                 ///< the whole flow
   std::vector<std::optional<Clock>> clocks;            ///< by event

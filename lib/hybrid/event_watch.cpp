@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hybrid/borders.h"
+#include "hybrid/border_on_step.h"
 
 namespace gainsmith::hybrid {
 
@@ -12,40 +12,6 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 namespace {
-
-constexpr double kTermRounding = 16 * std::numeric_limits<double>::epsilon();
-
-/// One border on a step: all its elements at the points that are always looked at, others as asked.
-class BorderOnStep {
- public:
-  BorderOnStep(EventBorder& border, const StepValues& inside, const std::vector<double>& times,
-               const std::vector<VectorXd>& points)
-      : border_(border), inside_(inside), times_(times), values_(border.size(), 0) {
-    values_.resize(border.size(), static_cast<Index>(times.size()));
-    for (std::size_t k = 0; k < times.size(); ++k)
-      values_.col(static_cast<Index>(k)) = border(points[k]).reshaped();
-    noise_ = border.terms(points.front()).reshaped();
-    for (const VectorXd* point : {&points[points.size() / 2], &points.back()})
-      noise_ = noise_.cwiseMax(border.terms(*point).reshaped());
-    noise_ *= kTermRounding;
-  }
-
-  Found roots(Index element, bool strict) {
-    const auto value = [&](double t) {
-      const auto known = std::lower_bound(times_.begin(), times_.end(), t);
-      if (known != times_.end() && *known == t) return values_(element, known - times_.begin());
-      return border_(inside_.at(t))(element);
-    };
-    return find_roots({value, strict, noise_(element)}, inside_.from(), inside_.to());
-  }
-
- private:
-  EventBorder& border_;
-  const StepValues& inside_;
-  const std::vector<double>& times_;
-  numbers::Matrix values_;  ///< elements x times
-  VectorXd noise_;
-};
 
 /// The first time after t at which the side of an affine function differs, found for its root and
 /// moved on by units in the last place.
@@ -65,14 +31,6 @@ double line_root(const std::function<double(double)>& g, bool strict, double t, 
 
 }  // namespace
 
-VectorXd StepValues::at(double t) const {
-  VectorXd values = *start_;
-  if (t == step_->from) return values;
-  values.head(movement_->system().size) = (*step_)(t);
-  movement_->fill(t, values);
-  return values;
-}
-
 EventWatch::EventWatch(const EventSystem& system) : system_(&system) {
   const auto bound = [&](const std::optional<expr::Condition>& text) {
     return text ? std::optional<EventCondition>(std::in_place, *text, system) : std::nullopt;
@@ -87,6 +45,10 @@ EventWatch::EventWatch(const EventSystem& system) : system_(&system) {
     for (const auto& stay : one.stays)
       stays.push_back({EventCondition(stay.where, system), stay.say, stay.place});
   for (const Switch& one : system.switches) switches.emplace_back(one.difference, system);
+}
+
+bool EventWatch::is_kink(std::size_t branch) const {
+  return system_->switches[branch].kind == Switch::Kind::kink;
 }
 
 void EventWatch::comparisons_of(EventCondition& condition, const VectorXd& values, bool is_event,
@@ -111,7 +73,8 @@ void EventWatch::active_borders(const VectorXd& values, const Visit& visit) {
   for (std::size_t k = 0; k < switches.size(); ++k) {
     const Switch& one = system_->switches[k];
     if (!switches[k].rests())
-      visit(switches[k], {one.strict, one.is_sign || !one.strict}, k, nullptr, 0);
+      visit(switches[k], {one.strict, one.kind != Switch::Kind::where || !one.strict}, k, nullptr,
+            0);
   }
 }
 
@@ -119,16 +82,11 @@ std::vector<EventWatch::Crossing> EventWatch::crossings(
     const StepValues& inside, const VectorXd& values,
     const std::function<void(double, const std::string&)>& graze) {
   std::vector<Crossing> result;
-  std::vector<double> times;
-  std::vector<VectorXd> points;
+  StepPoints points(inside);
   active_borders(values, [&](EventBorder& border, Sides sides, std::optional<std::size_t> branch,
                              EventCondition* condition, std::size_t comparison) {
-    if (times.empty()) {
-      times = first_points(inside.from(), inside.to());
-      for (const double t : times) points.push_back(inside.at(t));
-    }
-    if (border.size() == 0) return;
-    BorderOnStep on_step(border, inside, times, points);
+    if (border.size() == 0 || (branch && is_kink(*branch))) return;
+    BorderOnStep on_step(border, points);
     for (Index element = 0; element < border.size(); ++element)
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;

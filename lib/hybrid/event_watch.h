@@ -10,25 +10,9 @@
 
 #include "hybrid/event_function.h"
 #include "hybrid/movement.h"
+#include "hybrid/step_values.h"
 
 namespace gainsmith::hybrid {
-
-/// All values at times of one step.
-class StepValues {
- public:
-  /// `start`: the values at step.from, which a jump may have left on a border.
-  StepValues(const Movement& movement, const Eigen::VectorXd& start, const DenseStep& step)
-      : movement_(&movement), start_(&start), step_(&step) {}
-
-  Eigen::VectorXd at(double t) const;
-  double from() const { return step_->from; }
-  double to() const { return step_->to; }
-
- private:
-  const Movement* movement_;
-  const Eigen::VectorXd* start_;
-  const DenseStep* step_;
-};
 
 class EventWatch {
  public:
@@ -52,12 +36,14 @@ class EventWatch {
   std::vector<Stay> stays;
   std::vector<EventBorder> switches;
 
-  /// All crossings on a step, in order, of borders that may decide about something from `values`
-  /// on, those at the start of the step. `graze` is told of borders of `when` that come near
-  /// without being reached, where reaching them would have been the event.
+  /// All crossings on a step, in order, of borders other than kinks that may decide about something
+  /// from `values` on, those at the start of the step. `graze` is told of borders of `when` that
+  /// come near without being reached, where reaching them would have been the event.
   std::vector<Crossing> crossings(
       const StepValues& inside, const Eigen::VectorXd& values,
       const std::function<void(double t, const std::string& text)>& graze);
+
+  bool is_kink(std::size_t branch) const;
 
   /// The first time in (t, last] at which a border that is affine in what is steady is crossed;
   /// `last` when there is none.

@@ -19,6 +19,10 @@ namespace gainsmith::hybrid {
 struct Accuracy {
   double relative = 1e-10;
   double absolute = 1e-10;
+  Eigen::VectorXd absolute_of{};  ///< of each element of the variables; empty: `absolute` of all
+
+  /// All of them times a factor; below 1e-13 relative nothing is gained.
+  Accuracy times(double factor) const;
 };
 
 class Flow {

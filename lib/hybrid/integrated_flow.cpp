@@ -29,8 +29,10 @@ class IntegratedFlow : public Flow {
     y_ = movement_->gathered(values);
     instant_ = last - t <= kInstant * std::max(std::abs(t), std::abs(last));
     if (instant_) return;
-    const auto absolute = Eigen::VectorXd::Constant(y_.size(), accuracy_.absolute * part_);
-    integrator_.start(t, y_, last, accuracy_.relative, absolute, longest_);
+    const Eigen::VectorXd absolute = accuracy_.absolute_of.size() > 0
+                                         ? movement_->gathered(accuracy_.absolute_of)
+                                         : Eigen::VectorXd::Constant(y_.size(), accuracy_.absolute);
+    integrator_.start(t, y_, last, accuracy_.relative, absolute * part_, longest_);
   }
 
   void sharpen(double part) override { part_ = part; }
@@ -69,6 +71,11 @@ class IntegratedFlow : public Flow {
 };
 
 }  // namespace
+
+Accuracy Accuracy::times(double factor) const {
+  constexpr double kLeast = 1e-13;
+  return {std::max(relative * factor, kLeast), absolute * factor, absolute_of * factor};
+}
 
 std::unique_ptr<Flow> integrated_flow(Movement& movement, const Accuracy& accuracy,
                                       double longest) {

@@ -171,6 +171,7 @@ bool has_its_cause(JudgedTexts& texts, const Trajectory& trajectory, const Eigen
       return is_chattering(trajectory);
     case Ending::sliding:
       return is_sliding(texts, t, x);
+    case Ending::full:
     case Ending::interrupted:
     case Ending::lost:
       break;

@@ -9,7 +9,7 @@
 //   zeno         the last lengths shrink by a steady factor, the accumulation point follows
 //   chattering   the last flows are short
 //   sliding      along the flow the rate is another one at once
-// `interrupted` and `lost` say nothing that could be checked.
+// `full`, `interrupted` and `lost` say nothing that could be checked.
 #pragma once
 
 #include <Eigen/Core>

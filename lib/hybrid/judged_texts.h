@@ -101,6 +101,7 @@ class JudgedTexts {
 
   /// What counts as right of elements of these sizes.
   Eigen::VectorXd accuracy(const Eigen::VectorXd& sizes) const {
+    if (question.absolute_of.size() > 0) return question.relative * sizes + question.absolute_of;
     return (question.relative * sizes.array() + question.absolute).matrix();
   }
   /// The rates of all elements at x: flows, clocks, 0 for what rests.
@@ -131,6 +132,8 @@ class JudgedTexts {
   bool has_row(std::size_t variable, double t) const;
   /// The variable of a kind that belongs to an event or a noise, if there is one.
   std::optional<std::size_t> find(model::Dynamics::VariableKind kind, std::size_t of) const;
+  /// The value of a formula of constants. InputError where it has none.
+  numbers::Matrix constant(const model::Formula& formula) const;
   /// The value of a start; none without one.
   std::optional<numbers::Matrix> start(std::size_t variable, const Eigen::VectorXd& x) const;
 
@@ -145,7 +148,6 @@ class JudgedTexts {
 
  private:
   double scalar(const model::Formula& formula) const;
-  numbers::Matrix constant(const model::Formula& formula) const;
   EventTexts event_texts(const model::Dynamics::Event& event) const;
   ReactionTexts reaction_texts(const model::Dynamics::Reaction& reaction) const;
   NoiseRange noise_range(const model::Dynamics::Noise& noise) const;

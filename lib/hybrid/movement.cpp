@@ -33,24 +33,26 @@ Movement::Movement(const EventSystem& system)
     lines_.push_back(
         {system.layout.slots[i].offset, 0, 0, kind == Kind::left ? -1.0 : 1.0, kind == Kind::left});
   }
-  for (const model::Dynamics::Assignment& one : system.dynamics.flow) add_flow(one);
+  for (std::size_t k = 0; k < system.dynamics.flow.size(); ++k) add_flow(k);
   for (const model::Dynamics::Component& one : system.dynamics.components)
     frozen_.push_back(one.frozen ? std::optional<EventCondition>(std::in_place, *one.frozen, system)
                                  : std::nullopt);
   is_frozen_.assign(frozen_.size(), false);
 }
 
-void Movement::add_flow(const model::Dynamics::Assignment& one) {
+void Movement::add_flow(std::size_t flow) {
+  const model::Dynamics::Assignment& one = system_->dynamics.flow[flow];
   const Slot& slot = system_->layout.slots[one.variable];
   const bool symmetric = is_symmetric(system_->dynamics.variables[one.variable]);
   EventFunction value(one.value.program, *system_);
   if (system_->moves[one.variable] == Moves::steady) {
-    steady_.push_back({one.variable, std::move(value), static_cast<Index>(lines_.size())});
+    steady_.push_back({one.variable, std::move(value), static_cast<Index>(lines_.size()), {}});
     for (Index k = 0; k < slot.shape.size(); ++k) lines_.push_back({slot.offset + k});
     return;
   }
   note_inputs(one.value.program);
-  flows_.push_back({one.variable, std::move(value), size()});
+  flows_.push_back({one.variable, std::move(value), size(), {}});
+  if (const auto& free = system_->free_flow[flow]) flows_.back().free.emplace(*free, *system_);
   const Index rows = slot.shape.rows;
   for (Index column = 0; column < slot.shape.cols; ++column)
     for (Index row = symmetric ? column : 0; row < rows; ++row) {
@@ -100,7 +102,7 @@ void Movement::begin(double t, const VectorXd& values) {
   for (Entry& entry : steady_) set_steady(entry, t);
   for (Entry& entry : flows_)
     if (is_symmetric(system_->dynamics.variables[entry.variable]))
-      require_symmetric(entry, entry.value(values_));
+      require_symmetric(entry, text_of(entry, values_));
 }
 
 /// A line goes on as it was where nothing has changed it.
@@ -129,6 +131,16 @@ void Movement::require_symmetric(Entry& entry, const numbers::Matrix& rate) {
                                      brief(asymmetry));
 }
 
+const numbers::Matrix& Movement::text_of(Entry& entry, const VectorXd& values) {
+  if (!entry.free) return entry.value(values);
+  try {
+    const numbers::Matrix& value = entry.value(values);
+    if (value.allFinite()) return value;
+  } catch (const expr::EvaluationError&) {
+  }
+  return (*entry.free)(values);
+}
+
 /// The rate of a variable: 0 in a frozen component, of a symmetric one its symmetric part.
 const numbers::Matrix& Movement::value_of(Entry& entry, const VectorXd& values) {
   const auto& variable = system_->dynamics.variables[entry.variable];
@@ -136,7 +148,7 @@ const numbers::Matrix& Movement::value_of(Entry& entry, const VectorXd& values) 
     symmetric_ = numbers::Matrix::Zero(variable.shape.rows, variable.shape.cols);
     return symmetric_;
   }
-  const numbers::Matrix& value = entry.value(values);
+  const numbers::Matrix& value = text_of(entry, values);
   if (!is_symmetric(variable)) return value;
   symmetric_ = (value + value.transpose()) / 2;
   return symmetric_;
@@ -211,10 +223,24 @@ DenseStep Movement::step(double from, double to, const numbers::Matrix& series) 
     c.row(elements_[k]).head(series.cols()) = row;
     c.row(mirrors_[k]).head(series.cols()) = row;
   }
+  set_lines(made);
+  return made;
+}
+
+void Movement::set_lines(DenseStep& step) const {
   for (const Line& line : lines_) {
-    c(line.element, 0) = (line.at(from) + line.at(to)) / 2;
-    c(line.element, 1) = (line.at(to) - line.at(from)) / 2;
+    step.coefficients(line.element, 0) = (line.at(step.from) + line.at(step.to)) / 2;
+    step.coefficients(line.element, 1) = (line.at(step.to) - line.at(step.from)) / 2;
   }
+}
+
+DenseStep Movement::until(const DenseStep& step, double t) const {
+  DenseStep made = step.until(t);
+  const Index terms = step.coefficients.cols() - 1;
+  for (Index k = 0; k < step.coefficients.rows(); ++k)
+    if ((step.coefficients.row(k).tail(terms).array() == 0).all())
+      made.coefficients.row(k) = step.coefficients.row(k);
+  set_lines(made);
   return made;
 }
 

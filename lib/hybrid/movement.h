@@ -53,6 +53,8 @@ class Movement {
 
   /// All variables over [from, to] from a series for y.
   DenseStep step(double from, double to, const numbers::Matrix& series) const;
+  /// The part of a step up to t: what is steady stays the same line, and what rests keeps its bits.
+  DenseStep until(const DenseStep& step, double t) const;
   const EventSystem& system() const { return *system_; }
 
  private:
@@ -70,15 +72,19 @@ class Movement {
     std::size_t variable = 0;
     EventFunction value;
     Eigen::Index first = 0;  ///< of its elements in y, or of its lines
+    /// With branches as they are: where a held one has no value, such as sqrt(max(x, 0)) below 0.
+    std::optional<EventFunction> free;
   };
 
-  void add_flow(const model::Dynamics::Assignment& one);
+  void add_flow(std::size_t flow);
   void note_inputs(const expr::Program& program);
   Line& clock(std::size_t variable);
+  static const numbers::Matrix& text_of(Entry& entry, const Eigen::VectorXd& values);
   const numbers::Matrix& value_of(Entry& entry, const Eigen::VectorXd& values);
   void set_steady(Entry& entry, double t);
   void require_symmetric(Entry& entry, const numbers::Matrix& rate);
   void rates(Eigen::VectorXd& rate);
+  void set_lines(DenseStep& step) const;
 
   const EventSystem* system_;
   std::vector<Line> lines_;

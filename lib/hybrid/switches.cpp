@@ -1,6 +1,8 @@
 #include "hybrid/switches.h"
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <utility>
 
 #include "expr/assembly.h"
@@ -11,61 +13,205 @@ namespace {
 
 using expr::Instruction;
 using expr::Op;
+using expr::Program;
+using expr::Shape;
 
-class BranchHolder {
+Instruction operation(Op op, std::vector<int> operands, Shape shape, const Instruction& like) {
+  return {op, std::move(operands), shape, {}, {}, like.origin, like.offset};
+}
+
+std::optional<Switch::Kind> kind_of(const Instruction& instruction, Shape operand) {
+  switch (instruction.op) {
+    case Op::where:
+      return Switch::Kind::where;
+    case Op::sign:
+      return Switch::Kind::sign;
+    case Op::abs:
+    case Op::maximum:
+    case Op::minimum:
+      return Switch::Kind::kink;
+    case Op::norm:
+      if (operand.is_scalar()) return Switch::Kind::kink;
+      return std::nullopt;
+    default:
+      return std::nullopt;
+  }
+}
+
+/// What a branching instruction becomes once `held`, the instruction of its H, stands for its
+/// branch. None: H itself.
+std::optional<Instruction> held_form(const Instruction& branch, int held) {
+  switch (branch.op) {
+    case Op::where:
+    case Op::maximum:
+    case Op::minimum: {
+      const bool where = branch.op == Op::where;
+      int a = branch.operands[where ? 1 : 0];
+      int b = branch.operands[where ? 2 : 1];
+      if (branch.op == Op::minimum) std::swap(a, b);
+      Instruction made = operation(Op::where, {held, a, b}, branch.shape, branch);
+      made.attributes = {1};
+      return made;
+    }
+    case Op::abs:
+    case Op::norm:
+      return operation(Op::elementwise_product, {branch.operands[0], held}, branch.shape, branch);
+    default:
+      return std::nullopt;
+  }
+}
+
+/// A program in which instructions are replaced one by one, with all that it had: its first inputs
+/// keep their places.
+class Rewritten {
  public:
-  BranchHolder(const expr::Program& program, const std::function<bool(const std::string&)>& moves,
-               std::vector<Switch>& switches)
-      : program_(program), moves_(moves), switches_(switches) {}
+  explicit Rewritten(const Program& old) { made_.inputs = old.inputs; }
 
-  expr::Program rewritten() {
-    for (const Instruction& instruction : program_.code) add(instruction);
-    return assembly_.extract(at_[static_cast<std::size_t>(program_.result)]);
+  int operator[](int old) const { return at_[static_cast<std::size_t>(old)]; }
+  int push(Instruction instruction) {
+    made_.code.push_back(std::move(instruction));
+    return static_cast<int>(made_.code.size()) - 1;
+  }
+  int push_input(const std::string& name, Shape shape, const Instruction& like) {
+    const int known = made_.input(name);
+    Instruction input = operation(Op::input, {}, shape, like);
+    input.attributes = {known >= 0 ? known : static_cast<int>(made_.inputs.size())};
+    if (known < 0) made_.inputs.push_back({name, shape});
+    return push(std::move(input));
+  }
+  std::size_t inputs() const { return made_.inputs.size(); }
+  /// The next instruction of the old program stands here.
+  void stands(int at) { at_.push_back(at); }
+  Instruction moved(Instruction instruction) const {
+    for (int& operand : instruction.operands) operand = (*this)[operand];
+    return instruction;
+  }
+  Program take(int old_result) {
+    made_.result = (*this)[old_result];
+    return std::move(made_);
   }
 
  private:
-  void add(const Instruction& instruction) {
-    if (instruction.op == Op::input) {
-      const expr::Input& input =
-          program_.inputs[static_cast<std::size_t>(instruction.attributes[0])];
-      push(assembly_.add_input(input.name, input.shape, instruction), moves_(input.name));
-      return;
+  Program made_;
+  std::vector<int> at_;
+};
+
+class BranchHolder {
+ public:
+  BranchHolder(const std::function<bool(const std::string&)>& moves, std::vector<Switch>& switches)
+      : moves_(moves), switches_(switches) {}
+
+  Program rewritten(const Program& program) {
+    std::vector<int> at;
+    for (const Instruction& instruction : program.code) {
+      if (instruction.op == Op::input) {
+        const expr::Input& input =
+            program.inputs[static_cast<std::size_t>(instruction.attributes[0])];
+        at.push_back(
+            note(assembly_.add_input(input.name, input.shape, instruction), moves_(input.name)));
+      } else {
+        at.push_back(add(moved(instruction, at)));
+      }
     }
-    Instruction copy = instruction;
-    bool moving = false;
-    for (int& operand : copy.operands) {
-      const auto old = static_cast<std::size_t>(operand);
-      moving = moving || moving_[old];
-      operand = at_[old];
-    }
-    const bool branches = copy.op == Op::where || copy.op == Op::sign;
-    if (!branches || !moving_[static_cast<std::size_t>(instruction.operands[0])]) {
-      push(assembly_.add(std::move(copy)), moving);
-      return;
-    }
-    const int held = assembly_.add_input(input_of(copy), assembly_.shape(copy.operands[0]), copy);
-    if (copy.op == Op::sign) {
-      push(held, false);
-      return;
-    }
-    copy.operands[0] = held;
-    copy.attributes = {1};
-    push(assembly_.add(std::move(copy)), moving);
+    return assembly_.extract(at[static_cast<std::size_t>(program.result)]);
   }
 
-  void push(int at, bool moving) {
-    at_.push_back(at);
-    moving_.push_back(moving);
+ private:
+  static Instruction moved(Instruction instruction, const std::vector<int>& at) {
+    for (int& operand : instruction.operands) operand = at[static_cast<std::size_t>(operand)];
+    return instruction;
   }
 
+  bool moves(const Instruction& instruction) const {
+    return std::any_of(instruction.operands.begin(), instruction.operands.end(),
+                       [&](int operand) { return moving_[static_cast<std::size_t>(operand)]; });
+  }
+
+  int note(int at, bool moving) {
+    if (static_cast<std::size_t>(at) >= moving_.size())
+      moving_.resize(static_cast<std::size_t>(at) + 1, false);
+    moving_[static_cast<std::size_t>(at)] = moving;
+    return at;
+  }
+
+  /// Adds an instruction with operands of the assembly, held where it branches.
+  int add(Instruction instruction) {
+    const bool moving = moves(instruction);
+    if (const std::string name = input_of(instruction); !name.empty()) {
+      const int held = add_held(name, instruction);
+      const auto form = held_form(instruction, held);
+      return form ? note(assembly_.add(*form), moves(*form)) : held;
+    }
+    if (instruction.op == Op::jacobian && moving) hold_body(instruction);
+    return note(assembly_.add(std::move(instruction)), moving);
+  }
+
+  /// Of the H of a branching instruction.
+  int add_held(const std::string& name, const Instruction& branch) {
+    const auto found = std::find_if(switches_.begin(), switches_.end(),
+                                    [&](const Switch& one) { return one.input == name; });
+    return note(assembly_.add_input(name, found->difference.shape(), branch), false);
+  }
+
+  /// Replaces the branches in the body of a jacobian, whose operands are in the assembly: each H is
+  /// another operand. What a branch hangs on is computed outside, from the same operands.
+  void hold_body(Instruction& jacobian) {
+    const Program& body = *jacobian.body;
+    Rewritten inner(body);
+    std::vector<int> outside;
+    const auto held_inside = [&](const std::string& name, const Instruction& like) {
+      const int held = add_held(name, like);
+      const std::size_t inputs = jacobian.operands.size();
+      const int at = inner.push_input(name, assembly_.shape(held), like);
+      if (inner.inputs() > inputs) jacobian.operands.push_back(held);
+      return at;
+    };
+    for (const Instruction& instruction : body.code) {
+      if (instruction.op == Op::input) {
+        outside.push_back(jacobian.operands[static_cast<std::size_t>(instruction.attributes[0])]);
+        inner.stands(inner.push(instruction));
+        continue;
+      }
+      Instruction here = inner.moved(instruction);
+      Instruction there = moved(instruction, outside);
+      if (const std::string name = input_of(there); !name.empty()) {
+        const int held = held_inside(name, instruction);
+        const auto form = held_form(here, held);
+        inner.stands(form ? inner.push(*form) : held);
+      } else if (instruction.op == Op::jacobian && moves(there)) {
+        const std::size_t before = there.operands.size();
+        hold_body(there);
+        here.body = there.body;
+        for (std::size_t k = before; k < there.operands.size(); ++k)
+          here.operands.push_back(held_inside(there.body->inputs[k].name, instruction));
+        inner.stands(inner.push(std::move(here)));
+      } else {
+        inner.stands(inner.push(std::move(here)));
+      }
+      outside.push_back(add(moved(instruction, outside)));
+    }
+    jacobian.body = std::make_shared<const Program>(inner.take(body.result));
+  }
+
+  /// The name of the H of an instruction that branches on what moves, otherwise "".
   std::string input_of(const Instruction& branch) {
+    if (branch.operands.empty()) return "";
+    const auto kind = kind_of(branch, assembly_.shape(branch.operands[0]));
+    if (!kind) return "";
+    int difference = branch.operands[0];
+    if (branch.op == Op::maximum || branch.op == Op::minimum) {
+      if (!moves(branch)) return "";
+      difference =
+          note(assembly_.add(operation(Op::subtract, branch.operands, branch.shape, branch)), true);
+    }
+    if (!moving_[static_cast<std::size_t>(difference)]) return "";
     Switch one;
-    one.difference = assembly_.extract(branch.operands[0]);
-    one.is_sign = branch.op == Op::sign;
-    one.strict = one.is_sign || branch.attributes[0] != 0;
+    one.difference = assembly_.extract(difference);
+    one.kind = *kind;
+    one.strict = one.kind != Switch::Kind::where || branch.attributes[0] != 0;
     one.place = branch.place();
     const auto known = std::find_if(switches_.begin(), switches_.end(), [&](const Switch& other) {
-      return other.is_sign == one.is_sign && other.strict == one.strict &&
+      return other.kind == one.kind && other.strict == one.strict &&
              is_same(other.difference, one.difference);
     });
     if (known != switches_.end()) return known->input;
@@ -74,12 +220,10 @@ class BranchHolder {
     return one.input;
   }
 
-  const expr::Program& program_;
   const std::function<bool(const std::string&)>& moves_;
   std::vector<Switch>& switches_;
   expr::Assembly assembly_;
-  std::vector<int> at_;       ///< where each instruction of the program stands now
-  std::vector<bool> moving_;  ///< and whether it depends on what moves
+  std::vector<bool> moving_;  ///< by instruction of the assembly: whether it depends on what moves
 };
 
 }  // namespace
@@ -87,7 +231,7 @@ class BranchHolder {
 expr::Program hold_branches(const expr::Program& program,
                             const std::function<bool(const std::string&)>& moves,
                             std::vector<Switch>& switches) {
-  return BranchHolder(program, moves, switches).rewritten();
+  return BranchHolder(moves, switches).rewritten(program);
 }
 
 }  // namespace gainsmith::hybrid

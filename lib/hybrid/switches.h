@@ -1,10 +1,14 @@
-// Internal to hybrid: `where` and `sign` in the text of a flow, whose branches are held between
-// borders.
+// Internal to hybrid: what has branches in the text of a flow. They are held between borders, so
+// that what is integrated is smooth.
 //
 //   where(D, A, B)  becomes  where(H, A, B),   H = 1 where D > 0 (D >= 0), -1 elsewhere
 //   sign(D)         becomes  H,                H = sign(D)
+//   abs(D)          becomes  D.*H              a kink: H = 1 or -1, the sign that D has or had last
+//   max(A, B)       becomes  where(H, A, B),   the same of D = A - B
+//   min(A, B)       becomes  where(H, B, A)
 //
-// H is an input that a run sets; the roots of D are borders. What is inside a jacobian stays.
+// H is an input that a run sets; the roots of D are borders. What is inside a jacobian is held by
+// the same H as outside of it.
 #pragma once
 
 #include <functional>
@@ -16,8 +20,10 @@
 namespace gainsmith::hybrid {
 
 struct Switch {
+  enum class Kind { where, sign, kink };
+
   expr::Program difference;  ///< D; may use the H of switches before it
-  bool is_sign = false;
+  Kind kind = Kind::where;
   bool strict = true;  ///< of where: D > 0, otherwise D >= 0
   std::string input;   ///< the name of H, of the shape of D
   Place place;

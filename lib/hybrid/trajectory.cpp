@@ -22,6 +22,8 @@ std::string to_string(Ending ending) {
       return "chattering";
     case Ending::sliding:
       return "sliding";
+    case Ending::full:
+      return "full";
     case Ending::passes:
       return "passes";
     case Ending::interrupted:

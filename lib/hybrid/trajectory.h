@@ -22,6 +22,7 @@ enum class Ending {
   zeno,         ///< flows that shrink by a steady factor: jumps accumulate
   chattering,   ///< flows ever shorter without such a factor
   sliding,      ///< at a border of `where` both branches lead back
+  full,         ///< more jumps or steps than a run may keep
   passes,       ///< a loop of a jump whose `until` did not become true
   interrupted,  ///< stopped from outside
   lost          ///< the integration could not go on, and why is not certain

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "expr/number_type.h"
+#include "hybrid/judged_draws.h"
 #include "hybrid/judged_end.h"
 #include "hybrid/judged_events.h"
 #include "hybrid/judged_faults.h"
@@ -144,6 +145,8 @@ class Walk {
     watch_.check_numbers(0, 0, x_);
     check_noise(x_);
     check_measured(texts_, 0, 0, x_, faults_);
+    if (texts_.question.drawn)
+      guarded([&] { check_draws(texts_, trajectory_, *texts_.question.drawn, faults_); });
   }
 
   void check_start_of(std::size_t v) {

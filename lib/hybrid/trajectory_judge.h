@@ -9,8 +9,8 @@
 //   events   at each instant the first that is due jumps, and a flow begins when none is; inside a
 //            flow, at 16 points a step and at the extrema between them, no condition is true, no
 //            border is crossed, no clock has run down
-//   draws    clock lengths, losses, noise and starts lie in their ranges; that they are the draws
-//            of a certain stream is not asked
+//   draws    clock lengths, losses, noise and starts lie in their ranges; and, where the question
+//            says from which seed, they are the draws of its streams (judged_draws.h)
 //   the end  has its cause
 //
 // Where the recorded values alone decide (which event is due at an instant) decisions are exact;
@@ -20,10 +20,12 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hybrid/trajectory.h"
+#include "model/design.h"
 #include "model/dynamics.h"
 #include "model/stated.h"
 
@@ -43,10 +45,19 @@ struct StartRange {
   numbers::Matrix low, high;  ///< of its shape
 };
 
+/// Where the draws of a run come from: the streams are defined in event_scenario.h.
+struct DrawnFrom {
+  std::uint64_t seed = 1;
+  std::uint64_t run = 0;
+  const model::Design::Campaign* campaign = nullptr;  ///< must outlive the judging
+};
+
 struct JudgeQuestion {
   double relative = 1e-10;  ///< the accuracy of the run
   double absolute = 1e-10;
+  Eigen::VectorXd absolute_of;     ///< of each element of the variables; empty: `absolute` of all
   std::vector<StartRange> starts;  ///< of the variables to which a campaign gives one
+  std::optional<DrawnFrom> drawn;
   /// Jumps without a flow between them that a run which is stuck shows at least.
   std::int64_t least_chain = 1000;
 };

@@ -97,9 +97,9 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
     if (ending == nullptr)
       throw InputError(ended->place, "ended: of 'expect.run'; all observers end with the run");
     *ending = file.string(ended->value, "ended");
-    const std::vector<std::string> known = {"horizon", "escaped",     "undefined",  "left",
-                                            "stuck",   "zeno",        "chattering", "sliding",
-                                            "passes",  "interrupted", "lost"};
+    const std::vector<std::string> known = {"horizon", "escaped", "undefined",   "left",
+                                            "stuck",   "zeno",    "chattering",  "sliding",
+                                            "passes",  "full",    "interrupted", "lost"};
     if (std::find(known.begin(), known.end(), *ending) == known.end())
       throw InputError(file.place(ended->value),
                        "ended: unknown word '" + *ending + "'" + suggestion(*ending, known));

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/nearest.h"
+#include "base/number.h"
 #include "expr/work.h"
 #include "io/component_yaml.h"
 #include "io/expectation_yaml.h"
@@ -222,6 +223,37 @@ void read_sampling(const YamlFile& file, const YAML::Node& node, const std::stri
   for (const auto& entry : node) add(entry);
 }
 
+double tolerance(const YamlFile& file, const YamlItem& item, double least, double most) {
+  const double value = file.number(item.value, item.key);
+  if (value >= least && value <= most) return value;
+  throw InputError(file.place(item.value), item.key + ": expected a number from " + brief(least) +
+                                               " to " + brief(most) + ", found " + brief(value));
+}
+
+/// {relative: 1e-8, absolute: 1e-10}, or {absolute: {x: 1e-6, nominal.S: 1e-9}}.
+model::RunAccuracy accuracy(const YamlFile& file, const YamlItem& item) {
+  constexpr double kLeastRelative = 1e-12;
+  constexpr double kMostRelative = 1e-2;
+  constexpr double kLeastAbsolute = 1e-100;
+  constexpr double kMostAbsolute = 1e100;
+  model::RunAccuracy result;
+  result.place = item.place;
+  YamlMap map(file, item.value, "accuracy");
+  if (const auto relative = map.find("relative"))
+    result.relative = tolerance(file, *relative, kLeastRelative, kMostRelative);
+  if (const auto absolute = map.find("absolute")) {
+    if (absolute->value.IsMap()) {
+      for (const YamlItem& one : items_of(file, absolute, "absolute"))
+        result.states.push_back(
+            {one.key, tolerance(file, one, kLeastAbsolute, kMostAbsolute), one.place});
+    } else {
+      result.absolute = tolerance(file, *absolute, kLeastAbsolute, kMostAbsolute);
+    }
+  }
+  map.finish();
+  return result;
+}
+
 model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& item,
                          const model::Method& method) {
   model::Campaign result;
@@ -232,6 +264,7 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
   if (const auto seed = map.find("seed")) result.seed = whole(file, *seed, 0);
   if (const auto horizon = map.find("horizon"))
     result.horizon = file.expression(horizon->value, "horizon");
+  if (const auto item_of = map.find("accuracy")) result.accuracy = accuracy(file, *item_of);
   if (const auto first = map.find("first")) result.first = file.expression(first->value, "first");
   if (const auto sampling = map.find("sampling"))
     read_sampling(file, sampling->value, "", method, result);

@@ -45,15 +45,16 @@ void Binding::check_box(const Design::Start& start, const InitialValue& initial)
                      "the box of " + initial.state + " has its low end above its high end");
 }
 
+InputError Binding::no_state(const std::string& name, const Place& place) const {
+  std::vector<std::string> names;
+  for (const Design::State& state : design_->states) names.push_back(state.name);
+  return {place, "there is no state '" + name + "'" + suggestion(name, names)};
+}
+
 Design::Start Binding::start(const InitialValue& initial) const {
   const expr::Scope& scope = names_->running;
   Design::Start bound{state_of(initial.state), initial.kind, {}, initial.place};
-  if (bound.state == design_->states.size()) {
-    std::vector<std::string> names;
-    for (const Design::State& state : design_->states) names.push_back(state.name);
-    throw InputError(initial.place, "there is no state '" + initial.state + "'" +
-                                        suggestion(initial.state, names));
-  }
+  if (bound.state == design_->states.size()) throw no_state(initial.state, initial.place);
   const expr::Shape state = design_->states[bound.state].shape;
   if (initial.kind == StartKind::ellipsoid) {
     bound.values = ellipsoid(initial, state);
@@ -127,7 +128,26 @@ void Binding::bind_campaign() {
       if (timer) check_within(into.values.back(), timer->low, timer->high, "the sampling interval");
     }
   }
+  if (campaign.accuracy) bind_accuracy(*campaign.accuracy);
   bind_starts();
+}
+
+void Binding::bind_accuracy(const RunAccuracy& accuracy) {
+  if (!dynamics_names_)
+    throw InputError(accuracy.place,
+                     "'accuracy' is of methods with events; flows with a timer have bounds of "
+                     "their own");
+  Design::RunAccuracy bound{accuracy.relative, accuracy.absolute, {}};
+  for (const RunAccuracy::OfState& one : accuracy.states) {
+    std::vector<std::string> names = dynamics_names_->states(one.state);
+    if (names.empty()) names.push_back(one.state);
+    for (const std::string& name : names) {
+      const std::size_t state = state_of(name);
+      if (state == design_->states.size()) throw no_state(name, one.place);
+      bound.states.emplace_back(state, one.absolute);
+    }
+  }
+  design_->campaign.accuracy = std::move(bound);
 }
 
 /// The event whose clock a law is for.

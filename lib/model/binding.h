@@ -139,6 +139,8 @@ class Binding {
   std::size_t clock_of(const SamplingLaw& law) const;
   Design::Start start(const InitialValue& initial) const;
   std::vector<Formula> ellipsoid(const InitialValue& initial, expr::Shape state) const;
+  InputError no_state(const std::string& name, const Place& place) const;
+  void bind_accuracy(const RunAccuracy& accuracy);
   void check_box(const Design::Start& start, const InitialValue& initial) const;
   void check_within(const Formula& formula, const Formula& low, const Formula& high,
                     const std::string& what) const;

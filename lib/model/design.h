@@ -199,11 +199,18 @@ struct Design {
     Place place;
   };
 
+  /// To what runs of dynamics with events are integrated; what is not given is as usual.
+  struct RunAccuracy {
+    std::optional<double> relative, absolute;
+    std::vector<std::pair<std::size_t, double>> states;  ///< with an absolute one of their own
+  };
+
   /// A Monte-Carlo campaign. Run i uses law i modulo their number.
   struct Campaign {
     std::uint64_t runs = 1000;
     std::uint64_t seed = 1;
     std::optional<Formula> horizon;
+    std::optional<RunAccuracy> accuracy;
     std::vector<Law> laws;
     std::optional<Formula> first;
     std::vector<Start> starts;

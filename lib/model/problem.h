@@ -43,11 +43,26 @@ struct InitialValue {
   Place place;
 };
 
+/// To what runs of dynamics with events are integrated.
+struct RunAccuracy {
+  /// Of one state, or of each observer's that has the name.
+  struct OfState {
+    std::string state;
+    double absolute = 0;
+    Place place;
+  };
+  std::optional<double> relative;
+  std::optional<double> absolute;  ///< of all states
+  std::vector<OfState> states;     ///< of some
+  Place place;
+};
+
 /// A Monte-Carlo campaign. Run i uses law i modulo their number.
 struct Campaign {
   std::uint64_t runs = 1000;
   std::uint64_t seed = 1;
   std::optional<expr::Expression> horizon;  ///< continuous time
+  std::optional<RunAccuracy> accuracy;
   std::vector<SamplingLaw> sampling;  ///< empty: uniform, extremes, sinusoid, both ends constant
   std::optional<expr::Expression> first;  ///< first value of the timer; none: uniform in its range
   std::vector<InitialValue>

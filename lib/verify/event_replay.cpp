@@ -134,10 +134,16 @@ class EventTable {
   std::vector<Source> sources_;
 };
 
-/// Starts that the campaign gives are not asked about.
+/// Starts that the campaign gives are asked about with what is drawn.
 std::vector<hybrid::Fault> faults_of(const hybrid::Trajectory& run, const model::Instance& instance,
-                                     const model::Gains& gains, const EventSetup& setup) {
-  hybrid::JudgeQuestion question;
+                                     const model::Gains& gains, const EventSetup& setup,
+                                     std::uint64_t seed, std::uint64_t number) {
+  const hybrid::Accuracy accuracy = setup.accuracy(kUsualOfOne);
+  hybrid::JudgeQuestion question{accuracy.relative,
+                                 accuracy.absolute,
+                                 accuracy.absolute_of,
+                                 {},
+                                 hybrid::DrawnFrom{seed, number, &instance.design->campaign}};
   for (const model::Design::Start& start : instance.design->campaign.starts) {
     const hybrid::Slot& slot = setup.system.layout.slots[start.state];
     const numbers::Matrix value = run.start.segment(slot.offset, slot.shape.size())
@@ -156,9 +162,10 @@ EventReplay replay_events(const model::Instance& instance, const model::Gains& g
   const std::unique_ptr<const Setup> setup = make_setup(instance, gains);
   const EventSetup& events = *setup->events;
   EventReplay result;
-  result.run = hybrid::EventSimulator(events.system, events.scenario).run(seed, run);
+  result.run = hybrid::EventSimulator(events.system, events.scenario)
+                   .run(seed, run, events.accuracy(kUsualOfOne));
   EventTable(*instance.design, events).fill(step, result);
-  if (judged) result.faults = faults_of(result.run, instance, gains, events);
+  if (judged) result.faults = faults_of(result.run, instance, gains, events, seed, run);
   if (setup->judged.empty()) return result;
   Judge judge(*setup);
   const std::vector<Finding> findings = judge(seed, run).findings;

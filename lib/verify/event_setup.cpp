@@ -164,6 +164,7 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
   setup->layout = setup->system.layout;
   setup->layout.slots.resize(dynamics.variables.size());
   setup->layout.size = setup->system.size;
+  setup->asked = design.campaign.accuracy;
   setup->scenario = hybrid::make_event_scenario(design.campaign, setup->system);
   hybrid::System plain;
   plain.layout = setup->layout;
@@ -175,6 +176,20 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
   Functions(*setup).add_all();
   setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, std::nullopt);
   return setup;
+}
+
+hybrid::Accuracy EventSetup::accuracy(double usual, double factor) const {
+  hybrid::Accuracy result{usual, usual};
+  if (asked) {
+    result.relative = asked->relative.value_or(usual);
+    result.absolute = asked->absolute.value_or(result.relative);
+    if (!asked->states.empty()) result.absolute_of.setConstant(system.size, result.absolute);
+    for (const auto& [state, absolute] : asked->states) {
+      const hybrid::Slot& slot = layout.slots[state];
+      result.absolute_of.segment(slot.offset, slot.shape.size()).setConstant(absolute);
+    }
+  }
+  return factor == 1 ? result : result.times(factor);
 }
 
 EventTracks::EventTracks(const EventSetup& setup, std::function<bool()> stopped)
@@ -300,15 +315,15 @@ void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory
 }
 
 const hybrid::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t run,
-                                              double relative) {
+                                              double factor) {
   constexpr double kSharper = 1e-2;
   track_.clear();
   track_.size = setup_->coordinates.layout.size;
-  track_.accuracy = relative;
+  const hybrid::Accuracy accuracy = setup_->accuracy(kUsualOfMany, factor);
+  track_.accuracy = accuracy.relative;
   rounded_ = 0;
-  const hybrid::Trajectory coarse = simulator_.run(seed, run, {relative, relative});
-  const hybrid::Trajectory fine =
-      simulator_.run(seed, run, {relative * kSharper, relative * kSharper});
+  const hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
+  const hybrid::Trajectory fine = simulator_.run(seed, run, accuracy.times(kSharper));
   add_parts(coarse, fine);
   end(coarse, fine);
   return track_;

@@ -29,14 +29,22 @@ struct EventSetup {
   std::vector<JudgedClaim> judged;  ///< the claims that are stated, in order
   FlowLooks looks;                  ///< that the claims ask for
   std::unique_ptr<hybrid::BoundedSystem<double>> narrow;
+  std::optional<model::Design::RunAccuracy> asked;  ///< of the campaign
+
+  /// To what a run is integrated: as the campaign asks, otherwise to `usual`; times a factor.
+  hybrid::Accuracy accuracy(double usual, double factor = 1) const;
 };
+
+/// Of a run that is looked at; those of a campaign, which are made twice, are coarser.
+constexpr double kUsualOfOne = 1e-10;
+constexpr double kUsualOfMany = 1e-8;
 
 /// At an address of its own: its parts point to each other.
 std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instance,
                                                    const model::Gains& gains);
 
-/// The runs of one (seed, number), to a relative accuracy and to a hundredth of it, as the samples
-/// of the functions; one for each thread. The setup must outlive it.
+/// The runs of one (seed, number), to an accuracy and to a hundredth of it, as the samples of the
+/// functions; one for each thread. The setup must outlive it.
 ///
 ///   samples   the looks along each flow (flow_looks.h), and the values after each jump
 ///   bound     four times the largest difference between the two runs at five samples around it, or
@@ -51,7 +59,8 @@ class EventTracks {
   /// `stopped` is asked along the runs: true ends them.
   explicit EventTracks(const EventSetup& setup, std::function<bool()> stopped = {});
 
-  const hybrid::Track<double>& run(std::uint64_t seed, std::uint64_t run, double relative);
+  /// `factor`: of the accuracy of a campaign.
+  const hybrid::Track<double>& run(std::uint64_t seed, std::uint64_t run, double factor);
 
  private:
   void append(double t, std::int64_t j, const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine,

@@ -19,11 +19,10 @@ class TwoRuns {
   TwoRuns(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
           std::uint64_t run, const std::function<bool()>& stopped)
       : setup_(make_event_setup(instance, gains)) {
-    constexpr hybrid::Accuracy kUsual{1e-10, 1e-10};
-    constexpr hybrid::Accuracy kSharper{1e-12, 1e-12};
+    constexpr double kSharper = 1e-2;
     hybrid::EventSimulator simulator(setup_->system, setup_->scenario, stopped);
-    usual_ = simulator.run(seed, run, kUsual);
-    sharper_ = simulator.run(seed, run, kSharper);
+    usual_ = simulator.run(seed, run, setup_->accuracy(kUsualOfOne));
+    sharper_ = simulator.run(seed, run, setup_->accuracy(kUsualOfOne, kSharper));
   }
 
   hybrid::Ending ending() const { return sharper_.ending; }

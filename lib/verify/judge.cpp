@@ -82,7 +82,7 @@ Judge::Judge(const Setup& setup, std::function<bool()> stopped)
 }
 
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
-  if (events_) return last_verdict(events_->run(seed, run, kRepeated), checks_);
+  if (events_) return last_verdict(events_->run(seed, run, kRepeated / kUsual), checks_);
   if (!integrated_) return last_verdict(wide_->run(seed, run), wide_checks_);
   const auto rounded = [&](Rounding rounding) {
     return last_verdict(integrated_->run(seed, run, kRepeated, rounding), checks_);

@@ -46,7 +46,7 @@ class Judge {
 
   /// In double, until the next call.
   const hybrid::Track<double>& track(std::uint64_t seed, std::uint64_t run) {
-    if (events_) return events_->run(seed, run, kUsual);
+    if (events_) return events_->run(seed, run, 1);
     return integrated_ ? integrated_->run(seed, run, kUsual) : narrow_->run(seed, run);
   }
   std::vector<ClaimCheck<double>>& checks() { return checks_; }

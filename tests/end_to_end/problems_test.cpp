@@ -69,6 +69,17 @@ void expect_campaign_or_reason(const std::string& line, const std::string& file)
   EXPECT_NE(texts_of(file).find("\nno campaign: \"" + reason + "\"\n"), std::string::npos) << line;
 }
 
+bool has_events(const std::string& file) {
+  return std::regex_search(text_of(problem(file)), std::regex("\n *(events|observers):"));
+}
+
+/// Its first run satisfies the texts.
+void judge_first_run(const std::string& gains) {
+  const Outcome outcome = gainsmith({"simulate", gains, "--judge"});
+  EXPECT_NE(outcome.err.find("judged: the run satisfies the texts"), std::string::npos)
+      << outcome.err;
+}
+
 TEST_P(Problems, IsAsExpected) {
   const Folder folder;
   std::vector<std::string> arguments = {"run", problem(GetParam()), "-o", folder.path("out")};
@@ -82,6 +93,7 @@ TEST_P(Problems, IsAsExpected) {
             std::string::npos);
   const auto gains = nlohmann::json::parse(text_of(folder.path("out/" + name + "/gains.json")),
                                            nullptr, /*allow_exceptions=*/false);
+  if (has_events(GetParam())) judge_first_run(folder.path("out/" + name + "/gains.json"));
   if (!gains.contains("objective_lower_bound")) return;
   const double least = gains["objective_lower_bound"];
   const double found = gains["objective"];

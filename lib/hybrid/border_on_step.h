@@ -1,0 +1,31 @@
+// Internal to hybrid: one border on a step, all its elements.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "hybrid/borders.h"
+#include "hybrid/event_function.h"
+#include "hybrid/step_values.h"
+
+namespace gainsmith::hybrid {
+
+class BorderOnStep {
+ public:
+  /// Both must outlive it.
+  BorderOnStep(EventBorder& border, StepPoints& points);
+
+  Found roots(Eigen::Index element, bool strict);
+  double value(Eigen::Index element, double t);
+  /// Elements x points.times().
+  const numbers::Matrix& values() const { return values_; }
+  /// Of each element, what its terms may round to.
+  const Eigen::VectorXd& noise() const { return noise_; }
+
+ private:
+  EventBorder& border_;
+  StepPoints& points_;
+  numbers::Matrix values_;
+  Eigen::VectorXd noise_;
+};
+
+}  // namespace gainsmith::hybrid

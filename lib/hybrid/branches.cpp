@@ -1,0 +1,149 @@
+#include "hybrid/branches.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hybrid/border_on_step.h"
+
+namespace gainsmith::hybrid {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using numbers::Matrix;
+
+namespace {
+
+constexpr double kOfAccuracy = 1e-3;
+/// A D that stays away from 0 by so many times what it changes over a step has no root on it.
+constexpr double kFar = 4;
+
+/// The smallest and the largest value of each element at the start, the middle and the end.
+struct Range {
+  VectorXd low, high;
+
+  Range(EventBorder& border, const std::array<VectorXd, 3>& points) {
+    low = high = border(points[0]).reshaped();
+    for (const std::size_t k : {1U, 2U}) {
+      const auto value = border(points[k]).reshaped().eval();
+      low = low.cwiseMin(value);
+      high = high.cwiseMax(value);
+    }
+  }
+  /// Whether an element stays on the side of its branch.
+  bool stays(Index element, double held) const {
+    const double nearest = held > 0 ? low(element) : -high(element);
+    return nearest > kFar * (high(element) - low(element));
+  }
+};
+
+}  // namespace
+
+/// What the kinks of one step share.
+struct Branches::Look {
+  explicit Look(const StepValues& inside)
+      : points(inside),
+        three{inside.at(inside.from()),
+              inside.at(inside.from() + (inside.to() - inside.from()) / 2),
+              inside.at(inside.to())} {}
+
+  StepPoints points;
+  std::array<VectorXd, 3> three;
+  std::optional<BorderOnStep> border;  ///< of the kink that is looked at
+  VectorXd slack;                      ///< of its elements
+};
+
+Branches::Branches(const EventSystem& system, EventWatch& watch, const Accuracy& accuracy)
+    : system_(&system),
+      watch_(&watch),
+      relative_(system.affine ? 0 : kOfAccuracy * accuracy.relative),
+      absolute_(system.affine                     ? 0
+                : accuracy.absolute_of.size() > 0 ? kOfAccuracy * accuracy.absolute_of.minCoeff()
+                                                  : kOfAccuracy * accuracy.absolute) {}
+
+Index Branches::offset(std::size_t one) const {
+  return system_->layout.slots[system_->dynamics.variables.size() + one].offset;
+}
+
+bool Branches::is_kink(std::size_t one) const {
+  return system_->switches[one].kind == Switch::Kind::kink;
+}
+
+bool Branches::hold(VectorXd& values, bool crossing) {
+  bool changes = false;
+  for (std::size_t k = 0; k < watch_->switches.size(); ++k)
+    changes = hold_one(k, values, crossing) || changes;
+  return changes;
+}
+
+void Branches::hold_kinks(VectorXd& values) {
+  for (std::size_t k = 0; k < watch_->switches.size(); ++k)
+    if (is_kink(k)) hold_one(k, values, false);
+}
+
+bool Branches::hold_one(std::size_t k, VectorXd& values, bool crossing) {
+  bool changes = false;
+  const Switch& one = system_->switches[k];
+  const Matrix& difference = watch_->switches[k](values);
+  for (Index e = 0; e < difference.size(); ++e) {
+    double& held = values(offset(k) + e);
+    const double before = held;
+    const double d = difference(e);
+    if (one.kind == Switch::Kind::kink) {
+      held = d > 0 ? 1 : d < 0 ? -1 : before < 0 ? -1 : 1;
+    } else if (one.kind == Switch::Kind::sign) {
+      held = d > 0 ? 1 : d < 0 ? -1 : crossing ? -before : 0;
+    } else {
+      held = (one.strict ? d > 0 : d >= 0) ? 1 : -1;
+    }
+    changes = changes || held != before;
+  }
+  return changes;
+}
+
+std::optional<Branches::Turn> Branches::first_turn(const StepValues& inside,
+                                                   const VectorXd& values) {
+  std::optional<Turn> first;
+  std::optional<Look> look;
+  for (std::size_t k = 0; k < watch_->switches.size(); ++k) {
+    EventBorder& border = watch_->switches[k];
+    if (!is_kink(k) || border.rests()) continue;
+    if (!look) look.emplace(inside);
+    const Range range(border, look->three);
+    look->border.reset();
+    for (Index e = 0; e < border.size(); ++e) {
+      const double held = values(offset(k) + e);
+      if (range.stays(e, held)) continue;
+      if (const auto t = turn_of(k, e, held, *look); t && (!first || *t < first->t))
+        first = Turn{*t, offset(k) + e};
+    }
+  }
+  return first;
+}
+
+std::optional<double> Branches::turn_of(std::size_t kink, Index element, double held, Look& look) {
+  const std::vector<double>& times = look.points.times();
+  if (!look.border) {
+    look.border.emplace(watch_->switches[kink], look.points);
+    const auto terms = watch_->switches[kink].terms(look.three[0]).reshaped();
+    look.slack = look.border->noise() + (relative_ * terms.array() + absolute_ * part_).matrix();
+  }
+  const double slack = look.slack(element);
+  const auto beyond = [&](double t) { return look.border->value(element, t) * held < -slack; };
+  const auto on_side = (held * look.border->values().row(element).array()).eval();
+  // No pair of roots hides between points of a D that is far from 0 at all of them.
+  if (on_side.minCoeff() > (on_side.maxCoeff() - on_side.minCoeff()) / kFar) return std::nullopt;
+  const Found found = look.border->roots(element, held < 0);
+  std::vector<double> places(times.begin(), times.end());
+  for (std::size_t k = 0; k + 1 < found.roots.size(); ++k)
+    places.push_back((found.roots[k].right + found.roots[k + 1].left) / 2);
+  std::sort(places.begin(), places.end());
+  const auto there = std::find_if(places.begin(), places.end(), beyond);
+  if (there == places.end()) return std::nullopt;
+  double turn = look.border->value(element, times.front()) * held > 0 ? *there : times.front();
+  for (const Root& root : found.roots)
+    if (root.right <= *there) turn = root.right;
+  return turn;
+}
+
+}  // namespace gainsmith::hybrid
