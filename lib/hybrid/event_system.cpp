@@ -223,7 +223,8 @@ void read_noise(EventSystem& system) {
 void check_measured(const EventSystem& system) {
   for (const Dynamics::Measured& one : system.dynamics.measured) {
     const model::Series& series = *one.series;
-    if (series.times.front() > 0)
+    const bool at_rows = one.event && !system.dynamics.events[*one.event].rows.empty();
+    if (series.times.front() > 0 && !at_rows)
       throw InputError(one.place, fmt::format("{} has no value at t = 0, where a run begins: the "
                                               "first row of {} is at {}; `from` says where in "
                                               "the file a run begins",

@@ -155,6 +155,8 @@ void DynamicsBinding::add_inputs() {
     });
     scope_->definitions[input.name] = {{}, input.value};
   }
+  // Before t and j, which may be dropped: flows know variables by their numbers.
+  for (const MeasuredText& text : method_->measured) add_measured(text);
   for (const char* name : {"t", "j"}) {
     if (!is_free(name)) continue;
     Dynamics::Variable number;
@@ -250,7 +252,6 @@ Dynamics DynamicsBinding::run() {
   add_varied();
   for (const Component* part : parts) add_definitions(*part);
   add_inputs();
-  for (const MeasuredText& text : method_->measured) add_measured(text);
   add_events();
   bind_measured_events();
   for (const NoiseText& noise : method_->noise) bind_noise(noise);

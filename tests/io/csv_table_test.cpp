@@ -90,9 +90,9 @@ TEST(CsvTable, SaysWhichCellIsNoNumber) {
   EXPECT_EQ(refused(2, 1).place(), (Place{"log.csv", 5, 4}));
   EXPECT_EQ(refused(3, 1).place(), (Place{"log.csv", 6, 3}));
   EXPECT_EQ(refused(4, 1).message(), "the column u needs finite decimal numbers, not '1e999'");
-  const InputError none = input_error([&] { log.column("U1", {"p.yaml", 7, 3}); });
+  const InputError none = input_error([&] { log.column("U", {"p.yaml", 7, 3}); });
   EXPECT_EQ(none.place(), (Place{"p.yaml", 7, 3}));
-  EXPECT_NE(none.message().find("log.csv has no column 'U1'; did you mean 'u'?"), std::string::npos)
+  EXPECT_NE(none.message().find("log.csv has no column 'U'; did you mean 'u'?"), std::string::npos)
       << none.message();
 }
 
