@@ -50,6 +50,8 @@ std::string check_text(const verify::CheckReport& check) {
     return fmt::format("  {:<12} not stated: no value for {}\n", check.name,
                        fmt::join(check.missing, ", "));
   const verify::Finding& worst = check.worst;
+  const bool bounded =
+      check.kind == model::ClaimKind::below || check.kind == model::ClaimKind::above;
   const bool held = check.violations == 0 && check.undecided == 0;
   const std::string verdict =
       check.violations > 0  ? fmt::format("violated in {} runs", check.violations)
@@ -65,9 +67,9 @@ std::string check_text(const verify::CheckReport& check) {
         worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits),
         brief(worst.value), brief(worst.bound));
   if (check.floor > 0)
-    text +=
-        fmt::format("               checked down to {} of the start: the {} no larger drop\n",
-                    brief(check.floor, 2), worst.estimated ? "integration shows" : "digits show");
+    text += fmt::format("               checked down to {} of the {}: the {} no larger drop\n",
+                        brief(check.floor, 2), bounded ? "largest distance" : "start",
+                        worst.estimated ? "integration shows" : "digits show");
   return text;
 }
 

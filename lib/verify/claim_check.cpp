@@ -224,9 +224,13 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
   const Bounded b = (*bound_)(track, 0);
   const bool above = claim_->kind == model::ClaimKind::above;
   double scale = hybrid::size_of(b.value);
-  for (std::size_t k = 0; k < v.size(); ++k)
-    if (counts(track, k) && is_number(v[k])) scale = std::max(scale, hybrid::size_of(v[k].value));
-  const double floor = (track.accuracy > 0 ? kOfAccuracy * track.accuracy : 0) * scale;
+  double farthest = 0;
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    if (!counts(track, k) || !is_number(v[k])) continue;
+    scale = std::max(scale, hybrid::size_of(v[k].value));
+    farthest = std::max(farthest, hybrid::size_of(Scalar(v[k].value - b.value)));
+  }
+  const double floor = (track.accuracy > 0 ? kOfAccuracy * track.accuracy : 0) * farthest;
   std::optional<Finding> worst;
   double noise = 0;
   const auto rank = [](const Finding& one) {
@@ -239,9 +243,9 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
     if (above) std::swap(found.value, found.bound);
     const double top = hybrid::size_of(Scalar(v[k].value - b.value)) + v[k].bound + b.bound;
     const bool drowned =
-        track.accuracy > 0 && found.undecided() && is_number(v[k]) && top <= kNothing * scale;
-    const bool nothing = judgement != Judgement::held && scale > 0 && (top <= floor || drowned);
-    if (nothing) noise = std::max(noise, top / scale);
+        track.accuracy > 0 && found.undecided() && is_number(v[k]) && top <= kNothing * farthest;
+    const bool nothing = judgement != Judgement::held && farthest > 0 && (top <= floor || drowned);
+    if (nothing) noise = std::max(noise, top / farthest);
     if (!nothing && (!worst || rank(found) > rank(*worst))) worst = found;
   }
   if (!worst) worst = nothing_counts(track);

@@ -25,8 +25,8 @@
 // says so. kFloor is 1e-24 in 31 digits, of which the last are rounding, and the range of the
 // numbers, 1e-200, in double. The bounds of a flow that is integrated to a relative accuracy a are
 // estimates: below a/1e4 of v(0) nothing is compared, nor below 1e-8 of it what lies in its own
-// error. In a comparison with a bound b it is v - b that falls to nothing, and the scale is the
-// largest of |b| and |v| over the run.
+// error. In a comparison with a bound b it is v - b that falls to nothing, compared with the
+// largest |v - b| of the run: of v = b all along nothing is left out.
 //
 // The integral of a quadratic form over a flow is a quadratic form of its start (step_maps.h). That
 // of any other is bounded over pieces of the flow (flow_integral.h).
@@ -61,7 +61,7 @@ struct Finding {
   double t = 0;         ///< where that is, in hybrid time
   std::int64_t j = 0;
   /// The largest value, relative to v(0), that was not compared because no digits are left; 0:
-  /// none.
+  /// none. Of a comparison with a bound b that of |v - b|, relative to the largest one.
   double floor = 0;
   int digits = kDoubleDigits;  ///< of the arithmetic that says so
   bool estimated = false;      ///< `rounding` is an estimate, of the error of integration too

@@ -27,26 +27,15 @@ method:
   observer:
     state: {xh: {shape: 2, start: 0}}
     flow: {xh: "[xh(2); -m]"}
-  signals: {V: "(x - xh)'*(x - xh)"
-}
-claims : falls : {nonincreasing : V, over : impact} small
-    : {below : rate(V) + V, bound : 2 * m, after : 5} campaign : {
-horizon:
-  10, initial : {
-  x : {
-  ellipsoid : {
-  center:
-    [ 1, 0 ], matrix : Q
-  }
-  }
-  }
-}
+  signals: {V: norm(x - xh)^2}
+  claims:
+    falls: {nonincreasing: V, over: impact}
+    small: {below: rate(V) + V, bound: 2*m, after: 5}
+campaign: {horizon: 10, initial: {x: {ellipsoid: {center: [1, 0], matrix: Q}}}}
 uncertain: {m: {vertices: [1, 2, 3]}}
 )";
 
-model::DesignPtr bound(const std::string& text) {
-  return model::bind(read_problem(text)).design;
-}
+model::DesignPtr bound(const std::string& text) { return model::bind(read_problem(text)).design; }
 
 TEST(Claims, BoundsTimesAndEventsAreBound) {
   const model::DesignPtr design = bound(kBall);
@@ -82,33 +71,28 @@ TEST(Claims, TheShortFormHasBoundsAndTimes) {
 
 TEST(Claims, MistakesAreNamedAtTheirPlace) {
   const std::vector<Mistake> mistakes = {
-      {"over: impact", "over: inpact", 18, 37,
-       "there is no event 'inpact'; did you mean 'impact'?"},
-      {"over: impact", "ower: impact", 18, 31, "did you mean 'over'?"},
-      {"bound: 2*m, ", "", 19, 12, "bound"},
-      {"nonincreasing: V, over: impact", "nonincreasing: V, bound: 1", 18, 31,
-       "bound: of the claims below and above"},
-      {"nonincreasing: V, over: impact", "shrinks: V, to: 1, over: impact", 18, 32,
-       "over: of the claims nonincreasing, below and above"},
-      {"nonincreasing: V, over: impact", "above: V, below: V, bound: 1", 18, 5,
-       "needs one of nonincreasing, cost, shrinks, below, above"},
-      {"bound: 2*m", "bound: x(1)", 19, 41, "'x' changes along a run"},
-      {"after: 5", "after: t", 19, 53, "'t' changes along a run"},
-      {"rate(V)", "rate(x*x')", 19, 25, "rate(v) is of a number or a column, not x*x'"},
-      {"rate(V)", "rate(rate(V))", 19, 20, "what holds a jacobian or a rate has none"},
-      {"-m]\"}\n    at", "-rate(m)]\"}\n    at", 10, 24,
-       "it stands in signals, claims and figures"},
-      {"{center: [1, 0], matrix: Q}", "{center: [1, 0]}", 20, 57, "matrix"},
-      {"center: [1, 0]", "centre: [1, 0]", 20, 58, "did you mean 'center'?"},
-      {"center: [1, 0]", "center: [1, 0, 0]", 20, 58, "wrong shape"},
-      {"{ellipsoid:", "{elipsoid:", 20, 46, "did you mean 'ellipsoid'?"},
-      {"frequency: [1, 2]", "phase: 0", 6, 24, "frequency"},
-      {"frequency: [1, 2]", "frequenzy: 1", 6, 41, "frequency"},
+      {"over: impact", "over: inpact", 17, 37, "there is no event 'inpact'; did you mean 'impact'?"},
+      {"over: impact", "ower: impact", 17, 31, "did you mean 'over'?"},
+      {"bound: 2*m, ", "", 18, 12, "bound"},
+      {"nonincreasing: V, over: impact", "nonincreasing: V, bound: 1", 17, 31, "bound: of the claims below and above"},
+      {"nonincreasing: V, over: impact", "shrinks: V, to: 1, over: impact", 17, 32, "over: of the claims nonincreasing, below and above"},
+      {"nonincreasing: V, over: impact", "above: V, below: V, bound: 1", 17, 5, "needs one of nonincreasing, cost, shrinks, below, above"},
+      {"bound: 2*m", "bound: x(1)", 18, 40, "'x' changes along a run"},
+      {"after: 5", "after: t", 18, 52, "'t' changes along a run"},
+      {"rate(V)", "rate(x*x')", 18, 25, "rate(v) is of a number or a column, not x*x'"},
+      {"rate(V)", "rate(rate(V))", 18, 20, "what holds a jacobian or a rate has none"},
+      {"-m]\"}\n    at", "-rate(m)]\"}\n    at", 10, 24, "it stands in signals, claims and figures"},
+      {"{center: [1, 0], matrix: Q}", "{center: [1, 0]}", 19, 50, "matrix"},
+      {"center: [1, 0]", "centre: [1, 0]", 19, 51, "did you mean 'center'?"},
+      {"center: [1, 0]", "center: [1, 0, 0]", 19, 59, "wrong shape"},
+      {"{ellipsoid:", "{elipsoid:", 19, 39, "did you mean 'ellipsoid'?"},
+      {"frequency: [1, 2]", "phase: 0", 6, 25, "frequency"},
+      {"frequency: [1, 2]", "frequenzy: 1", 6, 42, "frequency"},
       {"{sinusoid:", "{new at: impact, sinusoid:", 6, 15, "a sinusoid is drawn once a run"},
-      {"vertices: [1, 2, 3]", "vertices: [1, 2], box: [1, 2]", 21, 13, "expected {box:"},
-      {"vertices: [1, 2, 3]", "box: [1, 2], sampling: corners", 21, 40, "unknown word 'corners'"},
-      {"vertices: [1, 2, 3]", "vertices: [1, [1, 2]]", 21, 29, "wrong shape"},
-      {"vertices: [1, 2, 3]", "vertices: [1, x(1)]", 21, 29, "changes along a run"},
+      {"vertices: [1, 2, 3]", "vertices: [1, 2], box: [1, 2]", 20, 13, "expected {box:"},
+      {"vertices: [1, 2, 3]", "box: [1, 2], sampling: corners", 20, 40, "unknown word 'corners'"},
+      {"vertices: [1, 2, 3]", "vertices: [1, [1, 2]]", 20, 31, "wrong shape"},
+      {"vertices: [1, 2, 3]", "vertices: [1, x(1)]", 20, 31, "changes along a run"},
   };
   for (const Mistake& mistake : mistakes) {
     const auto error = input_error([&] { bound(replaced(kBall, mistake.from, mistake.to)); });
