@@ -56,7 +56,6 @@ TEST(Problems, EveryBuiltInMethodIsUsableWithItsDefaults) {
         text += "  " + datum.name + ": " +
                 (datum.name == "T2"       ? "2"
                  : datum.name == "Hc"     ? "0"
-                 : datum.name == "Kno"    ? "zeros(1, 0)"
                  : !datum.indices.empty() ? "[[[1]], [[1]]]"
                                           : "1") +
                 "\n";
