@@ -177,6 +177,9 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return saturated(expression, node);
     case Composed::jacobian:
       return jacobian(expression, node);
+    case Composed::maximum:
+    case Composed::minimum:
+      return extremum(expression, node, function == Composed::maximum);
     case Composed::lambda_max:
     case Composed::lambda_min:
       return extreme_eigenvalue(expression, node, function == Composed::lambda_max);

@@ -54,52 +54,12 @@ Bound Binder::jacobian(const Expression& expression, const Node& node) {
 Bound Binder::derivative_by(const Expression& expression, const Node& node, int value, int variable,
                             int point) {
   const Shape result{shape(value).size(), shape(variable).size()};
-  const auto end = static_cast<std::size_t>(value) + 1;
-  std::vector<bool> depends(std::max(end, static_cast<std::size_t>(variable) + 1));
-  depends[static_cast<std::size_t>(variable)] = true;
-  for (std::size_t i = 0; i < end; ++i)
-    for (const int operand : assembly_[static_cast<int>(i)].operands)
-      if (depends[static_cast<std::size_t>(operand)]) depends[i] = true;
-  if (!depends[static_cast<std::size_t>(value)])
-    return {emit(expression, node, Op::zeros, {}, result)};
-  std::vector<bool> needed(depends.size());
-  needed[static_cast<std::size_t>(value)] = true;
-  for (std::size_t i = end; i-- > 0;)
-    if (needed[i] && depends[i])
-      for (const int operand : assembly_[static_cast<int>(i)].operands)
-        needed[static_cast<std::size_t>(operand)] = true;
-
-  Assembly body;
+  Inner found = inner(expression, node, value, {variable});
+  if (!found.depends) return {emit(expression, node, Op::zeros, {}, result)};
   std::vector<int> operands = {point};
-  std::vector<int> moved(depends.size(), -1);
-  moved[static_cast<std::size_t>(variable)] =
-      body.add_input("the variable", shape(variable), assembly_[variable]);
-  const auto inside = [&](int operand) {
-    int& to = moved[static_cast<std::size_t>(operand)];
-    if (to < 0) {
-      to = body.add_input("operand " + std::to_string(operands.size()), shape(operand),
-                          assembly_[operand]);
-      operands.push_back(operand);
-    }
-    return to;
-  };
-  for (std::size_t i = 0; i < end; ++i) {
-    if (!needed[i] || !depends[i] || moved[i] >= 0) continue;
-    Instruction instruction = assembly_[static_cast<int>(i)];
-    if (instruction.op == Op::jacobian)
-      fail(expression, node, "a jacobian of a jacobian by the same variable is not computed");
-    if (instruction.op == Op::call)
-      fail(expression, node,
-           "'" + instruction.text +
-               "' is a call of an unknown or a gain, which has no jacobian "
-               "here");
-    for (int& operand : instruction.operands) operand = inside(operand);
-    moved[i] = body.add(std::move(instruction));
-  }
-  auto program =
-      std::make_shared<const Program>(body.extract(moved[static_cast<std::size_t>(value)]));
+  operands.insert(operands.end(), found.others.begin(), found.others.end());
   return {emit(expression, node, Op::jacobian, std::move(operands), result, {}, {},
-               std::move(program))};
+               std::move(found.body))};
 }
 
 }  // namespace gainsmith::expr

@@ -79,6 +79,24 @@ class Binder {
   Bound derivative_by(const Expression& expression, const Node& node, int value, int variable,
                       int point);
 
+  // bind_extremum.cpp
+  Bound extremum(const Expression& expression, const Node& node, bool largest);
+  std::pair<int, int> ends_of_box(const Expression& expression, const Node& box);
+  void refuse_moving(const Expression& expression, const Node& node,
+                     const std::vector<int>& operands) const;
+
+  /// What an instruction computes of other ones, the variables: a program whose first inputs they
+  /// are, and the instructions that its other inputs stand for.
+  struct Inner {
+    std::shared_ptr<const Program> body;
+    std::vector<int> others;
+    bool depends = false;  ///< on a variable
+  };
+  Inner inner(const Expression& expression, const Node& node, int value,
+              const std::vector<int>& variables) const;
+  void refuse_inside(const Expression& expression, const Node& node,
+                     const Instruction& instruction) const;
+
   bool is_zero(Bound value) const;
   [[noreturn]] void unknown_name(const Expression& expression, const Node& node) const;
 
@@ -167,6 +185,7 @@ class Binder {
   int steps_ = 0;                              ///< calls of bind() within definitions and sums
   int open_sums_ = 0;                          ///< over indices, being bound now
   int jacobians_ = 0;                          ///< that stand for a parameter or a definition
+  int extrema_ = 0;                            ///< bound so far
   Environment environment_;                    ///< parameters of the definition being bound
 };
 

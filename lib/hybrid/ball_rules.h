@@ -418,7 +418,8 @@ struct BallRules {
     out.rad = Matrix::Constant(out.mid.rows(), out.mid.cols(), out.mid.isZero(0) ? 0 : kInfinity);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
+  requires expr::OneOf<op, Op::extremum, Op::project_polytope, Op::project_ellipsoid,
+                       Op::project_affine>
   void operator()(Is<op>, const At&, Value&) const { expr::fault::no_error_bound(op); }
 };
 

@@ -365,7 +365,8 @@ struct AffineRules {
                        Op::floor, Op::mod, Op::atan2, Op::complement_basis, Op::abs, Op::sign,
                        Op::minimum, Op::maximum, Op::where, Op::norm, Op::inverse,
                        Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
-                       Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
+                       Op::extremum, Op::project_polytope, Op::project_ellipsoid,
+                       Op::project_affine>
   void operator()(Is<op>, const At& at, AffineForm&) const {
     for (const AffineForm* operand : at.operands)
       if (!operand->is_constant()) rules.refuse(op, *operand);

@@ -70,7 +70,7 @@ void DynamicsBinding::add_states(const Component& component, std::size_t at) {
       bound.shape = shape_of(state);
       bound.structure = state.shape.structure;
       bound.place = state.place;
-      scope_->symbols[bound.name] = {bound.shape};
+      scope_->symbols[bound.name] = {bound.shape, false, true};
       result_.variables.push_back(std::move(bound));
     }
 }
@@ -123,7 +123,7 @@ void DynamicsBinding::add_inputs() {
     Dynamics::Variable number;
     number.kind = name == std::string("t") ? Kind::time : Kind::jumps;
     number.name = name;
-    scope_->symbols[name] = {};
+    scope_->symbols[name] = {{}, false, true};
     result_.variables.push_back(std::move(number));
   }
 }

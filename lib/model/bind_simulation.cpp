@@ -46,6 +46,7 @@ void Binding::bind_components() {
       for (Design::MapEntry& entry : map(*entries)) bound->push_back(std::move(entry));
   }
   design_->report = named(method().report, scope);
+  for (const NamedFormula& shown : design_->report) note_estimate(shown.name, shown.value.program);
   design_->signals = named(method().signals, scope);
   bind_timer();
 }
@@ -79,6 +80,7 @@ void Binding::bind_dynamics() {
       dynamics.signals.push_back({name, formula(reading.texts.front(), scope), std::nullopt});
     }
   design_->report = named(method().report, scope);
+  for (const NamedFormula& shown : design_->report) note_estimate(shown.name, shown.value.program);
   names_->results = scope;
   names_->results.symbols["objective"] = {};
 }
@@ -174,9 +176,18 @@ void Binding::add_claim(const Claim& claim, const std::string& title) {
   const auto optional = [&](const std::optional<expr::Expression>& part) {
     return part ? std::optional(scalar(*part, scope)) : std::nullopt;
   };
-  design_->claims.push_back({title, claim.kind, scalar(claim.value, scope),
-                             optional(claim.flow_cost), optional(claim.jump_cost),
-                             optional(claim.factor), claim.place});
+  Design::Claim bound{title,
+                      claim.kind,
+                      scalar(claim.value, scope),
+                      optional(claim.flow_cost),
+                      optional(claim.jump_cost),
+                      optional(claim.factor),
+                      claim.place};
+  bool estimated = estimate(bound.value.program) != expr::Estimate::none;
+  for (const auto* part : {&bound.flow_cost, &bound.jump_cost, &bound.factor})
+    if (*part && estimate((*part)->program) != expr::Estimate::none) estimated = true;
+  if (estimated) bound.name += " (from estimates)";
+  design_->claims.push_back(std::move(bound));
 }
 
 }  // namespace gainsmith::model

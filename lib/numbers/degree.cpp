@@ -55,8 +55,8 @@ struct DegreeRules {
                        Op::atan2, Op::complement_basis, Op::pseudo_inverse, Op::matrix_exponential,
                        Op::exp, Op::log, Op::sqrt, Op::sin, Op::cos, Op::tanh, Op::abs, Op::sign,
                        Op::minimum, Op::maximum, Op::norm, Op::range_basis, Op::kernel_basis,
-                       Op::singular_values, Op::project_polytope, Op::project_ellipsoid,
-                       Op::project_affine>
+                       Op::singular_values, Op::extremum, Op::project_polytope,
+                       Op::project_ellipsoid, Op::project_affine>
   void operator()(Is<op>, const At&, Degree& out) const { out = kNotAffine; }
 };
 

@@ -231,7 +231,8 @@ struct EnclosureRules {
     if (at[0].mid.size() > 0 && count > 0) out = enclosed::kernel_basis<S>(at[0], count);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
+  requires expr::OneOf<op, Op::extremum, Op::project_polytope, Op::project_ellipsoid,
+                       Op::project_affine>
   void operator()(Is<op>, const At&, Value&) const { expr::fault::no_error_bound(op); }
   void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
     const Value& a = at[0];

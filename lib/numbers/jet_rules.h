@@ -249,7 +249,8 @@ struct JetRules {
     if (at[0].order > 0) lipschitz(kNothingKnown, out);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
+  requires expr::OneOf<op, Op::extremum, Op::project_polytope, Op::project_ellipsoid,
+                       Op::project_affine>
   void operator()(Is<op>, const At&, Jet&) const { expr::fault::no_error_bound(op); }
 
  private:

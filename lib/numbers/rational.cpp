@@ -179,7 +179,7 @@ struct Rules {
   template <Op op>
   requires expr::OneOf<op, Op::real_power, Op::log, Op::sqrt, Op::atan2, Op::norm,
                        Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
-                       Op::complement_basis, Op::jacobian, Op::project_polytope,
+                       Op::complement_basis, Op::jacobian, Op::extremum, Op::project_polytope,
                        Op::project_ellipsoid, Op::project_affine>
   void operator()(Is<op>, const At&, Value&) const { not_rational(op); }
 

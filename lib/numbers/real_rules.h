@@ -12,6 +12,7 @@
 
 #include "expr/number_type.h"
 #include "numbers/dual.h"
+#include "numbers/extremum.h"
 #include "numbers/householder.h"
 #include "numbers/projection.h"
 #include "numbers/real.h"
@@ -235,6 +236,9 @@ struct RealRules {
   }
   void operator()(Is<Op::jacobian>, const At& at, Value& out) const {
     out = jacobian<Scalar>(at.instruction, at.operands);
+  }
+  void operator()(Is<Op::extremum>, const At& at, Value& out) const {
+    out = extremum<Scalar>(at.instruction, at.operands);
   }
 
  private:

@@ -9,8 +9,8 @@
 namespace gainsmith::numbers {
 namespace {
 
-const std::vector<expr::Op> kProjections = {expr::Op::project_polytope, expr::Op::project_ellipsoid,
-                                            expr::Op::project_affine};
+const std::vector<expr::Op> kUnbounded = {expr::Op::project_polytope, expr::Op::project_ellipsoid,
+                                          expr::Op::project_affine, expr::Op::extremum};
 
 template <class Scalar>
 Subject real(const std::string& name, double tolerance) {
@@ -38,7 +38,7 @@ Subject enclosure(const std::string& name, double tolerance) {
     return value.mid.unaryExpr([](const Scalar& x) { return static_cast<double>(x); });
   };
   Subject result = subject<Enclosure<Scalar>>(name, tolerance, exact, moving, middle);
-  result.lacks = kProjections;
+  result.lacks = kUnbounded;
   result.of_jacobians = 1e-14;
   return result;
 }
@@ -66,7 +66,7 @@ Subject jet() {
     return value.value().mid;
   };
   Subject result = subject<JetAlgebra>("jet", 1e-14, fixed, moving, middle);
-  result.lacks = kProjections;
+  result.lacks = kUnbounded;
   return result;
 }
 
