@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "model/gains.h"
 #include "model/instance.h"
 #include "search/axis.h"
 #include "search/bisect.h"

@@ -3,8 +3,6 @@
 #include <utility>
 #include <vector>
 
-#include "expr/scope.h"
-
 namespace gainsmith::verify {
 
 BoundFigure::BoundFigure(const model::Figure& figure, const EventSetup& setup) {

@@ -36,6 +36,7 @@ method:
   method: measured
   parameters: {a: 1, b: 0.5}
   gains: {K: a*b}
+  report: {sum: a + b}
 search: {over: {a: [0, 4], b: [0, 1]}, evaluations: 300}
 )";
 

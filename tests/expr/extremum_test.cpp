@@ -79,7 +79,7 @@ TEST_F(Extrema, NameThePointWithoutAValue) {
 
 TEST_F(Extrema, RefuseEmptyBoxes) {
   expect_error("maximum(x(2), x in [[0; 2], [1; 1]])", "maximum: the box of x is empty: 2 > 1");
-  expect_error("minimum(x, x in [s, 0.5])", "minimum: the box of x is empty: 0.6 > 0.5");
+  expect_error("minimum(x, x in [1, s - 0.35])", "minimum: the box of x is empty: 1 > 0.25");
   EXPECT_EQ(number("maximum(x^2, x in [s, s])"), 0.6 * 0.6);
 }
 
@@ -95,8 +95,7 @@ TEST_F(Extrema, RefuseOtherForms) {
   expect_error("maximum(x, x in [0; 1])", "',' between the ends of the box");
   expect_error("maximum(x, x in [0, 1, 2])", "']' after the ends of the box");
   expect_error("maximum(x, x in [0, inf])", "a number must be finite");
-  expect_error("s + x in [0, 1]", "");
-  expect_error("sum(x in [0, 1], s)", "a box stands only in maximum");
+  expect_error("abs(x in [0, 1])", "a box stands only in maximum");
   expect_error("maximum(minimum(x*u, u in [0, 1]), x in [0, 1])",
                "write one with the names of both");
 }
