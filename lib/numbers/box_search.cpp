@@ -31,6 +31,8 @@ class BoxSearch {
       found.push_back(climbed(start, spacing(), kCoarse, kFewRounds));
     sort(found);
     found.resize(std::min(found.size(), kFinally));
+    for (Sample& best : found)
+      best = climbed(scanned(std::move(best)), spacing(), kCoarse, kFewRounds);
     for (Sample& best : found) best = climbed(best, kCoarse, kFine, kManyRounds);
     sort(found);
     return {placed(found.front().u), found.front().value};
@@ -122,6 +124,25 @@ class BoxSearch {
       if (apart) chosen.push_back(one);
     }
     return chosen;
+  }
+
+  /// From line to line along the axes through the whole box, as long as one leads higher: other
+  /// tops of functions that are nearly sums.
+  Sample scanned(Sample best) const {
+    constexpr int kPoints = 64;
+    const Index n = dimension();
+    for (Index k = 0, idle = 0; idle < n; k = (k + 1) % n, ++idle) {
+      const Vector from = best.u;
+      for (int point = 0; point <= kPoints; ++point) {
+        Vector u = from;
+        u(k) = static_cast<double>(point) / kPoints;
+        Sample tried = sample(u);
+        if (!(tried.value > best.value)) continue;
+        best = std::move(tried);
+        idle = -1;
+      }
+    }
+    return best;
   }
 
   /// Simplices and steps in turn, until neither gets higher.

@@ -28,7 +28,7 @@ TEST(Estimates, CarryNoProof) {
   expect_refused("f(tau)*Q", kSearch + "*f(tau)*Q", "'flow'");
   expect_refused("tau in [0, T2]", "tau in [0, T2 + " + kSearch + "]", "'flow'");
   expect_refused("minimize: g", "minimize: " + kSearch + "*g", "a minimum");
-  expect_refused("decay: delta > 0", "decay: " + kSearch + " > 0", "an assumption");
+  expect_refused("decay: delta > 0", "decay: '" + kSearch + " > 0'", "an assumption");
 }
 
 TEST(Estimates, CarryNoneThroughDefinitionsAndData) {
