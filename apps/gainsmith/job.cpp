@@ -12,6 +12,7 @@
 #include "gainsmith/load.h"
 #include "gainsmith/optimizers.h"
 #include "gainsmith/run_table.h"
+#include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
 #include "io/gains_json.h"
@@ -50,7 +51,7 @@ class Job {
       : instance_(load_problem(file)), folder_(std::move(folder)), options_(options) {}
 
   void run(JobResult& result) {
-    const design::SearchRequest request = design::request_of(instance_);
+    const design::SearchRequest request = wanted_search(instance_);
     const search::Optimizers* optimizers = optimizers_for(request, *instance_.design);
     sdp::Options solver;
     solver.interrupted = interrupted;

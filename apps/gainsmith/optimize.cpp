@@ -11,6 +11,7 @@
 #include "gainsmith/optimizers.h"
 #include "gainsmith/output.h"
 #include "gainsmith/range_option.h"
+#include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
 
@@ -52,9 +53,11 @@ void add_search(const OptimizeOptions& options, model::Problem& problem) {
     search.extreme = range_of(text, largest ? "--largest" : "--smallest", problem);
     search.largest = largest;
     search.minimize.reset();
+    search.run_figure.reset();
   }
   if (!options.minimize.empty()) {
     search.minimize = parse_expression(options.minimize, "--minimize");
+    search.run_figure.reset();
     search.extreme.reset();
   }
   if (options.tolerance && !search.extreme)
@@ -69,7 +72,7 @@ ExitCode optimize(const OptimizeOptions& options) {
   check_positive(options.tolerance, "--tolerance");
   const model::Instance instance =
       load_problem(options.problem, [&](model::Problem& problem) { add_search(options, problem); });
-  design::SearchRequest request = design::request_of(instance);
+  design::SearchRequest request = wanted_search(instance);
   request.polish = options.polish;
   if (request.over.empty())
     throw InputError({options.problem},

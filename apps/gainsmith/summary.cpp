@@ -12,10 +12,15 @@ namespace gainsmith::app {
 
 namespace {
 
-std::string named_matrices(const std::string& title, const model::NamedMatrices& matrices) {
+/// "gains       L = [1; 2]", and what is an estimate.
+std::string named_matrices(const std::string& title, const model::NamedMatrices& matrices,
+                           const model::Gains& gains) {
   std::string text;
-  for (const auto& [name, matrix] : matrices)
-    text += fmt::format("{:<12}{} = {}\n", text.empty() ? title : "", name, matrix_text(matrix));
+  for (const auto& [name, matrix] : matrices) {
+    const auto estimate = gains.estimates.find(name);
+    text += fmt::format("{:<12}{} = {}{}\n", text.empty() ? title : "", name, matrix_text(matrix),
+                        estimate == gains.estimates.end() ? "" : " (" + estimate->second + ")");
+  }
   return text;
 }
 
@@ -154,9 +159,10 @@ std::string synthesis_summary(const model::Gains& gains) {
       gains.problem_name, gains.statement.method_name, to_string(gains.verdict),
       gains.solver.status, gains.solver.cause, gains.solver.iterations);
   text += message_lines(gains);
-  text += objective_text(gains) + named_matrices("gains", gains.gains) + functions_text(gains) +
-          named_matrices("report", gains.report) + named_matrices("parameters", gains.parameters) +
-          searched_text(gains) + search_text(gains);
+  text += objective_text(gains) + named_matrices("gains", gains.gains, gains) +
+          functions_text(gains) + named_matrices("report", gains.report, gains) +
+          named_matrices("parameters", gains.parameters, gains) + searched_text(gains) +
+          search_text(gains);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);
   return text;
 }

@@ -13,6 +13,7 @@
 #include "gainsmith/load.h"
 #include "gainsmith/optimizers.h"
 #include "gainsmith/output.h"
+#include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
 #include "sdp/sdpa_file.h"
@@ -39,7 +40,7 @@ std::string reason(const model::Instance& instance, const model::Gains& gains,
 ExitCode synth(const SynthOptions& options) {
   refuse_overwriting(options.problem, {options.output, options.sdpa});
   const model::Instance instance = load_problem(options.problem);
-  const design::SearchRequest request = design::request_of(instance);
+  const design::SearchRequest request = wanted_search(instance);
   const search::Optimizers* optimizers = optimizers_for(request, *instance.design);
   catch_interrupts();
   sdp::Options solver;

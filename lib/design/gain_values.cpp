@@ -119,6 +119,8 @@ double largest_gain(const lmi::Inequalities& inequalities, const numbers::Values
 }
 
 void add_report(const model::Instance& instance, model::Gains& gains) {
+  for (const auto& [name, estimate] : instance.design->estimates)
+    gains.estimates[name] = to_string(estimate);
   if (instance.design->report.empty()) return;
   const model::Stated stated = model::state(instance, gains);
   for (const model::NamedFormula& shown : instance.design->report)

@@ -18,7 +18,8 @@ void add_gain_values(const lmi::Inequalities& inequalities, const numbers::Value
 /// one cannot be evaluated.
 double largest_gain(const lmi::Inequalities& inequalities, const numbers::Values& values);
 
-/// Evaluates what the method asks to be shown and what has a value, into `gains.report`.
+/// Evaluates what the method asks to be shown and what has a value, into `gains.report`; says which
+/// of all that is there are estimates.
 void add_report(const model::Instance& instance, model::Gains& gains);
 
 }  // namespace gainsmith::design

@@ -125,6 +125,7 @@ class OuterSearch {
 
   /// The figure of gains, without the sign that makes it a minimum.
   std::optional<double> value(const model::Instance& instance, const model::Gains& gains) const {
+    if (request_.measure) return request_.measure(instance, gains);
     if (request_.minimize) {
       const auto found = Results(instance, gains).value(*request_.minimize);
       return found ? std::optional((*found)(0, 0)) : std::nullopt;
@@ -204,8 +205,8 @@ class OuterSearch {
     model::SearchRecord record = gains.search.value_or(model::SearchRecord{});
     record.figure = figure_name(request_, *own_.design);
     // An objective without a minimum is no figure: the margin is.
-    if (best && !request_.extreme && !request_.minimize && !gains.objective)
-      record.figure = "margin";
+    const bool stated = request_.extreme || request_.minimize || request_.measure;
+    if (best && !stated && !gains.objective) record.figure = "margin";
     record.value = record.figure == "margin" && best ? std::optional(-*best) : best;
     record.polish = std::move(polished);
     for (const SearchedScalar& scalar : request_.over) {

@@ -23,6 +23,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// NotSmooth when the figure is one of the gains or of the result, not of the unknowns.
 void require_figure_of_unknowns(const model::Instance& own, const SearchRequest& request) {
+  if (request.measure) throw NotSmooth{"the figure is of runs, which have no smooth form"};
   if (!request.minimize) return;
   std::set<std::string> known;
   for (const auto& [name, value] : own.values) known.insert(name);

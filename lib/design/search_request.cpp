@@ -49,6 +49,7 @@ search::Tolerance tolerance_of(const std::optional<double>& width, const search:
 
 std::string figure_name(const SearchRequest& request, const model::Design& design) {
   if (request.extreme) return (request.largest ? "largest " : "smallest ") + request.extreme->name;
+  if (request.measure) return request.measure_name;
   if (request.minimize) return request.minimize->text;
   return design.objective || design.quotient ? "objective" : "margin";
 }

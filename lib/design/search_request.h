@@ -1,10 +1,12 @@
 // What is searched besides the unknowns, with its ranges as numbers.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "model/gains.h"
 #include "model/instance.h"
 #include "search/axis.h"
 #include "search/bisect.h"
@@ -16,15 +18,21 @@ struct SearchedScalar {
   search::Axis axis;
 };
 
-/// The figure is `extreme` when it is there, then `minimize`, then the method's objective, and
-/// without an objective the margin: the smallest one of the strict inequalities, as large as it can
-/// be.
+/// A figure of runs with gains: none where a run has no such number.
+using Measure =
+    std::function<std::optional<double>(const model::Instance&, const model::Gains& gains)>;
+
+/// The figure is `extreme` when it is there, then `measure` and `minimize`, then the method's
+/// objective, and without an objective the margin: the smallest one of the strict inequalities, as
+/// large as it can be.
 struct SearchRequest {
   std::optional<SearchedScalar> extreme;
   bool largest = true;
   search::Tolerance tolerance;  ///< of the bracket of `extreme`
   std::vector<SearchedScalar> over;
   std::optional<model::Formula> minimize;
+  Measure measure;           ///< called from several threads at once; the caller knows how to run
+  std::string measure_name;  ///< in messages and in the record
   int evaluations = 200;
   bool polish = false;  ///< move scalars and unknowns together at the end (polish.h)
 

@@ -30,6 +30,7 @@ enum class NodeKind {
   block,        ///< children row by row, `columns` in each row
   mirror,       ///< "*" inside a block: the transpose of the mirrored entry
   each,         ///< "i in a..b" in a sum: text = the index, children = {from, to}
+  within,       ///< "x in [a, b]" in a maximum: text = the name, children = {a, b}
   compare,      ///< children = operands of a chain a < b <= c; relations between them
   conjunction,  ///< "and" between conditions
   disjunction,  ///< "or"

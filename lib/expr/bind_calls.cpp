@@ -180,6 +180,9 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return jacobian(expression, node);
     case Composed::flow_map:
       return flow_map(expression, node);
+    case Composed::maximum:
+    case Composed::minimum:
+      return extremum(expression, node, function == Composed::maximum);
     case Composed::lambda_max:
     case Composed::lambda_min:
       return extreme_eigenvalue(expression, node, function == Composed::lambda_max);

@@ -114,6 +114,8 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
       fail(expression, node, "a range stands only in an index, such as x(1:2)");
     case NodeKind::each:
       fail(expression, node, "an index stands only in a sum, such as sum(i in 1..N, P(i))");
+    case NodeKind::within:
+      fail(expression, node, "a box stands only in maximum(f, x in [a, b]) and in minimum(...)");
     case NodeKind::mirror:
       fail(expression, node, "'*' alone stands only in a block");
     case NodeKind::compare:

@@ -101,8 +101,6 @@ class Binder {
   std::vector<bool> depending_on(const std::vector<int>& variables, int until) const;
   // bind_jacobian.cpp
   Bound jacobian(const Expression& expression, const Node& node);
-  Bound derivative_by(const Expression& expression, const Node& node, int value, int variable,
-                      int point);
   // bind_flow_map.cpp
   Bound flow_map(const Expression& expression, const Node& node);
   void require_past(const Expression& expression, const Node& node,
@@ -112,6 +110,14 @@ class Binder {
   std::map<int, int> rates_of(const Expression& expression, const Node& node, int value);
   Bound derivative_along(const Expression& expression, const Node& node, int value,
                          const std::map<int, int>& rates);
+
+  // bind_extremum.cpp
+  Bound extremum(const Expression& expression, const Node& node, bool largest);
+  std::pair<int, int> ends_of_box(const Expression& expression, const Node& box);
+  void refuse_moving(const Expression& expression, const Node& node,
+                     const std::vector<int>& operands) const;
+
+  void refuse_inside(const Expression& expression, const Node& node, const Body& body) const;
 
   bool is_zero(Bound value) const;
   [[noreturn]] void unknown_name(const Expression& expression, const Node& node) const;
@@ -201,6 +207,7 @@ class Binder {
   int steps_ = 0;                              ///< calls of bind() within definitions and sums
   int open_sums_ = 0;                          ///< over indices, being bound now
   int varied_ = 0;                             ///< parameters and definitions that vary
+  int extrema_ = 0;                            ///< bound so far
   Environment environment_;                    ///< parameters of the definition being bound
 };
 

@@ -89,10 +89,11 @@ class Instantiation {
   }
 
   NodePtr changed(const Node& node) {
-    if (node.kind == NodeKind::each && indices_.contains(node.text))
-      throw InputError(expression_.place(node), "'" + node.text +
-                                                    "' already is an index here; name that of the "
-                                                    "sum otherwise");
+    const bool binds = node.kind == NodeKind::each || node.kind == NodeKind::within;
+    if (binds && indices_.contains(node.text))
+      throw InputError(expression_.place(node),
+                       "'" + node.text + "' already is an index here; name that of the " +
+                           (node.kind == NodeKind::each ? "sum" : "box") + " otherwise");
     if (node.kind == NodeKind::name)
       if (const auto found = indices_.find(node.text); found != indices_.end())
         return replaced(node, NodeKind::number, std::to_string(found->second));

@@ -35,7 +35,8 @@
 //     number and the other points go on.
 //  5. Empty matrices are values like others.
 //  6. Projections (project_...) and flow_map are computed by Real and what goes back to it. A type
-//     that bounds errors may lack them: it throws fault::no_error_bound, whatever moves.
+//     that bounds errors may lack them: it throws fault::no_error_bound, whatever moves. So does
+//     Op::extremum: what is found is a value at a point, and where the true one lies is not known.
 //  7. The operands of Op::jacobian are the inputs of its body, which the type differentiates by the
 //     first of them; Dual (numbers/dual.h) does so over the reals.
 #pragma once

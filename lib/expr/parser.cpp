@@ -314,6 +314,7 @@ class Parser {
   NodePtr argument() {
     const std::size_t begin = tokens_[at_].begin;
     if (accept(TokenKind::colon)) return make(NodeKind::range, begin, {});
+    if (is_index() && tokens_[at_ + 2].kind == TokenKind::open_bracket) return box(begin);
     if (is_index()) {
       const Index found = index();
       auto each = make(NodeKind::each, begin, {found.low.root, found.high.root});
@@ -324,6 +325,20 @@ class Parser {
     if (!accept(TokenKind::colon)) return from;
     NodePtr to = comparison();
     return make(NodeKind::range, begin, {from, to});
+  }
+
+  /// x in [a, b]
+  NodePtr box(std::size_t begin) {
+    const std::string name = next().text;
+    next();
+    next();
+    NodePtr low = sum();
+    expect(TokenKind::comma, "',' between the ends of the box");
+    NodePtr high = sum();
+    expect(TokenKind::close_bracket, "']' after the ends of the box");
+    auto within = make(NodeKind::within, begin, {low, high});
+    within->text = name;
+    return within;
   }
 
   NodePtr primary() {

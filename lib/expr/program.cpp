@@ -1,8 +1,15 @@
 #include "expr/program.h"
 
 #include <algorithm>
+#include <string>
 
 namespace gainsmith::expr {
+
+std::string variable_name(std::size_t k) {
+  return k == 0 ? "the variable" : "the variable " + std::to_string(k + 1);
+}
+
+std::string other_name(std::size_t k) { return "operand " + std::to_string(k + 1); }
 
 bool is_same(const Program& a, const Program& b) {
   const auto same_input = [](const Input& x, const Input& y) {

@@ -19,10 +19,12 @@ struct Instruction {
   std::vector<int> operands;  ///< earlier instructions
   Shape shape;                ///< of the result
   Attributes attributes{};
-  std::string text;  ///< constant: the decimal as written; inverse: of what; call: as written
+  std::string text;  ///< constant: the decimal as written; inverse: of what; call: as written;
+                     ///< extremum: the names that run over the box
   std::shared_ptr<const Text> origin;
   std::size_t offset = 0;  ///< where in the origin it was written
-  /// jacobian: what is differentiated; its inputs are the operands. flow_map: the rate.
+  /// jacobian: what is differentiated; its inputs are the operands. flow_map: the rate. extremum: what
+  /// is maximised.
   std::shared_ptr<const Program> body = nullptr;
 
   Place place() const { return origin ? origin->place(offset) : Place{}; }
@@ -44,6 +46,11 @@ struct Program {
   int input(const std::string& name) const;
   bool uses(const std::string& name) const { return input(name) >= 0; }
 };
+
+/// The names of the inputs of a body (jacobian, extremum): what it is a function of, from 0, and
+/// the rest.
+std::string variable_name(std::size_t k);
+std::string other_name(std::size_t k);
 
 /// Whether two programs compute the same in the same way; places do not count.
 bool is_same(const Program& a, const Program& b);

@@ -11,11 +11,12 @@ bool is_named(const Node& node) {
   return node.kind == NodeKind::name || node.kind == NodeKind::call;
 }
 
-/// The indices of the sums that a call makes: sum(i in 1..N, ...).
+/// The names that a call brings along: sum(i in 1..N, ...), maximum(f, x in [a, b]).
 std::set<std::string> indices_of(const Node& node) {
   std::set<std::string> indices;
   for (const NodePtr& child : node.children)
-    if (child->kind == NodeKind::each) indices.insert(child->text);
+    if (child->kind == NodeKind::each || child->kind == NodeKind::within)
+      indices.insert(child->text);
   return indices;
 }
 

@@ -18,6 +18,7 @@ namespace gainsmith::expr {
 struct Symbol {
   Shape shape;
   bool known = false;
+  bool moves = false;  ///< a state, the time, noise: another value at another time of a run
 };
 
 /// "name: expression" or "name(a, b): expression" in `let`.

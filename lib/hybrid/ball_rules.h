@@ -419,7 +419,7 @@ struct BallRules {
   }
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::flow_map>
+                       Op::flow_map, Op::extremum>
   void operator()(Is<op>, const At&, Value&) const { expr::fault::no_error_bound(op); }
 };
 

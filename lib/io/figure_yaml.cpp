@@ -157,6 +157,13 @@ std::vector<FigureText> figures(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+FigureText figure_of(const YamlFile& file, const YamlItem& item) {
+  YamlMap map(file, item.value, item.key);
+  FigureText result = figure(file, map, nullptr);
+  map.finish();
+  return result;
+}
+
 std::vector<model::ExpectedFigureText> expected_figures(const YamlFile& file,
                                                         const YamlItem& item) {
   std::vector<model::ExpectedFigureText> result;

@@ -286,6 +286,7 @@ Json to_json(const model::Gains& gains) {
       document["functions"][function.signature] = function.text;
   }
   if (!gains.report.empty()) document["report"] = matrices_json(gains, "report", gains.report);
+  if (!gains.estimates.empty()) document["estimates"] = gains.estimates;
   document["parameters"] = matrices_json(gains, "parameters", gains.parameters);
   for (const auto& [name, value] : gains.searched)
     document["searched"][name] =
@@ -325,6 +326,9 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
     for (const auto& [name, item] : reader.at("functions").members())
       gains.functions.push_back({name, item.text(), std::nullopt});
   if (reader.has("report")) gains.report = matrices_of(reader.at("report"), gains);
+  if (reader.has("estimates"))
+    for (const auto& [name, item] : reader.at("estimates").members())
+      gains.estimates[name] = item.text();
   gains.parameters = matrices_of(reader.at("parameters"), gains);
   if (reader.has("searched"))
     for (const auto& [name, value] : reader.at("searched").members()) {

@@ -228,7 +228,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
               {"maximise", "write minimize: -(...)"},
               {"objective", "write minimize: ..."}});
   const bool runs = method.has_events || method.timer;
-  if (method.require.empty() && !method.minimize && !runs)
+  if (method.require.empty() && !method.minimize && !runs && method.report.empty())
     throw InputError(map.place(), "the method '" + method.name +
                                       "' has no inequality under 'require' and no dynamics");
   model::check_names(method);

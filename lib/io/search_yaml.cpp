@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "io/figure_yaml.h"
+
 namespace gainsmith::io {
 
 namespace {
@@ -17,7 +19,7 @@ std::optional<model::ScalarRange> extreme(const YamlFile& file, const std::optio
   return ranges.front();
 }
 
-int evaluations(const YamlFile& file, const YamlItem& item) {
+int whole_number(const YamlFile& file, const YamlItem& item) {
   constexpr double kMost = 1e6;
   const double value = file.number(item.value, item.key);
   if (!(value >= 1 && value <= kMost) || value != std::floor(value))
@@ -56,6 +58,7 @@ model::Search search_from(const YamlFile& file, const YamlItem& item, const mode
   const auto tolerance = map.find("tolerance");
   const auto over = map.find("over");
   const auto minimize = map.find("minimize");
+  const auto runs = map.find("runs");
   const auto count = map.find("evaluations");
   map.finish();
   if (largest && smallest)
@@ -73,8 +76,15 @@ model::Search search_from(const YamlFile& file, const YamlItem& item, const mode
   if (count && search.over.empty())
     throw InputError(count->place, "search: 'evaluations' belongs to 'over'");
   if (tolerance) search.tolerance = file.positive(tolerance->value, "tolerance");
-  if (minimize) search.minimize = file.expression(minimize->value, "minimize");
-  if (count) search.evaluations = evaluations(file, *count);
+  const bool of_runs = minimize && minimize->value.IsMap();
+  if (of_runs) search.run_figure = figure_of(file, *minimize);
+  if (minimize && !of_runs) search.minimize = file.expression(minimize->value, "minimize");
+  if (runs && !of_runs)
+    throw InputError(runs->place,
+                     "search: 'runs' belongs to a figure of runs, such as minimize: {rms: e, over: "
+                     "[0, 20]}");
+  if (runs) search.runs = static_cast<std::uint64_t>(whole_number(file, *runs));
+  if (count) search.evaluations = whole_number(file, *count);
   return search;
 }
 

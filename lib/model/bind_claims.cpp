@@ -99,6 +99,10 @@ void Binding::add_claim(const Claim& claim, const std::string& title,
   if (claim.bound) bound.bound = constant_of_claim(*claim.bound, "bound");
   if (claim.after) bound.after = constant_of_claim(*claim.after, "after");
   bound.over = over;
+  bool estimated = estimate(bound.value.program) != expr::Estimate::none;
+  for (const auto* part : {&bound.flow_cost, &bound.jump_cost, &bound.factor, &bound.bound, &bound.after})
+    if (*part && estimate((*part)->program) != expr::Estimate::none) estimated = true;
+  if (estimated) bound.name += " (from estimates)";
   design_->claims.push_back(std::move(bound));
 }
 

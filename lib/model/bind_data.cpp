@@ -129,6 +129,7 @@ void Binding::define(Design::Datum datum, std::vector<Design::Datum>& list) {
   names_->known.symbols[datum.name] = {datum.shape, true};
   names_->known.dimensions = design_->dimensions;
   recorder_->values[datum.name] = std::move(matrix);
+  if (datum.value) note_estimate(datum.name, datum.value->program);
   list.push_back(std::move(datum));
 }
 
@@ -271,6 +272,7 @@ void Binding::add_assumption(const Named& assumption) {
       throw InputError(assumption.place,
                        "'==' stands in requirements only; an assumption is an "
                        "inequality of scalars, such as 0 < T1 <= T2");
+    refuse_estimate(relation.difference, "an assumption");
     bound.differences.emplace_back(relation.difference, relation.strict);
   }
   for (const std::string& name : names_in(assumption.value)) {

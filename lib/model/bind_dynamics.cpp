@@ -73,7 +73,7 @@ void DynamicsBinding::add_states(const Component& component, std::size_t at) {
       bound.shape = shape_of(state);
       bound.structure = state.shape.structure;
       bound.place = state.place;
-      scope_->symbols[bound.name] = {bound.shape};
+      scope_->symbols[bound.name] = {bound.shape, false, true};
       result_.variables.push_back(std::move(bound));
     }
 }
@@ -163,7 +163,7 @@ void DynamicsBinding::add_inputs() {
     number.kind = name == std::string("t") ? Kind::time : Kind::jumps;
     if (number.kind == Kind::time) scope_->time = name;
     number.name = name;
-    scope_->symbols[name] = {};
+    scope_->symbols[name] = {{}, false, true};
     result_.variables.push_back(std::move(number));
   }
 }

@@ -82,7 +82,7 @@ void DynamicsBinding::add_moments() {
     number.name = name;
     number.of = event;
     number.place = result_.events[event].place;
-    scope_->symbols[name] = {};
+    scope_->symbols[name] = {{}, false, true};
     result_.variables.push_back(std::move(number));
   };
   for (std::size_t k = 0; k < result_.events.size(); ++k) {
@@ -313,7 +313,7 @@ void DynamicsBinding::add_noise(Dynamics::Noise noise) {
   variable.of = result_.noise.size();
   variable.shape = noise.shape;
   variable.place = noise.place;
-  scope_->symbols[noise.name] = {noise.shape};
+  scope_->symbols[noise.name] = {noise.shape, false, true};
   result_.variables.push_back(std::move(variable));
   result_.noise.push_back(std::move(noise));
 }

@@ -134,6 +134,7 @@ void Binding::add_gain(const Gain& gain) {
   bound.variable = gain.variable;
   bound.formula = formula(gain.value, scope);
   bound.shape = bound.formula.program.shape();
+  note_estimate(gain.name, bound.formula.program);
   const Products products(*design_, gain, scope);
   products.find(gain.value.root, bound.products);
   bound.whole = products.factor({gain.value.root});
@@ -160,8 +161,9 @@ void Binding::bind_gains() {
       scope.symbols[gain.name] = {gain.shape};
     }
   }
-  for (const Design::State& state : design_->states) scope.symbols[state.name] = {state.shape};
-  if (method().timer) scope.symbols[method().timer->name] = {};
+  for (const Design::State& state : design_->states)
+    scope.symbols[state.name] = {state.shape, false, true};
+  if (method().timer) scope.symbols[method().timer->name] = {{}, false, true};
   names_->results = scope;
   names_->results.symbols["objective"] = {};
 }

@@ -95,6 +95,7 @@ void Binding::bind_objective(const expr::Expression& text) {
         text.text,
         bounded(text, with_terms(text, text.root, names_->design), 1, false, names_->design)};
     design_->objective = scalar(affine, names_->design);
+    refuse_estimate(design_->objective->program, "a minimum");
     return;
   }
   const expr::Expression first{text.text, root.children[0]};
@@ -110,6 +111,8 @@ void Binding::bind_objective(const expr::Expression& text) {
   Design::Quotient bound;
   bound.numerator = square(first, std::nullopt);
   bound.denominator = square(second, bound.numerator.shape());
+  for (const expr::Program* side : {&bound.numerator, &bound.denominator})
+    refuse_estimate(*side, "a minimum");
   bound.text = text.quote(root);
   bound.denominator_text = text.quote(*second.root);
   bound.place = text.place(root);
@@ -145,6 +148,11 @@ void Binding::add_inequality(const Requirement& requirement, const Member& membe
   }
   add_comparisons(affine_comparisons(that, scope, !requirement.forall.empty()), bound,
                   requirement.name, member.label, scope);
+  for (const auto& comparison : bound.comparisons)
+    refuse_estimate(comparison.difference, "'" + requirement.name + "'");
+  for (const Design::Variable& one : bound.domain)
+    for (const Formula& point : one.points)
+      refuse_estimate(point.program, "'" + requirement.name + "'");
   design_->inequalities.push_back(std::move(bound));
 }
 

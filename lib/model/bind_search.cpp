@@ -18,6 +18,14 @@ void refuse_repetition(const Search& search) {
       throw InputError(range.place, "'" + range.name + "' is searched already");
 }
 
+/// The figure of one observer, or of none.
+Figure only(std::vector<Figure> readings) {
+  if (readings.size() != 1)
+    throw InputError(readings.front().place, "this is of one observer; say of which, 'observer: " +
+                                                 readings.front().observer + "'");
+  return std::move(readings.front());
+}
+
 }  // namespace
 
 Range Binding::range(const ScalarRange& range) const {
@@ -60,6 +68,8 @@ void Binding::bind_search() {
   bound.tolerance = search.tolerance;
   for (const ScalarRange& text : search.over) bound.over.push_back(checked(text));
   if (search.minimize) bound.minimize = scalar(*search.minimize, names_->results);
+  if (search.run_figure) bound.run_figure = only(figures(*search.run_figure));
+  bound.runs = search.runs;
   bound.evaluations = search.evaluations;
   design_->search = std::move(bound);
 }
@@ -80,11 +90,7 @@ void Binding::bind_expectation() {
         {each.name, std::move(what), std::move(wanted), each.relative, each.absolute, each.place});
   }
   for (const ExpectedFigureText& text : expect.run) {
-    std::vector<Figure> readings = figures(text.figure);
-    if (readings.size() != 1)
-      throw InputError(text.figure.place, "this is of one observer; say of which, 'observer: " +
-                                              readings.front().observer + "'");
-    ExpectedFigure figure{std::move(readings.front()), std::nullopt, text.ending, text.relative,
+    ExpectedFigure figure{only(figures(text.figure)), std::nullopt, text.ending, text.relative,
                           text.absolute};
     if (text.is) figure.is = scalar(*text.is, names_->known);
     bound.run.push_back(std::move(figure));
@@ -112,6 +118,8 @@ std::vector<Figure> Binding::figures(const FigureText& text) const {
     bound.after = text.after;
     bound.place = text.place;
     if (text.value) bound.value = scalar(reading.texts.front(), names_->running);
+    if (bound.value && estimate(bound.value->program) != expr::Estimate::none)
+      bound.title += " (from estimates)";
     if (!text.event.empty()) bound.event = event_of(text, reading.observer);
     for (const expr::Expression& number : text.numbers)
       bound.numbers.push_back(scalar(number, names_->known));

@@ -67,6 +67,7 @@ void Binding::bind_components() {
       for (Design::MapEntry& entry : map(*entries)) bound->push_back(std::move(entry));
   }
   design_->report = named(method().report, scope);
+  for (const NamedFormula& shown : design_->report) note_estimate(shown.name, shown.value.program);
   design_->signals = named(method().signals, scope);
   bind_timer();
 }
@@ -101,6 +102,7 @@ void Binding::bind_dynamics() {
       dynamics.signals.push_back({name, formula(reading.texts.front(), scope), std::nullopt});
     }
   design_->report = named(method().report, scope);
+  for (const NamedFormula& shown : design_->report) note_estimate(shown.name, shown.value.program);
   names_->results = scope;
   names_->results.symbols["objective"] = {};
 }

@@ -109,6 +109,11 @@ class Binding {
   std::vector<expr::Expression> affine_comparisons(const expr::Expression& stated,
                                                    expr::Scope& scope, bool quantified);
 
+  // bind_estimates.cpp
+  void note_estimate(const std::string& name, const expr::Program& program);
+  expr::Estimate estimate(const expr::Program& program) const;
+  void refuse_estimate(const expr::Program& program, const std::string& what) const;
+
   // bind_gains.cpp
   void bind_gains();
   void bind_gain_bounds();

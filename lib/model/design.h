@@ -16,6 +16,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "expr/estimate.h"
 #include "expr/program.h"
 #include "model/dynamics.h"
 #include "model/figure.h"
@@ -241,6 +243,8 @@ struct Design {
     std::optional<double> tolerance;
     std::vector<Range> over;
     std::optional<Formula> minimize;
+    std::optional<Figure> run_figure;
+    std::uint64_t runs = 1;
     int evaluations = 200;
   };
 
@@ -269,6 +273,8 @@ struct Design {
   std::optional<Quotient> quotient;  ///< instead of an objective
   std::vector<Gain> gains;
   std::vector<NamedFormula> report;
+  /// The data, parameters, gains and reports that rest on a search over a box; others are not here.
+  std::map<std::string, expr::Estimate> estimates;
 
   std::vector<State> states;  ///< plant first, then observer
   std::vector<MapEntry> flow;

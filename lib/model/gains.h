@@ -148,6 +148,9 @@ struct Gains {
   /// How unknown functions follow from `unknowns`.
   std::vector<StatedFunction> functions;
   NamedMatrices report;  ///< what the method asks to be shown
+  /// The gains, reports, data and parameters that are estimates, found by a search over a box:
+  /// "estimate from below".
+  std::map<std::string, std::string> estimates;
   NamedMatrices parameters;
   /// Scalars that a search set: they replace those of the statement. Their decimals count.
   Overrides searched;

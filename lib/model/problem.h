@@ -98,6 +98,8 @@ struct Search {
   std::optional<double> tolerance;           ///< of the final bracket of `extreme`
   std::vector<ScalarRange> over;             ///< scalars that are optimised outside
   std::optional<expr::Expression> minimize;  ///< figure of `over` when there is no `extreme`
+  std::optional<FigureText> run_figure;      ///< figure of `over`, of runs
+  std::uint64_t runs = 1;                    ///< over which the mean of `run_figure` is taken
   int evaluations = 200;                     ///< of the figure
   Place place;
 };

@@ -252,8 +252,8 @@ struct DualRules {
     }
   }
   template <Op op>
-  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::jacobian, Op::project_polytope,
-                       Op::project_ellipsoid, Op::project_affine>
+  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::jacobian, Op::extremum,
+                       Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
   void operator()(Is<op>, const At& at, Value& out) const {
     for (const Value* operand : at.operands) no_slope(*operand, out, op);
   }

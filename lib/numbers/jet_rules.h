@@ -250,7 +250,7 @@ struct JetRules {
   }
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::flow_map>
+                       Op::flow_map, Op::extremum>
   void operator()(Is<op>, const At&, Jet&) const { expr::fault::no_error_bound(op); }
 
  private:

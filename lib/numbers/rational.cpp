@@ -180,7 +180,7 @@ struct Rules {
   requires expr::OneOf<op, Op::real_power, Op::log, Op::sqrt, Op::atan2, Op::norm,
                        Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
                        Op::complement_basis, Op::jacobian, Op::project_polytope,
-                       Op::project_ellipsoid, Op::project_affine, Op::flow_map>
+                       Op::project_ellipsoid, Op::project_affine, Op::flow_map, Op::extremum>
   void operator()(Is<op>, const At&, Value&) const { not_rational(op); }
 
  private:

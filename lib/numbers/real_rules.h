@@ -12,6 +12,7 @@
 
 #include "expr/number_type.h"
 #include "numbers/dual.h"
+#include "numbers/extremum.h"
 #include "numbers/flow_map.h"
 #include "numbers/householder.h"
 #include "numbers/projection.h"
@@ -239,6 +240,9 @@ struct RealRules {
   }
   void operator()(Is<Op::flow_map>, const At& at, Value& out) const {
     out = flow_map<Scalar>(at.instruction, at.operands);
+  }
+  void operator()(Is<Op::extremum>, const At& at, Value& out) const {
+    out = extremum<Scalar>(at.instruction, at.operands);
   }
 
  private:

@@ -6,8 +6,8 @@
 #include <memory>
 
 #include "base/number.h"
+#include "verify/bound_figure.h"
 #include "verify/event_setup.h"
-#include "verify/run_figures.h"
 
 namespace gainsmith::verify {
 
@@ -40,28 +40,9 @@ class TwoRuns {
 
  private:
   std::pair<std::optional<double>, std::optional<double>> numbers(const model::Figure& figure) {
-    std::optional<expr::Program> program;
-    std::optional<RunValue> value;
-    if (figure.value) {
-      program = setup_->system.bodies.link(figure.value->program);
-      for (const expr::Input& input : program->inputs)
-        if (!setup_->system.slot(input.name) && !setup_->system.constants.contains(input.name))
-          throw InputError(figure.value->place, "there is no value for " + input.name);
-      value.emplace(*program, setup_->layout, setup_->system.constants);
-    }
-    std::vector<double> constants;
-    for (const model::Formula& number : figure.numbers)
-      constants.push_back(setup_->system.scalar(number));
-    std::optional<Eigen::Index> passes;
-    if (figure.kind == model::FigureKind::passes) {
-      const std::string& event = setup_->system.dynamics.events[figure.event].name;
-      if (const auto slot = setup_->system.slot(expr::event_number("passes", event)))
-        passes = setup_->system.layout.slots[*slot].offset;
-    }
-    FigureOf of(figure.kind, std::move(value), std::move(constants), figure.event, figure.count,
-                figure.after, passes);
-    const auto usual = of(usual_);
-    return {usual, of(sharper_)};
+    BoundFigure bound(figure, *setup_);
+    const auto usual = bound.of(usual_);
+    return {usual, bound.of(sharper_)};
   }
 
   std::unique_ptr<const EventSetup> setup_;

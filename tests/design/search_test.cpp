@@ -30,6 +30,55 @@ data: {A: [[0.5, 3], [0, -0.8]]}
 search: {smallest: {rho: [0.05, 2]}, tolerance: 1e-5}
 )";
 
+/// A design by formula, whose figure is what somebody measures of its gains.
+const std::string kMeasured = R"(problem: measured
+method:
+  method: measured
+  parameters: {a: 1, b: 0.5}
+  gains: {K: a*b}
+  report: {sum: a + b}
+search: {over: {a: [0, 4], b: [0, 1]}, evaluations: 300}
+)";
+
+TEST(Search, AMeasureIsMinimisedAcrossItsJumps) {
+  const YamlProblem problem(kMeasured);
+  SearchRequest request = request_of(problem.instance);
+  request.measure_name = "staircase";
+  // Lowest where a lies above the jump at 2.6; there is no value for b > 0.9.
+  request.measure = [](const model::Instance& at, const model::Gains& gains) {
+    const double a = at.values.at("a")(0, 0), b = at.values.at("b")(0, 0);
+    EXPECT_EQ((*gains.find("K"))(0, 0), a * b);
+    if (b > 0.9) return std::optional<double>();
+    return std::optional((a > 2.6 ? 0.0 : 5.0) + (a - 2) * (a - 2) + std::floor(4 * b) + b * b);
+  };
+  const auto found = [&](unsigned threads) {
+    return synthesize_searched(problem.instance, request, &kOptimizers, threads, {});
+  };
+  const model::Gains gains = found(1);
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  EXPECT_NEAR(gains.searched.at("a"), 2.6, 1e-3);
+  EXPECT_GT(gains.searched.at("a"), 2.6);
+  EXPECT_NEAR(gains.searched.at("b"), 0, 1e-3);
+  EXPECT_EQ(gains.search->figure, "staircase");
+  EXPECT_NEAR(gains.search->value.value(), 0.36, 2e-3);
+  EXPECT_LE(gains.search->evaluations, 300);
+  EXPECT_LT(gains.search->feasible, gains.search->evaluations);
+  EXPECT_EQ(found(2).searched, gains.searched);
+}
+
+TEST(Search, AMeasureWithoutAnyValueDecidesNothing) {
+  const YamlProblem problem(kMeasured);
+  SearchRequest request = request_of(problem.instance);
+  request.measure_name = "nothing";
+  request.measure = [](const model::Instance&, const model::Gains&) {
+    return std::optional<double>();
+  };
+  request.evaluations = 20;
+  const model::Gains gains = synthesize_searched(problem.instance, request, &kOptimizers, 1, {});
+  EXPECT_EQ(gains.verdict, model::Verdict::undecided);
+  EXPECT_FALSE(gains.search->value);
+}
+
 TEST(Search, AnOptimumAtTheEndOfARangeIsNamed) {
   const YamlProblem problem(kBowl + "search: {over: {a: [2.5, 9], b: [1, 4]}, evaluations: 150}\n");
   const model::Gains gains =

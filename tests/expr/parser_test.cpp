@@ -56,6 +56,8 @@ std::string tree(const Node& node) {
       return "*";
     case NodeKind::each:
       return list("each " + node.text);
+    case NodeKind::within:
+      return list("within " + node.text);
     case NodeKind::compare: {
       std::string text = "(compare " + tree(*node.children[0]);
       for (std::size_t i = 0; i < node.relations.size(); ++i)

@@ -40,6 +40,8 @@ class RandomGains {
     gains.unknowns = {{"P", matrix(3, 3)}, {"row", matrix(1, 3)}, {"empty", matrix(0, 0)}};
     gains.parameters = {{"delta", matrix(1, 1)}};
     if (random_() % 2 == 0) gains.report = {{"rank", matrix(3, 1)}};
+    if (random_() % 2 == 0)
+      gains.estimates = {{"L", "from estimates"}, {"rank", "estimate from below"}};
     using Kind = model::GainFunction::Kind;
     if (random_() % 2 == 0) {
       gains.gain_functions = {

@@ -39,6 +39,19 @@ TEST(Search, AFigureMayBeStatedForOver) {
   EXPECT_NO_THROW(model::bind(problem));
 }
 
+TEST(Search, AFigureMayBeOneOfRuns) {
+  const model::Problem problem =
+      read_problem(with("search: {over: {delta: [1e-3, 10]}, runs: 7,\n"
+                        "         minimize: {observer: ekf, rms: norm(e), over: [0, 20]}}"));
+  ASSERT_TRUE(problem.search && problem.search->run_figure);
+  EXPECT_FALSE(problem.search->minimize);
+  EXPECT_EQ(problem.search->runs, 7U);
+  EXPECT_EQ(problem.search->run_figure->kind, model::FigureKind::rms);
+  EXPECT_EQ(problem.search->run_figure->observer, "ekf");
+  const InputError error = input_error([&] { model::bind(problem); });
+  EXPECT_NE(error.message().find("this one has a timer"), std::string::npos) << error.what();
+}
+
 TEST(Search, MistakesAreShownAtTheirPlace) {
   const std::vector<std::pair<std::string, std::string>> mistakes = {
       {"search: {}", "expected 'largest', 'smallest' or 'over'"},
@@ -55,6 +68,12 @@ TEST(Search, MistakesAreShownAtTheirPlace) {
       {"search: {over: {delta: [1, 2]}, evaluations: 0.5}", "whole number"},
       {"search: {over: {delta: [1, 2]}, evaluations: 1e9}", "whole number"},
       {"search: {largest: {T2: [1, 2]}, minimize: g1}", "leave out 'minimize'"},
+      {"search: {over: {delta: [1, 2]}, runs: 3}", "'runs' belongs to a figure of runs"},
+      {"search: {over: {delta: [1, 2]}, minimize: {rms: e, over: [0, 1]}, runs: 0}",
+       "whole number"},
+      {"search: {over: {delta: [1, 2]}, minimize: {rms: e}}", "a figure is one of"},
+      {"search: {over: {delta: [1, 2]}, minimize: {ended: zeno}}", "ended"},
+      {"search: {largest: {T2: [1, 2]}, minimize: {peak: e}}", "leave out 'minimize'"},
       {"negotiable: {T22: [0, 1]}", "did you mean 'T2'?"}};
   for (const auto& [block, message] : mistakes) {
     const InputError error = input_error([&] { read_problem(with(block)); });

@@ -11,7 +11,7 @@ namespace {
 
 const std::vector<expr::Op> kWithoutBound = {expr::Op::project_polytope,
                                              expr::Op::project_ellipsoid, expr::Op::project_affine,
-                                             expr::Op::flow_map};
+                                             expr::Op::flow_map, expr::Op::extremum};
 
 template <class Scalar>
 Subject real(const std::string& name, double tolerance) {

@@ -1,0 +1,12 @@
+// What a problem wants searched, with figures of runs: design and verify meet here alone.
+#pragma once
+
+#include "design/search_request.h"
+
+namespace gainsmith::app {
+
+/// design::request_of, and the measure where the problem minimises a figure of runs. What the
+/// measure refers to is held by `instance`'s design, which must outlive the request.
+design::SearchRequest wanted_search(const model::Instance& instance);
+
+}  // namespace gainsmith::app

@@ -1,0 +1,52 @@
+#include "expr/estimate.h"
+
+#include <cstddef>
+#include <vector>
+
+namespace gainsmith::expr {
+
+std::string to_string(Estimate estimate) {
+  switch (estimate) {
+    case Estimate::none:
+      return "";
+    case Estimate::from_below:
+      return "estimate from below";
+    case Estimate::from_above:
+      return "estimate from above";
+    case Estimate::mixed:
+      return "from estimates";
+  }
+  return "";
+}
+
+Estimate estimate_of(const Program& program,
+                     const std::function<Estimate(const std::string& input)>& of_input) {
+  std::vector<Estimate> found(program.code.size(), Estimate::none);
+  for (std::size_t i = 0; i < program.code.size(); ++i) {
+    const Instruction& instruction = program.code[i];
+    if (instruction.op == Op::input) {
+      const auto input = static_cast<std::size_t>(instruction.attributes[0]);
+      found[i] = of_input(program.inputs[input].name);
+      continue;
+    }
+    const bool is_search = instruction.op == Op::extremum;
+    if (is_search)
+      found[i] = instruction.attributes[0] != 0 ? Estimate::from_below : Estimate::from_above;
+    for (const int operand : instruction.operands)
+      if (found[static_cast<std::size_t>(operand)] != Estimate::none) found[i] = Estimate::mixed;
+    if (!is_search && instruction.body && search_in(*instruction.body) != nullptr)
+      found[i] = Estimate::mixed;
+  }
+  return found[static_cast<std::size_t>(program.result)];
+}
+
+const Instruction* search_in(const Program& program) {
+  for (const Instruction& instruction : program.code) {
+    if (instruction.op == Op::extremum) return &instruction;
+    if (!instruction.body) continue;
+    if (const Instruction* inside = search_in(*instruction.body)) return inside;
+  }
+  return nullptr;
+}
+
+}  // namespace gainsmith::expr

@@ -1,0 +1,26 @@
+// Internal to verify: a figure of a design with the values of a setup.
+#pragma once
+
+#include <optional>
+
+#include "model/figure.h"
+#include "verify/event_setup.h"
+#include "verify/run_figures.h"
+
+namespace gainsmith::verify {
+
+class BoundFigure {
+ public:
+  /// InputError where a name of the figure has no value. The setup must outlive it.
+  BoundFigure(const model::Figure& figure, const EventSetup& setup);
+  BoundFigure(const BoundFigure&) = delete;
+  BoundFigure& operator=(const BoundFigure&) = delete;
+
+  std::optional<double> of(const hybrid::Trajectory& run) { return (*number_)(run); }
+
+ private:
+  std::optional<expr::Program> program_;  ///< that the value of the figure reads
+  std::optional<FigureOf> number_;
+};
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,78 @@
+// Means of figures over runs, against closed forms and against the runs themselves.
+#include "verify/run_measure.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <string>
+
+#include "support/yaml_problem.h"
+#include "verify/bound_figure.h"
+
+namespace gainsmith::verify {
+namespace {
+
+using tests::YamlProblem;
+
+/// x' = -k x from a start that is drawn in [0, 2]; an event when x is below 0.1.
+std::string decay(const std::string& figure) {
+  return R"(problem: decay
+method:
+  method: decay
+  parameters: {k: 2}
+  events: {low: {when: x < 0.1, if: count(low) < 1}}
+  plant: {state: {x: {shape: scalar, start: 1}}, flow: {x: -k*x}}
+search: {over: {k: [1, 3]}, runs: 4, minimize: )" +
+         figure + R"(}
+campaign: {horizon: 3, seed: 5, initial: {x: {box: [0, 2]}}}
+)";
+}
+
+class Measures : public testing::Test {
+ protected:
+  static std::optional<double> mean(const YamlProblem& problem, std::uint64_t runs) {
+    return mean_figure(problem.instance, {}, *problem.instance.design->search->run_figure, runs,
+                       {});
+  }
+  static double start_of(const YamlProblem& problem, std::uint64_t run) {
+    const auto setup = make_event_setup(problem.instance, {});
+    hybrid::EventSimulator simulator(setup->system, setup->scenario, {});
+    const YamlProblem first(decay("{at: {t: 0}, value: x}"));
+    BoundFigure start(*first.instance.design->search->run_figure, *setup);
+    return start.of(simulator.run(5, run)).value();
+  }
+};
+
+TEST_F(Measures, AreMeansOfWhatTheRunsGive) {
+  const YamlProblem peak(decay("{peak: x}"));
+  const YamlProblem rms(decay("{rms: x, over: [0, 3]}"));
+  const double factor = std::sqrt((1 - std::exp(-12.0)) / 4 / 3);
+  double sum = 0;
+  for (std::uint64_t run = 0; run < 4; ++run) {
+    sum += start_of(peak, run);
+    const double runs = static_cast<double>(run + 1);
+    EXPECT_NEAR(mean(peak, run + 1).value(), sum / runs, 1e-9);
+    EXPECT_NEAR(mean(rms, run + 1).value(), factor * sum / runs, 1e-8);
+  }
+}
+
+TEST_F(Measures, HaveNoValueWhereARunHasNone) {
+  EXPECT_TRUE(mean(YamlProblem(decay("{count: low}")), 4));
+  EXPECT_FALSE(mean(YamlProblem(decay("{at: {event: low, count: 9}, value: x}")), 1));
+  EXPECT_FALSE(mean(YamlProblem(decay("{at: {t: 4}, value: x}")), 1));
+  EXPECT_FALSE(mean(YamlProblem(decay("{settles: x, below: 0}")), 1));
+}
+
+TEST_F(Measures, AreTheSameBitsAgain) {
+  const YamlProblem problem(decay("{rms: x, over: [0, 3]}"));
+  EXPECT_EQ(mean(problem, 3), mean(problem, 3));
+}
+
+TEST_F(Measures, EndWhenTheyAreStopped) {
+  const YamlProblem problem(decay("{rms: x, over: [0, 3]}"));
+  EXPECT_FALSE(mean_figure(problem.instance, {}, *problem.instance.design->search->run_figure, 2,
+                           [] { return true; }));
+}
+
+}  // namespace
+}  // namespace gainsmith::verify
