@@ -52,7 +52,9 @@ class OuterSearch {
       options.warm = [&](const search::Point& point, double best) {
         return figure(point, request_.largest ? -best : best);
       };
-    if (const auto scales = scales_at(options.starts.front()))
+    // A design by formula has nothing to violate.
+    const bool has_slacks = !own_.design->inequalities.empty();
+    if (const auto scales = has_slacks ? scales_at(options.starts.front()) : std::nullopt)
       options.violation = [&, scales = *scales](const search::Point& point) {
         return violation(scales, point);
       };
