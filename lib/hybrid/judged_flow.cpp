@@ -91,7 +91,7 @@ void FlowCheck::check_joint(const Eigen::VectorXd& x, double t, const Eigen::Vec
   for (std::size_t v = 0; inner && v < flowing_.size(); ++v)
     if (texts_.is(v, V::noise)) {
       const auto& every = texts_.noise[texts_.dynamics.variables[v].of].every;
-      if (every && same_time(std::round(t / *every) * *every, t))
+      if (every ? same_time(std::round(t / *every) * *every, t) : texts_.changes_inside(v))
         texts_.part(difference, v).setZero();
     }
   report(t, "the steps of a flow do not join", difference,
