@@ -278,7 +278,7 @@ class Draws {
       const auto& piece = std::get<FlowPiece>(run_.parts[k]);
       look(k, piece.from(), piece.start, false);
       for (const DenseStep& step : piece.steps)
-        if (every) look(k, step.from, step(step.from), false);
+        if (every || spent) look(k, step.from, step(step.from), false);
     }
   }
 

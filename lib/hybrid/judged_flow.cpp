@@ -95,7 +95,7 @@ void FlowCheck::check_joint(const Eigen::VectorXd& x, double t, const Eigen::Vec
       if (texts_.has_row(v, t)) texts_.part(difference, v).setZero();
     } else if (texts_.is(v, V::noise)) {
       const auto& every = texts_.noise[texts_.dynamics.variables[v].of].every;
-      if (every && same_time(std::round(t / *every) * *every, t))
+      if (every ? same_time(std::round(t / *every) * *every, t) : texts_.changes_inside(v))
         texts_.part(difference, v).setZero();
     }
   report(t, "the steps of a flow do not join", difference,

@@ -259,14 +259,19 @@ void JudgedTexts::rate(const Eigen::VectorXd& x, Eigen::VectorXd& out) {
   }
 }
 
+bool JudgedTexts::changes_inside(std::size_t variable) const {
+  if (is_measured(variable)) return true;
+  if (!is(variable, Dynamics::VariableKind::noise)) return false;
+  const Dynamics::Noise& one = dynamics.noise[dynamics.variables[variable].of];
+  return one.every || (one.event && dynamics.events[*one.event].only_if);
+}
+
 void JudgedTexts::settle(const Eigen::VectorXd& start, Eigen::VectorXd& x) {
   using V = Dynamics::VariableKind;
   const std::vector<bool> flows = flowing(start);
   for (std::size_t v = 0; v < dynamics.variables.size(); ++v) {
     const bool is_clock = is(v, V::time) || is(v, V::since) || is(v, V::left);
-    const bool changes =
-        (is(v, V::noise) && noise[dynamics.variables[v].of].every) || is_measured(v);
-    if (!flows[v] && !is_clock && !changes) part(x, v) = part(start, v);
+    if (!flows[v] && !is_clock && !changes_inside(v)) part(x, v) = part(start, v);
   }
 }
 

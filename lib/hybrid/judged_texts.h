@@ -111,6 +111,8 @@ class JudgedTexts {
   /// Gives what rests in a flow from `start` the bits that it has there: a sum of polynomials has
   /// rounded them, and `==` would see it. Not so noise that may change within a flow.
   void settle(const Eigen::VectorXd& start, Eigen::VectorXd& x);
+  /// Whether noise may be drawn anew within a flow: after a time, or where `if` spends its event.
+  bool changes_inside(std::size_t variable) const;
   /// The largest element of each variable's part of `sizes`, for each of its elements.
   Eigen::VectorXd by_variable(const Eigen::VectorXd& sizes) const;
   auto part(Eigen::VectorXd& x, std::size_t variable) const {
