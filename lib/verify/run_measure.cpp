@@ -9,7 +9,7 @@ namespace gainsmith::verify {
 std::optional<double> mean_figure(const model::Instance& instance, const model::Gains& gains,
                                   const model::Figure& figure, std::uint64_t runs,
                                   const std::function<bool()>& stopped) {
-  constexpr hybrid::Accuracy kAccuracy{1e-8, 1e-8};
+  const hybrid::Accuracy kAccuracy{1e-8, 1e-8};
   const auto setup = make_event_setup(instance, gains);
   hybrid::EventSimulator simulator(setup->system, setup->scenario, stopped);
   BoundFigure bound(figure, *setup);
