@@ -104,6 +104,18 @@ TEST(ClaimsAlongRuns, AnEquationWithAClosedFormIsUndecided) {
   }
 }
 
+/// x = exp(-t), an exact flow: both runs round alike.
+TEST(ClaimsAlongRuns, AnEquationOfAnExactFlowIsNotViolated) {
+  const std::string method = "  plant: {state: {x: {shape: scalar, start: 1}}, flow: {x: -x}}\n";
+  for (const char* claim :
+       {"below: rate(x) + exp(-t), bound: 0", "above: rate(x) + exp(-t), bound: 0",
+        "below: x*exp(t), bound: 1", "above: x*exp(t), bound: 1", "below: rate(x) + x, bound: 0"}) {
+    const Report report = report_of(
+        instance_of(method, "{c: {" + std::string(claim) + "}}", "{runs: 1, horizon: 5}"));
+    EXPECT_EQ(report.violations, 0U) << claim;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(
     OverEvents, ClaimsAlongRuns,
     testing::Values(Case{"nonincreasing: z, over: full", CampaignVerdict::undecided},
