@@ -1,5 +1,6 @@
 #include "hybrid/judged_draws.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -75,6 +76,7 @@ class Draws {
                 texts_.stated);
       return text(run_.start).reshaped();
     }
+    if (start.kind == model::StartKind::ellipsoid) return in_ellipsoid(v, start);
     const numbers::Matrix low = texts_.constant(start.values[0]);
     const numbers::Matrix high = texts_.constant(start.values[1]);
     const auto at = [](const numbers::Matrix& end, Index i, Index j) {
@@ -90,6 +92,24 @@ class Draws {
         if (symmetric) value(j, i) = value(i, j);
       }
     return value.reshaped();
+  }
+
+  /// c + sqrt(r) inv(L)' b with Q = L L', b uniform in the unit ball.
+  VectorXd in_ellipsoid(std::size_t v, const Design::Start& start) const {
+    const numbers::Matrix Q = texts_.constant(start.values[1]);
+    const double level = texts_.constant(start.values[2])(0, 0);
+    const RandomStream random = stream(kOfStart, v);
+    const Index n = Q.rows();
+    VectorXd b(n);
+    for (Index k = 0; k < n; ++k) {
+      const auto at = static_cast<std::uint64_t>(2 * k);
+      b(k) = normal(random.uniform_at(at), random.uniform_at(at + 1));
+    }
+    const double u = random.uniform_at(static_cast<std::uint64_t>(2 * n));
+    if (b.norm() > 0) b *= std::pow(u, 1.0 / static_cast<double>(n)) / b.norm();
+    const numbers::Matrix L = numbers::Matrix((Q + Q.transpose()) / 2).llt().matrixL();
+    return texts_.constant(start.values[0]).reshaped() +
+           std::sqrt(level) * L.transpose().triangularView<Eigen::Upper>().solve(b);
   }
 
   // --- Clocks. ---
@@ -222,11 +242,54 @@ class Draws {
 
   // --- Noise. ---
 
+  static bool is_taken(const Dynamics::Noise& noise) {
+    return noise.kind == Dynamics::NoiseKind::vertices ||
+           noise.kind == Dynamics::NoiseKind::corners;
+  }
+
+  numbers::Matrix filled(const model::Formula& text, expr::Shape shape) const {
+    const numbers::Matrix value = texts_.constant(text);
+    if (value.size() != 1) return value;
+    return numbers::Matrix::Constant(shape.rows, shape.cols, value(0, 0));
+  }
+
+  /// How many vertices or corners it has.
+  std::uint64_t count_of(const Dynamics::Noise& one) const {
+    if (one.kind == Dynamics::NoiseKind::vertices) return one.values.size();
+    const numbers::Matrix low = filled(one.values[0], one.shape);
+    const numbers::Matrix high = filled(one.values[1], one.shape);
+    return std::uint64_t{1} << static_cast<unsigned>((low.array() != high.array()).count());
+  }
+
+  /// The vertex or corner of this run.
+  VectorXd taken(std::size_t noise) const {
+    std::uint64_t before = 1;
+    for (std::size_t k = 0; k < noise; ++k)
+      if (is_taken(texts_.dynamics.noise[k])) before *= count_of(texts_.dynamics.noise[k]);
+    const Dynamics::Noise& one = texts_.dynamics.noise[noise];
+    std::uint64_t number = from_.run / before % count_of(one);
+    if (one.kind == Dynamics::NoiseKind::vertices)
+      return filled(one.values[number], one.shape).reshaped();
+    const VectorXd high = filled(one.values[1], one.shape).reshaped();
+    VectorXd value = filled(one.values[0], one.shape).reshaped();
+    for (Index k = 0; k < value.size(); ++k) {
+      if (value(k) == high(k)) continue;
+      if (number % 2 == 1) value(k) = high(k);
+      number /= 2;
+    }
+    return value;
+  }
+
+  static double normal(double u, double v) {
+    return std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * std::numbers::pi * v);
+  }
+
   VectorXd noise_value(std::size_t noise, std::uint64_t drawing) const {
     const Dynamics::Noise& one = texts_.dynamics.noise[noise];
+    if (is_taken(one)) return taken(noise);
     const RandomStream random = stream(kOfNoise, noise);
     const auto size = static_cast<std::uint64_t>(one.shape.size());
-    const bool normal = one.kind == Dynamics::NoiseKind::normal;
+    const bool is_normal = one.kind == Dynamics::NoiseKind::normal;
     const numbers::Matrix first = texts_.constant(one.values[0]);
     const auto at = [](const numbers::Matrix& end, Index k) {
       return end.size() == 1 ? end(0, 0) : end(k);
@@ -234,12 +297,10 @@ class Draws {
     VectorXd value(one.shape.size());
     for (std::uint64_t k = 0; k < size; ++k) {
       const auto element = static_cast<Index>(k);
-      const std::uint64_t number = (drawing * size + k) * (normal ? 2 : 1);
+      const std::uint64_t number = (drawing * size + k) * (is_normal ? 2 : 1);
       const double u = random.uniform_at(number);
-      if (normal) {
-        const double v = random.uniform_at(number + 1);
-        value(element) = at(first, element) * std::sqrt(-2 * std::log(1 - u)) *
-                         std::cos(2 * std::numbers::pi * v);
+      if (is_normal) {
+        value(element) = at(first, element) * normal(u, random.uniform_at(number + 1));
       } else {
         const double high = at(texts_.constant(one.values[1]), element);
         value(element) = at(first, element) + (high - at(first, element)) * u;
@@ -261,13 +322,15 @@ class Draws {
     const bool spent = event && texts_.dynamics.events[*event].only_if;
     const auto& every = texts_.noise[noise].every;
     std::uint64_t drawing = 0;
+    bool wrong = false;
     const auto look = [&](std::size_t part, double t, const VectorXd& x, bool drawn) {
+      if (wrong) return;
       if (every) drawing = static_cast<std::uint64_t>(std::floor(t / *every * (1 + 1e-12)));
       if (drawn) ++drawing;
       for (int more = 0; spent && more < kMostSpent && !is_drawing(v, drawing, x); ++more)
         ++drawing;
-      if (!is_drawing(v, drawing, x))
-        faults_.add(part, t, "noise that is not drawn so: " + texts_.layout.slots[v].name);
+      wrong = !is_drawing(v, drawing, x);
+      if (wrong) faults_.add(part, t, "noise that is not drawn so: " + texts_.layout.slots[v].name);
     };
     look(0, 0, run_.start, false);
     for (std::size_t k = 0; k < run_.parts.size(); ++k) {

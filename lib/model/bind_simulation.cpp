@@ -27,6 +27,15 @@ expr::Expression one_where(const expr::Expression& condition) {
   return {condition.text, whole};
 }
 
+/// A text that is this name.
+expr::Expression named_alone(const std::string& name, const Place& place) {
+  auto node = std::make_shared<expr::Node>();
+  node->kind = expr::NodeKind::name;
+  node->text = name;
+  node->end = name.size();
+  return {std::make_shared<const expr::Text>(expr::Text::generated(name, place)), node};
+}
+
 }  // namespace
 
 std::size_t Binding::state_of(const std::string& name) const {
@@ -118,10 +127,13 @@ void Binding::add_rates() {
   for (const Dynamics::Variable& variable : design_->dynamics->variables) {
     if (variable.kind == Kind::time || variable.kind == Kind::since) add(variable.name, "1");
     if (variable.kind == Kind::left) add(variable.name, "-1");
+    if (variable.kind == Kind::measured_rate)
+      scope.definitions[expr::rate_name(design_->dynamics->measured[variable.of].name)] = {
+          {}, named_alone(variable.name, method().dynamics_place)};
   }
   const auto add_flows = [&](const Component& component) {
     for (const Named& entry : component.flow) {
-      const std::string name = full_name(component, entry.name);
+      const std::string name = dynamics_names_->full(component, entry.name);
       scope.definitions[expr::rate_name(name)] = {{},
                                                   dynamics_names_->within(component, entry.value)};
       if (component.frozen)

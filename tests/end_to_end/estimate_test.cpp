@@ -10,7 +10,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-const std::string kConstants = R"(problem: constants
+const std::string kConstants = R"yaml(problem: constants
 method:
   method: constants
   parameters: {r: 6}
@@ -18,7 +18,7 @@ method:
     L: "maximum(abs(jacobian(x - x^3, x)), x in [-r, r])"
   gains: {kappa: 2*L, k: r}
   report: {L: L, least: "minimum(x^2, x in [1, r])"}
-)";
+)yaml";
 
 TEST(EstimateTest, ConstantsAreLabelledWhereTheyAreShown) {
   const Folder folder;
@@ -39,7 +39,7 @@ TEST(EstimateTest, ConstantsAreLabelledWhereTheyAreShown) {
 
 /// A heater with two thresholds around 1 that its room heats past: the mean error is least where
 /// the thresholds are closest.
-const std::string kThresholds = R"(problem: thresholds
+const std::string kThresholds = R"yaml(problem: thresholds
 method:
   method: thresholds
   parameters: {low: 0.5, high: 1.5}
@@ -52,7 +52,7 @@ method:
   signals: {e: x - 1}
 search: {over: {low: [0.2, 0.9], high: [1.1, 1.8]}, minimize: {rms: e, over: [0, 10]}, evaluations: 60}
 campaign: {runs: 1, horizon: 10}
-)";
+)yaml";
 
 TEST(EstimateTest, ThresholdsAreTunedOnAFigureOfARun) {
   const Folder folder;
