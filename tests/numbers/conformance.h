@@ -247,7 +247,7 @@ class Conformance : public testing::TestWithParam<Subject> {
     for (const expr::Instruction& instruction : program.code)
       if (std::ranges::count(GetParam().lacks, instruction.op) > 0) {
         try {
-          GetParam().evaluate(program, {}, {});
+          GetParam().evaluate(program, example_inputs(), {});
           ADD_FAILURE() << "has a value";
         } catch (const expr::EvaluationError& error) {
           EXPECT_EQ(error.message().find("the " + to_string(instruction.op) + " has no"), 0U)
