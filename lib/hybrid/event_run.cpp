@@ -220,7 +220,10 @@ class EventRun {
   // --- Flows. ---
 
   void flow() {
-    if (rows_.leave(t_, values_)) branches_.hold(values_, false);
+    if (rows_.leave(t_, values_)) {
+      branches_.hold(values_, false);
+      if (due_.first(values_, t_)) return;  // by the last of several rows at t
+    }
     branches_.hold_kinks(values_);
     double stop = std::min({horizon_, due_.clocks().next(), noise_.next(), rows_.next()});
     movement_.begin(t_, values_);

@@ -116,6 +116,8 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
   if (!over->value.IsSequence() || over->value.size() != 2)
     throw InputError(over->place, "over: expected [from, to]");
   for (const auto& end : over->value) result.numbers.push_back(file.expression(end, "over"));
+  result.title +=
+      " over [" + result.numbers[0].text->str() + ", " + result.numbers[1].text->str() + "]";
   return result;
 }
 

@@ -63,7 +63,7 @@ TEST(EstimateTest, ThresholdsAreTunedOnAFigureOfARun) {
   const Json document = Json::parse(text_of(gains));
   EXPECT_NEAR(document["searched"]["low"].get<double>(), 0.9, 1e-3);
   EXPECT_NEAR(document["searched"]["high"].get<double>(), 1.1, 1e-3);
-  EXPECT_EQ(document["search"]["figure"], "rms e");
+  EXPECT_EQ(document["search"]["figure"], "rms e over [0, 10]");
   ASSERT_EQ(gainsmith({"synth", problem, "-o", again, "--threads", "2"}).exit, 0);
   EXPECT_EQ(without_timings(text_of(gains)), without_timings(text_of(again)));
 }
