@@ -27,7 +27,7 @@ std::vector<std::string> campaign_defaults(const model::Design& design) {
   std::vector<std::string> words;
   if ((!design.timer && !design.dynamics) || design.claims.empty() || !design.no_campaign.empty())
     return words;
-  if (!design.campaign.horizon)
+  if (design.timer && !design.campaign.horizon)
     words.emplace_back("campaign.horizon: 40 of the timer's longest intervals");
   for (std::size_t i = 0; i < design.states.size(); ++i) {
     const auto& starts = design.campaign.starts;

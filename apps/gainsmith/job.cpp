@@ -109,7 +109,7 @@ class Job {
     if (!design.no_campaign.empty()) return design.no_campaign;
     if (!design.timer && !design.dynamics) return "the method has no dynamics";
     if (design.claims.empty()) return "the method makes no claims";
-    if (design.dynamics && !design.campaign.horizon) return "the problem gives none";
+    if (design.dynamics && !model::has_end(design)) return "the problem gives none";
     if (gains.gains.size() + gains.gain_functions.size() < design.gains.size()) return "no gains";
     return "";
   }

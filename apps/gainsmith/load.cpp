@@ -75,7 +75,7 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
 void refuse_without_campaign(const model::Design& design, const std::string& file) {
   if (!design.no_campaign.empty())
     throw InputError({file}, "there is no campaign: " + design.no_campaign);
-  if (design.dynamics && !design.campaign.horizon)
+  if (design.dynamics && !model::has_end(design))
     throw InputError({file},
                      "the problem gives no campaign; a method with events needs 'campaign: "
                      "{horizon: ...}': how long a run is");
@@ -173,9 +173,10 @@ LoadedGains load_run(const std::filesystem::path& path) {
     return loaded;
   }
   const model::Instance instance = load_problem(path);
-  if (!instance.design->inequalities.empty() || !instance.design->unknowns.empty())
+  if (!instance.design->inequalities.empty() || !instance.design->unknowns.empty() ||
+      !instance.design->open.empty())
     throw InputError({path.string()},
-                     "this is a problem whose gains are searched: 'gainsmith synth " +
+                     "this is a problem whose gains or parameters are searched: 'gainsmith synth " +
                          path.string() +
                          " -o gains.json' first, then simulate or verify gains.json");
   refuse_without_campaign(*instance.design, path.string());

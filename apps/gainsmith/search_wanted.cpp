@@ -7,10 +7,30 @@
 
 namespace gainsmith::app {
 
+namespace {
+
+/// InputError when nothing says which values are best: without inequalities there is no margin.
+void check_figure(const design::SearchRequest& request, const model::Design& design) {
+  const bool has_figure = request.extreme || request.minimize || design.objective ||
+                          design.quotient || !design.inequalities.empty();
+  if (request.over.empty() || has_figure) return;
+  const model::Range& range =
+      design.open.empty() ? design.search->over.front() : design.open.front();
+  throw InputError(range.place, "nothing says which " + range.name +
+                                    " is best, as the method has no inequalities: give 'search: "
+                                    "{minimize: ...}', or " +
+                                    range.name + " a value");
+}
+
+}  // namespace
+
 design::SearchRequest wanted_search(const model::Instance& instance) {
   design::SearchRequest request = design::request_of(instance);
   const auto& search = instance.design->search;
-  if (!search || !search->run_figure) return request;
+  if (!search || !search->run_figure) {
+    check_figure(request, *instance.design);
+    return request;
+  }
   const model::Figure& figure = *search->run_figure;
   const std::uint64_t runs = search->runs;
   request.measure_name =

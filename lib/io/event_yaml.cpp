@@ -35,8 +35,8 @@ void read_lost(const YamlFile& file, const YamlItem& item, model::EventText& eve
   event.lost = probability(file, map.require("probability"));
   if (const auto most = map.find("in_a_row")) {
     const double value = file.number(most->value, most->key);
-    if (!(value >= 0 && value <= 1e6 && value == static_cast<int>(value)))
-      throw InputError(file.place(most->value), "in_a_row: a whole number, 0 or more");
+    if (!(value >= 1 && value <= 1e6 && value == static_cast<int>(value)))
+      throw InputError(file.place(most->value), "in_a_row: a whole number, 1 or more");
     event.lost_in_a_row = static_cast<int>(value);
   }
   map.finish();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
+#include <system_error>
 #include <utility>
 
 #include "base/number.h"
@@ -17,12 +18,21 @@ namespace {
 using model::Between;
 
 /// Relative to the file of the problem; a gain file, whose problem is called "gains.json (p.yaml)",
-/// stands for it.
+/// stands for it. InputError when nothing is there.
 std::string path_of(const YamlFile& file, const YamlItem& item) {
   const std::filesystem::path named = file.string(item.value, item.key);
   std::string holder = file.file();
-  if (holder.ends_with(')')) holder.erase(std::min(holder.find(" ("), holder.size()));
-  return (std::filesystem::path(holder).parent_path() / named).lexically_normal().string();
+  const bool is_gain_file = holder.ends_with(')');
+  if (is_gain_file) holder.erase(std::min(holder.find(" ("), holder.size()));
+  const auto path = (std::filesystem::path(holder).parent_path() / named).lexically_normal();
+  std::error_code error;
+  if (!std::filesystem::exists(path, error))
+    throw InputError(file.place(item.value),
+                     item.key + ": there is no file " + path.string() +
+                         (is_gain_file ? "; a gain file looks for the data of its problem beside "
+                                         "itself: copy them there, or take the problem instead"
+                                       : ""));
+  return path.string();
 }
 
 /// Which rows of which file, and when they are.

@@ -43,4 +43,8 @@ void check_scalar_name(const Design& design, const std::string& name, const Plac
   check_scalar_name(design.method, scalar_names(design), shapes, name, place);
 }
 
+bool has_end(const Design& design) {
+  return design.campaign.horizon || (design.dynamics && !design.dynamics->measured.empty());
+}
+
 }  // namespace gainsmith::model

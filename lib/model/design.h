@@ -313,6 +313,9 @@ bool is_comparison_of(const std::string& comparison, const std::string& inequali
 /// The names of the scalar data and the parameters, in order: what may be overridden.
 std::vector<std::string> scalar_names(const Design& design);
 
+/// Whether it says how long a run with events is: by a horizon, or by measured data.
+bool has_end(const Design& design);
+
 /// InputError at `place` when `name` is none of scalar_names, with the nearest that is.
 void check_scalar_name(const Design& design, const std::string& name, const Place& place);
 

@@ -223,11 +223,11 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
   const std::vector<Bounded> v = values(track);
   const Bounded b = (*bound_)(track, 0);
   const bool above = claim_->kind == model::ClaimKind::above;
-  double scale = hybrid::size_of(b.value);
+  // The same in all runs, so that their scores are compared as their values are.
+  const double scale = b.value == Scalar(0) ? 1 : hybrid::size_of(b.value);
   double farthest = 0;
   for (std::size_t k = 0; k < v.size(); ++k) {
     if (!counts(track, k) || !is_number(v[k])) continue;
-    scale = std::max(scale, hybrid::size_of(v[k].value));
     farthest = std::max(farthest, hybrid::size_of(Scalar(v[k].value - b.value)));
   }
   const double floor = (track.accuracy > 0 ? kOfAccuracy * track.accuracy : 0) * farthest;

@@ -50,7 +50,7 @@ std::string to_string(Judgement judgement);
 struct Finding {
   Judgement judgement = Judgement::held;
   /// (value - bound) / |scale|, the scale being v(0) or, for `shrinks`, factor v(0), for `below`
-  /// the largest of |bound| and |value| over the run; (bound - value) / scale for `above`. While
+  /// the bound, or 1 when that is 0; (bound - value) / |scale| for `above`. While
   /// `nonincreasing` holds, value and bound are v(end) and v(0): what is left at the end. Infinite
   /// when a value is no number or the scale of a violation is 0; -1 when the scale is 0 and the
   /// claim holds.

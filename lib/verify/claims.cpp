@@ -45,7 +45,7 @@ std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::
   std::vector<LinkedClaim> claims;
   for (const model::Design::Claim& claim : design.claims) {
     claims.push_back(link_claim(claim, system));
-    if (claim.kind == model::ClaimKind::shrinks && !design.campaign.horizon)
+    if (claim.kind == model::ClaimKind::shrinks && !model::has_end(design))
       claims.back().missing.emplace_back("campaign.horizon");
   }
   return claims;
