@@ -1,18 +1,11 @@
 #include "hybrid/border_on_step.h"
 
 #include <algorithm>
-#include <limits>
 
 namespace gainsmith::hybrid {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-namespace {
-
-constexpr double kTermRounding = 16 * std::numeric_limits<double>::epsilon();
-
-}  // namespace
 
 BorderOnStep::BorderOnStep(EventBorder& border, StepPoints& points)
     : border_(border), points_(points), values_(border.size(), 0) {
@@ -24,12 +17,14 @@ BorderOnStep::BorderOnStep(EventBorder& border, StepPoints& points)
   for (const VectorXd* point : {&all[all.size() / 2], &all.back()})
     noise_ = noise_.cwiseMax(border.terms(*point).reshaped());
   noise_ *= kTermRounding;
+  const StepValues& inside = points.inside();
+  breaks_ = border.breaks().on([&](double t) { return inside.at(t); }, inside.from(), inside.to());
 }
 
 Found BorderOnStep::roots(Index element, bool strict) {
   const StepValues& inside = points_.inside();
-  return find_roots({[&](double t) { return value(element, t); }, strict, noise_(element)},
-                    inside.from(), inside.to());
+  const Border border{[&](double t) { return value(element, t); }, strict, noise_(element)};
+  return find_roots(border, inside.from(), inside.to(), breaks_);
 }
 
 double BorderOnStep::value(Index element, double t) {

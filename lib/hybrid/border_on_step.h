@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "hybrid/borders.h"
 #include "hybrid/event_function.h"
@@ -26,6 +27,7 @@ class BorderOnStep {
   StepPoints& points_;
   numbers::Matrix values_;
   Eigen::VectorXd noise_;
+  std::vector<Break> breaks_;
 };
 
 }  // namespace gainsmith::hybrid

@@ -170,6 +170,29 @@ Found find_roots(const Border& border, double from, double to) {
   return RootSearch(border, from, to).run();
 }
 
+Found find_roots(const Border& border, double from, double to, const std::vector<Break>& breaks) {
+  if (breaks.empty()) return find_roots(border, from, to);
+  const auto side = [&](double t) {
+    const double g = border.value(t);
+    return border.strict ? g > 0 : g >= 0;
+  };
+  Found all;
+  const auto add = [&](double a, double b) {
+    if (!(a < b)) return;
+    const Found found = find_roots(border, a, b);
+    all.roots.insert(all.roots.end(), found.roots.begin(), found.roots.end());
+    all.grazings.insert(all.grazings.end(), found.grazings.begin(), found.grazings.end());
+  };
+  double left = from;
+  for (const Break& one : breaks) {
+    add(left, one.left);
+    if (side(one.left) != side(one.right)) all.roots.push_back(one);
+    left = one.right;
+  }
+  add(left, to);
+  return all;
+}
+
 std::vector<double> first_points(double from, double to) {
   std::vector<double> times;
   for (const double x : chebyshev::points(kBorderDegree))

@@ -42,6 +42,15 @@ struct Found {
 /// What `value` throws leaves it.
 Found find_roots(const Border& border, double from, double to);
 
+/// A place where g is not smooth: it lies between two numbers that are next to each other, or
+/// nearly.
+struct Break : Root {
+  bool jumps = false;  ///< otherwise a kink
+};
+
+/// The same of a g that is smooth between breaks, in rising order.
+Found find_roots(const Border& border, double from, double to, const std::vector<Break>& breaks);
+
 /// The points of [from, to] at which find_roots evaluates g first, in rising order; for callers
 /// that keep values.
 std::vector<double> first_points(double from, double to);

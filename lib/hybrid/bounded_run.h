@@ -40,6 +40,10 @@ struct Track {
   std::vector<Move> moves;
   std::vector<Scalar> stacked;
   std::vector<double> bounds;
+  /// By sample: the coordinate for whose sake alone it is there, or kForAll. Empty: all are for
+  /// all.
+  std::vector<int> looked_for;
+  static constexpr int kForAll = -1;
   Termination termination = Termination::horizon;
   std::string message;
   /// The relative accuracy of a flow that is integrated (integrated_run.h): its bounds are
@@ -52,6 +56,7 @@ struct Track {
     j.clear();
     moves.clear();
     stacked.clear();
+    looked_for.clear();
     termination = Termination::horizon;
     message.clear();
   }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hybrid/border_on_step.h"
+#include "hybrid/step_range.h"
 
 namespace gainsmith::hybrid {
 
@@ -15,27 +16,8 @@ using numbers::Matrix;
 namespace {
 
 constexpr double kOfAccuracy = 1e-3;
-/// A D that stays away from 0 by so many times what it changes over a step has no root on it.
+/// Of what D changes: farther from 0 at all points of a step, it has no pair of roots there.
 constexpr double kFar = 4;
-
-/// The smallest and the largest value of each element at the start, the middle and the end.
-struct Range {
-  VectorXd low, high;
-
-  Range(EventBorder& border, const std::array<VectorXd, 3>& points) {
-    low = high = border(points[0]).reshaped();
-    for (const std::size_t k : {1U, 2U}) {
-      const auto value = border(points[k]).reshaped().eval();
-      low = low.cwiseMin(value);
-      high = high.cwiseMax(value);
-    }
-  }
-  /// Whether an element stays on the side of its branch.
-  bool stays(Index element, double held) const {
-    const double nearest = held > 0 ? low(element) : -high(element);
-    return nearest > kFar * (high(element) - low(element));
-  }
-};
 
 }  // namespace
 
@@ -109,11 +91,11 @@ std::optional<Branches::Turn> Branches::first_turn(const StepValues& inside,
     EventBorder& border = watch_->switches[k];
     if (!is_kink(k) || border.rests()) continue;
     if (!look) look.emplace(inside);
-    const Range range(border, look->three);
     look->border.reset();
     for (Index e = 0; e < border.size(); ++e) {
       const double held = values(offset(k) + e);
-      if (range.stays(e, held)) continue;
+      const StepRange range([&](const VectorXd& x) { return border(x)(e); }, look->three);
+      if (range.is_far_from_zero(held)) continue;
       if (const auto t = turn_of(k, e, held, *look); t && (!first || *t < first->t))
         first = Turn{*t, offset(k) + e};
     }

@@ -10,40 +10,8 @@ namespace gainsmith::hybrid {
 
 namespace {
 
-using expr::Instruction;
-using expr::Op;
 using ConditionKind = expr::Condition::Kind;
 using Eigen::VectorXd;
-
-/// The instructions that the result is a sum of, with any signs.
-void collect_terms(const expr::Program& program, int at, std::vector<int>& terms) {
-  const Instruction& instruction = program.code[static_cast<std::size_t>(at)];
-  const bool is_sum =
-      instruction.op == Op::add || instruction.op == Op::subtract || instruction.op == Op::negate;
-  if (!is_sum) {
-    terms.push_back(at);
-    return;
-  }
-  for (const int operand : instruction.operands) collect_terms(program, operand, terms);
-}
-
-/// The sum of the absolute values of the terms of a program.
-expr::Program absolute_terms(expr::Program program) {
-  std::vector<int> terms;
-  collect_terms(program, program.result, terms);
-  const Instruction like = program.code[static_cast<std::size_t>(program.result)];
-  const auto add = [&](Op op, std::vector<int> operands) {
-    program.code.push_back({op, std::move(operands), like.shape, {}, {}, like.origin, like.offset});
-    return static_cast<int>(program.code.size()) - 1;
-  };
-  int sum = -1;
-  for (const int term : terms) {
-    const int size = add(Op::abs, {term});
-    sum = sum < 0 ? size : add(Op::add, {sum, size});
-  }
-  program.result = sum;
-  return program;
-}
 
 }  // namespace
 
@@ -77,7 +45,9 @@ EventBorder::EventBorder(const expr::Program& program, const EventSystem& system
     : size_(program.shape().size()),
       value_(program, system),
       terms_program_(std::make_unique<const expr::Program>(absolute_terms(program))),
-      terms_(*terms_program_, system) {}
+      terms_(*terms_program_, system),
+      breaks_(program, system.layout, system.constants,
+              [&](const std::string& name) { return system.is_moving(name); }) {}
 
 EventCondition::EventCondition(const expr::Condition& condition, const EventSystem& system)
     : text_(condition.text), place_(condition.place) {

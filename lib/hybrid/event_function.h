@@ -10,6 +10,7 @@
 
 #include "expr/condition.h"
 #include "expr/evaluate.h"
+#include "hybrid/breaks.h"
 #include "hybrid/event_system.h"
 #include "numbers/real.h"
 
@@ -49,6 +50,8 @@ class EventBorder {
   const numbers::Matrix& operator()(const Eigen::VectorXd& values) { return value_(values); }
   /// The sums of the terms' absolute values, element by element.
   const numbers::Matrix& terms(const Eigen::VectorXd& values) { return terms_(values); }
+  /// Between them it is smooth along a flow.
+  Breaks& breaks() { return breaks_; }
   bool rests() const { return value_.rests(); }
   bool is_line() const { return value_.is_line(); }
   Eigen::Index size() const { return size_; }
@@ -58,6 +61,7 @@ class EventBorder {
   EventFunction value_;
   std::unique_ptr<const expr::Program> terms_program_;
   EventFunction terms_;
+  Breaks breaks_;
 };
 
 enum class Truth { no, yes, open };

@@ -26,6 +26,7 @@ constexpr double kFloor<DoubleDouble> = 1e-24;
 constexpr double kOfAccuracy = 1e-4;
 constexpr double kDrowned = 0.1;
 constexpr double kNothing = 1e-8;
+constexpr double kGrown = 0.1;
 
 template <class Scalar>
 constexpr int kDigits = kDoubleDigits;
@@ -132,9 +133,16 @@ Finding ClaimCheck<Scalar>::operator()(const Track& track) {
   return {};
 }
 
+/// Whether a sample is there for the sake of one value.
+template <class Scalar>
+bool ClaimCheck<Scalar>::is_own(const Track& track, std::size_t sample) const {
+  return !track.looked_for.empty() && track.looked_for[sample] != Track::kForAll;
+}
+
 template <class Scalar>
 bool ClaimCheck<Scalar>::counts(const Track& track, std::size_t sample) const {
   if (track.t[sample] < claim_->after) return false;
+  if (is_own(track, sample) && track.looked_for[sample] != claim_->looked_for) return false;
   if (!claim_->over) return true;
   return sample > 0 && track.moves[sample - 1].jump &&
          track.moves[sample - 1].event == *claim_->over;
@@ -183,6 +191,9 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
       judgement = compare(v[k], low);
       if (judgement == Judgement::violated) judgement = Judgement::undecided;
     }
+    if (judgement == Judgement::undecided && is_own(track, k) && is_number(v[k]) &&
+        static_cast<double>(v[k].value - high.value) <= kGrown * (v[k].bound + high.bound))
+      judgement = Judgement::held;
     const double top = hybrid::size_of(v[k].value) + v[k].bound;
     const bool integrated = track.accuracy > 0;
     const bool drowned = integrated && judgement == Judgement::undecided &&

@@ -8,6 +8,9 @@
 //   shrinks         v(end) <= factor v(0)            held at once when v(0) = 0
 //   below, above    v(k) <= b, v(k) >= b             at every sample; b a constant
 //
+// At samples that a track has for the sake of the value alone, near others as they may be, what is
+// undecided counts when the value seems to have grown by a part kGrown of its bounds.
+//
 // `after` a time, the samples before it do not count; `over` an event, only those just after its
 // jumps do. Then v(0) is the first that counts.
 //
@@ -81,6 +84,7 @@ struct JudgedClaim {
   std::optional<JudgedFunction> bound;
   double after = 0;                   ///< the time from which on samples count
   std::optional<std::size_t> over{};  ///< the event just after whose jumps alone they do
+  int looked_for = -1;  ///< the coordinate that is the value, of samples made for its sake (Track)
   /// Which integrals of the step maps are those of the flow cost.
   std::optional<std::size_t> integral;
   /// The coordinate that is the integral of the flow cost, when the flow is integrated.
@@ -112,6 +116,7 @@ class ClaimCheck {
   Finding bounded(const Track& track);
   Finding nothing_counts(const Track& track) const;
   bool counts(const Track& track, std::size_t sample) const;
+  bool is_own(const Track& track, std::size_t sample) const;
   bool may_change(const Track& track, std::size_t sample, const std::vector<Bounded>& v) const;
   Bounded step_cost(const Track& track, std::size_t move);
   Bounded rest_cost(const Track& track, std::size_t move);

@@ -84,6 +84,7 @@ class Functions {
       judged.name = claim.name;
       judged.kind = claim.kind;
       judged.after = claim.after;
+      judged.looked_for = static_cast<int>(setup_.functions.size());
       judged.over = claim.over;
       Plan plan{std::move(judged), add(claim.value), {}};
       if (claim.flow_cost) plan.parts[0] = add_integral_of(claim);
@@ -117,8 +118,10 @@ class Functions {
   /// Where along flows the value of a claim is looked at besides.
   void add_looks(const LinkedClaim& claim, std::size_t value) {
     if (claim.after > 0) setup_.looks.times.push_back(claim.after);
+    if (claim.over) return;
+    setup_.looks.along.push_back(value);
     const bool above = claim.kind == model::ClaimKind::above;
-    if ((above || claim.kind == model::ClaimKind::below) && !claim.over)
+    if (above || claim.kind == model::ClaimKind::below)
       setup_.looks.peaks.push_back({value, above ? -1.0 : 1.0, claim.after});
   }
 
@@ -172,6 +175,7 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
   plain.bodies = setup->system.bodies;
   setup->claims = link_claims(design, plain);
   check_times(design, setup->claims, setup->scenario.horizon);
+  setup->constants = rounded_once(setup->system.constants);
   setup->coordinates.affine = false;
   Functions(*setup).add_all();
   setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, std::nullopt);
@@ -202,8 +206,10 @@ EventTracks::EventTracks(const EventSetup& setup, std::function<bool()> stopped)
     const auto first = rounds_.begin() + slot.offset;
     std::fill(first, first + slot.shape.size(), !is_whole(variables[k].kind));
   }
-  for (const expr::Program& function : setup.functions)
+  for (const expr::Program& function : setup.functions) {
     functions_.emplace_back(function, setup.layout, setup.system.constants);
+    roundings_.emplace_back(function, setup.layout, setup.constants);
+  }
 }
 
 VectorXd EventTracks::values(const VectorXd& x) {
@@ -227,19 +233,21 @@ VectorXd EventTracks::with_rounding(const VectorXd& x, int bit) const {
 }
 
 /// The bits `pattern`, `pattern` + `stride`, ... of the numbers of elements are rounded apart.
-void EventTracks::append(double t, std::int64_t j, const VectorXd& coarse, const VectorXd& fine,
-                         int pattern, int stride) {
+void EventTracks::append(const FlowLook& look, std::int64_t j, const VectorXd& coarse,
+                         const VectorXd& fine, int pattern, int stride) {
   const VectorXd value = values(fine);
   VectorXd difference = (values(coarse) - value).cwiseAbs();
   for (int bit = pattern; bit == 0 || (fine.size() - 1) >> bit > 0; bit += stride)
     difference = difference.cwiseMax((values(with_rounding(fine, bit)) - value).cwiseAbs());
-  track_.t.push_back(t);
+  track_.t.push_back(look.t);
+  track_.looked_for.push_back(look.function);
   track_.j.push_back(j);
   track_.timer.push_back(0);
   track_.timer_bound.push_back(0);
   track_.stacked.insert(track_.stacked.end(), value.data(), value.data() + value.size());
   track_.bounds.insert(track_.bounds.end(), difference.data(),
                        difference.data() + difference.size());
+  for (TextRounding& rounding : roundings_) rounding_.push_back(rounding(fine));
 }
 
 void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPiece& fine) {
@@ -248,7 +256,7 @@ void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPi
   int number = 0;
   for (const FlowLook& look : looks_along(fine, setup_->looks, functions_)) {
     track_.moves.push_back({false, {hybrid::FlowStep::kRest, look.t - before}});
-    append(look.t, fine.j, state_at(coarse, look.share), state_at(fine, look.share),
+    append(look, fine.j, state_at(coarse, look.share), state_at(fine, look.share),
            ++number % kAround, kAround);
     before = look.t;
   }
@@ -256,7 +264,7 @@ void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPi
 
 /// What the two runs have in common.
 void EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
-  append(0, 0, coarse.start, fine.start, 0, 1);
+  append({0, 0}, 0, coarse.start, fine.start, 0, 1);
   std::size_t first = 0;
   const std::size_t parts = std::min(coarse.parts.size(), fine.parts.size());
   for (std::size_t k = 0; k < parts; ++k) {
@@ -272,7 +280,7 @@ void EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Traj
     first = track_.samples();
     rounded_ += 1;
     track_.moves.push_back({true, {}, jump.event});
-    append(jump.t, jump.j + 1, other.after, jump.after, 0, 1);
+    append({1, jump.t}, jump.j + 1, other.after, jump.after, 0, 1);
   }
   widen(first);
 }
@@ -283,14 +291,27 @@ void EventTracks::widen(std::size_t first) {
   constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
   const auto size = track_.size;
   const auto count = static_cast<Index>(track_.samples() - first);
-  Eigen::Map<numbers::Matrix> bounds(track_.bounds.data() + static_cast<Index>(first) * size, size,
-                                     count);
+  const Index skipped = static_cast<Index>(first) * size;
+  Eigen::Map<numbers::Matrix> bounds(track_.bounds.data() + skipped, size, count);
+  const Eigen::Map<const numbers::Matrix> rounding(rounding_.data() + skipped, size, count);
   const numbers::Matrix own = bounds;
-  for (Index k = 0; k < count; ++k) {
-    const Index from = std::max<Index>(std::min<Index>(k - kAround / 2, count - kAround), 0);
-    const Index to = std::min<Index>(from + kAround, count) - 1;
-    bounds.col(k) = kMargin * own.middleCols(from, to - from + 1).rowwise().maxCoeff() +
-                    8 * kUnit * track_.state(first + static_cast<std::size_t>(k)).cwiseAbs();
+  std::vector<Index> seen;  // the samples that count for a function
+  for (Index f = 0; f < size; ++f) {
+    seen.clear();
+    for (Index k = 0; k < count; ++k) {
+      const int of = track_.looked_for[first + static_cast<std::size_t>(k)];
+      if (of == track_.kForAll || of == f) seen.push_back(k);
+    }
+    const auto all = static_cast<Index>(seen.size());
+    for (Index i = 0; i < all; ++i) {
+      const Index k = seen[static_cast<std::size_t>(i)];
+      const Index from = std::max<Index>(std::min<Index>(i - kAround / 2, all - kAround), 0);
+      double around = 0;
+      for (Index other = from; other < std::min<Index>(from + kAround, all); ++other)
+        around = std::fmax(around, own(f, seen[static_cast<std::size_t>(other)]));
+      const double value = track_.state(first + static_cast<std::size_t>(k))(f);
+      bounds(f, k) = kMargin * around + 8 * kUnit * std::abs(value) + rounding(f, k);
+    }
   }
 }
 
@@ -322,6 +343,7 @@ const hybrid::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t 
   const hybrid::Accuracy accuracy = setup_->accuracy(kUsualOfMany, factor);
   track_.accuracy = accuracy.relative;
   rounded_ = 0;
+  rounding_.clear();
   const hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
   const hybrid::Trajectory fine = simulator_.run(seed, run, accuracy.times(kSharper));
   add_parts(coarse, fine);

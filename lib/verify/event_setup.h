@@ -15,6 +15,7 @@
 #include "verify/claims.h"
 #include "verify/flow_looks.h"
 #include "verify/run_values.h"
+#include "verify/text_rounding.h"
 
 namespace gainsmith::verify {
 
@@ -25,6 +26,7 @@ struct EventSetup {
   std::vector<model::Dynamics::Assignment> flow;  ///< as written, before branches are held
   std::vector<LinkedClaim> claims;
   std::vector<expr::Program> functions;  ///< of the claims that are stated: the coordinates
+  hybrid::BallsOf<double> constants;     ///< of the functions, with their errors
   hybrid::Coordinates coordinates;
   std::vector<JudgedClaim> judged;  ///< the claims that are stated, in order
   FlowLooks looks;                  ///< that the claims ask for
@@ -49,8 +51,8 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
 ///   samples   the looks along each flow (flow_looks.h), and the values after each jump
 ///   bound     four times the largest difference between the two runs at five samples around it, or
 ///             what a rounding for each step and jump so far makes of the value, up for some
-///             elements and down for the others, + 8 u |value|: an estimate that leaves a margin,
-///             and no proof
+///             elements and down for the others, + 8 u |value| and what its evaluation rounds
+///             (text_rounding.h): an estimate that leaves a margin, and no proof
 ///
 /// Where the two runs take other events, or end otherwise, it hangs on the accuracy: the run is
 /// lost. A run that ends by accumulating jumps is complete.
@@ -63,8 +65,8 @@ class EventTracks {
   const hybrid::Track<double>& run(std::uint64_t seed, std::uint64_t run, double factor);
 
  private:
-  void append(double t, std::int64_t j, const Eigen::VectorXd& coarse, const Eigen::VectorXd& fine,
-              int pattern, int stride);
+  void append(const FlowLook& look, std::int64_t j, const Eigen::VectorXd& coarse,
+              const Eigen::VectorXd& fine, int pattern, int stride);
   void add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPiece& fine);
   void add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
   void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
@@ -75,9 +77,11 @@ class EventTracks {
   const EventSetup* setup_;
   hybrid::EventSimulator simulator_;
   std::vector<RunValue> functions_;
+  std::vector<TextRounding> roundings_;  ///< of the functions
   std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
   hybrid::Track<double> track_;
-  double rounded_ = 0;  ///< steps and jumps so far
+  std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track
+  double rounded_ = 0;            ///< steps and jumps so far
 };
 
 }  // namespace gainsmith::verify

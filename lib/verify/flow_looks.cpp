@@ -4,8 +4,8 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <numbers>
-#include <utility>
+
+#include "verify/smooth_parts.h"
 
 namespace gainsmith::verify {
 
@@ -15,6 +15,9 @@ using hybrid::DenseStep;
 using hybrid::FlowPiece;
 
 constexpr int kParts = 32;
+constexpr int kSections = 40;
+/// Of a part beside a jump of a value: two runs to two accuracies jump at times that differ less.
+constexpr double kMargin = 1e-5;
 
 Eigen::VectorXd state_at_time(const FlowPiece& flow, double t) {
   const auto step = std::find_if(flow.steps.begin(), std::prev(flow.steps.end()),
@@ -22,34 +25,31 @@ Eigen::VectorXd state_at_time(const FlowPiece& flow, double t) {
   return (*step)(t);
 }
 
-/// The ends and middles of the steps, from a time on.
-std::vector<double> nodes_of(const FlowPiece& flow, double after) {
-  std::vector<double> nodes = {std::max(flow.from(), after)};
-  for (const DenseStep& step : flow.steps)
-    for (const double t : {step.from + (step.to - step.from) / 2, step.to})
-      if (t > nodes.back()) nodes.push_back(t);
-  return nodes;
-}
+/// A place where a value is looked at first. The value does not jump within a run of places.
+struct Place {
+  double t = 0;
+  int run = 0;
+};
 
-/// Where a function is largest in [low, high], if it has one peak there.
-template <class Function>
-double peak_between(const Function& at, double low, double high) {
-  constexpr int kSections = 40;
-  const double ratio = std::numbers::phi - 1;
-  double a = high - ratio * (high - low);
-  double b = low + ratio * (high - low);
-  double at_a = at(a);
-  double at_b = at(b);
-  for (int k = 0; k < kSections && low < a && a < b && b < high; ++k) {
-    if (at_a >= at_b) {
-      high = std::exchange(b, std::exchange(a, b - ratio * (b - low)));
-      at_b = std::exchange(at_a, at(a));
-    } else {
-      low = std::exchange(a, std::exchange(b, a + ratio * (high - a)));
-      at_a = std::exchange(at_b, at(b));
+/// The ends and middles of the parts of the steps on which a value is smooth, from a time on.
+std::vector<Place> places_of(const FlowPiece& flow, RunValue& function, double after) {
+  std::vector<Place> places;
+  int run = 0;
+  bool jumped = false;  // at the end of the part before
+  for (const DenseStep& step : flow.steps) {
+    if (step.to < after) continue;
+    for (const SmoothPart& part : smooth_parts(function, step)) {
+      const double aside = kMargin * (part.to - part.from);
+      const bool jumps = part.after_jump || jumped;
+      run += jumps ? 1 : 0;
+      jumped = part.before_jump;
+      const double from = std::max(jumps ? part.from + aside : part.from, after);
+      const double to = jumped ? part.to - aside : part.to;
+      for (const double t : {from, from + (to - from) / 2, to})
+        if (t >= from && (places.empty() || t > places.back().t)) places.push_back({t, run});
     }
   }
-  return at_a >= at_b ? a : b;
+  return places;
 }
 
 /// The time of a peak; a value that is no number is one.
@@ -58,19 +58,20 @@ double time_of(const FlowLooks::Peak& peak, const FlowPiece& flow, RunValue& fun
     const double value = peak.sign * function.number(state_at_time(flow, t));
     return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
   };
-  const std::vector<double> nodes = nodes_of(flow, peak.after);
+  const std::vector<Place> places = places_of(flow, function, peak.after);
   std::size_t best = 0;
   double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < nodes.size(); ++k)
-    if (const double value = at(nodes[k]); value > most) {
+  for (std::size_t k = 0; k < places.size(); ++k)
+    if (const double value = at(places[k].t); value > most) {
       best = k;
       most = value;
     }
-  if (std::isinf(most)) return nodes[best];
-  const double low = nodes[best == 0 ? 0 : best - 1];
-  const double high = nodes[std::min(best + 1, nodes.size() - 1)];
-  const double refined = peak_between(at, low, high);
-  return at(refined) > most ? refined : nodes[best];
+  if (std::isinf(most)) return places[best].t;
+  const auto beside = [&](std::size_t k) {
+    return k < places.size() && places[k].run == places[best].run ? places[k].t : places[best].t;
+  };
+  const double refined = peak_between(at, beside(best - 1), beside(best + 1), kSections);
+  return at(refined) > most ? refined : places[best].t;
 }
 
 }  // namespace
@@ -89,17 +90,19 @@ std::vector<FlowLook> looks_along(const FlowPiece& flow, const FlowLooks& looks,
     const double share = static_cast<double>(part) / kParts;
     result.push_back({share, from + length * share});
   }
-  const auto add = [&](double t) {
-    if (t > from && t < flow.to()) result.push_back({(t - from) / length, t});
+  const auto add = [&](double t, int function) {
+    if (t > from && t < flow.to()) result.push_back({(t - from) / length, t, function});
   };
-  for (const double t : looks.times) add(t);
+  for (const double t : looks.times) add(t, -1);
+  for (const std::size_t function : looks.along)
+    if (!functions[function].is_smooth())
+      for (const Place& place : places_of(flow, functions[function], from))
+        add(place.t, static_cast<int>(function));
   for (const FlowLooks::Peak& peak : looks.peaks)
-    if (peak.after < flow.to()) add(time_of(peak, flow, functions[peak.function]));
-  if (result.size() == kParts) return result;
-  const auto earlier = [](const FlowLook& a, const FlowLook& b) { return a.t < b.t; };
-  const auto same = [](const FlowLook& a, const FlowLook& b) { return a.t == b.t; };
-  std::stable_sort(result.begin(), result.end(), earlier);
-  result.erase(std::unique(result.begin(), result.end(), same), result.end());
+    if (peak.after < flow.to())
+      add(time_of(peak, flow, functions[peak.function]), static_cast<int>(peak.function));
+  std::stable_sort(result.begin(), result.end(),
+                   [](const FlowLook& a, const FlowLook& b) { return a.t < b.t; });
   return result;
 }
 

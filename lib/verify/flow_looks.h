@@ -2,10 +2,12 @@
 //
 //   - at the ends of 32 equal parts of it
 //   - at the times from which on claims are made
-//   - where a value with a bound is largest: of the ends and the middles of the steps, the best one
-//     with its neighbours by golden section
+//   - where the text of a value branches (hybrid/breaks.h): at kinks, and on both sides of jumps;
+//     and half-way between these
+//   - where a value with a bound is largest: of the ends and the middles of the steps and of the
+//     parts between breaks, the best one with its neighbours by golden section
 //
-// A value that comes to its peak twice within half a step may hide one of them.
+// A smooth value that comes to its peak twice within half a step may hide one of them.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +26,7 @@ struct FlowLooks {
     double after = 0;
   };
   std::vector<double> times;
+  std::vector<std::size_t> along;  ///< functions whose branches matter
   std::vector<Peak> peaks;
 };
 
@@ -31,9 +34,10 @@ struct FlowLooks {
 struct FlowLook {
   double share = 0;  ///< in (0, 1]
   double t = 0;
+  int function = -1;  ///< the one for whose sake alone it is there; -1: for all
 };
 
-/// In order of time, each once; the last is the end of the flow.
+/// In order of time; the last is the end of the flow.
 std::vector<FlowLook> looks_along(const hybrid::FlowPiece& flow, const FlowLooks& looks,
                                   std::vector<RunValue>& functions);
 

@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
+
+#include "verify/smooth_parts.h"
 
 namespace gainsmith::verify {
 
@@ -18,11 +19,11 @@ using hybrid::Trajectory;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// Points of a step at which a value is looked at before it is looked at more closely.
+/// Points of a part of a step at which a value is looked at before it is looked at more closely.
 constexpr int kLooks = 24;
 
-double look(const DenseStep& step, int k) {
-  return k == kLooks ? step.to : step.from + (step.to - step.from) * k / kLooks;
+double look(const SmoothPart& part, int k) {
+  return k == kLooks ? part.to : part.from + (part.to - part.from) * k / kLooks;
 }
 
 }  // namespace
@@ -95,35 +96,23 @@ std::optional<double> FigureOf::at_time(const Trajectory& run) {
   return value;
 }
 
-/// The largest value of a step times `sign`, by golden section around the best look.
+/// The largest value of a step times `sign`, by golden section around the best look of each part.
 double FigureOf::extreme(const DenseStep& step, double sign) {
-  constexpr int kSections = 50;
   const auto at = [&](double t) { return sign * value_->number(step(t)); };
-  int best = 0;
-  double most = -kUnbounded;
-  for (int k = 0; k <= kLooks; ++k)
-    if (const double value = at(look(step, k)); !(value <= most)) {
-      best = k;
-      most = value;
-    }
-  double low = look(step, std::max(best - 1, 0));
-  double high = look(step, std::min(best + 1, kLooks));
-  const double ratio = std::numbers::phi - 1;
-  double a = high - ratio * (high - low);
-  double b = low + ratio * (high - low);
-  double at_a = at(a);
-  double at_b = at(b);
-  for (int k = 0; k < kSections && low < a && a < b && b < high; ++k) {
-    if (at_a >= at_b) {
-      high = std::exchange(b, std::exchange(a, b - ratio * (b - low)));
-      at_b = std::exchange(at_a, at(a));
-    } else {
-      low = std::exchange(a, std::exchange(b, a + ratio * (high - a)));
-      at_a = std::exchange(at_b, at(b));
-    }
-    most = std::max({most, at_a, at_b});
+  double largest = -kUnbounded;
+  for (const SmoothPart& part : smooth_parts(*value_, step)) {
+    int best = 0;
+    double most = -kUnbounded;
+    for (int k = 0; k <= kLooks; ++k)
+      if (const double value = at(look(part, k)); !(value <= most)) {
+        best = k;
+        most = value;
+      }
+    const double refined =
+        peak_between(at, look(part, std::max(best - 1, 0)), look(part, std::min(best + 1, kLooks)));
+    largest = std::max({largest, most, at(refined)});
   }
-  return most;
+  return largest;
 }
 
 double FigureOf::extreme(const Trajectory& run, double sign) {
@@ -143,17 +132,19 @@ double FigureOf::extreme(const Trajectory& run, double sign) {
 double FigureOf::last_above(const DenseStep& step, double level) {
   constexpr int kHalvings = 60;
   const auto above = [&](double t) { return !(value_->number(step(t)) < level); };
-  for (int k = kLooks; k >= 0; --k) {
-    double high = look(step, k);
-    if (!above(high)) continue;
-    if (k == kLooks) return step.to;
-    double below = look(step, k + 1);
-    for (int i = 0; i < kHalvings; ++i) {
-      const double middle = high + (below - high) / 2;
-      (above(middle) ? high : below) = middle;
+  std::vector<SmoothPart> parts = smooth_parts(*value_, step);
+  for (; !parts.empty(); parts.pop_back())
+    for (int k = kLooks; k >= 0; --k) {
+      double high = look(parts.back(), k);
+      if (!above(high)) continue;
+      if (k == kLooks) return parts.back().to;
+      double below = look(parts.back(), k + 1);
+      for (int i = 0; i < kHalvings; ++i) {
+        const double middle = high + (below - high) / 2;
+        (above(middle) ? high : below) = middle;
+      }
+      return high;
     }
-    return high;
-  }
   return -kUnbounded;
 }
 

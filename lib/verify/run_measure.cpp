@@ -9,13 +9,13 @@ namespace gainsmith::verify {
 std::optional<double> mean_figure(const model::Instance& instance, const model::Gains& gains,
                                   const model::Figure& figure, std::uint64_t runs,
                                   const std::function<bool()>& stopped) {
-  const hybrid::Accuracy kAccuracy{1e-8, 1e-8};
   const auto setup = make_event_setup(instance, gains);
   hybrid::EventSimulator simulator(setup->system, setup->scenario, stopped);
   BoundFigure bound(figure, *setup);
+  const hybrid::Accuracy accuracy = setup->accuracy(kUsualOfMany);
   double sum = 0;
   for (std::uint64_t run = 0; run < runs; ++run) {
-    const auto trajectory = simulator.run(instance.design->campaign.seed, run, kAccuracy);
+    const auto trajectory = simulator.run(instance.design->campaign.seed, run, accuracy);
     const auto number = bound.of(trajectory);
     if (!number || !std::isfinite(*number)) return std::nullopt;
     sum += *number;

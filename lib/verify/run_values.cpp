@@ -8,6 +8,8 @@ namespace gainsmith::verify {
 RunValue::RunValue(const expr::Program& program, const hybrid::StateLayout& layout,
                    const numbers::Values& constants)
     : function_(program, layout, constants),
+      breaks_(program, layout, constants,
+              [&](const std::string& name) { return layout.moves(name); }),
       none_(numbers::Matrix::Constant(program.shape().rows, program.shape().cols,
                                       std::numeric_limits<double>::quiet_NaN())) {}
 

@@ -3,8 +3,9 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <vector>
 
-#include "hybrid/state_layout.h"
+#include "hybrid/breaks.h"
 #include "hybrid/trajectory.h"
 #include "model/stated.h"
 
@@ -22,8 +23,16 @@ class RunValue {
   const numbers::Matrix& operator()(const Eigen::VectorXd& x);
   double number(const Eigen::VectorXd& x) { return (*this)(x)(0, 0); }
 
+  /// Whether it is smooth along every flow.
+  bool is_smooth() const { return breaks_.none(); }
+  /// Where it is not, on a step.
+  std::vector<hybrid::Break> breaks_on(const hybrid::DenseStep& step) {
+    return breaks_.on(step, step.from, step.to);
+  }
+
  private:
   hybrid::PointFunction function_;
+  hybrid::Breaks breaks_;
   numbers::Matrix none_;
 };
 

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "hybrid/chebyshev.h"
+#include "hybrid/event_problem.h"
 #include "hybrid/trajectory.h"
 
 namespace gainsmith::hybrid {
@@ -140,6 +141,48 @@ TEST(Borders, LeavesZeroAtOnce) {
   EXPECT_EQ(strict.roots[0].left, 0);
   EXPECT_GT(g(strict.roots[0].right), 0);
   EXPECT_TRUE(roots(g, 0, 1).roots.empty());
+}
+
+/// Each event of a text with the times at which it comes, x = t.
+std::vector<double> times_of(const tests::EventProblem::Map& texts,
+                             tests::EventProblem::EventKind kind) {
+  tests::EventProblem problem;
+  problem.state("x", {1, 1}, "0").state("n", {1, 1}, "0").flow("x", "1");
+  for (const auto& [name, text] : texts) {
+    problem.crossing(kind, name, text);
+    problem.jump(name, {{"n", "n + 1"}});
+  }
+  const EventSystem system = problem.system();
+  EventScenario scenario;
+  scenario.horizon = 3.5;
+  std::vector<double> times;
+  for (const JumpPoint& jump : tests::jumps_of(EventSimulator(system, scenario).run(1, 0)))
+    times.push_back(jump.t);
+  return times;
+}
+
+TEST(Borders, WhatBranchesForLittleTimeIsCrossed) {
+  using EventKind = tests::EventProblem::EventKind;
+  struct Case {
+    std::string text;
+    EventKind kind;
+    std::vector<double> times;
+  };
+  const std::vector<Case> cases = {
+      {"where(x > 1.26, where(x < 1.2601, 1, -1), -1)", EventKind::rises, {1.26}},
+      {"where(x > 1.26, where(x < 1.2601, 1, -1), -1)", EventKind::falls, {1.2601}},
+      {"max(0, 1 - abs(x - 1.2345)/0.001) - 0.5", EventKind::crosses, {1.234, 1.235}},
+      {"sign(x - 1) - sign(x - 1.0001) - 1.5", EventKind::rises, {1}},
+      {"floor(x + 0.0005) - floor(x) - 0.5", EventKind::falls, {1, 2, 3}},
+      {"norm([x - 1; 0]) - 1e-14", EventKind::falls, {1 - 1e-14}},
+      {"mod(x, 0.7) - 0.6999", EventKind::rises, {0.6999, 1.3999, 2.0999, 2.7999, 3.4999}},
+      {"where(x > 1, 2 - x, -1)", EventKind::crosses, {1, 2}}};
+  for (const Case& one : cases) {
+    const std::vector<double> times = times_of({{"e", one.text}}, one.kind);
+    ASSERT_EQ(times.size(), one.times.size()) << one.text;
+    for (std::size_t k = 0; k < times.size(); ++k)
+      EXPECT_NEAR(times[k], one.times[k], 1e-12) << one.text;
+  }
 }
 
 TEST(DenseStep, ItsBeginningIsTheSamePolynomial) {

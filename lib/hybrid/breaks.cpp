@@ -1,0 +1,133 @@
+#include "hybrid/breaks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "expr/branches.h"
+#include "hybrid/step_range.h"
+
+namespace gainsmith::hybrid {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using expr::Instruction;
+using expr::Op;
+using expr::Program;
+
+namespace {
+
+constexpr std::size_t kMostBreaks = 256;
+
+/// The instructions that the result is a sum of, with any signs.
+void collect_terms(const Program& program, int at, std::vector<int>& terms) {
+  const Instruction& instruction = program.code[static_cast<std::size_t>(at)];
+  const bool is_sum =
+      instruction.op == Op::add || instruction.op == Op::subtract || instruction.op == Op::negate;
+  if (!is_sum) {
+    terms.push_back(at);
+    return;
+  }
+  for (const int operand : instruction.operands) collect_terms(program, operand, terms);
+}
+
+/// An element of a function; not a number where it has no value.
+double element(PointFunction& function, const VectorXd& x, Index e) {
+  try {
+    return function(x, 0)(e);
+  } catch (const InputError&) {
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+/// Adds the roots of g on the pieces between the breaks so far, and to these what it does there.
+void add_roots(const Border& g, bool jumps, double from, double to, std::vector<Break>& breaks) {
+  std::vector<Break> fresh;
+  const auto add = [&](double a, double b) {
+    if (!(a < b)) return;
+    for (const Root& root : find_roots(g, a, b).roots) fresh.push_back({root, jumps});
+  };
+  double left = from;
+  for (Break& one : breaks) {
+    one.jumps = one.jumps || (jumps && g.value(one.left) * g.value(one.right) <= 0);
+    add(left, one.left);
+    left = one.right;
+  }
+  add(left, to);
+  breaks.insert(breaks.end(), fresh.begin(), fresh.end());
+  std::stable_sort(breaks.begin(), breaks.end(),
+                   [](const Break& a, const Break& b) { return a.left < b.left; });
+}
+
+/// Makes one of breaks with next to nothing between them.
+void merge(std::vector<Break>& breaks, double from, double to) {
+  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  const double nothing =
+      1e-12 * (to - from) + 8 * kEpsilon * std::max(std::abs(from), std::abs(to));
+  std::size_t kept = 0;
+  for (std::size_t k = 1; k < breaks.size(); ++k) {
+    const Break& one = breaks[k];
+    if (one.left - breaks[kept].right > nothing) {
+      breaks[++kept] = one;
+      continue;
+    }
+    breaks[kept].right = std::max(breaks[kept].right, one.right);
+    breaks[kept].jumps = breaks[kept].jumps || one.jumps;
+  }
+  if (!breaks.empty()) breaks.resize(kept + 1);
+}
+
+}  // namespace
+
+Program absolute_terms(Program program) {
+  std::vector<int> terms;
+  collect_terms(program, program.result, terms);
+  const Instruction like = program.code[static_cast<std::size_t>(program.result)];
+  const auto add = [&](Op op, std::vector<int> operands) {
+    program.code.push_back({op, std::move(operands), like.shape, {}, {}, like.origin, like.offset});
+    return static_cast<int>(program.code.size()) - 1;
+  };
+  int sum = -1;
+  for (const int term : terms) {
+    const int size = add(Op::abs, {term});
+    sum = sum < 0 ? size : add(Op::add, {sum, size});
+  }
+  program.result = sum;
+  return program;
+}
+
+Breaks::Breaks(const Program& program, const StateLayout& layout, const numbers::Values& constants,
+               const std::function<bool(const std::string&)>& moves) {
+  for (expr::Branch& text : expr::branches_of(program, moves)) {
+    auto terms = std::make_unique<const Program>(absolute_terms(text.difference));
+    auto own = std::make_unique<const Program>(std::move(text.difference));
+    PointFunction value(*own, layout, constants);
+    PointFunction sizes(*terms, layout, constants);
+    texts_.push_back({std::move(own), std::move(terms), std::move(value), std::move(sizes),
+                      text.jumps, text.waves});
+  }
+}
+
+std::vector<Break> Breaks::on(const std::function<VectorXd(double)>& x, double from, double to) {
+  std::vector<Break> breaks;
+  if (none() || !(from < to)) return breaks;
+  const std::array<VectorXd, 3> points = {x(from), x(from + (to - from) / 2), x(to)};
+  for (Text& text : texts_) {
+    const Index size = text.program->shape().size();
+    for (Index e = 0; e < size && breaks.size() < kMostBreaks; ++e) {
+      const auto at = [&](const VectorXd& values) { return element(text.value, values, e); };
+      const bool is_slow = breaks.empty() && !text.waves;
+      if (is_slow && StepRange(at, points).is_far_from_zero()) continue;
+      double terms = 0;
+      for (const VectorXd& point : points) terms = std::fmax(terms, element(text.terms, point, e));
+      add_roots({[&](double t) { return at(x(t)); }, false, kTermRounding * terms}, text.jumps,
+                from, to, breaks);
+    }
+  }
+  merge(breaks, from, to);
+  return breaks;
+}
+
+}  // namespace gainsmith::hybrid

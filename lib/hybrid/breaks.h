@@ -1,0 +1,44 @@
+// Where a text along a flow is not smooth: where what it branches on (expr/branches.h) comes to 0.
+// That may branch itself: its roots are looked for on the pieces between the breaks before it,
+// where it is smooth. So a branch is found however short it is taken.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "hybrid/borders.h"
+#include "hybrid/state_layout.h"
+
+namespace gainsmith::hybrid {
+
+class Breaks {
+ public:
+  /// The constants must outlive it.
+  Breaks(const expr::Program& program, const StateLayout& layout, const numbers::Values& constants,
+         const std::function<bool(const std::string&)>& moves);
+
+  /// Whether it is smooth everywhere.
+  bool none() const { return texts_.empty(); }
+
+  /// In rising order, each once, on a step over which `x` is smooth. Where a difference has no
+  /// value nothing is found. Beyond some hundred breaks no more are looked for.
+  std::vector<Break> on(const std::function<Eigen::VectorXd(double)>& x, double from, double to);
+
+ private:
+  struct Text {
+    std::unique_ptr<const expr::Program> program, terms_program;
+    PointFunction value, terms;  ///< D, and the sums of the absolute values of its terms
+    bool jumps = false, waves = false;
+  };
+
+  std::vector<Text> texts_;
+};
+
+/// The sum of the absolute values of the terms of a program: its rounding is that of its terms.
+expr::Program absolute_terms(expr::Program program);
+/// Of that sum, how far the value may be off.
+constexpr double kTermRounding = 16 * 0x1p-52;
+
+}  // namespace gainsmith::hybrid
