@@ -20,6 +20,8 @@ using expr::Program;
 namespace {
 
 constexpr std::size_t kMostBreaks = 256;
+/// Of the terms of a difference: what it does below matters to nothing that is integrated.
+constexpr double kOfTerms = 1e-12;
 
 /// The instructions that the result is a sum of, with any signs.
 void collect_terms(const Program& program, int at, std::vector<int>& terms) {
@@ -122,7 +124,7 @@ std::vector<Break> Breaks::on(const std::function<VectorXd(double)>& x, double f
       if (is_slow && StepRange(at, points).is_far_from_zero()) continue;
       double terms = 0;
       for (const VectorXd& point : points) terms = std::fmax(terms, element(text.terms, point, e));
-      add_roots({[&](double t) { return at(x(t)); }, false, kTermRounding * terms}, text.jumps,
+      add_roots({[&](double t) { return at(x(t)); }, false, kOfTerms * terms}, text.jumps,
                 from, to, breaks);
     }
   }

@@ -7,9 +7,14 @@
 //
 // D_k errs in even powers of h, so that each column of the table gains two orders. A step of the
 // length H ends with the first k for which T_{k,k} and T_{k,k-1} agree.
+//
+// What f branches on (Watch) must keep its sign at the points of the last D_k, and stay away from 0
+// by more than twice what it changes from point to point; otherwise the step is shortened, down to
+// where f is taken as it comes. So steps go up to a border and do not pass over a pair of them.
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
@@ -34,7 +39,17 @@ class Extrapolation {
   /// EvaluationError where there is no rate; such a step is shortened.
   using Rate = std::function<void(const Scalar& q, const M& y, M& rate)>;
 
-  explicit Extrapolation(Rate rate) : rate_(std::move(rate)), table_(kColumns) {}
+  /// What f branches on.
+  struct Watch {
+    /// A column of numbers, of the first column of y; empty: f is smooth.
+    std::function<void(const Scalar& q, const M& first, M& differences)> at;
+    std::vector<bool> jumps{};  ///< by number: otherwise f has a kink
+    /// Of a step that crosses a border of one of them: where it begins.
+    std::function<void(const Scalar& q, const M& y, Eigen::Index difference)> crossed{};
+  };
+
+  explicit Extrapolation(Rate rate, Watch watch = {})
+      : rate_(std::move(rate)), watch_(std::move(watch)), table_(kColumns) {}
 
   /// y(1). Unreached is thrown where it ends before.
   M operator()(M y) {
@@ -45,7 +60,8 @@ class Extrapolation {
     while (q < Scalar(1)) {
       const bool last = step >= Scalar(1) - q;
       if (last) step = Scalar(1) - q;
-      const int columns = attempt(q, step, y);
+      int columns = attempt(q, step, y);
+      if (columns > 0 && !may_be_taken(q, step, y)) columns = kCrosses;
       if (columns > 0) {
         y += table_[static_cast<std::size_t>(columns - 1)];
         q = last ? Scalar(1) : Scalar(q + step);
@@ -64,8 +80,12 @@ class Extrapolation {
   static constexpr int kColumns = 6 + std::min(std::numeric_limits<Scalar>::digits10, 105) / 3;
   static constexpr int kGaveUp = 0;     ///< all columns were tried
   static constexpr int kFailed = -1;    ///< they do not converge
+  static constexpr int kCrosses = -2;   ///< what f branches on comes near 0
   static constexpr int kMost = 400000;  ///< evaluations
   const Scalar kShortest{0x1p-44};
+  // The lengths below which borders are crossed: what f does at a kink changes y by their square.
+  const Scalar kAcrossJumps{0x1p-40};
+  const Scalar kAcrossKinks{0x1p-24};
   const Scalar kEscaped{1e6};
   /// Of what is computed: Decimal100 has digits to spare.
   const Scalar kError =
@@ -89,7 +109,10 @@ class Extrapolation {
   /// The columns that a step took, which is in the last of them; otherwise kGaveUp or kFailed.
   int attempt(const Scalar& q, const Scalar& step, const M& y) {
     try {
-      if (!start_known_) evaluate(q, y, start_);
+      if (!start_known_) {
+        evaluate(q, y, start_);
+        if (watch_.at) watch_.at(q, y.col(0), before_);
+      }
       start_known_ = true;
       return columns(q, step, y);
     } catch (const expr::EvaluationError& error) {
@@ -124,17 +147,60 @@ class Extrapolation {
   /// D of n parts to difference_.
   void midpoint(const Scalar& q, const Scalar& step, const M& y, int n) {
     const Scalar h = step / Scalar(n);
+    if (watch_.at) points_.resize(y.rows(), n);
     M before = M::Zero(y.rows(), y.cols());
     difference_ = h * start_;
     for (int i = 1; i < n; ++i) {
       point_ = y + difference_;
-      evaluate(Scalar(q + h * Scalar(i)), point_, slope_);
+      stage(Scalar(q + h * Scalar(i)), i);
       before += (h + h) * slope_;
       before.swap(difference_);
     }
     point_ = y + difference_;
-    evaluate(Scalar(q + step), point_, slope_);
+    stage(Scalar(q + step), n);
     difference_ = M((before + difference_ + h * slope_) / Scalar(2));
+  }
+
+  /// The i-th point of a column.
+  void stage(const Scalar& q, int i) {
+    evaluate(q, point_, slope_);
+    if (watch_.at) points_.col(i - 1) = point_.col(0);
+  }
+
+  /// Whether the step that ends with the last column passes over no border; short ones may cross.
+  bool may_be_taken(const Scalar& q, const Scalar& step, const M& y) {
+    if (!watch_.at || before_.size() == 0) return true;
+    watched_.resize(before_.rows(), points_.cols());
+    const Scalar h = step / Scalar(static_cast<int>(points_.cols()));
+    for (Eigen::Index i = 0; i < points_.cols(); ++i) {
+      watch_.at(Scalar(q + h * Scalar(static_cast<int>(i) + 1)), points_.col(i), watched_at_);
+      watched_.col(i) = watched_at_;
+    }
+    for (Eigen::Index e = 0; e < before_.rows(); ++e) {
+      const bool jumps = watch_.jumps[static_cast<std::size_t>(e)];
+      const bool crosses =
+          (before_(e) > Scalar(0)) != (watched_(e, watched_.cols() - 1) > Scalar(0));
+      const bool is_short = step <= (jumps ? kAcrossJumps : kAcrossKinks);
+      if (!is_short && (crosses || !stays_away(e))) return false;
+      if (crosses && watch_.crossed) watch_.crossed(q, y, e);
+    }
+    return true;
+  }
+
+  /// Whether a difference is farther from 0 than twice what it changes from point to point; one
+  /// that does not change is.
+  bool stays_away(Eigen::Index e) const {
+    using std::abs;
+    Scalar last = before_(e);
+    Scalar nearest = abs(last);
+    Scalar change(0);
+    for (Eigen::Index i = 0; i < watched_.cols(); ++i) {
+      const Scalar next = watched_(e, i);
+      nearest = std::min<Scalar>(nearest, abs(next));
+      change = std::max<Scalar>(change, abs(Scalar(next - last)));
+      last = next;
+    }
+    return change == Scalar(0) || nearest > change + change;
   }
 
   /// Row k of the table, in the place of row k - 1; whether it is finite.
@@ -171,6 +237,11 @@ class Extrapolation {
   }
 
   Rate rate_;
+  Watch watch_;
+  M points_;   ///< those of the last column, the first column of each
+  M before_;   ///< what f branches on, at y
+  M watched_;  ///< at the points, and at one of them
+  M watched_at_;
   std::vector<M> table_;
   M start_;  ///< the rate at y
   M difference_, point_, slope_;

@@ -4,14 +4,16 @@
 //
 // by extrapolation (extrapolation.h) of dz/dq = d e(z, t + q d) over q in [0, 1]. A smooth e is
 // integrated until the error of a step is within 16 units in the last place of z; where e has a
-// kink or a jump the steps become short, and the error is some thousand units.
+// kink or a jump the steps become short, and the error is some thousand units. No branch of e is
+// passed over, however short it is taken.
 //
 // The slope of the result is that of the same equation in dual numbers (dual.h): with z' the slope
 // of z, the variational equation
 //
 //   dz'/dq = d (de/dz z' + de/dp p' + de/dt (t' + q d')) + d' e,      p what else e depends on
 //
-// Across a jump of e it is that of the branches alone.
+// Across a border of e where e jumps, and which is reached sooner or later as something changes,
+// there is none.
 #pragma once
 
 #include "expr/number_type.h"

@@ -96,23 +96,28 @@ std::optional<double> FigureOf::at_time(const Trajectory& run) {
   return value;
 }
 
-/// The largest value of a step times `sign`, by golden section around the best look of each part.
-double FigureOf::extreme(const DenseStep& step, double sign) {
+/// The largest of `most` and the values of a step times `sign`: where the best look of a part may
+/// lie beside a larger one, by golden section.
+double FigureOf::extreme(const DenseStep& step, double sign, double most) {
   const auto at = [&](double t) { return sign * value_->number(step(t)); };
-  double largest = -kUnbounded;
   for (const SmoothPart& part : smooth_parts(*value_, step)) {
-    int best = 0;
-    double most = -kUnbounded;
-    for (int k = 0; k <= kLooks; ++k)
-      if (const double value = at(look(part, k)); !(value <= most)) {
-        best = k;
-        most = value;
-      }
+    std::array<double, kLooks + 1> looks{};
+    std::size_t best = 0;
+    for (std::size_t k = 0; k <= kLooks; ++k) {
+      looks[k] = at(look(part, static_cast<int>(k)));
+      if (!(looks[k] <= looks[best])) best = k;
+    }
+    const std::size_t before = best == 0 ? 0 : best - 1;
+    const std::size_t after = std::min<std::size_t>(best + 1, kLooks);
+    const double rise = looks[best] - std::min(looks[before], looks[after]);
+    const bool is_beaten = looks[best] + rise <= most;
+    most = std::max(most, looks[best]);
+    if (is_beaten) continue;
     const double refined =
-        peak_between(at, look(part, std::max(best - 1, 0)), look(part, std::min(best + 1, kLooks)));
-    largest = std::max({largest, most, at(refined)});
+        peak_between(at, look(part, static_cast<int>(before)), look(part, static_cast<int>(after)));
+    most = std::max(most, at(refined));
   }
-  return largest;
+  return most;
 }
 
 double FigureOf::extreme(const Trajectory& run, double sign) {
@@ -122,8 +127,7 @@ double FigureOf::extreme(const Trajectory& run, double sign) {
       most = std::max(most, sign * value_->number(jump->after));
       continue;
     }
-    for (const DenseStep& step : std::get<FlowPiece>(part).steps)
-      most = std::max(most, extreme(step, sign));
+    for (const DenseStep& step : std::get<FlowPiece>(part).steps) most = extreme(step, sign, most);
   }
   return sign * most;
 }

@@ -24,7 +24,7 @@ class FigureOf {
   std::optional<double> at_event(const hybrid::Trajectory& run);
   std::optional<double> at_time(const hybrid::Trajectory& run);
   double extreme(const hybrid::Trajectory& run, double sign);
-  double extreme(const hybrid::DenseStep& step, double sign);
+  double extreme(const hybrid::DenseStep& step, double sign, double most);
   double settled(const hybrid::Trajectory& run);
   double last_above(const hybrid::DenseStep& step, double level);
   std::optional<double> root_mean_square(const hybrid::Trajectory& run);

@@ -125,6 +125,34 @@ TEST_F(FlowMaps, NestAndStandInDefinitions) {
   expect("flow_map(-x + b, x, d)", "b + exp(-d)*(x - b)");
 }
 
+TEST_F(FlowMaps, PassOverNoBranch) {
+  world.set("z", Matrix::Zero(2, 1));
+  // A tent of the area 1e-3, a band of the width 1e-4, and one that begins within another.
+  expect("flow_map([1; max(0, 1 - abs(z(1) - 1.2345)/0.001)], z, 3)", "[3; 0.001]", 1e-9);
+  expect("flow_map([1; where(z(1) > 1.26, where(z(1) < 1.2601, 1, 0), 0)], z, 3)", "[3; 0.0001]",
+         1e-10);
+  expect("flow_map([1; sign(z(1) - 1) - sign(z(1) - 1.0001)], z, 3)", "[3; 0.0002]", 1e-10);
+  expect("flow_map([1; floor(z(1))], z, 3)", "[3; 3]", 1e-10);
+  expect("flow_map([1; mod(z(1), 0.5)], z, 3)", "[3; 0.75]", 1e-10);
+  expect("flow_map(-z.*abs(z), z, 1)", "0*z", 1e-15);
+  world.scope.time = "t";
+  expect("flow_map(where(t > 7, where(t < 7.0001, 1, 0), 0), c, 7)", "c + 0.0001", 1e-10);
+}
+
+TEST_F(FlowMaps, HaveNoDerivativeAcrossAJump) {
+  // c comes to 1/2 after 0.2: c + d -> 0.5 + 2 (d - 0.2), whose derivative is 2 and not 1.
+  EXPECT_EQ(refusal("jacobian(flow_map(where(c < 0.5, 1, 2), c, d), c)"),
+            "jacobian: the flow_map has no derivative at this point");
+  EXPECT_EQ(refusal("jacobian(flow_map(2 + sign(c - 0.5), c, d), c)"),
+            "jacobian: the flow_map has no derivative at this point");
+  expect("jacobian(flow_map(where(c < 5, 1, 2), c, d), c)", "1");
+  // The jump comes when it comes.
+  world.scope.time = "t";
+  expect("jacobian(flow_map(where(t > 0.5, 2, 1)*c, c, 0.3), c)", "exp(0.5)", 1e-10);
+  // Kinks have one.
+  expect("jacobian(flow_map(-abs(c - 1) - 1, c, 1), c)", "exp(1)", 1e-12);
+}
+
 TEST_F(FlowMaps, SayWhereTheyEnd) {
   const std::string escaped = refusal("1 + flow_map(c^2, c, 10)");
   EXPECT_NE(escaped.find("flow_map: moved for the time 10 it comes to 3.33333"), std::string::npos)
