@@ -12,6 +12,7 @@
 #include "gainsmith/terminal.h"
 #include "io/json_text.h"
 #include "lmi/compile.h"
+#include "verify/event_setup.h"
 
 namespace gainsmith::app {
 
@@ -38,6 +39,16 @@ std::vector<std::string> campaign_defaults(const model::Design& design) {
                       ": the box [-1, 1], in the units of the file");
   }
   return words;
+}
+
+/// Finds what a run would refuse, where it needs no gains: a horizon beyond the data, a time from
+/// which on nothing is claimed.
+void check_runs(const model::Instance& instance) {
+  const model::Design& design = *instance.design;
+  const bool runs = design.dynamics && design.no_campaign.empty() && model::has_end(design);
+  const bool needs_nothing = design.unknowns.empty() && design.inequalities.empty() &&
+                             design.open.empty() && design.gains.empty();
+  if (runs && needs_nothing) verify::make_event_setup(instance, model::Gains{});
 }
 
 /// What a valid problem asks for.
@@ -91,7 +102,9 @@ ExitCode check(const CheckOptions& options) {
   for (const ProblemFile& problem : problem_files(options.problems)) {
     const std::string path = problem.path.string();
     try {
-      io::Json found = description(load_problem(path));
+      const model::Instance instance = load_problem(path);
+      check_runs(instance);
+      io::Json found = description(instance);
       if (!options.json) print(path, found);
       found["file"] = path;
       results.push_back(std::move(found));

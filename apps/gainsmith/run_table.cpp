@@ -71,6 +71,7 @@ io::Json events_json(const verify::EventReplay& replay) {
 }
 
 std::string comparison_text(const std::vector<verify::FoundFigure>& figures) {
+  bool has_all = true;
   std::vector<std::string> observers;
   std::vector<std::string> titles;
   const auto add = [](std::vector<std::string>& list, const std::string& one) {
@@ -96,10 +97,13 @@ std::string comparison_text(const std::vector<verify::FoundFigure>& figures) {
         return one.title == title && one.observer == observer;
       });
       const bool known = found != figures.end() && found->value;
+      has_all = has_all && (known || found == figures.end());
       text += fmt::format("{:>{}}", known ? brief(*found->value) : "-", column);
     }
     text += '\n';
   }
+  if (!has_all)
+    text += "-: no such event in this run, a time after its end, or a value that is no number\n";
   return text;
 }
 

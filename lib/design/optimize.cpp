@@ -234,7 +234,10 @@ class OuterSearch {
     for (const SearchedScalar& scalar : request_.over)
       ranges += (ranges.empty() ? "" : ", ") + scalar.name + " in [" + brief(scalar.axis.low) +
                 ", " + brief(scalar.axis.high) + "]";
-    gains.solver.message = "no feasible point was found for " + ranges;
+    const std::string what =
+        request_.measure ? "point at which the runs have a finite '" + request_.measure_name + "'"
+                         : "feasible point";
+    gains.solver.message = "no " + what + " was found for " + ranges;
     if (const std::string hidden = hidden_mode_text(own_); !hidden.empty())
       gains.solver.message += "; " + hidden;
     return gains;

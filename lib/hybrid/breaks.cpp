@@ -65,9 +65,9 @@ void add_roots(const Border& g, bool jumps, double from, double to, std::vector<
 
 /// Makes one of breaks with next to nothing between them.
 void merge(std::vector<Break>& breaks, double from, double to) {
-  constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+  constexpr double kUnit = std::numeric_limits<double>::epsilon();
   const double nothing =
-      1e-12 * (to - from) + 8 * kEpsilon * std::max(std::abs(from), std::abs(to));
+      1e-12 * (to - from) + 8 * kUnit * std::max(std::abs(from), std::abs(to));
   std::size_t kept = 0;
   for (std::size_t k = 1; k < breaks.size(); ++k) {
     const Break& one = breaks[k];

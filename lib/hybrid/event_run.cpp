@@ -13,6 +13,7 @@
 #include "hybrid/event_due.h"
 #include "hybrid/event_jump.h"
 #include "hybrid/event_rhythm.h"
+#include "hybrid/event_stays.h"
 #include "hybrid/event_watch.h"
 #include "hybrid/integrator.h"
 #include "hybrid/measured_rows.h"
@@ -81,7 +82,7 @@ class EventRun {
         flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
         rhythm_(scenario.horizon),
         state_rows_(rows_of_states(system)),
-        inside_(watch.stays.size(), true),
+        stays_(watch),
         record_(system, scenario.horizon, limits) {
     values_ = draw_start(system, scenario, seed, run);
   }
@@ -136,12 +137,7 @@ class EventRun {
 
   void instant() {
     while (const auto event = due_.first(values_, t_)) occurrence(*event);
-    for (std::size_t s = 0; s < inside_.size(); ++s) inside_[s] = watch_.stays[s].where(values_);
-  }
-
-  [[noreturn]] static void leave(EventWatch::Stay& stay, const VectorXd& values) {
-    throw RunEnd(Ending::left, fmt::format("{} ('{}' is false, {})", stay.say, stay.where.text(),
-                                           stay.where.differences(values)));
+    stays_.begin(values_);
   }
 
   void occurrence(std::size_t event) {
@@ -258,32 +254,32 @@ class EventRun {
   /// The same of a step on which no kink turns.
   Went along(const DenseStep& step) {
     const StepValues inside(movement_, values_, step);
-    require_inside(inside);
+    stays_.require_inside(inside, std::min(inside.to(), inside.from() + kOutside * horizon_));
     std::vector<std::pair<double, std::string>> near;
     const auto crossings = watch_.crossings(
         inside, values_, [&](double t, const std::string& text) { near.emplace_back(t, text); });
     const std::vector<DueEvents::Mark> marks = due_.marks();
-    const std::vector<bool> was_inside = inside_;
+    const EventStays::Marks was_inside = stays_.marks();
     for (const EventWatch::Crossing& one : crossings) {
       VectorXd values = inside.at(one.t);
       const bool due = due_.first(values, one.t).has_value();
-      const bool left = !due && leaves(values);
+      const bool left = !due && stays_.leaves(values);
       const bool turns = !due && !left && one.branch && branches_.hold(values, true);
       if (!due && !left && !turns) continue;
       if (is_coarse(step, one.t)) {
         due_.set_marks(marks);
-        inside_ = was_inside;
+        stays_.set_marks(was_inside);
         return take_shorter(step.from + kShorterStep * (one.t - step.from));
       }
       note(near, one.t);
       arrive(one.t < step.to ? movement_.until(step, one.t) : step, std::move(values));
-      if (left) leave_first();
+      if (left) stays_.leave_first(values_);
       if (turns) watch_sliding(*one.branch);
       return Went::stopped;
     }
     note(near, step.to);
     arrive(step, inside.at(step.to));
-    if (leaves(values_)) leave_first();
+    if (stays_.leaves(values_)) stays_.leave_first(values_);
     return due_.first(values_, t_) ? Went::stopped : Went::on;
   }
 
@@ -303,13 +299,6 @@ class EventRun {
     return Went::stopped;
   }
 
-  /// A jump to a border of `while` may miss it by rounding: the flow has to lead inside at once.
-  void require_inside(const StepValues& inside) {
-    const double soon = std::min(inside.to(), inside.from() + kOutside * horizon_);
-    for (std::size_t s = 0; s < inside_.size(); ++s)
-      if (!inside_[s] && !watch_.stays[s].where(inside.at(soon))) leave(watch_.stays[s], values_);
-  }
-
   void arrive(const DenseStep& step, VectorXd values) {
     record_.add(step, variables(values));
     values_ = std::move(values);
@@ -317,21 +306,6 @@ class EventRun {
     chain_ = 0;
     turned_back_ = 0;
     require_range();
-  }
-
-  /// Whether a condition of `while` that was true is not any more.
-  bool leaves(const VectorXd& values) {
-    for (std::size_t s = 0; s < inside_.size(); ++s) {
-      const bool now = watch_.stays[s].where(values);
-      if (inside_[s] && !now) return true;
-      inside_[s] = now;
-    }
-    return false;
-  }
-
-  void leave_first() {
-    for (EventWatch::Stay& stay : watch_.stays)
-      if (!stay.where(values_)) leave(stay, values_);
   }
 
   /// Borders that came near up to a time.
@@ -373,7 +347,7 @@ class EventRun {
   std::unique_ptr<Flow> flow_;
   EventRhythm rhythm_;
   std::vector<Index> state_rows_;
-  std::vector<bool> inside_;  ///< by `while`: whether its condition has been true in this flow
+  EventStays stays_;
   std::vector<double> switched_;
   VectorXd values_;  ///< variables and branches
   double t_ = 0;

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <utility>
 
+#include "base/nearest.h"
 #include "base/number.h"
 #include "expr/parser.h"
 #include "io/csv_table.h"
@@ -50,6 +51,20 @@ struct Source {
   }
 };
 
+/// InputError when no row has the word in that column.
+void require_word(const CsvTable& table, const std::pair<std::size_t, std::string>& word,
+                  const Place& place) {
+  std::vector<std::string> there;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const std::string text = table.text(row, word.first);
+    if (text == word.second) return;
+    if (!text.empty() && std::find(there.begin(), there.end(), text) == there.end())
+      there.push_back(text);
+  }
+  throw InputError(place, "rows: no row of " + table.path() + " says '" + word.second + "' there" +
+                              suggestion(word.second, there));
+}
+
 /// `path`: the item with the name of the file; the rest is taken from `map`.
 Source source(const YamlFile& file, const YamlItem& path, YamlMap& map) {
   Source result;
@@ -60,9 +75,11 @@ Source source(const YamlFile& file, const YamlItem& path, YamlMap& map) {
     result.time_place = file.place(time->value);
   }
   if (const auto from = map.find("from")) result.from = file.number(from->value, "from");
-  for (const YamlItem& item : items_of(file, map.find("rows"), "rows"))
+  for (const YamlItem& item : items_of(file, map.find("rows"), "rows")) {
     result.words.emplace_back(result.table->column(item.key, item.place),
                               file.string(item.value, item.key));
+    require_word(*result.table, result.words.back(), file.place(item.value));
+  }
   return result;
 }
 

@@ -100,6 +100,8 @@ void Binding::bind_dynamics() {
       dynamics.signals.push_back({name, value, binding.event_of_output(name)});
     }
   };
+  for (const Named& input : method().inputs)
+    dynamics.signals.push_back({input.name, formula(input.value, scope), std::nullopt});
   add_outputs(method().plant);
   for (const Component& observer : method().observers) add_outputs(observer);
   add_rates();

@@ -163,7 +163,7 @@ struct Dynamics {
   std::vector<Reaction> reactions;
   std::vector<Noise> noise;
   std::vector<Measured> measured;
-  std::vector<Signal> signals;  ///< sinusoids, outputs of the components, then signals
+  std::vector<Signal> signals;  ///< sinusoids, inputs, outputs of the components, then signals
 };
 
 }  // namespace gainsmith::model

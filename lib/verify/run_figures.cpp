@@ -168,7 +168,7 @@ double FigureOf::settled(const Trajectory& run) {
   return value_->number(run.start) < level ? 0 : (run.parts.empty() ? kUnbounded : 0);
 }
 
-/// Gauss' rule with five nodes on pieces of each step.
+/// Gauss' rule with five nodes on pieces of each part on which the value is smooth.
 std::optional<double> FigureOf::root_mean_square(const Trajectory& run) {
   constexpr std::array<std::pair<double, double>, 5> kRule = {
       {{-0.906179845938664, 0.236926885056189},
@@ -182,15 +182,16 @@ std::optional<double> FigureOf::root_mean_square(const Trajectory& run) {
   if (!(0 <= from && from < to && to <= run.end * (1 + 1e-12))) return std::nullopt;
   double sum = 0;
   visit_steps(run, [&](const DenseStep& step) {
-    const double low = std::max(from, step.from);
-    const double high = std::min(to, step.to);
-    if (!(low < high)) return;
-    const double half = (high - low) / (2 * kPieces);
-    for (int piece = 0; piece < kPieces; ++piece)
-      for (const auto& [node, weight] : kRule) {
-        const double value = value_->number(step(low + half * (2 * piece + 1 + node)));
-        sum += half * weight * value * value;
-      }
+    if (!(std::max(from, step.from) < std::min(to, step.to))) return;
+    for (const SmoothPart& part : smooth_parts(*value_, step)) {
+      const double low = std::max(from, part.from);
+      const double half = (std::min(to, part.to) - low) / (2 * kPieces);
+      for (int piece = 0; half > 0 && piece < kPieces; ++piece)
+        for (const auto& [node, weight] : kRule) {
+          const double value = value_->number(step(low + half * (2 * piece + 1 + node)));
+          sum += half * weight * value * value;
+        }
+    }
   });
   return std::sqrt(sum / (to - from));
 }

@@ -114,6 +114,9 @@ TEST_F(Measured, WhatIsWrongInTheProblemIsSaidOfIt) {
             std::string::npos);
   EXPECT_NE(message("u: {csv: data/run.csv, column: y, rows: {event: none}}").find("no row of"),
             std::string::npos);
+  const InputError misspelt =
+      refused("{}", "u: {csv: data/run.csv, column: y, rows: {event: ENC}}");
+  EXPECT_NE(misspelt.message().find("says 'ENC' there"), std::string::npos) << misspelt.what();
   EXPECT_NE(message("u: {csv: data/run.csv, column: y, between: spline}").find("'hold' or 'line'"),
             std::string::npos);
   EXPECT_NE(message("u: {csv: data/run.csv}").find("column"), std::string::npos);
