@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <sstream>
 
 #include "end_to_end/program.h"
@@ -124,6 +125,57 @@ TEST(Events, ExpectedFiguresAreCompared) {
   EXPECT_NE(outcome.exit, 0);
   EXPECT_NE((outcome.out + outcome.err).find("expected zeno, found horizon"), std::string::npos)
       << outcome.out << outcome.err;
+}
+
+/// A text with something else in the place of a part of it.
+std::string with(std::string text, const std::string& old, const std::string& fresh) {
+  return text.replace(text.find(old), old.size(), fresh);
+}
+
+TEST(Events, CheckRefusesWhatRunsRefuse) {
+  const Folder folder;
+  const Outcome late =
+      gainsmith({"check", folder.file("late.yaml", with(kSampled, "{shrinks: norm(e), to: 0.1}",
+                                                        "{below: norm(e), bound: 1, after: 11}"))});
+  EXPECT_EQ(late.exit, 2);
+  EXPECT_NE(late.err.find("after"), std::string::npos) << late.err;
+}
+
+TEST(Events, AParameterThatNothingChoosesIsRefused) {
+  const Folder folder;
+  const std::string open =
+      with(kSampled, "  events:", "  parameters: {k: {search: [0.1, 1]}}\n  events:");
+  const std::string file = folder.file("p.yaml", with(open, "L: \"[1; 2]\"", "L: \"k*[1; 2]\""));
+  const std::string gains = folder.path("gains.json");
+  const Outcome synth = gainsmith({"synth", file, "-o", gains});
+  EXPECT_EQ(synth.exit, 2) << synth.out;
+  EXPECT_NE(synth.err.find("p.yaml:5:"), std::string::npos) << synth.err;
+  EXPECT_NE(synth.err.find("which k is best"), std::string::npos) << synth.err;
+  EXPECT_FALSE(std::filesystem::exists(gains));
+  const Outcome simulate = gainsmith({"simulate", file});
+  EXPECT_EQ(simulate.exit, 2);
+  EXPECT_NE(simulate.err.find("parameters are searched"), std::string::npos) << simulate.err;
+}
+
+TEST(Events, AFigureWithoutAValueSaysSo) {
+  const Folder folder;
+  const std::string file =
+      folder.file("p.yaml", with(kSampled, "{peak: norm(e)}]", "{at: {t: 11}, value: norm(e)}]"));
+  const Outcome outcome = gainsmith({"simulate", file, "--compare"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_NE(outcome.out.find("-: no such event in this run, a time after its end"),
+            std::string::npos)
+      << outcome.out;
+}
+
+TEST(Events, InputsAreColumns) {
+  const Folder folder;
+  const std::string file =
+      folder.file("p.yaml", with(with(kSampled, "  events:", "  inputs: {u: sin(t)}\n  events:"),
+                                 "flow:   {x: A*x}", "flow:   {x: \"A*x + [0; 1]*u\"}"));
+  const Outcome outcome = gainsmith({"simulate", file});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_NE(lines_of(outcome.out).front().find(",u,"), std::string::npos) << outcome.out;
 }
 
 }  // namespace
