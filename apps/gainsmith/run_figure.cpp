@@ -1,6 +1,7 @@
 // What a person wants to see of a run: states with their estimates, errors, claims.
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 #include "gainsmith/run_table.h"
@@ -37,11 +38,17 @@ bool estimates(const Column& estimate, const Column& state) {
          own == estimate.stem + index;
 }
 
-/// One panel a state of the plant, each observer in its colour; or, of one observer, all states.
+bool has_estimate(const EventReplay& replay, const Column& column) {
+  return std::any_of(replay.columns.begin(), replay.columns.end(),
+                     [&](const Column& one) { return estimates(one, column); });
+}
+
+/// One panel a state of the plant, or an output that is estimated, each observer in its colour.
 void add_states(const EventReplay& replay, report::Figure& figure) {
   for (std::size_t k = 0; k < replay.columns.size() && figure.panels.size() < kMostPanels; ++k) {
     const Column& state = replay.columns[k];
-    if (state.kind != Kind::state || !state.observer.empty()) continue;
+    const bool is_output = state.kind == Kind::signal && has_estimate(replay, state);
+    if (!state.observer.empty() || (state.kind != Kind::state && !is_output)) continue;
     report::Panel panel;
     panel.title = state.name;
     panel.curves.push_back(curve(replay, k));
@@ -59,13 +66,18 @@ void add_states(const EventReplay& replay, report::Figure& figure) {
   }
 }
 
-/// The size of a signal that begins with e, on a logarithmic axis.
+bool is_error(const Column& column) {
+  return column.kind == Kind::signal &&
+         (column.stem == "e" || column.stem.starts_with("e_") || column.stem.starts_with("error"));
+}
+
+/// The sizes of errors, signals e, e_... or error..., on a logarithmic axis.
 void add_errors(const EventReplay& replay, report::Figure& figure) {
   std::map<std::string, report::Curve> sizes;
   std::vector<std::string> order;
   for (std::size_t k = 0; k < replay.columns.size(); ++k) {
     const Column& column = replay.columns[k];
-    if (column.kind != Kind::signal || !column.stem.starts_with("e")) continue;
+    if (!is_error(column)) continue;
     const std::string name =
         column.observer.empty() ? column.stem : column.observer + "." + column.stem;
     report::Curve one = curve(replay, k);
@@ -88,6 +100,27 @@ void add_errors(const EventReplay& replay, report::Figure& figure) {
   figure.panels.push_back(std::move(panel));
 }
 
+/// The value of a claim where it is made.
+report::Curve claimed(const EventReplay& replay, std::size_t column) {
+  const verify::ClaimScope& scope = replay.columns[column].scope;
+  report::Curve result = curve(replay, column);
+  for (std::size_t row = 0; row < result.t.size(); ++row)
+    if (result.t[row] < scope.after || (!scope.over.empty() && replay.events[row] != scope.over))
+      result.value[row] = std::numeric_limits<double>::quiet_NaN();
+  return result;
+}
+
+/// What it must not exceed or fall below.
+report::Curve bound_of(const EventReplay& replay, const report::Curve& claim,
+                       const verify::ClaimScope& scope) {
+  report::Curve line;
+  line.t = {scope.after, replay.run.end};
+  line.value = {*scope.bound, *scope.bound};
+  line.dashed = true;
+  line.colour = claim.colour;
+  return line;
+}
+
 /// On a logarithmic axis those that are never negative; the others, such as dissipation
 /// inequalities, on one of their own.
 void add_claims(const EventReplay& replay, report::Figure& figure) {
@@ -98,12 +131,18 @@ void add_claims(const EventReplay& replay, report::Figure& figure) {
   signed_ones.title = "claims of either sign";
   for (std::size_t k = 0; k < replay.columns.size(); ++k) {
     if (replay.columns[k].kind != Kind::claim) continue;
-    report::Curve one = curve(replay, k);
+    report::Curve one = claimed(replay, k);
+    const verify::ClaimScope& scope = replay.columns[k].scope;
     const bool negative =
+        scope.bound.value_or(0) < 0 ||
         std::any_of(one.value.begin(), one.value.end(), [](double value) { return value < 0; });
     report::Panel& panel = negative ? signed_ones : sizes;
-    one.colour = static_cast<int>(panel.curves.size()) + 1;
+    one.colour = 1 + static_cast<int>(
+                         std::count_if(panel.curves.begin(), panel.curves.end(),
+                                       [](const report::Curve& curve) { return !curve.dashed; }));
     panel.curves.push_back(std::move(one));
+    if (scope.bound && (negative || *scope.bound > 0))
+      panel.curves.push_back(bound_of(replay, panel.curves.back(), scope));
   }
   for (report::Panel* panel : {&sizes, &signed_ones})
     if (!panel->curves.empty()) figure.panels.push_back(std::move(*panel));

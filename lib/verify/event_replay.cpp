@@ -61,7 +61,8 @@ class EventTable {
     for (const model::Dynamics::Signal& signal : dynamics.signals)
       add(signal.name, signal.value.program, Column::Kind::signal, signal.at);
     for (const LinkedClaim& claim : setup.claims)
-      if (claim.stated()) add(claim.name, claim.value, Column::Kind::claim, std::nullopt);
+      if (claim.stated() && add(claim.name, claim.value, Column::Kind::claim, std::nullopt))
+        sources_.back().column.scope = scope(claim);
   }
 
   void fill(double step, EventReplay& replay) {
@@ -85,15 +86,28 @@ class EventTable {
   }
 
  private:
-  void add(const std::string& name, const expr::Program& program, Column::Kind kind,
+  ClaimScope scope(const LinkedClaim& claim) const {
+    ClaimScope scope{claim.after,
+                     claim.over ? design_.dynamics->events[*claim.over].name : std::string(),
+                     std::nullopt};
+    if (claim.bound)
+      scope.bound = RunValue(*claim.bound, setup_.layout, setup_.system.constants)
+                        .number(Eigen::VectorXd::Zero(setup_.layout.size));
+    return scope;
+  }
+
+  /// Whether it has a value.
+  bool add(const std::string& name, const expr::Program& program, Column::Kind kind,
            std::optional<std::size_t> at) {
     expr::Program linked = setup_.system.bodies.link(program);
     for (const expr::Input& input : linked.inputs)
-      if (!setup_.system.slot(input.name) && !setup_.system.constants.contains(input.name)) return;
+      if (!setup_.system.slot(input.name) && !setup_.system.constants.contains(input.name))
+        return false;
     programs_.push_back(std::make_unique<expr::Program>(std::move(linked)));
     const expr::Program& own = *programs_.back();
     sources_.push_back({column(name, kind), own.shape(), std::nullopt,
                         RunValue(own, setup_.layout, setup_.system.constants), at});
+    return true;
   }
 
   std::string event_of(const hybrid::JumpPoint& jump) const {

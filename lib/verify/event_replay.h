@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,12 +13,20 @@
 
 namespace gainsmith::verify {
 
+/// Where a claim is made, and what its value must not exceed or fall below.
+struct ClaimScope {
+  double after = 0;             ///< the time from which on
+  std::string over;             ///< the event just after whose jumps alone; empty: everywhere
+  std::optional<double> bound;  ///< of `below` and `above`
+};
+
 /// A quantity along a run: an element of a variable or of a signal, or the value of a claim.
 struct Column {
   std::string name;  ///< as it is shown, "xh1"; of several observers with the name, "nominal.xh1"
   std::string stem;  ///< without observer and element: "xh"
   std::string observer;  ///< empty: of the plant, of all
   enum class Kind { time, jumps, state, mode, other, signal, claim } kind = Kind::other;
+  ClaimScope scope{};  ///< of a claim
 };
 
 /// Rows: the start, points of each flow and its end, the values after each jump.
