@@ -33,10 +33,9 @@ void MeasuredRows::begin(Eigen::VectorXd& values) {
   for (Quantity& one : quantities_) {
     const model::Series& series = *one.measured->series;
     one.row = series.not_before(0);
-    if (is_due(one, 0)) continue;
     const model::Course course = course_at(series, one.measured->between, 0);
-    values.segment(one.value, series.values.cols()) = course.value;
     if (one.rate) values.segment(*one.rate, series.values.cols()) = course.rate;
+    if (!is_due(one, 0)) values.segment(one.value, series.values.cols()) = course.value;
   }
   arrive(0, values);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hybrid/dynamics_text.h"
+#include "hybrid/event_problem.h"
 #include "hybrid/event_run.h"
 #include "hybrid/reference_run.h"
 #include "hybrid/trajectory_judge.h"
@@ -91,6 +92,8 @@ TEST(Measured, ALineJoinsTheRows) {
   EXPECT_NEAR(run.value("u", 0.65), 0.5, 1e-15);
   EXPECT_NEAR(run.value("x", 0.2), 0.2 + 0.04 / 0.6, 1e-15);
   EXPECT_NEAR(run.value("x", 1.7), 0.45 + 0.35 - 1.05, 1e-14);
+  EXPECT_NEAR(tests::part_of(run.system, run.trajectory.start, "u_rate")(0), 1 / 0.3, 1e-15)
+      << "with which it goes on";
   expect_accepted(run);
 }
 
