@@ -5,8 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "expr/lexer.h"
-#include "expr/parser_advice.h"
+#include "expr/token_cursor.h"
 #include "expr/work.h"
 
 namespace gainsmith::expr {
@@ -47,10 +46,9 @@ std::optional<NodeKind> factor_of(TokenKind kind) {
   }
 }
 
-class Parser {
+class Parser : TokenCursor {
  public:
-  explicit Parser(std::shared_ptr<const Text> text)
-      : shared_(std::move(text)), text_(*shared_), tokens_(tokenize(text_)) {}
+  using TokenCursor::TokenCursor;
 
   NodePtr whole() {
     if (peek() == TokenKind::end) fail("expected an expression, found nothing");
@@ -91,7 +89,7 @@ class Parser {
       const Token parameter = expect(TokenKind::name, "a parameter's name");
       if (std::find(result.parameters.begin(), result.parameters.end(), parameter.text) !=
           result.parameters.end())
-        throw InputError(text_.place(parameter.begin),
+        throw InputError(text()->place(parameter.begin),
                          "the parameter '" + parameter.text + "' stands here twice");
       result.parameters.push_back(parameter.text);
     } while (accept(TokenKind::comma));
@@ -107,19 +105,18 @@ class Parser {
 
   /// "i in ..."
   bool is_index() const {
-    return peek() == TokenKind::name && tokens_[at_ + 1].kind == TokenKind::name &&
-           tokens_[at_ + 1].text == "in";
+    return peek() == TokenKind::name && here(1).kind == TokenKind::name && here(1).text == "in";
   }
 
   Index index() {
     if (!is_index()) fail("expected an index such as i in 1..N");
     Index result;
-    result.place = text_.place(tokens_[at_].begin);
+    result.place = text()->place(here().begin);
     result.name = next().text;
     next();
-    result.low = {shared_, sum()};
+    result.low = {text(), sum()};
     expect(TokenKind::dots, "'..' in the range of an index, such as 1..N");
-    result.high = {shared_, sum()};
+    result.high = {text(), sum()};
     return result;
   }
 
@@ -138,40 +135,12 @@ class Parser {
     Parser& parser;
   };
 
-  TokenKind peek() const { return tokens_[at_].kind; }
-  const Token& next() { return tokens_[at_++]; }
-
-  bool accept(TokenKind kind) {
-    if (peek() != kind) return false;
-    ++at_;
-    return true;
-  }
-
-  const Token& expect(TokenKind kind, const std::string& what) {
-    if (peek() != kind)
-      fail("expected " + what + ", found " + found() + missing_between(tokens_, at_));
-    return kind == TokenKind::end ? tokens_[at_] : next();
-  }
-
-  std::string found() const {
-    return peek() == TokenKind::end ? "the end of the text" : "'" + tokens_[at_].text + "'";
-  }
-
-  /// "0,005"
-  void refuse_decimal_comma() const {
-    if (const std::string said = decimal_comma(tokens_, at_); !said.empty()) fail(said);
-  }
-
-  [[noreturn]] void fail(const std::string& message) const {
-    throw InputError(text_.place(tokens_[at_].begin), message);
-  }
-
   std::shared_ptr<Node> make(NodeKind kind, std::size_t begin,
                              std::vector<NodePtr> children) const {
     auto node = std::make_shared<Node>();
     node->kind = kind;
     node->begin = begin;
-    node->end = at_ > 0 ? tokens_[at_ - 1].end : begin;
+    node->end = last_end(begin);
     node->children = std::move(children);
     for (const NodePtr& child : node->children)
       node->height = std::max(node->height, child->height + 1);
@@ -179,30 +148,23 @@ class Parser {
     return node;
   }
 
-  /// A word of the language instead of a symbol.
-  bool accept(std::string_view word) {
-    if (peek() != TokenKind::name || tokens_[at_].text != word) return false;
-    ++at_;
-    return true;
-  }
-
   NodePtr condition() {
     const Depth depth(*this);
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     std::vector<NodePtr> parts = {conjunction()};
     while (accept("or")) parts.push_back(conjunction());
     return parts.size() == 1 ? parts.front() : make(NodeKind::disjunction, begin, std::move(parts));
   }
 
   NodePtr conjunction() {
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     std::vector<NodePtr> parts = {negation()};
     while (accept("and")) parts.push_back(negation());
     return parts.size() == 1 ? parts.front() : make(NodeKind::conjunction, begin, std::move(parts));
   }
 
   NodePtr negation() {
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     if (!accept("not")) return comparison();
     const Depth depth(*this);
     NodePtr inner = negation();
@@ -210,7 +172,7 @@ class Parser {
   }
 
   NodePtr comparison() {
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     std::vector<NodePtr> operands = {sum()};
     std::vector<Relation> relations;
     while (const auto relation = relation_of(peek())) {
@@ -225,7 +187,7 @@ class Parser {
   }
 
   NodePtr sum() {
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     NodePtr left = term();
     for (;;) {
       if (accept(TokenKind::plus)) {
@@ -241,7 +203,7 @@ class Parser {
   }
 
   NodePtr term() {
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     NodePtr left = sign();
     while (const auto kind = factor_of(peek())) {
       next();
@@ -253,7 +215,7 @@ class Parser {
 
   NodePtr sign() {
     const Depth depth(*this);
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     if (accept(TokenKind::plus)) return sign();
     if (accept(TokenKind::minus)) {
       NodePtr operand = sign();
@@ -263,7 +225,7 @@ class Parser {
   }
 
   NodePtr postfix() {
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     NodePtr value = primary();
     for (;;) {
       if (accept(TokenKind::quote)) {
@@ -283,7 +245,7 @@ class Parser {
 
   NodePtr exponent() {
     const Depth depth(*this);
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     if (accept(TokenKind::plus)) return exponent();
     if (accept(TokenKind::minus)) {
       NodePtr operand = exponent();
@@ -312,9 +274,9 @@ class Parser {
   }
 
   NodePtr argument() {
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     if (accept(TokenKind::colon)) return make(NodeKind::range, begin, {});
-    if (is_index() && tokens_[at_ + 2].kind == TokenKind::open_bracket) return box(begin);
+    if (is_index() && here(2).kind == TokenKind::open_bracket) return box(begin);
     if (is_index()) {
       const Index found = index();
       auto each = make(NodeKind::each, begin, {found.low.root, found.high.root});
@@ -342,7 +304,7 @@ class Parser {
   }
 
   NodePtr primary() {
-    const std::size_t begin = tokens_[at_].begin;
+    const std::size_t begin = here().begin;
     switch (peek()) {
       case TokenKind::number:
       case TokenKind::name: {
@@ -362,8 +324,7 @@ class Parser {
         next();
         return block(begin);
       case TokenKind::star:
-        if (at_ > 0 && tokens_[at_ - 1].kind == TokenKind::star)
-          fail("write ^ for a power, not **");
+        if (is_behind(TokenKind::star)) fail("write ^ for a power, not **");
         [[fallthrough]];
       default:
         fail("expected a number, a name, '(' or '[', found " + found());
@@ -386,8 +347,7 @@ class Parser {
              std::to_string(columns));
       if (accept(TokenKind::close_bracket)) break;
       if (!accept(TokenKind::semicolon))
-        fail("expected ',' ';' or ']' in the block, found " + found() +
-             missing_between(tokens_, at_));
+        fail("expected ',' ';' or ']' in the block, found " + found() + missing());
     }
     auto node = make(NodeKind::block, begin, std::move(entries));
     node->columns = columns;
@@ -395,7 +355,7 @@ class Parser {
   }
 
   NodePtr entry() {
-    const TokenKind after = tokens_[std::min(at_ + 1, tokens_.size() - 1)].kind;
+    const TokenKind after = here(1).kind;
     const bool alone = after == TokenKind::comma || after == TokenKind::semicolon ||
                        after == TokenKind::close_bracket;
     if (peek() == TokenKind::star && alone) {
@@ -405,10 +365,6 @@ class Parser {
     return sum();
   }
 
-  std::shared_ptr<const Text> shared_;
-  const Text& text_;
-  std::vector<Token> tokens_;
-  std::size_t at_ = 0;
   int depth_ = 0;
 };
 
