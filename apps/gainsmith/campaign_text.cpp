@@ -1,6 +1,7 @@
 #include "gainsmith/campaign_text.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 
 #include "base/number.h"
 #include "base/scalars.h"
@@ -32,6 +33,7 @@ io::Json check_json(const verify::CheckReport& check) {
     result["missing"] = check.missing;
     return result;
   }
+  result["looked_at"] = check.worst.looked;
   result["violations"] = check.violations;
   result["undecided"] = check.undecided;
   result["worst_run"] = check.worst_run;
@@ -45,10 +47,16 @@ io::Json check_json(const verify::CheckReport& check) {
   return result;
 }
 
-std::string check_text(const verify::CheckReport& check) {
+/// `width`: of the names.
+std::string check_text(const verify::CheckReport& check, std::size_t width) {
   if (!check.stated)
-    return fmt::format("  {:<12} not stated: no value for {}\n", check.name,
+    return fmt::format("  {:<{}} not stated: no value for {}\n", check.name, width,
                        fmt::join(check.missing, ", "));
+  if (!check.worst.looked)
+    return fmt::format(
+        "  {:<{}} {:<17} held      never looked at: no run comes to where it is "
+        "claimed\n",
+        check.name, width, kind_text(check.kind));
   const verify::Finding& worst = check.worst;
   const bool bounded =
       check.kind == model::ClaimKind::below || check.kind == model::ClaimKind::above;
@@ -58,8 +66,8 @@ std::string check_text(const verify::CheckReport& check) {
       : check.undecided > 0 ? fmt::format("undecided in {} runs", check.undecided)
                             : "held";
   std::string text =
-      fmt::format("  {:<12} {:<17} {:<8}  {} run {}: {} against {} at (t, j) = ({}, {})\n",
-                  check.name, kind_text(check.kind), verdict, held ? "nearest" : "worst",
+      fmt::format("  {:<{}} {:<17} {:<8}  {} run {}: {} against {} at (t, j) = ({}, {})\n",
+                  check.name, width, kind_text(check.kind), verdict, held ? "nearest" : "worst",
                   check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
   if (worst.undecided())
     text += fmt::format(
@@ -68,7 +76,7 @@ std::string check_text(const verify::CheckReport& check) {
         brief(worst.value), brief(worst.bound));
   if (check.floor > 0)
     text += fmt::format("               checked down to {} of the {}: the {} no larger drop\n",
-                        brief(check.floor, 2), bounded ? "largest distance" : "start",
+                        brief(check.floor, 2), bounded ? "largest terms" : "start",
                         worst.estimated ? "integration shows" : "digits show");
   return text;
 }
@@ -153,14 +161,17 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
   std::string text = fmt::format("campaign    {} (seed {}, horizon {})\n", campaign_line(report),
                                  report.seed, brief(report.horizon));
   if (report.runs == 0) return text;
-  for (const verify::CheckReport& check : report.checks) text += check_text(check);
+  std::size_t width = 12;
+  for (const verify::CheckReport& check : report.checks) width = std::max(width, check.name.size());
+  for (const verify::CheckReport& check : report.checks) text += check_text(check, width);
   if (report.unfinished > 0)
     text += fmt::format("  {} runs did not reach the horizon; run {}: {}{}\n", report.unfinished,
                         report.worst_run, to_string(report.worst_termination),
                         report.worst_message.empty() ? "" : ", " + report.worst_message);
   text += undecided_text(report, gains_file);
-  text += fmt::format("  with {} % confidence at most {} of such runs violate\n",
-                      brief(100 * report.confidence), brief(report.violation_probability, 3));
+  if (report.violation_probability < 1)
+    text += fmt::format("  with {} % confidence at most {} of such runs violate\n",
+                        brief(100 * report.confidence), brief(report.violation_probability, 3));
   return text + fmt::format("  replay      gainsmith simulate {} --run {} --seed {}\n", gains_file,
                             report.worst_run, report.seed);
 }

@@ -50,9 +50,15 @@ io::Json replay_json(const verify::Replay& replay) {
 
 void say_claims(const std::vector<verify::ReplayedClaim>& claims) {
   for (const verify::ReplayedClaim& claim : claims)
-    say(fmt::format("  {:<12} {}: {} against {} at (t, j) = ({}, {})\n", claim.name,
-                    to_string(claim.finding.judgement), brief(claim.finding.value),
-                    brief(claim.finding.bound), brief(claim.finding.t), claim.finding.j));
+    if (!claim.finding.looked)
+      say(
+          fmt::format("  {:<12} held: never looked at, as the run does not come to where it is "
+                      "claimed\n",
+                      claim.name));
+    else
+      say(fmt::format("  {:<12} {}: {} against {} at (t, j) = ({}, {})\n", claim.name,
+                      to_string(claim.finding.judgement), brief(claim.finding.value),
+                      brief(claim.finding.bound), brief(claim.finding.t), claim.finding.j));
 }
 
 void write(const SimulateOptions& options, const std::string& text) {

@@ -152,7 +152,9 @@ class OuterSearch {
     }
     const model::Instance instance = model::evaluate(own_.design, values);
     model::Gains gains = synthesize(instance, last_);
-    if (gains.verdict != model::Verdict::yes) return {std::move(gains), std::nullopt};
+    // A measure was taken in the search, and an interrupt must not take it again.
+    if (gains.verdict != model::Verdict::yes || request_.measure)
+      return {std::move(gains), std::nullopt};
     const auto found = value(instance, gains);
     return {std::move(gains), found};
   }
@@ -200,6 +202,7 @@ class OuterSearch {
     std::optional<model::PolishRecord> polished;
     if (minimum.point) {
       std::tie(gains, best) = design_at(overrides(*minimum.point), extreme_of(minimum));
+      if (request_.measure && gains.verdict == model::Verdict::yes) best = minimum.value;
       if (request_.polish && best && minimum.finished) polished = polish_design(gains, best);
     } else {
       gains = nothing_found();

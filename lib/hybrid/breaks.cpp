@@ -23,17 +23,48 @@ constexpr std::size_t kMostBreaks = 256;
 /// Of the terms of a difference: what it does below matters to nothing that is integrated.
 constexpr double kOfTerms = 1e-12;
 
-/// The instructions that the result is a sum of, with any signs.
-void collect_terms(const Program& program, int at, std::vector<int>& terms) {
-  const Instruction& instruction = program.code[static_cast<std::size_t>(at)];
-  const bool is_sum =
-      instruction.op == Op::add || instruction.op == Op::subtract || instruction.op == Op::negate;
-  if (!is_sum) {
-    terms.push_back(at);
-    return;
+/// Makes the sizes of the terms of instructions: of sums and of products with them.
+class TermSizes {
+ public:
+  explicit TermSizes(Program& program) : program_(program) {}
+
+  int of(int at) {
+    const Instruction here = program_.code[static_cast<std::size_t>(at)];
+    const std::vector<int>& operands = here.operands;
+    switch (here.op) {
+      case Op::negate:
+        return of(operands[0]);
+      case Op::add:
+      case Op::subtract:
+        return made(Op::add, {of(operands[0]), of(operands[1])}, here);
+      case Op::scale:
+      case Op::elementwise_product:
+        return made(here.op, {of(operands[0]), of(operands[1])}, here);
+      case Op::divide:
+        return made(Op::divide, {of(operands[0]), made(Op::abs, {operands[1]}, here)}, here);
+      case Op::multiply:
+        if (is_number(operands[0]) && is_number(operands[1]))
+          return made(Op::multiply, {of(operands[0]), of(operands[1])}, here);
+        break;
+      default:
+        break;
+    }
+    return made(Op::abs, {at}, here);
   }
-  for (const int operand : instruction.operands) collect_terms(program, operand, terms);
-}
+
+ private:
+  bool is_number(int at) const {
+    return program_.code[static_cast<std::size_t>(at)].shape.is_scalar();
+  }
+  int made(Op op, std::vector<int> operands, const Instruction& like) {
+    const auto shape =
+        op == Op::abs ? program_.code[static_cast<std::size_t>(operands[0])].shape : like.shape;
+    program_.code.push_back({op, std::move(operands), shape, {}, {}, like.origin, like.offset});
+    return static_cast<int>(program_.code.size()) - 1;
+  }
+
+  Program& program_;
+};
 
 /// An element of a function; not a number where it has no value.
 double element(PointFunction& function, const VectorXd& x, Index e) {
@@ -66,8 +97,7 @@ void add_roots(const Border& g, bool jumps, double from, double to, std::vector<
 /// Makes one of breaks with next to nothing between them.
 void merge(std::vector<Break>& breaks, double from, double to) {
   constexpr double kUnit = std::numeric_limits<double>::epsilon();
-  const double nothing =
-      1e-12 * (to - from) + 8 * kUnit * std::max(std::abs(from), std::abs(to));
+  const double nothing = 1e-12 * (to - from) + 8 * kUnit * std::max(std::abs(from), std::abs(to));
   std::size_t kept = 0;
   for (std::size_t k = 1; k < breaks.size(); ++k) {
     const Break& one = breaks[k];
@@ -84,19 +114,7 @@ void merge(std::vector<Break>& breaks, double from, double to) {
 }  // namespace
 
 Program absolute_terms(Program program) {
-  std::vector<int> terms;
-  collect_terms(program, program.result, terms);
-  const Instruction like = program.code[static_cast<std::size_t>(program.result)];
-  const auto add = [&](Op op, std::vector<int> operands) {
-    program.code.push_back({op, std::move(operands), like.shape, {}, {}, like.origin, like.offset});
-    return static_cast<int>(program.code.size()) - 1;
-  };
-  int sum = -1;
-  for (const int term : terms) {
-    const int size = add(Op::abs, {term});
-    sum = sum < 0 ? size : add(Op::add, {sum, size});
-  }
-  program.result = sum;
+  program.result = TermSizes(program).of(program.result);
   return program;
 }
 
@@ -124,8 +142,8 @@ std::vector<Break> Breaks::on(const std::function<VectorXd(double)>& x, double f
       if (is_slow && StepRange(at, points).is_far_from_zero()) continue;
       double terms = 0;
       for (const VectorXd& point : points) terms = std::fmax(terms, element(text.terms, point, e));
-      add_roots({[&](double t) { return at(x(t)); }, false, kOfTerms * terms}, text.jumps,
-                from, to, breaks);
+      add_roots({[&](double t) { return at(x(t)); }, false, kOfTerms * terms}, text.jumps, from, to,
+                breaks);
     }
   }
   merge(breaks, from, to);

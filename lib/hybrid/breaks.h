@@ -36,7 +36,8 @@ class Breaks {
   std::vector<Text> texts_;
 };
 
-/// The sum of the absolute values of the terms of a program: its rounding is that of its terms.
+/// The sum of the absolute values of the terms of a program, those of products with sums multiplied
+/// out: its rounding is that of its terms.
 expr::Program absolute_terms(expr::Program program);
 /// Of that sum, how far the value may be off.
 constexpr double kTermRounding = 16 * 0x1p-52;

@@ -256,6 +256,26 @@ void read_passes(EventSystem& system) {
   }
 }
 
+/// Whether a program has values that keep still while what it reads moves.
+bool has_levels(const expr::Program& program) {
+  return std::any_of(program.code.begin(), program.code.end(), [](const expr::Instruction& one) {
+    return one.op == expr::Op::sign || one.op == expr::Op::floor || one.op == expr::Op::where;
+  });
+}
+
+/// What moves along a flow is equal to something at single instants, between the numbers.
+void refuse_equations(const expr::Condition& condition, const EventSystem& system) {
+  if (condition.kind == expr::Condition::Kind::none) return;
+  for (const expr::Condition& part : condition.parts) refuse_equations(part, system);
+  if (condition.kind != expr::Condition::Kind::zero || has_levels(condition.difference)) return;
+  for (const expr::Input& input : condition.difference.inputs)
+    if (system.is_moving(input.name))
+      throw InputError(condition.place,
+                       fmt::format("'{}' is met in passing, as {} moves along flows: write the "
+                                   "border by <= or >=, or as an event of its own, 'crosses: ...'",
+                                   condition.text, input.name));
+}
+
 }  // namespace
 
 std::optional<std::size_t> EventSystem::slot(const std::string& name) const {
@@ -303,6 +323,8 @@ EventSystem make_event_system(const model::Dynamics& dynamics, numbers::Values c
   read_noise(system);
   read_passes(system);
   check_measured(system);
+  for (const model::Dynamics::Event& event : system.dynamics.events)
+    if (event.condition) refuse_equations(*event.condition, system);
   return system;
 }
 

@@ -1,6 +1,7 @@
 #include "io/component_yaml.h"
 
 #include <algorithm>
+#include <cctype>
 #include <set>
 #include <utility>
 
@@ -184,6 +185,40 @@ Component logged(const YamlFile& file, const YamlItem& item, YamlMap& map,
   return result;
 }
 
+/// Whether a name stands in a text of a mapping.
+bool is_read(const YAML::Node& node, const std::string& name) {
+  if (node.IsMap() || node.IsSequence())
+    return std::any_of(node.begin(), node.end(), [&](const auto& entry) {
+      return is_read(node.IsMap() ? YAML::Node(entry.second) : YAML::Node(entry), name);
+    });
+  if (!node.IsScalar()) return false;
+  const std::string& text = node.Scalar();
+  const auto is_part = [&](std::size_t at) {
+    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 ||
+                                text[at] == '_' || text[at] == '.');
+  };
+  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
+    if (!is_part(at - 1) && !is_part(at + name.size())) return true;
+  return false;
+}
+
+/// InputError for a definition that takes the place of none, is read by nothing, and is likely to
+/// be a misspelling.
+void require_replacing(const YamlFile& file, const YamlItem& item, const YamlItem& like,
+                       const std::vector<model::Let>& known, const std::vector<model::Let>& own) {
+  std::vector<std::string> names;
+  for (const model::Let& one : known) names.push_back(one.signature.name);
+  for (const model::Let& one : own) {
+    const std::string& name = one.signature.name;
+    if (std::find(names.begin(), names.end(), name) != names.end()) continue;
+    if (is_read(item.value, name)) continue;
+    if (const auto near = nearest(name, names))
+      throw InputError(one.place, "'" + name + "' is no definition of " +
+                                      file.string(like.value, "like") +
+                                      ", and nothing reads it; did you mean '" + *near + "'?");
+  }
+}
+
 Component copied(const YamlFile& file, const std::optional<YamlItem>& like,
                  const std::vector<Component>& before) {
   if (!like) return {};
@@ -228,6 +263,8 @@ Component component(const YamlFile& file, const YamlItem& item,
   read("let", result.let, [](const YamlFile& from, const YamlItem& entry) {
     return definitions(from, {entry}).front();
   });
+  if (like && map.find("let"))
+    require_replacing(file, item, *source, copied(file, source, before).let, result.let);
   read("flow", result.flow, assigned);
   read("jump", result.jump, assigned);
   read("at", result.at, reaction);

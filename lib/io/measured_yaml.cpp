@@ -119,8 +119,8 @@ double time_of(const Source& source, std::size_t row, std::size_t column, double
   const Place place = source.table->place(row, column);
   if (!time) throw InputError(place, "the row has no time");
   if (*time - source.from < before)
-    throw InputError(place, "the time " + brief(*time, 17) + " comes after " +
-                                brief(before + source.from, 17) +
+    throw InputError(place, "the time " + brief(*time, 15) + " comes after " +
+                                brief(before + source.from, 15) +
                                 ": rows stand in the order of time");
   return *time - source.from;
 }

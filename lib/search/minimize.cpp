@@ -78,7 +78,7 @@ class Search {
     parallel_for(trials.size(), options_.threads, [&](std::size_t i) {
       if (options_.interrupted && options_.interrupted()) return;
       trials[i].value = figure_(point(trials[i].unit));
-      trials[i].tried = true;
+      trials[i].tried = trials[i].value || !(options_.interrupted && options_.interrupted());
     });
     for (const Trial& trial : trials)
       if (trial.tried) record(trial.unit, trial.value);

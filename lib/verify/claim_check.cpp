@@ -112,7 +112,8 @@ ClaimCheck<Scalar>::ClaimCheck(const JudgedClaim& claim,
       value_(claim.value, system),
       jump_cost_(make_value(claim.jump_cost, system)),
       factor_(make_value(claim.factor, system)),
-      bound_(make_value(claim.bound, system)) {
+      bound_(make_value(claim.bound, system)),
+      terms_(make_value(claim.terms, system)) {
   if (claim.flow_cost && !claim.integral && !claim.accumulated)
     flow_cost_.emplace(*claim.flow_cost, system);
 }
@@ -220,11 +221,27 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
 template <class Scalar>
 Finding ClaimCheck<Scalar>::nothing_counts(const Track& track) const {
   Finding finding;
+  finding.looked = false;
+  finding.score = -kInfinity;
   finding.t = track.t.back();
   finding.j = track.j.back();
   finding.digits = kDigits<Scalar>;
   finding.estimated = track.accuracy > 0;
   return finding;
+}
+
+/// Of the terms of the value at samples that count, or of the value itself where there are none,
+/// with what they may be off; 0 at the others.
+template <class Scalar>
+std::vector<double> ClaimCheck<Scalar>::term_sizes(const Track& track,
+                                                   const std::vector<Bounded>& v) {
+  std::vector<double> sizes(v.size(), 0);
+  for (std::size_t k = 0; k < v.size(); ++k) {
+    if (!counts(track, k) || !is_number(v[k])) continue;
+    const Bounded terms = terms_ ? (*terms_)(track, k) : v[k];
+    sizes[k] = hybrid::size_of(terms.value) + v[k].bound;
+  }
+  return sizes;
 }
 
 /// The value against the bound b at every sample that counts; `above` is `below` of what is
@@ -236,12 +253,9 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
   const bool above = claim_->kind == model::ClaimKind::above;
   // The same in all runs, so that their scores are compared as their values are.
   const double scale = b.value == Scalar(0) ? 1 : hybrid::size_of(b.value);
-  double farthest = 0;
-  for (std::size_t k = 0; k < v.size(); ++k) {
-    if (!counts(track, k) || !is_number(v[k])) continue;
-    farthest = std::max(farthest, hybrid::size_of(Scalar(v[k].value - b.value)));
-  }
-  const double floor = (track.accuracy > 0 ? kOfAccuracy * track.accuracy : 0) * farthest;
+  const std::vector<double> sizes =
+      b.value == Scalar(0) ? term_sizes(track, v) : std::vector<double>();
+  const double largest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
   std::optional<Finding> worst;
   double noise = 0;
   const auto rank = [](const Finding& one) {
@@ -252,11 +266,11 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
     const Judgement judgement = above ? compare(b, v[k]) : compare(v[k], b);
     Finding found = finding_at(track, k, above ? b : v[k], above ? v[k] : b, scale, judgement);
     if (above) std::swap(found.value, found.bound);
-    const double top = hybrid::size_of(Scalar(v[k].value - b.value)) + v[k].bound + b.bound;
-    const bool drowned =
-        track.accuracy > 0 && found.undecided() && is_number(v[k]) && top <= kNothing * farthest;
-    const bool nothing = judgement != Judgement::held && farthest > 0 && (top <= floor || drowned);
-    if (nothing) noise = std::max(noise, top / farthest);
+    const double part = largest > 0 ? sizes[k] / largest : 1;
+    const bool drowned = found.undecided() && is_number(v[k]) && part <= kNothing;
+    const bool nothing = judgement != Judgement::held && track.accuracy > 0 &&
+                         (part <= kOfAccuracy * track.accuracy || drowned);
+    if (nothing) noise = std::max(noise, part);
     if (!nothing && (!worst || rank(found) > rank(*worst))) worst = found;
   }
   if (!worst) worst = nothing_counts(track);

@@ -28,8 +28,8 @@
 // says so. kFloor is 1e-24 in 31 digits, of which the last are rounding, and the range of the
 // numbers, 1e-200, in double. The bounds of a flow that is integrated to a relative accuracy a are
 // estimates: below a/1e4 of v(0) nothing is compared, nor below 1e-8 of it what lies in its own
-// error. In a comparison with a bound b it is v - b that falls to nothing, compared with the
-// largest |v - b| of the run: of v = b all along nothing is left out.
+// error. In a comparison with a bound of 0 that is so of the terms of v, whose sum falls to
+// nothing: where they merely cancel nothing is left out, nor with any other bound.
 //
 // The integral of a quadratic form over a flow is a quadratic form of its start (step_maps.h). That
 // of any other is bounded over pieces of the flow (flow_integral.h).
@@ -56,7 +56,7 @@ struct Finding {
   /// the bound, or 1 when that is 0; (bound - value) / |scale| for `above`. While
   /// `nonincreasing` holds, value and bound are v(end) and v(0): what is left at the end. Infinite
   /// when a value is no number or the scale of a violation is 0; -1 when the scale is 0 and the
-  /// claim holds.
+  /// claim holds; minus infinite when nothing was looked at.
   double score = -1;
   double value = 0;     ///< at the worst sample
   double bound = 0;     ///< what it must not exceed there
@@ -64,9 +64,10 @@ struct Finding {
   double t = 0;         ///< where that is, in hybrid time
   std::int64_t j = 0;
   /// The largest value, relative to v(0), that was not compared because no digits are left; 0:
-  /// none. Of a comparison with a bound b that of |v - b|, relative to the largest one.
+  /// none. Of a comparison with a bound that of its terms, relative to the largest.
   double floor = 0;
   int digits = kDoubleDigits;  ///< of the arithmetic that says so
+  bool looked = true;          ///< false: the run has no sample at which the claim is made
   bool estimated = false;      ///< `rounding` is an estimate, of the error of integration too
 
   bool violated() const { return judgement == Judgement::violated; }
@@ -82,8 +83,9 @@ struct JudgedClaim {
   std::optional<JudgedFunction> jump_cost;
   std::optional<JudgedFunction> factor;
   std::optional<JudgedFunction> bound;
-  double after = 0;                   ///< the time from which on samples count
-  std::optional<std::size_t> over{};  ///< the event just after whose jumps alone they do
+  std::optional<JudgedFunction> terms;  ///< of the value: the sum of their absolute values
+  double after = 0;                     ///< the time from which on samples count
+  std::optional<std::size_t> over{};    ///< the event just after whose jumps alone they do
   int looked_for = -1;  ///< the coordinate that is the value, of samples made for its sake (Track)
   /// Which integrals of the step maps are those of the flow cost.
   std::optional<std::size_t> integral;
@@ -115,6 +117,7 @@ class ClaimCheck {
   Finding shrinks(const Track& track);
   Finding bounded(const Track& track);
   Finding nothing_counts(const Track& track) const;
+  std::vector<double> term_sizes(const Track& track, const std::vector<Bounded>& v);
   bool counts(const Track& track, std::size_t sample) const;
   bool is_own(const Track& track, std::size_t sample) const;
   bool may_change(const Track& track, std::size_t sample, const std::vector<Bounded>& v) const;
@@ -127,6 +130,7 @@ class ClaimCheck {
   std::optional<Value<Scalar>> jump_cost_;
   std::optional<Value<Scalar>> factor_;
   std::optional<Value<Scalar>> bound_;
+  std::optional<Value<Scalar>> terms_;
   std::optional<FlowIntegral<Scalar>> flow_cost_;  ///< when it is no quadratic form
   hybrid::Form<Scalar> rest_form_;                 ///< the integral over a rest
 };

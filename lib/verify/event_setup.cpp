@@ -90,7 +90,10 @@ class Functions {
       if (claim.flow_cost) plan.parts[0] = add_integral_of(claim);
       if (claim.jump_cost) plan.parts[1] = add(*claim.jump_cost);
       if (claim.factor) plan.parts[2] = add(*claim.factor);
-      if (claim.bound) plan.parts[3] = add(*claim.bound);
+      if (claim.bound) {
+        plan.parts[3] = add(*claim.bound);
+        plan.parts[4] = add(hybrid::absolute_terms(claim.value));
+      }
       add_looks(claim, plan.value);
       plans_.push_back(std::move(plan));
     }
@@ -104,6 +107,7 @@ class Functions {
       if (plan.parts[1]) judged.jump_cost = function(*plan.parts[1]);
       if (plan.parts[2]) judged.factor = function(*plan.parts[2]);
       if (plan.parts[3]) judged.bound = function(*plan.parts[3]);
+      if (plan.parts[4]) judged.terms = function(*plan.parts[4]);
       setup_.judged.push_back(std::move(judged));
     }
   }
@@ -112,7 +116,7 @@ class Functions {
   struct Plan {
     JudgedClaim judged;
     std::size_t value;
-    std::array<std::optional<std::size_t>, 4> parts;
+    std::array<std::optional<std::size_t>, 5> parts;
   };
 
   /// Where along flows the value of a claim is looked at besides.
