@@ -281,31 +281,33 @@ struct BallRules {
   template <Op op>
   requires expr::OneOf<op, Op::minimum, Op::maximum>
   void operator()(Is<op>, const At& at, Value& out) const {
-    each(
-        at, out,
-        [&](Index e) {
-          const bool smaller = at[0].mid(e) < at[1].mid(e);
-          return at[smaller == (op == Op::minimum) ? 0 : 1].mid(e);
-        },
-        [&](Index e) { return std::max(at[0].rad(e), at[1].rad(e)); });
+    constexpr double kSign = op == Op::maximum ? 1 : -1;
+    shape_like(at.instruction, out);
+    for (Index e = 0; e < out.mid.size(); ++e) {
+      const double apart = kSign * static_cast<double>(at[0].mid(e) - at[1].mid(e));
+      const Value& first = at[apart >= 0 ? 0 : 1];
+      const double other = at[apart >= 0 ? 1 : 0].rad(e) - std::abs(apart) * (1 - 4 * kUnit);
+      out.mid(e) = first.mid(e);
+      out.rad(e) = std::max(first.rad(e), other);
+    }
   }
   void operator()(Is<Op::where>, const At& at, Value& out) const {
     const bool strict = at.attribute(0) != 0;
-    const auto holds = [&](Index e) {
-      return strict ? at[0].mid(e) > Scalar(0) : at[0].mid(e) >= Scalar(0);
-    };
-    const auto open = [&](Index e) {
-      return at[0].rad(e) > 0 && size_of(at[0].mid(e)) <= at[0].rad(e) * kBoundSlack;
-    };
-    each(
-        at, out, [&](Index e) { return at[holds(e) ? 1 : 2].mid(e); },
-        [&](Index e) {
-          const Value& chosen = at[holds(e) ? 1 : 2];
-          const Value& other = at[holds(e) ? 2 : 1];
-          if (!open(e)) return chosen.rad(e);
-          const double apart = size_of(chosen.mid(e) - other.mid(e)) * (1 + 4 * kUnit);
-          return std::max(chosen.rad(e), apart + other.rad(e));
-        });
+    shape_like(at.instruction, out);
+    for (Index e = 0; e < out.mid.size(); ++e) {
+      const Scalar& d = at[0].mid(e);
+      const bool holds = strict ? d > Scalar(0) : d >= Scalar(0);
+      const Value& chosen = at[holds ? 1 : 2];
+      const Value& other = at[holds ? 2 : 1];
+      out.mid(e) = chosen.mid(e);
+      out.rad(e) = chosen.rad(e);
+      if (!(at[0].rad(e) > 0 && size_of(d) <= at[0].rad(e) * kBoundSlack)) continue;
+      // Half-way between the two, which reaches over both.
+      const Scalar half = (other.mid(e) - chosen.mid(e)) / Scalar(2);
+      out.mid(e) = chosen.mid(e) + half;
+      out.rad(e) = size_of(half) * (1 + 8 * kUnit) + kUnit * size_of(out.mid(e)) +
+                   std::max(chosen.rad(e), other.rad(e));
+    }
   }
   void operator()(Is<Op::trace>, const At& at, Value& out) const {
     const Index n = at[0].mid.rows();

@@ -26,7 +26,7 @@ constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// Of the step: what is too short to be a time of its own at t = 0.
 constexpr double kShortestOfStep = 1e-20;
 /// Evaluations of g, beyond which the sides at the points of an interval have to do.
-constexpr int kPatience = 30000;
+constexpr int kPatience = 10000;
 constexpr int kMostHalvings = 60;
 
 /// sum_k |c_k|, k > 0.

@@ -44,6 +44,9 @@ struct Track {
   /// all.
   std::vector<int> looked_for;
   static constexpr int kForAll = -1;
+  /// By coordinate, sample after sample: whether its value is the same to the last bit whatever the
+  /// errors of what it is made of. Empty: of none.
+  std::vector<char> is_fixed;
   Termination termination = Termination::horizon;
   std::string message;
   /// The relative accuracy of a flow that is integrated (integrated_run.h): its bounds are
@@ -57,6 +60,7 @@ struct Track {
     moves.clear();
     stacked.clear();
     looked_for.clear();
+    is_fixed.clear();
     termination = Termination::horizon;
     message.clear();
   }

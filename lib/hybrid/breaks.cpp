@@ -8,6 +8,7 @@
 
 #include "expr/branches.h"
 #include "hybrid/step_range.h"
+#include "numbers/golden_section.h"
 
 namespace gainsmith::hybrid {
 
@@ -94,6 +95,21 @@ void add_roots(const Border& g, bool jumps, double from, double to, std::vector<
                    [](const Break& a, const Break& b) { return a.left < b.left; });
 }
 
+/// Adds the place where |g| is least on a step, if it is small there and not at an end.
+void add_near(const std::function<double(double)>& g, double from, double to,
+              std::vector<double>& near) {
+  constexpr double kNear = 0.02;
+  const std::vector<double> times = first_points(from, to);
+  std::vector<double> sizes;
+  for (const double t : times) sizes.push_back(std::abs(g(t)));
+  const auto least = std::min_element(sizes.begin(), sizes.end());
+  if (!(*least <= kNear * *std::max_element(sizes.begin(), sizes.end()))) return;
+  const auto k = static_cast<std::size_t>(least - sizes.begin());
+  const double low = times[k == 0 ? 0 : k - 1];
+  const double high = times[std::min(k + 1, times.size() - 1)];
+  near.push_back(numbers::peak_between([&](double t) { return -std::abs(g(t)); }, low, high));
+}
+
 /// Makes one of breaks with next to nothing between them.
 void merge(std::vector<Break>& breaks, double from, double to) {
   constexpr double kUnit = std::numeric_limits<double>::epsilon();
@@ -130,7 +146,14 @@ Breaks::Breaks(const Program& program, const StateLayout& layout, const numbers:
   }
 }
 
-std::vector<Break> Breaks::on(const std::function<VectorXd(double)>& x, double from, double to) {
+std::vector<const Program*> Breaks::differences() const {
+  std::vector<const Program*> all;
+  for (const Text& text : texts_) all.push_back(text.program.get());
+  return all;
+}
+
+std::vector<Break> Breaks::on(const std::function<VectorXd(double)>& x, double from, double to,
+                              std::vector<double>* near) {
   std::vector<Break> breaks;
   if (none() || !(from < to)) return breaks;
   const std::array<VectorXd, 3> points = {x(from), x(from + (to - from) / 2), x(to)};
@@ -142,8 +165,9 @@ std::vector<Break> Breaks::on(const std::function<VectorXd(double)>& x, double f
       if (is_slow && StepRange(at, points).is_far_from_zero()) continue;
       double terms = 0;
       for (const VectorXd& point : points) terms = std::fmax(terms, element(text.terms, point, e));
-      add_roots({[&](double t) { return at(x(t)); }, false, kOfTerms * terms}, text.jumps, from, to,
-                breaks);
+      const auto difference = [&](double t) { return at(x(t)); };
+      add_roots({difference, false, kOfTerms * terms}, text.jumps, from, to, breaks);
+      if (near != nullptr) add_near(difference, from, to, *near);
     }
   }
   merge(breaks, from, to);

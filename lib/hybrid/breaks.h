@@ -24,7 +24,13 @@ class Breaks {
 
   /// In rising order, each once, on a step over which `x` is smooth. Where a difference has no
   /// value nothing is found. Beyond some hundred breaks no more are looked for.
-  std::vector<Break> on(const std::function<Eigen::VectorXd(double)>& x, double from, double to);
+  /// `near` takes the places where a difference comes near 0, by a 50th of its largest size on the
+  /// step, and turns back.
+  std::vector<Break> on(const std::function<Eigen::VectorXd(double)>& x, double from, double to,
+                        std::vector<double>* near = nullptr);
+
+  /// What is 0 at a break.
+  std::vector<const expr::Program*> differences() const;
 
  private:
   struct Text {

@@ -39,6 +39,8 @@ namespace {
 constexpr std::int64_t kLongestChain = 1000000;
 constexpr std::size_t kKeptOfChain = 1000;
 constexpr std::int64_t kMostStepsOfRun = 2000000;
+constexpr std::int64_t kMostSlowSteps = 3000;
+constexpr double kSlow = 1e-10;            ///< of the horizon
 constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
 constexpr double kOfHorizon = 1e-6;        ///< a time near 0 counts as so much of it
 /// Of the horizon: how long a flow may be outside of `while` after a jump to its border.
@@ -231,6 +233,7 @@ class EventRun {
       ask_whether_stopped();
       if (++steps_ > kMostStepsOfRun)
         throw RunEnd(Ending::lost, fmt::format("more than {} steps", kMostStepsOfRun));
+      watch_progress();
       went = take(flow_->next());
     }
     const bool drawn = noise_.draw_due(t_, values_);
@@ -320,6 +323,18 @@ class EventRun {
     if (stopped_ && stopped_()) throw RunEnd(Ending::interrupted, "interrupted");
   }
 
+  /// Steps without end that hardly advance.
+  void watch_progress() {
+    if (t_ - slow_since_ > kSlow * horizon_) {
+      slow_since_ = t_;
+      slow_steps_ = 0;
+    }
+    if (++slow_steps_ > kMostSlowSteps)
+      throw RunEnd(Ending::lost, fmt::format("the steps have become too short: {} of them for {} "
+                                             "of the horizon",
+                                             kMostSlowSteps, brief(kSlow)));
+  }
+
   // --- Branches. ---
 
   void watch_sliding(std::size_t branch) {
@@ -354,7 +369,9 @@ class EventRun {
   std::int64_t j_ = 0;
   std::int64_t chain_ = 0;  ///< jumps without a flow between them
   std::int64_t steps_ = 0;
-  int turned_back_ = 0;  ///< turns of kinks at this time
+  double slow_since_ = 0;
+  std::int64_t slow_steps_ = 0;  ///< since then
+  int turned_back_ = 0;          ///< turns of kinks at this time
   RunRecord record_;
 };
 

@@ -71,7 +71,8 @@ class Extrapolation {
         continue;
       }
       step = step / Scalar(columns == kGaveUp ? 2 : 4);
-      if (!(step > kShortest)) stop(q, y.cwiseAbs().maxCoeff() > beyond);
+      if (!(step > (watch_.at ? kShortestAtBorder : kShortest)))
+        stop(q, y.cwiseAbs().maxCoeff() > beyond);
     }
     return y;
   }
@@ -83,6 +84,7 @@ class Extrapolation {
   static constexpr int kCrosses = -2;   ///< what f branches on comes near 0
   static constexpr int kMost = 400000;  ///< evaluations
   const Scalar kShortest{0x1p-44};
+  const Scalar kShortestAtBorder{0x1p-51};  ///< where f is known to branch
   // The lengths below which borders are crossed: what f does at a kink changes y by their square.
   const Scalar kAcrossJumps{0x1p-40};
   const Scalar kAcrossKinks{0x1p-24};

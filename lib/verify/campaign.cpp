@@ -180,6 +180,14 @@ bool confirm_worst(const Setup& setup, std::uint64_t seed, Report& report) {
     ++report.repeated;
     if (judge.confirm(seed, run).confirmed) report.confirmed.insert(at, run);
   }
+  // What the more accurate run does not show is not certain.
+  for (CheckReport& check : report.checks) {
+    const bool shown =
+        std::binary_search(report.confirmed.begin(), report.confirmed.end(), check.worst_run);
+    if (check.violations == 0 || shown) continue;
+    check.undecided += std::exchange(check.violations, 0);
+    check.worst.judgement = Judgement::undecided;
+  }
   return std::binary_search(report.confirmed.begin(), report.confirmed.end(), report.worst_run);
 }
 
@@ -228,6 +236,7 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
   const bool confirmed = report.violations > 0 && confirm_worst(setup, report.seed, report);
   if (report.interrupted()) return report;
   if (confirmed) report.verdict = model::CampaignVerdict::violated;
+  if (report.violations > 0 && !confirmed) report.undecided += std::exchange(report.violations, 0);
   if (report.violations + report.undecided == 0) report.verdict = model::CampaignVerdict::held;
   return report;
 }

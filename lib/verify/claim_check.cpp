@@ -165,6 +165,13 @@ bool ClaimCheck<Scalar>::may_change(const Track& track, std::size_t sample,
   if (claim_->over) return true;
   const bool jump = track.moves[sample - 1].jump;
   if (!claim_->value.varies(jump)) return false;
+  const auto is_fixed = [&](std::size_t k) {
+    const auto size = static_cast<std::size_t>(track.size);
+    return !track.is_fixed.empty() &&
+           track.is_fixed[k * size + static_cast<std::size_t>(claim_->looked_for)] != 0;
+  };
+  if (is_fixed(sample) && is_fixed(sample - 1) && v[sample].value == v[sample - 1].value)
+    return false;
   // Jumps of others leave it bit by bit.
   return !(jump && track.accuracy > 0 && v[sample].value == v[sample - 1].value);
 }

@@ -15,11 +15,6 @@ namespace gainsmith::verify {
 namespace {
 
 using Eigen::Index;
-using Eigen::VectorXd;
-using hybrid::Ending;
-using hybrid::Termination;
-
-constexpr int kAround = 5;  ///< samples from which the bound of one is taken
 
 std::string integral_name(const std::string& claim) { return "integral of " + claim; }
 
@@ -53,11 +48,6 @@ expr::Program input_of(const std::string& name) {
   program.inputs.push_back({name, {}});
   program.result = 0;
   return program;
-}
-
-bool is_whole(model::Dynamics::VariableKind kind) {
-  using Kind = model::Dynamics::VariableKind;
-  return kind == Kind::mode || kind == Kind::jumps || kind == Kind::count || kind == Kind::passes;
 }
 
 /// Whether a value keeps its bits along flows. Noise may be drawn anew within one.
@@ -198,161 +188,6 @@ hybrid::Accuracy EventSetup::accuracy(double usual, double factor) const {
     }
   }
   return factor == 1 ? result : result.times(factor);
-}
-
-EventTracks::EventTracks(const EventSetup& setup, std::function<bool()> stopped)
-    : setup_(&setup),
-      simulator_(setup.system, setup.scenario, std::move(stopped)),
-      rounds_(static_cast<std::size_t>(setup.system.whole), false) {
-  const auto& variables = setup.system.dynamics.variables;
-  for (std::size_t k = 0; k < variables.size(); ++k) {
-    const hybrid::Slot& slot = setup.system.layout.slots[k];
-    const auto first = rounds_.begin() + slot.offset;
-    std::fill(first, first + slot.shape.size(), !is_whole(variables[k].kind));
-  }
-  for (const expr::Program& function : setup.functions) {
-    functions_.emplace_back(function, setup.layout, setup.system.constants);
-    roundings_.emplace_back(function, setup.layout, setup.constants);
-  }
-}
-
-VectorXd EventTracks::values(const VectorXd& x) {
-  VectorXd result(static_cast<Index>(functions_.size()));
-  for (std::size_t k = 0; k < functions_.size(); ++k)
-    result(static_cast<Index>(k)) = functions_[k].number(x);
-  return result;
-}
-
-/// x as rounding may have left it: exact flows and jumps round in both runs alike. Elements whose
-/// numbers differ in the bit are rounded apart, so that a difference of two shows it.
-VectorXd EventTracks::with_rounding(const VectorXd& x, int bit) const {
-  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
-  VectorXd result = x;
-  for (Index e = 0; e < x.size(); ++e) {
-    if (!rounds_[static_cast<std::size_t>(e)]) continue;
-    const bool up = ((e >> bit) & 1) == 0;
-    result(e) += (up ? 1 : -1) * (4 + rounded_) * kUnit * std::abs(x(e));
-  }
-  return result;
-}
-
-/// The bits `pattern`, `pattern` + `stride`, ... of the numbers of elements are rounded apart.
-void EventTracks::append(const FlowLook& look, std::int64_t j, const VectorXd& coarse,
-                         const VectorXd& fine, int pattern, int stride) {
-  const VectorXd value = values(fine);
-  VectorXd difference = (values(coarse) - value).cwiseAbs();
-  for (int bit = pattern; bit == 0 || (fine.size() - 1) >> bit > 0; bit += stride)
-    difference = difference.cwiseMax((values(with_rounding(fine, bit)) - value).cwiseAbs());
-  track_.t.push_back(look.t);
-  track_.looked_for.push_back(look.function);
-  track_.j.push_back(j);
-  track_.timer.push_back(0);
-  track_.timer_bound.push_back(0);
-  track_.stacked.insert(track_.stacked.end(), value.data(), value.data() + value.size());
-  track_.bounds.insert(track_.bounds.end(), difference.data(),
-                       difference.data() + difference.size());
-  for (TextRounding& rounding : roundings_) rounding_.push_back(rounding(fine));
-}
-
-void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPiece& fine) {
-  rounded_ += static_cast<double>(fine.steps.size());
-  double before = fine.from();
-  int number = 0;
-  for (const FlowLook& look : looks_along(fine, setup_->looks, functions_)) {
-    track_.moves.push_back({false, {hybrid::FlowStep::kRest, look.t - before}});
-    append(look, fine.j, state_at(coarse, look.share), state_at(fine, look.share),
-           ++number % kAround, kAround);
-    before = look.t;
-  }
-}
-
-/// What the two runs have in common.
-void EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
-  append({0, 0}, 0, coarse.start, fine.start, 0, 1);
-  std::size_t first = 0;
-  const std::size_t parts = std::min(coarse.parts.size(), fine.parts.size());
-  for (std::size_t k = 0; k < parts; ++k) {
-    if (coarse.parts[k].index() != fine.parts[k].index()) break;
-    if (const auto* flow = std::get_if<hybrid::FlowPiece>(&fine.parts[k])) {
-      add_flow(std::get<hybrid::FlowPiece>(coarse.parts[k]), *flow);
-      continue;
-    }
-    const auto& jump = std::get<hybrid::JumpPoint>(fine.parts[k]);
-    const auto& other = std::get<hybrid::JumpPoint>(coarse.parts[k]);
-    if (jump.event != other.event || jump.lost != other.lost) break;
-    widen(first);
-    first = track_.samples();
-    rounded_ += 1;
-    track_.moves.push_back({true, {}, jump.event});
-    append({1, jump.t}, jump.j + 1, other.after, jump.after, 0, 1);
-  }
-  widen(first);
-}
-
-/// Of the samples of one flow, once all are there.
-void EventTracks::widen(std::size_t first) {
-  constexpr double kMargin = 4;
-  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
-  const auto size = track_.size;
-  const auto count = static_cast<Index>(track_.samples() - first);
-  const Index skipped = static_cast<Index>(first) * size;
-  Eigen::Map<numbers::Matrix> bounds(track_.bounds.data() + skipped, size, count);
-  const Eigen::Map<const numbers::Matrix> rounding(rounding_.data() + skipped, size, count);
-  const numbers::Matrix own = bounds;
-  std::vector<Index> seen;  // the samples that count for a function
-  for (Index f = 0; f < size; ++f) {
-    seen.clear();
-    for (Index k = 0; k < count; ++k) {
-      const int of = track_.looked_for[first + static_cast<std::size_t>(k)];
-      if (of == track_.kForAll || of == f) seen.push_back(k);
-    }
-    const auto all = static_cast<Index>(seen.size());
-    for (Index i = 0; i < all; ++i) {
-      const Index k = seen[static_cast<std::size_t>(i)];
-      const Index from = std::max<Index>(std::min<Index>(i - kAround / 2, all - kAround), 0);
-      double around = 0;
-      for (Index other = from; other < std::min<Index>(from + kAround, all); ++other)
-        around = std::fmax(around, own(f, seen[static_cast<std::size_t>(other)]));
-      const double value = track_.state(first + static_cast<std::size_t>(k))(f);
-      bounds(f, k) = kMargin * around + 8 * kUnit * std::abs(value) + rounding(f, k);
-    }
-  }
-}
-
-void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
-  constexpr double kSame = 1e-6;
-  track_.message = fine.message;
-  const bool same = coarse.ending == fine.ending && coarse.parts.size() == fine.parts.size() &&
-                    std::abs(coarse.end - fine.end) <= kSame * fine.end;
-  const bool complete = fine.ending == Ending::horizon || fine.ending == Ending::zeno;
-  const bool breaks = fine.ending == Ending::escaped || fine.ending == Ending::undefined ||
-                      fine.ending == Ending::stuck;
-  if (same && complete) {
-    track_.termination = Termination::horizon;
-  } else if (same && breaks) {
-    track_.termination = Termination::broken_off;
-  } else {
-    track_.termination = Termination::lost;
-    if (!same)
-      track_.message = "which events happen, and when, hangs on the accuracy" +
-                       (fine.message.empty() ? "" : "; " + fine.message);
-  }
-}
-
-const hybrid::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t run,
-                                              double factor) {
-  constexpr double kSharper = 1e-2;
-  track_.clear();
-  track_.size = setup_->coordinates.layout.size;
-  const hybrid::Accuracy accuracy = setup_->accuracy(kUsualOfMany, factor);
-  track_.accuracy = accuracy.relative;
-  rounded_ = 0;
-  rounding_.clear();
-  const hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
-  const hybrid::Trajectory fine = simulator_.run(seed, run, accuracy.times(kSharper));
-  add_parts(coarse, fine);
-  end(coarse, fine);
-  return track_;
 }
 
 }  // namespace gainsmith::verify

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 
+#include "numbers/golden_section.h"
 #include "verify/smooth_parts.h"
 
 namespace gainsmith::verify {
@@ -31,14 +32,23 @@ struct Place {
   int run = 0;
 };
 
+/// Where a value jumps, and where it nearly branches.
+struct Borders {
+  std::vector<double> jumps, near;
+};
+
 /// The ends and middles of the parts of the steps on which a value is smooth, from a time on.
-std::vector<Place> places_of(const FlowPiece& flow, RunValue& function, double after) {
+std::vector<Place> places_of(const FlowPiece& flow, RunValue& function, double after,
+                             Borders* borders = nullptr) {
   std::vector<Place> places;
   int run = 0;
   bool jumped = false;  // at the end of the part before
   for (const DenseStep& step : flow.steps) {
     if (step.to < after) continue;
-    for (const SmoothPart& part : smooth_parts(function, step)) {
+    for (const SmoothPart& part :
+         smooth_parts(function, step, borders != nullptr ? &borders->near : nullptr)) {
+      if (borders != nullptr && part.after_jump) borders->jumps.push_back(part.from);
+      if (borders != nullptr && part.before_jump) borders->jumps.push_back(part.to);
       const double aside = kMargin * (part.to - part.from);
       const bool jumps = part.after_jump || jumped;
       run += jumps ? 1 : 0;
@@ -70,7 +80,7 @@ double time_of(const FlowLooks::Peak& peak, const FlowPiece& flow, RunValue& fun
   const auto beside = [&](std::size_t k) {
     return k < places.size() && places[k].run == places[best].run ? places[k].t : places[best].t;
   };
-  const double refined = peak_between(at, beside(best - 1), beside(best + 1), kSections);
+  const double refined = numbers::peak_between(at, beside(best - 1), beside(best + 1), kSections);
   return at(refined) > most ? refined : places[best].t;
 }
 
@@ -95,9 +105,17 @@ std::vector<FlowLook> looks_along(const FlowPiece& flow, const FlowLooks& looks,
   };
   for (const double t : looks.times) add(t, -1);
   for (const std::size_t function : looks.along)
-    if (!functions[function].is_smooth())
-      for (const Place& place : places_of(flow, functions[function], from))
+    if (!functions[function].is_smooth()) {
+      Borders borders;
+      for (const Place& place : places_of(flow, functions[function], from, &borders))
         add(place.t, static_cast<int>(function));
+      const bool is_bounded =
+          std::any_of(looks.peaks.begin(), looks.peaks.end(),
+                      [&](const FlowLooks::Peak& peak) { return peak.function == function; });
+      if (is_bounded)
+        for (const double t : borders.jumps) add(t, static_cast<int>(function));
+      for (const double t : borders.near) add(t, static_cast<int>(function));
+    }
   for (const FlowLooks::Peak& peak : looks.peaks)
     if (peak.after < flow.to())
       add(time_of(peak, flow, functions[peak.function]), static_cast<int>(peak.function));

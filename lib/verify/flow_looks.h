@@ -2,8 +2,9 @@
 //
 //   - at the ends of 32 equal parts of it
 //   - at the times from which on claims are made
-//   - where the text of a value branches (hybrid/breaks.h): at kinks, and on both sides of jumps;
-//     and half-way between these
+//   - where the text of a value branches (hybrid/breaks.h): at kinks, on both sides of jumps - a
+//     little aside, and of a value with a bound next to them too -, half-way between these, and
+//     where it nearly branches
 //   - where a value with a bound is largest: of the ends and the middles of the steps and of the
 //     parts between breaks, the best one with its neighbours by golden section
 //

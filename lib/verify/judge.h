@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hybrid/integrated_run.h"
+#include "verify/event_tracks.h"
 #include "verify/setup.h"
 
 namespace gainsmith::verify {

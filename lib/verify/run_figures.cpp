@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "numbers/golden_section.h"
 #include "verify/smooth_parts.h"
 
 namespace gainsmith::verify {
@@ -113,8 +114,8 @@ double FigureOf::extreme(const DenseStep& step, double sign, double most) {
     const bool is_beaten = looks[best] + rise <= most;
     most = std::max(most, looks[best]);
     if (is_beaten) continue;
-    const double refined =
-        peak_between(at, look(part, static_cast<int>(before)), look(part, static_cast<int>(after)));
+    const double refined = numbers::peak_between(at, look(part, static_cast<int>(before)),
+                                                 look(part, static_cast<int>(after)));
     most = std::max(most, at(refined));
   }
   return most;
@@ -136,19 +137,35 @@ double FigureOf::extreme(const Trajectory& run, double sign) {
 double FigureOf::last_above(const DenseStep& step, double level) {
   constexpr int kHalvings = 60;
   const auto above = [&](double t) { return !(value_->number(step(t)) < level); };
-  std::vector<SmoothPart> parts = smooth_parts(*value_, step);
-  for (; !parts.empty(); parts.pop_back())
-    for (int k = kLooks; k >= 0; --k) {
-      double high = look(parts.back(), k);
-      if (!above(high)) continue;
-      if (k == kLooks) return parts.back().to;
-      double below = look(parts.back(), k + 1);
-      for (int i = 0; i < kHalvings; ++i) {
-        const double middle = high + (below - high) / 2;
-        (above(middle) ? high : below) = middle;
-      }
-      return high;
+  const auto last_between = [&](double high, double below) {
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = high + (below - high) / 2;
+      (above(middle) ? high : below) = middle;
     }
+    return high;
+  };
+  const auto at = [&](double t) { return value_->number(step(t)); };
+  std::vector<SmoothPart> parts = smooth_parts(*value_, step);
+  for (; !parts.empty(); parts.pop_back()) {
+    const SmoothPart& part = parts.back();
+    std::array<double, kLooks + 1> looks{};
+    for (int k = 0; k <= kLooks; ++k) looks[static_cast<std::size_t>(k)] = at(look(part, k));
+    for (int k = kLooks; k >= 0; --k) {
+      const int before = std::max(k - 1, 0);
+      const int after = std::min(k + 1, kLooks);
+      const double here = looks[static_cast<std::size_t>(k)];
+      if (!(here < level))
+        return k == kLooks ? part.to : last_between(look(part, k), look(part, after));
+      // A top between looks that lie below the level.
+      const double beside =
+          std::min(looks[static_cast<std::size_t>(before)], looks[static_cast<std::size_t>(after)]);
+      const bool is_top = here >= looks[static_cast<std::size_t>(before)] &&
+                          here >= looks[static_cast<std::size_t>(after)];
+      if (!is_top || here + (here - beside) < level) continue;
+      const double top = numbers::peak_between(at, look(part, before), look(part, after));
+      if (above(top)) return last_between(top, look(part, top > look(part, k) ? after : k));
+    }
+  }
   return -kUnbounded;
 }
 

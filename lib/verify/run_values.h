@@ -26,9 +26,12 @@ class RunValue {
   /// Whether it is smooth along every flow.
   bool is_smooth() const { return breaks_.none(); }
   /// Where it is not, on a step.
-  std::vector<hybrid::Break> breaks_on(const hybrid::DenseStep& step) {
-    return breaks_.on(step, step.from, step.to);
+  std::vector<hybrid::Break> breaks_on(const hybrid::DenseStep& step,
+                                       std::vector<double>* near = nullptr) {
+    return breaks_.on(step, step.from, step.to, near);
   }
+  /// What is 0 there.
+  std::vector<const expr::Program*> differences() const { return breaks_.differences(); }
 
  private:
   hybrid::PointFunction function_;

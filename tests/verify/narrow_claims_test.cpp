@@ -5,6 +5,7 @@
 #include <ostream>
 #include <random>
 #include <string>
+#include <tuple>
 
 #include "base/number.h"
 #include "io/problem_text.h"
@@ -108,6 +109,109 @@ TEST(NarrowClaims, RandomBandsAreFound) {
               CampaignVerdict::violated)
         << band;
   }
+}
+
+/// x = (cos t, -sin t); with z the flow is integrated.
+CampaignVerdict verdict_on_circle(const std::string& claim, const std::string& horizon,
+                                  bool integrated) {
+  const std::string z = integrated ? ", z: {shape: scalar, start: 0.3}" : "";
+  CampaignOptions options;
+  options.threads = 1;
+  return run_campaign(
+             model::bind(io::read_problem(
+                 "problem: p\nmethod:\n  method: m\n  plant:\n    state: {x: {shape: 2, start: "
+                 "\"[1; 0]\"}" +
+                 z + "}\n    flow: {x: \"[x(2); -x(1)]\"" + (integrated ? ", z: -z^3" : "") +
+                 "}\n  claims: {c: {" + claim + "}}\ncampaign: {runs: 1, horizon: " + horizon +
+                 "}\n")),
+             model::Gains{}, options)
+      .verdict;
+}
+
+TEST(NarrowClaims, WhatIsFalseIsNeverHeld) {
+  for (const bool integrated : {false, true}) {
+    for (const char* claim : {"below: \"where(x(1) < 0, 1 + 1e5*x(1), 0)\", bound: 0.9",
+                              "below: \"where(x(1) < 0, 1 + 1e7*x(1), 0)\", bound: 0.9",
+                              "below: \"mod(x(1), 1)\", bound: 0.999999",
+                              "below: \"atan2(x(2), x(1))\", bound: 3.141592",
+                              "below: \"where(x(1) < -0.999999999, 1, 0)\", bound: 0.5",
+                              "below: \"where(x(2) > 0.99999999, rate(x(1)), 0)\", bound: 0.5"})
+      EXPECT_NE(verdict_on_circle(claim, "7", integrated), CampaignVerdict::held) << claim;
+    for (const char* claim : {"below: \"max(0, x(1) - 1 + 1e-7)*1e7\", bound: 0.5, after: 49",
+                              "below: \"where(x(1) > 1 - 1e-7, 1, 0)\", bound: 0.5, after: 49"})
+      EXPECT_NE(verdict_on_circle(claim, "51", integrated), CampaignVerdict::held) << claim;
+    EXPECT_NE(verdict_of("below: \"where(x > 2.2, 1 - 1e6*(x - 2.2), 0)\", bound: 0.9", integrated),
+              CampaignVerdict::held);
+    EXPECT_NE(verdict_of("below: \"where(x < 2.2, 1 + 1e6*(x - 2.2), 0)\", bound: 0.9", integrated),
+              CampaignVerdict::held);
+  }
+}
+
+TEST(NarrowClaims, WhatIsTrueIsNeverViolated) {
+  for (const bool integrated : {false, true}) {
+    for (const char* claim : {"below: \"where(y > exp(-t), 1, 0)\", bound: 0.5",
+                              "below: \"where(exp(-t) > y, 1, 0)\", bound: 0.5",
+                              "below: \"where((y - exp(-t))*1e10 > 0, 1, 0)\", bound: 0.5",
+                              "below: sign(y - exp(-t)), bound: 0.5"})
+      EXPECT_NE(verdict_of(claim, integrated), CampaignVerdict::violated) << claim;
+    for (const char* claim : {"below: \"where(x'*x < 1 - 1e-11, 1, 0)\", bound: 0.5",
+                              "above: floor(x'*x + 1e-11), bound: 0.5"})
+      EXPECT_NE(verdict_on_circle(claim, "51", integrated), CampaignVerdict::violated) << claim;
+  }
+}
+
+TEST(NarrowClaims, BranchesOfSmoothValuesAreDecided) {
+  for (const bool integrated : {false, true})
+    for (const char* claim : {"below: \"where(x(1) < -0.9999, 1, 0)\", bound: 0.5",
+                              "below: floor(x(1) + 0.0001), bound: -0.5",
+                              "nonincreasing: \"where(x(1) < -0.9999, 1, 0)\""})
+      EXPECT_EQ(verdict_on_circle(claim, "7", integrated), CampaignVerdict::violated) << claim;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    ConstantOnABranch, NarrowClaims,
+    testing::Values(Case{"nonincreasing: \"max(y, 0.5)\"", CampaignVerdict::held},
+                    Case{"nonincreasing: floor(10*y)", CampaignVerdict::held},
+                    Case{"nonincreasing: sign(y - 0.5)", CampaignVerdict::held},
+                    Case{"nonincreasing: \"where(y > 0.5, y, 0.15)\"", CampaignVerdict::held},
+                    Case{"below: \"max(0, y - 0.5)\", bound: 0, after: 2", CampaignVerdict::held}));
+
+// Where a value merely touches its bound nothing falls to nothing.
+INSTANTIATE_TEST_SUITE_P(Touches, NarrowClaims,
+                         testing::Values(Case{"above: \"(x - 1)^2 + 19\", bound: 19",
+                                              CampaignVerdict::undecided},
+                                         Case{"above: \"2*((x - 1)^2 + 19) - 38\", bound: 0",
+                                              CampaignVerdict::undecided}));
+
+TEST(NarrowClaims, WhatIsNeverLookedAtSaysSo) {
+  CampaignOptions options;
+  options.threads = 1;
+  const Report report = run_campaign(
+      instance_of("{a: {below: x, bound: 1, over: never}, b: {above: x, bound: -1}}", false,
+                  "  events: {never: {when: plant.x >= 100}}\n  observer: {state: {n: {shape: "
+                  "scalar, start: 0}}, at: {never: {n: 1}}}\n"),
+      model::Gains{}, options);
+  EXPECT_EQ(report.verdict, CampaignVerdict::held);
+  EXPECT_FALSE(report.checks[0].worst.looked);
+  EXPECT_TRUE(report.checks[1].worst.looked);
+}
+
+TEST(NarrowFigures, SettlesAfterTheLastTop) {
+  const auto found = [](const std::string& text, const std::string& level, const std::string& is) {
+    model::Instance instance = model::bind(io::read_problem(
+        "problem: p\nmethod:\n  method: m\n  plant: {state: {x: {shape: 2, start: \"[1; 0]\"}}, "
+        "flow: {x: \"[x(2); -x(1)]\"}}\ncampaign: {horizon: 7}\nexpect:\n  run:\n    - {settles: "
+        "\"" +
+        text + "\", below: " + level + ", is: " + is + ", absolute: 1e-7}\n"));
+    return run_differences(instance, model::Gains{}, {});
+  };
+  for (const auto& [text, level, is] :
+       {std::tuple{"x(1)", "0.99999", "6.287657446861"},
+        std::tuple{"x(1)", "0.99999999", "6.283326728536"},
+        std::tuple{"mod(t, 1)", "0.999", "7"},
+        std::tuple{"mod(t, 1) - where(t > 6.5, 2, 0)", "0.99", "6"}})
+    EXPECT_TRUE(found(text, level, is).different.empty())
+        << text << ": " << found(text, level, is).different.front();
 }
 
 TEST(NarrowFigures, APeakIsFound) {

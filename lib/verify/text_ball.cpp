@@ -1,0 +1,63 @@
+#include "verify/text_ball.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "base/error.h"
+
+namespace gainsmith::verify {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+hybrid::BallsOf<double> rounded_once(const numbers::Values& constants) {
+  const auto error = [](double x) {
+    return std::rint(x) == x ? 0 : hybrid::unit_roundoff<double>() * std::abs(x);
+  };
+  hybrid::BallsOf<double> balls;
+  for (const auto& [name, value] : constants)
+    balls.emplace(name, hybrid::Ball<double>{value, value.unaryExpr(error)});
+  return balls;
+}
+
+TextBall::TextBall(const expr::Program& program, const RunValue& value,
+                   const hybrid::StateLayout& layout, const hybrid::BallsOf<double>& constants)
+    : function_(program, layout, constants), exact_(VectorXd::Zero(layout.size)) {
+  for (const expr::Program* difference : value.differences())
+    differences_.emplace_back(*difference, layout, constants);
+}
+
+double TextBall::rounding(const VectorXd& x) {
+  try {
+    const double radius = function_(x.head(exact_.size()), exact_, 0, 0).rad(0);
+    return std::isfinite(radius) ? radius : 0;
+  } catch (const InputError&) {
+    return 0;
+  }
+}
+
+bool TextBall::is_open(const VectorXd& x, const VectorXd& r) {
+  const Index size = exact_.size();
+  return std::any_of(differences_.begin(), differences_.end(), [&](auto& difference) {
+    try {
+      const hybrid::Ball<double>& d = difference(x.head(size), r.head(size), 0, 0);
+      return (d.mid.array().abs() <= d.rad.array() * hybrid::kBoundSlack && d.rad.array() > 0)
+          .any();
+    } catch (const InputError&) {
+      return false;  // no error bound, or no value: then the text has none either
+    }
+  });
+}
+
+hybrid::Bounded<double> TextBall::hull(const VectorXd& x, const VectorXd& r) {
+  const Index size = exact_.size();
+  try {
+    const hybrid::Ball<double>& ball = function_(x.head(size), r.head(size), 0, 0);
+    return {ball.mid(0), ball.rad(0)};
+  } catch (const InputError&) {
+    return {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()};
+  }
+}
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,38 @@
+// What the evaluation of a text in double rounds, and what errors of the variables make of it where
+// it branches, by running error analysis (hybrid/ball.h): two runs that are compared round alike,
+// and may both take the wrong branch.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "hybrid/bounded_system.h"
+#include "verify/run_values.h"
+
+namespace gainsmith::verify {
+
+/// Constants with their errors: what is no whole number counts as rounded once, as decimals are.
+hybrid::BallsOf<double> rounded_once(const numbers::Values& constants);
+
+/// Of a number as a function of all variables. All arguments must outlive it.
+class TextBall {
+ public:
+  /// `value` is the program as a function.
+  TextBall(const expr::Program& program, const RunValue& value, const hybrid::StateLayout& layout,
+           const hybrid::BallsOf<double>& constants);
+
+  /// How far the computed value may be from the true one at x; 0 where no bound is known.
+  double rounding(const Eigen::VectorXd& x);
+
+  /// Whether which branch it takes is not certain when the variables may be off by r.
+  bool is_open(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+  /// All values that it may have then; infinite where no bound is known.
+  hybrid::Bounded<double> hull(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+
+ private:
+  hybrid::BallFunction<double> function_;
+  std::vector<hybrid::BallFunction<double>> differences_;
+  Eigen::VectorXd exact_;
+};
+
+}  // namespace gainsmith::verify
