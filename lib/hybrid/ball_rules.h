@@ -347,7 +347,7 @@ struct BallRules {
       out = {MatrixOf<Scalar>::Identity(n, n), Matrix::Zero(n, n)};
       return;
     }
-    in_wide_digits(at.instruction, a, out);
+    exponential_of_middle(at.instruction, a, out);
     const double rad = n == 0 ? 0 : a.rad.colwise().sum().maxCoeff();
     if (rad == 0) return;
     double mu = -kInfinity;

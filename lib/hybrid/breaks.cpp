@@ -76,6 +76,13 @@ double element(PointFunction& function, const VectorXd& x, Index e) {
   }
 }
 
+/// x with the elements moved by r, up where the bit of their number is set.
+VectorXd moved(const VectorXd& x, const VectorXd& r, int bit) {
+  VectorXd result = x;
+  for (Index e = 0; e < r.size(); ++e) result(e) += ((e >> bit) & 1) != 0 ? r(e) : -r(e);
+  return result;
+}
+
 /// Adds the roots of g on the pieces between the breaks so far, and to these what it does there.
 void add_roots(const Border& g, bool jumps, double from, double to, std::vector<Break>& breaks) {
   std::vector<Break> fresh;
@@ -150,6 +157,22 @@ std::vector<const Program*> Breaks::differences() const {
   std::vector<const Program*> all;
   for (const Text& text : texts_) all.push_back(text.program.get());
   return all;
+}
+
+double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
+  constexpr double kNone = std::numeric_limits<double>::infinity();
+  Text& text = texts_[k];
+  double least = kNone;
+  for (Index e = 0; e < text.program->shape().size(); ++e) {
+    const double here = element(text.value, x, e);
+    if (std::isnan(here)) return kNone;
+    double change = kTermRounding * element(text.terms, x, e);
+    // Any two variables are once moved apart; in the last of all, together.
+    for (int bit = 0; bit == 0 || (r.size() - 1) >> (bit - 1) > 0; ++bit)
+      change = std::fmax(change, std::abs(element(text.value, moved(x, r, bit), e) - here));
+    if (change > 0) least = std::min(least, std::abs(here) / change);
+  }
+  return least;
 }
 
 std::vector<Break> Breaks::on(const std::function<VectorXd(double)>& x, double from, double to,

@@ -32,6 +32,11 @@ class Breaks {
   /// What is 0 at a break.
   std::vector<const expr::Program*> differences() const;
 
+  /// How many times the k-th difference is larger than what it changes by when the variables do by
+  /// r up or down, and than the rounding of its terms; of its elements the least. An estimate from
+  /// some such changes, and no bound. Infinite where it has no value, or where nothing changes it.
+  double distance(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+
  private:
   struct Text {
     std::unique_ptr<const expr::Program> program, terms_program;

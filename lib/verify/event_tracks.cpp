@@ -43,6 +43,7 @@ EventTracks::EventTracks(const EventSetup& setup, std::function<bool()> stopped)
     const auto first = rounds_.begin() + slot.offset;
     std::fill(first, first + slot.shape.size(), !is_whole(variables[k].kind));
   }
+  functions_.reserve(setup.functions.size());  // the balls point into it
   for (const expr::Program& function : setup.functions) {
     functions_.emplace_back(function, setup.layout, setup.system.constants);
     balls_.emplace_back(function, functions_.back(), setup.layout, setup.constants);

@@ -32,6 +32,10 @@ class RunValue {
   }
   /// What is 0 there.
   std::vector<const expr::Program*> differences() const { return breaks_.differences(); }
+  /// Breaks::distance of the k-th.
+  double distance(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r) {
+    return breaks_.distance(k, x, r);
+  }
 
  private:
   hybrid::PointFunction function_;

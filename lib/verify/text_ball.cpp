@@ -21,9 +21,9 @@ hybrid::BallsOf<double> rounded_once(const numbers::Values& constants) {
   return balls;
 }
 
-TextBall::TextBall(const expr::Program& program, const RunValue& value,
-                   const hybrid::StateLayout& layout, const hybrid::BallsOf<double>& constants)
-    : function_(program, layout, constants), exact_(VectorXd::Zero(layout.size)) {
+TextBall::TextBall(const expr::Program& program, RunValue& value, const hybrid::StateLayout& layout,
+                   const hybrid::BallsOf<double>& constants)
+    : value_(&value), function_(program, layout, constants), exact_(VectorXd::Zero(layout.size)) {
   for (const expr::Program* difference : value.differences())
     differences_.emplace_back(*difference, layout, constants);
 }
@@ -38,16 +38,24 @@ double TextBall::rounding(const VectorXd& x) {
 }
 
 bool TextBall::is_open(const VectorXd& x, const VectorXd& r) {
+  for (std::size_t k = 0; k < differences_.size(); ++k)
+    if (is_open(k, x, r)) return true;
+  return false;
+}
+
+bool TextBall::is_open(std::size_t k, const VectorXd& x, const VectorXd& r) {
+  constexpr double kFar = 1000;  // balls cost much more
+  constexpr double kUnbounded = 10;
   const Index size = exact_.size();
-  return std::any_of(differences_.begin(), differences_.end(), [&](auto& difference) {
-    try {
-      const hybrid::Ball<double>& d = difference(x.head(size), r.head(size), 0, 0);
-      return (d.mid.array().abs() <= d.rad.array() * hybrid::kBoundSlack && d.rad.array() > 0)
-          .any();
-    } catch (const InputError&) {
-      return false;  // no error bound, or no value: then the text has none either
-    }
-  });
+  const double distance = value_->distance(k, x, r.head(size));
+  if (distance > kFar) return false;
+  try {
+    const hybrid::Ball<double>& d = differences_[k](x.head(size), r.head(size), 0, 0);
+    if (!d.rad.allFinite()) return distance <= kUnbounded;
+    return (d.mid.array().abs() <= d.rad.array() * hybrid::kBoundSlack && d.rad.array() > 0).any();
+  } catch (const InputError&) {
+    return distance <= kUnbounded;
+  }
 }
 
 hybrid::Bounded<double> TextBall::hull(const VectorXd& x, const VectorXd& r) {

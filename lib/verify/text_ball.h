@@ -18,18 +18,22 @@ hybrid::BallsOf<double> rounded_once(const numbers::Values& constants);
 class TextBall {
  public:
   /// `value` is the program as a function.
-  TextBall(const expr::Program& program, const RunValue& value, const hybrid::StateLayout& layout,
+  TextBall(const expr::Program& program, RunValue& value, const hybrid::StateLayout& layout,
            const hybrid::BallsOf<double>& constants);
 
   /// How far the computed value may be from the true one at x; 0 where no bound is known.
   double rounding(const Eigen::VectorXd& x);
 
-  /// Whether which branch it takes is not certain when the variables may be off by r.
+  /// Whether which branch it takes is not certain when the variables may be off by r. Where no
+  /// bound is known, by an estimate with a margin of ten.
   bool is_open(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
   /// All values that it may have then; infinite where no bound is known.
   hybrid::Bounded<double> hull(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
 
  private:
+  bool is_open(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+
+  RunValue* value_;
   hybrid::BallFunction<double> function_;
   std::vector<hybrid::BallFunction<double>> differences_;
   Eigen::VectorXd exact_;

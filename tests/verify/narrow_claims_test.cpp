@@ -183,6 +183,13 @@ INSTANTIATE_TEST_SUITE_P(Touches, NarrowClaims,
                                          Case{"above: \"2*((x - 1)^2 + 19) - 38\", bound: 0",
                                               CampaignVerdict::undecided}));
 
+TEST(NarrowClaims, BranchesWithoutAnErrorBoundAreDecidedWhereTheyAreFar) {
+  const std::string inverse = "norm(sat(pinv([1, x; 0, y]), ";
+  EXPECT_EQ(verdict_of("below: \"" + inverse + "1000))\", bound: 70", true), CampaignVerdict::held);
+  EXPECT_EQ(verdict_of("below: \"" + inverse + "10))\", bound: 9.9", true),
+            CampaignVerdict::violated);
+}
+
 TEST(NarrowClaims, WhatIsNeverLookedAtSaysSo) {
   CampaignOptions options;
   options.threads = 1;
@@ -207,8 +214,7 @@ TEST(NarrowFigures, SettlesAfterTheLastTop) {
   };
   for (const auto& [text, level, is] :
        {std::tuple{"x(1)", "0.99999", "6.287657446861"},
-        std::tuple{"x(1)", "0.99999999", "6.283326728536"},
-        std::tuple{"mod(t, 1)", "0.999", "7"},
+        std::tuple{"x(1)", "0.99999999", "6.283326728536"}, std::tuple{"mod(t, 1)", "0.999", "7"},
         std::tuple{"mod(t, 1) - where(t > 6.5, 2, 0)", "0.99", "6"}})
     EXPECT_TRUE(found(text, level, is).different.empty())
         << text << ": " << found(text, level, is).different.front();
