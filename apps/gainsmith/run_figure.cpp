@@ -43,6 +43,22 @@ bool has_estimate(const EventReplay& replay, const Column& column) {
                      [&](const Column& one) { return estimates(one, column); });
 }
 
+/// Where the plant has neither, as a log: one panel a state of the observers.
+void add_own_states(const EventReplay& replay, report::Figure& figure) {
+  for (std::size_t k = 0; k < replay.columns.size(); ++k) {
+    const Column& state = replay.columns[k];
+    if (state.kind != Kind::state || state.observer.empty()) continue;
+    const std::string own = state.name.substr(state.name.rfind('.') + 1);
+    const auto known = std::find_if(figure.panels.begin(), figure.panels.end(),
+                                    [&](const report::Panel& panel) { return panel.title == own; });
+    if (known == figure.panels.end() && figure.panels.size() == kMostPanels) continue;
+    report::Panel& panel = known == figure.panels.end() ? figure.panels.emplace_back() : *known;
+    panel.title = own;
+    panel.curves.push_back(curve(replay, k));
+    panel.curves.back().colour = static_cast<int>(panel.curves.size());
+  }
+}
+
 /// One panel a state of the plant, or an output that is estimated, each observer in its colour.
 void add_states(const EventReplay& replay, report::Figure& figure) {
   for (std::size_t k = 0; k < replay.columns.size() && figure.panels.size() < kMostPanels; ++k) {
@@ -64,6 +80,7 @@ void add_states(const EventReplay& replay, report::Figure& figure) {
     }
     figure.panels.push_back(std::move(panel));
   }
+  if (figure.panels.empty()) add_own_states(replay, figure);
 }
 
 bool is_error(const Column& column) {
@@ -121,12 +138,25 @@ report::Curve bound_of(const EventReplay& replay, const report::Curve& claim,
   return line;
 }
 
+/// Whether its values are worth a logarithmic axis.
+bool is_wide(const report::Panel& panel) {
+  constexpr double kWide = 30;
+  double least = std::numeric_limits<double>::infinity();
+  double most = 0;
+  for (const report::Curve& curve : panel.curves)
+    for (const double value : curve.value) {
+      if (!std::isfinite(value)) continue;
+      least = std::min(least, value);
+      most = std::max(most, value);
+    }
+  return most > kWide * least;
+}
+
 /// On a logarithmic axis those that are never negative; the others, such as dissipation
 /// inequalities, on one of their own.
 void add_claims(const EventReplay& replay, report::Figure& figure) {
   report::Panel sizes;
   sizes.title = "claims";
-  sizes.logarithmic = true;
   report::Panel signed_ones;
   signed_ones.title = "claims of either sign";
   for (std::size_t k = 0; k < replay.columns.size(); ++k) {
@@ -144,6 +174,7 @@ void add_claims(const EventReplay& replay, report::Figure& figure) {
     if (scope.bound && (negative || *scope.bound > 0))
       panel.curves.push_back(bound_of(replay, panel.curves.back(), scope));
   }
+  sizes.logarithmic = is_wide(sizes);
   for (report::Panel* panel : {&sizes, &signed_ones})
     if (!panel->curves.empty()) figure.panels.push_back(std::move(*panel));
 }

@@ -58,8 +58,13 @@ std::optional<std::string> nearest(std::string_view word,
   const int allowed = 2 * std::max(1, static_cast<int>(word.size()) / 3);
   std::optional<std::string> best;
   int best_distance = allowed + 1;
+  const bool is_full = word.find('.') != std::string_view::npos;
   for (const std::string& candidate : candidates) {
-    const int distance = doubled_edit_distance(word, candidate);
+    // The own name of "observer.V".
+    const std::size_t dot = is_full ? std::string::npos : candidate.rfind('.');
+    const std::string_view own =
+        std::string_view(candidate).substr(dot == std::string::npos ? 0 : dot + 1);
+    const int distance = doubled_edit_distance(word, own);
     // Another letter is no misspelling of a letter.
     if (word.size() == 1 && candidate.size() == 1 && distance > 1) continue;
     if (differs_in_case(word, candidate)) return candidate;

@@ -13,7 +13,8 @@ namespace gainsmith {
 int doubled_edit_distance(std::string_view a, std::string_view b);
 
 /// The candidate nearest to `word`, if one is near enough to be a likely misspelling (at most a
-/// third of its letters wrong, at least one allowed). Ties go to the candidate that comes first.
+/// third of its letters wrong, at least one allowed). Ties go to the candidate that comes first. A
+/// word without a point is compared with what follows the last point of a candidate.
 std::optional<std::string> nearest(std::string_view word,
                                    const std::vector<std::string>& candidates);
 

@@ -129,13 +129,21 @@ Dynamics::Noise DynamicsBinding::varied_noise(const UncertainText& text, expr::S
   return noise;
 }
 
+/// Why a name is none that may be uncertain.
+std::string DynamicsBinding::no_datum(const std::string& name) const {
+  if (scope_->definitions.contains(name)) return "a definition: make it, or what it uses, a datum";
+  std::vector<std::string> data;
+  for (const auto& [symbol, about] : scope_->symbols)
+    if (about.known) data.push_back(symbol);
+  return "no datum and no parameter" + suggestion(name, data);
+}
+
 /// Uncertain data as the plant has them, chosen once a run, and the definitions that use them.
 void DynamicsBinding::add_varied() {
   for (const UncertainText& text : *uncertain_) {
     const auto datum = scope_->symbols.find(text.name);
     if (datum == scope_->symbols.end() || !datum->second.known)
-      throw InputError(text.place, "uncertain: '" + text.name + "' is no datum and no parameter" +
-                                       suggestion(text.name, scope_->names()));
+      throw InputError(text.place, "uncertain: '" + text.name + "' is " + no_datum(text.name));
     if (!is_free("plant." + text.name))
       throw InputError(text.place, "uncertain: '" + text.name + "' also names a part of the plant");
     add_noise(varied_noise(text, datum->second.shape));

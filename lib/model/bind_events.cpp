@@ -7,6 +7,7 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "expr/compile.h"
+#include "expr/condition.h"
 #include "model/dynamics_binding.h"
 
 namespace gainsmith::model {
@@ -167,6 +168,10 @@ void DynamicsBinding::bind_event(const EventText& text, const Component* compone
                            "' never changes: nothing that it compares moves");
   } else if (text.what) {
     const expr::Expression what = read(*text.what);
+    if (expr::is_condition(what))
+      throw InputError(what.place(*what.root),
+                       "expected a number that changes its sign, such as x(1) - 2; a condition is "
+                       "for 'when'");
     check_reads({component, std::nullopt}, what, *scope_);
     event.crossing = formula(what, *scope_, expr::Shape{});
     const auto& inputs = event.crossing->program.inputs;

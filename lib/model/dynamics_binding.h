@@ -34,6 +34,7 @@ class DynamicsBinding {
   void add_measured(const MeasuredText& text);
   void bind_measured_events();
   void add_varied();
+  std::string no_datum(const std::string& name) const;
   Dynamics::Noise varied_noise(const UncertainText& text, expr::Shape shape) const;
   std::vector<expr::Expression> vertices_of(const UncertainText& text, expr::Shape shape) const;
   void bind_starts();

@@ -11,6 +11,7 @@
 #include "hybrid/chebyshev.h"
 #include "hybrid/event_problem.h"
 #include "hybrid/trajectory.h"
+#include "support/input_error.h"
 
 namespace gainsmith::hybrid {
 namespace {
@@ -183,6 +184,21 @@ TEST(Borders, WhatBranchesForLittleTimeIsCrossed) {
     for (std::size_t k = 0; k < times.size(); ++k)
       EXPECT_NEAR(times[k], one.times[k], 1e-12) << one.text;
   }
+}
+
+TEST(Borders, AnEquationOfWhatMovesIsRefused) {
+  const auto system_of = [](const std::string& condition) {
+    tests::EventProblem problem;
+    problem.state("x", {1, 1}, "0").state("n", {1, 1}, "0").mode("q", "0").flow("x", "1");
+    problem.when("e", condition).jump("e", {{"n", "n + 1"}});
+    return problem.system();
+  };
+  const auto error = tests::input_error([&] { system_of("x == 1 and q == 0"); });
+  EXPECT_NE(error.message().find("is met in passing, as x moves"), std::string::npos)
+      << error.message();
+  EXPECT_NO_THROW(system_of("x >= 1 and q == 0"));
+  EXPECT_NO_THROW(system_of("sign(x - 1) == 1 and n == 0"));
+  EXPECT_NO_THROW(system_of("x != 1 and x > 0"));
 }
 
 TEST(DenseStep, ItsBeginningIsTheSamePolynomial) {
