@@ -17,6 +17,7 @@ using Eigen::VectorXd;
 using expr::Instruction;
 using expr::Op;
 using expr::Program;
+using numbers::Matrix;
 
 namespace {
 
@@ -73,6 +74,15 @@ double element(PointFunction& function, const VectorXd& x, Index e) {
     return function(x, 0)(e);
   } catch (const InputError&) {
     return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
+/// Empty where it has no value.
+Matrix value_at(PointFunction& function, const VectorXd& x) {
+  try {
+    return function(x, 0);
+  } catch (const InputError&) {
+    return {};
   }
 }
 
@@ -162,16 +172,20 @@ std::vector<const Program*> Breaks::differences() const {
 double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
   constexpr double kNone = std::numeric_limits<double>::infinity();
   Text& text = texts_[k];
+  const Matrix here = value_at(text.value, x);
+  if (here.size() == 0) return kNone;
+  Matrix change = Matrix::Zero(here.rows(), here.cols());
+  const auto widen = [&](const Matrix& by) {
+    for (Index e = 0; e < by.size(); ++e) change(e) = std::fmax(change(e), by(e));
+  };
+  widen(kTermRounding * value_at(text.terms, x));
+  // Any two variables are once moved apart; in the last of all, together.
+  for (int bit = 0; bit == 0 || (r.size() - 1) >> (bit - 1) > 0; ++bit)
+    if (const Matrix there = value_at(text.value, moved(x, r, bit)); there.size() != 0)
+      widen((there - here).cwiseAbs());
   double least = kNone;
-  for (Index e = 0; e < text.program->shape().size(); ++e) {
-    const double here = element(text.value, x, e);
-    if (std::isnan(here)) return kNone;
-    double change = kTermRounding * element(text.terms, x, e);
-    // Any two variables are once moved apart; in the last of all, together.
-    for (int bit = 0; bit == 0 || (r.size() - 1) >> (bit - 1) > 0; ++bit)
-      change = std::fmax(change, std::abs(element(text.value, moved(x, r, bit), e) - here));
-    if (change > 0) least = std::min(least, std::abs(here) / change);
-  }
+  for (Index e = 0; e < here.size(); ++e)
+    if (change(e) > 0) least = std::min(least, std::abs(here(e)) / change(e));
   return least;
 }
 

@@ -100,6 +100,7 @@ bool GaussIntegrator::fixed_point(double t, const Eigen::VectorXd& x, double h,
     // A change of ratio q leaves an error of q/(1 - q) times the change.
     const double q = last > 0 ? change / last : 0.5;
     if (change == 0 || (q < 1 && change * q / (1 - q) <= 1e-2 && k > 0)) return true;
+    if (k == 0 && change <= 2e-3) return true;
     if (k > 1 && q > 0.5) return false;
     last = change;
   }

@@ -30,7 +30,7 @@ StepAgain::StepAgain(JudgedTexts& texts, const MovingElements& moving, const Den
 std::optional<StepAgain::Quarters> StepAgain::operator()() {
   const std::optional<Quarters> first = halves();
   // What agrees with the recorded step needs no other witness.
-  if (first && is_within(recorded_quarters() - *first, *allowed_, 0.01)) return first;
+  if (first && is_within(recorded_quarters() - *first, *allowed_, 0.1)) return first;
   const std::optional<Quarters> finer = settled(first);
   return finer ? finer : straight();
 }

@@ -104,6 +104,10 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
       throw InputError(file.place(ended->value),
                        "ended: unknown word '" + *ending + "'" + suggestion(*ending, known));
   }
+  if (found == 0) {
+    for (const char* key : {"is", "relative", "absolute"}) map.find(key);
+    map.finish();  // names what was misspelt
+  }
   if (found != 1) throw InputError(map.place(), kForms);
   if ((result.kind == FigureKind::settles) != below.has_value() ||
       (result.kind == FigureKind::rms) != over.has_value())

@@ -140,10 +140,15 @@ bool ClaimCheck<Scalar>::is_own(const Track& track, std::size_t sample) const {
   return !track.looked_for.empty() && track.looked_for[sample] != Track::kForAll;
 }
 
+/// Whether it is there for the sake of another.
+template <class Scalar>
+bool ClaimCheck<Scalar>::is_of_another(const Track& track, std::size_t sample) const {
+  return is_own(track, sample) && track.looked_for[sample] != claim_->looked_for;
+}
+
 template <class Scalar>
 bool ClaimCheck<Scalar>::counts(const Track& track, std::size_t sample) const {
-  if (track.t[sample] < claim_->after) return false;
-  if (is_own(track, sample) && track.looked_for[sample] != claim_->looked_for) return false;
+  if (track.t[sample] < claim_->after || is_of_another(track, sample)) return false;
   if (!claim_->over) return true;
   return sample > 0 && track.moves[sample - 1].jump &&
          track.moves[sample - 1].event == *claim_->over;
@@ -158,22 +163,27 @@ std::vector<Bounded<Scalar>> ClaimCheck<Scalar>::values(const Track& track) {
   return values;
 }
 
-/// Whether the value at a sample may differ from that at the one before.
+/// Whether the value at a sample may differ from that at one before, the last that counts.
 template <class Scalar>
-bool ClaimCheck<Scalar>::may_change(const Track& track, std::size_t sample,
+bool ClaimCheck<Scalar>::may_change(const Track& track, std::size_t before, std::size_t sample,
                                     const std::vector<Bounded>& v) const {
   if (claim_->over) return true;
-  const bool jump = track.moves[sample - 1].jump;
-  if (!claim_->value.varies(jump)) return false;
+  bool jump = false;
+  bool varies = false;
+  for (std::size_t k = before; k < sample; ++k) {
+    jump = jump || track.moves[k].jump;
+    varies = varies || claim_->value.varies(track.moves[k].jump);
+  }
+  if (!varies) return false;
   const auto is_fixed = [&](std::size_t k) {
     const auto size = static_cast<std::size_t>(track.size);
     return !track.is_fixed.empty() &&
            track.is_fixed[k * size + static_cast<std::size_t>(claim_->looked_for)] != 0;
   };
-  if (is_fixed(sample) && is_fixed(sample - 1) && v[sample].value == v[sample - 1].value)
-    return false;
+  const bool same = v[sample].value == v[before].value;
+  if (is_fixed(sample) && is_fixed(before) && same) return false;
   // Jumps of others leave it bit by bit.
-  return !(jump && track.accuracy > 0 && v[sample].value == v[sample - 1].value);
+  return !(jump && track.accuracy > 0 && same);
 }
 
 template <class Scalar>
@@ -192,8 +202,9 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
   double noise = 0;
   for (std::size_t k = first + 1; k < v.size(); ++k) {
     if (!counts(track, k)) continue;
+    const bool moves = may_change(track, last, k, v);
     last = k;
-    if (!may_change(track, k, v)) continue;
+    if (!moves) continue;
     Judgement judgement = compare(v[k], high);
     if (judgement != Judgement::violated) {
       judgement = compare(v[k], low);
@@ -338,6 +349,7 @@ Finding ClaimCheck<Scalar>::cost(const Track& track) {
     return std::tuple(one.violated(), one.undecided(), one.score);
   };
   for (std::size_t k = 0; k < c.size(); ++k) {
+    if (is_of_another(track, k)) continue;
     const Finding found = finding_at(track, k, c[k], bound, scale, compare(c[k], bound));
     if (!worst || rank(found) > rank(*worst)) worst = found;
   }

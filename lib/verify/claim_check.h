@@ -120,7 +120,9 @@ class ClaimCheck {
   std::vector<double> term_sizes(const Track& track, const std::vector<Bounded>& v);
   bool counts(const Track& track, std::size_t sample) const;
   bool is_own(const Track& track, std::size_t sample) const;
-  bool may_change(const Track& track, std::size_t sample, const std::vector<Bounded>& v) const;
+  bool is_of_another(const Track& track, std::size_t sample) const;
+  bool may_change(const Track& track, std::size_t before, std::size_t sample,
+                  const std::vector<Bounded>& v) const;
   Bounded step_cost(const Track& track, std::size_t move);
   Bounded rest_cost(const Track& track, std::size_t move);
 

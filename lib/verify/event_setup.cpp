@@ -9,6 +9,7 @@
 
 #include "base/number.h"
 #include "model/stated.h"
+#include "verify/text_ball.h"
 
 namespace gainsmith::verify {
 
@@ -74,7 +75,8 @@ class Functions {
       judged.name = claim.name;
       judged.kind = claim.kind;
       judged.after = claim.after;
-      judged.looked_for = static_cast<int>(setup_.functions.size());
+      first_ = static_cast<int>(setup_.functions.size());
+      judged.looked_for = first_;
       judged.over = claim.over;
       Plan plan{std::move(judged), add(claim.value), {}};
       if (claim.flow_cost) plan.parts[0] = add_integral_of(claim);
@@ -128,6 +130,7 @@ class Functions {
     const std::size_t at = setup_.functions.size();
     const std::string name = "value_" + std::to_string(at);
     setup_.functions.push_back(program);
+    setup_.first_of_claim.push_back(first_);
     hybrid::Coordinates& coordinates = setup_.coordinates;
     coordinates.layout.slots.push_back({name, {}, static_cast<Index>(at)});
     coordinates.layout.size = static_cast<Index>(at) + 1;
@@ -143,6 +146,7 @@ class Functions {
 
   EventSetup& setup_;
   std::vector<Plan> plans_;
+  int first_ = 0;  ///< function of the claim at hand
 };
 
 }  // namespace

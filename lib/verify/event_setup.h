@@ -24,6 +24,7 @@ struct EventSetup {
   std::vector<model::Dynamics::Assignment> flow;  ///< as written, before branches are held
   std::vector<LinkedClaim> claims;
   std::vector<expr::Program> functions;  ///< of the claims that are stated: the coordinates
+  std::vector<int> first_of_claim;       ///< of each function: the value of its claim
   hybrid::BallsOf<double> constants;     ///< of the functions, with their errors
   hybrid::Coordinates coordinates;
   std::vector<JudgedClaim> judged;  ///< the claims that are stated, in order

@@ -50,10 +50,16 @@ EventTracks::EventTracks(const EventSetup& setup, std::function<bool()> stopped)
   }
 }
 
-VectorXd EventTracks::values(const VectorXd& x) {
-  VectorXd result(static_cast<Index>(functions_.size()));
+/// Whether a function is of a claim that a look is for.
+bool EventTracks::counts(const FlowLook& look, std::size_t function) const {
+  return look.function == hybrid::Track<double>::kForAll ||
+         look.function == setup_->first_of_claim[function];
+}
+
+VectorXd EventTracks::values(const FlowLook& look, const VectorXd& x) {
+  VectorXd result = VectorXd::Zero(static_cast<Index>(functions_.size()));
   for (std::size_t k = 0; k < functions_.size(); ++k)
-    result(static_cast<Index>(k)) = functions_[k].number(x);
+    if (counts(look, k)) result(static_cast<Index>(k)) = functions_[k].number(x);
   return result;
 }
 
@@ -83,13 +89,18 @@ VectorXd EventTracks::errors(const VectorXd& fine, const VectorXd& around) const
 /// The bits `pattern`, `pattern` + `stride`, ... of the numbers of elements are rounded apart.
 void EventTracks::append(const FlowLook& look, std::int64_t j, const VectorXd& coarse,
                          const VectorXd& fine, const VectorXd& around, int pattern, int stride) {
-  VectorXd value = values(fine);
-  VectorXd difference = (values(coarse) - value).cwiseAbs();
+  VectorXd value = values(look, fine);
+  VectorXd difference = (values(look, coarse) - value).cwiseAbs();
   for (int bit = pattern; bit == 0 || (fine.size() - 1) >> bit > 0; bit += stride)
-    difference = difference.cwiseMax((values(with_rounding(fine, bit)) - value).cwiseAbs());
+    difference = difference.cwiseMax((values(look, with_rounding(fine, bit)) - value).cwiseAbs());
   const VectorXd error = errors(fine, around);
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const auto row = static_cast<Index>(k);
+    if (!counts(look, k)) {
+      track_.is_fixed.push_back(0);
+      rounding_.push_back(0);
+      continue;
+    }
     const bool is_open = !functions_[k].is_smooth() && balls_[k].is_open(fine, error);
     track_.is_fixed.push_back(!is_open && difference(row) == 0 ? 1 : 0);
     if (!is_open) {
@@ -174,8 +185,8 @@ void EventTracks::widen(std::size_t first) {
   for (Index f = 0; f < size; ++f) {
     seen.clear();
     for (Index k = 0; k < count; ++k) {
-      const int of = track_.looked_for[first + static_cast<std::size_t>(k)];
-      if (of == track_.kForAll || of == f) seen.push_back(k);
+      const FlowLook look{0, 0, track_.looked_for[first + static_cast<std::size_t>(k)]};
+      if (counts(look, static_cast<std::size_t>(f))) seen.push_back(k);
     }
     const auto all = static_cast<Index>(seen.size());
     for (Index i = 0; i < all; ++i) {

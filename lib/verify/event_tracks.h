@@ -12,7 +12,8 @@ namespace gainsmith::verify {
 /// The runs of one (seed, number), to an accuracy and to a hundredth of it, as the samples of the
 /// functions; one for each thread. The setup must outlive it.
 ///
-///   samples   the looks along each flow (flow_looks.h), and the values after each jump
+///   samples   the looks along each flow (flow_looks.h), and the values after each jump; of a look
+///             for the sake of one claim only its values, 0 for the others
 ///   bound     four times the largest difference between the two runs at five samples around it, or
 ///             what a rounding for each step and jump so far makes of the value, up for some
 ///             elements and down for the others, + 8 u |value| and what its evaluation rounds
@@ -36,7 +37,8 @@ class EventTracks {
   void add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
   void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
   void widen(std::size_t first);
-  Eigen::VectorXd values(const Eigen::VectorXd& x);
+  bool counts(const FlowLook& look, std::size_t function) const;
+  Eigen::VectorXd values(const FlowLook& look, const Eigen::VectorXd& x);
   Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
   Eigen::VectorXd errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& around) const;
 

@@ -37,7 +37,13 @@ struct Borders {
   std::vector<double> jumps, near;
 };
 
-/// The ends and middles of the parts of the steps on which a value is smooth, from a time on.
+/// Whether nothing breaks on a step.
+bool is_whole(const std::vector<SmoothPart>& parts) {
+  return parts.size() == 1 && !parts[0].after_jump && !parts[0].before_jump;
+}
+
+/// The ends and middles of the parts of the steps on which a value is smooth, from a time on; where
+/// its borders are asked for, only of the steps that have some.
 std::vector<Place> places_of(const FlowPiece& flow, RunValue& function, double after,
                              Borders* borders = nullptr) {
   std::vector<Place> places;
@@ -45,8 +51,10 @@ std::vector<Place> places_of(const FlowPiece& flow, RunValue& function, double a
   bool jumped = false;  // at the end of the part before
   for (const DenseStep& step : flow.steps) {
     if (step.to < after) continue;
-    for (const SmoothPart& part :
-         smooth_parts(function, step, borders != nullptr ? &borders->near : nullptr)) {
+    const std::vector<SmoothPart> parts =
+        smooth_parts(function, step, borders != nullptr ? &borders->near : nullptr);
+    if (borders != nullptr && !jumped && is_whole(parts)) continue;
+    for (const SmoothPart& part : parts) {
       if (borders != nullptr && part.after_jump) borders->jumps.push_back(part.from);
       if (borders != nullptr && part.before_jump) borders->jumps.push_back(part.to);
       const double aside = kMargin * (part.to - part.from);
