@@ -13,6 +13,7 @@
 #include "hybrid/event_due.h"
 #include "hybrid/event_jump.h"
 #include "hybrid/event_rhythm.h"
+#include "hybrid/event_sliding.h"
 #include "hybrid/event_stays.h"
 #include "hybrid/event_watch.h"
 #include "hybrid/integrator.h"
@@ -50,8 +51,6 @@ constexpr double kShorterStep = 1.5;      ///< of the time up to an event
 constexpr double kShortestAgain = 1e-13;  ///< of the time
 /// At one time, before a kink counts as one that does not matter.
 constexpr int kMostTurns = 8;
-constexpr std::size_t kSlidingSwitches = 8;
-constexpr double kSlidingTime = 1e-10;  ///< of the horizon
 
 /// Elements of states and modes among all values.
 std::vector<Index> rows_of_states(const EventSystem& system) {
@@ -85,6 +84,7 @@ class EventRun {
         rhythm_(scenario.horizon),
         state_rows_(rows_of_states(system)),
         stays_(watch),
+        sliding_(system, watch, accuracy, scenario.horizon),
         record_(system, scenario.horizon, limits) {
     values_ = draw_start(system, scenario, seed, run);
   }
@@ -159,6 +159,7 @@ class EventRun {
   void jump(std::size_t event) {
     ask_whether_stopped();
     if (chain_ == 0) watch_rhythm(event);
+    sliding_.jumped();
     const VectorXd before = values_;
     const bool lost = system_.dynamics.events[event].lost > 0 && due_.clocks().loses(event);
     values_ = maps_(event, lost, before);
@@ -277,7 +278,7 @@ class EventRun {
       note(near, one.t);
       arrive(one.t < step.to ? movement_.until(step, one.t) : step, std::move(values));
       if (left) stays_.leave_first(values_);
-      if (turns) watch_sliding(*one.branch);
+      if (turns) sliding_.switched(*one.branch, t_, values_);
       return Went::stopped;
     }
     note(near, step.to);
@@ -308,6 +309,7 @@ class EventRun {
     t_ = step.to;
     chain_ = 0;
     turned_back_ = 0;
+    sliding_.moved(values_);
     require_range();
   }
 
@@ -335,20 +337,6 @@ class EventRun {
                                              kMostSlowSteps, brief(kSlow)));
   }
 
-  // --- Branches. ---
-
-  void watch_sliding(std::size_t branch) {
-    switched_.push_back(t_);
-    if (switched_.size() < kSlidingSwitches) return;
-    const double first = switched_[switched_.size() - kSlidingSwitches];
-    if (t_ - first > kSlidingTime * horizon_) return;
-    throw RunEnd(Ending::sliding,
-                 fmt::format("sliding along the border of the {} at {}: both branches lead back to "
-                             "it",
-                             system_.switches[branch].kind == Switch::Kind::sign ? "sign" : "where",
-                             to_string(system_.switches[branch].place)));
-  }
-
   const EventSystem& system_;
   Movement& movement_;
   EventWatch& watch_;
@@ -363,7 +351,7 @@ class EventRun {
   EventRhythm rhythm_;
   std::vector<Index> state_rows_;
   EventStays stays_;
-  std::vector<double> switched_;
+  EventSliding sliding_;
   VectorXd values_;  ///< variables and branches
   double t_ = 0;
   std::int64_t j_ = 0;

@@ -170,6 +170,20 @@ TEST(EventSwitch, BranchesThatBothLeadBackSlide) {
   EXPECT_EQ(simulate(relay.system(), 5).ending, Ending::sliding);
 }
 
+// x = (1 - t)^2 comes to rest on the border; what is left is noise of the integration.
+TEST(EventSwitch, ARateThatFallsToNothingOnTheBorderSlides) {
+  EventProblem problem;
+  problem.state("x", {}, "1").flow("x", "-2*sign(x)*abs(x)^0.5");
+  const EventSystem system = problem.system();
+  const Trajectory run = simulate(system, 5);
+  EXPECT_EQ(run.ending, Ending::sliding) << run.message;
+  EXPECT_NEAR(run.end, 1, 0.01);
+  EXPECT_NEAR(value_at(system, run, "x", run.end)(0), 0, 1e-10);
+  EventProblem small;  // 1e-4 is no noise
+  small.state("x", {2, 1}, "[1e-4; 0]").flow("x", "[x(2); -sign(x(1))*(1e-4 + x(1)^2)]");
+  EXPECT_EQ(simulate(small.system(), 1000).ending, Ending::horizon);
+}
+
 TEST(EventSwitch, BranchesOfTimeAreSteppedTo) {
   EventProblem problem;
   problem.state("x", {}, "0").flow("x", "where(t >= 1, where(t < 2, 3, 0), sin(x))");

@@ -1,0 +1,59 @@
+#include "hybrid/event_sliding.h"
+
+#include <fmt/format.h>
+
+#include "base/error.h"
+#include "hybrid/event_jump.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+constexpr std::size_t kAtOnce = 8;
+constexpr double kAtOnceTime = 1e-10;  ///< of the horizon
+constexpr int kInNoise = 100;
+
+/// |D|, element by element.
+Eigen::VectorXd sizes(EventBorder& border, const Eigen::VectorXd& values) {
+  return border(values).reshaped().cwiseAbs();
+}
+
+}  // namespace
+
+EventSliding::EventSliding(const EventSystem& system, EventWatch& watch, const Accuracy& accuracy,
+                           double horizon)
+    : system_(&system), watch_(&watch), accuracy_(accuracy), horizon_(horizon) {}
+
+void EventSliding::moved(const Eigen::VectorXd& values) {
+  if (row_ > 0) swing_ = swing_.cwiseMax(sizes(watch_->switches[branch_], values));
+}
+
+void EventSliding::switched(std::size_t branch, double t, const Eigen::VectorXd& values) {
+  times_.push_back(t);
+  if (times_.size() > kAtOnce) times_.erase(times_.begin());
+  if (times_.size() == kAtOnce && t - times_.front() <= kAtOnceTime * horizon_) end(branch);
+  row_ = row_ > 0 && branch == branch_ && is_noise(values) ? row_ + 1 : 1;
+  if (row_ > kInNoise) end(branch);
+  branch_ = branch;
+  swing_ = Eigen::VectorXd::Zero(watch_->switches[branch].size());
+}
+
+/// Whether the element that switches has stayed in the error of the integration since it did last.
+bool EventSliding::is_noise(const Eigen::VectorXd& values) {
+  if (system_->affine) return false;  // exact
+  EventBorder& border = watch_->switches[branch_];
+  Eigen::Index element = 0;
+  sizes(border, values).minCoeff(&element);
+  const double terms = border.terms(values).reshaped()(element);
+  return swing_(element) <= accuracy_.absolute + accuracy_.relative * terms;
+}
+
+void EventSliding::end(std::size_t branch) const {
+  const Switch& one = system_->switches[branch];
+  throw RunEnd(
+      Ending::sliding,
+      fmt::format("sliding along the border of the {} at {}: both branches lead back to it",
+                  one.kind == Switch::Kind::sign ? "sign" : "where", to_string(one.place)));
+}
+
+}  // namespace gainsmith::hybrid
