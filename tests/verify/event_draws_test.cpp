@@ -1,6 +1,7 @@
 // What campaigns draw for methods with events: starts, sinusoids, vertices; and that runs replay.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <set>
