@@ -1,11 +1,27 @@
 #include "hybrid/border_on_step.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "hybrid/chebyshev.h"
 
 namespace gainsmith::hybrid {
 
 using Eigen::Index;
+using Eigen::RowVectorXd;
 using Eigen::VectorXd;
+using numbers::Matrix;
+
+namespace {
+
+constexpr int kTurnDegree = 16;
+/// Of the step: how early a turn is, and the earliest that is told from none.
+constexpr double kEarlyTurn = 0.1;
+constexpr double kEarliestTurn = 1e-4;
+/// Times the noise: what the search for roots cannot overlook.
+constexpr double kPlain = 1e4;
+
+}  // namespace
 
 BorderOnStep::BorderOnStep(EventBorder& border, StepPoints& points)
     : border_(border), points_(points), values_(border.size(), 0) {
@@ -32,6 +48,30 @@ double BorderOnStep::value(Index element, double t) {
   const auto known = std::lower_bound(times.begin(), times.end(), t);
   if (known != times.end() && *known == t) return values_(element, known - times.begin());
   return border_(points_.inside().at(t))(element);
+}
+
+std::optional<double> BorderOnStep::hidden_turn(Index element) {
+  const StepValues& inside = points_.inside();
+  const double noise = noise_(element);
+  if (!(std::abs(value(element, inside.from())) <= noise) || !breaks_.empty()) return std::nullopt;
+  const VectorXd& points = chebyshev::points(kTurnDegree);
+  RowVectorXd values(points.size());
+  for (Index k = 0; k < points.size(); ++k)
+    values(k) = value(element, chebyshev::outer(points(k), inside.from(), inside.to()));
+  if (!(values.cwiseAbs().maxCoeff() > kPlain * noise)) return std::nullopt;
+  const Matrix c = chebyshev::coefficients(values);
+  const Matrix slope = chebyshev::derivative(c);
+  const double first = chebyshev::at(slope, -1)(0);
+  if (std::abs(first) <= kTurnDegree * kTurnDegree * noise) return kEarliestTurn;
+  double low = -1;
+  double high = -1 + 2 * kEarlyTurn;
+  if ((chebyshev::at(slope, high)(0) > 0) == (first > 0)) return std::nullopt;
+  for (int k = 0; k < 60; ++k) {
+    const double x = low + (high - low) / 2;
+    ((chebyshev::at(slope, x)(0) > 0) == (first > 0) ? low : high) = x;
+  }
+  if (std::abs(chebyshev::at(c, high)(0) - values(0)) > kPlain * noise) return std::nullopt;
+  return std::max((1 + high) / 2, kEarliestTurn);
 }
 
 }  // namespace gainsmith::hybrid

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "hybrid/borders.h"
@@ -17,6 +18,10 @@ class BorderOnStep {
 
   Found roots(Eigen::Index element, bool strict);
   double value(Eigen::Index element, double t);
+  /// The part of the step after which an element turns back that starts within its noise and has
+  /// hardly left it, so that a root may lie in the noise; of an element whose first slope is noise
+  /// the shortest. None where all of it is noise, or where its text branches.
+  std::optional<double> hidden_turn(Eigen::Index element);
   /// Elements x points.times().
   const numbers::Matrix& values() const { return values_; }
   /// Of each element, what its terms may round to.

@@ -48,6 +48,7 @@ constexpr double kOfHorizon = 1e-6;        ///< a time near 0 counts as so much 
 constexpr double kOutside = 1e-9;
 constexpr double kEarly = 0.1;            ///< of a step
 constexpr double kShorterStep = 1.5;      ///< of the time up to an event
+constexpr double kBeyondTurn = 4;         ///< of the time up to a turn near a border
 constexpr double kShortestAgain = 1e-13;  ///< of the time
 /// At one time, before a kink counts as one that does not matter.
 constexpr int kMostTurns = 8;
@@ -229,6 +230,7 @@ class EventRun {
     stop = watch_.next_line(movement_, t_, stop, values_);
     flow_->start(t_, values_, stop);
     record_.flow_begins(j_, variables(values_));
+    starts_ = true;
     Went went = Went::on;
     while (went == Went::on && t_ < stop) {
       ask_whether_stopped();
@@ -260,8 +262,12 @@ class EventRun {
     const StepValues inside(movement_, values_, step);
     stays_.require_inside(inside, std::min(inside.to(), inside.from() + kOutside * horizon_));
     std::vector<std::pair<double, std::string>> near;
+    std::optional<double> hidden;
     const auto crossings = watch_.crossings(
-        inside, values_, [&](double t, const std::string& text) { near.emplace_back(t, text); });
+        inside, values_, [&](double t, const std::string& text) { near.emplace_back(t, text); },
+        starts_ ? &hidden : nullptr);
+    if (hidden && is_coarse(step, step.from + *hidden * (step.to - step.from)))
+      return take_shorter(step.from + kBeyondTurn * *hidden * (step.to - step.from));
     const std::vector<DueEvents::Mark> marks = due_.marks();
     const EventStays::Marks was_inside = stays_.marks();
     for (const EventWatch::Crossing& one : crossings) {
@@ -309,6 +315,7 @@ class EventRun {
     t_ = step.to;
     chain_ = 0;
     turned_back_ = 0;
+    starts_ = false;
     sliding_.moved(values_);
     require_range();
   }
@@ -359,6 +366,7 @@ class EventRun {
   std::int64_t steps_ = 0;
   double slow_since_ = 0;
   std::int64_t slow_steps_ = 0;  ///< since then
+  bool starts_ = true;           ///< no step of the flow has been taken
   int turned_back_ = 0;          ///< turns of kinks at this time
   RunRecord record_;
 };

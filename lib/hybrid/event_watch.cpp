@@ -80,14 +80,17 @@ void EventWatch::active_borders(const VectorXd& values, const Visit& visit) {
 
 std::vector<EventWatch::Crossing> EventWatch::crossings(
     const StepValues& inside, const VectorXd& values,
-    const std::function<void(double, const std::string&)>& graze) {
+    const std::function<void(double, const std::string&)>& graze, std::optional<double>* hidden) {
   std::vector<Crossing> result;
   StepPoints points(inside);
   active_borders(values, [&](EventBorder& border, Sides sides, std::optional<std::size_t> branch,
                              EventCondition* condition, std::size_t comparison) {
     if (border.size() == 0 || (branch && is_kink(*branch))) return;
     BorderOnStep on_step(border, points);
-    for (Index element = 0; element < border.size(); ++element)
+    for (Index element = 0; element < border.size(); ++element) {
+      if (hidden != nullptr)
+        if (const auto turn = on_step.hidden_turn(element); turn && turn < hidden->value_or(1))
+          *hidden = turn;
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;
         const Found found = on_step.roots(element, strict);
@@ -97,6 +100,7 @@ std::vector<EventWatch::Crossing> EventWatch::crossings(
           if (condition->if_changed(inside.at(one.t), comparison))
             graze(one.t, condition->comparisons()[comparison].text);
       }
+    }
   });
   std::stable_sort(result.begin(), result.end(),
                    [](const Crossing& a, const Crossing& b) { return a.t < b.t; });

@@ -38,10 +38,12 @@ class EventWatch {
 
   /// All crossings on a step, in order, of borders other than kinks that may decide about something
   /// from `values` on, those at the start of the step. `graze` is told of borders of `when` that
-  /// come near without being reached, where reaching them would have been the event.
+  /// come near without being reached, where reaching them would have been the event. `hidden`, at
+  /// the start of a flow: the first BorderOnStep::hidden_turn, if any.
   std::vector<Crossing> crossings(
       const StepValues& inside, const Eigen::VectorXd& values,
-      const std::function<void(double t, const std::string& text)>& graze);
+      const std::function<void(double t, const std::string& text)>& graze,
+      std::optional<double>* hidden = nullptr);
 
   bool is_kink(std::size_t branch) const;
 

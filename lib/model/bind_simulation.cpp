@@ -179,6 +179,7 @@ void Binding::finish_dynamics() {
       read.insert(expr::event_number("passes", design_->dynamics->events[figure.event].name));
   };
   for (const Figure& figure : design_->compare) add_figure(figure);
+  if (design_->search && design_->search->run_figure) add_figure(*design_->search->run_figure);
   if (design_->expect)
     for (const ExpectedFigure& expected : design_->expect->run) add_figure(expected.figure);
   for (const Design::Claim& claim : design_->claims) {

@@ -21,9 +21,8 @@ constexpr double kFloor = 1e-200;
 template <>
 constexpr double kFloor<DoubleDouble> = 1e-24;
 
-// Of integrated flows: the part of the accuracy below which nothing is compared, and a value of
-// which so much is error that no more than its size is known, when that is so small a part of v(0).
-constexpr double kOfAccuracy = 1e-4;
+// Of integrated flows: a value of which so much is error that no more than its size is known, when
+// that is so small a part of v(0).
 constexpr double kDrowned = 0.1;
 constexpr double kNothing = 1e-8;
 constexpr double kGrown = 0.1;
@@ -194,7 +193,7 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
   if (first == v.size()) return nothing_counts(track);
   const double scale = static_cast<double>(v[first].value);
   const double floor =
-      (track.accuracy > 0 ? kOfAccuracy * track.accuracy : kFloor<Scalar>)*std::abs(scale);
+      (track.accuracy > 0 ? kFloorOfAccuracy * track.accuracy : kFloor<Scalar>)*std::abs(scale);
   Bounded low = v[first];   // with the smallest value - bound
   Bounded high = v[first];  // with the smallest value + bound
   std::size_t last = first;
@@ -287,7 +286,7 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
     const double part = largest > 0 ? sizes[k] / largest : 1;
     const bool drowned = found.undecided() && is_number(v[k]) && part <= kNothing;
     const bool nothing = judgement != Judgement::held && track.accuracy > 0 &&
-                         (part <= kOfAccuracy * track.accuracy || drowned);
+                         (part <= kFloorOfAccuracy * track.accuracy || drowned);
     if (nothing) noise = std::max(noise, part);
     if (!nothing && (!worst || rank(found) > rank(*worst))) worst = found;
   }

@@ -74,6 +74,9 @@ struct Finding {
   bool undecided() const { return judgement == Judgement::undecided; }
 };
 
+/// Of integrated flows: the part of the accuracy, of v(0), below which nothing is compared.
+constexpr double kFloorOfAccuracy = 1e-4;
+
 /// A claim whose functions are in the coordinates of the judgement.
 struct JudgedClaim {
   std::string name;

@@ -114,11 +114,18 @@ class Functions {
   /// Where along flows the value of a claim is looked at besides.
   void add_looks(const LinkedClaim& claim, std::size_t value) {
     if (claim.after > 0) setup_.looks.times.push_back(claim.after);
-    if (claim.over) return;
+    using Kind = model::ClaimKind;
+    // The others ask for the value at the start, and at the end.
+    const bool along =
+        claim.kind == Kind::nonincreasing || claim.kind == Kind::below || claim.kind == Kind::above;
+    if (claim.over || !along) return;
     setup_.looks.along.push_back(value);
-    const bool above = claim.kind == model::ClaimKind::above;
-    if (above || claim.kind == model::ClaimKind::below)
+    const bool above = claim.kind == Kind::above;
+    if (above || claim.kind == Kind::below)
       setup_.looks.peaks.push_back({value, above ? -1.0 : 1.0, claim.after});
+    const bool moves = setup_.coordinates.list[value].flow.has_value();
+    if (claim.kind == Kind::nonincreasing && moves)
+      setup_.looks.falling.push_back({value, claim.after});
   }
 
   std::size_t add_integral_of(const LinkedClaim& claim) {

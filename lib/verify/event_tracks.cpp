@@ -124,7 +124,7 @@ void EventTracks::append(const FlowLook& look, std::int64_t j, const VectorXd& c
 
 void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPiece& fine) {
   rounded_ += static_cast<double>(fine.steps.size());
-  const std::vector<FlowLook> looks = looks_along(fine, setup_->looks, functions_);
+  const std::vector<FlowLook> looks = looks_along(fine, setup_->looks, functions_, rises_);
   std::vector<VectorXd> coarse_x;
   std::vector<VectorXd> fine_x;
   for (const FlowLook& look : looks) {
@@ -146,6 +146,19 @@ void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPi
            kAround);
     before = look.t;
   }
+}
+
+/// A rise within the noise of a run is never certain.
+RiseLimits EventTracks::limits_of_rises(const VectorXd& start, double accuracy) {
+  RiseLimits limits;
+  limits.noise = setup_->system.affine ? 1e-13 : 1e-3 * accuracy;
+  limits.agreement = setup_->system.affine ? 1e-10 : 10 * accuracy;
+  limits.floor = VectorXd::Zero(static_cast<Index>(functions_.size()));
+  for (const FlowLooks::Falling& one : setup_->looks.falling)
+    if (one.after == 0)
+      limits.floor(static_cast<Index>(one.function)) =
+          kFloorOfAccuracy * accuracy * std::abs(functions_[one.function].number(start));
+  return limits;
 }
 
 /// What the two runs have in common.
@@ -231,6 +244,7 @@ const hybrid::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t 
   rounding_.clear();
   const hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
   const hybrid::Trajectory fine = simulator_.run(seed, run, accuracy.times(kSharper));
+  rises_ = limits_of_rises(fine.start, accuracy.relative);
   add_parts(coarse, fine);
   end(coarse, fine);
   return track_;

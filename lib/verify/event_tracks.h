@@ -35,6 +35,7 @@ class EventTracks {
               const Eigen::VectorXd& fine, const Eigen::VectorXd& around, int pattern, int stride);
   void add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPiece& fine);
   void add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
+  RiseLimits limits_of_rises(const Eigen::VectorXd& start, double accuracy);
   void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
   void widen(std::size_t first);
   bool counts(const FlowLook& look, std::size_t function) const;
@@ -49,7 +50,8 @@ class EventTracks {
   std::vector<bool> rounds_;     ///< by element: whether it is no whole number, which is exact
   hybrid::Track<double> track_;
   std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track
-  double rounded_ = 0;            ///< steps and jumps so far
+  RiseLimits rises_;
+  double rounded_ = 0;  ///< steps and jumps so far
 };
 
 }  // namespace gainsmith::verify

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <iterator>
 #include <limits>
 
@@ -26,12 +27,6 @@ Eigen::VectorXd state_at_time(const FlowPiece& flow, double t) {
   return (*step)(t);
 }
 
-/// A place where a value is looked at first. The value does not jump within a run of places.
-struct Place {
-  double t = 0;
-  int run = 0;
-};
-
 /// Where a value jumps, and where it nearly branches.
 struct Borders {
   std::vector<double> jumps, near;
@@ -42,54 +37,128 @@ bool is_whole(const std::vector<SmoothPart>& parts) {
   return parts.size() == 1 && !parts[0].after_jump && !parts[0].before_jump;
 }
 
-/// The ends and middles of the parts of the steps on which a value is smooth, from a time on; where
-/// its borders are asked for, only of the steps that have some.
-std::vector<Place> places_of(const FlowPiece& flow, RunValue& function, double after,
-                             Borders* borders = nullptr) {
-  std::vector<Place> places;
-  int run = 0;
+/// A part on which a value does not jump, without the margins beside jumps, from a time on.
+struct Stretch {
+  SmoothPart part;
+  double from = 0;
+  double to = 0;
+};
+
+/// In order, with where the value jumps and where it nearly branches.
+std::vector<Stretch> stretches_of(const FlowPiece& flow, RunValue& function, double after,
+                                  Borders* borders = nullptr, double agreement = 1e-6) {
+  std::vector<Stretch> result;
   bool jumped = false;  // at the end of the part before
   for (const DenseStep& step : flow.steps) {
     if (step.to < after) continue;
     const std::vector<SmoothPart> parts =
-        smooth_parts(function, step, borders != nullptr ? &borders->near : nullptr);
+        smooth_parts(function, step, borders != nullptr ? &borders->near : nullptr, agreement);
     if (borders != nullptr && !jumped && is_whole(parts)) continue;
     for (const SmoothPart& part : parts) {
       if (borders != nullptr && part.after_jump) borders->jumps.push_back(part.from);
       if (borders != nullptr && part.before_jump) borders->jumps.push_back(part.to);
       const double aside = kMargin * (part.to - part.from);
       const bool jumps = part.after_jump || jumped;
-      run += jumps ? 1 : 0;
       jumped = part.before_jump;
       const double from = std::max(jumps ? part.from + aside : part.from, after);
       const double to = jumped ? part.to - aside : part.to;
-      for (const double t : {from, from + (to - from) / 2, to})
-        if (t >= from && (places.empty() || t > places.back().t)) places.push_back({t, run});
+      if (from <= to) result.push_back({part, from, to});
     }
   }
-  return places;
+  return result;
+}
+
+/// The ends and middles of the stretches; where its borders are asked for, only of the steps that
+/// have some.
+void add_places(const FlowPiece& flow, RunValue& function, Borders& borders,
+                const std::function<void(double)>& add) {
+  for (const Stretch& one : stretches_of(flow, function, flow.from(), &borders))
+    for (const double t : {one.from, one.from + (one.to - one.from) / 2, one.to}) add(t);
 }
 
 /// The time of a peak; a value that is no number is one.
 double time_of(const FlowLooks::Peak& peak, const FlowPiece& flow, RunValue& function) {
-  const auto at = [&](double t) {
-    const double value = peak.sign * function.number(state_at_time(flow, t));
-    return std::isnan(value) ? std::numeric_limits<double>::infinity() : value;
-  };
-  const std::vector<Place> places = places_of(flow, function, peak.after);
-  std::size_t best = 0;
+  std::vector<Top> tops;
+  for (const Stretch& one : stretches_of(flow, function, peak.after)) {
+    if (one.part.undefined) return *one.part.undefined;
+    add_tops(one.part, one.from, one.to, peak.sign, tops);
+  }
+  std::stable_sort(tops.begin(), tops.end(),
+                   [](const Top& a, const Top& b) { return a.value > b.value; });
+  const auto at = [&](double t) { return peak.sign * function.number(state_at_time(flow, t)); };
+  double best = flow.to();
   double most = -std::numeric_limits<double>::infinity();
-  for (std::size_t k = 0; k < places.size(); ++k)
-    if (const double value = at(places[k].t); value > most) {
-      best = k;
-      most = value;
+  for (const Top& top : tops) {
+    if (top.value + top.rise <= most) continue;
+    const double refined = numbers::peak_between(at, top.before, top.after, kSections);
+    for (const double t : {top.t, refined})
+      if (const double value = at(t); value > most) {
+        most = value;
+        best = t;
+      }
+  }
+  return best;
+}
+
+/// The lows of a value and the tops after them, where it rises by more than `noise` of its size and
+/// to a size above `floor`. A low is the lowest so far.
+class Rises {
+ public:
+  Rises(double noise, double floor) : noise_(noise), floor_(floor) {}
+
+  void next(double t, double value, double size) {
+    if (value < low_) {
+      end();
+      low_ = top_ = value;
+      low_at_ = t;
+      size_ = size;
+    } else if (value > top_) {
+      top_ = value;
+      top_at_ = t;
+      size_ = std::max(size_, size);
     }
-  if (std::isinf(most)) return places[best].t;
-  const auto beside = [&](std::size_t k) {
-    return k < places.size() && places[k].run == places[best].run ? places[k].t : places[best].t;
-  };
-  const double refined = numbers::peak_between(at, beside(best - 1), beside(best + 1), kSections);
-  return at(refined) > most ? refined : places[best].t;
+  }
+
+  const std::vector<double>& end() {
+    if (top_ - low_ > noise_ * size_ && size_ > floor_)
+      times_.insert(times_.end(), {low_at_, top_at_});
+    top_ = low_;
+    return times_;
+  }
+
+ private:
+  double noise_, floor_;
+  double low_ = std::numeric_limits<double>::infinity();
+  double top_ = low_;
+  double low_at_ = 0, top_at_ = 0;
+  double size_ = 0;  ///< the largest around
+  std::vector<double> times_;
+};
+
+/// The ends of a stretch, and where its series turns.
+void add_points(const Stretch& stretch, Rises& rises) {
+  const double size = stretch.part.series.cwiseAbs().sum();
+  std::vector<double> times = turns_of(stretch.part);
+  times.insert(times.begin(), stretch.from);
+  times.push_back(stretch.to);
+  for (const double t : times)
+    if (stretch.from <= t && t <= stretch.to) rises.next(t, stretch.part(t), size);
+}
+
+std::vector<double> rises_of(const FlowLooks::Falling& falling, const FlowPiece& flow,
+                             RunValue& function, const RiseLimits& limits) {
+  std::vector<double> undefined;
+  Rises rises(limits.noise, limits.floor(static_cast<Eigen::Index>(falling.function)));
+  for (const Stretch& one :
+       stretches_of(flow, function, falling.after, nullptr, limits.agreement)) {
+    if (one.part.undefined)
+      undefined.push_back(*one.part.undefined);
+    else
+      add_points(one, rises);
+  }
+  std::vector<double> times = rises.end();
+  times.insert(times.end(), undefined.begin(), undefined.end());
+  return times;
 }
 
 }  // namespace
@@ -100,7 +169,7 @@ Eigen::VectorXd state_at(const FlowPiece& flow, double share) {
 }
 
 std::vector<FlowLook> looks_along(const FlowPiece& flow, const FlowLooks& looks,
-                                  std::vector<RunValue>& functions) {
+                                  std::vector<RunValue>& functions, const RiseLimits& rises) {
   const double from = flow.from();
   const double length = flow.to() - from;
   std::vector<FlowLook> result;
@@ -115,8 +184,8 @@ std::vector<FlowLook> looks_along(const FlowPiece& flow, const FlowLooks& looks,
   for (const std::size_t function : looks.along)
     if (!functions[function].is_smooth()) {
       Borders borders;
-      for (const Place& place : places_of(flow, functions[function], from, &borders))
-        add(place.t, static_cast<int>(function));
+      add_places(flow, functions[function], borders,
+                 [&](double t) { add(t, static_cast<int>(function)); });
       const bool is_bounded =
           std::any_of(looks.peaks.begin(), looks.peaks.end(),
                       [&](const FlowLooks::Peak& peak) { return peak.function == function; });
@@ -127,6 +196,11 @@ std::vector<FlowLook> looks_along(const FlowPiece& flow, const FlowLooks& looks,
   for (const FlowLooks::Peak& peak : looks.peaks)
     if (peak.after < flow.to())
       add(time_of(peak, flow, functions[peak.function]), static_cast<int>(peak.function));
+  for (const FlowLooks::Falling& one : looks.falling)
+    if (one.after < flow.to()) {
+      for (const double t : rises_of(one, flow, functions[one.function], rises))
+        add(t, static_cast<int>(one.function));
+    }
   std::stable_sort(result.begin(), result.end(),
                    [](const FlowLook& a, const FlowLook& b) { return a.t < b.t; });
   return result;

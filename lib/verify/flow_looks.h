@@ -5,12 +5,12 @@
 //   - where the text of a value branches (hybrid/breaks.h): at kinks, on both sides of jumps - a
 //     little aside, and of a value with a bound next to them too -, half-way between these, and
 //     where it nearly branches
-//   - where a value with a bound is largest: of the ends and the middles of the steps and of the
-//     parts between breaks, the best one with its neighbours by golden section
-//
-// A smooth value that comes to its peak twice within half a step may hide one of them.
+//   - where a value with a bound is largest, by golden section from the series of its parts
+//     (smooth_parts.h)
+//   - where a value that must not increase turns, and rises by more than its noise
 #pragma once
 
+#include <Eigen/Core>
 #include <cstddef>
 #include <vector>
 
@@ -26,9 +26,22 @@ struct FlowLooks {
     double sign = 1;
     double after = 0;
   };
+  /// A function that must not increase, from a time on.
+  struct Falling {
+    std::size_t function = 0;
+    double after = 0;
+  };
   std::vector<double> times;
   std::vector<std::size_t> along;  ///< functions whose branches matter
   std::vector<Peak> peaks;
+  std::vector<Falling> falling;
+};
+
+/// Which rises of values that must not increase are worth a look.
+struct RiseLimits {
+  double noise = 0;       ///< of the size of a value, what a rise has to exceed
+  double agreement = 0;   ///< to which the values are followed (smooth_parts.h)
+  Eigen::VectorXd floor;  ///< the size of each function below which it is compared with nothing
 };
 
 /// A place of a flow [from, to]: t = from + share (to - from), to rounding.
@@ -40,7 +53,7 @@ struct FlowLook {
 
 /// In order of time; the last is the end of the flow.
 std::vector<FlowLook> looks_along(const hybrid::FlowPiece& flow, const FlowLooks& looks,
-                                  std::vector<RunValue>& functions);
+                                  std::vector<RunValue>& functions, const RiseLimits& rises);
 
 /// All variables at a place of a flow.
 Eigen::VectorXd state_at(const hybrid::FlowPiece& flow, double share);

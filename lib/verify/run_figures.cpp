@@ -97,26 +97,18 @@ std::optional<double> FigureOf::at_time(const Trajectory& run) {
   return value;
 }
 
-/// The largest of `most` and the values of a step times `sign`: where the best look of a part may
-/// lie beside a larger one, by golden section.
+/// The largest of `most` and the values of a step times `sign`: where a top of a series may lie
+/// above it, by golden section.
 double FigureOf::extreme(const DenseStep& step, double sign, double most) {
   const auto at = [&](double t) { return sign * value_->number(step(t)); };
+  std::vector<Top> tops;
   for (const SmoothPart& part : smooth_parts(*value_, step)) {
-    std::array<double, kLooks + 1> looks{};
-    std::size_t best = 0;
-    for (std::size_t k = 0; k <= kLooks; ++k) {
-      looks[k] = at(look(part, static_cast<int>(k)));
-      if (!(looks[k] <= looks[best])) best = k;
-    }
-    const std::size_t before = best == 0 ? 0 : best - 1;
-    const std::size_t after = std::min<std::size_t>(best + 1, kLooks);
-    const double rise = looks[best] - std::min(looks[before], looks[after]);
-    const bool is_beaten = looks[best] + rise <= most;
-    most = std::max(most, looks[best]);
-    if (is_beaten) continue;
-    const double refined = numbers::peak_between(at, look(part, static_cast<int>(before)),
-                                                 look(part, static_cast<int>(after)));
-    most = std::max(most, at(refined));
+    if (part.undefined) return std::numeric_limits<double>::quiet_NaN();
+    add_tops(part, part.from, part.to, sign, tops);
+  }
+  for (const Top& top : tops) {
+    if (top.value + top.rise <= most) continue;
+    most = std::max({most, at(top.t), at(numbers::peak_between(at, top.before, top.after))});
   }
   return most;
 }
@@ -128,7 +120,10 @@ double FigureOf::extreme(const Trajectory& run, double sign) {
       most = std::max(most, sign * value_->number(jump->after));
       continue;
     }
-    for (const DenseStep& step : std::get<FlowPiece>(part).steps) most = extreme(step, sign, most);
+    for (const DenseStep& step : std::get<FlowPiece>(part).steps) {
+      most = extreme(step, sign, most);
+      if (std::isnan(most)) return most;
+    }
   }
   return sign * most;
 }
@@ -185,7 +180,7 @@ double FigureOf::settled(const Trajectory& run) {
   return value_->number(run.start) < level ? 0 : (run.parts.empty() ? kUnbounded : 0);
 }
 
-/// Gauss' rule with five nodes on pieces of each part on which the value is smooth.
+/// Gauss' rule with five nodes on pieces of the series of each part.
 std::optional<double> FigureOf::root_mean_square(const Trajectory& run) {
   constexpr std::array<std::pair<double, double>, 5> kRule = {
       {{-0.906179845938664, 0.236926885056189},
@@ -193,19 +188,21 @@ std::optional<double> FigureOf::root_mean_square(const Trajectory& run) {
        {0, 0.568888888888889},
        {0.538469310105683, 0.478628670499366},
        {0.906179845938664, 0.236926885056189}}};
-  constexpr int kPieces = 4;
+  constexpr double kAgreement = 1e-10;
   const double from = numbers_.front();
   const double to = numbers_.back();
   if (!(0 <= from && from < to && to <= run.end * (1 + 1e-12))) return std::nullopt;
   double sum = 0;
   visit_steps(run, [&](const DenseStep& step) {
     if (!(std::max(from, step.from) < std::min(to, step.to))) return;
-    for (const SmoothPart& part : smooth_parts(*value_, step)) {
+    for (const SmoothPart& part : smooth_parts(*value_, step, nullptr, kAgreement)) {
       const double low = std::max(from, part.from);
-      const double half = (std::min(to, part.to) - low) / (2 * kPieces);
-      for (int piece = 0; half > 0 && piece < kPieces; ++piece)
+      const auto pieces = static_cast<int>(part.series.size());
+      const double half = (std::min(to, part.to) - low) / (2 * pieces);
+      if (part.undefined) sum = std::numeric_limits<double>::quiet_NaN();
+      for (int piece = 0; half > 0 && piece < pieces; ++piece)
         for (const auto& [node, weight] : kRule) {
-          const double value = value_->number(step(low + half * (2 * piece + 1 + node)));
+          const double value = part(low + half * (2 * piece + 1 + node));
           sum += half * weight * value * value;
         }
     }

@@ -1,20 +1,179 @@
 #include "verify/smooth_parts.h"
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hybrid/chebyshev.h"
+
 namespace gainsmith::verify {
 
+namespace {
+
+namespace chebyshev = hybrid::chebyshev;
+using Eigen::Index;
+using Eigen::RowVectorXd;
+
+constexpr std::array<int, 3> kDegrees = {4, 8, 16};
+constexpr int kDegree = kDegrees.back();
+constexpr std::array<double, 2> kChecks = {-0.617, 0.443};
+constexpr double kRounding = 1e-13;    ///< of its size
+constexpr double kVariable = 0x1p-48;  ///< of a variable
+constexpr int kMostHalvings = 12;
+/// Evaluations on one step, after which a text that no polynomial agrees with is left as it is.
+constexpr int kPatience = 4000;
+
+class Halving {
+ public:
+  Halving(RunValue& value, const hybrid::DenseStep& step, double agreement)
+      : value_(value), step_(step), agreement_(agreement), noise_(noise()) {}
+
+  /// Appends the halves of a part.
+  void halve(SmoothPart part, int halvings, std::vector<SmoothPart>& parts) {
+    if (is_known(part) || halvings >= kMostHalvings || evaluations_ > kPatience) {
+      parts.push_back(std::move(part));
+      return;
+    }
+    const double middle = part.from + (part.to - part.from) / 2;
+    if (!(part.from < middle && middle < part.to)) {
+      parts.push_back(std::move(part));
+      return;
+    }
+    halve({part.from, middle, part.after_jump, false}, halvings + 1, parts);
+    halve({middle, part.to, false, part.before_jump}, halvings + 1, parts);
+  }
+
+ private:
+  /// Makes its series; whether that is the value, or there is none.
+  bool is_known(SmoothPart& part) {
+    std::array<double, kDegree + 1> values{};
+    std::array<double, kChecks.size()> checks{};
+    for (std::size_t k = 0; k < kChecks.size(); ++k) checks[k] = at(part, kChecks[k]);
+    int before = 0;
+    for (const int degree : kDegrees) {
+      const int apart = kDegree / degree;
+      for (int k = 0; k <= degree; ++k)
+        if (before == 0 || k % 2 == 1)
+          values[static_cast<std::size_t>(apart * k)] = at(part, chebyshev::points(degree)(k));
+      if (part.undefined) return true;
+      before = degree;
+      RowVectorXd seen(degree + 1);
+      for (int k = 0; k <= degree; ++k) seen(k) = values[static_cast<std::size_t>(apart * k)];
+      part.series = chebyshev::coefficients(seen);
+      const double tolerance = agreement_ * (seen.maxCoeff() - seen.minCoeff()) +
+                               kRounding * seen.cwiseAbs().maxCoeff() + noise_;
+      bool agrees = part.series.tail(2).cwiseAbs().sum() <= tolerance;
+      for (std::size_t k = 0; k < kChecks.size(); ++k)
+        agrees =
+            agrees && std::abs(chebyshev::at(part.series, kChecks[k])(0) - checks[k]) <= tolerance;
+      if (agrees) return true;
+    }
+    return false;
+  }
+
+  /// What the rounding of the variables makes of the value, in some directions.
+  double noise() {
+    const Eigen::VectorXd x = step_(step_.from);
+    const Eigen::VectorXd sizes = step_.coefficients.cwiseAbs().rowwise().sum();
+    const double value = value_.number(x);
+    double result = 0;
+    for (const Index period : {1, 2, 4}) {
+      Eigen::VectorXd rounded = x;
+      for (Index e = 0; e < x.size(); ++e)
+        rounded(e) += (e / period % 2 == 0 ? kVariable : -kVariable) * sizes(e);
+      result = std::fmax(result, std::abs(value_.number(rounded) - value));
+    }
+    return result;
+  }
+
+  double at(SmoothPart& part, double x) {
+    ++evaluations_;
+    const double t = chebyshev::outer(x, part.from, part.to);
+    const double value = value_.number(step_(t));
+    if (!std::isfinite(value) && !part.undefined) part.undefined = t;
+    return value;
+  }
+
+  RunValue& value_;
+  const hybrid::DenseStep& step_;
+  double agreement_;
+  double noise_;
+  int evaluations_ = 0;
+};
+
+/// The roots of a series on [-1, 1], the points [low, high] of another: halved until it is monotone
+/// or has none.
+void add_roots(const numbers::Matrix& c, double low, double high, int halvings,
+               std::vector<double>& roots) {
+  const auto excludes = [](const numbers::Matrix& one) {
+    return std::abs(one(0)) > one.rightCols(one.cols() - 1).cwiseAbs().sum();
+  };
+  if (excludes(c)) return;
+  constexpr int kBisections = 50;
+  constexpr int kMostTurnHalvings = 10;
+  if (excludes(chebyshev::derivative(c)) || halvings >= kMostTurnHalvings) {
+    double left = -1;
+    double right = 1;
+    const bool first = chebyshev::at(c, left)(0) > 0;
+    if (first == (chebyshev::at(c, right)(0) > 0)) return;
+    for (int k = 0; k < kBisections; ++k) {
+      const double middle = (left + right) / 2;
+      ((chebyshev::at(c, middle)(0) > 0) == first ? left : right) = middle;
+    }
+    roots.push_back(chebyshev::outer(left, low, high));
+    return;
+  }
+  const double middle = (low + high) / 2;
+  add_roots(chebyshev::part(c, -1, 0), low, middle, halvings + 1, roots);
+  add_roots(chebyshev::part(c, 0, 1), middle, high, halvings + 1, roots);
+}
+
+}  // namespace
+
+std::vector<double> turns_of(const SmoothPart& part) {
+  std::vector<double> times;
+  add_roots(chebyshev::derivative(part.series), -1, 1, 0, times);
+  for (double& t : times) t = chebyshev::outer(t, part.from, part.to);
+  return times;
+}
+
+double SmoothPart::time(int point) const {
+  return chebyshev::outer(-1 + 2.0 * point / (points() - 1), from, to);
+}
+
+double SmoothPart::operator()(double t) const {
+  return chebyshev::at(series, chebyshev::inner(t, from, to))(0);
+}
+
 std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& step,
-                                     std::vector<double>* near) {
+                                     std::vector<double>* near, double agreement) {
   std::vector<SmoothPart> parts;
+  Halving halving(value, step, agreement);
   SmoothPart part{step.from, step.to};
   for (const hybrid::Break& one : value.breaks_on(step, near)) {
     part.to = one.left;
-    part.before_jump = one.jumps;
-    if (part.from < part.to || parts.empty()) parts.push_back(part);
+    if (part.from < part.to || parts.empty()) halving.halve(part, 0, parts);
     parts.back().before_jump = one.jumps;
     part = {one.right, step.to, one.jumps};
   }
-  if (part.from < part.to || parts.empty()) parts.push_back(part);
+  if (part.from < part.to || parts.empty()) halving.halve(part, 0, parts);
   return parts;
+}
+
+void add_tops(const SmoothPart& part, double from, double to, double sign, std::vector<Top>& tops) {
+  std::vector<double> times;
+  std::vector<double> values;
+  for (int k = 0; k < part.points(); ++k) {
+    times.push_back(std::clamp(part.time(k), from, to));
+    values.push_back(sign * part(times.back()));
+  }
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const std::size_t before = k == 0 ? k : k - 1;
+    const std::size_t after = std::min(k + 1, times.size() - 1);
+    if (values[k] < values[before] || values[k] < values[after]) continue;
+    tops.push_back({values[k], values[k] - std::min(values[before], values[after]), times[k],
+                    times[before], times[after]});
+  }
 }
 
 }  // namespace gainsmith::verify

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <random>
 
+#include "base/number.h"
 #include "hybrid/chebyshev.h"
 #include "hybrid/event_problem.h"
 #include "hybrid/trajectory.h"
@@ -199,6 +200,21 @@ TEST(Borders, AnEquationOfWhatMovesIsRefused) {
   EXPECT_NO_THROW(system_of("x >= 1 and q == 0"));
   EXPECT_NO_THROW(system_of("sign(x - 1) == 1 and n == 0"));
   EXPECT_NO_THROW(system_of("x != 1 and x > 0"));
+}
+
+/// A ball that an impact leaves with v lands 2 v/g later, in no time beside a step.
+TEST(Borders, AFlightThatDrownsInTheNoiseOfAStepEndsInTime) {
+  for (const double v : {1e-4, 2.517520062181401e-8, 3e-10, 1e-12}) {
+    tests::EventProblem problem;
+    problem.state("x", {}, "5").state("v", {}, "0").flow("x", "v").flow("v", "-9.81");
+    problem.state("n", {}, "0").when("hit", "x <= 0 and v < 0");
+    problem.jump("hit", {{"x", "n*1e5"}, {"v", brief(v, 17) + "*(1 - n)"}, {"n", "1"}});
+    const EventSystem system = problem.system();
+    const Trajectory run = EventSimulator(system, make_event_scenario(4, system)).run(1, 0);
+    const auto jumps = tests::jumps_of(run);
+    ASSERT_EQ(jumps.size(), 2U) << v;
+    EXPECT_NEAR(jumps[1].t - jumps[0].t, 2 * v / 9.81, 2e-13 + 1e-6 * v) << v;
+  }
 }
 
 TEST(DenseStep, ItsBeginningIsTheSamePolynomial) {

@@ -85,6 +85,17 @@ INSTANTIATE_TEST_SUITE_P(
                     Case{"above: \"rate(abs(x - 1))\", bound: -1.001", CampaignVerdict::held},
                     Case{"nonincreasing: \"y + 0*" + kTent + "\"", CampaignVerdict::held}));
 
+// Texts that are faster than the steps of a clock, which are a 16th of the horizon.
+INSTANTIATE_TEST_SUITE_P(
+    FasterThanTheSteps, NarrowClaims,
+    testing::Values(
+        Case{"below: sin(20*x)*exp(-(x - 1.5)^2/10), bound: 0.9975", CampaignVerdict::violated},
+        Case{"below: sin(20*x)*exp(-(x - 1.5)^2/10), bound: 0.999", CampaignVerdict::held},
+        Case{"above: sin(60*t) - 0.1*t, bound: -1.29", CampaignVerdict::violated},
+        Case{"above: sin(60*t) - 0.1*t, bound: -1.3", CampaignVerdict::held},
+        Case{"nonincreasing: sin(60*x) - 59.9*x", CampaignVerdict::violated},
+        Case{"nonincreasing: sin(60*t) - 60.1*t", CampaignVerdict::held}));
+
 // An equation whose evaluation rounds is neither held nor violated for certain, whatever else there
 // is.
 INSTANTIATE_TEST_SUITE_P(
