@@ -19,28 +19,26 @@ constexpr int kDegree = kDegrees.back();
 constexpr std::array<double, 2> kChecks = {-0.617, 0.443};
 constexpr double kRounding = 1e-13;    ///< of its size
 constexpr double kVariable = 0x1p-48;  ///< of a variable
-constexpr int kMostHalvings = 12;
+constexpr int kLookAtOne = kDegree + 1 + static_cast<int>(kChecks.size());
 /// Evaluations on one step, after which a text that no polynomial agrees with is left as it is.
-constexpr int kPatience = 4000;
+constexpr int kPatience = 1500;
 
 class Halving {
  public:
   Halving(RunValue& value, const hybrid::DenseStep& step, double agreement)
       : value_(value), step_(step), agreement_(agreement), noise_(noise()) {}
 
-  /// Appends the halves of a part.
-  void halve(SmoothPart part, int halvings, std::vector<SmoothPart>& parts) {
-    if (is_known(part) || halvings >= kMostHalvings || evaluations_ > kPatience) {
-      parts.push_back(std::move(part));
-      return;
-    }
+  /// Appends the parts of a part; what the first half leaves of the patience is the second one's.
+  void halve(SmoothPart part, int patience, std::vector<SmoothPart>& parts) {
     const double middle = part.from + (part.to - part.from) / 2;
-    if (!(part.from < middle && middle < part.to)) {
+    const bool is_shortest = !(part.from < middle && middle < part.to);
+    if (is_known(part) || is_shortest || evaluations_ + kLookAtOne > patience) {
       parts.push_back(std::move(part));
       return;
     }
-    halve({part.from, middle, part.after_jump, false}, halvings + 1, parts);
-    halve({middle, part.to, false, part.before_jump}, halvings + 1, parts);
+    halve({part.from, middle, part.after_jump, false}, evaluations_ + (patience - evaluations_) / 2,
+          parts);
+    halve({middle, part.to, false, part.before_jump}, patience, parts);
   }
 
  private:
@@ -152,11 +150,11 @@ std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& s
   SmoothPart part{step.from, step.to};
   for (const hybrid::Break& one : value.breaks_on(step, near)) {
     part.to = one.left;
-    if (part.from < part.to || parts.empty()) halving.halve(part, 0, parts);
+    if (part.from < part.to || parts.empty()) halving.halve(part, kPatience, parts);
     parts.back().before_jump = one.jumps;
     part = {one.right, step.to, one.jumps};
   }
-  if (part.from < part.to || parts.empty()) halving.halve(part, 0, parts);
+  if (part.from < part.to || parts.empty()) halving.halve(part, kPatience, parts);
   return parts;
 }
 
