@@ -49,9 +49,11 @@ int rank_of(Judgement judgement) {
   return judgement == Judgement::violated ? 2 : judgement == Judgement::undecided ? 1 : 0;
 }
 
+/// What is violated for certain is worse than a run that is lost, which is worse than any other.
 bool is_worse(const Tally& a, const Tally& b) {
   const auto key = [](const Tally& tally) {
-    return std::tuple(tally.termination != Termination::horizon, rank_of(tally.judgement),
+    return std::tuple(tally.judgement == Judgement::violated,
+                      tally.termination != Termination::horizon, rank_of(tally.judgement),
                       tally.score);
   };
   return key(a) > key(b);

@@ -201,6 +201,25 @@ TEST(NarrowClaims, BranchesWithoutAnErrorBoundAreDecidedWhereTheyAreFar) {
             CampaignVerdict::violated);
 }
 
+TEST(NarrowClaims, ALostRunDoesNotHideAViolatedOne) {
+  CampaignOptions options;
+  options.threads = 1;
+  const model::Instance instance = model::bind(io::read_problem(R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: scalar, start: 3}}
+    flow: {x: "where(x > 0, 1, -sign(x + 0.5))"}
+  claims: {c: {below: x, bound: 3.5}}
+campaign: {runs: 2, horizon: 2, initial: {x: {list: [3, -1]}}}
+)yaml"));
+  const Report report = run_campaign(instance, model::Gains{}, options);
+  EXPECT_EQ(report.verdict, CampaignVerdict::violated);
+  EXPECT_EQ(report.violations, 1U);
+  EXPECT_EQ(report.undecided, 1U);
+  EXPECT_EQ(report.worst_run, 0U);
+}
+
 TEST(NarrowClaims, WhatIsNeverLookedAtSaysSo) {
   CampaignOptions options;
   options.threads = 1;
