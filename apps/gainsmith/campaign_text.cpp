@@ -47,6 +47,10 @@ io::Json check_json(const verify::CheckReport& check) {
   return result;
 }
 
+std::string runs_text(std::uint64_t runs) {
+  return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
+}
+
 /// `width`: of the names.
 std::string check_text(const verify::CheckReport& check, std::size_t width) {
   if (!check.stated)
@@ -62,8 +66,8 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
       check.kind == model::ClaimKind::below || check.kind == model::ClaimKind::above;
   const bool held = check.violations == 0 && check.undecided == 0;
   const std::string verdict =
-      check.violations > 0  ? fmt::format("violated in {} runs", check.violations)
-      : check.undecided > 0 ? fmt::format("undecided in {} runs", check.undecided)
+      check.violations > 0  ? fmt::format("violated in {}", runs_text(check.violations))
+      : check.undecided > 0 ? fmt::format("undecided in {}", runs_text(check.undecided))
                             : "held";
   std::string text =
       fmt::format("  {:<{}} {:<17} {:<8}  {} run {}: {} against {} at (t, j) = ({}, {})\n",
@@ -71,9 +75,10 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
                   check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
   if (worst.undecided())
     text += fmt::format(
-        "               known to {} {}: nothing is certain of {} <= {}\n", brief(worst.rounding, 2),
+        "               known to {} {}: nothing is certain of {} {} {}\n", brief(worst.rounding, 2),
         worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits),
-        brief(worst.value), brief(worst.bound));
+        brief(worst.value),
+        check.kind == model::ClaimKind::above ? ">=" : "<=", brief(worst.bound));
   if (check.floor > 0)
     text += fmt::format("               checked down to {} of the {}: the {} no larger drop\n",
                         brief(check.floor, 2), bounded ? "largest terms" : "start",
@@ -83,14 +88,15 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
 
 /// What stopped an undecided campaign, and what to try.
 std::string undecided_text(const verify::Report& report, const std::string& gains_file) {
-  if (report.undecided == 0) return "";
+  if (report.close == 0) return "";
   return fmt::format(
-      "  {} of {} runs are undecided: what they compare lies closer together than the {}\n"
+      "  {} of {} {} undecided: what {} lies closer together than the {}\n"
       "  try         a shorter campaign.horizon, a claim that asks for a little less, or claims "
       "written "
       "in differences of states (z - zh); see\n"
       "              gainsmith simulate {} --run {} --seed {}\n",
-      report.undecided, report.runs,
+      report.close, runs_text(report.runs), report.close == 1 ? "is" : "are",
+      report.close == 1 ? "it compares" : "they compare",
       report.integrated ? "errors of integration"
                         : fmt::format("rounding of {} digits", kQuadDigits),
       gains_file, report.worst_run, report.seed);
@@ -147,14 +153,14 @@ std::string interruption_text(const verify::Report& report) {
 std::string campaign_line(const verify::Report& report) {
   if (report.interrupted()) return "undecided: " + interruption_text(report);
   if (report.verdict == model::CampaignVerdict::held)
-    return fmt::format("held in {} runs", report.runs);
+    return fmt::format("held in {}", runs_text(report.runs));
   if (report.verdict == model::CampaignVerdict::violated)
     return fmt::format(
-        "violated in {} of {} runs, worst {}, confirmed {}", report.violations, report.runs,
+        "violated in {} of {}, worst {}, confirmed {}", report.violations, runs_text(report.runs),
         report.worst_run,
         report.integrated ? "more accurately" : fmt::format("in {} digits", kQuadDigits));
-  return fmt::format("undecided in {} of {} runs", report.undecided + report.violations,
-                     report.runs);
+  return fmt::format("undecided in {} of {}", report.undecided + report.violations,
+                     runs_text(report.runs));
 }
 
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file) {
@@ -165,9 +171,10 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
   for (const verify::CheckReport& check : report.checks) width = std::max(width, check.name.size());
   for (const verify::CheckReport& check : report.checks) text += check_text(check, width);
   if (report.unfinished > 0)
-    text += fmt::format("  {} runs did not reach the horizon; run {}: {}{}\n", report.unfinished,
-                        report.worst_run, to_string(report.worst_termination),
-                        report.worst_message.empty() ? "" : ", " + report.worst_message);
+    text +=
+        fmt::format("  {} did not reach the horizon; run {}: {}{}\n", runs_text(report.unfinished),
+                    report.unfinished_run, to_string(report.unfinished_termination),
+                    report.unfinished_message.empty() ? "" : ", " + report.unfinished_message);
   text += undecided_text(report, gains_file);
   if (report.violation_probability < 1)
     text += fmt::format("  with {} % confidence at most {} of such runs violate\n",

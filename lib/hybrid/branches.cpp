@@ -51,36 +51,29 @@ bool Branches::is_kink(std::size_t one) const {
   return system_->switches[one].kind == Switch::Kind::kink;
 }
 
-bool Branches::hold(VectorXd& values, bool crossing) {
-  bool changes = false;
-  for (std::size_t k = 0; k < watch_->switches.size(); ++k)
-    changes = hold_one(k, values, crossing) || changes;
-  return changes;
+void Branches::hold(VectorXd& values) {
+  for (std::size_t k = 0; k < watch_->switches.size(); ++k) hold_one(k, values);
 }
 
 void Branches::hold_kinks(VectorXd& values) {
   for (std::size_t k = 0; k < watch_->switches.size(); ++k)
-    if (is_kink(k)) hold_one(k, values, false);
+    if (is_kink(k)) hold_one(k, values);
 }
 
-bool Branches::hold_one(std::size_t k, VectorXd& values, bool crossing) {
-  bool changes = false;
+void Branches::hold_one(std::size_t k, VectorXd& values) {
   const Switch& one = system_->switches[k];
   const Matrix& difference = watch_->switches[k](values);
   for (Index e = 0; e < difference.size(); ++e) {
     double& held = values(offset(k) + e);
-    const double before = held;
     const double d = difference(e);
     if (one.kind == Switch::Kind::kink) {
-      held = d > 0 ? 1 : d < 0 ? -1 : before < 0 ? -1 : 1;
+      held = d > 0 ? 1 : d < 0 ? -1 : held < 0 ? -1 : 1;
     } else if (one.kind == Switch::Kind::sign) {
-      held = d > 0 ? 1 : d < 0 ? -1 : crossing ? -before : 0;
+      held = d > 0 ? 1 : d < 0 ? -1 : 0;
     } else {
       held = (one.strict ? d > 0 : d >= 0) ? 1 : -1;
     }
-    changes = changes || held != before;
   }
-  return changes;
 }
 
 std::optional<Branches::Turn> Branches::first_turn(const StepValues& inside,
@@ -89,42 +82,54 @@ std::optional<Branches::Turn> Branches::first_turn(const StepValues& inside,
   std::optional<Look> look;
   for (std::size_t k = 0; k < watch_->switches.size(); ++k) {
     EventBorder& border = watch_->switches[k];
-    if (!is_kink(k) || border.rests()) continue;
+    if (border.rests()) continue;
     if (!look) look.emplace(inside);
     look->border.reset();
     for (Index e = 0; e < border.size(); ++e) {
       const double held = values(offset(k) + e);
       const StepRange range([&](const VectorXd& x) { return border(x)(e); }, look->three);
       if (range.is_far_from_zero(held)) continue;
-      if (const auto t = turn_of(k, e, held, *look); t && (!first || *t < first->t))
-        first = Turn{*t, offset(k) + e};
+      if (const auto turn = turn_of(k, e, held, *look); turn && (!first || turn->t < first->t))
+        first = turn;
     }
   }
   return first;
 }
 
-std::optional<double> Branches::turn_of(std::size_t kink, Index element, double held, Look& look) {
+std::optional<Branches::Turn> Branches::turn_of(std::size_t one, Index element, double held,
+                                                Look& look) {
   const std::vector<double>& times = look.points.times();
   if (!look.border) {
-    look.border.emplace(watch_->switches[kink], look.points);
-    const auto terms = watch_->switches[kink].terms(look.three[0]).reshaped();
-    look.slack = look.border->noise() + (relative_ * terms.array() + absolute_ * part_).matrix();
+    look.border.emplace(watch_->switches[one], look.points);
+    look.slack = look.border->noise();
+    const auto terms = watch_->switches[one].terms(look.three[0]).reshaped();
+    if (is_kink(one)) look.slack += (relative_ * terms.array() + absolute_ * part_).matrix();
   }
   const double slack = look.slack(element);
-  const auto beyond = [&](double t) { return look.border->value(element, t) * held < -slack; };
+  const auto value = [&](double t) { return look.border->value(element, t); };
+  const auto beyond = [&](double t) {
+    const double d = value(t);
+    return held == 0 ? std::abs(d) > slack : d * held < -slack;
+  };
   const auto on_side = (held * look.border->values().row(element).array()).eval();
   // No pair of roots hides between points of a D that is far from 0 at all of them.
   if (on_side.minCoeff() > (on_side.maxCoeff() - on_side.minCoeff()) / kFar) return std::nullopt;
-  const Found found = look.border->roots(element, held < 0);
-  std::vector<double> places(times.begin(), times.end());
-  for (std::size_t k = 0; k + 1 < found.roots.size(); ++k)
-    places.push_back((found.roots[k].right + found.roots[k + 1].left) / 2);
-  std::sort(places.begin(), places.end());
+  const auto places_with = [&](const Found& found) {
+    std::vector<double> places(times.begin(), times.end());
+    for (std::size_t k = 0; k + 1 < found.roots.size(); ++k)
+      places.push_back((found.roots[k].right + found.roots[k + 1].left) / 2);
+    std::sort(places.begin(), places.end());
+    return places;
+  };
+  Found found = look.border->roots(element, held < 0);
+  std::vector<double> places = places_with(found);
   const auto there = std::find_if(places.begin(), places.end(), beyond);
   if (there == places.end()) return std::nullopt;
-  double turn = look.border->value(element, times.front()) * held > 0 ? *there : times.front();
+  const double to = value(*there) > 0 ? 1 : -1;
+  if (held == 0 && to > 0) found = look.border->roots(element, true);
+  Turn turn{value(times.front()) * to < 0 ? *there : times.front(), offset(one) + element, to, one};
   for (const Root& root : found.roots)
-    if (root.right <= *there) turn = root.right;
+    if (root.right <= *there) turn.t = root.right;
   return turn;
 }
 

@@ -122,7 +122,7 @@ class EventRun {
     rows_.begin(values_);
     due_.begin(values_, movement_);
     movement_.fill_clocks(0, values_);
-    branches_.hold(values_, false);
+    branches_.hold(values_);
     record_.start(variables(values_));
     require_range();
   }
@@ -154,7 +154,7 @@ class EventRun {
       due_.spend(event, t_, movement_);
       movement_.fill_clocks(t_, values_);
     }
-    branches_.hold(values_, false);
+    branches_.hold(values_);
   }
 
   void jump(std::size_t event) {
@@ -221,7 +221,7 @@ class EventRun {
 
   void flow() {
     if (rows_.leave(t_, values_)) {
-      branches_.hold(values_, false);
+      branches_.hold(values_);
       if (due_.first(values_, t_)) return;  // by the last of several rows at t
     }
     branches_.hold_kinks(values_);
@@ -240,24 +240,31 @@ class EventRun {
       went = take(flow_->next());
     }
     const bool drawn = noise_.draw_due(t_, values_);
-    if (rows_.arrive(t_, values_) || drawn) branches_.hold(values_, false);
+    if (rows_.arrive(t_, values_) || drawn) branches_.hold(values_);
   }
 
-  /// Goes along a step up to where something happens.
+  /// Goes along a step up to where something happens. A turn at its start that comes back without
+  /// an end is none of a kink, which does not matter then, and of others a flow along the border.
   Went take(const DenseStep& whole) {
     const auto turn = branches_.first_turn(StepValues(movement_, values_, whole), values_);
-    if (turn && turn->t == whole.from && ++turned_back_ < kMostTurns) {
-      values_(turn->held) *= -1;
+    const bool back = turn && turn->t == whole.from;
+    if (back && (!branches_.is_kink(turn->branch) || ++turned_back_ < kMostTurns)) {
+      turns_over(*turn);
       return Went::stopped;
     }
     const bool turns = turn && turn->t > whole.from;
     const Went went = along(turns && turn->t < whole.to ? movement_.until(whole, turn->t) : whole);
     if (!turns || t_ != turn->t) return went;
-    values_(turn->held) *= -1;
+    turns_over(*turn);
     return Went::stopped;
   }
 
-  /// The same of a step on which no kink turns.
+  void turns_over(const Branches::Turn& turn) {
+    values_(turn.held) = turn.to;
+    if (!branches_.is_kink(turn.branch)) sliding_.switched(turn.branch, t_, values_);
+  }
+
+  /// The same of a step on which no branch turns.
   Went along(const DenseStep& step) {
     const StepValues inside(movement_, values_, step);
     stays_.require_inside(inside, std::min(inside.to(), inside.from() + kOutside * horizon_));
@@ -270,21 +277,19 @@ class EventRun {
       return take_shorter(step.from + kBeyondTurn * *hidden * (step.to - step.from));
     const std::vector<DueEvents::Mark> marks = due_.marks();
     const EventStays::Marks was_inside = stays_.marks();
-    for (const EventWatch::Crossing& one : crossings) {
-      VectorXd values = inside.at(one.t);
-      const bool due = due_.first(values, one.t).has_value();
+    for (const double t : crossings) {
+      VectorXd values = inside.at(t);
+      const bool due = due_.first(values, t).has_value();
       const bool left = !due && stays_.leaves(values);
-      const bool turns = !due && !left && one.branch && branches_.hold(values, true);
-      if (!due && !left && !turns) continue;
-      if (is_coarse(step, one.t)) {
+      if (!due && !left) continue;
+      if (is_coarse(step, t)) {
         due_.set_marks(marks);
         stays_.set_marks(was_inside);
-        return take_shorter(step.from + kShorterStep * (one.t - step.from));
+        return take_shorter(step.from + kShorterStep * (t - step.from));
       }
-      note(near, one.t);
-      arrive(one.t < step.to ? movement_.until(step, one.t) : step, std::move(values));
+      note(near, t);
+      arrive(t < step.to ? movement_.until(step, t) : step, std::move(values));
       if (left) stays_.leave_first(values_);
-      if (turns) sliding_.switched(*one.branch, t_, values_);
       return Went::stopped;
     }
     note(near, step.to);

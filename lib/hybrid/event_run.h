@@ -18,8 +18,7 @@
 // and `when` is due again once its condition has been false. `lost` is asked for each jump.
 //
 // Between borders `where`, `sign`, `abs`, `max` and `min` in a flow hold their branch (switches.h,
-// branches.h); at one the flow starts again with the new branch. A `sign` of exactly 0 there goes
-// on to the other side.
+// branches.h); where one turns the flow starts again with the new branch.
 #pragma once
 
 #include <cstdint>

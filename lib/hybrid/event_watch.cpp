@@ -47,10 +47,6 @@ EventWatch::EventWatch(const EventSystem& system) : system_(&system) {
   for (const Switch& one : system.switches) switches.emplace_back(one.difference, system);
 }
 
-bool EventWatch::is_kink(std::size_t branch) const {
-  return system_->switches[branch].kind == Switch::Kind::kink;
-}
-
 void EventWatch::comparisons_of(EventCondition& condition, const VectorXd& values, bool is_event,
                                 const Visit& visit) {
   if (condition.at_rest(values) != Truth::open) return;
@@ -58,7 +54,7 @@ void EventWatch::comparisons_of(EventCondition& condition, const VectorXd& value
   for (std::size_t k = 0; k < condition.comparisons().size(); ++k) {
     EventCondition::Comparison& one = condition.comparisons()[k];
     if (one.border.rests()) continue;
-    visit(one.border, {one.kind != Kind::nonnegative, one.kind != Kind::positive}, std::nullopt,
+    visit(one.border, {one.kind != Kind::nonnegative, one.kind != Kind::positive},
           is_event ? &condition : nullptr, k);
   }
 }
@@ -66,26 +62,19 @@ void EventWatch::comparisons_of(EventCondition& condition, const VectorXd& value
 void EventWatch::active_borders(const VectorXd& values, const Visit& visit) {
   for (std::size_t e = 0; e < when.size(); ++e) {
     if (when[e]) comparisons_of(*when[e], values, true, visit);
-    if (crossing[e] && !crossing[e]->rests())
-      visit(*crossing[e], {true, true}, std::nullopt, nullptr, 0);
+    if (crossing[e] && !crossing[e]->rests()) visit(*crossing[e], {true, true}, nullptr, 0);
   }
   for (Stay& stay : stays) comparisons_of(stay.where, values, false, visit);
-  for (std::size_t k = 0; k < switches.size(); ++k) {
-    const Switch& one = system_->switches[k];
-    if (!switches[k].rests())
-      visit(switches[k], {one.strict, one.kind != Switch::Kind::where || !one.strict}, k, nullptr,
-            0);
-  }
 }
 
-std::vector<EventWatch::Crossing> EventWatch::crossings(
+std::vector<double> EventWatch::crossings(
     const StepValues& inside, const VectorXd& values,
     const std::function<void(double, const std::string&)>& graze, std::optional<double>* hidden) {
-  std::vector<Crossing> result;
+  std::vector<double> result;
   StepPoints points(inside);
-  active_borders(values, [&](EventBorder& border, Sides sides, std::optional<std::size_t> branch,
-                             EventCondition* condition, std::size_t comparison) {
-    if (border.size() == 0 || (branch && is_kink(*branch))) return;
+  active_borders(values, [&](EventBorder& border, Sides sides, EventCondition* condition,
+                             std::size_t comparison) {
+    if (border.size() == 0) return;
     BorderOnStep on_step(border, points);
     for (Index element = 0; element < border.size(); ++element) {
       if (hidden != nullptr)
@@ -94,7 +83,7 @@ std::vector<EventWatch::Crossing> EventWatch::crossings(
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;
         const Found found = on_step.roots(element, strict);
-        for (const Root& root : found.roots) result.push_back({root.right, branch});
+        for (const Root& root : found.roots) result.push_back(root.right);
         if (condition == nullptr) continue;
         for (const Grazing& one : found.grazings)
           if (condition->if_changed(inside.at(one.t), comparison))
@@ -102,8 +91,7 @@ std::vector<EventWatch::Crossing> EventWatch::crossings(
       }
     }
   });
-  std::stable_sort(result.begin(), result.end(),
-                   [](const Crossing& a, const Crossing& b) { return a.t < b.t; });
+  std::sort(result.begin(), result.end());
   return result;
 }
 
@@ -111,8 +99,7 @@ double EventWatch::next_line(const Movement& movement, double t, double last,
                              const VectorXd& values) {
   double first = last;
   VectorXd point = values;
-  active_borders(values, [&](EventBorder& border, Sides sides, std::optional<std::size_t>,
-                             EventCondition*, std::size_t) {
+  const auto look = [&](EventBorder& border, Sides sides) {
     if (!border.is_line()) return;
     for (Index element = 0; element < border.size(); ++element)
       for (const bool strict : {true, false}) {
@@ -124,7 +111,15 @@ double EventWatch::next_line(const Movement& movement, double t, double last,
         };
         first = std::min(first, line_root(g, strict, t, first));
       }
+  };
+  active_borders(values, [&](EventBorder& border, Sides sides, EventCondition*, std::size_t) {
+    look(border, sides);
   });
+  for (std::size_t k = 0; k < switches.size(); ++k) {
+    const Switch& one = system_->switches[k];
+    if (!switches[k].rests())
+      look(switches[k], {one.strict, one.kind != Switch::Kind::where || !one.strict});
+  }
   return first;
 }
 

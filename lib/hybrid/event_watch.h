@@ -22,12 +22,6 @@ class EventWatch {
     Place place;
   };
 
-  /// A border that is crossed: just after it its text is evaluated.
-  struct Crossing {
-    double t = 0;
-    std::optional<std::size_t> branch;  ///< of a switch
-  };
-
   explicit EventWatch(const EventSystem& system);
 
   // By event: `when`, `if`, and e of rises, falls and crosses.
@@ -36,16 +30,13 @@ class EventWatch {
   std::vector<Stay> stays;
   std::vector<EventBorder> switches;
 
-  /// All crossings on a step, in order, of borders other than kinks that may decide about something
-  /// from `values` on, those at the start of the step. `graze` is told of borders of `when` that
-  /// come near without being reached, where reaching them would have been the event. `hidden`, at
-  /// the start of a flow: the first BorderOnStep::hidden_turn, if any.
-  std::vector<Crossing> crossings(
-      const StepValues& inside, const Eigen::VectorXd& values,
-      const std::function<void(double t, const std::string& text)>& graze,
-      std::optional<double>* hidden = nullptr);
-
-  bool is_kink(std::size_t branch) const;
+  /// The times just after all crossings on a step, in order, of borders of events and of `while`
+  /// that may decide about something from `values` on, those at the start of the step. `graze` is
+  /// told of borders of `when` that come near without being reached, where reaching them would have
+  /// been the event. `hidden`, at the start of a flow: the first BorderOnStep::hidden_turn, if any.
+  std::vector<double> crossings(const StepValues& inside, const Eigen::VectorXd& values,
+                                const std::function<void(double t, const std::string& text)>& graze,
+                                std::optional<double>* hidden = nullptr);
 
   /// The first time in (t, last] at which a border that is affine in what is steady is crossed;
   /// `last` when there is none.
@@ -56,8 +47,7 @@ class EventWatch {
     bool above = false;     ///< > 0
     bool at_least = false;  ///< >= 0
   };
-  using Visit = std::function<void(EventBorder&, Sides, std::optional<std::size_t> branch,
-                                   EventCondition*, std::size_t comparison)>;
+  using Visit = std::function<void(EventBorder&, Sides, EventCondition*, std::size_t comparison)>;
 
   void active_borders(const Eigen::VectorXd& values, const Visit& visit);
   static void comparisons_of(EventCondition& condition, const Eigen::VectorXd& values,

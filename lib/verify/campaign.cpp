@@ -35,13 +35,16 @@ struct Tally {
   std::uint64_t violations = 0;
   std::uint64_t undecided = 0;
   std::uint64_t unfinished = 0;
+  std::uint64_t close = 0;
   std::uint64_t repeated = 0;
   std::vector<std::uint64_t> confirmed;
   std::optional<std::uint64_t> run;  ///< the worst
   Judgement judgement = Judgement::held;
   double score = 0;
   Termination termination = Termination::horizon;
-  std::string message;
+  std::uint64_t unfinished_run = 0;  ///< the first
+  Termination unfinished_termination = Termination::horizon;
+  std::string unfinished_message;
   std::vector<ClaimTally> claims;
 };
 
@@ -84,6 +87,11 @@ void add(const Tally& later, Tally& sum) {
   sum.violations = before.violations + later.violations;
   sum.undecided = before.undecided + later.undecided;
   sum.unfinished = before.unfinished + later.unfinished;
+  sum.close = before.close + later.close;
+  const Tally& first = before.unfinished > 0 ? before : later;
+  sum.unfinished_run = first.unfinished_run;
+  sum.unfinished_termination = first.unfinished_termination;
+  sum.unfinished_message = first.unfinished_message;
   sum.repeated = before.repeated + later.repeated;
   for (std::size_t i = 0; i < before.claims.size(); ++i) add(later.claims[i], before.claims[i]);
   sum.claims = std::move(before.claims);
@@ -97,10 +105,13 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
   tally.runs = 1;
   tally.judgement = verdict.judgement;
   tally.termination = verdict.termination;
-  tally.message = verdict.message;
+  tally.unfinished_run = run;
+  tally.unfinished_termination = verdict.termination;
+  tally.unfinished_message = verdict.message;
   tally.violations = verdict.judgement == Judgement::violated ? 1 : 0;
   tally.undecided = verdict.judgement == Judgement::undecided ? 1 : 0;
   tally.unfinished = verdict.unfinished() ? 1 : 0;
+  tally.close = tally.undecided > 0 && !verdict.unfinished() ? 1 : 0;
   tally.repeated = verdict.repeated ? 1 : 0;
   if (verdict.confirmed) tally.confirmed.push_back(run);
   tally.score = -std::numeric_limits<double>::infinity();
@@ -230,8 +241,10 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
   report.repeated = tally.repeated;
   report.confirmed = tally.confirmed;
   report.worst_run = *tally.run;
-  report.worst_termination = tally.termination;
-  report.worst_message = tally.message;
+  report.unfinished_run = tally.unfinished_run;
+  report.unfinished_termination = tally.unfinished_termination;
+  report.unfinished_message = tally.unfinished_message;
+  report.close = tally.close;
   report.violation_probability = violation_probability_bound(report.violations + report.undecided,
                                                              report.runs, report.confidence);
   report.checks = report_checks(setup, tally);

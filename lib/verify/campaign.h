@@ -49,17 +49,20 @@ struct Report {
   std::uint64_t seed = 0;
   std::uint64_t violations = 0;  ///< runs that violate a claim or do not reach the horizon
   std::uint64_t undecided = 0;   ///< runs of which neither is certain when repeated
-  std::uint64_t unfinished = 0;  ///< runs that do not reach the horizon
-  std::uint64_t repeated = 0;    ///< runs that were repeated, in 31 digits
+  std::uint64_t unfinished = 0;  ///< runs that do not reach the horizon; of the first of them:
+  std::uint64_t unfinished_run = 0;
+  hybrid::Termination unfinished_termination = hybrid::Termination::horizon;
+  std::string unfinished_message;  ///< why it ended
+  std::uint64_t close = 0;         ///< undecided runs that reach it: a comparison is too close
+  std::uint64_t repeated = 0;      ///< runs that were repeated, in 31 digits
   /// The violating runs that were, and violate there too; the worst run and that of each claim are
   /// among them. In order.
   std::vector<std::uint64_t> confirmed;
-  /// The run that violates worst; of a campaign that held, the run nearest to it. Runs that do not
-  /// reach the horizon come first, then violating runs, then undecided ones, then by the largest
-  /// score of a claim, among those that it violates if any; ties to the lowest.
+  /// The run that violates worst; of a campaign that held, the run nearest to it. Violating runs
+  /// come first, of these those that do not reach the horizon, then others that do not, then
+  /// undecided ones, then by the largest score of a claim, among those that it violates if any;
+  /// ties to the lowest.
   std::uint64_t worst_run = 0;
-  hybrid::Termination worst_termination = hybrid::Termination::horizon;
-  std::string worst_message;  ///< why it ended, when a jump map had no value
   double horizon = 0;
   bool integrated = false;  ///< errors are estimates, and "repeated" means more accurately
   double confidence = 0.95;

@@ -100,27 +100,30 @@ double time_of(const FlowLooks::Peak& peak, const FlowPiece& flow, RunValue& fun
   return best;
 }
 
-/// The lows of a value and the tops after them, where it rises by more than `noise` of its size and
-/// to a size above `floor`. A low is the lowest so far.
+/// The lows of a value and the tops after them, where it rises by more than its noise, and than
+/// `noise` of its size, to a size above `floor`. A low is the lowest so far.
 class Rises {
  public:
   Rises(double noise, double floor) : noise_(noise), floor_(floor) {}
 
-  void next(double t, double value, double size) {
+  /// `size`, `noise`: of the part around.
+  void next(double t, double value, double size, double noise) {
     if (value < low_) {
       end();
       low_ = top_ = value;
       low_at_ = t;
       size_ = size;
+      drowned_ = noise;
     } else if (value > top_) {
       top_ = value;
       top_at_ = t;
       size_ = std::max(size_, size);
+      drowned_ = std::max(drowned_, noise);
     }
   }
 
   const std::vector<double>& end() {
-    if (top_ - low_ > noise_ * size_ && size_ > floor_)
+    if (top_ - low_ > noise_ * size_ + drowned_ && size_ > floor_)
       times_.insert(times_.end(), {low_at_, top_at_});
     top_ = low_;
     return times_;
@@ -131,7 +134,8 @@ class Rises {
   double low_ = std::numeric_limits<double>::infinity();
   double top_ = low_;
   double low_at_ = 0, top_at_ = 0;
-  double size_ = 0;  ///< the largest around
+  double size_ = 0;     ///< the largest around
+  double drowned_ = 0;  ///< the largest noise around
   std::vector<double> times_;
 };
 
@@ -142,7 +146,8 @@ void add_points(const Stretch& stretch, Rises& rises) {
   times.insert(times.begin(), stretch.from);
   times.push_back(stretch.to);
   for (const double t : times)
-    if (stretch.from <= t && t <= stretch.to) rises.next(t, stretch.part(t), size);
+    if (stretch.from <= t && t <= stretch.to)
+      rises.next(t, stretch.part(t), size, stretch.part.noise);
 }
 
 std::vector<double> rises_of(const FlowLooks::Falling& falling, const FlowPiece& flow,

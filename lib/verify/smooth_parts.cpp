@@ -44,6 +44,7 @@ class Halving {
  private:
   /// Makes its series; whether that is the value, or there is none.
   bool is_known(SmoothPart& part) {
+    part.noise = noise_;
     std::array<double, kDegree + 1> values{};
     std::array<double, kChecks.size()> checks{};
     for (std::size_t k = 0; k < kChecks.size(); ++k) checks[k] = at(part, kChecks[k]);

@@ -22,6 +22,7 @@ struct SmoothPart {
   bool before_jump = false;  ///< just after it
   /// The value on [from, to] as a sum of Chebyshev polynomials (hybrid/chebyshev.h).
   Eigen::RowVectorXd series{};
+  double noise = 0;  ///< of the value, by the rounding of the variables
   /// A time at which the value is no number; then there is no series.
   std::optional<double> undefined{};
 

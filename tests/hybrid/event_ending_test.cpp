@@ -184,6 +184,30 @@ TEST(EventSwitch, ARateThatFallsToNothingOnTheBorderSlides) {
   EXPECT_EQ(simulate(small.system(), 1000).ending, Ending::horizon);
 }
 
+// Two tanks with equal levels: the difference starts in its rounding and is only crossed.
+TEST(EventSwitch, ACrossingInTheRoundingIsNoSliding) {
+  EventProblem problem;
+  problem.state("a", {}, "1").state("b", {}, "1");
+  problem.flow("a", "0.8 - 0.5*sign(a - b)*sqrt(abs(a - b))");
+  problem.flow("b", "0.5*sign(a - b)*sqrt(abs(a - b)) - 0.4*sign(b)*sqrt(abs(b))");
+  const EventSystem system = problem.system();
+  const Trajectory run = simulate(system, 1);
+  ASSERT_EQ(run.ending, Ending::horizon) << run.message;
+  // Euler's rule, whose steps halve the error of each other.
+  const auto euler = [](int steps) {
+    double a = 1;
+    double b = 1;
+    for (int k = 0; k < steps; ++k) {
+      const double over = 0.5 * std::sqrt(std::abs(a - b));
+      const double out = 0.4 * std::sqrt(b);
+      a += (0.8 - over) / steps;
+      b += (over - out) / steps;
+    }
+    return a;
+  };
+  EXPECT_NEAR(value_at(system, run, "a", 1)(0), 2 * euler(2000000) - euler(1000000), 1e-6);
+}
+
 TEST(EventSwitch, BranchesOfTimeAreSteppedTo) {
   EventProblem problem;
   problem.state("x", {}, "0").flow("x", "where(t >= 1, where(t < 2, 3, 0), sin(x))");

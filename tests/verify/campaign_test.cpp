@@ -341,7 +341,7 @@ TEST(Campaign, RunThatDivergesViolates) {
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
   EXPECT_EQ(report.unfinished, 3U);
   EXPECT_EQ(report.worst_run, 0U);
-  EXPECT_EQ(report.worst_termination, hybrid::Termination::diverged);
+  EXPECT_EQ(report.unfinished_termination, hybrid::Termination::diverged);
   EXPECT_EQ(report.violation_probability, 1);
 }
 
