@@ -21,19 +21,20 @@ class BoxSearch {
   }
 
   BoxPoint run() {
-    constexpr double kCoarse = 1e-3, kFine = 1e-10;
+    constexpr double kFine = 1e-10;
     constexpr int kFewRounds = 2, kManyRounds = 20;
     constexpr std::size_t kFinally = 3;
     if (axes_.empty()) return {low_, f_(low_)};
+    const double coarse = std::min(1e-3, spacing() / 32);
     add_samples();
     std::vector<Sample> found;
     for (const Sample& start : starts())
-      found.push_back(climbed(start, spacing(), kCoarse, kFewRounds));
+      found.push_back(climbed(start, spacing(), coarse, kFewRounds));
     sort(found);
     found.resize(std::min(found.size(), kFinally));
     for (Sample& best : found)
-      best = climbed(scanned(std::move(best)), spacing(), kCoarse, kFewRounds);
-    for (Sample& best : found) best = climbed(best, kCoarse, kFine, kManyRounds);
+      best = climbed(scanned(std::move(best)), spacing(), coarse, kFewRounds);
+    for (Sample& best : found) best = climbed(best, coarse, kFine, kManyRounds);
     sort(found);
     return {placed(found.front().u), found.front().value};
   }
@@ -110,16 +111,16 @@ class BoxSearch {
     return step;
   }
 
-  /// The best samples that are apart from better ones.
+  /// The best samples that are apart from better ones: of a line with many tops the best of each.
   std::vector<Sample> starts() {
-    constexpr double kApart = 0.05;
-    const std::size_t most = 8 + 2 * axes_.size();
+    const double apart_by = std::min(0.05, 3 * spacing());
+    const std::size_t most = axes_.size() == 1 ? 64 : 8 + 2 * axes_.size();
     sort(samples_);
     std::vector<Sample> chosen;
     for (const Sample& one : samples_) {
       if (chosen.size() == most) break;
       const bool apart = std::all_of(chosen.begin(), chosen.end(), [&](const Sample& other) {
-        return (other.u - one.u).lpNorm<Eigen::Infinity>() >= kApart;
+        return (other.u - one.u).lpNorm<Eigen::Infinity>() >= apart_by;
       });
       if (apart) chosen.push_back(one);
     }

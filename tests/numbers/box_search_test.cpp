@@ -110,6 +110,18 @@ TEST(BoxSearch, IsNeverBelowRandomPoints) {
   }
 }
 
+/// Tops that lie closer together than starts would be apart on a box of several coordinates.
+TEST(BoxSearch, TakesTheHighestOfManyTops) {
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 40; ++trial) {
+    const double top = std::uniform_real_distribution<>(0.5, 9.5)(random);
+    const auto f = [&](const Vector& x) {
+      return std::cos(30 * (x(0) - top)) * std::exp(-0.3 * (x(0) - top) * (x(0) - top));
+    };
+    EXPECT_NEAR(largest_over_box(f, ends(1, 0), ends(1, 10)).value, 1, 1e-9) << top;
+  }
+}
+
 TEST(BoxSearch, OfOnePoint) {
   int calls = 0;
   const auto f = [&](const Vector& x) {
