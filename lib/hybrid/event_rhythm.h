@@ -1,11 +1,12 @@
 // Internal to hybrid: whether the jumps of a run accumulate.
 //
 //   Zeno         over the last flows each length is r times that of a period of 1 to 3 flows
-//   before,
+//                before, over 12 of them or at least 4 that make a millionth,
 //                r < 1, and what is left, sum of the last period * r/(1 - r), is below 1e-7 of the
 //                time so far, and over the last period no state changed by more than 1e-4 of its
 //                largest size: the jumps accumulate there. While a state counts, what is left is
-//                to be below 1e-8
+//                to be below 1e-8. Before a run chatters r may be that of the last hundred flows,
+//                the same over both halves of them, and what is left 1e-5 of the time
 //   chattering   a hundred flows in a row below 1e-10 of the horizon, or ten thousand below 1e-6,
 //                without such an r; the clock of an event ends the row
 #pragma once
@@ -36,6 +37,8 @@ class EventRhythm {
   std::vector<std::size_t> events() const;
 
  private:
+  std::optional<double> steady_rest(std::size_t period, std::size_t ratios) const;
+  std::optional<double> slow_rest() const;
   bool settles(std::size_t period) const;
 
   double horizon_;

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "base/number.h"
 #include "hybrid/event_problem.h"
 #include "support/input_error.h"
 
@@ -108,6 +109,19 @@ TEST(EventEnding, ACounterThatEndsShrinkingIsNoZeno) {
   problem.when("g", "s >= 0.5^k").jump("g", {{"s", "0"}, {"k", "where(k > 20, -3, k + 1)"}});
   const Trajectory run = simulate(problem.system(), 20);
   EXPECT_EQ(run.ending, Ending::horizon) << run.message;
+}
+
+// Seven flights of a ball that keeps a tenth of its speed are all that numbers can tell apart.
+TEST(EventEnding, AFewFlightsThatShrinkFastAccumulate) {
+  for (const double r : {0.001, 0.05, 0.1, 0.24, 0.99}) {
+    EventProblem problem;
+    problem.state("x", {}, "0").state("v", {}, "4").flow("x", "v").flow("v", "-9.81");
+    problem.when("hit", "x <= 0 and v < 0").jump("hit", {{"v", "-" + brief(r, 17) + "*v"}});
+    const Trajectory run = simulate(problem.system(), 100);
+    EXPECT_EQ(run.ending, Ending::zeno) << r << " " << run.message;
+    const double time = 8 / 9.81 / (1 - r);
+    EXPECT_NEAR(run.accumulation, time, 1e-9 * time) << r;
+  }
 }
 
 TEST(EventEnding, StoppedFromOutside) {
