@@ -48,17 +48,22 @@ io::Json replay_json(const verify::Replay& replay) {
   return document;
 }
 
-void say_claims(const std::vector<verify::ReplayedClaim>& claims) {
-  for (const verify::ReplayedClaim& claim : claims)
-    if (!claim.finding.looked)
-      say(
-          fmt::format("  {:<12} held: never looked at, as the run does not come to where it is "
-                      "claimed\n",
-                      claim.name));
-    else
-      say(fmt::format("  {:<12} {}: {} against {} at (t, j) = ({}, {})\n", claim.name,
-                      to_string(claim.finding.judgement), brief(claim.finding.value),
-                      brief(claim.finding.bound), brief(claim.finding.t), claim.finding.j));
+/// `early`: the run ends before its horizon for a reason that decides nothing.
+void say_claims(const std::vector<verify::ReplayedClaim>& claims, bool early) {
+  for (const verify::ReplayedClaim& claim : claims) {
+    const verify::Finding& finding = claim.finding;
+    if (!finding.looked) {
+      say(fmt::format("  {:<12} {}\n", claim.name,
+                      early ? "undecided: never looked at, as the run ends before"
+                            : "held: never looked at, as the run does not come to where it is "
+                              "claimed"));
+      continue;
+    }
+    const bool so_far = early && finding.judgement == verify::Judgement::held;
+    say(fmt::format("  {:<12} {}{}: {} against {} at (t, j) = ({}, {})\n", claim.name,
+                    to_string(finding.judgement), so_far ? " so far" : "", brief(finding.value),
+                    brief(finding.bound), brief(finding.t), finding.j));
+  }
 }
 
 void write(const SimulateOptions& options, const std::string& text) {
@@ -105,7 +110,8 @@ ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& load
                   to_string(replay.run.ending)));
   if (!replay.run.message.empty()) say("  " + replay.run.message + "\n");
   for (const std::string& note : replay.run.notes) say("  " + note + "\n");
-  say_claims(replay.claims);
+  const hybrid::Ending ending = replay.run.ending;
+  say_claims(replay.claims, ending != hybrid::Ending::horizon && ending != hybrid::Ending::zeno);
   if (!options.judge) return ExitCode::yes;
   for (const hybrid::Fault& fault : replay.faults)
     say(fmt::format("  judged: t = {}: {} ({} > {})\n", brief(fault.t), fault.what,
@@ -131,7 +137,7 @@ ExitCode simulate(const SimulateOptions& options) {
   say(fmt::format("run {} of seed {}: {} samples, {} jumps, ended by: {}\n", options.run, seed,
                   replay.arc.samples(), replay.arc.j.back(), to_string(replay.arc.termination)));
   if (!replay.arc.message.empty()) say("  " + replay.arc.message + "\n");
-  say_claims(replay.claims);
+  say_claims(replay.claims, false);
   return ExitCode::yes;
 }
 

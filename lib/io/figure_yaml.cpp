@@ -95,7 +95,8 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
     result.kind = FigureKind::ended;
     result.title = "ended";
     if (ending == nullptr)
-      throw InputError(ended->place, "ended: of 'expect.run'; all observers end with the run");
+      throw InputError(ended->place,
+                       "ended: stands in expect.run alone: all observers end with the run");
     *ending = file.string(ended->value, "ended");
     const std::vector<std::string> known = {"horizon", "escaped", "undefined",   "left",
                                             "stuck",   "zeno",    "chattering",  "sliding",

@@ -328,10 +328,14 @@ std::optional<YamlItem> YamlMap::find(const std::string& key) {
 
 YamlItem YamlMap::require(const std::string& key) {
   if (auto item = find(key)) return *item;
-  // A misspelt key explains the missing one.
+  // A misspelt or shortened key explains the missing one.
+  constexpr std::size_t kShortest = 3;
+  const auto is_short_for_it = [&](const std::string& word) {
+    return word.size() >= kShortest && key.starts_with(word);
+  };
   for (const YamlItem& item : items_)
     if (std::find(asked_.begin(), asked_.end(), item.key) == asked_.end() &&
-        nearest(item.key, {key}))
+        (nearest(item.key, {key}) || is_short_for_it(item.key)))
       throw InputError(item.place,
                        what_ + ": unknown key '" + item.key + "'; did you mean '" + key + "'?");
   throw InputError(place_, what_ + ": the key '" + key + "' is missing");

@@ -91,6 +91,7 @@ TEST_P(BrokenProblem, IsRefusedAtItsPlace) {
 INSTANTIATE_TEST_SUITE_P(
     Keys, BrokenProblem,
     testing::Values(Mistake{"problem: small", "probelm: small", 1, 1, "did you mean 'problem'?"},
+                    Mistake{"problem: small", "prob: small", 1, 1, "did you mean 'problem'?"},
                     Mistake{"problem: small\n", "", 1, 1, "the key 'problem' is missing"},
                     Mistake{"problem: small", "problem:", 1, 9, "found nothing"},
                     Mistake{"problem: small", "problem: [a]", 1, 10, "found a list"},
