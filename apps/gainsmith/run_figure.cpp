@@ -131,6 +131,7 @@ report::Curve claimed(const EventReplay& replay, std::size_t column) {
 report::Curve bound_of(const EventReplay& replay, const report::Curve& claim,
                        const verify::ClaimScope& scope) {
   report::Curve line;
+  if (scope.after >= replay.run.end) return line;
   line.t = {scope.after, replay.run.end};
   line.value = {*scope.bound, *scope.bound};
   line.dashed = true;

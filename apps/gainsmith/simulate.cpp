@@ -88,11 +88,14 @@ ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& load
     if (options.json || options.judge || !options.plot.empty() || options.step > 0)
       throw InputError({options.gains},
                        "--compare prints figures alone, without --json, --plot, --judge or --step");
-    const auto figures = verify::compared_figures(loaded.stated, loaded.gains, seed, options.run);
-    if (figures.empty())
+    const verify::Comparison comparison =
+        verify::compared_figures(loaded.stated, loaded.gains, seed, options.run);
+    if (comparison.figures.empty())
       throw InputError({options.gains},
                        "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
-    write(options, comparison_text(figures));
+    write(options, comparison_text(comparison.figures));
+    if (!comparison.early.empty())
+      say(fmt::format("run {} ended before its horizon, {}\n", options.run, comparison.early));
     return ExitCode::yes;
   }
   const verify::EventReplay replay = verify::replay_events(

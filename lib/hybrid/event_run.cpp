@@ -188,8 +188,8 @@ class EventRun {
     throw RunEnd(
         Ending::stuck,
         fmt::format("{} jumps without a flow between them, of {}: then the event {} is due "
-                    "again{}",
-                    kLongestChain, names, one.name, value));
+                    "again{}; the first {} of them are kept",
+                    kLongestChain, names, one.name, value, kKeptOfChain));
   }
 
   void watch_rhythm(std::size_t event) {

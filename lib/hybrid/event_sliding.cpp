@@ -52,8 +52,10 @@ void EventSliding::end(std::size_t branch) const {
   const Switch& one = system_->switches[branch];
   throw RunEnd(
       Ending::sliding,
-      fmt::format("sliding along the border of the {} at {}: both branches lead back to it",
-                  one.kind == Switch::Kind::sign ? "sign" : "where", to_string(one.place)));
+      fmt::format(
+          "sliding along the border of the {} at {}: both branches lead back to it; a sign with a "
+          "width, clip(s/w, -1, 1), or a mode with two thresholds can be followed",
+          one.kind == Switch::Kind::sign ? "sign" : "where", to_string(one.place)));
 }
 
 }  // namespace gainsmith::hybrid

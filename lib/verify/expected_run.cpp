@@ -54,13 +54,16 @@ std::string said(const std::optional<double>& value) { return value ? brief(*val
 
 }  // namespace
 
-std::vector<FoundFigure> compared_figures(const model::Instance& instance,
-                                          const model::Gains& gains, std::uint64_t seed,
-                                          std::uint64_t run) {
+Comparison compared_figures(const model::Instance& instance, const model::Gains& gains,
+                            std::uint64_t seed, std::uint64_t run) {
   if (instance.design->compare.empty()) return {};
   TwoRuns runs(instance, gains, seed, run, {});
-  std::vector<FoundFigure> found;
-  for (const model::Figure& figure : instance.design->compare) found.push_back(runs.find(figure));
+  Comparison found;
+  for (const model::Figure& figure : instance.design->compare)
+    found.figures.push_back(runs.find(figure));
+  if (runs.ending() != hybrid::Ending::horizon)
+    found.early =
+        to_string(runs.ending()) + (runs.message().empty() ? std::string() : ": " + runs.message());
   return found;
 }
 

@@ -19,10 +19,14 @@ struct FoundFigure {
   double difference = 0;
 };
 
+struct Comparison {
+  std::vector<FoundFigure> figures;
+  std::string early;  ///< why the run ended before its horizon; empty where it did not
+};
+
 /// The figures under `compare`, of the run of this seed and number.
-std::vector<FoundFigure> compared_figures(const model::Instance& instance,
-                                          const model::Gains& gains, std::uint64_t seed,
-                                          std::uint64_t run);
+Comparison compared_figures(const model::Instance& instance, const model::Gains& gains,
+                            std::uint64_t seed, std::uint64_t run);
 
 struct RunDifferences {
   std::vector<std::string> different;  ///< place: figure: expected ..., found ...

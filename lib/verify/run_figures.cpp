@@ -20,6 +20,11 @@ using hybrid::Trajectory;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
+/// Whether a run says nothing of what would come after its end.
+bool ends_early(const Trajectory& run) {
+  return run.ending != hybrid::Ending::horizon && run.ending != hybrid::Ending::zeno;
+}
+
 /// Points of a part of a step at which a value is looked at before it is looked at more closely.
 constexpr int kLooks = 24;
 
@@ -54,14 +59,17 @@ std::optional<double> FigureOf::operator()(const Trajectory& run) {
       return finite(extreme(run, 1));
     case Kind::least:
       return finite(extreme(run, -1));
-    case Kind::settles:
-      return finite(settled(run));
+    case Kind::settles: {
+      const double time = settled(run);
+      return std::isinf(time) && ends_early(run) ? std::nullopt : finite(time);
+    }
     case Kind::rms:
       return finite(root_mean_square(run));
     case Kind::count:
     case Kind::passes:
     case Kind::lost:
-      return number_of(run);
+      // Of a chain without an end only some jumps are kept.
+      return run.ending == hybrid::Ending::stuck ? std::nullopt : std::optional(number_of(run));
     case Kind::ended:
       break;
   }
