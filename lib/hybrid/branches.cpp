@@ -62,11 +62,15 @@ void Branches::hold_kinks(VectorXd& values) {
 
 void Branches::hold_one(std::size_t k, VectorXd& values) {
   const Switch& one = system_->switches[k];
-  const Matrix& difference = watch_->switches[k](values);
+  EventBorder& border = watch_->switches[k];
+  const Matrix difference = border(values);
+  const bool kink = one.kind == Switch::Kind::kink;
+  const Matrix noise = kink ? Matrix(kTermRounding * border.terms(values)) : Matrix();
   for (Index e = 0; e < difference.size(); ++e) {
     double& held = values(offset(k) + e);
     const double d = difference(e);
-    if (one.kind == Switch::Kind::kink) {
+    if (kink && held != 0 && std::abs(d) <= noise(e)) continue;
+    if (kink) {
       held = d > 0 ? 1 : d < 0 ? -1 : held < 0 ? -1 : 1;
     } else if (one.kind == Switch::Kind::sign) {
       held = d > 0 ? 1 : d < 0 ? -1 : 0;
@@ -88,7 +92,7 @@ std::optional<Branches::Turn> Branches::first_turn(const StepValues& inside,
     for (Index e = 0; e < border.size(); ++e) {
       const double held = values(offset(k) + e);
       const StepRange range([&](const VectorXd& x) { return border(x)(e); }, look->three);
-      if (range.is_far_from_zero(held)) continue;
+      if (!border.waves() && range.is_far_from_zero(held)) continue;
       if (const auto turn = turn_of(k, e, held, *look); turn && (!first || turn->t < first->t))
         first = turn;
     }
@@ -113,7 +117,9 @@ std::optional<Branches::Turn> Branches::turn_of(std::size_t one, Index element, 
   };
   const auto on_side = (held * look.border->values().row(element).array()).eval();
   // No pair of roots hides between points of a D that is far from 0 at all of them.
-  if (on_side.minCoeff() > (on_side.maxCoeff() - on_side.minCoeff()) / kFar) return std::nullopt;
+  if (!watch_->switches[one].waves() &&
+      on_side.minCoeff() > (on_side.maxCoeff() - on_side.minCoeff()) / kFar)
+    return std::nullopt;
   const auto places_with = [&](const Found& found) {
     std::vector<double> places(times.begin(), times.end());
     for (std::size_t k = 0; k + 1 < found.roots.size(); ++k)

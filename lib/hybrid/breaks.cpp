@@ -21,7 +21,7 @@ using numbers::Matrix;
 
 namespace {
 
-constexpr std::size_t kMostBreaks = 256;
+constexpr std::size_t kMostBreaks = 2048;
 /// Of the terms of a difference: what it does below matters to nothing that is integrated.
 constexpr double kOfTerms = 1e-12;
 
@@ -146,6 +146,25 @@ void merge(std::vector<Break>& breaks, double from, double to) {
 
 }  // namespace
 
+bool may_wave(const Program& program) {
+  return std::any_of(program.code.begin(), program.code.end(), [](const Instruction& one) {
+    switch (one.op) {
+      case Op::sin:
+      case Op::cos:
+      case Op::tanh:
+      case Op::exp:
+      case Op::matrix_exponential:
+      case Op::mod:
+      case Op::floor:
+      case Op::atan2:
+      case Op::flow_map:
+        return true;
+      default:
+        return false;
+    }
+  });
+}
+
 Program absolute_terms(Program program) {
   program.result = TermSizes(program).of(program.result);
   return program;
@@ -158,8 +177,9 @@ Breaks::Breaks(const Program& program, const StateLayout& layout, const numbers:
     auto own = std::make_unique<const Program>(std::move(text.difference));
     PointFunction value(*own, layout, constants);
     PointFunction sizes(*terms, layout, constants);
-    texts_.push_back({std::move(own), std::move(terms), std::move(value), std::move(sizes),
-                      text.jumps, text.waves});
+    const bool waves = text.waves || may_wave(*own);
+    texts_.push_back(
+        {std::move(own), std::move(terms), std::move(value), std::move(sizes), text.jumps, waves});
   }
 }
 

@@ -23,7 +23,7 @@ class Breaks {
   bool none() const { return texts_.empty(); }
 
   /// In rising order, each once, on a step over which `x` is smooth. Where a difference has no
-  /// value nothing is found. Beyond some hundred breaks no more are looked for.
+  /// value nothing is found. Beyond two thousand breaks no more are looked for.
   /// `near` takes the places where a difference comes near 0, by a 50th of its largest size on the
   /// step, and turns back.
   std::vector<Break> on(const std::function<Eigen::VectorXd(double)>& x, double from, double to,
@@ -46,6 +46,10 @@ class Breaks {
 
   std::vector<Text> texts_;
 };
+
+/// Whether it may turn more often along a step than the variables do: sines, exponentials and the
+/// like of them. Then some of its values say nothing of those between them.
+bool may_wave(const expr::Program& program);
 
 /// The sum of the absolute values of the terms of a program, those of products with sums multiplied
 /// out: its rounding is that of its terms.

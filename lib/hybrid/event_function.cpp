@@ -43,6 +43,7 @@ const numbers::Matrix& EventFunction::operator()(const VectorXd& values) {
 
 EventBorder::EventBorder(const expr::Program& program, const EventSystem& system)
     : size_(program.shape().size()),
+      waves_(may_wave(program)),
       value_(program, system),
       terms_program_(std::make_unique<const expr::Program>(absolute_terms(program))),
       terms_(*terms_program_, system),

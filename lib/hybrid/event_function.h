@@ -54,10 +54,13 @@ class EventBorder {
   Breaks& breaks() { return breaks_; }
   bool rests() const { return value_.rests(); }
   bool is_line() const { return value_.is_line(); }
+  /// may_wave (breaks.h) of it.
+  bool waves() const { return waves_; }
   Eigen::Index size() const { return size_; }
 
  private:
   Eigen::Index size_;
+  bool waves_;
   EventFunction value_;
   std::unique_ptr<const expr::Program> terms_program_;
   EventFunction terms_;

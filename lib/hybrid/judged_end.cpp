@@ -106,7 +106,10 @@ bool is_zeno(const Trajectory& trajectory) {
   for (std::size_t k = lengths.size() - kLengths; k < lengths.size(); ++k)
     factors.push_back(lengths[k] / lengths[k - 1]);
   const auto [least, most] = std::minmax_element(factors.begin(), factors.end());
-  if (!(*most < 1 && *most - *least <= kSteady * *most)) return false;
+  // A length is a difference of two times.
+  const double rounding =
+      4 * time_rounding(trajectory.end, trajectory.end) / lengths[lengths.size() - 2];
+  if (!(*most < 1 && *most - *least <= kSteady * *most + rounding)) return false;
   const double rest = factors.back() / (1 - factors.back()) * lengths.back();
   return std::abs(trajectory.accumulation - trajectory.end - rest) <=
          0.1 * rest + time_rounding(trajectory.end, trajectory.accumulation);

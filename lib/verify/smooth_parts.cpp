@@ -18,6 +18,7 @@ constexpr std::array<int, 3> kDegrees = {4, 8, 16};
 constexpr int kDegree = kDegrees.back();
 constexpr std::array<double, 2> kChecks = {-0.617, 0.443};
 constexpr double kRounding = 1e-13;    ///< of its size
+constexpr double kBeside = 1e-11;      ///< of half a part
 constexpr double kVariable = 0x1p-48;  ///< of a variable
 constexpr int kLookAtOne = kDegree + 1 + static_cast<int>(kChecks.size());
 /// Evaluations on one step, after which a text that no polynomial agrees with is left as it is.
@@ -87,7 +88,9 @@ class Halving {
 
   double at(SmoothPart& part, double x) {
     ++evaluations_;
-    const double t = chebyshev::outer(x, part.from, part.to);
+    // At a border itself a sign may be 0, beside it never.
+    const double inside = std::clamp(x, -1 + kBeside, 1 - kBeside);
+    const double t = chebyshev::outer(inside, part.from, part.to);
     const double value = value_.number(step_(t));
     if (!std::isfinite(value) && !part.undefined) part.undefined = t;
     return value;
