@@ -210,7 +210,8 @@ TEST(Borders, AFlightThatDrownsInTheNoiseOfAStepEndsInTime) {
     problem.state("n", {}, "0").when("hit", "x <= 0 and v < 0");
     problem.jump("hit", {{"x", "n*1e5"}, {"v", brief(v, 17) + "*(1 - n)"}, {"n", "1"}});
     const EventSystem system = problem.system();
-    const Trajectory run = EventSimulator(system, make_event_scenario(4, system)).run(1, 0);
+    const EventScenario scenario = make_event_scenario(4, system);
+    const Trajectory run = EventSimulator(system, scenario).run(1, 0);
     const auto jumps = tests::jumps_of(run);
     ASSERT_EQ(jumps.size(), 2U) << v;
     EXPECT_NEAR(jumps[1].t - jumps[0].t, 2 * v / 9.81, 2e-13 + 1e-6 * v) << v;

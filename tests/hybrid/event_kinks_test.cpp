@@ -5,6 +5,7 @@
 #include <numbers>
 #include <random>
 
+#include "base/number.h"
 #include "hybrid/dynamics_text.h"
 #include "hybrid/event_problem.h"
 #include "hybrid/event_run.h"
@@ -165,6 +166,36 @@ TEST(EventKinks, RandomPiecewiseFlows) {
     for (int k = 1; k < kPoints; ++k) sum += f(6.0 * k / kPoints);
     EXPECT_NEAR(judged.at("y", 6), sum * 6 / kPoints, 1e-7) << a << " " << b << " " << c;
   }
+}
+
+// At the border the state rounds to either side of it.
+TEST(EventKinks, AnExactFlowPassesOne) {
+  for (const double at : {0.1, 0.5, 0.7, 0.9, 1.3}) {
+    EventProblem problem;
+    const std::string border = brief(at, 17);
+    problem.state("x", {}, "0").flow("x", "1 - 3*max(x - " + border + ", 0)");
+    const EventSystem system = problem.system();
+    const EventScenario scenario = make_event_scenario(3, system);
+    const Trajectory run = EventSimulator(system, scenario).run(1, 0);
+    ASSERT_EQ(run.ending, Ending::horizon) << at << " " << run.message;
+    const double x = at + (1 - std::exp(-3 * (3 - at))) / 3;
+    EXPECT_NEAR(value_at(system, run, "x", 3)(0), x, 1e-14) << at;
+  }
+}
+
+// Six periods a step of a clock: the values at its ends and middle say nothing.
+TEST(EventKinks, TextsThatWaveWithinAStepTurnEachTime) {
+  EventProblem problem;
+  problem.state("x", {}, "0").flow("x", "1");
+  problem.state("y", {}, "0").flow("y", "where(sin(20*pi*x) > 0.5, 1, 0)");
+  problem.state("z", {}, "0").flow("z", "max(sin(20*pi*x), 0.5)");
+  const EventSystem system = problem.system();
+  const EventScenario scenario = make_event_scenario(10, system);
+  const Trajectory run = EventSimulator(system, scenario).run(1, 0);
+  ASSERT_EQ(run.ending, Ending::horizon) << run.message;
+  EXPECT_NEAR(value_at(system, run, "y", 10)(0), 10.0 / 3, 1e-9);
+  const double mean = 0.5 * 2 / 3 + std::sqrt(3.0) / (2 * std::numbers::pi);
+  EXPECT_NEAR(value_at(system, run, "z", 10)(0), 10 * mean, 1e-6);
 }
 
 }  // namespace

@@ -62,6 +62,8 @@ TEST_F(Measures, FollowTextsThatAreFasterThanTheSteps) {
   EXPECT_NEAR(mean(rms, 1).value(), std::sqrt((1.5 - std::sin(360.0) / 240) / 3), 1e-9);
   const YamlProblem peak(decay("{peak: sin(60*t) + 0.1*cos(t)}"));
   EXPECT_NEAR(mean(peak, 1).value(), 1 + 0.1 * std::cos(std::numbers::pi / 120), 1e-9);
+  const YamlProblem sign(decay("{rms: sign(sin(7*t)), over: [0, 3]}"));
+  EXPECT_NEAR(mean(sign, 1).value(), 1, 1e-9);
   const YamlProblem settles(decay("{settles: sin(60*t), below: 0.5}"));
   // The last t <= 3 with sin(60 t) = 1/2 on the way down, 60 t = 5 pi/6 + 56 pi.
   EXPECT_NEAR(mean(settles, 1).value(), (5.0 / 6 + 56) * std::numbers::pi / 60, 1e-9);
