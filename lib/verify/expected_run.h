@@ -21,7 +21,7 @@ struct FoundFigure {
 
 struct Comparison {
   std::vector<FoundFigure> figures;
-  std::string early;  ///< why the run ended before its horizon; empty where it did not
+  std::string early;  ///< why the run ended before its horizon; empty where it did not, or by zeno
 };
 
 /// The figures under `compare`, of the run of this seed and number.

@@ -123,7 +123,8 @@ class Rises {
   }
 
   const std::vector<double>& end() {
-    if (top_ - low_ > noise_ * size_ + drowned_ && size_ > floor_)
+    constexpr double kPlain = 4;  // two series that meet are both off
+    if (top_at_ > low_at_ && top_ - low_ > noise_ * size_ + kPlain * drowned_ && size_ > floor_)
       times_.insert(times_.end(), {low_at_, top_at_});
     top_ = low_;
     return times_;

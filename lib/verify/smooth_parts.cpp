@@ -45,7 +45,6 @@ class Halving {
  private:
   /// Makes its series; whether that is the value, or there is none.
   bool is_known(SmoothPart& part) {
-    part.noise = noise_;
     std::array<double, kDegree + 1> values{};
     std::array<double, kChecks.size()> checks{};
     for (std::size_t k = 0; k < kChecks.size(); ++k) checks[k] = at(part, kChecks[k]);
@@ -62,6 +61,7 @@ class Halving {
       part.series = chebyshev::coefficients(seen);
       const double tolerance = agreement_ * (seen.maxCoeff() - seen.minCoeff()) +
                                kRounding * seen.cwiseAbs().maxCoeff() + noise_;
+      part.noise = tolerance;
       bool agrees = part.series.tail(2).cwiseAbs().sum() <= tolerance;
       for (std::size_t k = 0; k < kChecks.size(); ++k)
         agrees =

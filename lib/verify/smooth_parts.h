@@ -22,7 +22,7 @@ struct SmoothPart {
   bool before_jump = false;  ///< just after it
   /// The value on [from, to] as a sum of Chebyshev polynomials (hybrid/chebyshev.h).
   Eigen::RowVectorXd series{};
-  double noise = 0;  ///< of the value, by the rounding of the variables
+  double noise = 0;  ///< how far the series may be off: to what it agrees, and rounding
   /// A time at which the value is no number; then there is no series.
   std::optional<double> undefined{};
 

@@ -46,7 +46,7 @@ TEST(EventDraws, AnEllipsoidIsFilledEvenly) {
                   "campaign: {horizon: 1, initial: {x: {ellipsoid: {center: [1, 2, 3], matrix: Q, "
                   "level: 2}}, z: 0}}\n"),
       {});
-  const numbers::Matrix Q{{4, 1, 0}, {1, 2, 0.5}, {0, 0.5, 1}};
+  const Eigen::Matrix3d Q{{4, 1, 0}, {1, 2, 0.5}, {0, 0.5, 1}};
   const Eigen::Vector3d center(1, 2, 3);
   constexpr int kRuns = 20000;
   std::vector<double> shares;
