@@ -131,7 +131,6 @@ report::Curve claimed(const EventReplay& replay, std::size_t column) {
 report::Curve bound_of(const EventReplay& replay, const report::Curve& claim,
                        const verify::ClaimScope& scope) {
   report::Curve line;
-  if (scope.after >= replay.run.end) return line;
   line.t = {scope.after, replay.run.end};
   line.value = {*scope.bound, *scope.bound};
   line.dashed = true;
@@ -172,7 +171,8 @@ void add_claims(const EventReplay& replay, report::Figure& figure) {
                          std::count_if(panel.curves.begin(), panel.curves.end(),
                                        [](const report::Curve& curve) { return !curve.dashed; }));
     panel.curves.push_back(std::move(one));
-    if (scope.bound && (negative || *scope.bound > 0))
+    const bool is_made = scope.after < replay.run.end;
+    if (scope.bound && is_made && (negative || *scope.bound > 0))
       panel.curves.push_back(bound_of(replay, panel.curves.back(), scope));
   }
   sizes.logarithmic = is_wide(sizes);

@@ -113,8 +113,7 @@ ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& load
                   to_string(replay.run.ending)));
   if (!replay.run.message.empty()) say("  " + replay.run.message + "\n");
   for (const std::string& note : replay.run.notes) say("  " + note + "\n");
-  const hybrid::Ending ending = replay.run.ending;
-  say_claims(replay.claims, ending != hybrid::Ending::horizon && ending != hybrid::Ending::zeno);
+  say_claims(replay.claims, !is_complete(replay.run.ending));
   if (!options.judge) return ExitCode::yes;
   for (const hybrid::Fault& fault : replay.faults)
     say(fmt::format("  judged: t = {}: {} ({} > {})\n", brief(fault.t), fault.what,

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop.h"
+
 namespace gainsmith {
 
 namespace {
@@ -42,6 +44,7 @@ struct Loop {
   const unsigned depth;
   const unsigned limit;
   const bool serial;  ///< all on the caller
+  Allowance* const allowance = AllowanceOfLoop::current();
   Team* team = nullptr;
   std::atomic<std::size_t> next = 0;
 
@@ -129,6 +132,7 @@ class Team {
   /// Takes items until there are none.
   void work(Loop& loop) {
     Loop* const before = std::exchange(running, &loop);
+    const AllowanceOfLoop here(loop.allowance);
     for (std::size_t i = loop.next++; i < loop.count; i = loop.next++) {
       try {
         loop.body(i);

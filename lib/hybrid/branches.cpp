@@ -120,15 +120,11 @@ std::optional<Branches::Turn> Branches::turn_of(std::size_t one, Index element, 
   if (!watch_->switches[one].waves() &&
       on_side.minCoeff() > (on_side.maxCoeff() - on_side.minCoeff()) / kFar)
     return std::nullopt;
-  const auto places_with = [&](const Found& found) {
-    std::vector<double> places(times.begin(), times.end());
-    for (std::size_t k = 0; k + 1 < found.roots.size(); ++k)
-      places.push_back((found.roots[k].right + found.roots[k + 1].left) / 2);
-    std::sort(places.begin(), places.end());
-    return places;
-  };
   Found found = look.border->roots(element, held < 0);
-  std::vector<double> places = places_with(found);
+  std::vector<double> places(times.begin(), times.end());
+  for (std::size_t k = 0; k + 1 < found.roots.size(); ++k)
+    places.push_back((found.roots[k].right + found.roots[k + 1].left) / 2);
+  std::sort(places.begin(), places.end());
   const auto there = std::find_if(places.begin(), places.end(), beyond);
   if (there == places.end()) return std::nullopt;
   const double to = value(*there) > 0 ? 1 : -1;

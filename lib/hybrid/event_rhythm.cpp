@@ -10,7 +10,7 @@ namespace {
 constexpr std::size_t kLongestPeriod = 3;
 constexpr std::size_t kRatios = 12;
 constexpr std::size_t kFewestRatios = 4;
-constexpr double kManyPowers = 1e-6;
+constexpr double kManyPowers = 1e-6;  ///< of a length, that fewer ratios have to make
 constexpr std::size_t kKept = 101;
 constexpr double kSteadyFactor = 3e-3;      ///< of 1 - r
 constexpr double kSlowSteadyFactor = 0.02;  ///< of 1 - r^50
@@ -71,7 +71,6 @@ std::optional<double> EventRhythm::steady_rest(std::size_t period, std::size_t r
   if (!(largest < 1) || largest - smallest > kSteadyFactor * (1 - largest)) return std::nullopt;
   // The last ratio errs by rounding most: the mean over all of them.
   const std::size_t turns = ratios / period;
-  if (turns == 0) return std::nullopt;
   const double all = lengths_.back() / lengths_[lengths_.size() - 1 - turns * period];
   if (ratios < kRatios && all > kManyPowers) return std::nullopt;
   const double r = std::pow(all, 1 / static_cast<double>(turns));

@@ -243,8 +243,8 @@ class EventRun {
     if (rows_.arrive(t_, values_) || drawn) branches_.hold(values_);
   }
 
-  /// Goes along a step up to where something happens. A turn at its start that comes back without
-  /// an end is none of a kink, which does not matter then, and of others a flow along the border.
+  /// Goes along a step up to where something happens. A kink that turns at its start again and
+  /// again does not matter.
   Went take(const DenseStep& whole) {
     const auto turn = branches_.first_turn(StepValues(movement_, values_, whole), values_);
     const bool back = turn && turn->t == whole.from;

@@ -30,8 +30,8 @@ class EventSliding {
   void switched(std::size_t branch, double t, const Eigen::VectorXd& values);
 
  private:
-  [[noreturn]] void end(std::size_t branch) const;
   bool is_noise(const Eigen::VectorXd& values);
+  [[noreturn]] void end(std::size_t branch) const;
 
   const EventSystem* system_;
   EventWatch* watch_;

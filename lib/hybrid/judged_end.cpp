@@ -18,6 +18,7 @@ constexpr double kLarge = 1e6;         ///< times the start: has escaped
 constexpr double kAtOnce = 1e-9;       ///< of a time
 constexpr std::size_t kLengths = 4;    ///< that must shrink by one factor
 constexpr double kSteady = 0.02;       ///< a factor may change by that
+constexpr double kOfRest = 0.25;       ///< how far an accumulation may be off
 constexpr double kSmallSteady = 3e-3;  ///< of 1 - factor: what small factors may change by
 constexpr std::size_t kShort = 8;      ///< flows of a chattering run
 constexpr double kShortLength = 1e-3;  ///< of the time until then
@@ -111,7 +112,7 @@ bool is_zeno(const Trajectory& trajectory) {
   if (!(*most < 1 && *most - *least <= steady)) return false;
   const double rest = factors.back() / (1 - factors.back()) * lengths.back();
   return std::abs(trajectory.accumulation - trajectory.end - rest) <=
-         0.1 * rest + time_rounding(trajectory.end, trajectory.accumulation);
+         kOfRest * rest + time_rounding(trajectory.end, trajectory.accumulation);
 }
 
 bool is_chattering(const Trajectory& trajectory) {

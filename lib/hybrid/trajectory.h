@@ -29,6 +29,11 @@ enum class Ending {
 };
 std::string to_string(Ending ending);
 
+/// Whether a run that ends so says all that there is: its horizon, or where jumps accumulate.
+constexpr bool is_complete(Ending ending) {
+  return ending == Ending::horizon || ending == Ending::zeno;
+}
+
 /// The variables over one step of a flow: sums of Chebyshev polynomials of the time, exact at both
 /// ends up to rounding.
 struct DenseStep {

@@ -151,8 +151,13 @@ void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPi
 /// A rise within the noise of a run is never certain.
 RiseLimits EventTracks::limits_of_rises(const VectorXd& start, double accuracy) {
   RiseLimits limits;
-  limits.noise = setup_->system.affine ? 1e-13 : 1e-3 * accuracy;
-  limits.agreement = setup_->system.affine ? 1e-10 : 10 * accuracy;
+  constexpr double kRounding = 1e-13;
+  constexpr double kOfAccuracy = 1e-3;
+  constexpr double kExactAgreement = 1e-10;
+  constexpr double kAgreement = 10;  // times the accuracy
+  const bool exact = setup_->system.affine;
+  limits.noise = exact ? kRounding : kOfAccuracy * accuracy;
+  limits.agreement = exact ? kExactAgreement : kAgreement * accuracy;
   limits.floor = VectorXd::Zero(static_cast<Index>(functions_.size()));
   for (const FlowLooks::Falling& one : setup_->looks.falling)
     if (one.after == 0)
@@ -218,7 +223,7 @@ void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory
   track_.message = fine.message;
   const bool same = coarse.ending == fine.ending && coarse.parts.size() == fine.parts.size() &&
                     std::abs(coarse.end - fine.end) <= kSame * fine.end;
-  const bool complete = fine.ending == Ending::horizon || fine.ending == Ending::zeno;
+  const bool complete = is_complete(fine.ending);
   const bool breaks = fine.ending == Ending::escaped || fine.ending == Ending::undefined ||
                       fine.ending == Ending::stuck;
   if (same && complete) {

@@ -61,7 +61,7 @@ Comparison compared_figures(const model::Instance& instance, const model::Gains&
   Comparison found;
   for (const model::Figure& figure : instance.design->compare)
     found.figures.push_back(runs.find(figure));
-  if (runs.ending() != hybrid::Ending::horizon && runs.ending() != hybrid::Ending::zeno)
+  if (!is_complete(runs.ending()))
     found.early =
         to_string(runs.ending()) + (runs.message().empty() ? std::string() : ": " + runs.message());
   return found;

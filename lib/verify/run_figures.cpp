@@ -20,11 +20,6 @@ using hybrid::Trajectory;
 
 constexpr double kUnbounded = std::numeric_limits<double>::infinity();
 
-/// Whether a run says nothing of what would come after its end.
-bool ends_early(const Trajectory& run) {
-  return run.ending != hybrid::Ending::horizon && run.ending != hybrid::Ending::zeno;
-}
-
 /// Points of a part of a step at which a value is looked at before it is looked at more closely.
 constexpr int kLooks = 24;
 
@@ -61,7 +56,7 @@ std::optional<double> FigureOf::operator()(const Trajectory& run) {
       return finite(extreme(run, -1));
     case Kind::settles: {
       const double time = settled(run);
-      return std::isinf(time) && ends_early(run) ? std::nullopt : finite(time);
+      return std::isinf(time) && !is_complete(run.ending) ? std::nullopt : finite(time);
     }
     case Kind::rms:
       return finite(root_mean_square(run));

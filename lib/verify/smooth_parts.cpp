@@ -71,9 +71,16 @@ class Halving {
     return false;
   }
 
-  /// What the rounding of the variables makes of the value, in some directions.
+  /// What the rounding of the variables makes of the value: at one of two places, as a place on a
+  /// border shows the jump across it.
   double noise() {
-    const Eigen::VectorXd x = step_(step_.from);
+    return std::fmin(noise_at(chebyshev::outer(kChecks[0], step_.from, step_.to)),
+                     noise_at(chebyshev::outer(kChecks[1], step_.from, step_.to)));
+  }
+
+  /// In some directions.
+  double noise_at(double t) {
+    const Eigen::VectorXd x = step_(t);
     const Eigen::VectorXd sizes = step_.coefficients.cwiseAbs().rowwise().sum();
     const double value = value_.number(x);
     double result = 0;

@@ -94,6 +94,7 @@ INSTANTIATE_TEST_SUITE_P(
         Case{"above: sin(60*t) - 0.1*t, bound: -1.29", CampaignVerdict::violated},
         Case{"above: sin(60*t) - 0.1*t, bound: -1.3", CampaignVerdict::held},
         Case{"nonincreasing: sin(60*x) - 59.9*x", CampaignVerdict::violated},
+        Case{"below: sign(x)*(1 + sin(20*t)), bound: 1.999", CampaignVerdict::violated},
         Case{"below: \"where(sin(60*x) > 0.9, 1, 0)\", bound: 0.5", CampaignVerdict::violated},
         Case{"nonincreasing: \"where(sin(134*x) > 0.9, 1, 0) - x\"", CampaignVerdict::violated},
         Case{"nonincreasing: sin(60*t) - 60.1*t", CampaignVerdict::held}));
