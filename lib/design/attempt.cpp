@@ -111,8 +111,7 @@ class Interior {
     const lmi::Exactly exactly = [this](std::size_t k, const lmi::Balance& balance,
                                         const std::vector<int>& kept) {
       if (!exact_) exact_.emplace(posed_.inequalities, balance);
-      return lmi::rounded(exact_->block(posed_.lmi.blocks[k], k, kept),
-                          static_cast<int>(kept.size()));
+      return lmi::rounded(exact_->block(posed_.lmi.blocks[k], k, kept));
     };
     Solved result;
     result.formulation = lmi::formulate_interior(posed_.lmi, asked_.bounds, round,
@@ -163,7 +162,7 @@ lmi::Refutation refutation_of(const Posed& posed, const Question& asked,
   // With more of a margin than this no certificate is near.
   constexpr double kNear = 1e-6;
   if (found.exact || !posed.wide || lmi::interior_margin(solved.solution) > kNear) return found;
-  const auto polished = lmi::refute_polished(posed.inequalities, posed.lmi, formulation, Y);
+  const auto polished = lmi::refute_polished(posed.inequalities, posed.lmi, formulation, solved.solution);
   if (polished.exact || polished.omega <= lmi::kNothing) return polished;
   // What 31 digits see is not of the data's making when 100 are asked for.
   if (asked.effort.precision == "auto") return found;

@@ -1,5 +1,6 @@
 #include "lmi/exact.h"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 #include <type_traits>
@@ -15,15 +16,45 @@ namespace {
 using numbers::Enclosed;
 using numbers::EnclosedValues;
 
-/// Element (i, j) times the exact power of two `factor(i, j)`.
+/// (B + B')/2 in the units of a balance, at the rows `kept`.
 template <class S, class Factor>
-void scale(Enclosed<S>& matrix, Factor factor) {
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      const double by = factor(static_cast<int>(i), static_cast<int>(j));
-      matrix.mid(i, j) = matrix.mid(i, j) * S(by);
-      matrix.rad(i, j) = matrix.rad(i, j) * by;
+ExactElements<S> symmetric_part(const ExactElements<S>& elements, const std::vector<int>& place,
+                                const Factor& factor) {
+  ExactElements<S> result;
+  const auto at = [](int row, int column) {
+    return [=](const ExactElement<S>& e) {
+      return e.column != column ? e.column < column : e.row < row;
+    };
+  };
+  const auto add = [&](int row, int column, const S& mid, double rad) {
+    const int r = place[static_cast<std::size_t>(row)], c = place[static_cast<std::size_t>(column)];
+    if (r < 0 || c < 0) return;
+    const double by = factor(row, column);
+    result.push_back({r, c, mid * S(by), rad * by});
+  };
+  for (const ExactElement<S>& e : elements) {
+    if (e.row == e.column) {
+      add(e.row, e.column, e.mid, e.rad);
+      continue;
     }
+    const auto mirror = std::partition_point(elements.begin(), elements.end(), at(e.column, e.row));
+    const bool paired =
+        mirror != elements.end() && mirror->row == e.column && mirror->column == e.row;
+    if (paired && mirror->mid == e.mid && mirror->rad == e.rad) {
+      add(e.row, e.column, e.mid, e.rad);
+    } else if (!paired || e.row < e.column) {
+      const numbers::Ball<S> twice = paired ? e.ball() + mirror->ball() : e.ball();
+      if (twice.is_zero()) continue;
+      const S mid = twice.mid / S(2);
+      const double rad = twice.rad / 2 + numbers::kTiny;
+      add(e.row, e.column, mid, rad);
+      add(e.column, e.row, mid, rad);
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
+    return a.column != b.column ? a.column < b.column : a.row < b.row;
+  });
+  return result;
 }
 
 }  // namespace
@@ -58,57 +89,57 @@ ExactBlock<S> ExactBlocks<S>::block(const Block& block, std::size_t at,
                                     const std::vector<int>& kept) const {
   const Statement& statement = of_.statements[block.inequality];
   const expr::Program& program = statement.differences[block.comparison];
-  EnclosedValues<S> values = values_at(block);
-  for (const Unknown& unknown : of_.unknowns.list())
-    values[unknown.name] =
-        numbers::exactly<S>(numbers::MatrixOf<S>::Zero(unknown.shape.rows, unknown.shape.cols));
-  expr::Evaluator<numbers::Enclosure<S>> evaluator(program);
+  const EnclosedValues<S> values = values_at(block);
+  std::vector<ExactForm<S>> inputs;
   for (const expr::Input& input : program.inputs) {
-    const bool moves = of_.unknowns.find(input.name) != nullptr;
-    if (moves)
-      evaluator.set(input.name, values.at(input.name));
-    else
-      evaluator.fix(input.name, values.at(input.name));
+    const Unknown* unknown = of_.unknowns.find(input.name);
+    inputs.push_back(unknown != nullptr ? exact_unknown<S>(*unknown)
+                                        : exact_constant<S>(values.at(input.name)));
   }
+  expr::Evaluator<ExactAlgebra<S>> evaluator(program);
+  for (std::size_t k = 0; k < inputs.size(); ++k) evaluator.fix(program.inputs[k].name, inputs[k]);
+  const ExactForm<S>& form = evaluator.run();
+  std::vector<int> place(static_cast<std::size_t>(block.size), -1);
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    place[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
   ExactBlock<S> result;
-  const Enclosed<S> constant = numbers::symmetric_part(evaluator.run());
-  const auto add = [&](int i, Enclosed<S> matrix) {
-    if (matrix.is_zero()) return;
-    scale(matrix, [&](int r, int c) { return balance_.factor(at, r, c, i); });
-    Enclosed<S> part{matrix.mid(kept, kept), matrix.rad(kept, kept)};
-    if (!part.is_zero()) result.terms.emplace_back(i, std::move(part));
-  };
-  add(0, constant);
-  for (const Unknown& unknown : of_.unknowns.list()) {
-    if (program.input(unknown.name) < 0) continue;
-    Enclosed<S>& value = values.at(unknown.name);
-    for (int k = 0; k < unknown.count; ++k) {
-      for (const auto& [row, column] : unknown.places(k)) value.mid(row, column) = S(1);
-      add(unknown.first + k,
-          numbers::difference(numbers::symmetric_part(evaluator.run()), constant));
-      for (const auto& [row, column] : unknown.places(k)) value.mid(row, column) = S(0);
-    }
+  result.size = static_cast<int>(kept.size());
+  for (const auto& [i, elements] : terms_of(form)) {
+    ExactElements<S> part = symmetric_part(
+        elements, place, [&, i = i](int r, int c) { return balance_.factor(at, r, c, i); });
+    if (!part.empty()) result.terms.emplace_back(i, std::move(part));
   }
   return result;
 }
 
 template <class S>
-BalancedBlock rounded(const ExactBlock<S>& block, int size) {
-  BalancedBlock result{size, {}, {}};
-  for (const auto& [i, matrix] : block.terms)
-    for (int c = 0; c < size; ++c)
-      for (int r = 0; r <= c; ++r) {
-        const auto value = as<DoubleDouble>(matrix.mid(r, c));
-        if (value.hi() == 0) continue;
-        result.elements.push_back({i, r, c, value.hi(), value.lo()});
-        if constexpr (std::is_same_v<S, Decimal100>)
-          result.finer.push_back(finer_part(matrix.mid(r, c)));
-      }
+numbers::Enclosed<S> dense(const ExactElements<S>& elements, int size) {
+  numbers::Enclosed<S> result = numbers::exactly<S>(numbers::MatrixOf<S>::Zero(size, size));
+  for (const ExactElement<S>& e : elements) {
+    result.mid(e.row, e.column) = e.mid;
+    result.rad(e.row, e.column) = e.rad;
+  }
   return result;
 }
 
-template BalancedBlock rounded(const ExactBlock<DoubleDouble>&, int);
-template BalancedBlock rounded(const ExactBlock<Decimal100>&, int);
+template <class S>
+BalancedBlock rounded(const ExactBlock<S>& block) {
+  BalancedBlock result{block.size, {}, {}};
+  for (const auto& [i, elements] : block.terms)
+    for (const ExactElement<S>& e : elements) {
+      if (e.row > e.column) continue;
+      const auto value = as<DoubleDouble>(e.mid);
+      if (value.hi() == 0) continue;
+      result.elements.push_back({i, e.row, e.column, value.hi(), value.lo()});
+      if constexpr (std::is_same_v<S, Decimal100>) result.finer.push_back(finer_part(e.mid));
+    }
+  return result;
+}
+
+template numbers::Enclosed<DoubleDouble> dense(const ExactElements<DoubleDouble>&, int);
+template numbers::Enclosed<Decimal100> dense(const ExactElements<Decimal100>&, int);
+template BalancedBlock rounded(const ExactBlock<DoubleDouble>&);
+template BalancedBlock rounded(const ExactBlock<Decimal100>&);
 
 template class ExactBlocks<DoubleDouble>;
 template class ExactBlocks<Decimal100>;

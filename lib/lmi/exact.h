@@ -8,20 +8,27 @@
 
 #include "lmi/assembler.h"
 #include "lmi/balance.h"
+#include "lmi/exact_form.h"
 #include "lmi/inequalities.h"
 #include "numbers/enclosure.h"
 
 namespace gainsmith::lmi {
 
 /// B_ki with bounds of their errors, in the units of a balance: i = 0 is the constant part, and
-/// unknowns that do not stand in it have no entry.
+/// unknowns that do not stand in it have no entry. Both triangles are there, element for element
+/// the same.
 template <class S>
 struct ExactBlock {
-  std::vector<std::pair<int, numbers::Enclosed<S>>> terms;
+  int size = 0;
+  std::vector<std::pair<int, ExactElements<S>>> terms;
 };
 
-/// Evaluates the inequality of a block with `where` at x = 0 and at each unit vector: B_ki =
-/// B_k(e_i) - B_k(0). EvaluationError when an operation has no result there.
+/// B_ki as a dense matrix.
+template <class S>
+numbers::Enclosed<S> dense(const ExactElements<S>& elements, int size);
+
+/// Evaluates the inequality of a block with `where` as an exact affine form. EvaluationError when
+/// an operation has no result there.
 template <class S>
 class ExactBlocks {
  public:
@@ -40,6 +47,6 @@ class ExactBlocks {
 
 /// Its coefficients, in 31 digits or in all of them.
 template <class S>
-BalancedBlock rounded(const ExactBlock<S>& block, int size);
+BalancedBlock rounded(const ExactBlock<S>& block);
 
 }  // namespace gainsmith::lmi

@@ -11,7 +11,7 @@ namespace gainsmith::lmi {
 namespace {
 
 using numbers::RationalMatrix;
-using Wide = numbers::MatrixOf<DoubleDouble>;
+using Quad = numbers::MatrixOf<DoubleDouble>;
 
 Rational fraction_of(const DoubleDouble& x) { return Rational(x.hi()) + Rational(x.lo()); }
 
@@ -23,7 +23,7 @@ Rational power_of_two(int exponent) {
 double size_of(const DoubleDouble& x) { return std::abs(x.hi()); }
 
 /// The rows with pivots of at least `least`, the largest first.
-std::vector<int> pivots_of(Wide Y, double least) {
+std::vector<int> pivots_of(Quad Y, double least) {
   std::vector<int> pivots;
   for (Eigen::Index k = 0; k < Y.rows(); ++k) {
     Eigen::Index best = 0;
@@ -31,7 +31,7 @@ std::vector<int> pivots_of(Wide Y, double least) {
       if (Y(i, i) > Y(best, best)) best = i;
     if (!(Y(best, best) > DoubleDouble(0)) || Y(best, best).hi() < least) break;
     pivots.push_back(static_cast<int>(best));
-    const Wide column = Y.col(best) / Y(best, best);
+    const Quad column = Y.col(best) / Y(best, best);
     Y -= (column * Y.row(best)).eval();
     // Rounding must not make it a pivot again.
     Y.row(best).setConstant(DoubleDouble(0));
@@ -42,7 +42,7 @@ std::vector<int> pivots_of(Wide Y, double least) {
 }
 
 /// X with X A = B, by elimination; A is positive definite.
-Wide right_quotient(Wide A, Wide B) {
+Quad right_quotient(Quad A, Quad B) {
   const Eigen::Index n = A.rows();
   for (Eigen::Index k = 0; k < n; ++k)
     for (Eigen::Index j = 0; j < n; ++j) {
@@ -56,10 +56,10 @@ Wide right_quotient(Wide A, Wide B) {
 }
 
 /// V in the units of the data; none where an element is no short fraction within `relative`.
-std::optional<RationalMatrix> basis_of(const Wide& Y, const std::vector<int>& units,
+std::optional<RationalMatrix> basis_of(const Quad& Y, const std::vector<int>& units,
                                        const std::vector<int>& pivots, double relative) {
   const auto n = static_cast<int>(Y.rows());
-  const Wide C = right_quotient(Y(pivots, pivots), Y(Eigen::all, pivots));
+  const Quad C = right_quotient(Y(pivots, pivots), Y(Eigen::all, pivots));
   RationalMatrix V = RationalMatrix::Constant(n, std::ssize(pivots), Rational(0));
   for (int i = 0; i < n; ++i)
     for (std::size_t p = 0; p < pivots.size(); ++p) {
@@ -81,7 +81,7 @@ std::optional<RationalMatrix> basis_of(const Wide& Y, const std::vector<int>& un
   return V;
 }
 
-RationalMatrix start_of(const Wide& Y, const std::vector<int>& units,
+RationalMatrix start_of(const Quad& Y, const std::vector<int>& units,
                         const std::vector<int>& pivots) {
   const auto n = static_cast<Eigen::Index>(pivots.size());
   RationalMatrix S(n, n);

@@ -9,24 +9,17 @@
 #include <vector>
 
 #include "base/eigen_scalars.h"
+#include "lmi/wide_algebra.h"
 
 namespace gainsmith::lmi {
 
 namespace {
 
 using Eigen::Index;
-using Wide = numbers::MatrixOf<Decimal100>;
 using numbers::times;
 
 constexpr double kSettled = 1e-78;  // of W_i; far above the rounding of 100 digits
 constexpr double kEnough = 1e-72;   // where steps lead no further
-
-template <class S>
-numbers::MatrixOf<S> narrow(const Wide& matrix) {
-  return matrix.unaryExpr([](const Decimal100& x) { return as<S>(x); });
-}
-
-double size_of(const Decimal100& x) { return std::abs(as<double>(x)); }
 
 /// r_i and its scale W_i = sum |B_ki|_ab sqrt(Y_aa Y_bb), which does not vanish where elements of Y
 /// have to.
@@ -40,12 +33,12 @@ struct Residuals {
     const Index n = Y.rows();
     numbers::Vector size(n);
     for (Index a = 0; a < n; ++a) size[a] = std::sqrt(size_of(Y(a, a)));
-    for (const auto& [i, B] : block.terms) {
+    for (const auto& [i, elements] : block.terms) {
       const auto at = static_cast<std::size_t>(i);
-      for (Index e = 0; e < B.mid.size(); ++e) {
-        if (B.mid(e) == 0) continue;
-        r[at] += B.mid(e) * Y(e);
-        W[at] += size_of(B.mid(e)) * size[e % n] * size[e / n];
+      spend(static_cast<double>(elements.size()) * kWideWork);
+      for (const auto& e : elements) {
+        r[at] += e.mid * Y(e.row, e.column);
+        W[at] += size_of(e.mid) * size[e.row] * size[e.column];
       }
     }
   }
@@ -70,6 +63,7 @@ std::vector<S> solve(const numbers::MatrixOf<S>& G, const std::vector<S>& r) {
   std::vector<bool> kept(static_cast<std::size_t>(m), false);
   const auto is_kept = [&](Index i) { return kept[static_cast<std::size_t>(i)]; };
   for (Index j = 0; j < m; ++j) {
+    spend(static_cast<double>((m - j) * j) * work_of<S>());
     S pivot = G(j, j);
     for (Index k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
     if (!(pivot > S(kDependent))) continue;
@@ -108,9 +102,15 @@ numbers::MatrixOf<S> gram(const std::vector<FactoredMultiplier>& multipliers, in
   for (const FactoredMultiplier& one : multipliers) {
     const numbers::MatrixOf<S> L = narrow<S>(one.L);
     std::vector<numbers::MatrixOf<S>> moved;
-    for (const auto& [i, matrix] : one.block->terms)
-      moved.push_back(times<S>(narrow<S>(matrix.mid), L));
-    for (std::size_t a = 0; a < moved.size(); ++a)
+    for (const auto& [i, elements] : one.block->terms) {
+      numbers::MatrixOf<S> product =
+          numbers::MatrixOf<S>::Constant(L.rows(), L.cols(), S(0));
+      for (const auto& e : elements) product.row(e.row) += as<S>(e.mid) * L.row(e.column);
+      moved.push_back(std::move(product));
+    }
+    const auto terms = static_cast<double>(moved.size());
+    for (std::size_t a = 0; a < moved.size(); ++a) {
+      spend((terms - static_cast<double>(a)) * static_cast<double>(L.size()) * work_of<S>());
       for (std::size_t b = a; b < moved.size(); ++b) {
         S sum(0);
         for (Index e = 0; e < L.size(); ++e) sum += moved[a](e) * moved[b](e);
@@ -119,6 +119,7 @@ numbers::MatrixOf<S> gram(const std::vector<FactoredMultiplier>& multipliers, in
         G(i, j) += sum;
         if (i != j) G(j, i) += sum;
       }
+    }
   }
   return G;
 }
@@ -156,12 +157,12 @@ bool move(FactoredMultiplier& one, const std::vector<Decimal100>& lambda) {
   constexpr double kMost = 0.5;
   const Index n = one.L.rows();
   Wide change = Wide::Zero(n, n);
-  for (const auto& [i, B] : one.block->terms) {
+  for (const auto& [i, elements] : one.block->terms) {
     const Decimal100& factor = lambda[static_cast<std::size_t>(i)];
     if (factor == 0) continue;
+    spend(static_cast<double>(elements.size()) * kWideWork);
     const Decimal100 half = factor / 2;
-    for (Index e = 0; e < change.size(); ++e)
-      if (B.mid(e) != 0) change(e) += half * B.mid(e);
+    for (const auto& e : elements) change(e.row, e.column) += half * e.mid;
   }
   const Wide moved = times<Decimal100>(change, one.L);
   const auto square = [](const Wide& M) {

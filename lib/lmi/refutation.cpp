@@ -7,6 +7,9 @@
 #include <type_traits>
 
 #include "base/eigen_scalars.h"
+#include "base/stop.h"
+#include "lmi/exactness.h"
+#include "lmi/wide_algebra.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::lmi {
@@ -14,47 +17,6 @@ namespace gainsmith::lmi {
 namespace {
 
 using numbers::MatrixOf;
-using numbers::times;
-
-template <class S>
-using VectorOf = Eigen::Matrix<S, Eigen::Dynamic, 1>;
-
-/// L with M = L L'; none when M is not positive definite in S.
-template <class S>
-std::optional<MatrixOf<S>> cholesky(const MatrixOf<S>& M) {
-  using std::sqrt;
-  const Eigen::Index n = M.rows();
-  MatrixOf<S> L = MatrixOf<S>::Zero(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    S pivot = M(j, j);
-    for (Eigen::Index k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
-    if (!(pivot > S(0))) return std::nullopt;
-    L(j, j) = sqrt(pivot);
-    for (Eigen::Index i = j + 1; i < n; ++i) {
-      S sum = M(i, j);
-      for (Eigen::Index k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
-      L(i, j) = sum / L(j, j);
-    }
-  }
-  return L;
-}
-
-/// L^-1.
-template <class S>
-MatrixOf<S> lower_inverse(const MatrixOf<S>& L) {
-  const Eigen::Index n = L.rows();
-  MatrixOf<S> inverse = MatrixOf<S>::Zero(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    inverse(j, j) = S(1) / L(j, j);
-    for (Eigen::Index i = j + 1; i < n; ++i) {
-      S sum(0);
-      for (Eigen::Index k = j; k < i; ++k) sum += L(i, k) * inverse(k, j);
-      inverse(i, j) = -sum / L(i, i);
-    }
-  }
-  return inverse;
-}
-
 /// The sums over all blocks.
 template <class S>
 struct Sums {
@@ -62,9 +24,7 @@ struct Sums {
   Eigen::VectorXd error;  ///< of r
   Eigen::VectorXd noise;  ///< of `error` and r, what comes of coefficients that are only rounding
   Eigen::VectorXd W;
-  MatrixOf<S> H;
-  numbers::Matrix H_error;  ///< of H: its rounding, and what the B_ki are known to
-  double strict = 0;        ///< tr of the Y_k of strict blocks
+  double strict = 0;  ///< tr of the Y_k of strict blocks
   double whole = 0;
   std::vector<bool> present;  ///< whether a term of r is not 0
   double smallest = 1;        ///< of the elements that are certainly not 0, beside their block
@@ -74,8 +34,6 @@ struct Sums {
         error(Eigen::VectorXd::Zero(m)),
         noise(error),
         W(error),
-        H(MatrixOf<S>::Zero(m, m)),
-        H_error(numbers::Matrix::Zero(m, m)),
         present(static_cast<std::size_t>(m), false) {}
 
   /// Whether double, in which the bounds are, holds the size of every r_i.
@@ -88,124 +46,50 @@ struct Sums {
   }
 };
 
+/// The elements that are certainly not 0 give the scale of a block, and the smallest of them.
 template <class S>
-double upper(const S& value) {
-  using std::abs;
-  if (value == S(0)) return 0;
-  return static_cast<double>(as<double>(S(abs(value)))) * (1 + 1e-15) +
-         std::numeric_limits<double>::denorm_min();
+double scale_of(const ExactBlock<S>& block, double& smallest) {
+  double scale = 0;
+  const auto visit = [&](const auto& use) {
+    for (const auto& [i, elements] : block.terms)
+      for (const auto& e : elements)
+        if (const double size = upper(e.mid); size > 2 * e.rad) use(size);
+  };
+  visit([&](double size) { scale = std::max(scale, size); });
+  if (scale == 0) return 1;  // balanced units
+  visit([&](double size) { smallest = std::min(smallest, size / scale); });
+  return scale;
 }
 
-/// A factorisation of Y that succeeds shows Y + n (n + 2) u diag(Y) >= 0: `error` and `H_error` are
-/// for that matrix, and cover the rounding of the sums and what the B_ki are known to.
+/// A factorisation of Y that succeeds shows Y + n (n + 2) u diag(Y) >= 0: `error` is for that
+/// matrix, and covers the rounding of the sums and what the B_ki are known to.
 template <class S>
 void add_block(const ExactBlock<S>& block, const MatrixOf<S>& Y, bool strict, Sums<S>& sums) {
   const Eigen::Index n = Y.rows();
   constexpr double kNoEntry = 1e-48;  // what a root leaves of 100 digits
-  double scale = 0;
-  for (const auto& [i, B] : block.terms)
-    for (Eigen::Index e = 0; e < Y.size(); ++e)
-      if (upper(B.mid(e)) > 2 * B.rad(e)) scale = std::max(scale, upper(B.mid(e)));
-  if (scale == 0) scale = 1;  // balanced units
-  for (const auto& [i, B] : block.terms)
-    for (Eigen::Index e = 0; e < Y.size(); ++e)
-      if (upper(B.mid(e)) > 2 * B.rad(e))
-        sums.smallest = std::min(sums.smallest, upper(B.mid(e)) / scale);
+  const double scale = scale_of(block, sums.smallest);
   const double rounding = 2 * static_cast<double>(n * n + 2 * n + 4) * numbers::unit_roundoff<S>();
   const numbers::Matrix sizes = Y.unaryExpr([](const S& y) { return upper(y); });
-  std::vector<MatrixOf<S>> moved;           // Y B_j Y
-  std::vector<numbers::Matrix> largest;     // |Y| |B_j| |Y|
-  std::vector<numbers::Matrix> error_of_B;  // what B_j is known to, and the rounding
-  for (const auto& [i, B] : block.terms) {
-    moved.push_back(times<S>(times<S>(Y, B.mid), Y));
-    const numbers::Matrix of_B = B.mid.unaryExpr([](const S& b) { return upper(b); });
-    error_of_B.push_back(rounding * of_B + B.rad);
-    largest.push_back(times<double>(times<double>(sizes, of_B + B.rad), sizes));
+  for (const auto& [i, elements] : block.terms) {
+    spend(static_cast<double>(elements.size()) * work_of<S>());
     S r(0);
-    for (Eigen::Index e = 0; e < Y.size(); ++e) {
-      if (B.mid(e) == S(0) || Y(e) == S(0)) continue;
-      r += B.mid(e) * Y(e);
+    for (const auto& e : elements) {
+      const double b = upper(e.mid), y = sizes(e.row, e.column);
+      const double error = rounding * b + e.rad;
+      sums.W[i] += b * y;
+      sums.error[i] += error * y * (1 + 1e-12);
+      // sin(pi) is no entry of the data, whatever the size of its rounding.
+      if (e.rad > 0 && b <= e.rad * (1 + 1e-12) && e.rad <= kNoEntry * scale)
+        sums.noise[i] += 2 * error * y * (1 + 1e-11);
+      if (e.mid == S(0) || y == 0) continue;
+      r += e.mid * Y(e.row, e.column);
       sums.present[static_cast<std::size_t>(i)] = true;
     }
     sums.r[i] += r;
-    sums.W[i] += of_B.cwiseProduct(sizes).sum();
-    // sin(pi) is no entry of the data, whatever the size of its rounding.
-    for (Eigen::Index e = 0; e < Y.size(); ++e)
-      if (B.rad(e) > 0 && of_B(e) <= B.rad(e) * (1 + 1e-12) && B.rad(e) <= kNoEntry * scale)
-        sums.noise[i] += 2 * error_of_B.back()(e) * sizes(e) * (1 + 1e-11);
-    sums.error[i] += error_of_B.back().cwiseProduct(sizes).sum() * (1 + 1e-12);
   }
-  for (std::size_t a = 0; a < moved.size(); ++a)
-    for (std::size_t b = a; b < moved.size(); ++b) {
-      const int i = block.terms[a].first;
-      const int j = block.terms[b].first;
-      S h(0);
-      const MatrixOf<S>& B = block.terms[b].second.mid;
-      for (Eigen::Index c = 0; c < n; ++c)
-        for (Eigen::Index d = 0; d < n; ++d) h += moved[a](d, c) * B(d, c);
-      sums.H(i, j) += h;
-      const double error = (error_of_B[b].cwiseProduct(largest[a]).sum() +
-                            error_of_B[a].cwiseProduct(largest[b]).sum()) *
-                           (1 + 1e-12);
-      sums.H_error(i, j) += error;
-      if (i == j) continue;
-      sums.H(j, i) += h;
-      sums.H_error(j, i) += error;
-    }
   const double trace = upper(S(Y.trace()));
   sums.whole += trace;
   if (strict) sums.strict += trace;
-}
-
-/// r' H^-1 r < 1, over the unknowns that stand in a block.
-template <class S>
-bool is_exact(const Sums<S>& sums, bool homogeneous) {
-  std::vector<Eigen::Index> used;
-  for (Eigen::Index i = homogeneous ? 1 : 0; i < sums.r.size(); ++i)
-    if (sums.H(i, i) != S(0) || sums.H_error(i, i) > 0 || i == 0) used.push_back(i);
-  const auto m = static_cast<Eigen::Index>(used.size());
-  MatrixOf<S> H(m, m);
-  VectorOf<S> r(m);
-  numbers::Matrix error(m, m);
-  for (Eigen::Index a = 0; a < m; ++a) {
-    for (Eigen::Index b = 0; b < m; ++b) {
-      const Eigen::Index i = used[static_cast<std::size_t>(a)];
-      const Eigen::Index j = used[static_cast<std::size_t>(b)];
-      H(a, b) = sums.H(i, j);
-      error(a, b) = sums.H_error(i, j);
-    }
-    r[a] = sums.r[used[static_cast<std::size_t>(a)]];
-  }
-  if (!homogeneous) {
-    // y_0 = v makes its own row of the residual 0.
-    H(0, 0) += r[0] * r[0];
-    r[0] = S(0);
-  }
-  const auto L = cholesky(H);
-  if (!L) return false;
-  const MatrixOf<S> R = lower_inverse(*L);  // R H R' = I
-  const MatrixOf<S> rest = MatrixOf<S>::Identity(m, m) - times<S>(times<S>(R, H), R.transpose());
-  // What H is known to, and the rounding of R H R'.
-  const numbers::Matrix size_R = R.unaryExpr([](const S& x) { return upper(x); });
-  error += 4 * static_cast<double>(m + 2) * numbers::unit_roundoff<S>() *
-           H.unaryExpr([](const S& x) { return upper(x); });
-  const numbers::Matrix unknown = times<double>(times<double>(size_R, error), size_R.transpose());
-  double defect = 0;
-  for (Eigen::Index a = 0; a < m; ++a) {
-    double sum = unknown.row(a).sum();
-    for (Eigen::Index b = 0; b < m; ++b) sum += upper(rest(a, b));
-    defect = std::max(defect, sum);
-  }
-  const VectorOf<S> e = R.lazyProduct(r);
-  double norm = 0;
-  for (Eigen::Index a = 0; a < m; ++a) {
-    double size = upper(e[a]);
-    for (Eigen::Index b = 0; b <= a; ++b)
-      size += upper(R(a, b)) * sums.error[used[static_cast<std::size_t>(b)]];
-    norm += size * size;
-  }
-  // The rounding of these lines is far below the half that is left.
-  return defect < 0.01 && norm * (1 + 1e-9) < 0.5;
 }
 
 /// Y, lifted where rounding left it indefinite; none when it is further from being >= 0. A lift in
@@ -263,26 +147,62 @@ std::vector<MatrixOf<S>> converted(const Multipliers& Y) {
   return result;
 }
 
+/// Whether a certificate without any residual is near the multipliers (exactness.h).
+template <class S>
+bool is_exact(const std::vector<Weighed<S>>& blocks, const Sums<S>& sums, Eigen::Index m) {
+  bool constant = false;
+  std::vector<FactoredBlock<S>> factored;
+  for (const Weighed<S>& one : blocks) {
+    for (const auto& term : one.block->terms) constant |= term.first == 0;
+    const numbers::Cholesky L(one.Y->unaryExpr([](const S& y) { return as<double>(y); }));
+    if (L) factored.push_back({one.block, L.lower()});
+  }
+  const double v = as<double>(S(-sums.r[0]));
+  if (sums.whole == 0 || (constant && !(v > sums.error[0])) ||
+      !(sums.strict > 0 || v > sums.error[0]))
+    return false;
+  if (factored.size() == blocks.size()) {
+    // Those of the products of the factors, which are other multipliers by their rounding.
+    Sums<S> of_factors(m);
+    for (std::size_t k = 0; k < blocks.size(); ++k) {
+      const MatrixOf<S> L = factored[k].L.template cast<S>();
+      spend(std::pow(static_cast<double>(L.rows()), 3) * work_of<S>());
+      add_block(*blocks[k].block, numbers::times<S>(L, L.transpose()), blocks[k].strict,
+                of_factors);
+    }
+    const double value = as<double>(S(-of_factors.r[0]));
+    const bool counts = !constant || value > of_factors.error[0];
+    const ResidualsInDouble residuals{
+        of_factors.r.unaryExpr([](const S& r) { return as<double>(r) * (1 + 1e-15); }),
+        of_factors.error};
+    if (counts && of_factors.is_in_range() && is_exact_in_double(factored, residuals, constant))
+      return true;
+  }
+  std::vector<WeighedBlock<S>> weighed;
+  for (const Weighed<S>& one : blocks) {
+    if (!cholesky(*one.Y)) return false;
+    weighed.push_back({one.block, one.Y});
+  }
+  return is_exact_in_wide(weighed, sums.r, sums.error, constant);
+}
+
 /// What the blocks with tr(Y_k) >= least say; the others have the multiplier 0.
 template <class S>
 Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen::Index m) {
   constexpr double kCounts = 1e-6;  // what strict blocks, or v, must have of all multipliers
   Refutation result;
   Sums<S> sums(m);
-  bool definite = true;
+  std::vector<Weighed<S>> kept;
   for (const Weighed<S>& weighed : blocks) {
     if (!(weighed.trace > 0 && weighed.trace >= least)) continue;
-    definite &= cholesky(*weighed.Y).has_value();
     const auto lifted = positive<S>(*weighed.Y);
     if (!lifted) return result;
     add_block(*weighed.block, *lifted, weighed.strict, sums);
+    kept.push_back(weighed);
   }
   if (!sums.is_in_range()) return result;
-  // By H, which no zeros of Y hide anything from.
-  const bool homogeneous = sums.H(0, 0) == S(0) && sums.H_error(0, 0) == 0;
-  const double v = static_cast<double>(as<double>(S(-sums.r[0])));
-  if (definite && sums.whole > 0 && (homogeneous || v > sums.error[0]))
-    result.exact = is_exact(sums, homogeneous) && (sums.strict > 0 || v > sums.error[0]);
+  const auto v = as<double>(S(-sums.r[0]));
+  result.exact = is_exact(kept, sums, m);
   if (!(sums.strict >= kCounts * sums.whole || v >= kCounts * sums.whole) || sums.whole == 0)
     return result;
   double omega = 0;

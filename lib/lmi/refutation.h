@@ -3,11 +3,9 @@
 // Multipliers Y_k > 0 of the blocks, v = -sum_k <B_k0, Y_k> (y_0 of the block x_0 > 0 of the
 // homogenised inequalities), r_i = sum_k <B_ki, Y_k> for i >= 1, r_0 = 0.
 //
-//   exact   H_ij = sum_k <B_ki, Y_k B_kj Y_k> (+ v^2 for i = j = 0). When r' H^-1 r < 1 the
-//   correction
-//           dY_k = -sum_j (H^-1 r)_j Y_k B_kj Y_k is smaller than Y_k, so Y + dY is a certificate
-//           without any residual: no x satisfies the inequalities. It does not depend on units or
-//           coordinates. With any R near H^-1/2: r' H^-1 r <= |R' r|^2 / (1 - |I - R' H R|).
+//   exact   r' H^-1 r < 1 with H_ij = sum_k <B_ki, Y_k B_kj Y_k> (+ v^2 for i = j = 0): a
+//           certificate without any residual is near (exactness.h), so no x satisfies the
+//           inequalities. It does not depend on units or coordinates.
 //   omega   max over i >= 1 of |r_i| / W_i, W_i = sum_k <|B_ki|, |Y_k|>: no x satisfies the
 //           inequalities when their coefficients change by more than omega, relatively; and within
 //           such changes Y is exact for some coefficients (Oettli & Prager).
@@ -69,10 +67,11 @@ Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
 /// a proof, and only `exact` is one. It is far below what data of 16 digits were seen to leave.
 constexpr double kNothing = 1e-70;
 
-/// What multipliers near Y say in 100 digits, made so that they have no residual
-/// (polished_multipliers.h): Y may come from a solver in double.
+/// What multipliers near those of an interior solution say in 100 digits, made so that they have no
+/// residual: with the solution beside them (boundary_pair.h), or where that does not lead to a
+/// certificate alone (polished_multipliers.h). The solution may be one in double.
 Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
-                           const Multipliers& Y);
+                           const sdp::Solution& solution);
 
 /// omega of an interior solution for the blocks as they were solved, gain bounds and corners of
 /// boxes included, in double: what it excludes is only sufficient for the inequalities.

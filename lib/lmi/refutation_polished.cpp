@@ -2,14 +2,14 @@
 #include <set>
 #include <utility>
 
+#include "lmi/boundary_pair.h"
 #include "lmi/polished_multipliers.h"
 #include "lmi/refutation.h"
+#include "lmi/wide_algebra.h"
 
 namespace gainsmith::lmi {
 
 namespace {
-
-using Wide = numbers::MatrixOf<Decimal100>;
 
 double trace_of(const numbers::MatrixOf<DoubleDouble>& Y) {
   return as<double>(DoubleDouble(Y.trace()));
@@ -43,10 +43,47 @@ Refutation refute_kept(const Lmi& lmi, const std::vector<ExactBlock<Decimal100>>
   return refute<Decimal100>(lmi, blocks, polished);
 }
 
+/// x_0 > 0, whose multiplier is v.
+ExactBlock<Decimal100> block_of_constant() { return {1, {{0, {{0, 0, Decimal100(1), 0}}}}}; }
+
+Decimal100 wide_number(const std::vector<double>& values, const std::vector<double>& rest,
+                       std::size_t at) {
+  return Decimal100(values[at]) + Decimal100(rest.empty() ? 0 : rest[at]);
+}
+
+/// The solution x beside its multipliers, both as far as the solver knew them.
+BoundaryPair pair_of(const Lmi& lmi, const Formulation& formulation,
+                     const sdp::Solution& solution) {
+  BoundaryPair pair;
+  const std::size_t size = solution.x.size();
+  pair.x.push_back(formulation.homogenised ? wide_number(solution.x, solution.rest.x, size - 2)
+                                           : Decimal100(0));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(lmi.unknowns); ++i)
+    pair.x.push_back(wide_number(solution.x, solution.rest.x, i));
+  pair.Y = wide_multipliers_of(formulation, lmi.blocks.size(), solution);
+  if (formulation.homogenised) {
+    const std::size_t k = formulation.blocks.size();
+    pair.Y.push_back(Wide::Constant(1, 1, Decimal100(solution.Y.values[k][0])));
+  }
+  return pair;
+}
+
+Refutation refute_on_boundary(const Lmi& lmi, const std::vector<ExactBlock<Decimal100>>& blocks,
+                              const Formulation& formulation, const sdp::Solution& solution) {
+  const ExactBlock<Decimal100> constant = block_of_constant();
+  std::vector<const ExactBlock<Decimal100>*> all;
+  for (const auto& block : blocks) all.push_back(&block);
+  if (formulation.homogenised) all.push_back(&constant);
+  BoundaryPair pair = pair_of(lmi, formulation, solution);
+  if (!polish(all, pair)) return {};
+  pair.Y.resize(blocks.size());
+  return refute<Decimal100>(lmi, blocks, std::move(pair.Y));
+}
+
 }  // namespace
 
 Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
-                           const Multipliers& Y) {
+                           const sdp::Solution& solution) {
   // A block that a certificate does not need may keep the others from being one.
   constexpr double kShares[] = {0, 1e-8, 1e-4};
   // What is left beside the range of a singular certificate.
@@ -54,6 +91,9 @@ Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formula
   Refutation best;
   if (!lmi.stands_for_points()) return best;
   const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
+  best = refute_on_boundary(lmi, blocks, formulation, solution);
+  if (best.exact || best.omega <= kNothing) return best;
+  const Multipliers Y = multipliers_of(formulation, lmi.blocks.size(), solution);
   double whole = 0;
   for (const auto& y : Y) whole += trace_of(y);
   const auto excludes = [&](const Kept& kept) {

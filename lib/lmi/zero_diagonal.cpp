@@ -22,7 +22,8 @@ std::optional<ZeroDiagonal> find_zero_diagonal(const Inequalities& of, const Lmi
       for (int column = 0; column < block.size; ++column) {
         bool vanishes = true;
         bool constant = false;
-        for (const auto& [i, B] : known.terms) {
+        for (const auto& [i, elements] : known.terms) {
+          const numbers::Enclosed<Decimal100> B = dense(elements, known.size);
           vanishes &= B.ball(row, row).is_zero();
           if (i == 0)
             constant = std::abs(static_cast<double>(as<double>(B.mid(row, column)))) * (1 - 1e-12) >

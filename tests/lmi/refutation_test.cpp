@@ -41,7 +41,7 @@ struct Posed {
     return formulate_interior(
         lmi, {}, {}, [&](std::size_t k, const Balance& balance, const std::vector<int>& kept) {
           if (!exact) exact.emplace(of, balance);
-          return rounded(exact->block(lmi.blocks[k], k, kept), static_cast<int>(kept.size()));
+          return rounded(exact->block(lmi.blocks[k], k, kept));
         });
   }
 
@@ -59,7 +59,7 @@ struct Posed {
   Refutation polished() const {
     const Formulation asked = formulation();
     const sdp::Solution solution = sdp::solve(asked.problem, {});
-    return refute_polished(of, lmi, asked, multipliers_of(asked, lmi.blocks.size(), solution));
+    return refute_polished(of, lmi, asked, solution);
   }
 };
 
