@@ -15,6 +15,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import NamedTuple
 
+SINGLE_THREAD = {"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
 VERDICTS = {0: "yes", 1: "no", 3: "undecided"}
 
 
@@ -124,7 +125,8 @@ def solved(M, right):
         W[k], W[chosen] = W[chosen], W[k]
         for i in range(k + 1, n):
             factor = W[i][k]
-            W[i] = [0] * (k + 1) + [(W[k][k] * x - factor * y) // previous for x, y in zip(W[i][k + 1:], W[k][k + 1:])]
+            rest = zip(W[i][k + 1:], W[k][k + 1:])
+            W[i] = [0] * (k + 1) + [(W[k][k] * x - factor * y) // previous for x, y in rest]
         previous = W[k][k]
     x = [Fraction(0)] * n
     for k in reversed(range(n)):
@@ -254,6 +256,7 @@ def timed(command, limit):
     """(exit code, user seconds, output) of one process that is ended after `limit` seconds of processor time."""
     with tempfile.TemporaryFile("w+") as out:
         process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
+                                   env={**os.environ, **SINGLE_THREAD},
                                    preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, limit + 1)))
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
@@ -304,7 +307,7 @@ def judge(problems, options):
             (options.keep / f"{mark}-{name.replace('/', '-')}.yaml").write_text(known.text)
     print("said: " + ", ".join(f"{count} {verdict}" for verdict, count in sorted(said.items())))
     print(f"user s: {whole:.1f} together, {longest[0]:.3f} for {longest[1]}")
-    print(f"{counts['wrong']} wrong, {counts['undecided']} undecided, {counts['right']} right of {sum(counts.values())}")
+    print(", ".join(f"{count} {mark}" for mark, count in counts.items()) + f" of {sum(counts.values())}")
     return 1 if counts["wrong"] else 0
 
 
