@@ -10,6 +10,11 @@
 //          when the largest real part is negative.
 // beside   two such inequalities in different unknowns and units, one of them with room to spare,
 //          and requirements that exclude nothing, P + k I > 0, 1 < z < 2: the other one decides.
+// wide     He(P A - Y C) < 0, P > 0 with 6 to 8 states: A = T^-1 [0, 0; A21, A2] T, C = [I, 0] T,
+//          the largest real part of A2 is -d: exactly when d > 0.
+// passive  He(P A) < 0, P > 0, P B == C' with A = T^-1 diag(-a) T, B = T^-1 [1; 1; ...], C = [c] T:
+//          P = T' diag(c) T is a solution for c > 0. A solution has, with x = -A^-1 B,
+//          0 < -x' He(P A) x = 2 x'P B = 2 C x = 2 sum c_i/a_i: a no when that is not positive.
 #include "properties/families.h"
 #include "properties/spectra.h"
 
@@ -133,14 +138,55 @@ Case beside(Draw& draw) {
           draw.is_yes(), false};
 }
 
+Case wide(Draw& draw) {
+  const int n = draw.between(6, 8);
+  const int seen = draw.between(1, 4);
+  const ExactMatrix hidden = continuous_spectrum(draw, n - seen, -near_axis(draw));
+  ExactMatrix A(n, n);
+  ExactMatrix C(seen, n);
+  for (int i = 0; i < seen; ++i) C(i, i) = 1;
+  for (int i = seen; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      A(i, j) = j < seen ? draw.between(-2, 2) : hidden(i - seen, j - seen);
+  const Coordinates to = draw.coordinates(n);
+  return {"wide",
+          "method:\n  method: wide\n  data: {A: n x n, C: p x n}\n"
+          "  unknowns: {P: symmetric n, Y: n x p}\n"
+          "  require: {positive: P > 0, decrease: He(P*A - Y*C) < 0}\ndata:\n  A: " +
+              yaml(similar(to, A)) + "\n  C: " + yaml(C * to.T) + "\n",
+          draw.is_yes(), false};
+}
+
+Case passive(Draw& draw) {
+  const int n = draw.between(1, 3);
+  ExactMatrix A(n, n);
+  ExactMatrix B(n, 1);
+  ExactMatrix C(1, n);
+  Exact rest = 0;
+  for (int i = 0; i < n; ++i) {
+    const Exact rate = two_to(draw.between(-2, 2));
+    A(i, i) = -rate;
+    B(i, 0) = 1;
+    const Exact tiny = near_axis(draw);
+    C(0, i) = i == 0 && draw.is_yes() ? tiny : draw.hundredths(20, 200);
+    if (i == n - 1 && !draw.is_yes()) C(0, i) = rate * (tiny - rest);
+    rest += C(0, i) / rate;
+  }
+  const Coordinates to = draw.coordinates(n);
+  return {"passive",
+          "method:\n  method: passive\n  data: {A: n x n, B: n x 1, C: 1 x n}\n"
+          "  unknowns: {P: symmetric n}\n"
+          "  require: {positive: P > 0, decrease: He(P*A) < 0, output: P*B == C'}\ndata:\n  A: " +
+              yaml(similar(to, A)) + "\n  B: " + yaml(to.inverse * B) + "\n  C: " + yaml(C * to.T) +
+              "\n",
+          draw.is_yes(), false};
+}
+
 }  // namespace
 
 std::vector<Family> chain_families() {
-  return {{"chain", 6, chain},
-          {"axis", 2, axis},
-          {"circle", 2, circle},
-          {"wild", 5, wild},
-          {"beside", 5, beside}};
+  return {{"chain", 6, chain},   {"axis", 2, axis}, {"circle", 2, circle},  {"wild", 5, wild},
+          {"beside", 5, beside}, {"wide", 1, wide}, {"passive", 3, passive}};
 }
 
 }  // namespace gainsmith::tests::properties

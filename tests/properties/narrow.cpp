@@ -13,10 +13,12 @@
 //          sign changes make P diagonal, so exactly when q < 2 a m for all modes; with <= exactly
 //          when q <= 2 a m.
 // tower    [x_i, x_i+1; *, 1] > 0, x_k >= c, x_1 <= h: x_i > x_i+1^2, exactly when h > c^(2^(k-1)),
-//          where x_1 is up to 1e20.
+//          where x_1 is up to 1e20. Without h a yes.
 // remote   T'[x, b; *, y] T >= 0, y <= e: x y >= b^2 holds for y = e > 0, x = b^2/e. For e = 0
 // there is
 //          none, weakly: y = 0 leaves b = 0. With > the same.
+#include <array>
+
 #include "properties/families.h"
 #include "properties/spectra.h"
 
@@ -157,10 +159,14 @@ Case box(Draw& draw) {
 }
 
 Case tower(Draw& draw) {
-  const int count = draw.between(2, 5);
-  const int most = count == 2 ? 10 : count == 3 ? 5 : count == 4 ? 2 : 1;
-  const bool half = draw.chance(0.5);
-  const Exact last = ten_to(draw.between(1, most)) / (half ? 2 : 1);
+  const int count = draw.between(2, 7);
+  // c^(2^(k-1)) is at most 1e20.
+  constexpr std::array<int, 6> kWhole = {9, 9, 9, 9, 4, 2};
+  constexpr std::array<int, 6> kTens = {10, 5, 2, 1, 0, 0};
+  const auto place = static_cast<std::size_t>(count - 2);
+  const bool tens = kTens[place] > 0 && draw.chance(0.5);
+  const Exact last =
+      tens ? ten_to(draw.between(1, kTens[place])) : Exact(draw.between(2, kWhole[place]));
   Exact reached = last;
   std::string unknowns;
   std::string require;
@@ -171,11 +177,14 @@ Case tower(Draw& draw) {
     reached = reached * reached;
     require += "    step" + k + ": \"[x" + k + ", x" + std::to_string(i + 1) + "; *, 1] > 0\"\n";
   }
+  const bool bounded = !draw.is_yes() || draw.chance(0.8);
+  const Exact most = reached * (1 + thin_or_none(draw));
   return {"tower",
-          "method:\n  method: tower\n  data: {c: scalar, h: scalar}\n  unknowns: {" + unknowns +
-              "}\n  require:\n" + require + "    last: x" + std::to_string(count) +
-              " >= c\n    first: x1 <= h\ndata: {c: " + decimal(last) +
-              ", h: " + decimal(reached * (1 + thin_or_none(draw))) + "}\n",
+          "method:\n  method: tower\n  data: {c: scalar, h: {shape: scalar, default: 1}}\n"
+          "  unknowns: {" +
+              unknowns + "}\n  require:\n" + require + "    last: x" + std::to_string(count) +
+              " >= c\n" + (bounded ? "    first: x1 <= h\n" : "") + "data: {c: " + decimal(last) +
+              (bounded ? ", h: " + decimal(most) : "") + "}\n",
           draw.is_yes(), false};
 }
 
