@@ -248,12 +248,15 @@ BOUNDED_REAL = """  method: bounded-real
 
 class Answer(NamedTuple):
     verdict: str  # yes, no, undecided; "no answer" at the limit; otherwise the exit code
-    seconds: float  # user time
+    seconds: float  # of the processor
     output: str
 
 
 def timed(command, limit):
-    """(exit code, user seconds, output) of one process that is ended after `limit` seconds of processor time."""
+    """(exit code, processor seconds, output) of one process that is ended after `limit` of them.
+
+    User and system time together: the sum is measured, their parts are sampled and may be 0 for a short process.
+    """
     with tempfile.TemporaryFile("w+") as out:
         process = subprocess.Popen(command, stdout=out, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL,
                                    env={**os.environ, **SINGLE_THREAD},
@@ -261,7 +264,7 @@ def timed(command, limit):
         _, status, usage = os.wait4(process.pid, 0)
         process.returncode = os.waitstatus_to_exitcode(status)
         out.seek(0)
-        return process.returncode, usage.ru_utime, out.read()
+        return process.returncode, usage.ru_utime + usage.ru_stime, out.read()
 
 
 def ask(program, text, limit, *options):
@@ -292,7 +295,7 @@ def judge(problems, options):
     said = {}
     longest = (0.0, "-")
     whole = 0.0
-    print(f"{'problem':<24} {'n':>3} {'truth':<5} {'verdict':<9} {'user s':>8}  {'':<9}")
+    print(f"{'problem':<24} {'n':>3} {'truth':<5} {'verdict':<9} {'cpu s':>8}  {'':<9}")
     for name, known in problems:
         answer = ask(options.program, known.text, options.limit)
         mark = outcome(known.truth, answer.verdict)
@@ -306,7 +309,7 @@ def judge(problems, options):
             options.keep.mkdir(parents=True, exist_ok=True)
             (options.keep / f"{mark}-{name.replace('/', '-')}.yaml").write_text(known.text)
     print("said: " + ", ".join(f"{count} {verdict}" for verdict, count in sorted(said.items())))
-    print(f"user s: {whole:.1f} together, {longest[0]:.3f} for {longest[1]}")
+    print(f"cpu s: {whole:.1f} together, {longest[0]:.3f} for {longest[1]}")
     print(", ".join(f"{count} {mark}" for mark, count in counts.items()) + f" of {sum(counts.values())}")
     return 1 if counts["wrong"] else 0
 
