@@ -25,7 +25,11 @@ struct Family {
 
 const std::vector<Family>& families();
 
-/// The family of case `index`: `only`, or one drawn by weight when that is empty.
+/// Thin, far or singular sets of solutions: many of them may be undecided, none wrong.
+const std::vector<Family>& edge_families();
+
+/// The family of case `index`: the one named `only`, or one drawn by weight: of families() when
+/// `only` is empty, of edge_families() for "edges", of both for "all".
 const Family& family_of(std::uint64_t seed, std::uint64_t index, const std::string& only = {});
 
 /// Case `index` of a seed.
@@ -41,5 +45,7 @@ std::vector<Family> switched_families();
 std::vector<Family> kink_families();
 std::vector<Family> interval_families();
 std::vector<Family> singular_families();
+std::vector<Family> narrow_families();
+std::vector<Family> chain_families();
 
 }  // namespace gainsmith::tests::properties

@@ -11,6 +11,7 @@ namespace {
 
 constexpr std::uint64_t kSeed = 0xC1C1C1;
 constexpr std::uint64_t kCases = 240;
+constexpr std::uint64_t kEdgeCases = 60;
 
 TEST(VerdictsTest, AreNeverWrong) {
   int undecided = 0;
@@ -25,6 +26,15 @@ TEST(VerdictsTest, AreNeverWrong) {
   }
   // Most of them are singular: pairs that only equality satisfies, and borders that are attained.
   EXPECT_LE(undecided, static_cast<int>(kCases / 20));
+}
+
+/// Thin, far and singular sets of solutions may be undecided.
+TEST(VerdictsTest, AreNeverWrongAtTheEdges) {
+  for (std::uint64_t index = 0; index < kEdgeCases; ++index) {
+    const Case known = make_case(kSeed, index, "edges");
+    const Answer answer = judge(known);
+    EXPECT_NE(answer.outcome, Outcome::wrong) << record(known, answer);
+  }
 }
 
 /// The certificate lives on the first two coordinates, those of the unstable modes 0.12 +- i; what
