@@ -155,14 +155,26 @@ lmi::Refutation refutation_of(const Posed& posed, const Question& asked,
                               const Interior::Solved& solved) {
   const lmi::Formulation& formulation = solved.formulation;
   const auto Y = lmi::multipliers_of(formulation, posed.lmi.blocks.size(), solved.solution);
-  auto found = lmi::refute<DoubleDouble>(posed.inequalities, posed.lmi, formulation, Y);
-  // 31 digits have the range of double: what underflows there stands in the file all the same.
-  if (found.exact && posed.wide)
-    found = lmi::refute<Decimal100>(posed.inequalities, posed.lmi, formulation, Y);
   // With more of a margin than this no certificate is near.
   constexpr double kNear = 1e-6;
-  if (found.exact || !posed.wide || lmi::interior_margin(solved.solution) > kNear) return found;
-  const auto polished = lmi::refute_polished(posed.inequalities, posed.lmi, formulation, solved.solution);
+  const bool near = lmi::interior_margin(solved.solution) <= kNear;
+  const auto in_31_digits = [&](lmi::Exactness exactness) {
+    auto found = lmi::refute<DoubleDouble>(posed.inequalities, posed.lmi, formulation, Y, exactness);
+    // 31 digits have the range of double: what underflows there stands in the file all the same.
+    if (found.exact && posed.wide)
+      found = lmi::refute<Decimal100>(posed.inequalities, posed.lmi, formulation, Y, exactness);
+    return found;
+  };
+  auto found = in_31_digits(lmi::Exactness::in_double);
+  if (found.exact) return found;
+  if (posed.wide && near) {
+    const auto boundary =
+        lmi::refute_on_boundary(posed.inequalities, posed.lmi, formulation, solved.solution);
+    if (boundary.exact || boundary.omega <= lmi::kNothing) return boundary;
+  }
+  found = in_31_digits(lmi::Exactness::in_wide);
+  if (found.exact || !posed.wide || !near) return found;
+  const auto polished = lmi::refute_polished(posed.inequalities, posed.lmi, formulation, Y);
   if (polished.exact || polished.omega <= lmi::kNothing) return polished;
   // What 31 digits see is not of the data's making when 100 are asked for.
   if (asked.effort.precision == "auto") return found;

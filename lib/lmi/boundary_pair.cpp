@@ -98,6 +98,7 @@ struct Ranges {
 std::optional<Ranges> ranges_of(const Matrix& B, const Matrix& Y) {
   constexpr double kApart = 100;
   const Index n = B.rows();
+  if (n == 0) return Ranges{B, B, Vector::Zero(0), Vector::Zero(0)};
   const numbers::SymmetricEigen eigen(B);
   const Matrix& Q = eigen.vectors();
   const Matrix seen = Q.transpose() * Y * Q;
@@ -223,7 +224,10 @@ class System {
     Matrix lower = Matrix::Zero(A_.rows(), A_.rows());
     lower.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose());
     lower.triangularView<Eigen::StrictlyUpper>() = lower.transpose();
-    lower.diagonal().array() += damping;
+    // It is singular where multipliers have a choice: above its rounding.
+    constexpr double kRounding = 1e-15;
+    const double rounding = kRounding * q * lower.diagonal().maxCoeff();
+    lower.diagonal().array() += std::max(damping, rounding);
     lower_.emplace(lower);
     return static_cast<bool>(*lower_);
   }
@@ -326,6 +330,7 @@ void cut(Wide& Y) {
 bool polish(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
   constexpr double kSettled = 1e-92;
   constexpr double kFalls = 1e-3;  // what a step must leave at most, or the system is set up anew
+  constexpr double kFails = 0.5;
   constexpr int kMostSystems = 5;
   constexpr int kMostSteps = 40;
   constexpr double kLeastDamping = 1e-9, kMostDamping = 1e-3, kAboveResidual = 1e3;
@@ -333,7 +338,7 @@ bool polish(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
   System system(blocks, pair.x.size());
   int systems = 0;
   double last = 0;
-  bool fresh = false;
+  bool fresh = false, damped = false;
   for (int k = 0; k < kMostSteps; ++k) {
     const PairResiduals residuals = pair_residuals(blocks, pair);
     if (!std::isfinite(residuals.worst) || residuals.worst > 1) return false;
@@ -341,13 +346,15 @@ bool polish(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
       for (Wide& Y : pair.Y) cut(Y);
       return true;
     }
-    const bool slow = systems == 0 || residuals.worst > kFalls * last;
+    // The first is set up where the pair is still off, and damped by that.
+    const bool slow = systems == 0 || residuals.worst > kFalls * last || (k == 1 && damped);
     if (slow) {
-      if (fresh && residuals.worst > last) return false;
+      if (fresh && residuals.worst > kFails * last) return false;
       if (systems++ == kMostSystems) return false;
       const double damping =
           std::clamp(kAboveResidual * residuals.worst, kLeastDamping, kMostDamping);
       if (!system.set_up(pair, damping)) return false;
+      damped = damping > kLeastDamping;
     }
     fresh = slow;
     last = residuals.worst;

@@ -100,14 +100,22 @@ std::optional<MatrixOf<S>> positive(const MatrixOf<S>& Y) {
   constexpr double kLifts[] = {0,     1e-97, 1e-95, 1e-93, 1e-91, 1e-89, 1e-85,
                                1e-80, 1e-78, 1e-76, 1e-74, 1e-72, 1e-70, 1e-33,
                                1e-32, 1e-31, 1e-30, 1e-29, 1e-28, 1e-27};
+  // Rows of zeros need nothing, and stay so.
+  std::vector<Eigen::Index> rows;
+  for (Eigen::Index i = 0; i < Y.rows(); ++i)
+    if (!Y.row(i).isZero(S(0))) rows.push_back(i);
+  if (rows.empty()) return Y;
+  const MatrixOf<S> inner = Y(rows, rows);
   const double size = upper(S(Y.trace()));
-  if (size == 0 && Y.isZero()) return Y;
   for (const bool in_proportion : {true, false})
     for (const double lift : kLifts) {
-      MatrixOf<S> lifted = Y;
-      for (Eigen::Index i = 0; i < Y.rows(); ++i)
-        lifted(i, i) += S(lift) * (in_proportion ? Y(i, i) : S(size));
-      if (cholesky(lifted)) return lifted;
+      MatrixOf<S> lifted = inner;
+      for (Eigen::Index i = 0; i < inner.rows(); ++i)
+        lifted(i, i) += S(lift) * (in_proportion ? inner(i, i) : S(size));
+      if (!cholesky(lifted)) continue;
+      MatrixOf<S> result = Y;
+      result(rows, rows) = lifted;
+      return result;
     }
   return std::nullopt;
 }
@@ -149,13 +157,18 @@ std::vector<MatrixOf<S>> converted(const Multipliers& Y) {
 
 /// Whether a certificate without any residual is near the multipliers (exactness.h).
 template <class S>
-bool is_exact(const std::vector<Weighed<S>>& blocks, const Sums<S>& sums, Eigen::Index m) {
+bool is_exact(const std::vector<Weighed<S>>& blocks, const Sums<S>& sums, Eigen::Index m,
+              Exactness exactness) {
+  constexpr double kSingular = 1e-9;  // of the pivots: double is not enough
   bool constant = false;
   std::vector<FactoredBlock<S>> factored;
   for (const Weighed<S>& one : blocks) {
     for (const auto& term : one.block->terms) constant |= term.first == 0;
-    const numbers::Cholesky L(one.Y->unaryExpr([](const S& y) { return as<double>(y); }));
-    if (L) factored.push_back({one.block, L.lower()});
+    const numbers::Cholesky factor(one.Y->unaryExpr([](const S& y) { return as<double>(y); }));
+    if (!factor) continue;
+    numbers::Matrix L = factor.lower();
+    if (L.diagonal().minCoeff() >= std::sqrt(kSingular) * L.diagonal().maxCoeff())
+      factored.push_back({one.block, std::move(L)});
   }
   const double v = as<double>(S(-sums.r[0]));
   if (sums.whole == 0 || (constant && !(v > sums.error[0])) ||
@@ -178,6 +191,7 @@ bool is_exact(const std::vector<Weighed<S>>& blocks, const Sums<S>& sums, Eigen:
     if (counts && of_factors.is_in_range() && is_exact_in_double(factored, residuals, constant))
       return true;
   }
+  if (exactness == Exactness::in_double) return false;
   std::vector<WeighedBlock<S>> weighed;
   for (const Weighed<S>& one : blocks) {
     if (!cholesky(*one.Y)) return false;
@@ -188,7 +202,8 @@ bool is_exact(const std::vector<Weighed<S>>& blocks, const Sums<S>& sums, Eigen:
 
 /// What the blocks with tr(Y_k) >= least say; the others have the multiplier 0.
 template <class S>
-Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen::Index m) {
+Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen::Index m,
+                     Exactness exactness) {
   constexpr double kCounts = 1e-6;  // what strict blocks, or v, must have of all multipliers
   Refutation result;
   Sums<S> sums(m);
@@ -202,7 +217,7 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
   }
   if (!sums.is_in_range()) return result;
   const auto v = as<double>(S(-sums.r[0]));
-  result.exact = is_exact(kept, sums, m);
+  result.exact = is_exact(kept, sums, m, exactness);
   if (!(sums.strict >= kCounts * sums.whole || v >= kCounts * sums.whole) || sums.whole == 0)
     return result;
   double omega = 0;
@@ -234,7 +249,7 @@ std::vector<ExactBlock<S>> exact_blocks(const Inequalities& of, const Lmi& lmi,
 
 template <class S>
 Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
-                  std::vector<MatrixOf<S>> Y) {
+                  std::vector<MatrixOf<S>> Y, Exactness exactness) {
   if constexpr (std::is_same_v<S, Decimal100>)
     for (MatrixOf<S>& y : Y) clear_rounding(y);
   // Blocks that a certificate does not need have multipliers that tend to 0 but are not.
@@ -256,7 +271,7 @@ Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
     if (share > 0 && count == looked_at) continue;
     looked_at = count;
     const auto m = static_cast<Eigen::Index>(lmi.unknowns) + 1;
-    const Refutation found = refute_by(weighed, share * whole, m);
+    const Refutation found = refute_by(weighed, share * whole, m, exactness);
     best.exact |= found.exact;
     best.omega = std::min(best.omega, found.omega);
     if (best.exact) break;
@@ -266,19 +281,19 @@ Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
 
 template <class S>
 Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
-                  const Multipliers& Y) {
+                  const Multipliers& Y, Exactness exactness) {
   if (!lmi.stands_for_points()) return {};
-  return refute<S>(lmi, exact_blocks<S>(of, lmi, formulation), converted<S>(Y));
+  return refute<S>(lmi, exact_blocks<S>(of, lmi, formulation), converted<S>(Y), exactness);
 }
 
 template std::vector<ExactBlock<Decimal100>> exact_blocks<Decimal100>(const Inequalities&,
                                                                       const Lmi&,
                                                                       const Formulation&);
 template Refutation refute<Decimal100>(const Lmi&, const std::vector<ExactBlock<Decimal100>>&,
-                                       std::vector<MatrixOf<Decimal100>>);
+                                       std::vector<MatrixOf<Decimal100>>, Exactness);
 template Refutation refute<DoubleDouble>(const Inequalities&, const Lmi&, const Formulation&,
-                                         const Multipliers&);
+                                         const Multipliers&, Exactness);
 template Refutation refute<Decimal100>(const Inequalities&, const Lmi&, const Formulation&,
-                                       const Multipliers&);
+                                       const Multipliers&, Exactness);
 
 }  // namespace gainsmith::lmi

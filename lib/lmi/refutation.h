@@ -43,13 +43,16 @@ std::vector<numbers::MatrixOf<Decimal100>> wide_multipliers_of(const Formulation
                                                                std::size_t blocks,
                                                                const sdp::Solution& solution);
 
+/// In which arithmetic an exact certificate is looked for beside the multipliers.
+enum class Exactness { in_double, in_wide };
+
 /// What Y says over S, or those of its Y_k that are not small: those of blocks that a certificate
 /// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (omega = 1) when a block
 /// stands for no point of its domain, when the Y_k are not positive semidefinite, or when only
 /// blocks with >= have multipliers and v is 0.
 template <class S>
 Refutation refute(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
-                  const Multipliers& Y);
+                  const Multipliers& Y, Exactness exactness = Exactness::in_wide);
 
 /// The blocks of the Lmi in the balance of a formulation, on the rows that were solved.
 template <class S>
@@ -59,7 +62,7 @@ std::vector<ExactBlock<S>> exact_blocks(const Inequalities& of, const Lmi& lmi,
 /// The same of blocks that are known, and multipliers in the same digits.
 template <class S>
 Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
-                  std::vector<numbers::MatrixOf<S>> Y);
+                  std::vector<numbers::MatrixOf<S>> Y, Exactness exactness = Exactness::in_wide);
 
 /// omega of a certificate of which nothing is missing, in 100 digits. A feasible problem has
 /// certificates that miss by the square of what it is feasible by, 1e-33 where only the last of 16
@@ -67,11 +70,15 @@ Refutation refute(const Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
 /// a proof, and only `exact` is one. It is far below what data of 16 digits were seen to leave.
 constexpr double kNothing = 1e-70;
 
-/// What multipliers near those of an interior solution say in 100 digits, made so that they have no
-/// residual: with the solution beside them (boundary_pair.h), or where that does not lead to a
-/// certificate alone (polished_multipliers.h). The solution may be one in double.
+/// What multipliers near those of an interior solution say in 100 digits, made with the solution
+/// beside them so that they have no residual (boundary_pair.h). The solution may be one in double.
+Refutation refute_on_boundary(const Inequalities& of, const Lmi& lmi,
+                              const Formulation& formulation, const sdp::Solution& solution);
+
+/// The same of multipliers alone (polished_multipliers.h): it takes longer, and leads to a
+/// certificate also where a solution beside them has no gap to it.
 Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
-                           const sdp::Solution& solution);
+                           const Multipliers& Y);
 
 /// omega of an interior solution for the blocks as they were solved, gain bounds and corners of
 /// boxes included, in double: what it excludes is only sufficient for the inequalities.

@@ -68,8 +68,12 @@ BoundaryPair pair_of(const Lmi& lmi, const Formulation& formulation,
   return pair;
 }
 
-Refutation refute_on_boundary(const Lmi& lmi, const std::vector<ExactBlock<Decimal100>>& blocks,
+}  // namespace
+
+Refutation refute_on_boundary(const Inequalities& of, const Lmi& lmi,
                               const Formulation& formulation, const sdp::Solution& solution) {
+  if (!lmi.stands_for_points()) return {};
+  const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
   const ExactBlock<Decimal100> constant = block_of_constant();
   std::vector<const ExactBlock<Decimal100>*> all;
   for (const auto& block : blocks) all.push_back(&block);
@@ -77,13 +81,11 @@ Refutation refute_on_boundary(const Lmi& lmi, const std::vector<ExactBlock<Decim
   BoundaryPair pair = pair_of(lmi, formulation, solution);
   if (!polish(all, pair)) return {};
   pair.Y.resize(blocks.size());
-  return refute<Decimal100>(lmi, blocks, std::move(pair.Y));
+  return refute<Decimal100>(lmi, blocks, std::move(pair.Y), Exactness::in_double);
 }
 
-}  // namespace
-
 Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
-                           const sdp::Solution& solution) {
+                           const Multipliers& Y) {
   // A block that a certificate does not need may keep the others from being one.
   constexpr double kShares[] = {0, 1e-8, 1e-4};
   // What is left beside the range of a singular certificate.
@@ -91,9 +93,6 @@ Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formula
   Refutation best;
   if (!lmi.stands_for_points()) return best;
   const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
-  best = refute_on_boundary(lmi, blocks, formulation, solution);
-  if (best.exact || best.omega <= kNothing) return best;
-  const Multipliers Y = multipliers_of(formulation, lmi.blocks.size(), solution);
   double whole = 0;
   for (const auto& y : Y) whole += trace_of(y);
   const auto excludes = [&](const Kept& kept) {
