@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
+#include "base/stop.h"
 #include "lmi/correlation.h"
 
 namespace gainsmith::design {
@@ -174,8 +176,15 @@ lmi::Refutation refutation_of(const Posed& posed, const Question& asked,
   }
   found = in_31_digits(lmi::Exactness::in_wide);
   if (found.exact || !posed.wide || !near) return found;
-  const auto polished = lmi::refute_polished(posed.inequalities, posed.lmi, formulation, Y);
-  if (polished.exact || polished.omega <= lmi::kNothing) return polished;
+  try {
+    // Of small programs it is cheaper than a solution in more digits.
+    constexpr double kWorth = 0.1;
+    const Allowance allowance(asked.effort.precision == "auto" ? kWorth : std::numeric_limits<double>::infinity());
+    const auto polished = lmi::refute_polished(posed.inequalities, posed.lmi, formulation, Y);
+    if (polished.exact || polished.omega <= lmi::kNothing) return polished;
+  } catch (const OutOfAllowance&) {
+    if (asked.effort.precision != "auto") throw;
+  }
   // What 31 digits see is not of the data's making when 100 are asked for.
   if (asked.effort.precision == "auto") return found;
   const auto blocks = lmi::exact_blocks<Decimal100>(posed.inequalities, posed.lmi, formulation);

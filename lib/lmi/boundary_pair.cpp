@@ -302,19 +302,6 @@ class System {
   std::optional<numbers::Cholesky> upper_, lower_;
 };
 
-/// x and Y of the size 1.
-bool normalise(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
-  double of_B = 0, of_Y = 0;
-  for (std::size_t k = 0; k < blocks.size(); ++k) {
-    of_B = std::max(of_B, largest(value_of(*blocks[k], pair.x)));
-    of_Y = std::max(of_Y, largest(pair.Y[k]));
-  }
-  if (!(of_B > 0 && of_Y > 0)) return false;
-  for (Decimal100& x : pair.x) x /= of_B;
-  for (Wide& Y : pair.Y) Y /= of_Y;
-  return true;
-}
-
 /// V S V' without what steps leave beside the range.
 void cut(Wide& Y) {
   constexpr double kLeast = 1e-60;
@@ -329,38 +316,37 @@ void cut(Wide& Y) {
 
 bool polish(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
   constexpr double kSettled = 1e-92;
-  constexpr double kFalls = 1e-3;  // what a step must leave at most, or the system is set up anew
-  constexpr double kFails = 0.5;
-  constexpr int kMostSystems = 5;
-  constexpr int kMostSteps = 40;
-  constexpr double kLeastDamping = 1e-9, kMostDamping = 1e-3, kAboveResidual = 1e3;
-  if (!normalise(blocks, pair)) return false;
+  constexpr double kFails = 0.5;  // a step that leaves as much of the residual is none
+  constexpr double kFalls = 1e-3;  // one that leaves more wants another system
+  constexpr double kLeast = 1e-9, kMost = 1e-3, kAboveResidual = 1e3;  // of the damping
+  constexpr double kLess = 1e-2;
+  constexpr int kMostSystems = 8;
   System system(blocks, pair.x.size());
+  PairResiduals residuals = pair_residuals(blocks, pair);
+  double damping = std::clamp(kAboveResidual * residuals.worst, kLeast, kMost);
+  bool is_set_up = false;
   int systems = 0;
-  double last = 0;
-  bool fresh = false, damped = false;
-  for (int k = 0; k < kMostSteps; ++k) {
-    const PairResiduals residuals = pair_residuals(blocks, pair);
-    if (!std::isfinite(residuals.worst) || residuals.worst > 1) return false;
-    if (residuals.worst <= kSettled) {
-      for (Wide& Y : pair.Y) cut(Y);
-      return true;
+  while (!(residuals.worst <= kSettled)) {
+    if (!is_set_up && (systems++ == kMostSystems || !system.set_up(pair, damping))) return false;
+    is_set_up = true;
+    BoundaryPair next = pair;
+    system.move(residuals, next);
+    PairResiduals left = pair_residuals(blocks, next);
+    const double share = left.worst / residuals.worst;
+    if (!(share <= kFails)) {
+      if (damping <= kLeast) return false;
+      damping = std::max(kLeast, kLess * damping);
+      is_set_up = false;
+      continue;
     }
-    // The first is set up where the pair is still off, and damped by that.
-    const bool slow = systems == 0 || residuals.worst > kFalls * last || (k == 1 && damped);
-    if (slow) {
-      if (fresh && residuals.worst > kFails * last) return false;
-      if (systems++ == kMostSystems) return false;
-      const double damping =
-          std::clamp(kAboveResidual * residuals.worst, kLeastDamping, kMostDamping);
-      if (!system.set_up(pair, damping)) return false;
-      damped = damping > kLeastDamping;
-    }
-    fresh = slow;
-    last = residuals.worst;
-    system.move(residuals, pair);
+    // The first system is made where the pair is still off, and damped by that.
+    is_set_up = share <= kFalls && damping <= kLeast;
+    if (!is_set_up) damping = std::clamp(kAboveResidual * left.worst, kLeast, damping);
+    pair = std::move(next);
+    residuals = std::move(left);
   }
-  return false;
+  for (Wide& Y : pair.Y) cut(Y);
+  return true;
 }
 
 }  // namespace gainsmith::lmi

@@ -23,7 +23,7 @@
 
 namespace gainsmith::lmi {
 
-/// In balanced units. `blocks` holds those of the inequalities; with a constant part x_0 >= 0 is one
+/// In balanced units, of a size near 1 as far as they are not 0. `blocks` holds those of the inequalities; with a constant part x_0 >= 0 is one
 /// of them, with y_0 = v its multiplier.
 struct BoundaryPair {
   std::vector<Decimal100> x;  ///< x_0 (0 without a constant part), x_1, ..., x_m

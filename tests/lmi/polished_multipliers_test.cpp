@@ -26,6 +26,13 @@ Decimal100 inner(const Wide& a, const Wide& b) {
   return sum;
 }
 
+ExactElements<Decimal100> elements_of(const Wide& B) {
+  ExactElements<Decimal100> result;
+  for (int c = 0; c < B.cols(); ++c)
+    for (int r = 0; r < B.rows(); ++r) result.push_back({r, c, B(r, c), 0});
+  return result;
+}
+
 Wide gram_of(const Wide& L) { return L.lazyProduct(L.transpose()); }
 
 /// A unit vector w with L' w = 0 (Gram and Schmidt).
@@ -48,6 +55,7 @@ struct Planted {
   Planted(RandomStream& random, int n, int rank, int unknowns) {
     for (int k = 0; k < 2; ++k) L.push_back(drawn(random, n, rank));
     blocks.resize(2);
+    for (auto& block : blocks) block.size = n;
     for (int i = 1; i <= unknowns; ++i) {
       std::vector<Wide> B;
       Decimal100 residual(0), weight(0);
@@ -60,7 +68,7 @@ struct Planted {
       for (int r = 0; r < n; ++r) B[0](r, r) -= residual / weight;
       for (std::size_t k = 0; k < 2; ++k)
         blocks[k].terms.emplace_back(
-            i, numbers::Enclosed<Decimal100>{B[k], numbers::Matrix::Zero(n, n)});
+            i, elements_of(B[k]));
     }
   }
 
@@ -81,7 +89,7 @@ struct Planted {
     for (std::size_t i = 0; i < blocks[1].terms.size(); ++i) {
       Decimal100 sum(0);
       for (const FactoredMultiplier& one : multipliers)
-        sum += inner(one.block->terms[i].second.mid, one.value());
+        sum += inner(dense(one.block->terms[i].second, one.block->size).mid, one.value());
       worst = std::max(worst, std::abs(static_cast<double>(sum)));
     }
     return worst;
@@ -127,7 +135,7 @@ TEST(PolishedMultipliers, OfFullRankLoseADirectionThatNoCertificateHas) {
       const Wide w = beside(random, planted.L[0]);
       planted.blocks[0].terms.emplace_back(
           kUnknowns + 1,
-          numbers::Enclosed<Decimal100>{gram_of(w), numbers::Matrix::Zero(kSize, kSize)});
+          elements_of(gram_of(w)));
       std::vector<FactoredMultiplier> multipliers = planted.near(random, off * 1e-4);
       Wide whole(kSize, kSize);
       whole << multipliers[0].L, w * Decimal100(off);
@@ -146,8 +154,9 @@ TEST(PolishedMultipliers, OfFullRankLoseADirectionThatNoCertificateHas) {
 TEST(PolishedMultipliers, FarFromACertificateThereIsNone) {
   // <I, Y> = 0 asks for Y = 0.
   ExactBlock<Decimal100> block;
+  block.size = 2;
   block.terms.emplace_back(
-      1, numbers::Enclosed<Decimal100>{Wide::Identity(2, 2), numbers::Matrix::Zero(2, 2)});
+      1, elements_of(Wide::Identity(2, 2)));
   std::vector<FactoredMultiplier> multipliers = {{&block, Wide::Identity(2, 2)}};
   EXPECT_FALSE(polish(multipliers, 1));
 }
