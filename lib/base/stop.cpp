@@ -34,8 +34,7 @@ void check_stop() {
   if (is_stopping()) throw Stopped();
 }
 
-Allowance::Allowance(double seconds)
-    : seconds_(seconds), around_(std::exchange(allowance, this)) {}
+Allowance::Allowance(double seconds) : seconds_(seconds), around_(std::exchange(allowance, this)) {}
 
 Allowance::~Allowance() { allowance = around_; }
 
@@ -47,8 +46,7 @@ void spend(double seconds) {
   if (over) throw OutOfAllowance();
 }
 
-AllowanceOfLoop::AllowanceOfLoop(Allowance* of_loop)
-    : before_(std::exchange(allowance, of_loop)) {}
+AllowanceOfLoop::AllowanceOfLoop(Allowance* of_loop) : before_(std::exchange(allowance, of_loop)) {}
 
 AllowanceOfLoop::~AllowanceOfLoop() { allowance = before_; }
 

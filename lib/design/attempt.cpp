@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <utility>
 
 #include "base/stop.h"
+#include "design/certificates.h"
 #include "lmi/correlation.h"
 
 namespace gainsmith::design {
@@ -153,51 +153,13 @@ Interior::Solved solve_interior(const Posed& posed, Interior& interior, Attempt&
   return first;
 }
 
-lmi::Refutation refutation_of(const Posed& posed, const Question& asked,
-                              const Interior::Solved& solved) {
-  const lmi::Formulation& formulation = solved.formulation;
-  const auto Y = lmi::multipliers_of(formulation, posed.lmi.blocks.size(), solved.solution);
-  // With more of a margin than this no certificate is near.
-  constexpr double kNear = 1e-6;
-  const bool near = lmi::interior_margin(solved.solution) <= kNear;
-  const auto in_31_digits = [&](lmi::Exactness exactness) {
-    auto found = lmi::refute<DoubleDouble>(posed.inequalities, posed.lmi, formulation, Y, exactness);
-    // 31 digits have the range of double: what underflows there stands in the file all the same.
-    if (found.exact && posed.wide)
-      found = lmi::refute<Decimal100>(posed.inequalities, posed.lmi, formulation, Y, exactness);
-    return found;
-  };
-  auto found = in_31_digits(lmi::Exactness::in_double);
-  if (found.exact) return found;
-  if (posed.wide && near) {
-    const auto boundary =
-        lmi::refute_on_boundary(posed.inequalities, posed.lmi, formulation, solved.solution);
-    if (boundary.exact || boundary.omega <= lmi::kNothing) return boundary;
-  }
-  found = in_31_digits(lmi::Exactness::in_wide);
-  if (found.exact || !posed.wide || !near) return found;
-  try {
-    // Of small programs it is cheaper than a solution in more digits.
-    constexpr double kWorth = 0.1;
-    const Allowance allowance(asked.effort.precision == "auto" ? kWorth : std::numeric_limits<double>::infinity());
-    const auto polished = lmi::refute_polished(posed.inequalities, posed.lmi, formulation, Y);
-    if (polished.exact || polished.omega <= lmi::kNothing) return polished;
-  } catch (const OutOfAllowance&) {
-    if (asked.effort.precision != "auto") throw;
-  }
-  // What 31 digits see is not of the data's making when 100 are asked for.
-  if (asked.effort.precision == "auto") return found;
-  const auto blocks = lmi::exact_blocks<Decimal100>(posed.inequalities, posed.lmi, formulation);
-  return lmi::refute<Decimal100>(
-      posed.lmi, blocks,
-      lmi::wide_multipliers_of(formulation, posed.lmi.blocks.size(), solved.solution));
-}
-
 /// The multipliers of the first round, and in more digits also those of the rows that they live on.
-void refute(const Posed& posed, Interior& interior, Interior::Solved solved, Attempt& result) {
+void refute(const Posed& posed, const Solve& solve, Interior& interior, Interior::Solved solved,
+            Attempt& result) {
   const int most_restrictions = result.question.single ? 0 : 3;
   for (int k = 0;; ++k) {
-    const lmi::Refutation found = refutation_of(posed, result.question, solved);
+    const lmi::Refutation found =
+        find_certificate(posed, result.question.effort, solved.formulation, solve, solved.solution);
     const bool better = !result.refutation || found.exact || found.omega < result.refutation->omega;
     if (better) result.refutation = found;
     if (result.refuted()) {
@@ -244,7 +206,12 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
   if (!result.point)
     result.relaxed_omega =
         lmi::relaxed_omega(posed.lmi, result.question.bounds, first.formulation, first.solution);
-  if (result.question.bounds.list.empty()) refute(posed, interior, std::move(first), result);
+  if (!result.question.bounds.list.empty()) return result;
+  try {
+    refute(posed, solve, interior, std::move(first), result);
+  } catch (const OutOfAllowance&) {
+    result.out_of_allowance = true;
+  }
   return result;
 }
 

@@ -59,6 +59,8 @@ struct Attempt {
   /// Of an interior question without a point: what its multipliers leave for the blocks as they
   /// were solved, gain bounds and corners of boxes included (lmi::relaxed_omega).
   double relaxed_omega = 1;
+  /// Whether its multipliers would have led further with more work (base/stop.h).
+  bool out_of_allowance = false;
   /// Made on faces (on_faces.h): the solution says nothing of margins there.
   bool on_face = false;
   /// Of attempts on faces that exclude every solution: the exact steps, as text, and

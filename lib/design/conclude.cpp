@@ -217,6 +217,11 @@ void conclude(const Climb& climb, model::Gains& gains) {
     gains.solver = record_of(*refuted, has_objective);
     return accept_refutation(climb, *refuted, gains);
   }
+  if (climb.is_out_of_allowance()) {
+    gains.solver.add_message(
+        "the search for a point or a certificate in more digits was ended after its allowance of "
+        "work; `--effort full`, or `effort: full` under `synthesis`, lets it go on");
+  }
   if (const Attempt* faces = climb.find(Rung::on_faces)) {
     gains.solver.add_message(faces->left_open);
     return;

@@ -37,9 +37,9 @@ model::Gains subset(const model::Instance& instance, const std::set<std::string>
     trivial.verdict = model::Verdict::yes;
     return trivial;
   }
-  model::Gains gains = synthesize(part, solver);
+  model::Gains gains = synthesize(part, solver, Depth::verdict);
   if (gains.verdict == model::Verdict::undecided && part.design->objective)
-    gains = synthesize(without_objective(part), solver);
+    gains = synthesize(without_objective(part), solver, Depth::verdict);
   return gains;
 }
 
@@ -95,7 +95,8 @@ std::optional<Conflict> find_conflict(const model::Instance& instance, const mod
   for (const model::Design::Inequality& inequality : design.inequalities)
     names.insert(inequality.name);
   Conflict conflict;
-  model::Gains certified = subset(plain, names, solver);
+  const bool is_certified = gains.certificate && gains.certificate->is_about_problem();
+  model::Gains certified = is_certified ? gains : subset(plain, names, solver);
   if (certified.verdict != model::Verdict::no) {
     const bool bounded = design.synthesis.gain_bound && !design.gains.empty();
     conflict.gain_bound = bounded && certified.verdict == model::Verdict::yes;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <limits>
 #include <utility>
 
+#include "base/stop.h"
 #include "design/gain_values.h"
 #include "design/on_faces.h"
 
@@ -188,11 +190,29 @@ void Climb::climb(bool to_end) {
   using Clock = std::chrono::steady_clock;
   for (const Row& row : kLadder) {
     if (!to_end && (point() != nullptr || refutation() != nullptr)) return;
+    if (out_of_allowance_) return;
     if (find(row.rung) != nullptr || !row.is_due(*this)) continue;
     const auto start = Clock::now();
-    if (auto found = row.tries(*this)) tried_.emplace(row.rung, std::move(*found));
+    const Allowance limit(allowance() - spent_);
+    try {
+      if (auto found = row.tries(*this)) {
+        out_of_allowance_ = found->out_of_allowance;
+        tried_.emplace(row.rung, std::move(*found));
+      }
+    } catch (const OutOfAllowance&) {
+      out_of_allowance_ = true;
+    }
+    spent_ += limit.spent();
     seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
   }
+}
+
+double Climb::allowance() const {
+  constexpr double kLeast = 2, kMost = 30, kTimes = 20;
+  constexpr double kIterations = 20;
+  if (posed_.choices().full_effort) return std::numeric_limits<double>::infinity();
+  return std::clamp(kTimes * kIterations * posed_.lmi.multiplications() * kDoubleWork, kLeast,
+                    kMost);
 }
 
 const Attempt* Climb::find(Rung rung) const {

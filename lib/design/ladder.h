@@ -75,17 +75,23 @@ class Climb {
   const Posed& posed() const { return posed_; }
   const lmi::GainBounds& bounds() const { return bounds_; }
   double seconds() const { return seconds_; }
+  /// Whether what is left would have taken more than the allowance: 20 times the work of the solver
+  /// in double, but at least two and at most thirty seconds; any with full effort.
+  bool is_out_of_allowance() const { return out_of_allowance_; }
 
  private:
   friend struct Rungs;
 
   void climb(bool to_end);
+  double allowance() const;
 
   const Posed posed_;
   lmi::GainBounds bounds_;
   Solve solve_;
   std::map<Rung, Attempt> tried_;
   double seconds_ = 0;
+  double spent_ = 0;
+  bool out_of_allowance_ = false;
 };
 
 /// The verdict of the attempts, with the point or the certificate, its margins, bounds and

@@ -115,6 +115,14 @@ model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<Yaml
   }
   if (const auto bound = map.find("gain_bound")) read_gain_bound(file, *bound, options);
   if (const auto forall = map.find("forall")) read_way(file, *forall, options);
+  if (const auto effort = map.find("effort")) {
+    const std::vector<std::string> words = {"ordinary", "full"};
+    const std::string word = file.string(effort->value, "effort");
+    if (std::find(words.begin(), words.end(), word) == words.end())
+      throw InputError(file.place(effort->value),
+                       "effort: ordinary or full, not '" + word + "'" + suggestion(word, words));
+    options.full_effort = word == "full";
+  }
   map.finish();
   return options;
 }

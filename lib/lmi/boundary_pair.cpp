@@ -43,7 +43,8 @@ Wide value_of(const WideBlock& block, const std::vector<Decimal100>& x) {
 }
 
 /// Adds <B_i, Y> to r_i, and |B_i| |Y| to their scale.
-void add_residuals(const WideBlock& block, const Wide& Y, std::vector<Decimal100>& r, Vector& scale) {
+void add_residuals(const WideBlock& block, const Wide& Y, std::vector<Decimal100>& r,
+                   Vector& scale) {
   const Matrix sizes = Y.unaryExpr([](const Decimal100& y) { return size_of(y); });
   for (const auto& [i, elements] : block.terms) {
     spend(static_cast<double>(elements.size()) * kWideWork);
@@ -66,7 +67,8 @@ struct PairResiduals {
   double worst = 0;
 };
 
-PairResiduals pair_residuals(const std::vector<const WideBlock*>& blocks, const BoundaryPair& pair) {
+PairResiduals pair_residuals(const std::vector<const WideBlock*>& blocks,
+                             const BoundaryPair& pair) {
   PairResiduals result;
   result.r.assign(pair.x.size(), Decimal100(0));
   Vector scale = Vector::Zero(static_cast<Index>(pair.x.size()));
@@ -133,7 +135,7 @@ void product_with(const ExactElements<Decimal100>& elements, const Matrix& by, M
 /// One block's part of (2).
 struct Part {
   Ranges ranges;
-  Matrix across;  ///< column i: U'B_i V, (u, v) column by column
+  Matrix across;    ///< column i: U'B_i V, (u, v) column by column
   Index first = 0;  ///< of its dS among all
 };
 
@@ -147,7 +149,8 @@ class System {
     parts_.clear();
     Index size = 0;
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
-      const auto ranges = ranges_of(narrow<double>(value_of(*blocks_[k], pair.x)), narrow<double>(pair.Y[k]));
+      const auto ranges =
+          ranges_of(narrow<double>(value_of(*blocks_[k], pair.x)), narrow<double>(pair.Y[k]));
       if (!ranges) return false;
       parts_.push_back({*ranges, {}, size});
       size += ranges->rank() * (ranges->rank() + 1) / 2;
@@ -195,7 +198,8 @@ class System {
     part.across = Matrix::Zero(U.cols() * rank, unknowns_);
     Matrix BV(block.size, rank);
     for (const auto& [i, elements] : block.terms) {
-      spend(static_cast<double>(rank * (block.size * block.size + static_cast<Index>(elements.size()))) *
+      spend(static_cast<double>(rank *
+                                (block.size * block.size + static_cast<Index>(elements.size()))) *
             kDoubleWork);
       product_with(elements, V, BV);
       part.across.col(i) = (U.transpose() * BV).reshaped();
@@ -204,6 +208,7 @@ class System {
       for (Index v = 0; v < rank; ++v)
         for (Index u = 0; u <= v; ++u) A_(at++, i) = root(u, v) * inside(u, v);
     }
+    if (U.cols() == 0) return;
     Matrix weighed = part.across;
     for (Index v = 0, at = 0; v < rank; ++v)
       for (Index u = 0; u < U.cols(); ++u) weighed.row(at++) *= std::sqrt(2 * s[v] / lambda[u]);
@@ -284,8 +289,8 @@ class System {
     const Index n = V.rows(), rank = V.cols();
     if (rank == 0) return Matrix::Zero(n, n);
     const Vector across = part.across * dx;
-    const Matrix uv = (-lambda.cwiseInverse()).asDiagonal() *
-                      (across.reshaped(U.cols(), rank) * s.asDiagonal());
+    const Matrix uv =
+        (-lambda.cwiseInverse()).asDiagonal() * (across.reshaped(U.cols(), rank) * s.asDiagonal());
     const Matrix mixed = U * uv * V.transpose();
     Matrix inside(rank, rank);
     Index at = part.first;
@@ -316,7 +321,7 @@ void cut(Wide& Y) {
 
 bool polish(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
   constexpr double kSettled = 1e-92;
-  constexpr double kFails = 0.5;  // a step that leaves as much of the residual is none
+  constexpr double kFails = 0.5;   // a step that leaves as much of the residual is none
   constexpr double kFalls = 1e-3;  // one that leaves more wants another system
   constexpr double kLeast = 1e-9, kMost = 1e-3, kAboveResidual = 1e3;  // of the damping
   constexpr double kLess = 1e-2;

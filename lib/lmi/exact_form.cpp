@@ -180,8 +180,8 @@ struct ExactRules {
   void operator()(Is<op>, const At& at, Form& out) const {
     if (!at[1].constant) refuse(op);
     map_elements(at[0], at.shape(), out, [&](const auto& e, const auto& push) {
-      const Ball<S> by = op == Op::divide ? at[1].number.ball(0, 0)
-                                          : at[1].number.ball(e.row, e.column);
+      const Ball<S> by =
+          op == Op::divide ? at[1].number.ball(0, 0) : at[1].number.ball(e.row, e.column);
       if (by.is_zero()) expr::fault::division_by_zero();
       push(e.row, e.column, e.ball() / by);
     });
@@ -204,8 +204,8 @@ struct ExactRules {
     std::vector<Enclosed<S>> values;
     for (const Form* operand : at.operands)
       values.push_back(operand->constant ? operand->number
-                                          : numbers::exactly<S>(numbers::MatrixOf<S>::Zero(
-                                                operand->shape.rows, operand->shape.cols)));
+                                         : numbers::exactly<S>(numbers::MatrixOf<S>::Zero(
+                                               operand->shape.rows, operand->shape.cols)));
     std::vector<const Enclosed<S>*> operands;
     for (const Enclosed<S>& value : values) operands.push_back(&value);
     Enclosed<S> result;
@@ -273,16 +273,13 @@ struct ExactRules {
     });
   }
   template <Op op>
-  requires expr::OneOf<op, Op::constant, Op::zeros, Op::real_power, Op::log, Op::sqrt, Op::tanh,
-                       Op::floor, Op::mod, Op::atan2, Op::complement_basis, Op::abs, Op::sign,
-                       Op::minimum, Op::maximum, Op::where, Op::norm, Op::inverse,
-                       Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
-                       Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::flow_map, Op::extremum, Op::exp, Op::sin, Op::cos,
-                       Op::matrix_exponential>
-  void operator()(Is<op>, const At&, Form&) const {
-    refuse(op);
-  }
+  requires expr::OneOf<
+      op, Op::constant, Op::zeros, Op::real_power, Op::log, Op::sqrt, Op::tanh, Op::floor, Op::mod,
+      Op::atan2, Op::complement_basis, Op::abs, Op::sign, Op::minimum, Op::maximum, Op::where,
+      Op::norm, Op::inverse, Op::pseudo_inverse, Op::singular_values, Op::range_basis,
+      Op::kernel_basis, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
+      Op::flow_map, Op::extremum, Op::exp, Op::sin, Op::cos, Op::matrix_exponential>
+  void operator()(Is<op>, const At&, Form&) const { refuse(op); }
 
  private:
   /// A scalar form times a matrix.

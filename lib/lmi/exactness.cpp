@@ -46,7 +46,8 @@ void add_images(const FactoredBlock<S>& one, Index first, Images& images) {
     const Matrix image = L.transpose() * BL;
     Index at = first;
     for (Index c = 0; c < rank; ++c)
-      for (Index r = c; r < rank; ++r) images.G(at++, i) = r == c ? image(r, c) : root * image(r, c);
+      for (Index r = c; r < rank; ++r)
+        images.G(at++, i) = r == c ? image(r, c) : root * image(r, c);
     images.error[i] += error * (1 + 1e-12);
   }
 }
@@ -54,8 +55,8 @@ void add_images(const FactoredBlock<S>& one, Index first, Images& images) {
 }  // namespace
 
 template <class S>
-bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks, const ResidualsInDouble& residuals,
-                        bool constant) {
+bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
+                        const ResidualsInDouble& residuals, bool constant) {
   const Index unknowns = residuals.r.size();
   Index size = 1;
   for (const FactoredBlock<S>& one : blocks) size += one.L.cols() * (one.L.cols() + 1) / 2;

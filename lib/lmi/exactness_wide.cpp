@@ -24,7 +24,8 @@ struct Gram {
 
   void add(const ExactBlock<S>& block, const MatrixOf<S>& Y) {
     const Eigen::Index n = Y.rows();
-    const double rounding = 2 * static_cast<double>(n * n + 2 * n + 4) * numbers::unit_roundoff<S>();
+    const double rounding =
+        2 * static_cast<double>(n * n + 2 * n + 4) * numbers::unit_roundoff<S>();
     const numbers::Matrix sizes = Y.unaryExpr([](const S& y) { return upper(y); });
     for (std::size_t a = 0; a < block.terms.size(); ++a) {
       const auto& [i, elements] = block.terms[a];
@@ -54,7 +55,9 @@ struct Gram {
   static std::pair<MatrixOf<S>, std::pair<numbers::Matrix, numbers::Matrix>> image(
       const ExactElements<S>& elements, const MatrixOf<S>& Y, const numbers::Matrix& sizes) {
     const Eigen::Index n = Y.rows();
-    spend((std::pow(static_cast<double>(n), 3) + static_cast<double>(n) * static_cast<double>(elements.size())) * work_of<S>());
+    spend((std::pow(static_cast<double>(n), 3) +
+           static_cast<double>(n) * static_cast<double>(elements.size())) *
+          work_of<S>());
     MatrixOf<S> BY = MatrixOf<S>::Zero(n, n);
     numbers::Matrix whole = numbers::Matrix::Zero(n, n), rest = whole;
     for (const auto& e : elements) {
@@ -88,7 +91,8 @@ bool is_exact_in_wide(const std::vector<WeighedBlock<S>>& blocks, const VectorOf
     H(0, 0) += r[0] * r[0];
     r[0] = S(0);
   }
-  spend(2 * static_cast<double>(m) * static_cast<double>(m) * static_cast<double>(m) * work_of<S>());
+  spend(2 * static_cast<double>(m) * static_cast<double>(m) * static_cast<double>(m) *
+        work_of<S>());
   const auto L = cholesky(H);
   if (!L) return false;
   const MatrixOf<S> R = lower_inverse(*L);  // R H R' = I

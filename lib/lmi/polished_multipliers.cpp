@@ -103,8 +103,7 @@ numbers::MatrixOf<S> gram(const std::vector<FactoredMultiplier>& multipliers, in
     const numbers::MatrixOf<S> L = narrow<S>(one.L);
     std::vector<numbers::MatrixOf<S>> moved;
     for (const auto& [i, elements] : one.block->terms) {
-      numbers::MatrixOf<S> product =
-          numbers::MatrixOf<S>::Constant(L.rows(), L.cols(), S(0));
+      numbers::MatrixOf<S> product = numbers::MatrixOf<S>::Constant(L.rows(), L.cols(), S(0));
       for (const auto& e : elements) product.row(e.row) += as<S>(e.mid) * L.row(e.column);
       moved.push_back(std::move(product));
     }

@@ -90,6 +90,8 @@ struct SynthesisOptions {
   /// Whether the problem states it: one that does not guides the search and decides nothing, since
   /// it is a number in units.
   bool gain_bound_stated = false;
+  /// Whether what double does not decide may take any time, not an allowance of work.
+  bool full_effort = false;
 };
 
 /// Sizes of dimension names.

@@ -66,9 +66,7 @@ struct Planted {
       }
       weight = inner(Wide::Identity(n, n), gram_of(L[0]));
       for (int r = 0; r < n; ++r) B[0](r, r) -= residual / weight;
-      for (std::size_t k = 0; k < 2; ++k)
-        blocks[k].terms.emplace_back(
-            i, elements_of(B[k]));
+      for (std::size_t k = 0; k < 2; ++k) blocks[k].terms.emplace_back(i, elements_of(B[k]));
     }
   }
 
@@ -133,9 +131,7 @@ TEST(PolishedMultipliers, OfFullRankLoseADirectionThatNoCertificateHas) {
       RandomStream random(0x903, seed);
       Planted planted(random, kSize, kSize - 1, kUnknowns);
       const Wide w = beside(random, planted.L[0]);
-      planted.blocks[0].terms.emplace_back(
-          kUnknowns + 1,
-          elements_of(gram_of(w)));
+      planted.blocks[0].terms.emplace_back(kUnknowns + 1, elements_of(gram_of(w)));
       std::vector<FactoredMultiplier> multipliers = planted.near(random, off * 1e-4);
       Wide whole(kSize, kSize);
       whole << multipliers[0].L, w * Decimal100(off);
@@ -155,8 +151,7 @@ TEST(PolishedMultipliers, FarFromACertificateThereIsNone) {
   // <I, Y> = 0 asks for Y = 0.
   ExactBlock<Decimal100> block;
   block.size = 2;
-  block.terms.emplace_back(
-      1, elements_of(Wide::Identity(2, 2)));
+  block.terms.emplace_back(1, elements_of(Wide::Identity(2, 2)));
   std::vector<FactoredMultiplier> multipliers = {{&block, Wide::Identity(2, 2)}};
   EXPECT_FALSE(polish(multipliers, 1));
 }

@@ -1,0 +1,102 @@
+#include "design/certificates.h"
+
+#include <limits>
+#include <utility>
+
+#include "base/stop.h"
+#include "lmi/interior_certificate.h"
+
+namespace gainsmith::design {
+
+namespace {
+
+bool excludes(const lmi::Refutation& found) { return found.exact || found.omega <= lmi::kNothing; }
+
+class Certificates {
+ public:
+  Certificates(const Posed& posed, const Effort& effort, const lmi::Formulation& formulation)
+      : posed_(posed), effort_(effort), formulation_(formulation) {}
+
+  bool in_double() const { return effort_.precision == "auto"; }
+
+  lmi::Refutation exact(const sdp::Solution& solution, lmi::Exactness exactness) const {
+    const auto Y = multipliers(solution);
+    auto found =
+        lmi::refute<DoubleDouble>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
+    // 31 digits have the range of double: what underflows there stands in the file all the same.
+    if (found.exact && posed_.wide)
+      found = lmi::refute<Decimal100>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
+    return found;
+  }
+
+  lmi::Refutation on_boundary(const sdp::Solution& solution) const {
+    return lmi::refute_on_boundary(posed_.inequalities, posed_.lmi, formulation_, solution);
+  }
+
+  /// The exact certificate that is deepest inside of the cone, with its multipliers in `solution`.
+  lmi::Refutation deepest(const Solve& solve, sdp::Solution& solution) const {
+    sdp::Solution inside = solve(lmi::interior_certificate_program(formulation_), effort_);
+    if (inside.Y.values.empty()) return {};
+    lmi::add_depth(inside);
+    const auto found = exact(inside, lmi::Exactness::in_double);
+    if (found.exact) solution.Y = std::move(inside.Y);
+    return found;
+  }
+
+  /// Of small programs polishing is cheaper than a solution in more digits: from double it has a
+  /// small allowance.
+  lmi::Refutation polished(const sdp::Solution& solution) const {
+    constexpr double kWorth = 0.1;
+    const Allowance allowance(in_double() ? kWorth : std::numeric_limits<double>::infinity());
+    try {
+      return lmi::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
+                                  multipliers(solution));
+    } catch (const OutOfAllowance&) {
+      if (!in_double()) throw;
+      return {};
+    }
+  }
+
+  /// What 31 digits see is not of the data's making when 100 are asked for.
+  lmi::Refutation in_100_digits(const sdp::Solution& solution) const {
+    const auto blocks =
+        lmi::exact_blocks<Decimal100>(posed_.inequalities, posed_.lmi, formulation_);
+    return lmi::refute<Decimal100>(
+        posed_.lmi, blocks,
+        lmi::wide_multipliers_of(formulation_, posed_.lmi.blocks.size(), solution));
+  }
+
+ private:
+  lmi::Multipliers multipliers(const sdp::Solution& solution) const {
+    return lmi::multipliers_of(formulation_, posed_.lmi.blocks.size(), solution);
+  }
+
+  const Posed& posed_;
+  const Effort& effort_;
+  const lmi::Formulation& formulation_;
+};
+
+}  // namespace
+
+lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
+                                 const lmi::Formulation& formulation, const Solve& solve,
+                                 sdp::Solution& solution) {
+  // With more of a margin than this no certificate is near.
+  constexpr double kNear = 1e-6;
+  const Certificates certificates(posed, effort, formulation);
+  const bool near = lmi::interior_margin(solution) <= kNear;
+  lmi::Refutation found = certificates.exact(solution, lmi::Exactness::in_double);
+  if (found.exact) return found;
+  if (posed.wide && near) {
+    if (const auto boundary = certificates.on_boundary(solution); excludes(boundary))
+      return boundary;
+    if (certificates.in_double())
+      if (const auto deepest = certificates.deepest(solve, solution); deepest.exact) return deepest;
+  }
+  found = certificates.exact(solution, lmi::Exactness::in_wide);
+  if (found.exact || !posed.wide || !near) return found;
+  if (const auto polished = certificates.polished(solution); excludes(polished)) return polished;
+  return certificates.in_double() ? found : certificates.in_100_digits(solution);
+}
+
+}  // namespace gainsmith::design
