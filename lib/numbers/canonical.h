@@ -81,17 +81,31 @@ std::optional<Columns<Number>> basis(Columns<Number> W, Eigen::Index k, const Nu
   return B;
 }
 
-/// The columns of P, of which product(i, j) are the elements. What is exact in the matrix that P is
-/// of stays so: where `is_alone(i)`, row and column i are those of `alone` times the identity.
-template <class Number, class Product, class IsAlone>
-Columns<Number> projector(Eigen::Index n, const Product& product, const IsAlone& is_alone,
-                          const Number& alone) {
+/// Which subspace of a matrix M with n rows: its range, or the kernel of M'.
+enum class Of { range, kernel };
+
+/// The columns of P for k dimensions, of which product(i, j) are the elements. What zero rows of M
+/// say is exact: their coordinates are not in the range, and in the kernel; what is left of the
+/// space may be all that is left of the subspace.
+template <class Number, class Product, class IsZero>
+Columns<Number> projector(Of of, Eigen::Index n, Eigen::Index k, const Product& product,
+                          const IsZero& is_zero, const Number& one) {
+  const Number outside = of == Of::kernel ? one : Number{};
+  Eigen::Index rows = n;
+  for (Eigen::Index i = 0; i < n; ++i)
+    if (is_zero(i)) --rows;
+  const Eigen::Index dimensions = of == Of::kernel ? k - (n - rows) : k;
+  const bool all = dimensions == rows, none = dimensions == 0;
   Columns<Number> P;
   for (Eigen::Index j = 0; j < n; ++j) {
     std::vector<Number>& column = P.emplace_back();
     for (Eigen::Index i = 0; i < n; ++i) {
-      const bool outside = is_alone(i) || is_alone(j);
-      column.push_back(!outside ? product(i, j) : i == j ? alone : Number{});
+      if (is_zero(i) || is_zero(j))
+        column.push_back(i == j ? outside : Number{});
+      else if (all || none)
+        column.push_back(i == j && all ? one : Number{});
+      else
+        column.push_back(product(i, j));
     }
   }
   return P;

@@ -119,17 +119,17 @@ Enclosed<S> leading_vectors(const Enclosed<S>& A, Eigen::Index k, bool left) {
   return {Q, Matrix::Constant(Q.rows(), Q.cols(), radius)};
 }
 
-/// The basis of canonical.h of the subspace with the projector P. Zero rows of M stand alone.
-/// Nothing is known when a pivot is not certain.
+/// The basis of canonical.h of the subspace of M with the projector P. Nothing is known when a
+/// pivot is not certain.
 template <class S>
-Enclosed<S> canonical_basis(const Enclosed<S>& P, Eigen::Index k, const Enclosed<S>& M,
-                            const S& alone) {
+Enclosed<S> canonical_basis(canonical::Of of, const Enclosed<S>& P, Eigen::Index k,
+                            const Enclosed<S>& M) {
   Enclosed<S> out = nothing_known<S>(MatrixOf<S>::Zero(P.rows(), k));
   const auto is_zero = [&](Eigen::Index i) {
     return (M.mid.row(i).array() == S(0)).all() && (M.rad.row(i).array() == 0).all();
   };
   const auto columns = canonical::projector(
-      P.rows(), [&](auto i, auto j) { return P.ball(i, j); }, is_zero, Ball<S>{alone, 0});
+      of, P.rows(), k, [&](auto i, auto j) { return P.ball(i, j); }, is_zero, Ball<S>{S(1), 0});
   const auto basis = canonical::basis(columns, k, Ball<S>{S(canonical::kLead), 0});
   if (!basis) return out;
   canonical::for_each_element(
@@ -141,14 +141,15 @@ Enclosed<S> canonical_basis(const Enclosed<S>& P, Eigen::Index k, const Enclosed
 template <class S>
 Enclosed<S> range_basis(const Enclosed<S>& A, Eigen::Index k) {
   const Enclosed<S> Q = leading_vectors(A, k, true);
-  return canonical_basis<S>(product(Q, transposed(Q)), k, A, S(0));
+  return canonical_basis<S>(canonical::Of::range, product(Q, transposed(Q)), k, A);
 }
 
 /// Of the k last right singular vectors, k < cols.
 template <class S>
 Enclosed<S> kernel_basis(const Enclosed<S>& A, Eigen::Index k) {
   const Enclosed<S> Q = leading_vectors(A, A.cols() - k, false);
-  return canonical_basis<S>(defect(product(Q, transposed(Q))), k, transposed(A), S(1));
+  return canonical_basis<S>(canonical::Of::kernel, defect(product(Q, transposed(Q))), k,
+                            transposed(A));
 }
 
 /// The degree m of the series for |X| <= 1/2: 2^-(m+1) / (m+1)! is below the unit roundoff. It is

@@ -207,7 +207,7 @@ struct RealRules {
     out = Value::Identity(at[0].rows(), count);
     if (count == 0 || count == at[0].rows()) return;
     const Value U = Base::full_svd(at[0]).U.leftCols(count);
-    out = canonical_basis(times<Scalar>(U, U.transpose()), count, at[0], Scalar(0));
+    out = canonical_basis(canonical::Of::range, times<Scalar>(U, U.transpose()), count, at[0]);
   }
   /// Of the last right singular vectors.
   void operator()(Is<Op::kernel_basis>, const At& at, Value& out) const {
@@ -217,7 +217,7 @@ struct RealRules {
     if (count == 0 || count == n) return;
     const Value V = Base::full_svd(at[0]).V.leftCols(n - count);
     const Value P = Value::Identity(n, n) - times<Scalar>(V, V.transpose());
-    out = canonical_basis(P, count, at[0].transpose(), Scalar(1));
+    out = canonical_basis(canonical::Of::kernel, P, count, at[0].transpose());
   }
   void operator()(Is<Op::project_polytope>, const At& at, Value& out) const {
     project(at, out, [&] { return project_polytope<Scalar>(at[0], at[1], at[2], at[3]); });
@@ -253,11 +253,11 @@ struct RealRules {
   }
 
  private:
-  /// Of the subspace with the projector P (canonical.h). Zero rows of M stand alone.
-  static Value canonical_basis(const Value& P, int k, const Value& M, const Scalar& alone) {
+  /// Of the subspace of M with the projector P (canonical.h).
+  static Value canonical_basis(canonical::Of of, const Value& P, int k, const Value& M) {
     const auto is_zero = [&](Eigen::Index i) { return (M.row(i).array() == Scalar(0)).all(); };
-    const auto basis = canonical::basis(canonical::projector(P.rows(), P, is_zero, alone), k,
-                                        Scalar(canonical::kLead));
+    const auto basis = canonical::basis(
+        canonical::projector(of, P.rows(), k, P, is_zero, Scalar(1)), k, Scalar(canonical::kLead));
     Value B = Value::Zero(P.rows(), k);
     if (basis) canonical::for_each_element(*basis, [&](auto i, auto j, auto& x) { B(i, j) = x; });
     return B;
