@@ -20,10 +20,9 @@ Wide shortest_decimals(const numbers::Matrix& matrix) {
 }
 
 bool is_determined(const expr::Program& program) {
-  return std::none_of(program.code.begin(), program.code.end(), [](const auto& instruction) {
-    return instruction.op == Op::range_basis || instruction.op == Op::kernel_basis ||
-           instruction.op == Op::call;
-  });
+  return !model::chooses_basis(program) &&
+         std::none_of(program.code.begin(), program.code.end(),
+                      [](const auto& instruction) { return instruction.op == Op::call; });
 }
 
 /// The datum's text in 100 digits; none when it does not give the double that is in use.

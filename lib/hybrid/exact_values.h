@@ -12,9 +12,8 @@ namespace gainsmith::hybrid {
 
 /// Every constant of the system from the decimals as written. A datum is evaluated from its text in
 /// 100 digits; a number of the gain file, and one that replaced the problem's, is the shortest
-/// decimal that reads as its double, which is the number that a person wrote. A datum that is
-/// chosen and not determined (orth, null, whose columns have no sign of their own) keeps its
-/// double, and so does what a datum's text does not give to 1e-9.
+/// decimal that reads as its double, which is the number that a person wrote. A basis (orth, null)
+/// is that of the gain file, and what a datum's text does not give to 1e-9 keeps its double.
 numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance, const System& system,
                                            const model::Gains& gains);
 

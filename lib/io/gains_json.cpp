@@ -288,6 +288,7 @@ Json to_json(const model::Gains& gains) {
   if (!gains.report.empty()) document["report"] = matrices_json(gains, "report", gains.report);
   if (!gains.estimates.empty()) document["estimates"] = gains.estimates;
   document["parameters"] = matrices_json(gains, "parameters", gains.parameters);
+  if (!gains.bases.empty()) document["bases"] = matrices_json(gains, "bases", gains.bases);
   for (const auto& [name, value] : gains.searched)
     document["searched"][name] =
         element_json(gains, "searched." + name, numbers::Matrix::Constant(1, 1, value));
@@ -330,6 +331,7 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
     for (const auto& [name, item] : reader.at("estimates").members())
       gains.estimates[name] = item.text();
   gains.parameters = matrices_of(reader.at("parameters"), gains);
+  if (reader.has("bases")) gains.bases = matrices_of(reader.at("bases"), gains);
   if (reader.has("searched"))
     for (const auto& [name, value] : reader.at("searched").members()) {
       gains.searched[name] = value.number();

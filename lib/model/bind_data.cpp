@@ -221,8 +221,9 @@ void Binding::add_datum(const Given& given) {
 void Binding::check_shape(const Given& given) const {
   const Declaration& datum = given.declaration;
   const expr::Shape shape = names_->known.symbols.at(datum.name).shape;
-  // A default may be empty: no output at jumps, nothing that is hidden.
-  const bool empty = shape.size() == 0 && given.value;
+  // Without rows, or without columns, a matrix says that there is no output, no input. A plant
+  // without states is a mistake.
+  const bool empty = shape.rows == 0 && shape.cols == 0 && given.value;
   if (learn(datum.shape, shape, design_->dimensions) && !empty) return;
   throw InputError(given.value ? given.value->place : datum.place,
                    "the datum " + datum.name + " is declared " +

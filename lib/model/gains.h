@@ -152,6 +152,8 @@ struct Gains {
   /// "estimate from below".
   std::map<std::string, std::string> estimates;
   NamedMatrices parameters;
+  /// The data that choose a basis (chooses_basis of instance.h): that which the gains are in.
+  NamedMatrices bases;
   /// Scalars that a search set: they replace those of the statement. Their decimals count.
   Overrides searched;
   std::optional<SearchRecord> search;

@@ -85,6 +85,28 @@ void check_assumption(const Design& design, const Design::Assumption& assumption
   }
 }
 
+bool chooses_basis(const expr::Program& program) {
+  return std::any_of(program.code.begin(), program.code.end(), [](const auto& instruction) {
+    return instruction.op == expr::Op::range_basis || instruction.op == expr::Op::kernel_basis;
+  });
+}
+
+numbers::Values values_with(const Instance& instance, const numbers::Values& bases) {
+  const bool same = std::all_of(bases.begin(), bases.end(), [&](const auto& basis) {
+    return instance.values.at(basis.first) == basis.second;
+  });
+  if (same) return instance.values;
+  numbers::Values values;
+  for (const auto* list : {&instance.design->data, &instance.design->parameters})
+    for (const Design::Datum& datum : *list) {
+      const auto given = bases.find(datum.name);
+      values[datum.name] = given != bases.end()
+                               ? given->second
+                               : value_of(*instance.design, datum, instance.overrides, values);
+    }
+  return values;
+}
+
 Instance evaluate(const DesignPtr& design, const Overrides& overrides) {
   try {
     numbers::Values values = Evaluation(*design, overrides).run();

@@ -35,6 +35,13 @@ struct Instance {
 /// scalar datum or parameter or is not finite.
 Instance evaluate(const DesignPtr& design, const Overrides& overrides = {});
 
+/// Whether the text takes a basis by `orth` or `null`.
+bool chooses_basis(const expr::Program& program);
+
+/// The values of data and parameters, with bases in the place of those that the problem's texts
+/// take.
+numbers::Values values_with(const Instance& instance, const numbers::Values& bases);
+
 /// InputError when the assumption fails.
 void check_assumption(const Design& design, const Design::Assumption& assumption,
                       const numbers::Values& values);

@@ -37,6 +37,7 @@ class Builder {
   }
 
   Stated build() {
+    add_bases();
     add_functions();
     for (const auto& [name, value] : gains_.parameters)
       if (is_parameter(name)) take(name, {}, value);
@@ -51,6 +52,23 @@ class Builder {
   bool is_parameter(const std::string& name) const {
     return std::any_of(design_.parameters.begin(), design_.parameters.end(),
                        [&](const Design::Datum& parameter) { return parameter.name == name; });
+  }
+
+  /// The bases that the gains are in, and the data that follow from them.
+  void add_bases() {
+    numbers::Values bases;
+    for (const auto& [name, basis] : gains_.bases) {
+      const auto datum =
+          std::find_if(design_.data.begin(), design_.data.end(), [&](const Design::Datum& known) {
+            return known.name == name && known.value && chooses_basis(known.value->program);
+          });
+      if (datum == design_.data.end())
+        throw InputError({gains_.file}, "the gain file has a basis " + name +
+                                            ", which is no datum that takes one by orth or null");
+      take(name, datum->shape, basis);
+      bases[name] = basis;
+    }
+    stated_.values = values_with(instance_, bases);
   }
 
   /// The unknown functions as the file defines them, and all unknown matrices.

@@ -1,5 +1,6 @@
 // What a gain file says, for programs: values, and what the functions stand for.
 //
+//   basis (orth, null)    the file's matrix, and what follows from it in the data
 //   unknown function Y    the file's text over the file's coefficients Y_0, Y_1, ...
 //   gain L                the file's matrix
 //   gain F(tau)           of a constant      the file's matrix

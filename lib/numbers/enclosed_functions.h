@@ -98,52 +98,58 @@ Enclosed<S> singular_values(const Enclosed<S>& A) {
   return out;
 }
 
-/// An element of a bounded distance from `basis`, each element of which is off by at most `radius`.
+/// The singular vectors U_k or V_k of the k largest singular values, near an exact orthonormal
+/// basis of their subspace. With A = U diag(s) V' + E for orthonormal U, V the subspaces of A are
+/// off by
+///   sqrt(2) |E| / (s_k - s_(k+1) - |E|)
+/// in the sines of their angles (Wedin 1972), bases by sqrt(2) times that.
 template <class S>
-Enclosed<S> basis_within(const MatrixOf<S>& basis, double radius) {
-  if (!(radius < 0.5)) return nothing_known<S>(basis);
-  return {basis, Matrix::Constant(basis.rows(), basis.cols(), radius)};
+Enclosed<S> leading_vectors(const Enclosed<S>& A, Eigen::Index k, bool left) {
+  const auto parts = decomposed(A);
+  const MatrixOf<S>& all = left ? parts.U.mid : parts.V.mid;
+  const MatrixOf<S> Q = all.leftCols(k);
+  const Eigen::Index count = parts.s.rows();
+  const double largest = magnitude(S(parts.s.mid.maxCoeff()));
+  const double least = below(S(parts.s.mid.topRows(k).minCoeff()));
+  const double next = k < count ? magnitude(S(parts.s.mid.bottomRows(count - k).maxCoeff())) : 0;
+  const double error = up(parts.radius(up(1.1 * largest)));
+  const double gap = (least - next - error) * (1 - 0x1p-48);
+  if (!(gap > 0)) return nothing_known<S>(Q);
+  const double radius = up(2.01 * error / gap + (left ? parts.skew_left : parts.skew_right));
+  return {Q, Matrix::Constant(Q.rows(), Q.cols(), radius)};
 }
 
-/// The k first left singular vectors Q, near an exact orthonormal basis of k directions of the
-/// range: with Q = A W + F, W = V diag(s)^-1, the projection of Q on the range is off by |F|, and
-/// the orthonormal basis nearest to that (its polar factor) by |I - Q'Q| + |F|^2 more.
+/// The basis of canonical.h of the subspace of M with the projector P. Nothing is known when a
+/// pivot is not certain.
+template <class S>
+Enclosed<S> canonical_basis(canonical::Of of, const Enclosed<S>& P, Eigen::Index k,
+                            const Enclosed<S>& M) {
+  Enclosed<S> out = nothing_known<S>(MatrixOf<S>::Zero(P.rows(), k));
+  const auto is_zero = [&](Eigen::Index i) {
+    return (M.mid.row(i).array() == S(0)).all() && (M.rad.row(i).array() == 0).all();
+  };
+  const auto columns = canonical::projector(
+      of, P.rows(), k, [&](auto i, auto j) { return P.ball(i, j); }, is_zero, Ball<S>{S(1), 0});
+  const auto basis = canonical::basis(columns, k, Ball<S>{S(canonical::kLead), 0});
+  if (!basis) return out;
+  canonical::for_each_element(
+      *basis, [&](auto i, auto j, const Ball<S>& x) { out.set(j * out.rows() + i, x); });
+  return out;
+}
+
+/// Of the k first left singular vectors, 0 < k.
 template <class S>
 Enclosed<S> range_basis(const Enclosed<S>& A, Eigen::Index k) {
-  const auto parts = decomposed(A);
-  const MatrixOf<S> Q = parts.U.mid.leftCols(k);
-  MatrixOf<S> W = parts.V.mid.leftCols(k);
-  for (Eigen::Index i = 0; i < k; ++i) W.col(i) /= parts.s.mid(i);
-  using std::isfinite;
-  for (const S& x : W.reshaped())
-    if (!isfinite(x)) return nothing_known<S>(Q);
-  const double off =
-      norm_upward(magnitudes<S>(difference(exactly<S>(Q), product(A, exactly<S>(W)))));
-  const MatrixOf<S> turned = Q.transpose();
-  const double skew =
-      norm_upward(magnitudes<S>(defect(product(exactly<S>(turned), exactly<S>(Q)))));
-  return basis_within(Q, up(off + off * off + skew, 8));
+  const Enclosed<S> Q = leading_vectors(A, k, true);
+  return canonical_basis<S>(canonical::Of::range, product(Q, transposed(Q)), k, A);
 }
 
-/// The k last right singular vectors N, near an exact orthonormal basis of the kernel, which has
-/// dimension k: N is off the kernel by |A N| / s_r =: g with s_r the least of the other singular
-/// values.
+/// Of the k last right singular vectors, k < cols.
 template <class S>
 Enclosed<S> kernel_basis(const Enclosed<S>& A, Eigen::Index k) {
-  const auto parts = decomposed(A);
-  const MatrixOf<S> N = parts.V.mid.rightCols(k);
-  const Eigen::Index rank = A.cols() - k;
-  double off = 0;
-  if (rank > 0) {
-    const double s = below(S(parts.s.mid.topRows(rank).minCoeff()));
-    const double least = s - parts.radius(s);
-    if (!(least > 0)) return nothing_known<S>(N);
-    off = up(norm_upward(magnitudes<S>(product(A, exactly<S>(N)))) / (least * (1 - 0x1p-50)));
-  }
-  const MatrixOf<S> turned = N.transpose();
-  const double skew =
-      norm_upward(magnitudes<S>(defect(product(exactly<S>(turned), exactly<S>(N)))));
-  return basis_within(N, up(off + off * off + skew, 8));
+  const Enclosed<S> Q = leading_vectors(A, A.cols() - k, false);
+  return canonical_basis<S>(canonical::Of::kernel, defect(product(Q, transposed(Q))), k,
+                            transposed(A));
 }
 
 /// The degree m of the series for |X| <= 1/2: 2^-(m+1) / (m+1)! is below the unit roundoff. It is

@@ -222,13 +222,13 @@ struct EnclosureRules {
   }
   void operator()(Is<Op::range_basis>, const At& at, Value& out) const {
     const int count = at.shape().cols;
-    out = exactly<S>(MatrixOf<S>::Zero(at[0].rows(), count));
-    if (count > 0) out = enclosed::range_basis<S>(at[0], count);
+    out = exactly<S>(MatrixOf<S>::Identity(at[0].rows(), count));
+    if (0 < count && count < at[0].rows()) out = enclosed::range_basis<S>(at[0], count);
   }
   void operator()(Is<Op::kernel_basis>, const At& at, Value& out) const {
     const int count = at.shape().cols;
     out = exactly<S>(MatrixOf<S>::Identity(at[0].cols(), count));
-    if (at[0].mid.size() > 0 && count > 0) out = enclosed::kernel_basis<S>(at[0], count);
+    if (0 < count && count < at[0].cols()) out = enclosed::kernel_basis<S>(at[0], count);
   }
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,

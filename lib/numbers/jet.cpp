@@ -90,15 +90,18 @@ Jet inverse(const Jet& x, Enclosed<double> value) {
 }
 
 /// Not below e^Y - I, Y >= 0: X (1 + X/2 (1 + X/3 ...)) of X = Y / 2^k in balanced units, whose
-/// rest is at most |X|^9/9! * 1.2 wherever a path leads, then k times 2 H + H^2.
-Matrix growth(const Matrix& Y) {
+/// rest is at most |X|^9/9! * 1.2 wherever a path leads, then k times 2 H + H^2. None for a Y that
+/// is large in balanced units: the exponential would say nothing.
+std::optional<Matrix> growth(const Matrix& Y) {
   constexpr int kTerms = 8;
+  constexpr double kMost = 30;
   const auto scale = [](double x, int exponent) {
     return x == 0 ? 0 : std::ldexp(x, exponent) + kTiny;
   };
   std::vector<int> units = balance(Y);
   Matrix X = in_units(Y, units, scale);
   const double norm = up(X.rowwise().sum().maxCoeff(), 100);
+  if (!(norm < kMost)) return std::nullopt;
   const int squarings = norm > 0.5 ? std::ilogb(norm) + 2 : 0;
   for (double& x : X.reshaped()) x = scale(x, -squarings);
   const double reached = std::ldexp(norm, -squarings);
@@ -115,18 +118,17 @@ Matrix growth(const Matrix& Y) {
 
 /// e^(f M) = e^(m M) e^((f - m) M), where the second factor is within e^(r |M|) - I of I.
 Jet exponential_of(const Jet::Ray& ray) {
-  constexpr double kMost = 30;
   const Ball<double> middle{ray.factor[0].mid, 0};
   const double radius = ray.factor[0].rad;
   Enclosed<double> value = enclosed::exponential(scaled(middle, ray.matrix));
   if (radius > 0) {
-    const Matrix reach = magnitudes<double>(ray.matrix) * radius * up(1);
-    if (!(reach.maxCoeff() < kMost))
+    const auto grown = growth(magnitudes<double>(ray.matrix) * radius * up(1));
+    if (!grown)
       return {2,
               {nothing_known<double>(value.mid), nothing_known<double>(value.mid),
                nothing_known<double>(value.mid)},
               nullptr};
-    value.rad = (value.rad + product_upward(magnitudes<double>(value), growth(reach))) * up(1);
+    value.rad = (value.rad + product_upward(magnitudes<double>(value), *grown)) * up(1);
   }
   Jet out{0, {value, {}, {}}, nullptr};
   const bool moves = !ray.factor[1].is_zero() || !ray.factor[2].is_zero();

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "expr/number_type.h"
+#include "numbers/canonical.h"
 #include "numbers/dual.h"
 #include "numbers/extremum.h"
 #include "numbers/flow_map.h"
@@ -200,17 +201,23 @@ struct RealRules {
   void operator()(Is<Op::singular_values>, const At& at, Value& out) const {
     out = Base::singular_values(at[0]);
   }
-  /// The first left singular vectors. An empty matrix has no decomposition.
+  /// Of the first left singular vectors. An empty matrix has no decomposition.
   void operator()(Is<Op::range_basis>, const At& at, Value& out) const {
     const int count = at.shape().cols;
-    out = Value::Zero(at[0].rows(), count);
-    if (count > 0) out = Base::full_svd(at[0]).U.leftCols(count);
+    out = Value::Identity(at[0].rows(), count);
+    if (count == 0 || count == at[0].rows()) return;
+    const Value U = Base::full_svd(at[0]).U.leftCols(count);
+    out = canonical_basis(canonical::Of::range, times<Scalar>(U, U.transpose()), count, at[0]);
   }
-  /// The last right singular vectors.
+  /// Of the last right singular vectors.
   void operator()(Is<Op::kernel_basis>, const At& at, Value& out) const {
     const int count = at.shape().cols;
-    out = Value::Identity(at[0].cols(), count);
-    if (at[0].size() > 0) out = Base::full_svd(at[0]).V.rightCols(count);
+    const Eigen::Index n = at[0].cols();
+    out = Value::Identity(n, count);
+    if (count == 0 || count == n) return;
+    const Value V = Base::full_svd(at[0]).V.leftCols(n - count);
+    const Value P = Value::Identity(n, n) - times<Scalar>(V, V.transpose());
+    out = canonical_basis(canonical::Of::kernel, P, count, at[0].transpose());
   }
   void operator()(Is<Op::project_polytope>, const At& at, Value& out) const {
     project(at, out, [&] { return project_polytope<Scalar>(at[0], at[1], at[2], at[3]); });
@@ -246,6 +253,16 @@ struct RealRules {
   }
 
  private:
+  /// Of the subspace of M with the projector P (canonical.h).
+  static Value canonical_basis(canonical::Of of, const Value& P, int k, const Value& M) {
+    const auto is_zero = [&](Eigen::Index i) { return (M.row(i).array() == Scalar(0)).all(); };
+    const auto basis = canonical::basis(
+        canonical::projector(of, P.rows(), k, P, is_zero, Scalar(1)), k, Scalar(canonical::kLead));
+    Value B = Value::Zero(P.rows(), k);
+    if (basis) canonical::for_each_element(*basis, [&](auto i, auto j, auto& x) { B(i, j) = x; });
+    return B;
+  }
+
   template <class Nearest>
   static void project(const At& at, Value& out, const Nearest& nearest) {
     for (const Value* operand : at.operands)

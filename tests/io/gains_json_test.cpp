@@ -58,6 +58,7 @@ class RandomGains {
       gains.certificate = model::CertificateRecord{
           random_() % 2 == 0, number(), 31, {{"flow", matrix(2, 2)}}, "hull"};
     if (random_() % 2 == 0) gains.search = search();
+    if (random_() % 2 == 0) gains.bases = {{"N", matrix(3, 2)}, {"none", matrix(3, 0)}};
     gains.statement = statement();
     gains.timings = {{"solve", number()}, {"total", 0.25}};
     return gains;

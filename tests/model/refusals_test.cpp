@@ -102,6 +102,15 @@ TEST(Refusal, EmptyData) {
   EXPECT_NE(error.message().find("found 0 x 0"), std::string::npos) << error.what();
 }
 
+TEST(Refusal, NotOfADatumWithoutRowsOrColumns) {
+  const std::string method = changed(kSmallMethod, "  b: n\n", "  b: n\n  H: k x n\n  G: n x m2\n");
+  const std::string data = "  H: \"zeros(0, n)\"\n  G: \"zeros(n, 0)\"\n  T1:";
+  const Small small(changed(kSmallProblem, "  T1:", data), method);
+  EXPECT_EQ(small.instance.values.at("H").rows(), 0);
+  EXPECT_EQ(small.instance.values.at("H").cols(), 2);
+  EXPECT_EQ(small.instance.values.at("G").cols(), 0);
+}
+
 TEST(Refusal, AMatrixThatIsNotSymmetricIsShownAtTheElement) {
   expect_refused({"  T1:", "  Q: [[1, 2], [2.5, 1]]\n  T1:", at(6, 16),
                   "Q must be symmetric, but element (2, 1) is 2.5 and element (1, 2) is 2"});

@@ -53,6 +53,31 @@ TEST(Stated, AGainIsTheMatrixOfTheFile) {
   EXPECT_EQ(value(file(), "K"), (numbers::Matrix{{9, 8}}));
 }
 
+TEST(Stated, ABasisOfTheFileTakesTheProblemsPlaceAndDataFollowIt) {
+  const std::string method = changed(kMethod, "  T1: scalar",
+                                     "  N: {shape: n x k, default: \"null([3, 4])\"}\n  W: {shape: "
+                                     "n x k, default: \"2*N\"}\n  T1: scalar");
+  const Small small(kSmallProblem, method);
+  const auto value_of = [&](const Gains& gains, const std::string& name) {
+    return state(small.instance, gains).values.at(name);
+  };
+  EXPECT_TRUE(value_of(file(), "W").isApprox(numbers::Matrix{{1.6}, {-1.2}}, 1e-14));
+  Gains gains = file();
+  gains.bases = {{"N", numbers::Matrix{{-0.8}, {0.6}}}};
+  EXPECT_EQ(value_of(gains, "N"), (numbers::Matrix{{-0.8}, {0.6}}));
+  EXPECT_EQ(value_of(gains, "W"), (numbers::Matrix{{-1.6}, {1.2}}));
+  EXPECT_EQ(value_of(gains, "A"), small.instance.values.at("A"));
+  for (const auto& [name, matrix] :
+       {std::pair{"W", numbers::Matrix{{1}, {1}}}, {"none", numbers::Matrix{{1}, {1}}}}) {
+    gains.bases = {{name, matrix}};
+    EXPECT_NE(input_error([&] { state(small.instance, gains); }).message().find(name),
+              std::string::npos);
+  }
+  gains.bases = {{"N", numbers::Matrix{{1, 1}}}};
+  EXPECT_NE(input_error([&] { state(small.instance, gains); }).message().find("1 x 2"),
+            std::string::npos);
+}
+
 TEST(Stated, AFormulaIsEvaluatedOverTheFilesTexts) {
   Gains gains = file();
   gains.gain_functions = {{"G", "t", Kind::formula, "inv(P)*X(t)", {}}};

@@ -57,5 +57,50 @@ INSTANTIATE_TEST_SUITE_P(Families, UnitsTest,
                            return name;
                          });
 
+/// The jump maps J expm(A tau), tau in [T1, T2], of a sampled plant have one norm in which all
+/// shrink.
+std::string sampled_text(const ExactMatrix& A, const ExactMatrix& J, const Exact& first,
+                         const Exact& last) {
+  return "problem: sampled\nmethod:\n  method: sampled\n"
+         "  data: {A: n x n, J: n x n, T1: scalar, T2: scalar}\n  unknowns: {P: symmetric n}\n"
+         "  require:\n    positive: P > 0\n    jump: {forall: \"tau in [T1, T2]\", that: "
+         "\"(J*expm(A*tau))'*P*J*expm(A*tau) < P\"}\nno campaign: nothing moves\ndata:\n  A: " +
+         yaml(A) + "\n  J: " + yaml(J) + "\n  T1: " + decimal(first) + "\n  T2: " + decimal(last) +
+         "\n";
+}
+
+/// What is shown for all tau in states of one size is shown in states of sizes from 1e-6 to 1e6.
+TEST(SampledUnits, ChangeNoVerdict) {
+  constexpr int kWanted = 20;
+  int found = 0;
+  for (std::uint64_t index = 0; found < kWanted; ++index) {
+    ASSERT_LT(index, 10 * kWanted) << "too few feasible cases";
+    RandomStream stream(kSeed, index);
+    const auto between = [&](int low, int high) {
+      return low + static_cast<int>(stream.uniform() * (high - low + 1));
+    };
+    const int n = between(2, 4);
+    ExactMatrix A(n, n), J(n, n), S(n, n), inverse(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j) {
+        A(i, j) = Exact(between(-150, 150)) / 100;
+        J(i, j) = Exact(between(-70, 70)) / 100;
+      }
+    const Exact first = Exact(between(10, 50)) / 100;
+    const Exact last = first + Exact(between(20, 150)) / 100;
+    for (int i = 0; i < n; ++i) {
+      S(i, i) = ten_to(between(-6, 6)) * two_to(between(0, 2));
+      inverse(i, i) = 1 / S(i, i);
+    }
+    const auto verdict = [&](const ExactMatrix& a, const ExactMatrix& b) {
+      return design::synthesize(YamlProblem(sampled_text(a, b, first, last)).instance, {}).verdict;
+    };
+    const model::Verdict one = verdict(A, J);
+    if (one == model::Verdict::yes) ++found;
+    if (one == model::Verdict::yes)
+      EXPECT_EQ(verdict(inverse * A * S, inverse * J * S), one) << index;
+  }
+}
+
 }  // namespace
 }  // namespace gainsmith::tests::properties
