@@ -115,8 +115,8 @@ class Exposure {
   const Data& data_;
   Vector<double> c_, step_;
   Vector<DoubleDouble> d_;
-  Blocks<DoubleDouble> image_;   ///< A*(d)
-  Blocks<double> off_, moved_;   ///< its part off the face, and that of a direction
+  Blocks<DoubleDouble> image_;  ///< A*(d)
+  Blocks<double> off_, moved_;  ///< its part off the face, and that of a direction
   std::vector<Eigen::SelfAdjointEigenSolver<Matrix<double>>> spectra_;  ///< of X
   std::vector<Kernel> kernels_;                                         ///< by dense block
   std::vector<Matrix<double>> range_;                                   ///< U
@@ -245,8 +245,8 @@ bool Exposure::solve(const Vector<double>& x) {
   return false;
 }
 
-/// M loses V M_PP V', P the eliminated rows: with y_P = weights y_kept, V = (I; -weights') spans the
-/// range of U, so nothing is left of an M on the face.
+/// M loses V M_PP V', P the eliminated rows: with y_P = weights y_kept, V = (I; -weights') spans
+/// the range of U, so nothing is left of an M on the face.
 void Exposure::take_off_face(Blocks<DoubleDouble>& m) const {
   for (int b = 0; b < data_.layout.blocks(); ++b) {
     const Kernel& kernel = kernels_[static_cast<std::size_t>(b)];
@@ -379,8 +379,7 @@ Problem restrict_to(const Face& face, const Problem& problem) {
     }
     auto& list = restricted.f.emplace_back();
     for (std::size_t b = 0; b < sums.size(); ++b)
-      if (face.blocks[b].number >= 0)
-        sums[b].take(kNoise * largest, face.blocks[b].number, list);
+      if (face.blocks[b].number >= 0) sums[b].take(kNoise * largest, face.blocks[b].number, list);
     if (i == 0 || !list.empty()) continue;
     restricted.c[i - 1] = 0;
     if (!restricted.c_rest.empty()) restricted.c_rest[i - 1] = 0;
@@ -420,7 +419,8 @@ Iterate<double> restrict_to(const Face& face, const Problem& problem, const Poin
   for (std::size_t i = 0; i < recovery.constraint.size(); ++i) {
     const auto at = static_cast<std::size_t>(recovery.constraint[i]);
     result.x[static_cast<Eigen::Index>(i)] =
-        (point.x[at] - along / square * face.direction[at].hi()) / (recovery.gamma_f * recovery.s[i]);
+        (point.x[at] - along / square * face.direction[at].hi()) /
+        (recovery.gamma_f * recovery.s[i]);
   }
   const auto set = [&](const Recovery::Row& row, const Recovery::Row& column, double& x,
                        double& y) {

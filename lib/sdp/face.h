@@ -10,9 +10,10 @@
 
 namespace gainsmith::sdp {
 
-/// d with c'd = 0 and A*(d) = sum d_i F_i = U S U', S > 0, exposes a face (Borwein, Wolkowicz 1981):
-/// every feasible Y has A*(d).Y = c'd = 0, hence Y U = 0 and Y = N Z N', Z >= 0, with N a basis of
-/// the kernel of U'. No Y is in the cone's interior, and the x of the primal run away along d.
+/// d with c'd = 0 and A*(d) = sum d_i F_i = U S U', S > 0, exposes a face (Borwein, Wolkowicz
+/// 1981): every feasible Y has A*(d).Y = c'd = 0, hence Y U = 0 and Y = N Z N', Z >= 0, with N a
+/// basis of the kernel of U'. No Y is in the cone's interior, and the x of the primal run away
+/// along d.
 struct Face {
   /// A row of N is a combination of rows of Z.
   struct Part {
@@ -36,12 +37,12 @@ struct Face {
 std::optional<Face> find_face(const Problem& problem, const Presolved& presolved,
                               const Iterate<double>& point);
 
-/// The program over Z: F_i -> N'F_i N. What is rounding beside the entries of F_i becomes zero; where
-/// nothing is left of F_i, c_i becomes zero too.
+/// The program over Z: F_i -> N'F_i N. What is rounding beside the entries of F_i becomes zero;
+/// where nothing is left of F_i, c_i becomes zero too.
 Problem restrict_to(const Face& face, const Problem& problem);
 
-/// The point (x, N'X N, Z) of the program over Z, Y = N Z N' where N has rows of I and x without its
-/// part along d, in its working problem.
+/// The point (x, N'X N, Z) of the program over Z, Y = N Z N' where N has rows of I and x without
+/// its part along d, in its working problem.
 Iterate<double> restrict_to(const Face& face, const Problem& problem, const Point<double>& point,
                             const Problem& program, const Presolved& presolved);
 

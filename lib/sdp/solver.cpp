@@ -245,8 +245,8 @@ void Ladder::descend(const Ipm<double>& narrow) {
   if (presolved.free_descent >= 0) return;
   const Iterate<double>& end = narrow.point();
   const Iterate<double> from = restrict_to(
-      *face, problem_,
-      restore<double>(problem_, presolved_, end.x, end.X, end.Y, end.tau), restricted, presolved);
+      *face, problem_, restore<double>(problem_, presolved_, end.x, end.X, end.Y, end.tau),
+      restricted, presolved);
   const Solution found =
       Ladder(restricted, presolved, options_, start_, iterations_).climb(0, &from);
   iterations_ = best_.iterations = found.iterations;

@@ -41,8 +41,8 @@ Problem cycle_bisection(int n) {
 }
 
 /// The relaxation of a quadratic assignment problem of order n after Zhao, Karisch, Rendl and
-/// Wolkowicz (1998). Unit row and column sums of the assignment force 2n - 1 kernel vectors, each of
-/// which takes a combination of several constraints to expose.
+/// Wolkowicz (1998). Unit row and column sums of the assignment force 2n - 1 kernel vectors, each
+/// of which takes a combination of several constraints to expose.
 Problem assignment(int n, unsigned seed) {
   std::mt19937 draw(seed);
   const auto symmetric = [&] {
