@@ -164,6 +164,16 @@ void split(const Packed<T>& from, BlockMatrix& value, BlockMatrix& rest) {
 }  // namespace
 
 template <typename T>
+std::vector<std::vector<T>> slack(const Problem& problem, const std::vector<T>& x) {
+  return combine(problem, x, 1);
+}
+
+template <typename T>
+bool in_cone(const Problem& problem, const std::vector<std::vector<T>>& matrix) {
+  return positive(problem, matrix, 0);
+}
+
+template <typename T>
 void measure(const Problem& problem, const Point<T>& point, Solution& solution) {
   const T primal = objective(problem, point.x);
   const T dual = inner(problem, problem.f[0], point.Y);
@@ -241,6 +251,8 @@ Certificate check_dual_infeasible(const Problem& problem, Point<T>& point, doubl
 }
 
 #define GAINSMITH_INSTANTIATE(T)                                                      \
+  template Packed<T> slack<T>(const Problem&, const std::vector<T>&);                 \
+  template bool in_cone<T>(const Problem&, const Packed<T>&);                         \
   template void measure<T>(const Problem&, const Point<T>&, Solution&);               \
   template void store<T>(const Point<T>&, Solution&);                                 \
   template Certificate check_primal_infeasible<T>(const Problem&, Point<T>&, double); \

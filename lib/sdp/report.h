@@ -15,6 +15,14 @@ void measure(const Problem& problem, const Point<T>& point, Solution& solution);
 template <typename T>
 void store(const Point<T>& point, Solution& solution);
 
+/// sum x_i F_i - F_0
+template <typename T>
+std::vector<std::vector<T>> slack(const Problem& problem, const std::vector<T>& x);
+
+/// Has `matrix` a Cholesky factor in T (nonnegative entries, in a diagonal block)?
+template <typename T>
+bool in_cone(const Problem& problem, const std::vector<std::vector<T>>& matrix);
+
 /// Normalises Y to F_0.Y = 1, or x to c'x = -1, and checks what Certificate demands on the raw
 /// data, in T, with residual at most `tolerance`. Returns what it found; `checked` says whether it
 /// holds.

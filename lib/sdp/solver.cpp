@@ -10,6 +10,7 @@
 
 #include "base/number.h"
 #include "base/scalars.h"
+#include "sdp/face.h"
 #include "sdp/ipm.h"
 #include "sdp/presolve.h"
 #include "sdp/report.h"
@@ -72,16 +73,26 @@ Solution conclude(const Problem& problem, const Presolved& presolved, const Opti
 class Ladder {
  public:
   Ladder(const Problem& problem, const Presolved& presolved, const Options& options,
-         Clock::time_point start)
-      : problem_(problem), presolved_(presolved), options_(options), start_(start) {}
+         Clock::time_point start, int iterations = 0)
+      : problem_(problem),
+        presolved_(presolved),
+        options_(options),
+        start_(start),
+        iterations_(iterations) {}
 
-  Solution climb(int digits) {
+  /// From the point `from`, where there is one, or from a far point.
+  Solution climb(int digits, const Iterate<double>* from = nullptr) {
     strict_ = digits > kDoubleDigits;
     if (digits > kQuadDigits) return settle<Decimal100>(kFarthest);
     if (digits > kDoubleDigits) return settle<DoubleDouble>(kFarther);
     Ipm<double> narrow(problem_, presolved_, options_);
     wider_ = digits == 0 && cost() <= kQuadCost;
-    attempt(narrow, 1);
+    if (from) {
+      narrow.start_from(*from);
+      run(narrow, Model::fixed);
+    }
+    if (!from || !over()) attempt(narrow, 1);
+    if (digits == 0) descend(narrow);
     if (!narrow.left()) search_both_ways(narrow);
     if (over() || !wider_) return std::move(best_);
 
@@ -121,6 +132,8 @@ class Ladder {
   /// Part of the tolerance that runs aim at: both objectives then have as many digits as the
   /// tolerance, relative to the larger of 1 and their size.
   static constexpr double kAim = 0.4;
+  /// Part of the tolerance by which X of a solution on a face may miss its equation.
+  static constexpr double kShift = 0.1;
   /// Multiplications an iteration up to which a wider arithmetic is tried unasked.
   static constexpr double kQuadCost = 1e9, kWideCost = 6e4;
 
@@ -136,6 +149,9 @@ class Ladder {
     ipm.start_far(factor);
     run(ipm, Model::fixed);
   }
+
+  /// Where the equations force a face: the program on it, and its solution here.
+  void descend(const Ipm<double>& narrow);
 
   /// Where no solution is in sight: the homogeneous model, once.
   void search_both_ways(Ipm<double>& narrow) {
@@ -217,6 +233,36 @@ void Ladder::run(Ipm<T>& ipm, Model model) {
     best_.cause = found.cause;
   }
   best_.iterations = iterations_;
+}
+
+void Ladder::descend(const Ipm<double>& narrow) {
+  if (over()) return;
+  const auto face = find_face(problem_, presolved_, narrow.point());
+  if (!face) return;
+  const Problem restricted = restrict_to(*face, problem_);
+  if (restricted.blocks.empty()) return;
+  const Presolved presolved = presolve(restricted);
+  if (presolved.free_descent >= 0) return;
+  const Iterate<double>& end = narrow.point();
+  const Iterate<double> from = restrict_to(
+      *face, problem_, restore<double>(problem_, presolved_, end.x, end.X, end.Y, end.tau),
+      restricted, presolved);
+  const Solution found =
+      Ladder(restricted, presolved, options_, start_, iterations_).climb(0, &from);
+  iterations_ = best_.iterations = found.iterations;
+  if (found.status != Status::optimal) return;
+  const auto point = lift(*face, problem_, found, kShift * options_.tolerance);
+  if (!point) return;
+  Solution lifted;
+  measure(problem_, *point, lifted);
+  if (!(worst(lifted) <= options_.tolerance)) return;
+  lifted.status = Status::optimal;
+  lifted.cause = Cause::converged;
+  lifted.precision = found.precision;
+  lifted.precision_reason = found.precision_reason;
+  lifted.iterations = iterations_;
+  store(*point, lifted);
+  best_ = std::move(lifted);
 }
 
 /// Multiplications of one iteration: products, factors and the Schur complement.
