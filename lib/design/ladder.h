@@ -54,6 +54,7 @@ class Climb {
   /// All the others that are due.
   void to_end();
 
+  bool has_begun() const { return !tried_.empty(); }
   /// nullptr: not tried.
   const Attempt* find(Rung rung) const;
   /// The attempt whose point counts: the first that is a yes, otherwise the first that

@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "base/scalars.h"
 #include "sdp/cover.h"
+#include "sdp/forecast.h"
 #include "sdp/kernels.h"
 
 namespace gainsmith::sdp {
@@ -69,8 +70,11 @@ Schur<T>::Schur(const Data& data, unsigned threads)
       columns_[static_cast<std::size_t>(linear.terms[t].row)].emplace_back(
           linear.constraint[list] - 1, coefficient<T>(linear, t));
   }
-  if (!sparse_.worthwhile()) b_.setZero(m, m);
-  if (!sparse_.worthwhile()) factor_.setZero(m, m);
+  if (!sparse_.worthwhile()) {
+    require_memory(m, bytes_of_iterates<T>(data) + bytes_of_dense_schur<T>(m));
+    b_.setZero(m, m);
+    factor_.setZero(m, m);
+  }
   scale_.setZero(m);
 }
 

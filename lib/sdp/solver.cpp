@@ -5,11 +5,14 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 
 #include "base/number.h"
 #include "base/scalars.h"
+#include "base/stop.h"
+#include "sdp/forecast.h"
 #include "sdp/ipm.h"
 #include "sdp/presolve.h"
 #include "sdp/report.h"
@@ -71,9 +74,8 @@ Solution conclude(const Problem& problem, const Presolved& presolved, const Opti
 /// One solve: runs of the loop in wider and wider arithmetic until one decides.
 class Ladder {
  public:
-  Ladder(const Problem& problem, const Presolved& presolved, const Options& options,
-         Clock::time_point start)
-      : problem_(problem), presolved_(presolved), options_(options), start_(start) {}
+  Ladder(const Problem& problem, const Presolved& presolved, const Options& options)
+      : problem_(problem), presolved_(presolved), options_(options) {}
 
   Solution climb(int digits) {
     strict_ = digits > kDoubleDigits;
@@ -156,8 +158,7 @@ class Ladder {
                                     .feasibility = kHandOver,
                                     .leave = leave,
                                     .patience = kRelayPatience,
-                                    .first_iteration = iterations_,
-                                    .start = start_});
+                                    .first_iteration = iterations_});
     iterations_ = best_.iterations = narrow.iterations();
     if (cause != Cause::converged && !narrow.left()) {
       best_.cause = cause == Cause::certificate ? Cause::stalled : cause;
@@ -174,7 +175,7 @@ class Ladder {
   /// Decided, or stopped from outside.
   bool over() const {
     return best_.status != Status::undecided || best_.cause == Cause::iteration_limit ||
-           best_.cause == Cause::time_limit || best_.cause == Cause::interrupted;
+           best_.cause == Cause::interrupted;
   }
   std::string reason(const std::string& arithmetic) const {
     return arithmetic + " " + to_string(best_.cause);
@@ -184,7 +185,6 @@ class Ladder {
   const Problem& problem_;
   const Presolved& presolved_;
   const Options& options_;
-  Clock::time_point start_;
   Solution best_;
   double best_error_ = std::numeric_limits<double>::infinity();
   int iterations_ = 0;
@@ -202,9 +202,10 @@ void Ladder::run(Ipm<T>& ipm, Model model) {
                                .aim = kAim * options_.tolerance,
                                .feasibility = feasibility,
                                .leave = wider_ ? Leave::exhausted : Leave::never,
-                               .first_iteration = iterations_,
-                               .start = start_});
+                               .first_iteration = iterations_});
   iterations_ = ipm.iterations();
+  std::optional<Concluding> concluding;
+  if (cause == Cause::interrupted) concluding.emplace();
   Solution found = conclude(problem_, presolved_, options_, ipm, cause);
   const double error = ipm.residuals().worst();
   const bool decided = found.status != Status::undecided;
@@ -263,9 +264,10 @@ Solution solve(const Problem& problem, const Options& options) {
   const int digits = digits_of(options.precision);
   validate(problem);
   const Presolved presolved = presolve(problem);
+  require_memory(presolved.data.m(), bytes_of_iterates<double>(presolved.data));
   Solution solution = presolved.free_descent >= 0
                           ? free_descent(problem, presolved, options)
-                          : Ladder(problem, presolved, options, start).climb(digits);
+                          : Ladder(problem, presolved, options).climb(digits);
   solution.message = explain(solution);
   solution.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return solution;
