@@ -168,10 +168,10 @@ TEST(InterruptTest, ABisectionKeepsTheBestValue) {
 
 TEST(InterruptTest, ATableHasTheRowsThatAreDone) {
   const Ended ended =
-      interrupted({"scan", problem(kGood), "--over", "T2=0.6:0.7:1000000", "--json"});
+      interrupted({"scan", problem(kGood), "--over", "T2=0.6:0.7:100000", "--json"});
   expect_stopped(ended);
   const auto rows = nlohmann::json::parse(ended.out);
-  EXPECT_EQ(rows.size(), 1'000'000U);
+  EXPECT_EQ(rows.size(), 100'000U);
   EXPECT_EQ(rows.front()["verdict"], "yes");
   EXPECT_EQ(rows.back()["verdict"], "interrupted");
 }
@@ -210,16 +210,17 @@ TEST(InterruptTest, AProofWithManyPieces) {
   expect_stopped(interrupted({"synth", file}));
 }
 
-TEST(InterruptTest, AMaximumOverABox) {
+TEST(InterruptTest, AMaximumOverABoxOfManyDimensions) {
   const Folder folder;
+  const std::string n = "60";
   std::string sum = "0";
-  for (int i = 1; i <= 8; ++i)
+  for (int i = 1; i <= 60; ++i)
     sum += " + sin(" + std::to_string(7 * i) + "*z(" + std::to_string(i) + ")*z(1))";
-  const std::string file = folder.file(
-      "box.yaml",
-      "problem: box\nmethod:\n  method: box\n  data: {m: scalar}\n  unknowns: {x: scalar}\n"
-      "  require: {floor: x > m}\n  minimize: x\ndata:\n  m: \"maximum(" +
-          sum + ", z in [-9*ones(8, 1), 9*ones(8, 1)])\"\n");
+  const std::string file =
+      folder.file("box.yaml",
+                  "problem: box\nmethod:\n  method: box\n  data: {m: scalar}\n  report: {r: m}\n"
+                  "data:\n  m: \"maximum(" +
+                      sum + ", z in [-9*ones(" + n + ", 1), 9*ones(" + n + ", 1)])\"\n");
   expect_stopped(interrupted({"check", file}));
 }
 
@@ -227,8 +228,8 @@ TEST(InterruptTest, ALongRunIsThereAsFarAsItCame) {
   const Folder folder;
   const std::string file = folder.file(
       "run.yaml",
-      "problem: run\nmethod:\n  method: run\n  data: {k: scalar}\n  dynamics:\n"
-      "    plant: {state: {x: {shape: scalar, start: 1}}, flow: {x: \"-k*x^3 + sin(t)\"}}\n"
+      "problem: run\nmethod:\n  method: run\n  data: {k: scalar}\n"
+      "  plant: {state: {x: {shape: scalar, start: 1}}, flow: {x: \"-k*x^3 + sin(t)\"}}\n"
       "data: {k: 1}\ncampaign: {horizon: 1e7}\n");
   const Ended ended = interrupted({"simulate", file});
   expect_stopped(ended);
