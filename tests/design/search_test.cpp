@@ -93,7 +93,7 @@ TEST(Search, TheSmallestContractionIsTheSpectralRadius) {
   const YamlProblem problem(kContraction);
   const SearchRequest request = request_of(problem.instance);
   ASSERT_TRUE(request.extreme && request.over.empty());
-  const model::Gains gains = synthesize_searched(problem.instance, request, nullptr, 1, {});
+  const model::Gains gains = synthesize_searched(problem.instance, request, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(gains.searched.at("rho"), 0.8, 2e-5);
   EXPECT_GE(gains.searched.at("rho"), 0.8);
