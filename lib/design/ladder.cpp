@@ -192,11 +192,12 @@ void Climb::climb(bool to_end) {
   using Clock = std::chrono::steady_clock;
   for (const Row& row : kLadder) {
     if (!to_end && (point() != nullptr || refutation() != nullptr)) return;
-    if (find(row.rung) != nullptr || !row.is_due(*this)) continue;
+    if (done_.contains(row.rung) || !row.is_due(*this)) continue;
     check_stop();
     const Doing doing(row.doing);
     const auto start = Clock::now();
     if (auto found = row.tries(*this)) tried_.emplace(row.rung, std::move(*found));
+    done_.insert(row.rung);
     seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
   }
 }

@@ -25,6 +25,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 
 #include "design/attempt.h"
 #include "model/gains.h"
@@ -86,6 +87,7 @@ class Climb {
   lmi::GainBounds bounds_;
   Solve solve_;
   std::map<Rung, Attempt> tried_;
+  std::set<Rung> done_;  ///< those that came to nothing included
   double seconds_ = 0;
 };
 
