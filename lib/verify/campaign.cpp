@@ -253,7 +253,12 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
                                                              report.runs, report.confidence);
   report.checks = report_checks(setup, tally);
   if (report.interrupted()) return report;
-  const bool confirmed = report.violations > 0 && confirm_worst(setup, report.seed, report);
+  bool confirmed = false;
+  try {
+    confirmed = report.violations > 0 && confirm_worst(setup, report.seed, report);
+  } catch (const Stopped&) {
+    return report;
+  }
   if (confirmed) report.verdict = model::CampaignVerdict::violated;
   if (report.violations > 0 && !confirmed) report.undecided += std::exchange(report.violations, 0);
   if (report.violations + report.undecided == 0) report.verdict = model::CampaignVerdict::held;
