@@ -1,4 +1,4 @@
-// The library fmt, compiled once for the static program: Debian has it as a shared library or as
+// The library fmt, compiled once for the release program: Debian has it as a shared library or as
 // headers that every source would compile anew. The instantiations are those that fmt 9 keeps out
 // of its headers.
 #include <fmt/format-inl.h>

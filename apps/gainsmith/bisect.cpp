@@ -116,16 +116,14 @@ ExitCode bisect(const BisectOptions& options) {
   const model::Instance instance =
       load_problem(options.problem, [&](model::Problem& problem) { add_range(options, problem); });
   const design::BisectChoices choices = choices_of(options, instance);
-  catch_interrupts();
-  sdp::Options solver;
-  solver.interrupted = interrupted;
-  const design::BisectResult result = design::bisect(instance, {}, choices, solver);
+  const design::BisectResult result = design::bisect(instance, {}, choices, {});
+  const Telling telling;
   const std::string report = options.json ? io::to_text(json_of(result, choices))
                                           : table(result, choices.scalar.name) + "\n" +
                                                 synthesis_summary(result.gains) +
                                                 held_line(instance, {choices.scalar.name});
   write_result(result.gains, options.output, report, options.json);
-  return exit_of(result.gains.verdict);
+  return exit_of_search(result.gains);
 }
 
 }  // namespace

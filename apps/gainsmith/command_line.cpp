@@ -72,7 +72,20 @@ CLI::Option& add_option(CLI::App& command, const Option& option, Value& value) {
   }
 }
 
-void add_command(CLI::App& program, const Command& command, ExitCode& exit) {
+/// The work, or as much of it as was done before a stop.
+ExitCode work_of(const Command& command) {
+  ExitCode exit = ExitCode::undecided;
+  try {
+    exit = command.work();
+  } catch (const Stopped&) {
+    // Nothing is known that the command could tell.
+  }
+  end_work();
+  if (const std::string text = stop_text(); !text.empty()) say("gainsmith: " + text + "\n");
+  return exit;
+}
+
+void add_command(CLI::App& program, const Command& command, Patience& patience, ExitCode& exit) {
   CLI::App& added = *program.add_subcommand(command.name, command.text);
   for (const Option& option : command.options) {
     CLI::Option& one =
@@ -84,7 +97,19 @@ void add_command(CLI::App& program, const Command& command, ExitCode& exit) {
     for (const std::string& name : option.excluded) one.excludes(added.get_option(name));
   }
   added.footer(command.footer);
-  added.callback([&command, &exit] { exit = command.work(); });
+  if (command.computes) {
+    added
+        .add_option("--time", patience.seconds,
+                    "stop after so many seconds with what is known; 0: no limit")
+        ->capture_default_str()
+        ->check(CLI::NonNegativeNumber);
+    added.add_flag("--progress", patience.progress,
+                   "say every 10 s on standard error what is being done");
+  }
+  added.callback([&command, &patience, &exit] {
+    if (command.computes) begin_work(patience);
+    exit = work_of(command);
+  });
 }
 
 /// CLI11 takes an unknown first word for a missing subcommand.
@@ -128,12 +153,17 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
 
 ExitCode run(const Program& program, int argc, char** argv) {
   ExitCode exit = ExitCode::yes;
+  Patience patience;
   CLI::App parser(program.text, program.name);
   parser.set_version_flag("--version", program.version);
   parser.require_subcommand(1);
   parser.footer(program.footer);
-  for (const Command& command : program.commands) add_command(parser, command, exit);
   refuse_unknown_word(program, argc, argv);
+  // The others would only cost time.
+  const std::string first = argc > 1 ? argv[1] : "";
+  const bool chosen = !first.empty() && first[0] != '-';
+  for (const Command& command : program.commands)
+    if (!chosen || command.name == first) add_command(parser, command, patience, exit);
   try {
     parser.parse(argc, argv);
   } catch (const CLI::ParseError& stop) {

@@ -64,6 +64,7 @@ struct Command {
   std::vector<Option> options;
   std::string footer;
   std::function<ExitCode()> work;  ///< holds what the options' targets point to
+  bool computes = true;            ///< it may be stopped: --time, --progress
 };
 
 struct Program {

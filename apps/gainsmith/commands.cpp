@@ -4,13 +4,15 @@
 
 namespace gainsmith::app {
 
+std::string version() { return std::string("gainsmith ") + kVersion; }
+
 Program all_commands() {
   return {
       "gainsmith",
       "gainsmith: observer gains by linear matrix inequalities, verified by simulation",
-      std::string("gainsmith ") + kVersion,
+      version(),
       "Exit codes of every subcommand: 0 done and the answer is yes; 1 done and the answer is no;\n"
-      "2 the command line or a file is wrong; 3 undecided; 70 a fault of the program.\n"
+      "2 the command line or a file is wrong; 3 undecided or stopped; 70 a fault of the program.\n"
       "Each subcommand has --help with examples.",
       {synth_command(), bisect_command(), scan_command(), optimize_command(), explain_command(),
        verify_command(), simulate_command(), run_command(), check_command(), solve_command(),

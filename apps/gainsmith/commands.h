@@ -17,6 +17,9 @@ Command check_command();
 Command solve_command();
 Command methods_command();
 
+/// "gainsmith 0.1.0".
+std::string version();
+
 /// gainsmith with all of them.
 Program all_commands();
 

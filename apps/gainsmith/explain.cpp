@@ -23,15 +23,13 @@ struct ExplainOptions {
 
 ExitCode explain(const ExplainOptions& options) {
   const model::Instance instance = load_problem(options.problem);
-  catch_interrupts();
-  sdp::Options solver;
-  solver.interrupted = interrupted;
-  const design::Explanation explanation = design::explain(instance, solver);
+  const design::Explanation explanation = design::explain(instance, {});
+  const Telling telling;
   fmt::print("{}", options.json ? io::to_text(explanation_json(explanation))
                                 : explanation_text(explanation) + hidden_line(instance) +
                                       held_line(instance));
-  if (interrupted()) {
-    say("interrupted: what is called undecided was not finished\n");
+  if (!explanation.finished) {
+    say("not finished: what is called undecided, or is not there, was not looked at to its end\n");
     return ExitCode::undecided;
   }
   return exit_of(explanation.gains.verdict);

@@ -6,15 +6,14 @@
 #include <system_error>
 
 #include "base/file.h"
+#include "base/stop.h"
 #include "design/expectations.h"
 #include "design/optimize.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/load.h"
-#include "gainsmith/optimizers.h"
 #include "gainsmith/run_table.h"
 #include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
-#include "gainsmith/terminal.h"
 #include "io/gains_json.h"
 #include "verify/campaign.h"
 #include "verify/expected_run.h"
@@ -45,6 +44,14 @@ ExitCode judge(const model::Design& design, const model::Gains& gains,
   return open && !(expect && expect->campaign) ? ExitCode::undecided : ExitCode::yes;
 }
 
+void set_interrupted(const std::string& line, JobResult& result) {
+  result.exit = ExitCode::undecided;
+  result.line = line;
+  result.interrupted = true;
+  result.report = {
+      {"folder", result.name}, {"exit", static_cast<int>(result.exit)}, {"interrupted", line}};
+}
+
 class Job {
  public:
   Job(const std::filesystem::path& file, std::filesystem::path folder, const JobOptions& options)
@@ -52,18 +59,15 @@ class Job {
 
   void run(JobResult& result) {
     const design::SearchRequest request = wanted_search(instance_);
-    const search::Optimizers* optimizers = optimizers_for(request, *instance_.design);
-    sdp::Options solver;
-    solver.interrupted = interrupted;
     const model::Gains gains =
-        design::synthesize_searched(instance_, request, optimizers, options_.threads, solver);
-    if (interrupted()) throw Interrupted("interrupted while gains were searched");
+        design::synthesize_searched(instance_, request, options_.threads, {});
+    if (is_stopping()) throw Interrupted("interrupted while gains were searched");
     instance_ = model::evaluate(instance_.design, gains.searched);
     const auto campaign = verify_and_write(gains);
     result.differences = design::differences(
         instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);
-    const verify::RunDifferences run = verify::run_differences(instance_, gains, interrupted);
-    if (interrupted()) throw Interrupted("interrupted while figures of the first run were found");
+    const verify::RunDifferences run = verify::run_differences(instance_, gains);
+    if (is_stopping()) throw Interrupted("interrupted while figures of the first run were found");
     result.differences.insert(result.differences.end(), run.different.begin(), run.different.end());
     result.exit = judge(*instance_.design, gains, campaign, result.differences);
     if (result.exit == ExitCode::yes && !run.undecided.empty()) result.exit = ExitCode::undecided;
@@ -117,8 +121,7 @@ class Job {
   /// A campaign when the method can be simulated and every gain has a value.
   std::optional<verify::Report> verify_gains(const model::Gains& gains) {
     if (!why_no_campaign(gains).empty()) return std::nullopt;
-    verify::CampaignOptions campaign{options_.runs, options_.seed, options_.threads, {}, {}};
-    campaign.stopped = interrupted;
+    const verify::CampaignOptions campaign{options_.runs, options_.seed, options_.threads};
     verify::Report report = verify::run_campaign(instance_, gains, campaign);
     if (report.interrupted()) throw Interrupted(interruption_text(report));
     return report;
@@ -186,14 +189,12 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
   JobResult result;
   result.name = name;
   try {
-    if (interrupted()) throw Interrupted("interrupted before it began");
+    if (is_stopping()) throw Interrupted("interrupted before it began");
     Job(problem, folder, options).run(result);
   } catch (const Interrupted& stop) {
-    result.exit = ExitCode::undecided;
-    result.line = stop.what();
-    result.interrupted = true;
-    result.report = {
-        {"folder", name}, {"exit", static_cast<int>(result.exit)}, {"interrupted", result.line}};
+    set_interrupted(stop.what(), result);
+  } catch (const Stopped&) {
+    set_interrupted("interrupted", result);
   } catch (const InputError& error) {
     result.exit = ExitCode::bad_input;
     result.line = error.what();

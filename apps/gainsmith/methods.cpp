@@ -75,7 +75,8 @@ Command methods_command() {
           "Examples:\n"
           "  gainsmith methods\n"
           "  gainsmith methods sampled-data-hybrid",
-          [options] { return options->name.empty() ? show(*options) : show_one(*options); }};
+          [options] { return options->name.empty() ? show(*options) : show_one(*options); },
+          false};
 }
 
 }  // namespace gainsmith::app

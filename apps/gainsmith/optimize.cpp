@@ -8,7 +8,6 @@
 
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
-#include "gainsmith/optimizers.h"
 #include "gainsmith/output.h"
 #include "gainsmith/range_option.h"
 #include "gainsmith/search_wanted.h"
@@ -78,16 +77,12 @@ ExitCode optimize(const OptimizeOptions& options) {
     throw InputError({options.problem},
                      "nothing to optimise over: give --over NAME=LOW:HIGH, or write search: {over: "
                      "{NAME: [low, high]}} into the problem");
-  const search::Optimizers* optimizers = optimizers_for(request, *instance.design);
-  catch_interrupts();
-  sdp::Options solver;
-  solver.interrupted = interrupted;
-  const model::Gains gains =
-      design::optimize(instance, request, *optimizers, options.threads, solver);
+  const model::Gains gains = design::optimize(instance, request, options.threads, {});
+  const Telling telling;
   write_result(gains, options.output,
                options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),
                options.json);
-  return exit_of(gains.verdict);
+  return exit_of_search(gains);
 }
 
 }  // namespace

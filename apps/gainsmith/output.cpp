@@ -8,6 +8,7 @@
 #include <system_error>
 
 #include "base/file.h"
+#include "base/stop.h"
 #include "gainsmith/terminal.h"
 #include "io/gains_json.h"
 
@@ -56,6 +57,11 @@ ExitCode exit_of(model::Verdict verdict) {
       break;
   }
   return ExitCode::undecided;
+}
+
+ExitCode exit_of_search(const model::Gains& gains) {
+  const bool finished = gains.search && gains.search->finished;
+  return stop_requested && !finished ? ExitCode::undecided : exit_of(gains.verdict);
 }
 
 }  // namespace gainsmith::app

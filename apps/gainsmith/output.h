@@ -28,4 +28,7 @@ io::Json json_without_statement(const model::Gains& gains);
 /// 0, 1 or 3.
 ExitCode exit_of(model::Verdict verdict);
 
+/// 3 for a search that was stopped, whatever it found; otherwise that of its verdict.
+ExitCode exit_of_search(const model::Gains& gains);
+
 }  // namespace gainsmith::app

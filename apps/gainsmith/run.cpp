@@ -15,6 +15,7 @@
 #include "gainsmith/junit.h"
 #include "gainsmith/output.h"
 #include "gainsmith/problem_files.h"
+#include "gainsmith/progress_line.h"
 #include "gainsmith/terminal.h"
 
 namespace gainsmith::app {
@@ -66,6 +67,7 @@ class Lines {
   void add(std::size_t index, const JobResult& result) {
     const std::scoped_lock lock(mutex_);
     results_[index] = &result;
+    clear_progress();
     for (; next_ < results_.size() && results_[next_] != nullptr; ++next_) print(*results_[next_]);
     std::fflush(stdout);
   }
@@ -90,12 +92,19 @@ ExitCode run(const RunOptions& options) {
   job.threads = options.threads;
   std::vector<JobResult> results(items.size());
   Lines lines(items);
-  catch_interrupts();
-  parallel_for(items.size(), options.threads, [&](std::size_t i) {
+  const auto run_one = [&](std::size_t i) {
     results[i] =
         run_job(items[i].path, items[i].name, fs::path(options.output) / items[i].name, job);
     if (!options.json) lines.add(i, results[i]);
-  });
+  };
+  try {
+    parallel_for(items.size(), options.threads, run_one);
+  } catch (const Stopped&) {
+    // The others say that they have not begun.
+    for (std::size_t i = 0; i < items.size(); ++i)
+      if (results[i].name.empty()) run_one(i);
+  }
+  const Telling telling;
   ExitCode worst = ExitCode::yes;
   for (const JobResult& result : results) worst = std::max(worst, result.exit);
   if (options.json) fmt::print("{}", json_text(results, worst));

@@ -170,11 +170,9 @@ ExitCode scan(const ScanOptions& options) {
   const model::Instance instance = load_problem(
       options.problem, [&](model::Problem& problem) { add_questions(options, ranges, problem); });
   const Grid grid = grid_of(ranges, instance);
-  catch_interrupts();
-  sdp::Options solver;
-  solver.interrupted = interrupted;
   const auto rows =
-      design::scan(instance.design, grid.names, search::grid(grid.values), options.threads, solver);
+      design::scan(instance.design, grid.names, search::grid(grid.values), options.threads, {});
+  const Telling telling;
   constexpr int kForPeople = 8;
   constexpr int kExact = 17;
   const std::string file = csv(table_of(rows, grid.names, options.show, kExact));

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "gainsmith/terminal.h"
 #include "verify/run_measure.h"
 
 namespace gainsmith::app {
@@ -38,7 +37,7 @@ design::SearchRequest wanted_search(const model::Instance& instance) {
   if (runs > 1) request.measure_name += fmt::format(", mean of {} runs", runs);
   // A text is bound again when values change a shape: the figure is that of the instance's design.
   request.measure = [runs](const model::Instance& at, const model::Gains& gains) {
-    return verify::mean_figure(at, gains, *at.design->search->run_figure, runs, interrupted);
+    return verify::mean_figure(at, gains, *at.design->search->run_figure, runs);
   };
   return request;
 }

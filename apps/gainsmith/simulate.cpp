@@ -77,7 +77,8 @@ void write(const SimulateOptions& options, const std::string& text) {
 verify::EventReplay for_plot(const SimulateOptions& options, const LoadedGains& loaded,
                              std::uint64_t seed, const verify::EventReplay& replay) {
   constexpr double kPoints = 1500;
-  if (options.step > 0 || replay.run.end <= 0) return replay;
+  if (options.step > 0 || replay.run.end <= 0 || replay.run.ending == hybrid::Ending::interrupted)
+    return replay;
   return verify::replay_events(loaded.stated, loaded.gains, seed, options.run,
                                replay.run.end / kPoints);
 }
@@ -100,6 +101,8 @@ ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& load
   }
   const verify::EventReplay replay = verify::replay_events(
       loaded.stated, loaded.gains, seed, options.run, options.step, options.judge);
+  const bool stopped = replay.run.ending == hybrid::Ending::interrupted;
+  const Telling telling;
   if (!options.plot.empty())
     write_atomically(options.plot, run_figure(loaded.stated.design->name,
                                               for_plot(options, loaded, seed, replay)));
@@ -114,6 +117,7 @@ ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& load
   if (!replay.run.message.empty()) say("  " + replay.run.message + "\n");
   for (const std::string& note : replay.run.notes) say("  " + note + "\n");
   say_claims(replay.claims, !is_complete(replay.run.ending));
+  if (stopped) return ExitCode::undecided;
   if (!options.judge) return ExitCode::yes;
   for (const hybrid::Fault& fault : replay.faults)
     say(fmt::format("  judged: t = {}: {} ({} > {})\n", brief(fault.t), fault.what,

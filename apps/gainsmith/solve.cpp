@@ -152,11 +152,9 @@ std::string precision_error(const std::string& text) {
 
 ExitCode solve(SolveOptions options) {
   const sdp::Problem problem = sdp::read_sdpa(read_text(options.file), options.file);
-  catch_interrupts();
-  options.solver.interrupted = interrupted;
-  if (!options.quiet && !options.json && progress_wanted())
-    options.solver.progress = print_iteration;
+  if (!options.quiet && !options.json && is_terminal()) options.solver.progress = print_iteration;
   const sdp::Solution solution = sdp::solve(problem, options.solver);
+  const Telling telling;
   const bool to_stdout = options.output == "-";
   if (!options.output.empty()) {
     const std::string text = solution_text(problem, solution, options.format);
@@ -190,7 +188,6 @@ Command solve_command() {
        Option("--tolerance", solver.tolerance, "relative gap and DIMACS errors for 'optimal'")
            .within(1e-30, 1e-2),
        Option("--iterations", solver.iteration_limit, "most iterations").within(1, 100000),
-       Option("--time", solver.time_limit, "most seconds; 0: no limit").not_negative(),
        Option("--threads", solver.threads, "threads; results do not depend on it").within(1, 1024)},
       "Exit code: 0 optimal, 1 infeasible by a checked certificate, 2 wrong input, 3 undecided.\n"
       "Examples:\n"

@@ -120,7 +120,7 @@ std::string certificate_text(const model::Gains& gains) {
 std::string undecided_because(const model::Gains& gains) {
   if (gains.search && !gains.search->value) return "nothing feasible was found";
   const std::string& cause = gains.solver.cause;
-  for (const char* limit : {"iteration-limit", "time-limit", "interrupted"})
+  for (const char* limit : {"iteration-limit", "interrupted"})
     if (cause == limit) return cause;
   return "neither a point that holds nor a certificate was found";
 }

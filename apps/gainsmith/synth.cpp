@@ -11,7 +11,6 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/explain_text.h"
 #include "gainsmith/load.h"
-#include "gainsmith/optimizers.h"
 #include "gainsmith/output.h"
 #include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
@@ -26,41 +25,61 @@ struct SynthOptions {
   std::string problem;
   std::string output;
   std::string sdpa;
+  bool only_write = false;
   unsigned threads = 0;
   bool json = false;
 };
 
 /// Why there are no gains, in one line.
-std::string reason(const model::Instance& instance, const model::Gains& gains,
-                   const sdp::Options& solver) {
-  const auto conflict = design::find_conflict(instance, gains, solver);
-  return explanation_line(conflict.value(), design::find_reaches(instance, solver));
+std::string reason(const model::Instance& instance, const model::Gains& gains) {
+  const auto conflict = design::find_conflict(instance, gains, {});
+  return explanation_line(conflict.value(), design::find_reaches(instance, {}));
+}
+
+/// Below the result: why, what to try next, where gains go.
+void say_more(const SynthOptions& options, const model::Instance& instance,
+              const model::Gains& gains) {
+  const bool to_stdout = options.output == "-";
+  if (gains.verdict == model::Verdict::no) {
+    const std::string why = reason(instance, gains);
+    check_stop();
+    print_report("why         " + why + "\n", to_stdout);
+  }
+  print_report(advice(instance, gains, options.problem), to_stdout);
+  if (gains.verdict == model::Verdict::yes && options.output.empty() && is_terminal())
+    say("no gain file was written: -o GAINS.json writes one\n");
+}
+
+void write_program(const std::string& path, const model::Instance& instance) {
+  write_atomically(path, sdp::write_sdpa(design::semidefinite_program(instance)));
 }
 
 ExitCode synth(const SynthOptions& options) {
   refuse_overwriting(options.problem, {options.output, options.sdpa});
+  if (options.only_write && options.sdpa.empty())
+    throw InputError({"--no-solve"}, "nothing to do: --sdpa FILE says where the program goes");
   const model::Instance instance = load_problem(options.problem);
   const design::SearchRequest request = wanted_search(instance);
-  const search::Optimizers* optimizers = optimizers_for(request, *instance.design);
-  catch_interrupts();
-  sdp::Options solver;
-  solver.interrupted = interrupted;
-  const model::Gains gains =
-      design::synthesize_searched(instance, request, optimizers, options.threads, solver);
-  if (!options.sdpa.empty())
-    write_atomically(options.sdpa, sdp::write_sdpa(design::semidefinite_program(
-                                       model::evaluate(instance.design, gains.searched))));
-  write_result(gains, options.output,
-               options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),
-               options.json);
-  if (gains.verdict == model::Verdict::no && !options.json && !interrupted())
-    print_report("why         " + reason(instance, gains, solver) + "\n", options.output == "-");
-  if (!options.json && !interrupted())
-    print_report(advice(instance, gains, options.problem), options.output == "-");
-  if (gains.verdict == model::Verdict::yes && options.output.empty() && !options.json &&
-      progress_wanted())
-    say("no gain file was written: -o GAINS.json writes one\n");
-  return exit_of(gains.verdict);
+  // What is searched has no values before the search.
+  const bool write_first = !options.sdpa.empty() && (request.empty() || options.only_write);
+  if (write_first) write_program(options.sdpa, instance);
+  if (options.only_write) return ExitCode::yes;
+  const model::Gains gains = design::synthesize_searched(instance, request, options.threads, {});
+  {
+    const Telling telling;
+    if (!options.sdpa.empty() && !write_first)
+      write_program(options.sdpa, model::evaluate(instance.design, gains.searched));
+    write_result(
+        gains, options.output,
+        options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),
+        options.json);
+  }
+  try {
+    if (!options.json) say_more(options, instance, gains);
+  } catch (const Stopped&) {
+    // The result is there.
+  }
+  return gains.search ? exit_of_search(gains) : exit_of(gains.verdict);
 }
 
 }  // namespace
@@ -72,7 +91,9 @@ Command synth_command() {
       "Synthesize gains from a problem file",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
        Option("-o,--output", options->output, "write the gain file here; - for standard output"),
-       Option("--sdpa", options->sdpa, "write the semidefinite program here, for other solvers"),
+       Option("--sdpa", options->sdpa,
+              "write the semidefinite program here, for other solvers, before it is solved"),
+       Option("--no-solve", options->only_write, "write it, and no more"),
        Option("--threads", options->threads,
               "threads of a search, 0: one a core; the result does not depend on it")
            .within(0, 1024),

@@ -1,22 +1,29 @@
 #include "gainsmith/terminal.h"
 
 #include <fcntl.h>
+#include <signal.h>
+#include <sys/time.h>
 #include <unistd.h>
 
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstdio>
 #include <ctime>
 #include <system_error>
 
 #include "base/error.h"
+#include "base/number.h"
+#include "gainsmith/progress_line.h"
 
 namespace gainsmith::app {
 
 namespace {
 
-volatile std::sig_atomic_t interrupt_flag = 0;
 volatile std::sig_atomic_t interrupted_at = 0;  // seconds
+volatile std::sig_atomic_t out_of_time = 0;
+volatile std::sig_atomic_t telling_now = 0;
+double patience_seconds = 0;
 
 std::sig_atomic_t seconds_now() {
   timespec now{};
@@ -24,16 +31,51 @@ std::sig_atomic_t seconds_now() {
   return static_cast<std::sig_atomic_t>(now.tv_sec);
 }
 
+void set_timer(double seconds) {
+  const double whole = std::floor(seconds);
+  itimerval timer{};
+  timer.it_value.tv_sec = static_cast<time_t>(whole);
+  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - whole));
+  ::setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+/// What is known must be told from now on.
+void stop() {
+  constexpr double kToBegin = 0.9;
+  request_stop();
+  set_timer(kToBegin);
+}
+
 /// One that follows within two seconds is the first again: timeout(1) and schedulers signal a
 /// process and then its group. A later one ends the program.
 void on_interrupt(int) {
-  if (interrupt_flag == 0) {
-    interrupt_flag = 1;
+  if (interrupted_at == 0) {
     interrupted_at = seconds_now();
+    if (!stop_requested) stop();
   } else if (seconds_now() - interrupted_at > 1) {
     std::signal(SIGINT, SIG_DFL);
     std::raise(SIGINT);
   }
+}
+
+/// The first is the end of the patience, unless Ctrl-C came before; the next one that of the time
+/// in which to begin to tell.
+void on_timer(int) {
+  if (!stop_requested) {
+    out_of_time = 1;
+    return stop();
+  }
+  if (telling_now != 0) return;
+  constexpr char kText[] = "gainsmith: stopped, before anything was known\n";
+  static_cast<void>(!::write(STDERR_FILENO, kText, sizeof kText - 1));
+  ::_exit(static_cast<int>(ExitCode::undecided));
+}
+
+void handle(int number, void (*handler)(int)) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = SA_RESTART;
+  ::sigaction(number, &action, nullptr);
 }
 
 }  // namespace
@@ -46,7 +88,10 @@ void open_standard_files() {
       static_cast<void>(::open(kNothing, file == STDOUT_FILENO ? O_RDONLY : O_WRONLY));
 }
 
-void say(const std::string& text) { std::fwrite(text.data(), 1, text.size(), stderr); }
+void say(const std::string& text) {
+  clear_progress();
+  std::fwrite(text.data(), 1, text.size(), stderr);
+}
 
 void finish_output() {
   if (std::fflush(stdout) != 0)
@@ -55,10 +100,35 @@ void finish_output() {
   if (std::ferror(stdout) != 0) throw InputError({"standard output"}, "cannot write");
 }
 
-bool progress_wanted() { return isatty(STDERR_FILENO) != 0; }
+bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
-void catch_interrupts() { std::signal(SIGINT, on_interrupt); }
+void begin_work(const Patience& patience) {
+  handle(SIGINT, on_interrupt);
+  handle(SIGALRM, on_timer);
+  patience_seconds = patience.seconds;
+  if (patience.seconds > 0) set_timer(patience.seconds);
+  if (patience.progress || is_terminal()) show_progress(is_terminal());
+}
 
-bool interrupted() { return interrupt_flag != 0; }
+Telling::Telling() {
+  telling_now = 1;
+  hide_progress(true);
+}
+
+Telling::~Telling() {
+  telling_now = 0;
+  hide_progress(false);
+}
+
+void end_work() {
+  set_timer(0);
+  end_progress();
+}
+
+std::string stop_text() {
+  if (!stop_requested) return {};
+  if (out_of_time == 0) return "interrupted";
+  return "stopped after " + brief(patience_seconds) + " s (--time); more of it goes further";
+}
 
 }  // namespace gainsmith::app

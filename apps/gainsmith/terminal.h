@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "base/stop.h"
+
 namespace gainsmith::app {
 
 /// Opens each standard file that the caller has closed such that the file that is opened next does
@@ -17,12 +19,32 @@ void say(const std::string& text);
 /// written.
 void finish_output();
 
-/// Whether standard error is a terminal: only then are progress and colour shown.
-bool progress_wanted();
+/// Whether standard error is a terminal: only then is a line of progress shown, and colour.
+bool is_terminal();
 
-/// From now on Ctrl-C sets a flag instead of ending the program; one more after some seconds ends
-/// it.
-void catch_interrupts();
-bool interrupted();
+/// How long a command may take, and how it says what it does.
+struct Patience {
+  double seconds = 0;     ///< 0: as long as it takes
+  bool progress = false;  ///< a line every 10 s, where standard error is no terminal
+};
+
+/// From now on Ctrl-C, or the end of the patience, requests a stop (base/stop.h). Where the command
+/// does not begin to tell what is known within a second, the program ends with exit code 3. One
+/// more Ctrl-C after some seconds ends it too.
+void begin_work(const Patience& patience);
+
+/// Nothing is stopped or shown any more.
+void end_work();
+
+/// What a command knows is told, as long as this object lives: nothing stops it, and no progress is
+/// shown. One at a time.
+class Telling : Concluding {
+ public:
+  Telling();
+  ~Telling();
+};
+
+/// How a stop came about, as a sentence; empty without one.
+std::string stop_text();
 
 }  // namespace gainsmith::app

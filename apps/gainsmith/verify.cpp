@@ -22,16 +22,11 @@ struct VerifyOptions {
   bool json = false;
 };
 
-void print_progress(std::uint64_t done, std::uint64_t all) {
-  say(fmt::format("\r{}/{} runs{}", done, all, done == all ? "\n" : ""));
-}
-
 ExitCode verify_gains(const VerifyOptions& options) {
   const LoadedGains loaded = load_run(options.gains);
-  catch_interrupts();
-  verify::CampaignOptions campaign{options.runs, options.seed, options.threads, {}, interrupted};
-  if (!options.json && progress_wanted()) campaign.progress = print_progress;
+  const verify::CampaignOptions campaign{options.runs, options.seed, options.threads};
   const verify::Report report = verify::run_campaign(loaded.stated, loaded.gains, campaign);
+  const Telling telling;
   fmt::print("{}", options.json ? io::to_text(campaign_json(report))
                                 : campaign_summary(report, options.gains));
   return campaign_exit(report.verdict);

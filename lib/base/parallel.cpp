@@ -135,6 +135,7 @@ class Team {
     const AllowanceOfLoop here(loop.allowance);
     for (std::size_t i = loop.next++; i < loop.count; i = loop.next++) {
       try {
+        check_stop();
         loop.body(i);
       } catch (...) {
         loop.next = loop.count;
@@ -203,7 +204,10 @@ class Running {
 void run(Loop& loop) {
   if (loop.serial || loop.count <= 1) {
     const Running here(loop);
-    for (std::size_t i = 0; i < loop.count; ++i) loop.body(i);
+    for (std::size_t i = 0; i < loop.count; ++i) {
+      check_stop();
+      loop.body(i);
+    }
     return;
   }
   loop.team->run(loop);

@@ -1,6 +1,5 @@
 #include "base/stop.h"
 
-#include <chrono>
 #include <limits>
 #include <utility>
 
@@ -8,35 +7,22 @@ namespace gainsmith {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-
-std::atomic<bool> requested = false;
-std::atomic<double> deadline = std::numeric_limits<double>::infinity();
-static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
-
 thread_local Allowance* allowance = nullptr;
-
-double now() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
 
 }  // namespace
 
-void request_stop() noexcept { requested = true; }
-
-void stop_after(double seconds) { deadline = now() + seconds; }
-
 bool is_stopping() noexcept {
-  if (requested) return true;
-  const double end = deadline;
-  return end < std::numeric_limits<double>::infinity() && now() >= end;
-}
-
-void check_stop() {
-  if (is_stopping()) throw Stopped();
+  if (!stop_requested) return false;
+  for (const Allowance* each = allowance; each != nullptr; each = each->around_)
+    if (each->concludes_) return false;
+  return true;
 }
 
 Allowance::Allowance(double seconds) : seconds_(seconds), around_(std::exchange(allowance, this)) {}
 
 Allowance::~Allowance() { allowance = around_; }
+
+Concluding::Concluding() : Allowance(std::numeric_limits<double>::infinity()) { concludes_ = true; }
 
 void spend(double seconds) {
   check_stop();

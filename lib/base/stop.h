@@ -1,8 +1,9 @@
 // Stopping, and how much work a question is worth.
 //
-// What takes long calls spend() about once a millisecond. It ends the computation by an exception
-// when somebody wishes it to stop (Ctrl-C, --time), or when an allowance is used up. Whoever gave
-// the allowance catches OutOfAllowance and goes on with what is known; Stopped is for the command.
+// What takes long calls spend() or check_stop() about once a millisecond. They end the computation
+// by an exception when somebody wishes it to stop (Ctrl-C, --time), or when an allowance is used
+// up. Whoever gave the allowance catches OutOfAllowance and goes on with what is known. Whoever has
+// something to tell catches Stopped and makes his result of it, as Concluding; the command is last.
 //
 // An allowance counts estimated work, not time: the same input ends at the same place on every
 // machine and for any number of threads. Its unit is a second of one core of about 2020.
@@ -23,14 +24,18 @@ struct OutOfAllowance : std::exception {
   const char* what() const noexcept override { return "out of its allowance of work"; }
 };
 
+/// Whether a stop was requested.
+inline std::atomic<bool> stop_requested = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
+
 /// From now on everything stops. Safe in a signal handler.
-void request_stop() noexcept;
-/// Everything stops `seconds` from now.
-void stop_after(double seconds);
-/// Whether everything is to stop.
+inline void request_stop() noexcept { stop_requested = true; }
+/// Whether the calling thread is to stop.
 bool is_stopping() noexcept;
-/// Throws Stopped when everything is to stop.
-void check_stop();
+/// Throws Stopped when the calling thread is to stop.
+inline void check_stop() {
+  if (stop_requested.load(std::memory_order_relaxed) && is_stopping()) throw Stopped();
+}
 
 /// Seconds of one operation, a multiplication with an addition.
 constexpr double kDoubleWork = 1.5e-10;
@@ -49,12 +54,21 @@ class Allowance {
   double spent() const { return spent_; }
 
  private:
+  friend class Concluding;
   friend void spend(double seconds);
-  friend class AllowanceOfLoop;
+  friend bool is_stopping() noexcept;
 
   const double seconds_;
+  bool concludes_ = false;
   std::atomic<double> spent_ = 0;
   Allowance* const around_;
+};
+
+/// What is left to do of a stopped computation, to tell what is known: nothing stops it, on this
+/// thread and in its loops, as long as this object lives. It must be little.
+class Concluding : public Allowance {
+ public:
+  Concluding();
 };
 
 /// Counts work, and throws Stopped or OutOfAllowance.

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "base/number.h"
+#include "base/stop.h"
 #include "design/hautus.h"
 #include "design/synthesize.h"
 
@@ -97,6 +98,7 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
     overrides.insert(own.overrides.begin(), own.overrides.end());
     try {
       model::Gains gains = synthesize_at(own.design, overrides, solver, choices.depth);
+      if (gains.verdict == model::Verdict::undecided) check_stop();
       const search::Answer answer = answer_of(gains);
       tried.insert_or_assign(value, std::move(gains));
       return answer;
@@ -110,9 +112,9 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
   options.tolerance = choices.tolerance;
   options.known = own.values.at(choices.scalar.name)(0, 0);
   options.guess = choices.guess;
-  options.interrupted = solver.interrupted;
   BisectResult result;
   result.found = search::bisect(question, choices.scalar.axis, options);
+  const Concluding concluding;
   if (tried.empty() && refusal) throw InputError(*refusal);
   if (tried.empty()) return result;
   const double easiest = choices.largest ? tried.begin()->first : tried.rbegin()->first;

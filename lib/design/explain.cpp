@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "base/stop.h"
 #include "design/bisect.h"
 #include "design/elastic.h"
 #include "design/synthesize.h"
@@ -29,26 +30,31 @@ std::vector<std::string> in_reverse(const std::vector<model::Design::Inequality>
 
 /// Whether the requirements named hold together: with the objective, which leads to solutions of
 /// the problem's own size, and where that is not decided (it may be unbounded) without it.
+/// Undecided when it is stopped.
 model::Gains subset(const model::Instance& instance, const std::set<std::string>& names,
                     const sdp::Options& solver) {
-  const model::Instance part = with_inequalities(instance, names);
-  if (holds_at_zero(part)) {
-    model::Gains trivial;
-    trivial.verdict = model::Verdict::yes;
-    return trivial;
+  model::Gains gains;
+  try {
+    const model::Instance part = with_inequalities(instance, names);
+    if (holds_at_zero(part)) {
+      gains.verdict = model::Verdict::yes;
+      return gains;
+    }
+    gains = synthesize(part, solver, Depth::verdict);
+    if (gains.verdict == model::Verdict::undecided && part.design->objective)
+      gains = synthesize(without_objective(part), solver, Depth::verdict);
+  } catch (const Stopped&) {
+    gains.verdict = model::Verdict::undecided;
   }
-  model::Gains gains = synthesize(part, solver, Depth::verdict);
-  if (gains.verdict == model::Verdict::undecided && part.design->objective)
-    gains = synthesize(without_objective(part), solver, Depth::verdict);
   return gains;
 }
 
-std::vector<Relaxation> find_relaxations(const model::Instance& instance,
-                                         const sdp::Options& solver) {
+/// Appends to `relaxations`, which keep what was found when it is stopped.
+void find_relaxations(const model::Instance& instance, const sdp::Options& solver,
+                      std::vector<Relaxation>& relaxations) {
   const model::Instance plain = without_gains(instance);
   const auto scales = scales_of(plain);
   const Slacks together = smallest_slacks(plain, scales, solver);
-  std::vector<Relaxation> relaxations;
   for (const model::Design::Inequality& inequality : instance.design->inequalities) {
     const std::string& name = inequality.name;
     Relaxation relaxation;
@@ -57,13 +63,13 @@ std::vector<Relaxation> find_relaxations(const model::Instance& instance,
     if (together.verdict == model::Verdict::yes)
       relaxation.together = together.by_inequality.at(name);
     relaxation.together_at_most = !together.smallest;
+    check_stop();
     const Slacks alone = smallest_slacks(plain, {{name, scales.at(name)}}, solver);
     if (alone.verdict == model::Verdict::yes) relaxation.alone = alone.by_inequality.at(name);
     relaxation.alone_at_most = !alone.smallest;
     relaxation.alone_undecided = alone.verdict == model::Verdict::undecided;
     relaxations.push_back(std::move(relaxation));
   }
-  return relaxations;
 }
 
 /// The reach in one direction, within the range.
@@ -75,6 +81,7 @@ Reach reach(const model::Instance& instance, const SearchedScalar& scalar, doubl
   try {
     const BisectResult result =
         bisect(instance, {}, {scalar, at_most, default_tolerance(scalar.axis) * kFine, {}}, solver);
+    check_stop();
     found.feasible = result.found.yes;
     found.beyond = result.found.no;
     if (found.beyond) found.certificate = result.gains.search->certificate;
@@ -82,6 +89,24 @@ Reach reach(const model::Instance& instance, const SearchedScalar& scalar, doubl
     // The assumptions refuse the whole side: nothing there is feasible.
   }
   return found;
+}
+
+/// In both directions along a scalar.
+std::vector<Reach> reaches_along(const model::Instance& instance, const model::Range& range,
+                                 const sdp::Options& solver) {
+  std::vector<Reach> reaches;
+  const SearchedScalar whole = searched_scalar(instance, range);
+  const double value = instance.values.at(range.name)(0, 0);
+  for (const bool at_most : {true, false}) {
+    SearchedScalar side = whole;
+    (at_most ? side.axis.high : side.axis.low) =
+        at_most ? std::min(value, whole.axis.high) : std::max(value, whole.axis.low);
+    if (!(side.axis.low < side.axis.high)) continue;
+    const Reach found = reach(instance, side, value, at_most, solver);
+    if (found.feasible) reaches.push_back(found);
+  }
+  if (reaches.empty()) reaches.push_back({range.name, value, true, {}, {}, {}});
+  return reaches;
 }
 
 }  // namespace
@@ -126,19 +151,13 @@ std::optional<Conflict> find_conflict(const model::Instance& instance, const mod
 
 std::vector<Reach> find_reaches(const model::Instance& instance, const sdp::Options& solver) {
   std::vector<Reach> reaches;
-  for (const model::Range& range : instance.design->negotiable) {
-    const SearchedScalar whole = searched_scalar(instance, range);
-    const double value = instance.values.at(range.name)(0, 0);
-    const std::size_t count = reaches.size();
-    for (const bool at_most : {true, false}) {
-      SearchedScalar side = whole;
-      (at_most ? side.axis.high : side.axis.low) =
-          at_most ? std::min(value, whole.axis.high) : std::max(value, whole.axis.low);
-      if (!(side.axis.low < side.axis.high)) continue;
-      const Reach found = reach(instance, side, value, at_most, solver);
-      if (found.feasible) reaches.push_back(found);
+  try {
+    for (const model::Range& range : instance.design->negotiable) {
+      const std::vector<Reach> found = reaches_along(instance, range, solver);
+      reaches.insert(reaches.end(), found.begin(), found.end());
     }
-    if (reaches.size() == count) reaches.push_back({range.name, value, true, {}, {}, {}});
+  } catch (const Stopped&) {
+    // Of those that it reached nothing is known.
   }
   return reaches;
 }
@@ -147,10 +166,15 @@ Explanation explain(const model::Instance& instance, const sdp::Options& solver)
   Explanation explanation;
   explanation.gains = synthesize(instance, solver);
   if (explanation.gains.verdict == model::Verdict::yes) return explanation;
-  explanation.conflict = find_conflict(instance, explanation.gains, solver);
-  if (explanation.conflict && !explanation.conflict->gain_bound)
-    explanation.relaxations = find_relaxations(instance, solver);
-  explanation.reaches = find_reaches(instance, solver);
+  try {
+    explanation.conflict = find_conflict(instance, explanation.gains, solver);
+    if (explanation.conflict && !explanation.conflict->gain_bound)
+      find_relaxations(instance, solver, explanation.relaxations);
+    explanation.reaches = find_reaches(instance, solver);
+  } catch (const Stopped&) {
+    // What was found before stays.
+  }
+  explanation.finished = !is_stopping();
   return explanation;
 }
 

@@ -53,18 +53,21 @@ struct Explanation {
   std::optional<Conflict> conflict;
   std::vector<Relaxation> relaxations;  ///< one a requirement, in the order of the method
   std::vector<Reach> reaches;           ///< of `negotiable`
+  bool finished = true;                 ///< not stopped (base/stop.h)
 };
 
-/// The conflict of a problem whose result is `gains`; none unless that is a no.
+/// The conflict of a problem whose result is `gains`; none unless that is a no. After a stop what
+/// was not looked at is undecided.
 std::optional<Conflict> find_conflict(const model::Instance& instance, const model::Gains& gains,
                                       const sdp::Options& solver);
 
 /// Along every negotiable scalar, the others held: the nearest feasible value below the problem's
 /// own, and above it, as far as the range goes: the directions that have one, or one entry for a
-/// scalar that does not help.
+/// scalar that does not help. After a stop those that are found.
 std::vector<Reach> find_reaches(const model::Instance& instance, const sdp::Options& solver);
 
-/// All of it. With another verdict than no there is no conflict and no relaxation.
+/// All of it, or what was found before a stop. With another verdict than no there is no conflict
+/// and no relaxation.
 Explanation explain(const model::Instance& instance, const sdp::Options& solver);
 
 }  // namespace gainsmith::design

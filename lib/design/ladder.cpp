@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/progress.h"
 #include "base/stop.h"
 #include "design/gain_values.h"
 #include "design/on_faces.h"
@@ -70,14 +71,9 @@ struct Rungs {
   static bool most_digits_are_due(const Climb& climb) {
     return digits_are_due(climb) && !is_large(climb);
   }
-  /// By one who does not want to wait.
-  static bool is_stopped(const Climb& climb) {
-    const sdp::Cause cause = climb.last().solution.cause;
-    return cause == sdp::Cause::interrupted || cause == sdp::Cause::time_limit;
-  }
   static bool faces_are_due(const Climb& climb) {
     return climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb) &&
-           !climb.waits_for_points() && !is_stopped(climb);
+           !climb.waits_for_points();
   }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
@@ -161,20 +157,27 @@ struct Row {
   Rung rung;
   bool (*is_due)(const Climb&);
   std::optional<Attempt> (*tries)(const Climb&);
+  const char* doing;
 };
 
 constexpr std::array<Row, 11> kLadder = {{
-    {Rung::minimum, Rungs::minimum_is_due, Rungs::minimum},
-    {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside},
-    {Rung::inside, Rungs::nothing_holds, Rungs::inside},
-    {Rung::blended, Rungs::blended_is_due, Rungs::blended},
-    {Rung::free_minimum, Rungs::free_minimum_is_due, Rungs::free_minimum},
-    {Rung::free_inside, Rungs::bounds_leave_nothing, Rungs::free_inside},
-    {Rung::in_100_digits, Rungs::certificate_is_due, Rungs::certificate_in_100_digits},
-    {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits},
-    {Rung::on_faces, Rungs::faces_are_due, Rungs::on_faces},
-    {Rung::in_100_digits, Rungs::most_digits_are_due, Rungs::in_100_digits},
-    {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter},
+    {Rung::minimum, Rungs::minimum_is_due, Rungs::minimum, "the minimum"},
+    {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside,
+     "the largest margin, gains of any size"},
+    {Rung::inside, Rungs::nothing_holds, Rungs::inside, "the largest margin"},
+    {Rung::blended, Rungs::blended_is_due, Rungs::blended, "a point near the minimum"},
+    {Rung::free_minimum, Rungs::free_minimum_is_due, Rungs::free_minimum,
+     "the minimum, gains of any size"},
+    {Rung::free_inside, Rungs::bounds_leave_nothing, Rungs::free_inside,
+     "the largest margin, gains of any size"},
+    {Rung::in_100_digits, Rungs::certificate_is_due, Rungs::certificate_in_100_digits,
+     "a certificate in 100 digits"},
+    {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits,
+     "the largest margin in 31 digits"},
+    {Rung::on_faces, Rungs::faces_are_due, Rungs::on_faces, "faces"},
+    {Rung::in_100_digits, Rungs::most_digits_are_due, Rungs::in_100_digits,
+     "the largest margin in 100 digits"},
+    {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter, "tighter bounds on gains"},
 }};
 
 }  // namespace
@@ -191,7 +194,9 @@ void Climb::climb(bool to_end) {
   for (const Row& row : kLadder) {
     if (!to_end && (point() != nullptr || refutation() != nullptr)) return;
     if (out_of_allowance_) return;
-    if (find(row.rung) != nullptr || !row.is_due(*this)) continue;
+    if (done_.contains(row.rung) || !row.is_due(*this)) continue;
+    check_stop();
+    const Doing doing(row.doing);
     const auto start = Clock::now();
     const Allowance limit(allowance() - spent_);
     try {
@@ -199,6 +204,7 @@ void Climb::climb(bool to_end) {
         out_of_allowance_ = found->out_of_allowance;
         tried_.emplace(row.rung, std::move(*found));
       }
+      done_.insert(row.rung);
     } catch (const OutOfAllowance&) {
       out_of_allowance_ = true;
     }
@@ -251,7 +257,7 @@ const Attempt& Climb::last() const {
 
 bool Climb::waits_for_points() const {
   return posed_.thin && Rungs::may_want_digits(*this) && Rungs::is_large(*this) &&
-         !Rungs::is_stopped(*this) && last().relaxation_refuted();
+         last().relaxation_refuted();
 }
 
 bool Climb::is_yes(const Attempt& attempt) const {

@@ -25,6 +25,7 @@
 #pragma once
 
 #include <map>
+#include <set>
 
 #include "design/attempt.h"
 #include "model/gains.h"
@@ -54,6 +55,7 @@ class Climb {
   /// All the others that are due.
   void to_end();
 
+  bool has_begun() const { return !tried_.empty(); }
   /// nullptr: not tried.
   const Attempt* find(Rung rung) const;
   /// The attempt whose point counts: the first that is a yes, otherwise the first that
@@ -89,6 +91,7 @@ class Climb {
   lmi::GainBounds bounds_;
   Solve solve_;
   std::map<Rung, Attempt> tried_;
+  std::set<Rung> done_;  ///< those that came to nothing included
   double seconds_ = 0;
   double spent_ = 0;
   bool out_of_allowance_ = false;

@@ -2,17 +2,22 @@
 
 #include <algorithm>
 #include <limits>
-#include <stdexcept>
+#include <mutex>
+#include <optional>
 #include <tuple>
 #include <utility>
 
 #include "base/number.h"
+#include "base/progress.h"
+#include "base/stop.h"
 #include "design/elastic.h"
 #include "design/hautus.h"
 #include "design/polish.h"
 #include "design/results.h"
 #include "design/synthesize.h"
+#include "search/ipopt.h"
 #include "search/minimize.h"
+#include "search/nlopt.h"
 
 namespace gainsmith::design {
 
@@ -28,16 +33,9 @@ double smallest_margin(const model::Gains& gains) {
 
 class OuterSearch {
  public:
-  OuterSearch(const model::Instance& own, const SearchRequest& request,
-              const search::Optimizers& optimizers, unsigned threads, const sdp::Options& solver)
-      : own_(own),
-        request_(request),
-        optimizers_(optimizers),
-        threads_(threads),
-        solver_(solver),
-        last_(solver) {
-    last_.interrupted = nullptr;
-  }
+  OuterSearch(const model::Instance& own, const SearchRequest& request, unsigned threads,
+              const sdp::Options& solver)
+      : own_(own), request_(request), threads_(threads), solver_(solver) {}
 
   model::Gains run() {
     std::vector<search::Axis> axes;
@@ -45,7 +43,6 @@ class OuterSearch {
     search::MinimizeOptions options;
     options.evaluations = request_.evaluations;
     options.threads = threads_;
-    options.interrupted = solver_.interrupted;
     options.starts = {own_values()};
     const auto cold = [&](const search::Point& point) { return figure(point, std::nullopt); };
     if (request_.extreme)
@@ -58,11 +55,27 @@ class OuterSearch {
       options.violation = [&, scales = *scales](const search::Point& point) {
         return violation(scales, point);
       };
-    const search::Minimum minimum = search::minimize(cold, axes, optimizers_.local, options);
-    return result(minimum);
+    const auto search = [&] {
+      const Doing doing("evaluations", static_cast<std::uint64_t>(options.evaluations));
+      return search::minimize(cold, axes, local_, options);
+    };
+    return result(search());
   }
 
  private:
+  /// Gains that the search met, with their figure.
+  struct Found {
+    model::Gains gains;
+    double figure;
+  };
+
+  /// Keeps the best for a search that is stopped; `figure`.
+  double keep(model::Gains gains, double figure) const {
+    const std::lock_guard lock(mutex_);
+    if (!best_ || figure < best_->figure) best_ = {std::move(gains), figure};
+    return figure;
+  }
+
   /// The values that the problem or the method gives, or the nearest in the ranges.
   search::Point own_values() const {
     search::Point point;
@@ -81,16 +94,21 @@ class OuterSearch {
   /// What is minimised: none where there are no gains, or where the values are refused.
   std::optional<double> figure(const search::Point& point, std::optional<double> guess) const {
     const model::Overrides values = overrides(point);
+    Doing::step();
     try {
       if (request_.extreme) {
-        const auto found = bracket(values, kSharper, guess, solver_, Depth::quick).found.yes;
-        if (!found) return std::nullopt;
-        return request_.largest ? -*found : *found;
+        BisectResult result = bracket(values, kSharper, guess, Depth::quick);
+        check_stop();
+        if (!result.found.yes) return std::nullopt;
+        const double found = request_.largest ? -*result.found.yes : *result.found.yes;
+        return keep(std::move(result.gains), found);
       }
       const model::Instance instance = model::evaluate(own_.design, values);
-      const model::Gains gains = synthesize(instance, solver_, Depth::quick);
+      model::Gains gains = synthesize(instance, solver_, Depth::quick);
+      if (gains.verdict == model::Verdict::undecided) check_stop();
       if (gains.verdict != model::Verdict::yes) return std::nullopt;
-      return value(instance, gains);
+      const auto found = value(instance, gains);
+      return found ? keep(std::move(gains), *found) : found;
     } catch (const InputError&) {
       return std::nullopt;
     }
@@ -136,23 +154,25 @@ class OuterSearch {
   }
 
   BisectResult bracket(const model::Overrides& values, double sharper, std::optional<double> guess,
-                       const sdp::Options& solver, Depth depth = Depth::thorough) const {
+                       Depth depth = Depth::thorough) const {
     return bisect(own_, values,
                   {*request_.extreme, request_.largest, request_.tolerance * sharper, guess, depth},
-                  solver);
+                  solver_);
   }
 
   /// The gains at values of the outer scalars, with the figure's value; for an extreme its bracket
-  /// is in their record. An interrupt does not end it: what was found is worth having.
+  /// is in their record.
   std::pair<model::Gains, std::optional<double>> design_at(
       const model::Overrides& values, std::optional<double> guess = std::nullopt) const {
     if (request_.extreme) {
-      BisectResult result = bracket(values, 1, guess, last_);
+      BisectResult result = bracket(values, 1, guess);
+      check_stop();
       return {std::move(result.gains), result.found.yes};
     }
     const model::Instance instance = model::evaluate(own_.design, values);
-    model::Gains gains = synthesize(instance, last_);
-    // A measure was taken in the search, and an interrupt must not take it again.
+    model::Gains gains = synthesize(instance, solver_);
+    check_stop();
+    // A measure was taken in the search.
     if (gains.verdict != model::Verdict::yes || request_.measure)
       return {std::move(gains), std::nullopt};
     const auto found = value(instance, gains);
@@ -166,7 +186,7 @@ class OuterSearch {
 
   /// Replaces a design by what polishing proposes, if that is better.
   model::PolishRecord polish_design(model::Gains& gains, std::optional<double>& figure) const {
-    const Proposal proposal = polish(own_, request_, gains, optimizers_.smooth);
+    const Proposal proposal = polish(own_, request_, gains, smooth_);
     model::PolishRecord record{*figure, std::nullopt, false, proposal.cause};
     if (!proposal.scalars) return record;
     model::Overrides values = *proposal.scalars;
@@ -200,13 +220,22 @@ class OuterSearch {
     model::Gains gains;
     std::optional<double> best;
     std::optional<model::PolishRecord> polished;
+    bool finished = minimum.finished;
     if (minimum.point) {
-      std::tie(gains, best) = design_at(overrides(*minimum.point), extreme_of(minimum));
-      if (request_.measure && gains.verdict == model::Verdict::yes) best = minimum.value;
-      if (request_.polish && best && minimum.finished) polished = polish_design(gains, best);
+      // Unless the search comes to its end, those that it met.
+      gains = best_->gains;
+      best = request_.extreme && request_.largest ? -best_->figure : best_->figure;
+      try {
+        std::tie(gains, best) = design_at(overrides(*minimum.point), extreme_of(minimum));
+        if (request_.measure && gains.verdict == model::Verdict::yes) best = minimum.value;
+        if (request_.polish && best && finished) polished = polish_design(gains, best);
+      } catch (const Stopped&) {
+        finished = false;
+      }
     } else {
       gains = nothing_found();
     }
+    const Concluding concluding;
     model::SearchRecord record = gains.search.value_or(model::SearchRecord{});
     record.figure = figure_name(request_, *own_.design);
     // An objective without a minimum is no figure: the margin is.
@@ -221,7 +250,7 @@ class OuterSearch {
     }
     record.evaluations = minimum.evaluations;
     record.feasible = minimum.feasible;
-    record.finished = minimum.finished;
+    record.finished = finished;
     gains.search = std::move(record);
     return gains;
   }
@@ -229,7 +258,7 @@ class OuterSearch {
   /// The result at the problem's own values, where there are no gains; it decides nothing of the
   /// ranges.
   model::Gains nothing_found() const {
-    model::Gains gains = synthesize_at(own_.design, overrides(own_values()), last_);
+    model::Gains gains = synthesize_at(own_.design, overrides(own_values()), solver_);
     gains.verdict = model::Verdict::undecided;
     gains.solver.status = "undecided";
     gains.certificate.reset();
@@ -252,30 +281,29 @@ class OuterSearch {
 
   const model::Instance& own_;
   const SearchRequest& request_;
-  const search::Optimizers& optimizers_;
+  const search::LocalSearch local_ = search::nlopt_search();
+  const search::SmoothSolver smooth_ = search::ipopt_solver();
   unsigned threads_;
   const sdp::Options& solver_;
-  sdp::Options last_;  ///< of the solves after the search, which no interrupt ends
+  mutable std::mutex mutex_;
+  mutable std::optional<Found> best_;  ///< of the search so far
 };
 
 }  // namespace
 
-model::Gains optimize(const model::Instance& own, const SearchRequest& request,
-                      const search::Optimizers& optimizers, unsigned threads,
+model::Gains optimize(const model::Instance& own, const SearchRequest& request, unsigned threads,
                       const sdp::Options& solver) {
-  return OuterSearch(own, request, optimizers, threads, solver).run();
+  return OuterSearch(own, request, threads, solver).run();
 }
 
 model::Gains synthesize_searched(const model::Instance& own, const SearchRequest& request,
-                                 const search::Optimizers* optimizers, unsigned threads,
-                                 const sdp::Options& solver) {
+                                 unsigned threads, const sdp::Options& solver) {
   if (request.empty()) return synthesize(own, solver);
   if (request.over.empty())
     return bisect(own, {}, {*request.extreme, request.largest, request.tolerance, std::nullopt},
                   solver)
         .gains;
-  if (optimizers == nullptr) throw std::invalid_argument("a search over scalars needs optimizers");
-  return optimize(own, request, *optimizers, threads, solver);
+  return optimize(own, request, threads, solver);
 }
 
 }  // namespace gainsmith::design

@@ -3,7 +3,6 @@
 
 #include "design/bisect.h"
 #include "design/search_request.h"
-#include "search/optimizers.h"
 
 namespace gainsmith::design {
 
@@ -12,15 +11,13 @@ namespace gainsmith::design {
 /// infeasible, undecided, or refused by the method's assumptions is worse than every other. When
 /// nothing feasible was found the verdict is undecided: that each value tried is infeasible says
 /// nothing of those between. Deterministic for any number of threads.
-model::Gains optimize(const model::Instance& own, const SearchRequest& request,
-                      const search::Optimizers& optimizers, unsigned threads,
+/// InputError where the optimisation libraries are not installed.
+model::Gains optimize(const model::Instance& own, const SearchRequest& request, unsigned threads,
                       const sdp::Options& solver);
 
 /// The gains of a problem with everything that it wants searched: synthesize() for an empty
-/// request, bisect() for one with a scalar to bisect alone, otherwise optimize(), which alone needs
-/// `optimizers` (std::invalid_argument when they are null).
+/// request, bisect() for one with a scalar to bisect alone, otherwise optimize().
 model::Gains synthesize_searched(const model::Instance& own, const SearchRequest& request,
-                                 const search::Optimizers* optimizers, unsigned threads,
-                                 const sdp::Options& solver);
+                                 unsigned threads, const sdp::Options& solver);
 
 }  // namespace gainsmith::design

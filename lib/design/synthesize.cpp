@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/number.h"
+#include "base/stop.h"
 #include "base/version.h"
 #include "design/exchange.h"
 #include "design/gain_values.h"
@@ -77,6 +78,11 @@ void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
             "sufficient; synthesis.forall: exchange with a polynomial may find one"
           : "no solution for the hull, which is larger than what the variables reach; "
             "synthesis.forall: exchange, or more synthesis.slices, may find one");
+}
+
+void note_stop(model::Gains& gains) {
+  gains.solver.status = "undecided";
+  gains.solver.cause = to_string(sdp::Cause::interrupted);
 }
 
 lmi::Look look_of(Depth depth) {
@@ -171,68 +177,109 @@ bool has_minimum(const model::Instance& instance) {
   return lmi::has_minimum(lmi, lmi::gain_bounds(inequalities, lmi));
 }
 
-/// `digits`: more than double where double does not decide.
-model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth,
-                        bool digits) {
-  constexpr int kMostRounds = 60;
-  const auto start = Clock::now();
-  const lmi::Inequalities inequalities(instance);
-  forall::Plan plan = forall::make_plan(inequalities.design());
-  lmi::Lmi lmi = lmi::compile(inequalities, plan);
-  const auto bounds = lmi::gain_bounds(inequalities, lmi);
-  model::Gains gains = stated(instance);
-  refuse_zero_solution(inequalities.design(), lmi);
-  const Solve solve = [&](const sdp::Problem& problem, const Effort& effort) {
-    sdp::Options solver = options;
+/// One synthesis: attempts on a plan of points, which grows.
+class Synthesis {
+ public:
+  /// `digits`: more than double where double does not decide.
+  Synthesis(const model::Instance& instance, const sdp::Options& options, Depth depth, bool digits)
+      : inequalities_(instance), options_(options), depth_(depth), digits_(digits) {}
+
+  /// What is known, also when it was stopped.
+  model::Gains run() {
+    model::Gains gains = stated(inequalities_.instance);
+    bool stopped = false;
+    try {
+      prepare();
+      while (climbs_again()) ++round_;
+    } catch (const Stopped&) {
+      stopped = true;
+    }
+    const Concluding concluding;
+    if (climb_ && climb_->has_begun()) {
+      conclude(*climb_, gains);
+      report_ways(plan_, round_, gains);
+    }
+    if (stopped && gains.verdict == model::Verdict::undecided) note_stop(gains);
+    add_gains(inequalities_, gains);
+    if (gains.verdict != model::Verdict::yes)
+      if (const std::string hidden = hidden_mode_text(inequalities_.instance); !hidden.empty())
+        gains.solver.add_message(hidden);
+    gains.timings = {
+        {"compile", compile_seconds_}, {"solve", solve_seconds_}, {"total", seconds_since(start_)}};
+    return gains;
+  }
+
+ private:
+  void prepare() {
+    plan_ = forall::make_plan(inequalities_.design());
+    lmi_ = lmi::compile(inequalities_, plan_);
+    bounds_ = lmi::gain_bounds(inequalities_, lmi_);
+    refuse_zero_solution(inequalities_.design(), lmi_);
+    compile_seconds_ = seconds_since(start_);
+  }
+
+  /// All attempts on the plan; whether it has grown by what they showed.
+  bool climbs_again() {
+    forall::Plan denser = plan_;
+    const bool thin = !thickened_ && thicken(denser, inequalities_);
+    climb_.emplace(Posed{inequalities_, plan_, lmi_, digits_, look_of(depth_), thin}, bounds_,
+                   [this](const auto&... asked) { return solve(asked...); });
+    climb_->to_point();
+    bool again = grown();
+    if (!again) {
+      climb_->to_end();
+      again = grown();
+    }
+    const Attempt* point = climb_->point();
+    const bool undecided = climb_->refutation() == nullptr && (point == nullptr || !point->holds());
+    if (!again && climb_->waits_for_points()) {
+      plan_ = std::move(denser);
+      again = thickened_ = true;
+    }
+    // What the hull's own expansion of the functions rounded away shows at points.
+    if (!again && undecided) again = plan_.leave_hulls(inequalities_.design());
+    solve_seconds_ += climb_->seconds();
+    if (!again) return false;
+    climb_.reset();
+    const auto compiling = Clock::now();
+    lmi_ = lmi::compile(inequalities_, plan_);
+    compile_seconds_ += seconds_since(compiling);
+    return true;
+  }
+
+  bool grown() {
+    constexpr int kMostRounds = 60;
+    const Attempt* point = climb_->point();
+    return point != nullptr && !point->holds() && climb_->refutation() == nullptr &&
+           round_ < kMostRounds && !is_out_of_reach(*point) &&
+           grow(plan_, inequalities_, lmi_, *point);
+  }
+
+  sdp::Solution solve(const sdp::Problem& problem, const Effort& effort) const {
+    sdp::Options solver = options_;
     if (effort.precision != "auto") solver.precision = effort.precision;
     solver.tolerance = std::min(solver.tolerance, effort.tolerance);
     return sdp::solve(problem, solver);
-  };
-  double compile_seconds = seconds_since(start);
-  double solve_seconds = 0;
-  bool thickened = false;
-  for (int round = 1;; ++round) {
-    forall::Plan denser = plan;
-    const bool thin = !thickened && thicken(denser, inequalities);
-    Climb climb({inequalities, plan, lmi, digits, look_of(depth), thin}, bounds, solve);
-    climb.to_point();
-    const auto grown = [&] {
-      const Attempt* point = climb.point();
-      return point != nullptr && !point->holds() && climb.refutation() == nullptr &&
-             round < kMostRounds && !is_out_of_reach(*point) &&
-             grow(plan, inequalities, lmi, *point);
-    };
-    bool again = grown();
-    if (!again) {
-      climb.to_end();
-      again = grown();
-    }
-    const Attempt* point = climb.point();
-    const bool undecided = climb.refutation() == nullptr && (point == nullptr || !point->holds());
-    if (!again && climb.waits_for_points()) {
-      plan = std::move(denser);
-      again = thickened = true;
-    }
-    // What the hull's own expansion of the functions rounded away shows at points.
-    if (!again && undecided) again = plan.leave_hulls(inequalities.design());
-    solve_seconds += climb.seconds();
-    if (again) {
-      const auto compiling = Clock::now();
-      lmi = lmi::compile(inequalities, plan);
-      compile_seconds += seconds_since(compiling);
-      continue;
-    }
-    conclude(climb, gains);
-    report_ways(plan, round, gains);
-    break;
   }
-  add_gains(inequalities, gains);
-  if (gains.verdict != model::Verdict::yes)
-    if (const std::string hidden = hidden_mode_text(instance); !hidden.empty())
-      gains.solver.add_message(hidden);
-  gains.timings = {
-      {"compile", compile_seconds}, {"solve", solve_seconds}, {"total", seconds_since(start)}};
-  return gains;
+
+  const Clock::time_point start_ = Clock::now();
+  const lmi::Inequalities inequalities_;
+  const sdp::Options& options_;
+  const Depth depth_;
+  const bool digits_;
+  forall::Plan plan_;
+  lmi::Lmi lmi_;
+  lmi::GainBounds bounds_;
+  std::optional<Climb> climb_;
+  int round_ = 1;
+  bool thickened_ = false;
+  double compile_seconds_ = 0;
+  double solve_seconds_ = 0;
+};
+
+model::Gains synthesize(const model::Instance& instance, const sdp::Options& options, Depth depth,
+                        bool digits) {
+  return Synthesis(instance, options, depth, digits).run();
 }
 
 /// Gains of formulas alone: nothing is unknown and nothing required.

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/stop.h"
 #include "expr/token_cursor.h"
 #include "expr/work.h"
 
@@ -304,6 +305,7 @@ class Parser : TokenCursor {
   }
 
   NodePtr primary() {
+    check_stop();
     const std::size_t begin = here().begin;
     switch (peek()) {
       case TokenKind::number:

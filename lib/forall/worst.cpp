@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/stop.h"
 #include "expr/evaluate.h"
 #include "forall/minima.h"
 #include "numbers/dense.h"
@@ -36,6 +37,7 @@ class Family {
   }
 
   double value(const std::vector<double>& at) {
+    check_stop();
     solver_.compute_values(matrix(at));
     return solver_.values()(0);
   }

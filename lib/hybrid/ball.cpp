@@ -1,5 +1,6 @@
 #include "hybrid/ball.h"
 
+#include "base/stop.h"
 #include "hybrid/ball_rules.h"
 
 namespace gainsmith::hybrid {
@@ -28,6 +29,7 @@ Ball<Scalar> exact_ball(const numbers::Matrix& matrix) {
 template <class Scalar>
 void BallAlgebra<Scalar>::apply(const expr::Instruction& instruction,
                                 expr::Operands<Value> operands, Value& out) const {
+  check_stop();
   expr::dispatch(rules::BallRules<Scalar>{}, instruction, operands, out);
   using std::isfinite;
   for (Index e = 0; e < out.mid.size(); ++e)

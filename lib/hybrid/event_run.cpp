@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/number.h"
+#include "base/stop.h"
 #include "hybrid/branches.h"
 #include "hybrid/event_due.h"
 #include "hybrid/event_jump.h"
@@ -68,14 +69,12 @@ std::vector<Index> rows_of_states(const EventSystem& system) {
 class EventRun {
  public:
   EventRun(const EventSystem& system, const EventScenario& scenario, Movement& movement,
-           EventWatch& watch, JumpMaps& maps, const std::function<bool()>& stopped,
-           std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy,
-           const RecordLimits& limits)
+           EventWatch& watch, JumpMaps& maps, std::uint64_t seed, std::uint64_t run,
+           const Accuracy& accuracy, const RecordLimits& limits)
       : system_(system),
         movement_(movement),
         watch_(watch),
         maps_(maps),
-        stopped_(stopped),
         horizon_(scenario.horizon),
         due_(system, watch, EventClocks(system, scenario, seed, run), scenario.horizon),
         noise_(system, seed, run),
@@ -107,6 +106,8 @@ class EventRun {
       record_.ends(ending, error.what(), t_, j_);
     } catch (const expr::EvaluationError& error) {
       record_.ends(Ending::undefined, error.what(), t_, j_);
+    } catch (const Stopped&) {
+      record_.ends(Ending::interrupted, "interrupted", t_, j_);
     }
     return record_.take(t_);
   }
@@ -158,7 +159,7 @@ class EventRun {
   }
 
   void jump(std::size_t event) {
-    ask_whether_stopped();
+    check_stop();
     if (chain_ == 0) watch_rhythm(event);
     sliding_.jumped();
     const VectorXd before = values_;
@@ -233,7 +234,7 @@ class EventRun {
     starts_ = true;
     Went went = Went::on;
     while (went == Went::on && t_ < stop) {
-      ask_whether_stopped();
+      check_stop();
       if (++steps_ > kMostStepsOfRun)
         throw RunEnd(Ending::lost, fmt::format("more than {} steps", kMostStepsOfRun));
       watch_progress();
@@ -333,10 +334,6 @@ class EventRun {
             fmt::format("t = {}: '{}' comes near without being reached", brief(t, 12), text));
   }
 
-  void ask_whether_stopped() const {
-    if (stopped_ && stopped_()) throw RunEnd(Ending::interrupted, "interrupted");
-  }
-
   /// Steps without end that hardly advance.
   void watch_progress() {
     if (t_ - slow_since_ > kSlow * horizon_) {
@@ -353,7 +350,6 @@ class EventRun {
   Movement& movement_;
   EventWatch& watch_;
   JumpMaps& maps_;
-  const std::function<bool()>& stopped_;
   double horizon_;
   DueEvents due_;
   NoiseDraws noise_;
@@ -378,20 +374,16 @@ class EventRun {
 
 }  // namespace
 
-EventSimulator::EventSimulator(const EventSystem& system, const EventScenario& scenario,
-                               std::function<bool()> stopped)
-    : system_(&system),
-      scenario_(&scenario),
-      stopped_(std::move(stopped)),
-      texts_(std::make_unique<Texts>(system)) {}
+EventSimulator::EventSimulator(const EventSystem& system, const EventScenario& scenario)
+    : system_(&system), scenario_(&scenario), texts_(std::make_unique<Texts>(system)) {}
 EventSimulator::EventSimulator(EventSimulator&&) noexcept = default;
 EventSimulator& EventSimulator::operator=(EventSimulator&&) noexcept = default;
 EventSimulator::~EventSimulator() = default;
 
 Trajectory EventSimulator::run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy,
                                const RecordLimits& limits) {
-  return EventRun(*system_, *scenario_, texts_->movement, texts_->watch, texts_->maps, stopped_,
-                  seed, run, accuracy, limits)
+  return EventRun(*system_, *scenario_, texts_->movement, texts_->watch, texts_->maps, seed, run,
+                  accuracy, limits)
       .trajectory();
 }
 

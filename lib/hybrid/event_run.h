@@ -22,7 +22,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 
 #include "hybrid/event_scenario.h"
@@ -36,9 +35,8 @@ namespace gainsmith::hybrid {
 /// Simulates run after run; one for each thread. System and scenario must outlive it.
 class EventSimulator {
  public:
-  /// `stopped` is asked at each step and jump: true ends the run as interrupted.
-  EventSimulator(const EventSystem& system, const EventScenario& scenario,
-                 std::function<bool()> stopped = {});
+  /// A stop (base/stop.h) ends the run as interrupted, at its next step or jump.
+  EventSimulator(const EventSystem& system, const EventScenario& scenario);
   EventSimulator(EventSimulator&&) noexcept;
   EventSimulator& operator=(EventSimulator&&) noexcept;
   ~EventSimulator();
@@ -53,7 +51,6 @@ class EventSimulator {
   struct Texts;
   const EventSystem* system_;
   const EventScenario* scenario_;
-  std::function<bool()> stopped_;
   std::unique_ptr<Texts> texts_;
 };
 

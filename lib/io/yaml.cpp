@@ -12,6 +12,7 @@
 
 #include "base/nearest.h"
 #include "base/number.h"
+#include "base/stop.h"
 #include "expr/parser.h"
 #include "io/yaml_error.h"
 
@@ -83,7 +84,9 @@ class DocumentStarts : public YAML::EventHandler {
   void OnNull(const YAML::Mark&, YAML::anchor_t) override {}
   void OnAlias(const YAML::Mark&, YAML::anchor_t) override {}
   void OnScalar(const YAML::Mark&, const std::string&, YAML::anchor_t,
-                const std::string&) override {}
+                const std::string&) override {
+    check_stop();
+  }
   void OnSequenceStart(const YAML::Mark&, const std::string&, YAML::anchor_t,
                        YAML::EmitterStyle::value) override {}
   void OnSequenceEnd() override {}

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop.h"
 #include "forall/residues.h"
 #include "numbers/degree.h"
 #include "numbers/dense.h"
@@ -377,6 +378,7 @@ struct AffineRules {
 
 void AffineAlgebra::apply(const expr::Instruction& instruction,
                           std::span<const AffineForm* const> operands, AffineForm& out) const {
+  check_stop();
   if (all_constant(operands)) {
     out = constant_result(instruction, operands);
     return;

@@ -11,6 +11,7 @@
 #include <unordered_set>
 #include <utility>
 
+#include "base/stop.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::lmi {
@@ -76,6 +77,7 @@ class FreeRows {
     std::set<Sum> equations;
     std::unordered_set<std::size_t> seen;  // blocks of one inequality have the same elements
     for (const Element& e : elements) {
+      check_stop();
       const auto n = static_cast<std::size_t>(rows);
       const auto [low, high] = std::minmax(e.first, e.second);
       if (!seen.insert((static_cast<std::size_t>(e.unknown) * n + static_cast<std::size_t>(low)) *
@@ -129,6 +131,7 @@ class FreeRows {
   /// Solves the equation for one of its rows; false when none has a factor +-1 and one is asked
   /// for.
   bool solve(const Sum& equation, bool whole) {
+    check_stop();
     Sum sum;
     for (const auto& [row, factor] : equation) {
       const auto& known = solved_[static_cast<std::size_t>(row)];
@@ -203,6 +206,7 @@ Units fit(const std::vector<Element>& elements, int rows, int unknowns, int obje
   }
   for (std::size_t i = 1; i < count; ++i)
     for (const auto& [a, wa] : mean[i]) {
+      check_stop();
       for (const auto& [b, wb] : mean[i]) normal(a, b) -= wa * wb / weight[i];
       right[a] += wa * logs[i] / weight[i];
     }

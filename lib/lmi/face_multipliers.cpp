@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/stop.h"
 #include "numbers/rational_algebra.h"
 
 namespace gainsmith::lmi {
@@ -46,6 +47,7 @@ Quad right_quotient(Quad A, Quad B) {
   const Eigen::Index n = A.rows();
   for (Eigen::Index k = 0; k < n; ++k)
     for (Eigen::Index j = 0; j < n; ++j) {
+      check_stop();
       if (j == k) continue;
       const DoubleDouble factor = A(k, j) / A(k, k);
       A.col(j) -= factor * A.col(k).eval();
@@ -106,6 +108,7 @@ class Correction {
       strict_ |= block.strict;
       std::vector<std::pair<int, RationalMatrix>> terms;
       for (const auto& [i, B] : block.terms) {
+        check_stop();
         const RationalMatrix half = B.lazyProduct(face.V);
         terms.emplace_back(i, face.V.transpose().lazyProduct(half));
       }
@@ -163,6 +166,7 @@ class Correction {
     std::vector<std::vector<RationalMatrix>> moved(G_.size());
     for (std::size_t k = 0; k < G_.size(); ++k)
       for (const auto& [j, G] : G_[k]) {
+        check_stop();
         const RationalMatrix half = G.lazyProduct(S_[k]);
         moved[k].push_back(S_[k].lazyProduct(half));
         r(j) += product_of(G, S_[k]);

@@ -4,6 +4,7 @@
 #include <numeric>
 #include <utility>
 
+#include "base/stop.h"
 #include "numbers/rational_algebra.h"
 
 namespace gainsmith::lmi {
@@ -162,6 +163,7 @@ void Faces::restrict_to(const std::vector<FaceOfBlock>& faces) {
     equations.resize(first + static_cast<std::size_t>(block.size * columns),
                      std::vector<Rational>(d + 1, Rational(0)));
     for (const auto& [i, matrix] : block.terms) {
+      check_stop();
       const RationalMatrix product = matrix.lazyProduct(face.V);
       for (Eigen::Index e = 0; e < product.size(); ++e)
         equations[first + static_cast<std::size_t>(e)][static_cast<std::size_t>(i)] = product(e);
@@ -222,6 +224,7 @@ bool Faces::impose(const RationalMatrix& equations) {
   for (RationalBlock& block : blocks_) {
     std::vector<std::pair<int, RationalMatrix>> terms;
     for (Eigen::Index z = 0; z <= kept; ++z) {
+      check_stop();
       RationalMatrix sum = RationalMatrix::Constant(block.size, block.size, Rational(0));
       for (const auto& [i, matrix] : block.terms)
         if (M(i, z) != 0) sum += M(i, z) * matrix;

@@ -2,6 +2,7 @@
 
 #include <stdexcept>
 
+#include "base/stop.h"
 #include "expr/evaluate.h"
 #include "lmi/stated_point.h"
 #include "model/gains.h"
@@ -61,6 +62,7 @@ RationalBlock evaluated(const Inequalities& of, const Block& block, RationalValu
     if (program.input(unknown.name) < 0) continue;
     RationalMatrix& value = values.at(unknown.name);
     for (int k = 0; k < unknown.count; ++k) {
+      check_stop();
       for (const auto& [row, column] : unknown.places(k)) value(row, column) = 1;
       add_term(unknown.first + k, numbers::rational_symmetric_part(evaluator.run()) - constant,
                result);

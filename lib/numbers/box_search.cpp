@@ -5,6 +5,8 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/stop.h"
+
 namespace gainsmith::numbers {
 
 namespace {
@@ -59,6 +61,7 @@ class BoxSearch {
   }
 
   Sample sample(const Vector& u) const {
+    check_stop();
     const Vector inside = u.cwiseMax(0).cwiseMin(1);
     return {inside, f_(placed(inside))};
   }

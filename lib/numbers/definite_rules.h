@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "base/stop.h"
 #include "numbers/definite.h"
 #include "numbers/dense.h"
 
@@ -30,6 +31,7 @@ bool factor(MatrixOf<S>& A) {
   using std::sqrt;
   const Eigen::Index n = A.rows();
   for (Eigen::Index j = 0; j < n; ++j) {
+    check_stop();
     S pivot = A(j, j);
     for (Eigen::Index k = 0; k < j; ++k) pivot -= A(j, k) * A(j, k);
     if (!(pivot > S(0))) return false;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/stop.h"
 #include "numbers/ball_functions.h"
 #include "numbers/enclosed_functions.h"
 #include "numbers/enclosure.h"
@@ -295,6 +296,7 @@ struct EnclosureRules {
 template <class S>
 void Enclosure<S>::apply(const expr::Instruction& instruction, expr::Operands<Value> operands,
                          Value& out) const {
+  check_stop();
   expr::dispatch(EnclosureRules<S>{}, instruction, operands, out);
   if (!out.mid.allFinite()) expr::fault::not_finite(instruction.op);
 }

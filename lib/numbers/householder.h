@@ -6,6 +6,8 @@
 #include <optional>
 #include <vector>
 
+#include "base/stop.h"
+
 namespace gainsmith::numbers {
 
 template <class Number>
@@ -37,6 +39,7 @@ std::optional<Columns<Number>> complement(Columns<Number> M, std::size_t rows, s
   };
   std::vector<Reflection> reflections;
   for (std::size_t j = 0; j < M.size(); ++j) {
+    check_stop();
     std::vector<Number> v(M[j].begin() + static_cast<std::ptrdiff_t>(j), M[j].end());
     Number squares{};
     for (const Number& x : v) squares = squares + x * x;

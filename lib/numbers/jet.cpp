@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stop.h"
 #include "expr/evaluate.h"
 #include "numbers/ball_functions.h"
 #include "numbers/enclosed_functions.h"
@@ -191,6 +192,7 @@ Enclosed<double> enclosed_jacobian(const expr::Instruction& instruction,
 
 void JetAlgebra::apply(const expr::Instruction& instruction, expr::Operands<Jet> operands,
                        Jet& out) const {
+  check_stop();
   JetRules rules;
   out = Jet{};
   expr::dispatch(rules, instruction, operands, out);

@@ -1,5 +1,6 @@
 #include "numbers/rational.h"
 
+#include "base/stop.h"
 #include "expr/evaluate.h"
 #include "numbers/rational_algebra.h"
 #include "numbers/shared_rules.h"
@@ -193,6 +194,7 @@ struct Rules {
 
 void RationalNumbers::apply(const expr::Instruction& instruction, expr::Operands<Value> operands,
                             Value& out) const {
+  check_stop();
   expr::dispatch(Rules{}, instruction, operands, out);
   check_size(out);
 }

@@ -1,11 +1,14 @@
 #include "numbers/rational_algebra.h"
 
+#include "base/stop.h"
+
 namespace gainsmith::numbers {
 
 namespace {
 
 /// Row r times factor from row i, from column `first` on.
 void subtract_row(RationalMatrix& M, Eigen::Index i, Eigen::Index r, Eigen::Index first) {
+  check_stop();
   const Rational factor = M(i, first);
   for (Eigen::Index j = first; j < M.cols(); ++j)
     if (M(r, j) != 0) M(i, j) -= factor * M(r, j);
@@ -62,6 +65,7 @@ bool is_rational_definite(RationalMatrix M) {
     if (!(M(k, k) > 0)) return false;
     for (Eigen::Index i = k + 1; i < n; ++i) {
       if (M(i, k) == 0) continue;
+      check_stop();
       const Rational factor = M(i, k) / M(k, k);
       for (Eigen::Index j = k + 1; j < n; ++j) M(i, j) -= factor * M(k, j);
     }
@@ -81,6 +85,7 @@ bool is_rational_semidefinite(RationalMatrix M) {
     }
     for (Eigen::Index i = k + 1; i < n; ++i) {
       if (M(i, k) == 0) continue;
+      check_stop();
       const Rational factor = M(i, k) / M(k, k);
       for (Eigen::Index j = k + 1; j < n; ++j) M(i, j) -= factor * M(k, j);
     }

@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/stop.h"
 #include "expr/number_type.h"
 #include "numbers/canonical.h"
 #include "numbers/dual.h"
@@ -300,6 +301,7 @@ struct RealRules {
 template <class Scalar>
 void Real<Scalar>::apply(const expr::Instruction& instruction, expr::Operands<Value> operands,
                          Value& out) const {
+  if constexpr (!std::is_same_v<Scalar, double>) check_stop();
   expr::dispatch(RealRules<Scalar>{}, instruction, operands, out);
   if (!out.allFinite()) expr::fault::not_finite(instruction.op);
 }

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/eigen_scalars.h"
+#include "base/stop.h"
 #include "numbers/ball.h"
 #include "numbers/dense.h"
 
@@ -35,6 +36,7 @@ WideInverse<S> wide_inverse(const MatrixOf<S>& M) {
   MatrixOf<S> left = M;
   MatrixOf<S> right = MatrixOf<S>::Identity(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
+    check_stop();
     Eigen::Index pivot = j;
     for (Eigen::Index i = j + 1; i < n; ++i)
       if (abs(left(i, j)) > abs(left(pivot, j))) pivot = i;
@@ -93,6 +95,7 @@ void rotate_columns(MatrixOf<S>& B, MatrixOf<S>& V, const S& least, const S& rou
     bool still = true;
     for (Eigen::Index p = 0; p < B.cols(); ++p)
       for (Eigen::Index q = p + 1; q < B.cols(); ++q) {
+        check_stop();
         const S a = B.col(p).squaredNorm(), b = B.col(q).squaredNorm();
         const S c = B.col(p).dot(B.col(q));
         if (std::max(a, b) <= least * least || std::min(a, b) <= rounding * rounding) continue;

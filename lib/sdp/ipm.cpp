@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/scalars.h"
+#include "base/stop.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -79,8 +80,14 @@ Cause Ipm<T>::run(const Run& run) {
   best_error_ = progress_error_ = best_certificate_ = std::numeric_limits<double>::infinity();
   since_best_ = 0;
   left_ = false;
-  const Cause cause = iterate();
+  Cause cause = Cause::interrupted;
+  try {
+    cause = iterate();
+  } catch (const Stopped&) {
+    // What was reached is worth knowing.
+  }
   if (cause != Cause::converged && cause != Cause::certificate) {
+    const Concluding concluding;
     point_ = best_;
     residuals_.update(point_);
     if (satisfied(options_.tolerance)) return Cause::converged;
@@ -176,12 +183,8 @@ std::optional<Cause> Ipm<T>::stop() const {
 
 template <typename T>
 std::optional<Cause> Ipm<T>::limits() const {
-  using Seconds = std::chrono::duration<double>;
   if (iteration_ >= options_.iteration_limit) return Cause::iteration_limit;
-  if (options_.interrupted && options_.interrupted()) return Cause::interrupted;
-  if (options_.time_limit > 0 &&
-      Seconds(std::chrono::steady_clock::now() - run_.start).count() > options_.time_limit)
-    return Cause::time_limit;
+  if (is_stopping()) return Cause::interrupted;
   return std::nullopt;
 }
 

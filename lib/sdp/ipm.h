@@ -1,7 +1,6 @@
 // The interior-point loop.
 #pragma once
 
-#include <chrono>
 #include <limits>
 #include <optional>
 
@@ -23,9 +22,8 @@ struct Run {
   double aim = 1e-8;          ///< for all errors: stop here; what is below the tolerance counts
   double feasibility = 1e-8;  ///< for the two infeasibilities, where that is to be stricter
   Leave leave = Leave::never;
-  int patience = 25;                            ///< iterations without progress far from a solution
-  int first_iteration = 0;                      ///< continues the count of an earlier run
-  std::chrono::steady_clock::time_point start;  ///< of the whole solve, for the time limit
+  int patience = 25;        ///< iterations without progress far from a solution
+  int first_iteration = 0;  ///< continues the count of an earlier run
 };
 
 /// Predictor-corrector (Mehrotra 1992) on the model of newton.h in the arithmetic of T.
@@ -46,7 +44,7 @@ class Ipm {
     lift(static_cast<double>(std::numeric_limits<Narrow>::epsilon()));
   }
 
-  /// Iterates until something stops it.
+  /// Iterates until something ends it, a stop (base/stop.h) for one.
   Cause run(const Run& run);
 
   /// Afterwards: the best point found (least worst error), or the last one when it converged or

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/scalars.h"
+#include "base/stop.h"
 #include "sdp/pairs.h"
 #include "sdp/product.h"
 
@@ -213,6 +214,7 @@ bool cholesky_blocked(const View<T>& a, Index width) {
     if (!(width > kInnerPanel ? cholesky_blocked(panel, kInnerPanel) : cholesky_plain(panel)))
       return false;
     for (Index j = k + w; j < a.columns; j += width) {
+      check_stop();
       const Index wj = std::min(width, a.columns - j);
       multiply_outer(constant(a.part(j, k, a.rows - j, w)), constant(a.part(j, k, wj, w)),
                      a.part(j, j, a.rows - j, wj), Update::subtract);

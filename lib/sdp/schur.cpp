@@ -9,7 +9,9 @@
 
 #include "base/parallel.h"
 #include "base/scalars.h"
+#include "base/stop.h"
 #include "sdp/cover.h"
+#include "sdp/forecast.h"
 #include "sdp/kernels.h"
 
 namespace gainsmith::sdp {
@@ -69,8 +71,11 @@ Schur<T>::Schur(const Data& data, unsigned threads)
       columns_[static_cast<std::size_t>(linear.terms[t].row)].emplace_back(
           linear.constraint[list] - 1, coefficient<T>(linear, t));
   }
-  if (!sparse_.worthwhile()) b_.setZero(m, m);
-  if (!sparse_.worthwhile()) factor_.setZero(m, m);
+  if (!sparse_.worthwhile()) {
+    require_memory(m, bytes_of_iterates<T>(data) + bytes_of_dense_schur<T>(m));
+    b_.setZero(m, m);
+    factor_.setZero(m, m);
+  }
   scale_.setZero(m);
 }
 
@@ -185,8 +190,10 @@ void Schur<T>::assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y) {
     const auto block_X = inverse_X.dense(static_cast<int>(b));
     const auto block_Y = Y.dense(static_cast<int>(b));
     const auto share = [&](std::size_t first, std::size_t step) {
-      for (std::size_t k = first; k < plan.batches.size(); k += step)
+      for (std::size_t k = first; k < plan.batches.size(); k += step) {
+        check_stop();
         add_batch(plan, plan.batches[k], block_X, block_Y, work_[first]);
+      }
     };
     // Within a block every entry of B belongs to one batch, so the split cannot change a bit of it.
     if (threads_ > 1 && plan.cost > kParallelCost)

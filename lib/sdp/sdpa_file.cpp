@@ -11,6 +11,7 @@
 #include "base/double_double.h"
 #include "base/error.h"
 #include "base/number.h"
+#include "base/stop.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -38,6 +39,7 @@ class Scanner {
   }
 
   void next_line() {
+    check_stop();
     const std::size_t end = text_.find('\n', position_);
     position_ = end == std::string_view::npos ? text_.size() : end + 1;
     line_start_ = position_;

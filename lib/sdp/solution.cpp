@@ -24,8 +24,6 @@ std::string to_string(Cause cause) {
       return "certificate";
     case Cause::iteration_limit:
       return "iteration-limit";
-    case Cause::time_limit:
-      return "time-limit";
     case Cause::interrupted:
       return "interrupted";
     case Cause::stalled:

@@ -22,8 +22,7 @@ enum class Cause {
   converged,    ///< the stopping test held
   certificate,  ///< an infeasibility certificate passed its check
   iteration_limit,
-  time_limit,
-  interrupted,
+  interrupted,         ///< by a stop (base/stop.h)
   stalled,             ///< steps became too short or progress ended short of the tolerance
   numerical_breakdown  ///< a factorisation failed beyond repair
 };

@@ -5,12 +5,15 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <type_traits>
 
 #include "base/number.h"
 #include "base/scalars.h"
+#include "base/stop.h"
 #include "sdp/face.h"
+#include "sdp/forecast.h"
 #include "sdp/ipm.h"
 #include "sdp/presolve.h"
 #include "sdp/report.h"
@@ -73,12 +76,8 @@ Solution conclude(const Problem& problem, const Presolved& presolved, const Opti
 class Ladder {
  public:
   Ladder(const Problem& problem, const Presolved& presolved, const Options& options,
-         Clock::time_point start, int iterations = 0)
-      : problem_(problem),
-        presolved_(presolved),
-        options_(options),
-        start_(start),
-        iterations_(iterations) {}
+         int iterations = 0)
+      : problem_(problem), presolved_(presolved), options_(options), iterations_(iterations) {}
 
   /// From the point `from`, where there is one, or from a far point.
   Solution climb(int digits, const Iterate<double>* from = nullptr) {
@@ -172,8 +171,7 @@ class Ladder {
                                     .feasibility = kHandOver,
                                     .leave = leave,
                                     .patience = kRelayPatience,
-                                    .first_iteration = iterations_,
-                                    .start = start_});
+                                    .first_iteration = iterations_});
     iterations_ = best_.iterations = narrow.iterations();
     if (cause != Cause::converged && !narrow.left()) {
       best_.cause = cause == Cause::certificate ? Cause::stalled : cause;
@@ -190,7 +188,7 @@ class Ladder {
   /// Decided, or stopped from outside.
   bool over() const {
     return best_.status != Status::undecided || best_.cause == Cause::iteration_limit ||
-           best_.cause == Cause::time_limit || best_.cause == Cause::interrupted;
+           best_.cause == Cause::interrupted;
   }
   std::string reason(const std::string& arithmetic) const {
     return arithmetic + " " + to_string(best_.cause);
@@ -200,7 +198,6 @@ class Ladder {
   const Problem& problem_;
   const Presolved& presolved_;
   const Options& options_;
-  Clock::time_point start_;
   Solution best_;
   double best_error_ = std::numeric_limits<double>::infinity();
   int iterations_ = 0;
@@ -218,9 +215,10 @@ void Ladder::run(Ipm<T>& ipm, Model model) {
                                .aim = kAim * options_.tolerance,
                                .feasibility = feasibility,
                                .leave = wider_ ? Leave::exhausted : Leave::never,
-                               .first_iteration = iterations_,
-                               .start = start_});
+                               .first_iteration = iterations_});
   iterations_ = ipm.iterations();
+  std::optional<Concluding> concluding;
+  if (cause == Cause::interrupted) concluding.emplace();
   Solution found = conclude(problem_, presolved_, options_, ipm, cause);
   const double error = ipm.residuals().worst();
   const bool decided = found.status != Status::undecided;
@@ -248,7 +246,7 @@ void Ladder::descend(const Ipm<double>& narrow) {
       *face, problem_, restore<double>(problem_, presolved_, end.x, end.X, end.Y, end.tau),
       restricted, presolved);
   const Solution found =
-      Ladder(restricted, presolved, options_, start_, iterations_).climb(0, &from);
+      Ladder(restricted, presolved, options_, iterations_).climb(0, &from);
   iterations_ = best_.iterations = found.iterations;
   if (found.status != Status::optimal) return;
   const auto point = lift(*face, problem_, found, kShift * options_.tolerance);
@@ -309,9 +307,10 @@ Solution solve(const Problem& problem, const Options& options) {
   const int digits = digits_of(options.precision);
   validate(problem);
   const Presolved presolved = presolve(problem);
+  require_memory(presolved.data.m(), bytes_of_iterates<double>(presolved.data));
   Solution solution = presolved.free_descent >= 0
                           ? free_descent(problem, presolved, options)
-                          : Ladder(problem, presolved, options, start).climb(digits);
+                          : Ladder(problem, presolved, options).climb(digits);
   solution.message = explain(solution);
   solution.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return solution;

@@ -26,7 +26,6 @@ struct Options {
   double tolerance = 1e-8;              ///< relative gap and DIMACS errors for `optimal`
   double certificate_tolerance = 1e-8;  ///< certificate residual (normalised, see Certificate)
   int iteration_limit = 500;            ///< over all arithmetics together
-  double time_limit = 0;                ///< seconds; 0 = none
   unsigned threads = 1;                 ///< 0: one a core; results do not depend on it
   /// "auto": double first, then 31 and 100 digits where double stalls short of the tolerance and
   /// the problem is small enough, by an estimate of its operations; "double";
@@ -34,12 +33,13 @@ struct Options {
   /// there is.
   std::string precision = "auto";
   std::function<void(const Progress&)> progress;  ///< called once an iteration when set
-  std::function<bool()> interrupted;              ///< asked once an iteration when set
 };
 
 /// Solves `problem`. Throws std::invalid_argument when the problem is malformed (indices out of
 /// range, entries below the diagonal, values that are not finite) or `options.precision` is none of
-/// the above. Every other outcome is a Solution.
+/// the above. InputError when the memory that
+/// there is does not do (forecast.h). Every other outcome is a Solution, that of a stop
+/// (base/stop.h) too: the best point so far.
 Solution solve(const Problem& problem, const Options& options = {});
 
 }  // namespace gainsmith::sdp

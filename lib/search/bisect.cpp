@@ -6,6 +6,8 @@
 #include <map>
 #include <stdexcept>
 
+#include "base/stop.h"
+
 namespace gainsmith::search {
 
 namespace {
@@ -30,9 +32,13 @@ class Halving {
   double sign() const { return options_.largest ? 1.0 : -1.0; }
 
   bool ask(double value) {
-    if (options_.interrupted && options_.interrupted()) return false;
     if (std::ssize(answers_) >= options_.evaluations) return false;
-    answers_[sign() * value] = question_(value);
+    try {
+      check_stop();
+      answers_[sign() * value] = question_(value);
+    } catch (const Stopped&) {
+      return false;
+    }
     return true;
   }
 

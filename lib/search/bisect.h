@@ -44,7 +44,6 @@ struct BisectOptions {
   /// there; a border further inward, or an answer that is not monotone, may stay unseen.
   std::optional<double> guess;
   int evaluations = 200;  ///< at most, those of the spread included
-  std::function<bool()> interrupted;
 };
 
 struct Sample {
@@ -67,7 +66,7 @@ struct Bisection {
   /// borders may lie between the values that were asked.
   std::vector<double> breaks;
   std::vector<Sample> samples;  ///< all that were asked, by value
-  bool finished = false;        ///< not interrupted, and within the number of evaluations
+  bool finished = false;        ///< not stopped, and within the number of evaluations
 };
 
 /// Asks the question on axis.low ... axis.high. Deterministic, one value after the other.

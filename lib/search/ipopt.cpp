@@ -1,158 +1,171 @@
 #include "search/ipopt.h"
 
-// Debian's headers of Ipopt ask which C headers there are.
-#define HAVE_CSTDDEF
-#include <coin/IpIpoptApplication.hpp>
-#include <coin/IpSolveStatistics.hpp>
-#include <coin/IpTNLP.hpp>
-#undef HAVE_CSTDDEF
+#include <coin/IpStdCInterface.h>
 
 #include <algorithm>
 #include <exception>
 #include <limits>
+#include <memory>
+#include <new>
+#include <type_traits>
+
+#include "base/shared_library.h"
 
 namespace gainsmith::search {
 
 namespace {
 
-using Ipopt::Index;
-using Ipopt::Number;
-
-/// A SmoothProgram as Ipopt asks for it. An exception of a function ends the run and is kept.
-class Adapter : public Ipopt::TNLP {
- public:
-  explicit Adapter(const SmoothProgram& program) : program_(program), best_(program.start) {}
-
-  const std::vector<double>& best() const { return best_; }
-  void rethrow() const {
-    if (failure_) std::rethrow_exception(failure_);
-  }
-
-  bool get_nlp_info(Index& n, Index& m, Index& nonzeros, Index& hessian,
-                    IndexStyleEnum& style) override {
-    n = static_cast<Index>(program_.start.size());
-    m = static_cast<Index>(program_.constraints);
-    nonzeros = static_cast<Index>(program_.rows.size());
-    hessian = 0;
-    style = C_STYLE;
-    return true;
-  }
-
-  bool get_bounds_info(Index n, Number* low, Number* high, Index m, Number* c_low,
-                       Number* c_high) override {
-    constexpr double kIpoptInfinity = 2e19;
-    for (Index i = 0; i < n; ++i) {
-      low[i] = std::max(program_.low[static_cast<std::size_t>(i)], -kIpoptInfinity);
-      high[i] = std::min(program_.high[static_cast<std::size_t>(i)], kIpoptInfinity);
-    }
-    std::fill(c_low, c_low + m, 0.0);
-    std::fill(c_high, c_high + m, 0.0);
-    return true;
-  }
-
-  bool get_starting_point(Index, bool, Number* v, bool, Number*, Number*, Index, bool,
-                          Number*) override {
-    std::copy(program_.start.begin(), program_.start.end(), v);
-    return true;
-  }
-
-  bool eval_f(Index n, const Number* v, bool, Number& value) override {
-    return guarded([&] { value = program_.objective(point(n, v)); });
-  }
-
-  bool eval_grad_f(Index n, const Number* v, bool, Number* gradient) override {
-    return guarded([&] { copy(program_.gradient(point(n, v)), gradient); });
-  }
-
-  bool eval_g(Index n, const Number* v, bool, Index, Number* c) override {
-    return guarded([&] { copy(program_.residuals(point(n, v)), c); });
-  }
-
-  bool eval_jac_g(Index n, const Number* v, bool, Index, Index, Index* rows, Index* columns,
-                  Number* values) override {
-    if (values != nullptr) return guarded([&] { copy(program_.jacobian(point(n, v)), values); });
-    for (std::size_t k = 0; k < program_.rows.size(); ++k) {
-      rows[k] = static_cast<Index>(program_.rows[k]);
-      columns[k] = static_cast<Index>(program_.columns[k]);
-    }
-    return true;
-  }
-
-  void finalize_solution(Ipopt::SolverReturn, Index n, const Number* v, const Number*,
-                         const Number*, Index, const Number*, const Number*, Number,
-                         const Ipopt::IpoptData*, Ipopt::IpoptCalculatedQuantities*) override {
-    best_ = point(n, v);
-  }
-
- private:
-  static std::vector<double> point(Index n, const Number* v) { return {v, v + n}; }
-  static void copy(const std::vector<double>& from, Number* to) {
-    std::copy(from.begin(), from.end(), to);
-  }
-
-  template <class Work>
-  bool guarded(Work work) {
-    try {
-      work();
-      return true;
-    } catch (...) {
-      failure_ = std::current_exception();
-      return false;
-    }
-  }
-
-  const SmoothProgram& program_;
-  std::vector<double> best_;
-  std::exception_ptr failure_;
+/// The functions of the library: its C interface.
+struct Ipopt {
+  SharedLibrary file{GAINSMITH_IPOPT_FILE, kNeedsOptimizers};
+#define GAINSMITH_FUNCTION(member, name) \
+  decltype(name)* const member = file.function<decltype(name)>(#name)
+  GAINSMITH_FUNCTION(create, CreateIpoptProblem);
+  GAINSMITH_FUNCTION(free, FreeIpoptProblem);
+  GAINSMITH_FUNCTION(set_integer, AddIpoptIntOption);
+  GAINSMITH_FUNCTION(set_number, AddIpoptNumOption);
+  GAINSMITH_FUNCTION(set_text, AddIpoptStrOption);
+  GAINSMITH_FUNCTION(set_iteration, SetIntermediateCallback);
+  GAINSMITH_FUNCTION(solve, IpoptSolve);
+#undef GAINSMITH_FUNCTION
 };
 
-std::string cause_of(Ipopt::ApplicationReturnStatus status) {
+const Ipopt& ipopt() {
+  static const Ipopt kLoaded;
+  return kLoaded;
+}
+
+/// What the callbacks need. Ipopt's interface is C: an exception must not pass through it, so the
+/// first one is kept and ends the run.
+struct SmoothRun {
+  const SmoothProgram& program;
+  int iterations = 0;
+  std::exception_ptr failure{};
+};
+
+template <class Work>
+Bool guarded(void* data, Work work) {
+  SmoothRun& run = *static_cast<SmoothRun*>(data);
+  if (run.failure) return FALSE;
+  try {
+    work(run);
+    return TRUE;
+  } catch (...) {
+    run.failure = std::current_exception();
+    return FALSE;
+  }
+}
+
+std::vector<double> point(Index n, const Number* v) { return {v, v + n}; }
+
+void copy(const std::vector<double>& from, Number* to) { std::copy(from.begin(), from.end(), to); }
+
+Bool objective(Index n, Number* v, Bool, Number* value, void* data) {
+  return guarded(data, [&](SmoothRun& run) { *value = run.program.objective(point(n, v)); });
+}
+
+Bool gradient(Index n, Number* v, Bool, Number* values, void* data) {
+  return guarded(data, [&](SmoothRun& run) { copy(run.program.gradient(point(n, v)), values); });
+}
+
+Bool residuals(Index n, Number* v, Bool, Index, Number* values, void* data) {
+  return guarded(data, [&](SmoothRun& run) { copy(run.program.residuals(point(n, v)), values); });
+}
+
+/// The places of the elements first, with null for `values`; then their values.
+Bool jacobian(Index n, Number* v, Bool, Index, Index, Index* rows, Index* columns, Number* values,
+              void* data) {
+  return guarded(data, [&](SmoothRun& run) {
+    if (values != nullptr) return copy(run.program.jacobian(point(n, v)), values);
+    for (std::size_t k = 0; k < run.program.rows.size(); ++k) {
+      rows[k] = static_cast<Index>(run.program.rows[k]);
+      columns[k] = static_cast<Index>(run.program.columns[k]);
+    }
+  });
+}
+
+Bool hessian(Index, Number*, Bool, Number, Index, Number*, Bool, Index, Index*, Index*, Number*,
+             void*) {
+  return FALSE;
+}
+
+Bool iteration(Index, Index count, Number, Number, Number, Number, Number, Number, Number, Number,
+               Index, void* data) {
+  return guarded(data, [&](SmoothRun& run) { run.iterations = count; });
+}
+
+struct Free {
+  void operator()(IpoptProblem problem) const { ipopt().free(problem); }
+};
+using Problem = std::unique_ptr<std::remove_pointer_t<IpoptProblem>, Free>;
+
+Problem problem_of(const SmoothProgram& program) {
+  constexpr double kIpoptInfinity = 2e19;
+  constexpr Index kFromZero = 0;
+  std::vector<double> low = program.low;
+  std::vector<double> high = program.high;
+  for (double& value : low) value = std::max(value, -kIpoptInfinity);
+  for (double& value : high) value = std::min(value, kIpoptInfinity);
+  std::vector<double> zeros(program.constraints);
+  return Problem(ipopt().create(static_cast<Index>(low.size()), low.data(), high.data(),
+                                static_cast<Index>(zeros.size()), zeros.data(), zeros.data(),
+                                static_cast<Index>(program.rows.size()), 0, kFromZero, objective,
+                                residuals, gradient, jacobian, hessian));
+}
+
+void set(IpoptProblem problem, std::string name, std::string value) {
+  ipopt().set_text(problem, name.data(), value.data());
+}
+
+std::string cause_of(ApplicationReturnStatus status) {
   switch (status) {
-    case Ipopt::Solve_Succeeded:
+    case Solve_Succeeded:
       return "converged";
-    case Ipopt::Solved_To_Acceptable_Level:
+    case Solved_To_Acceptable_Level:
       return "converged to an acceptable level";
-    case Ipopt::Maximum_Iterations_Exceeded:
+    case Maximum_Iterations_Exceeded:
       return "iteration limit";
-    case Ipopt::Infeasible_Problem_Detected:
+    case Infeasible_Problem_Detected:
       return "converged to an infeasible point";
-    case Ipopt::Restoration_Failed:
+    case Restoration_Failed:
       return "restoration failed";
-    case Ipopt::Search_Direction_Becomes_Too_Small:
+    case Search_Direction_Becomes_Too_Small:
       return "steps became too short";
     default:
       return "stopped with Ipopt's code " + std::to_string(static_cast<int>(status));
   }
 }
 
+SmoothSolution solve(const SmoothProgram& program, double tolerance, int iterations) {
+  const Problem problem = problem_of(program);
+  if (!problem) throw std::bad_alloc();
+  std::string tol = "tol", max_iter = "max_iter", print_level = "print_level";
+  set(problem.get(), "sb", "yes");
+  set(problem.get(), "hessian_approximation", "limited-memory");
+  // No options file of the working folder is read.
+  set(problem.get(), "option_file_name", "");
+  ipopt().set_integer(problem.get(), print_level.data(), 0);
+  ipopt().set_number(problem.get(), tol.data(), tolerance);
+  ipopt().set_integer(problem.get(), max_iter.data(), iterations);
+  ipopt().set_iteration(problem.get(), iteration);
+  SmoothRun run{program};
+  SmoothSolution solution;
+  solution.v = program.start;
+  std::vector<double> value(1);
+  const auto status = ipopt().solve(problem.get(), solution.v.data(), nullptr, value.data(),
+                                    nullptr, nullptr, nullptr, &run);
+  if (run.failure) std::rethrow_exception(run.failure);
+  solution.converged = status == Solve_Succeeded || status == Solved_To_Acceptable_Level;
+  solution.cause = cause_of(status);
+  solution.iterations = run.iterations;
+  return solution;
+}
+
 }  // namespace
 
 SmoothSolver ipopt_solver() {
-  return [](const SmoothProgram& program, double tolerance, int iterations) {
-    const Ipopt::SmartPtr<Ipopt::IpoptApplication> application = new Ipopt::IpoptApplication(false);
-    application->Options()->SetStringValue("sb", "yes");
-    application->Options()->SetIntegerValue("print_level", 0);
-    application->Options()->SetStringValue("hessian_approximation", "limited-memory");
-    application->Options()->SetNumericValue("tol", tolerance);
-    application->Options()->SetIntegerValue("max_iter", iterations);
-    SmoothSolution solution;
-    // "": no options file of the working folder is read.
-    if (application->Initialize("") != Ipopt::Solve_Succeeded) {
-      solution.v = program.start;
-      solution.cause = "Ipopt could not be started";
-      return solution;
-    }
-    const Ipopt::SmartPtr<Adapter> adapter = new Adapter(program);
-    const auto status = application->OptimizeTNLP(Ipopt::SmartPtr<Ipopt::TNLP>(GetRawPtr(adapter)));
-    adapter->rethrow();
-    solution.v = adapter->best();
-    solution.converged =
-        status == Ipopt::Solve_Succeeded || status == Ipopt::Solved_To_Acceptable_Level;
-    solution.cause = cause_of(status);
-    if (const auto statistics = application->Statistics(); IsValid(statistics))
-      solution.iterations = statistics->IterationCount();
-    return solution;
-  };
+  ipopt();
+  return solve;
 }
 
 }  // namespace gainsmith::search

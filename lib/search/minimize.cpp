@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "base/parallel.h"
+#include "base/stop.h"
 
 namespace gainsmith::search {
 
@@ -17,7 +18,7 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 struct Trial {
   Point unit;
   std::optional<double> value{};
-  bool tried = false;  ///< false when an interrupt came first
+  bool tried = false;  ///< false when a stop came first
 };
 
 class Search {
@@ -27,6 +28,17 @@ class Search {
       : figure_(figure), axes_(axes), local_(local), options_(options) {}
 
   Minimum run() {
+    try {
+      search();
+      found_.finished = true;
+    } catch (const Stopped&) {
+      found_.finished = false;
+    }
+    return found_;
+  }
+
+ private:
+  void search() {
     std::vector<Trial> trials = spread();
     if (found_.feasible == 0 && options_.violation && may_go_on()) approach(trials);
     std::stable_sort(trials.begin(), trials.end(), [](const Trial& a, const Trial& b) {
@@ -36,11 +48,8 @@ class Search {
     const std::vector<Point> starts = separate(trials);
     for (std::size_t i = 0; i < starts.size() && may_go_on(); ++i)
       descend(starts[i], static_cast<int>(starts.size() - i));
-    found_.finished = !(options_.interrupted && options_.interrupted());
-    return found_;
   }
 
- private:
   /// Cells along each axis, so that the grid takes about a third of the evaluations.
   int cells() const {
     const double third = std::max(1.0, options_.evaluations / 3.0);
@@ -54,10 +63,7 @@ class Search {
     return result;
   }
 
-  bool may_go_on() const {
-    return found_.evaluations < options_.evaluations &&
-           !(options_.interrupted && options_.interrupted());
-  }
+  bool may_go_on() const { return found_.evaluations < options_.evaluations; }
 
   /// The starts and the middles of the cells, on several threads.
   std::vector<Trial> spread() {
@@ -75,13 +81,20 @@ class Search {
       trials.push_back({std::move(unit)});
     if (std::ssize(trials) > options_.evaluations)
       trials.resize(static_cast<std::size_t>(options_.evaluations));
-    parallel_for(trials.size(), options_.threads, [&](std::size_t i) {
-      if (options_.interrupted && options_.interrupted()) return;
-      trials[i].value = figure_(point(trials[i].unit));
-      trials[i].tried = trials[i].value || !(options_.interrupted && options_.interrupted());
-    });
-    for (const Trial& trial : trials)
-      if (trial.tried) record(trial.unit, trial.value);
+    const auto record_all = [&] {
+      for (const Trial& trial : trials)
+        if (trial.tried) record(trial.unit, trial.value);
+    };
+    try {
+      parallel_for(trials.size(), options_.threads, [&](std::size_t i) {
+        trials[i].value = figure_(point(trials[i].unit));
+        trials[i].tried = true;
+      });
+    } catch (const Stopped&) {
+      record_all();
+      throw;
+    }
+    record_all();
     return trials;
   }
 

@@ -31,7 +31,6 @@ struct MinimizeOptions {
   /// How far a point is from feasible, >= 0, infinite when that is not known; called from several
   /// threads at once, but not unless the grid has no feasible point.
   std::function<double(const Point&)> violation;
-  std::function<bool()> interrupted;
 };
 
 struct Minimum {
@@ -39,11 +38,11 @@ struct Minimum {
   double value = 0;
   int evaluations = 0;
   int feasible = 0;       ///< of the evaluations
-  bool finished = false;  ///< not interrupted
+  bool finished = false;  ///< not stopped
 };
 
 /// Minimises over the box of the axes. `local` is the local search. Deterministic for any number of
-/// threads.
+/// threads. A stop (base/stop.h) ends it with what was found.
 Minimum minimize(const Figure& figure, const std::vector<Axis>& axes, const LocalSearch& local,
                  const MinimizeOptions& options);
 

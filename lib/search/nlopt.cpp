@@ -7,9 +7,34 @@
 #include <new>
 #include <vector>
 
+#include "base/shared_library.h"
+
 namespace gainsmith::search {
 
 namespace {
+
+/// The functions of the library.
+struct Nlopt {
+  SharedLibrary library{GAINSMITH_NLOPT_FILE, kNeedsOptimizers};
+#define GAINSMITH_FUNCTION(name) \
+  decltype(nlopt_##name)* name = library.function<decltype(nlopt_##name)>("nlopt_" #name)
+  GAINSMITH_FUNCTION(create);
+  GAINSMITH_FUNCTION(destroy);
+  GAINSMITH_FUNCTION(force_stop);
+  GAINSMITH_FUNCTION(optimize);
+  GAINSMITH_FUNCTION(set_initial_step1);
+  GAINSMITH_FUNCTION(set_lower_bounds1);
+  GAINSMITH_FUNCTION(set_maxeval);
+  GAINSMITH_FUNCTION(set_min_objective);
+  GAINSMITH_FUNCTION(set_upper_bounds1);
+  GAINSMITH_FUNCTION(set_xtol_abs1);
+#undef GAINSMITH_FUNCTION
+};
+
+const Nlopt& nlopt() {
+  static const Nlopt kLoaded;
+  return kLoaded;
+}
 
 /// What NLopt's callback needs, and the best point so far.
 struct Run {
@@ -25,7 +50,7 @@ struct Run {
 
   void stop() {
     stopped = true;
-    nlopt_force_stop(optimizer);
+    nlopt().force_stop(optimizer);
   }
 };
 
@@ -59,24 +84,25 @@ void search(nlopt_algorithm algorithm, Run& run, std::vector<double> start, doub
   if (run.stopped || run.evaluations >= options.evaluations) return;
   const auto count = static_cast<unsigned>(start.size());
   const std::unique_ptr<nlopt_opt_s, decltype(&nlopt_destroy)> optimizer(
-      nlopt_create(algorithm, count), nlopt_destroy);
+      nlopt().create(algorithm, count), nlopt().destroy);
   if (!optimizer) throw std::bad_alloc();
   run.optimizer = optimizer.get();
-  nlopt_set_min_objective(run.optimizer, evaluate, &run);
-  nlopt_set_lower_bounds1(run.optimizer, 0);
-  nlopt_set_upper_bounds1(run.optimizer, 1);
-  nlopt_set_initial_step1(run.optimizer, step);
-  nlopt_set_xtol_abs1(run.optimizer, options.tolerance);
-  nlopt_set_maxeval(run.optimizer, options.evaluations - run.evaluations);
+  nlopt().set_min_objective(run.optimizer, evaluate, &run);
+  nlopt().set_lower_bounds1(run.optimizer, 0);
+  nlopt().set_upper_bounds1(run.optimizer, 1);
+  nlopt().set_initial_step1(run.optimizer, step);
+  nlopt().set_xtol_abs1(run.optimizer, options.tolerance);
+  nlopt().set_maxeval(run.optimizer, options.evaluations - run.evaluations);
   double value = 0;
   // The result code does not matter: the best point is kept by the callback.
-  nlopt_optimize(run.optimizer, start.data(), &value);
+  nlopt().optimize(run.optimizer, start.data(), &value);
   if (run.failure) std::rethrow_exception(run.failure);
 }
 
 }  // namespace
 
 LocalSearch nlopt_search() {
+  nlopt();
   return [](const std::function<double(const std::vector<double>&)>& function,
             const std::vector<double>& start, const LocalSearchOptions& options,
             const std::function<bool()>& go_on) {

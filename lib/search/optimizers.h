@@ -1,5 +1,5 @@
-// What the optimisation libraries do for gainsmith, as functions: rooms and programs that are
-// linked without these libraries still compile against this.
+// What the optimisation libraries do for gainsmith, as functions. The libraries are loaded by the
+// search that needs them (docs/decisions/0057-one-program.md).
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,11 @@
 #include <vector>
 
 namespace gainsmith::search {
+
+/// What the message says where a library is not there.
+inline constexpr const char* kNeedsOptimizers =
+    "a search over scalars ('search' with 'over', optimize) needs NLopt and Ipopt. Scalars that "
+    "have a value under 'data' or 'parameters' are not searched";
 
 /// A local search without derivatives in the unit box [0, 1]^d.
 struct LocalSearchOptions {
@@ -50,10 +55,5 @@ struct SmoothSolution {
 
 using SmoothSolver =
     std::function<SmoothSolution(const SmoothProgram& program, double tolerance, int iterations)>;
-
-struct Optimizers {
-  LocalSearch local;
-  SmoothSolver smooth;
-};
 
 }  // namespace gainsmith::search

@@ -10,6 +10,8 @@
 
 #include "base/error.h"
 #include "base/parallel.h"
+#include "base/progress.h"
+#include "base/stop.h"
 #include "verify/judge.h"
 #include "verify/setup.h"
 #include "verify/statistics.h"
@@ -125,16 +127,18 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
 }
 
 /// Runs first, first + 1, ..., last - 1, or those until the campaign is stopped.
-Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, std::uint64_t last,
-                 const CampaignOptions& options) {
-  Judge judge(setup, options.stopped);
-  const auto stops = [&] { return options.stopped && options.stopped(); };
+Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
+  Judge judge(setup);
   Tally sum;
-  for (std::uint64_t run = first; run < last; ++run) {
-    if (run > first && stops()) break;
-    const RunVerdict verdict = judge(seed, run);
-    if (setup.events && stops()) break;  // perhaps amid the run
-    add(tally_of(run, verdict), sum);
+  try {
+    for (std::uint64_t run = first; run < last; ++run) {
+      check_stop();
+      const RunVerdict verdict = judge(seed, run);
+      if (setup.events) check_stop();  // perhaps amid the run
+      add(tally_of(run, verdict), sum);
+    }
+  } catch (const Stopped&) {
+    // Those that are done count.
   }
   return sum;
 }
@@ -145,18 +149,18 @@ Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
                 const CampaignOptions& options) {
   constexpr std::uint64_t kBlock = 64;
   std::vector<Tally> blocks((runs + kBlock - 1) / kBlock);
-  std::mutex mutex;
-  std::uint64_t done = 0;
-  parallel_for(blocks.size(), options.threads, [&](std::size_t block) {
-    if (options.stopped && options.stopped()) return;
+  const Doing doing("runs", runs);
+  const auto judge_block = [&](std::size_t block) {
     const std::uint64_t first = block * kBlock;
     const std::uint64_t last = std::min(runs, first + kBlock);
-    blocks[block] = judge_runs(setup, seed, first, last, options);
-    if (!options.progress) return;
-    const std::lock_guard lock(mutex);
-    done += blocks[block].runs;
-    options.progress(done, runs);
-  });
+    blocks[block] = judge_runs(setup, seed, first, last);
+    Doing::step(blocks[block].runs);
+  };
+  try {
+    parallel_for(blocks.size(), options.threads, judge_block);
+  } catch (const Stopped&) {
+    // Blocks that were not begun are empty.
+  }
   Tally sum;
   for (const Tally& block : blocks) add(block, sum);
   return sum;
@@ -248,8 +252,13 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
   report.violation_probability = violation_probability_bound(report.violations + report.undecided,
                                                              report.runs, report.confidence);
   report.checks = report_checks(setup, tally);
-  const bool confirmed = report.violations > 0 && confirm_worst(setup, report.seed, report);
   if (report.interrupted()) return report;
+  bool confirmed = false;
+  try {
+    confirmed = report.violations > 0 && confirm_worst(setup, report.seed, report);
+  } catch (const Stopped&) {
+    return report;
+  }
   if (confirmed) report.verdict = model::CampaignVerdict::violated;
   if (report.violations > 0 && !confirmed) report.undecided += std::exchange(report.violations, 0);
   if (report.violations + report.undecided == 0) report.verdict = model::CampaignVerdict::held;

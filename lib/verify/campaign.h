@@ -21,11 +21,6 @@ struct CampaignOptions {
   std::optional<std::uint64_t> runs;  ///< none: the problem's
   std::optional<std::uint64_t> seed;  ///< none: the problem's
   unsigned threads = 0;               ///< 0: one a core; the report does not depend on it
-  /// Called with (runs done, runs in all) from the threads of the campaign, one call at a time.
-  std::function<void(std::uint64_t, std::uint64_t)> progress;
-  /// Asked from all threads before each run: true ends the campaign with those that are done, and
-  /// its verdict is undecided.
-  std::function<bool()> stopped;
 };
 
 /// One claim over all runs.
@@ -76,8 +71,9 @@ struct Report {
 
 /// Simulates all runs and checks every claim that the gain file states (judge.h). The verdict is
 /// `violated` when a run violates and the worst one does so in 31 digits, `held` when every run
-/// holds, and `undecided` otherwise. InputError for input that does not fit, for 0 runs, and when
-/// no claim is stated: then there is nothing to hold.
+/// holds, and `undecided` otherwise, as after a stop (base/stop.h) with the runs that were done.
+/// InputError for input that does not fit, for 0 runs, and when no claim is stated: then there is
+/// nothing to hold.
 Report run_campaign(const model::Instance& instance, const model::Gains& gains,
                     const CampaignOptions& options = {});
 

@@ -178,6 +178,11 @@ EventReplay replay_events(const model::Instance& instance, const model::Gains& g
   EventReplay result;
   result.run = hybrid::EventSimulator(events.system, events.scenario)
                    .run(seed, run, events.accuracy(kUsualOfOne));
+  if (result.run.ending == hybrid::Ending::interrupted) {
+    const Concluding concluding;
+    EventTable(*instance.design, events).fill(step, result);
+    return result;
+  }
   EventTable(*instance.design, events).fill(step, result);
   if (judged) result.faults = faults_of(result.run, instance, gains, events, seed, run);
   if (setup->judged.empty()) return result;

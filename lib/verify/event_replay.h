@@ -40,7 +40,7 @@ struct EventReplay {
 };
 
 /// `step`: of the points of flows; 0: as the integration went. `judged`: whether the run is checked
-/// against the texts.
+/// against the texts. After a stop (base/stop.h) the run as far as it came, without claims.
 EventReplay replay_events(const model::Instance& instance, const model::Gains& gains,
                           std::uint64_t seed, std::uint64_t run, double step, bool judged = false);
 

@@ -33,9 +33,9 @@ bool is_whole(model::Dynamics::VariableKind kind) {
 
 }  // namespace
 
-EventTracks::EventTracks(const EventSetup& setup, std::function<bool()> stopped)
+EventTracks::EventTracks(const EventSetup& setup)
     : setup_(&setup),
-      simulator_(setup.system, setup.scenario, std::move(stopped)),
+      simulator_(setup.system, setup.scenario),
       rounds_(static_cast<std::size_t>(setup.system.whole), false) {
   const auto& variables = setup.system.dynamics.variables;
   for (std::size_t k = 0; k < variables.size(); ++k) {

@@ -24,8 +24,7 @@ namespace gainsmith::verify {
 /// lost. A run that ends by accumulating jumps is complete.
 class EventTracks {
  public:
-  /// `stopped` is asked along the runs: true ends them.
-  explicit EventTracks(const EventSetup& setup, std::function<bool()> stopped = {});
+  explicit EventTracks(const EventSetup& setup);
 
   /// `factor`: of the accuracy of a campaign.
   const hybrid::Track<double>& run(std::uint64_t seed, std::uint64_t run, double factor);

@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "base/number.h"
+#include "base/stop.h"
 #include "verify/bound_figure.h"
 #include "verify/event_setup.h"
 
@@ -17,12 +18,13 @@ namespace {
 class TwoRuns {
  public:
   TwoRuns(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
-          std::uint64_t run, const std::function<bool()>& stopped)
+          std::uint64_t run)
       : setup_(make_event_setup(instance, gains)) {
     constexpr double kSharper = 1e-2;
-    hybrid::EventSimulator simulator(setup_->system, setup_->scenario, stopped);
+    hybrid::EventSimulator simulator(setup_->system, setup_->scenario);
     usual_ = simulator.run(seed, run, setup_->accuracy(kUsualOfOne));
     sharper_ = simulator.run(seed, run, setup_->accuracy(kUsualOfOne, kSharper));
+    check_stop();
   }
 
   hybrid::Ending ending() const { return sharper_.ending; }
@@ -57,7 +59,7 @@ std::string said(const std::optional<double>& value) { return value ? brief(*val
 Comparison compared_figures(const model::Instance& instance, const model::Gains& gains,
                             std::uint64_t seed, std::uint64_t run) {
   if (instance.design->compare.empty()) return {};
-  TwoRuns runs(instance, gains, seed, run, {});
+  TwoRuns runs(instance, gains, seed, run);
   Comparison found;
   for (const model::Figure& figure : instance.design->compare)
     found.figures.push_back(runs.find(figure));
@@ -67,12 +69,11 @@ Comparison compared_figures(const model::Instance& instance, const model::Gains&
   return found;
 }
 
-RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains,
-                               const std::function<bool()>& stopped) {
+RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains) {
   RunDifferences result;
   const auto& expect = instance.design->expect;
   if (!expect || expect->run.empty()) return result;
-  TwoRuns runs(instance, gains, instance.design->campaign.seed, 0, stopped);
+  TwoRuns runs(instance, gains, instance.design->campaign.seed, 0);
   for (const model::ExpectedFigure& expected : expect->run) {
     ++result.figures;
     const model::Figure& figure = expected.figure;

@@ -34,9 +34,7 @@ struct RunDifferences {
   std::size_t figures = 0;             ///< that were expected
 };
 
-/// What is expected of the first run (number 0) and is not found there. `stopped` is asked along
-/// the run: true ends it, and then the result says nothing.
-RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains,
-                               const std::function<bool()>& stopped = {});
+/// What is expected of the first run (number 0) and is not found there.
+RunDifferences run_differences(const model::Instance& instance, const model::Gains& gains);
 
 }  // namespace gainsmith::verify

@@ -66,10 +66,10 @@ RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
 
 }  // namespace
 
-Judge::Judge(const Setup& setup, std::function<bool()> stopped)
+Judge::Judge(const Setup& setup)
     : checks_(make_checks(setup, setup.events ? *setup.events->narrow : *setup.narrow)) {
   if (setup.events) {
-    events_.emplace(*setup.events, std::move(stopped));
+    events_.emplace(*setup.events);
     return;
   }
   if (!setup.steps) {

@@ -33,9 +33,8 @@ class Judge {
   static constexpr double kUsual = 1e-8;
   static constexpr double kRepeated = 1e-10;
 
-  /// `stopped` is asked along runs of dynamics with events, which may be long: true ends them, and
-  /// then their verdict says nothing.
-  explicit Judge(const Setup& setup, std::function<bool()> stopped = {});
+  /// A stop (base/stop.h) ends runs of dynamics with events; then their verdict says nothing.
+  explicit Judge(const Setup& setup);
 
   /// What double decides is decided; a run with a claim that it does not decide, or that does not
   /// reach the horizon, is repeated. Of a run that diverges there with less than half of its last

@@ -2,20 +2,21 @@
 
 #include <cmath>
 
+#include "base/stop.h"
 #include "verify/bound_figure.h"
 
 namespace gainsmith::verify {
 
 std::optional<double> mean_figure(const model::Instance& instance, const model::Gains& gains,
-                                  const model::Figure& figure, std::uint64_t runs,
-                                  const std::function<bool()>& stopped) {
+                                  const model::Figure& figure, std::uint64_t runs) {
   const auto setup = make_event_setup(instance, gains);
-  hybrid::EventSimulator simulator(setup->system, setup->scenario, stopped);
+  hybrid::EventSimulator simulator(setup->system, setup->scenario);
   BoundFigure bound(figure, *setup);
   const hybrid::Accuracy accuracy = setup->accuracy(kUsualOfMany);
   double sum = 0;
   for (std::uint64_t run = 0; run < runs; ++run) {
     const auto trajectory = simulator.run(instance.design->campaign.seed, run, accuracy);
+    check_stop();
     const auto number = bound.of(trajectory);
     if (!number || !std::isfinite(*number)) return std::nullopt;
     sum += *number;

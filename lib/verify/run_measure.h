@@ -11,10 +11,9 @@
 
 namespace gainsmith::verify {
 
-/// (1/n) sum_k figure(run k), k = 0 ... n - 1, integrated to 1e-8: enough to tell values apart. None where a run has no such number, or an infinite one: a value that never settles.
-/// `stopped` is asked along the runs; a run that it ends has none.
+/// (1/n) sum_k figure(run k), k = 0 ... n - 1, integrated to 1e-8: enough to tell values apart.
+/// None where a run has no such number, or an infinite one: a value that never settles.
 std::optional<double> mean_figure(const model::Instance& instance, const model::Gains& gains,
-                                  const model::Figure& figure, std::uint64_t runs,
-                                  const std::function<bool()>& stopped);
+                                  const model::Figure& figure, std::uint64_t runs);
 
 }  // namespace gainsmith::verify

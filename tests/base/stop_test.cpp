@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "base/parallel.h"
+#include "support/stop.h"
 
 namespace gainsmith {
 namespace {
@@ -32,6 +35,35 @@ TEST(Allowance, HoldsForTheThreadsOfALoop) {
 }
 
 TEST(Allowance, NothingIsLimitedWithoutOne) { EXPECT_NO_THROW(spend(1e9)); }
+
+TEST(Stop, EndsWhatIsNotConcluding) {
+  const tests::StopInTest stop;
+  EXPECT_NO_THROW(check_stop());
+  request_stop();
+  EXPECT_THROW(check_stop(), Stopped);
+  EXPECT_THROW(spend(0), Stopped);
+  EXPECT_THROW(parallel_for(4, 2, [](std::size_t) {}), Stopped);
+  {
+    const Concluding concluding;
+    const Allowance allowance(1);
+    EXPECT_NO_THROW(spend(0.5));
+    EXPECT_NO_THROW(parallel_for(4, 2, [](std::size_t) { check_stop(); }));
+    EXPECT_THROW(spend(0.75), OutOfAllowance);
+  }
+  EXPECT_THROW(check_stop(), Stopped);
+}
+
+TEST(Stop, EndsTheLoopThatItReaches) {
+  for (const unsigned threads : {1U, 4U}) {
+    const tests::StopInTest stop;
+    std::atomic<int> done = 0;
+    const auto body = [&](std::size_t) {
+      if (++done == 10) request_stop();
+    };
+    EXPECT_THROW(parallel_for(100'000, threads, body), Stopped);
+    EXPECT_LT(done, 100'000);
+  }
+}
 
 }  // namespace
 }  // namespace gainsmith

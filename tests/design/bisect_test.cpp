@@ -79,9 +79,8 @@ TEST(Bisect, TheProblemsOwnValueIsTried) {
   EXPECT_EQ(found.gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(found.found.yes.value(), 0.31, 2e-4);
   const YamlProblem outside(window(0));
-  EXPECT_EQ(
-      synthesize_searched(outside.instance, request_of(outside.instance), nullptr, 1, {}).verdict,
-      model::Verdict::undecided);
+  EXPECT_EQ(synthesize_searched(outside.instance, request_of(outside.instance), 1, {}).verdict,
+            model::Verdict::undecided);
 }
 
 /// The largest c is 4 - (a - 1)^2.

@@ -9,6 +9,7 @@
 #include "design/solve.h"
 #include "numbers/dense.h"
 #include "support/input_error.h"
+#include "support/stop.h"
 
 namespace gainsmith::design {
 namespace {
@@ -197,7 +198,10 @@ TEST(Quotient, MayBeInterrupted) {
   for (int after = 0; after < 400; after += 13) {
     sdp::Options options;
     int calls = 0;
-    options.interrupted = [&] { return ++calls > after; };
+    const tests::StopInTest stop;
+    options.progress = [&](const sdp::Progress&) {
+      if (++calls > after) request_stop();
+    };
     const model::Gains gains = synthesize(yaml.instance, options);
     EXPECT_NE(gains.verdict, model::Verdict::no) << after;
     if (gains.verdict == model::Verdict::undecided) {

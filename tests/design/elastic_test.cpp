@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "support/stop.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::design {
@@ -37,10 +38,13 @@ TEST(Elastic, TheSmallestSlacksCloseTheGap) {
   // The other inequalities alone cannot close the gap.
   EXPECT_EQ(smallest_slacks(problem.instance, {{"room", 1}, {"again", 1}}, {}).verdict,
             model::Verdict::no);
-  sdp::Options interrupted;
-  interrupted.interrupted = [] { return true; };
-  EXPECT_EQ(smallest_slacks(problem.instance, {{"room", 1}}, interrupted).verdict,
-            model::Verdict::undecided);
+  {
+    const tests::StopInTest stop;
+    sdp::Options stopped;
+    stopped.progress = [](const sdp::Progress&) { request_stop(); };
+    EXPECT_EQ(smallest_slacks(problem.instance, {{"room", 1}}, stopped).verdict,
+              model::Verdict::undecided);
+  }
   // a - t < x < b + min(t, u) with the slacks t of the chain and u of the other needs t + u > a -
   // b.
   const auto all =

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "design/synthesize.h"
+#include "support/stop.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::design {
@@ -86,9 +87,10 @@ TEST(Explain, AnUndecidedRestIsNotBlamedOnTheGainBound) {
                     "  require: {floor: x > 5, ceiling: x < 4}\n") +
         (with_gains ? "  gains: {K: x}\n" : ""));
     const model::Gains gains = synthesize(problem.instance, {});
-    sdp::Options interrupted;
-    interrupted.interrupted = [] { return true; };
-    const auto conflict = find_conflict(problem.instance, gains, interrupted);
+    const tests::StopInTest stop;
+    sdp::Options stopped;
+    stopped.progress = [](const sdp::Progress&) { request_stop(); };
+    const auto conflict = find_conflict(problem.instance, gains, stopped);
     ASSERT_TRUE(conflict);
     EXPECT_FALSE(conflict->gain_bound);
     EXPECT_EQ(conflict->names, (std::vector<std::string>{"floor", "ceiling"}));

@@ -137,8 +137,7 @@ TEST(Ladder, AnObjectiveWithoutConstantsHasNoMinimum) {
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_FALSE(run.gains.objective);
   EXPECT_FALSE(run.gains.objective_lower_bound);
-  EXPECT_TRUE(run.says("the objective was not used: without constant parts"))
-      << run.message();
+  EXPECT_TRUE(run.says("the objective was not used: without constant parts")) << run.message();
 }
 
 /// x > 2 and x < 1: their sum is 0 x - 1 > 0.
@@ -266,7 +265,7 @@ TEST(Ladder, ANoNeedsNoBounds) {
 TEST(Ladder, WithoutAnAnswerTheCauseIsKept) {
   const Answer late = [](const sdp::Problem& problem) {
     sdp::Solution solution = ended(sdp::Status::undecided, problem);
-    solution.cause = sdp::Cause::time_limit;
+    solution.cause = sdp::Cause::iteration_limit;
     return solution;
   };
   for (const std::string& method : {kFloor, kFreeGain, window("1", "2"), window("1", "2", true)}) {
@@ -275,7 +274,7 @@ TEST(Ladder, WithoutAnAnswerTheCauseIsKept) {
     EXPECT_EQ(run.tried.back(), Rung::in_100_digits);
     EXPECT_EQ(run.gains.verdict, Verdict::undecided);
     EXPECT_EQ(run.gains.solver.status, "undecided");
-    EXPECT_EQ(run.gains.solver.cause, "time-limit");
+    EXPECT_EQ(run.gains.solver.cause, "iteration-limit");
     EXPECT_TRUE(run.gains.margins.empty() && run.gains.bounds.empty());
   }
 }

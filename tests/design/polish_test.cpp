@@ -1,4 +1,4 @@
-#include "design/optimize.h"
+#include "design/polish.h"
 
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "design/optimize.h"
 #include "design/search_problems.h"
 #include "support/input_error.h"
 #include "support/yaml_problem.h"
@@ -14,7 +15,6 @@ namespace gainsmith::design {
 namespace {
 
 using testing::kBowl;
-using testing::kOptimizers;
 using testing::kRidge;
 using tests::YamlProblem;
 
@@ -23,9 +23,9 @@ TEST(Polish, MovesScalarsAndUnknownsTogetherToTheOptimum) {
   const YamlProblem problem(kBowl +
                             "search: {over: {a: [0, 9], b: [0.01, 90]}, evaluations: 20}\n");
   SearchRequest request = request_of(problem.instance);
-  const model::Gains coarse = optimize(problem.instance, request, kOptimizers, 1, {});
+  const model::Gains coarse = optimize(problem.instance, request, 1, {});
   request.polish = true;
-  const model::Gains fine = optimize(problem.instance, request, kOptimizers, 1, {});
+  const model::Gains fine = optimize(problem.instance, request, 1, {});
   ASSERT_TRUE(fine.search->polish);
   EXPECT_TRUE(fine.search->polish->kept) << fine.search->polish->cause;
   EXPECT_EQ(fine.search->polish->before, *coarse.objective);
@@ -40,15 +40,14 @@ TEST(Polish, MovesScalarsAndUnknownsTogetherToTheOptimum) {
 TEST(Polish, RowsOfVanishingBlocksHaveTheSizeOfTheirTerms) {
   const YamlProblem problem(kBowl +
                             "search: {over: {a: [0, 9], b: [0.01, 90]}, evaluations: 20}\n");
-  SearchRequest request = request_of(problem.instance);
-  request.polish = true;
+  const SearchRequest request = request_of(problem.instance);
   double largest = 0;
   const search::SmoothSolver recorder = [&](const search::SmoothProgram& program, double, int) {
     for (const double element : program.jacobian(program.start))
       largest = std::max(largest, std::abs(element));
     return search::SmoothSolution{program.start, true, "recorded", 0};
   };
-  optimize(problem.instance, request, {kOptimizers.local, recorder}, 1, {});
+  polish(problem.instance, request, optimize(problem.instance, request, 1, {}), recorder);
   EXPECT_GT(largest, 1);
   EXPECT_LT(largest, 100);
 }
@@ -58,7 +57,7 @@ TEST(Polish, TheLargestScalarIsPolishedToo) {
   SearchRequest request = request_of(problem.instance);
   request.tolerance = {1e-6};
   request.polish = true;
-  const model::Gains gains = optimize(problem.instance, request, kOptimizers, 1, {});
+  const model::Gains gains = optimize(problem.instance, request, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_TRUE(gains.search->polish->kept) << gains.search->polish->cause;
   EXPECT_NEAR(gains.searched.at("c"), 4, 1e-5);
@@ -75,7 +74,7 @@ TEST(Polish, WorksOnMatrixInequalities) {
       "search: {over: {a: [-1, 2.5]}, evaluations: 6}\n");
   SearchRequest request = request_of(problem.instance);
   request.polish = true;
-  const model::Gains gains = optimize(problem.instance, request, kOptimizers, 1, {});
+  const model::Gains gains = optimize(problem.instance, request, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_TRUE(gains.search->polish->kept) << gains.search->polish->cause;
   EXPECT_NEAR(gains.searched.at("a"), 0, 2e-2);
@@ -88,7 +87,7 @@ TEST(Polish, IsNotKeptWithoutGain) {
                             "search: {over: {a: [0, 9]}, minimize: K^2}\nparameters: {b: 3}\n");
   SearchRequest request = request_of(problem.instance);
   request.polish = true;
-  const model::Gains gains = optimize(problem.instance, request, kOptimizers, 1, {});
+  const model::Gains gains = optimize(problem.instance, request, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   ASSERT_TRUE(gains.search->polish);
   EXPECT_FALSE(gains.search->polish->kept);

@@ -11,6 +11,7 @@
 #include "expr/parser.h"
 #include "search/axis.h"
 #include "support/input_error.h"
+#include "support/stop.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::design {
@@ -41,12 +42,13 @@ TEST(Scan, GivesEveryPointInOrderForAnyThreads) {
 
 TEST(Scan, AnInterruptMarksWhatHasNoAnswer) {
   const YamlProblem problem(window(0.3));
-  bool enough = false;
+  const tests::StopInTest stop;
   sdp::Options solver;
-  solver.interrupted = [&] { return std::exchange(enough, true); };
+  solver.progress = [](const sdp::Progress&) { request_stop(); };
   const auto rows = scan(problem.instance.design, {"k"}, {{0.3}, {0.3}, {0.3}}, 1, solver);
   ASSERT_EQ(rows.size(), 3U);
   for (const ScanRow& row : rows) EXPECT_TRUE(row.interrupted);
+  stop_requested = false;
   const auto whole = scan(problem.instance.design, {"k"}, {{0.3}}, 1, {});
   EXPECT_FALSE(whole[0].interrupted);
 }

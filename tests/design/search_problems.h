@@ -3,9 +3,6 @@
 
 #include <string>
 
-#include "search/ipopt.h"
-#include "search/nlopt.h"
-
 namespace gainsmith::design::testing {
 
 /// x'' + x' + (2 + k(t)) x = 0, k in [0, kmax]: one P exactly for kmax < 1 + 2 sqrt(2), by the
@@ -43,8 +40,6 @@ method:
   minimize: x
 search: {largest: {c: [-5, 9]}, tolerance: 1e-3, over: {a: [-2, 3]}, evaluations: 60}
 )";
-
-inline const search::Optimizers kOptimizers{search::nlopt_search(), search::ipopt_solver()};
 
 /// Feasible exactly for 0.29 < k < 0.31, between two values of the spread.
 inline std::string window(double k) {

@@ -8,6 +8,7 @@
 
 #include "design/search_problems.h"
 #include "support/input_error.h"
+#include "support/stop.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::design {
@@ -15,7 +16,6 @@ namespace {
 
 using testing::kBowl;
 using testing::kCircle;
-using testing::kOptimizers;
 using testing::kRidge;
 using tests::YamlProblem;
 
@@ -52,7 +52,7 @@ TEST(Search, AMeasureIsMinimisedAcrossItsJumps) {
     return std::optional((a > 2.6 ? 0.0 : 5.0) + (a - 2) * (a - 2) + std::floor(4 * b) + b * b);
   };
   const auto found = [&](unsigned threads) {
-    return synthesize_searched(problem.instance, request, &kOptimizers, threads, {});
+    return synthesize_searched(problem.instance, request, threads, {});
   };
   const model::Gains gains = found(1);
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
@@ -74,7 +74,7 @@ TEST(Search, AMeasureWithoutAnyValueDecidesNothing) {
     return std::optional<double>();
   };
   request.evaluations = 20;
-  const model::Gains gains = synthesize_searched(problem.instance, request, &kOptimizers, 1, {});
+  const model::Gains gains = synthesize_searched(problem.instance, request, 1, {});
   EXPECT_EQ(gains.verdict, model::Verdict::undecided);
   EXPECT_FALSE(gains.search->value);
 }
@@ -82,7 +82,7 @@ TEST(Search, AMeasureWithoutAnyValueDecidesNothing) {
 TEST(Search, AnOptimumAtTheEndOfARangeIsNamed) {
   const YamlProblem problem(kBowl + "search: {over: {a: [2.5, 9], b: [1, 4]}, evaluations: 150}\n");
   const model::Gains gains =
-      synthesize_searched(problem.instance, request_of(problem.instance), &kOptimizers, 1, {});
+      synthesize_searched(problem.instance, request_of(problem.instance), 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(gains.searched.at("b"), 3, 0.03);
   EXPECT_EQ(gains.search->at_end, std::vector<std::string>{"a"});
@@ -93,7 +93,7 @@ TEST(Search, TheSmallestContractionIsTheSpectralRadius) {
   const YamlProblem problem(kContraction);
   const SearchRequest request = request_of(problem.instance);
   ASSERT_TRUE(request.extreme && request.over.empty());
-  const model::Gains gains = synthesize_searched(problem.instance, request, nullptr, 1, {});
+  const model::Gains gains = synthesize_searched(problem.instance, request, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(gains.searched.at("rho"), 0.8, 2e-5);
   EXPECT_GE(gains.searched.at("rho"), 0.8);
@@ -105,7 +105,7 @@ TEST(Search, ParametersWithoutAValueAreFound) {
   const SearchRequest request = request_of(problem.instance);
   ASSERT_EQ(request.over.size(), 2U);
   EXPECT_EQ(figure_name(request, *problem.instance.design), "objective");
-  const model::Gains gains = synthesize_searched(problem.instance, request, &kOptimizers, 1, {});
+  const model::Gains gains = synthesize_searched(problem.instance, request, 1, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(*gains.objective, 1, 1e-3);
   EXPECT_NEAR(gains.searched.at("a"), 2, 0.03);
@@ -118,7 +118,7 @@ TEST(Search, ThreadsDoNotChangeTheResult) {
   const YamlProblem problem(kBowl);
   const SearchRequest request = request_of(problem.instance);
   const auto run = [&](unsigned threads) {
-    return synthesize_searched(problem.instance, request, &kOptimizers, threads, {});
+    return synthesize_searched(problem.instance, request, threads, {});
   };
   EXPECT_EQ(run(1).searched, run(4).searched);
 }
@@ -136,7 +136,7 @@ TEST(Search, AFigureOfItsOwnIsMinimised) {
   const YamlProblem problem(kBowl + "search: {over: {a: [0, 9]}, minimize: K + 10*a}\n" +
                             "parameters: {b: 3}\n");
   const SearchRequest request = request_of(problem.instance);
-  const model::Gains gains = synthesize_searched(problem.instance, request, &kOptimizers, 1, {});
+  const model::Gains gains = synthesize_searched(problem.instance, request, 1, {});
   // 2((a - 2)^2 + 1) + 10 a is least at a = -0.5; feasible a is at least 0.
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_EQ(gains.search->figure, "K + 10*a");
@@ -147,7 +147,7 @@ TEST(Search, AFigureOfItsOwnIsMinimised) {
 TEST(Search, TheLargestScalarOverAnother) {
   const YamlProblem problem(kRidge);
   const SearchRequest request = request_of(problem.instance);
-  const model::Gains gains = synthesize_searched(problem.instance, request, &kOptimizers, 2, {});
+  const model::Gains gains = synthesize_searched(problem.instance, request, 2, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(gains.searched.at("c"), 4, 2e-3);
   EXPECT_NEAR(gains.searched.at("a"), 1, 0.05);
@@ -155,16 +155,21 @@ TEST(Search, TheLargestScalarOverAnother) {
   EXPECT_GE(*gains.search->beyond, gains.searched.at("c"));
 }
 
-/// What was found before an interrupt is designed with all its margins.
+/// What was found before a stop is there with all its margins.
 TEST(Search, AnInterruptLeavesTheBestSoFar) {
   const YamlProblem problem(kBowl);
   const SearchRequest request = request_of(problem.instance);
+  const tests::StopInTest stop;
   int asked = 0;
   sdp::Options solver;
-  solver.interrupted = [&] { return ++asked > 90; };
-  const model::Gains gains =
-      synthesize_searched(problem.instance, request, &kOptimizers, 1, solver);
-  EXPECT_EQ(gains.verdict, model::Verdict::yes);
+  solver.progress = [&](const sdp::Progress&) {
+    if (++asked > 90) request_stop();
+  };
+  const model::Gains gains = synthesize_searched(problem.instance, request, 1, solver);
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  EXPECT_FALSE(gains.margins.empty());
+  for (const model::Margin& margin : gains.margins) EXPECT_TRUE(margin.holds);
+  EXPECT_EQ(*gains.search->value, *gains.objective);
   EXPECT_FALSE(gains.search->finished);
   EXPECT_GT(gains.search->feasible, 0);
   EXPECT_LT(gains.search->evaluations, request.evaluations);
@@ -179,7 +184,7 @@ TEST(Search, ANarrowFeasibleRangeIsFound) {
       "  unknowns: {x: scalar}\n  require: {floor: \"x > (a - 700)^2\", ceiling: x < 1}\n"
       "  minimize: x\nsearch: {over: {a: [0, 1000]}, evaluations: 100}\n");
   const model::Gains gains =
-      synthesize_searched(problem.instance, request_of(problem.instance), &kOptimizers, 2, {});
+      synthesize_searched(problem.instance, request_of(problem.instance), 2, {});
   ASSERT_EQ(gains.verdict, model::Verdict::yes);
   EXPECT_NEAR(gains.searched.at("a"), 700, 0.1);
   EXPECT_LT(*gains.objective, 0.01);
@@ -189,7 +194,7 @@ TEST(Search, NothingFeasibleIsUndecided) {
   const YamlProblem problem(kBowl +
                             "search: {over: {a: [6, 9]}, evaluations: 20}\nparameters: {b: 3}\n");
   const model::Gains gains =
-      synthesize_searched(problem.instance, request_of(problem.instance), &kOptimizers, 1, {});
+      synthesize_searched(problem.instance, request_of(problem.instance), 1, {});
   EXPECT_EQ(gains.verdict, model::Verdict::undecided);
   EXPECT_NE(gains.solver.message.find("a in [6, 9]"), std::string::npos);
   EXPECT_FALSE(gains.search->value);

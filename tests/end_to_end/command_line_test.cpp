@@ -110,5 +110,26 @@ TEST(CommandLineTest, TheVersionIsPrinted) {
   EXPECT_EQ(outcome.out.find("gainsmith "), 0U);
 }
 
+TEST(CommandLineTest, TheProgramForOtherSolversIsWrittenWithoutSolving) {
+  const std::string good = problem("ferrante-seuret-2021/t2-0.70.yaml");
+  const Folder folder;
+  const std::string alone = folder.path("alone.dat-s");
+  const std::string beside = folder.path("beside.dat-s");
+  const Outcome outcome = gainsmith({"synth", good, "--sdpa", alone, "--no-solve"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_EQ(gainsmith({"synth", good, "--sdpa", beside}).exit, 0);
+  EXPECT_EQ(text_of(alone), text_of(beside));
+  EXPECT_EQ(gainsmith({"solve", alone, "--json"}).exit, 0);
+  EXPECT_EQ(gainsmith({"synth", good, "--no-solve"}).exit, 2);
+}
+
+TEST(CommandLineTest, TheVersionIsOneLine) {
+  const Outcome outcome = gainsmith({"--version"});
+  EXPECT_EQ(outcome.exit, 0);
+  EXPECT_TRUE(outcome.out.starts_with("gainsmith ")) << outcome.out;
+  EXPECT_EQ(std::count(outcome.out.begin(), outcome.out.end(), '\n'), 1);
+}
+
 }  // namespace
 }  // namespace gainsmith::tests

@@ -6,6 +6,7 @@
 #include "base/number.h"
 #include "hybrid/event_problem.h"
 #include "support/input_error.h"
+#include "support/stop.h"
 
 namespace gainsmith::hybrid {
 namespace {
@@ -129,9 +130,11 @@ TEST(EventEnding, StoppedFromOutside) {
   problem.state("x", {}, "1").flow("x", "-x").every("tick", "1", "1");
   const EventSystem system = problem.system();
   const EventScenario scenario = make_event_scenario(1e6, system);
-  int asked = 0;
-  EventSimulator simulator(system, scenario, [&] { return ++asked > 50; });
-  EXPECT_EQ(simulator.run(1, 0).ending, Ending::interrupted);
+  EventSimulator simulator(system, scenario);
+  const tests::StopInTest stop(true);
+  const Trajectory run = simulator.run(1, 0);
+  EXPECT_EQ(run.ending, Ending::interrupted);
+  EXPECT_LT(run.end, 1e6);
 }
 
 TEST(EventEnding, StatesThatAreNoneOfTheirKindAreErrors) {

@@ -12,6 +12,7 @@
 #include "sdp/sparse_schur.h"
 #include "support/sdp_catalogue.h"
 #include "support/sdp_check.h"
+#include "support/stop.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -188,14 +189,29 @@ TEST(Solver, StopsWhereItIsTold) {
   EXPECT_EQ(limited.cause, Cause::iteration_limit);
   EXPECT_EQ(limited.iterations, 3);
   EXPECT_NE(limited.message.find("iteration-limit"), std::string::npos);
+}
 
-  Options interrupted;
-  interrupted.interrupted = [] { return true; };
-  EXPECT_EQ(solve(known.problem, interrupted).cause, Cause::interrupted);
-
-  Options slow;
-  slow.time_limit = 1e-9;
-  EXPECT_EQ(solve(known.problem, slow).cause, Cause::time_limit);
+/// Whenever a stop comes, the best point so far is there, with its own errors.
+TEST(Solver, AStopLeavesTheBestPoint) {
+  const CatalogueProblem known = testing::sdp_catalogue().front();
+  {
+    const tests::StopInTest stop(true);
+    EXPECT_EQ(solve(known.problem).cause, Cause::interrupted);
+  }
+  for (const std::string precision : {"double", "quad", "100"}) {
+    const tests::StopInTest stop;
+    Options options;
+    options.precision = precision;
+    options.progress = [](const Progress& line) {
+      if (line.iteration == 5) request_stop();
+    };
+    const Solution solution = solve(known.problem, options);
+    EXPECT_EQ(solution.cause, Cause::interrupted);
+    EXPECT_EQ(solution.iterations, 5);
+    const testing::Errors errors = testing::recompute(known.problem, solution, 1e-7L);
+    EXPECT_NEAR(static_cast<double>(errors.primal_objective), solution.primal_objective,
+                1e-9 * (1 + std::abs(solution.primal_objective)));
+  }
 }
 
 TEST(Solver, ReportsOneLineAnIteration) {

@@ -7,6 +7,8 @@
 #include <random>
 #include <stdexcept>
 
+#include "base/stop.h"
+
 namespace gainsmith::search {
 namespace {
 
@@ -130,7 +132,7 @@ TEST(Bisect, NoNoAnywhereLeavesTheOuterEndOpen) {
   EXPECT_EQ(found.open->near_no, 1.0);
 }
 
-TEST(Bisect, EndsAtItsEvaluationsAtDoublePrecisionAndOnInterruption) {
+TEST(Bisect, EndsAtItsEvaluationsAtDoublePrecisionAndWhenItIsStopped) {
   int asked = 0;
   const Question question = [&](double value) {
     ++asked;
@@ -149,11 +151,14 @@ TEST(Bisect, EndsAtItsEvaluationsAtDoublePrecisionAndOnInterruption) {
   EXPECT_EQ(*sharp.yes, 1.0 / 3);
   EXPECT_EQ(*sharp.no, std::nextafter(1.0 / 3, 1.0));
 
-  BisectOptions interrupted = options(true, 1e-6);
+  const Question stopped = [&](double value) {
+    if (asked == 3) throw Stopped();
+    return question(value);
+  };
   asked = 0;
-  interrupted.interrupted = [&] { return asked >= 3; };
-  EXPECT_FALSE(bisect(question, axis(0, 1), interrupted).finished);
-  EXPECT_EQ(asked, 3);
+  const Bisection open = bisect(stopped, axis(0, 1), options(true, 1e-6));
+  EXPECT_FALSE(open.finished);
+  EXPECT_EQ(open.samples.size(), 3U);
 }
 
 TEST(Bisect, ARelativeToleranceMeansDigits) {

@@ -243,7 +243,7 @@ TEST(NarrowFigures, SettlesAfterTheLastTop) {
         "flow: {x: \"[x(2); -x(1)]\"}}\ncampaign: {horizon: 7}\nexpect:\n  run:\n    - {settles: "
         "\"" +
         text + "\", below: " + level + ", is: " + is + ", absolute: 1e-7}\n"));
-    return run_differences(instance, model::Gains{}, {});
+    return run_differences(instance, model::Gains{});
   };
   for (const auto& [text, level, is] :
        {std::tuple{"x(1)", "0.99999", "6.287657446861"},
@@ -263,7 +263,7 @@ TEST(NarrowFigures, APeakIsFound) {
                                    "\", is: 1, absolute: 1e-9}\n"
                                    "    - {settles: \"" +
                                    kTent + "\", below: 0.5, is: 1.235, absolute: 1e-9}\n"));
-  const RunDifferences found = run_differences(instance, model::Gains{}, {});
+  const RunDifferences found = run_differences(instance, model::Gains{});
   EXPECT_EQ(found.figures, 2U);
   EXPECT_TRUE(found.different.empty()) << found.different.front();
   EXPECT_TRUE(found.undecided.empty());

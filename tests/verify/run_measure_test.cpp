@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "support/stop.h"
 #include "support/yaml_problem.h"
 #include "verify/bound_figure.h"
 
@@ -32,12 +33,11 @@ campaign: {horizon: 3, seed: 5, initial: {x: {box: [0, 2]}}}
 class Measures : public testing::Test {
  protected:
   static std::optional<double> mean(const YamlProblem& problem, std::uint64_t runs) {
-    return mean_figure(problem.instance, {}, *problem.instance.design->search->run_figure, runs,
-                       {});
+    return mean_figure(problem.instance, {}, *problem.instance.design->search->run_figure, runs);
   }
   static double start_of(const YamlProblem& problem, std::uint64_t run) {
     const auto setup = make_event_setup(problem.instance, {});
-    hybrid::EventSimulator simulator(setup->system, setup->scenario, {});
+    hybrid::EventSimulator simulator(setup->system, setup->scenario);
     const YamlProblem first(decay("{at: {t: 0}, value: x}"));
     BoundFigure start(*first.instance.design->search->run_figure, *setup);
     return start.of(simulator.run(5, run)).value();
@@ -83,8 +83,8 @@ TEST_F(Measures, AreTheSameBitsAgain) {
 
 TEST_F(Measures, EndWhenTheyAreStopped) {
   const YamlProblem problem(decay("{rms: x, over: [0, 3]}"));
-  EXPECT_FALSE(mean_figure(problem.instance, {}, *problem.instance.design->search->run_figure, 2,
-                           [] { return true; }));
+  const tests::StopInTest stop(true);
+  EXPECT_THROW(mean(problem, 2), Stopped);
 }
 
 }  // namespace
