@@ -133,7 +133,7 @@ void product_with(const ExactElements<Decimal100>& elements, const Matrix& by, M
 }
 
 /// One block's part of (2).
-struct Part {
+struct BoundaryPart {
   Ranges ranges;
   Matrix across;    ///< column i: U'B_i V, (u, v) column by column
   Index first = 0;  ///< of its dS among all
@@ -191,7 +191,7 @@ class System {
   /// Of the elements v <= w of a symmetric matrix, with which <M, N> is a sum over them.
   static double root(Index v, Index w) { return v == w ? 1 : std::sqrt(2.0); }
 
-  void add_part(const WideBlock& block, Part& part) {
+  void add_part(const WideBlock& block, BoundaryPart& part) {
     const auto& [U, V, lambda, s] = part.ranges;
     const Index rank = V.cols();
     if (rank == 0) return;
@@ -266,7 +266,7 @@ class System {
   }
 
   /// What c alone makes of dY, and w.
-  static Matrix of_complementarity(const Part& part, const Matrix& c, Vector& w) {
+  static Matrix of_complementarity(const BoundaryPart& part, const Matrix& c, Vector& w) {
     const auto& [U, V, lambda, s] = part.ranges;
     Matrix uu = U.transpose() * c * U;
     for (Index b = 0; b < uu.cols(); ++b)
@@ -284,7 +284,7 @@ class System {
   }
 
   /// What dx and dS make of dY.
-  static Matrix of_unknowns(const Part& part, const Vector& dx, const Vector& dS) {
+  static Matrix of_unknowns(const BoundaryPart& part, const Vector& dx, const Vector& dS) {
     const auto& [U, V, lambda, s] = part.ranges;
     const Index n = V.rows(), rank = V.cols();
     if (rank == 0) return Matrix::Zero(n, n);
@@ -301,7 +301,7 @@ class System {
 
   const std::vector<const WideBlock*>& blocks_;
   const Index unknowns_;
-  std::vector<Part> parts_;
+  std::vector<BoundaryPart> parts_;
   Matrix A_;  ///< elements v <= w, with their roots, as dS and w
   Matrix H_;
   std::optional<numbers::Cholesky> upper_, lower_;

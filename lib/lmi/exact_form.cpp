@@ -63,9 +63,9 @@ void map_elements(const ExactForm<S>& form, expr::Shape shape, ExactForm<S>& out
 
 /// Products with the elements of one matrix, whose magnitudes are known.
 template <class S>
-class Factor {
+class KnownFactor {
  public:
-  explicit Factor(const Enclosed<S>& matrix)
+  explicit KnownFactor(const Enclosed<S>& matrix)
       : matrix_(matrix), sizes_(numbers::magnitudes<S>(matrix.mid)) {}
 
   Eigen::Index rows() const { return matrix_.rows(); }
@@ -90,7 +90,7 @@ class Factor {
 };
 
 template <class S>
-void add(const ExactForm<S>& a, const ExactForm<S>& b, bool subtract, ExactForm<S>& out) {
+void add_forms(const ExactForm<S>& a, const ExactForm<S>& b, bool subtract, ExactForm<S>& out) {
   out = {a.shape, false, {}, {}};
   std::map<int, ExactElements<S>> sum;
   for (auto& [i, elements] : terms_of(a)) sum.emplace(i, std::move(elements));
@@ -128,7 +128,7 @@ struct ExactRules {
   template <Op op>
   requires expr::OneOf<op, Op::add, Op::subtract>
   void operator()(Is<op>, const At& at, Form& out) const {
-    add(at[0], at[1], op == Op::subtract, out);
+    add_forms(at[0], at[1], op == Op::subtract, out);
   }
   void operator()(Is<Op::negate>, const At& at, Form& out) const {
     map_elements(at[0], at.shape(), out,
@@ -136,7 +136,7 @@ struct ExactRules {
   }
   void operator()(Is<Op::multiply>, const At& at, Form& out) const {
     if (at[0].constant) {
-      const Factor<S> left(at[0].number);
+      const KnownFactor<S> left(at[0].number);
       map_elements(at[1], at.shape(), out, [&](const auto& e, const auto& push) {
         const double size = numbers::magnitude(e.mid);
         for (Eigen::Index i = 0; i < left.rows(); ++i)
@@ -144,7 +144,7 @@ struct ExactRules {
             push(static_cast<int>(i), e.column, left.times(e, size, i, e.row));
       });
     } else if (at[1].constant) {
-      const Factor<S> right(at[1].number);
+      const KnownFactor<S> right(at[1].number);
       map_elements(at[0], at.shape(), out, [&](const auto& e, const auto& push) {
         const double size = numbers::magnitude(e.mid);
         for (Eigen::Index j = 0; j < right.cols(); ++j)
@@ -157,7 +157,7 @@ struct ExactRules {
   }
   void operator()(Is<Op::scale>, const At& at, Form& out) const {
     if (at[0].constant) {
-      const Factor<S> factor(at[0].number);
+      const KnownFactor<S> factor(at[0].number);
       map_elements(at[1], at.shape(), out, [&](const auto& e, const auto& push) {
         push(e.row, e.column, factor.times(e, numbers::magnitude(e.mid), 0, 0));
       });
@@ -170,7 +170,7 @@ struct ExactRules {
   void operator()(Is<Op::elementwise_product>, const At& at, Form& out) const {
     if (!at[0].constant && !at[1].constant) refuse(Op::elementwise_product);
     const Form& form = at[0].constant ? at[1] : at[0];
-    const Factor<S> factor(at[0].constant ? at[0].number : at[1].number);
+    const KnownFactor<S> factor(at[0].constant ? at[0].number : at[1].number);
     map_elements(form, at.shape(), out, [&](const auto& e, const auto& push) {
       push(e.row, e.column, factor.times(e, numbers::magnitude(e.mid), e.row, e.column));
     });
@@ -284,7 +284,7 @@ struct ExactRules {
  private:
   /// A scalar form times a matrix.
   static void spread(const Form& scalar, const Enclosed<S>& matrix, expr::Shape shape, Form& out) {
-    const Factor<S> factor(matrix);
+    const KnownFactor<S> factor(matrix);
     map_elements(scalar, shape, out, [&](const auto& e, const auto& push) {
       const double size = numbers::magnitude(e.mid);
       for (Eigen::Index j = 0; j < factor.cols(); ++j)

@@ -21,7 +21,7 @@ Rational power_of_two(int exponent) {
   return exponent < 0 ? Rational(Integer(1), power) : Rational(power);
 }
 
-double size_of(const DoubleDouble& x) { return std::abs(x.hi()); }
+double magnitude_of(const DoubleDouble& x) { return std::abs(x.hi()); }
 
 /// The rows with pivots of at least `least`, the largest first.
 std::vector<int> pivots_of(Quad Y, double least) {
@@ -72,7 +72,7 @@ std::optional<RationalMatrix> basis_of(const Quad& Y, const std::vector<int>& un
       }
       const DoubleDouble& c = C(i, column);
       if (!std::isfinite(c.hi())) return std::nullopt;
-      if (size_of(c) <= std::sqrt(relative)) continue;
+      if (magnitude_of(c) <= std::sqrt(relative)) continue;
       const int unit =
           units[static_cast<std::size_t>(i)] - units[static_cast<std::size_t>(pivots[p])];
       const auto element =
