@@ -5,6 +5,7 @@
 #include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <csignal>
@@ -32,10 +33,12 @@ std::sig_atomic_t seconds_now() {
 }
 
 void set_timer(double seconds) {
-  const double whole = std::floor(seconds);
+  constexpr double kLongest = 1e9;
+  const double whole = std::floor(std::min(seconds, kLongest));
   itimerval timer{};
   timer.it_value.tv_sec = static_cast<time_t>(whole);
-  timer.it_value.tv_usec = static_cast<suseconds_t>(1e6 * (seconds - whole));
+  timer.it_value.tv_usec =
+      static_cast<suseconds_t>(1e6 * std::clamp(seconds - whole, 0.0, 0.999999));
   ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 

@@ -196,6 +196,7 @@ void Climb::climb(bool to_end) {
     if (out_of_allowance_) return;
     if (done_.contains(row.rung) || !row.is_due(*this)) continue;
     check_stop();
+    doing_ = row.doing;
     const Doing doing(row.doing);
     const auto start = Clock::now();
     const Allowance limit(allowance() - spent_);

@@ -26,6 +26,7 @@
 
 #include <map>
 #include <set>
+#include <string>
 
 #include "design/attempt.h"
 #include "model/gains.h"
@@ -56,6 +57,8 @@ class Climb {
   void to_end();
 
   bool has_begun() const { return !tried_.empty(); }
+  /// The rung that was tried last, in words: the one that a stop ended.
+  const std::string& doing() const { return doing_; }
   /// nullptr: not tried.
   const Attempt* find(Rung rung) const;
   /// The attempt whose point counts: the first that is a yes, otherwise the first that
@@ -92,6 +95,7 @@ class Climb {
   Solve solve_;
   std::map<Rung, Attempt> tried_;
   std::set<Rung> done_;  ///< those that came to nothing included
+  std::string doing_;
   double seconds_ = 0;
   double spent_ = 0;
   bool out_of_allowance_ = false;

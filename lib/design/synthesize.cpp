@@ -80,9 +80,13 @@ void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
             "synthesis.forall: exchange, or more synthesis.slices, may find one");
 }
 
-void note_stop(model::Gains& gains) {
+/// `doing`: what the stop ended; empty before the first program.
+void note_stop(const std::string& doing, int iterations, model::Gains& gains) {
   gains.solver.status = "undecided";
   gains.solver.cause = to_string(sdp::Cause::interrupted);
+  gains.solver.iterations = iterations;
+  gains.solver.add_message(doing.empty() ? "stopped before anything was solved"
+                                         : "stopped at " + doing);
 }
 
 lmi::Look look_of(Depth depth) {
@@ -199,7 +203,8 @@ class Synthesis {
       conclude(*climb_, gains);
       report_ways(plan_, round_, gains);
     }
-    if (stopped && gains.verdict == model::Verdict::undecided) note_stop(gains);
+    if (stopped && gains.verdict == model::Verdict::undecided)
+      note_stop(climb_ ? climb_->doing() : "", iterations_, gains);
     add_gains(inequalities_, gains);
     if (gains.verdict != model::Verdict::yes)
       if (const std::string hidden = hidden_mode_text(inequalities_.instance); !hidden.empty())
@@ -255,11 +260,13 @@ class Synthesis {
            grow(plan_, inequalities_, lmi_, *point);
   }
 
-  sdp::Solution solve(const sdp::Problem& problem, const Effort& effort) const {
+  sdp::Solution solve(const sdp::Problem& problem, const Effort& effort) {
     sdp::Options solver = options_;
     if (effort.precision != "auto") solver.precision = effort.precision;
     solver.tolerance = std::min(solver.tolerance, effort.tolerance);
-    return sdp::solve(problem, solver);
+    sdp::Solution solution = sdp::solve(problem, solver);
+    iterations_ += solution.iterations;
+    return solution;
   }
 
   const Clock::time_point start_ = Clock::now();
@@ -272,6 +279,7 @@ class Synthesis {
   lmi::GainBounds bounds_;
   std::optional<Climb> climb_;
   int round_ = 1;
+  int iterations_ = 0;  ///< of the solver, in all
   bool thickened_ = false;
   double compile_seconds_ = 0;
   double solve_seconds_ = 0;
