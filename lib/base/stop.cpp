@@ -15,6 +15,7 @@ std::atomic<double> deadline = std::numeric_limits<double>::infinity();
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<double>::is_always_lock_free);
 
 thread_local Allowance* allowance = nullptr;
+thread_local bool undisturbed = false;
 
 double now() { return std::chrono::duration<double>(Clock::now().time_since_epoch()).count(); }
 
@@ -31,7 +32,7 @@ bool is_stopping() noexcept {
 }
 
 void check_stop() {
-  if (is_stopping()) throw Stopped();
+  if (!undisturbed && is_stopping()) throw Stopped();
 }
 
 Allowance::Allowance(double seconds)
@@ -40,12 +41,17 @@ Allowance::Allowance(double seconds)
 Allowance::~Allowance() { allowance = around_; }
 
 void spend(double seconds) {
+  if (undisturbed) return;
   check_stop();
   bool over = false;
   for (Allowance* each = allowance; each != nullptr; each = each->around_)
     over |= each->spent_.fetch_add(seconds) + seconds > each->seconds_;
   if (over) throw OutOfAllowance();
 }
+
+Undisturbed::Undisturbed() : before_(std::exchange(undisturbed, true)) {}
+
+Undisturbed::~Undisturbed() { undisturbed = before_; }
 
 AllowanceOfLoop::AllowanceOfLoop(Allowance* of_loop)
     : before_(std::exchange(allowance, of_loop)) {}

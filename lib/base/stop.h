@@ -60,6 +60,19 @@ class Allowance {
 /// Counts work, and throws Stopped or OutOfAllowance.
 void spend(double seconds);
 
+/// As long as one lives, spend() and check_stop() do nothing on its thread: for the last words of
+/// what was stopped.
+class Undisturbed {
+ public:
+  Undisturbed();
+  ~Undisturbed();
+  Undisturbed(const Undisturbed&) = delete;
+  Undisturbed& operator=(const Undisturbed&) = delete;
+
+ private:
+  const bool before_;
+};
+
 /// The allowance of a loop, on a thread that works in it.
 class AllowanceOfLoop {
  public:

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/scalars.h"
+#include "base/stop.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -79,13 +80,23 @@ Cause Ipm<T>::run(const Run& run) {
   best_error_ = progress_error_ = best_certificate_ = std::numeric_limits<double>::infinity();
   since_best_ = 0;
   left_ = false;
-  const Cause cause = iterate();
+  const Cause cause = iterate_or_stop();
   if (cause != Cause::converged && cause != Cause::certificate) {
     point_ = best_;
     residuals_.update(point_);
     if (satisfied(options_.tolerance)) return Cause::converged;
   }
   return cause;
+}
+
+template <typename T>
+Cause Ipm<T>::iterate_or_stop() {
+  try {
+    return iterate();
+  } catch (const Stopped&) {
+    if (!std::isfinite(best_error_)) best_ = point_;
+    return Cause::interrupted;
+  }
 }
 
 template <typename T>

@@ -60,6 +60,7 @@ class Ipm {
  private:
   void start(const T& X, const T& Y);
   void lift(double rounding);
+  Cause iterate_or_stop();
   Cause iterate();
   bool satisfied(double tolerance) const;
   std::optional<Cause> stop() const;

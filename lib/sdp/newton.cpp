@@ -6,6 +6,7 @@
 
 #include "base/scalars.h"
 #include "sdp/kernels.h"
+#include "sdp/work.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -55,6 +56,8 @@ void Newton<T>::scaled_product(const Blocks<T>& left, const Blocks<T>& right, Bl
     const BlockData& block = data_.dense[static_cast<std::size_t>(b)];
     auto half = half_.dense(b);
     auto product = product_.dense(b);
+    const auto n = static_cast<double>(product.rows());
+    if (std::is_same_v<T, double>) spend_on<T>(3 * n * n * n);
     if (block.sparse())
       multiply_sparse(View<const T>(right.dense(b)), View<const T>(left.dense(b)),
                       block.pattern_start, block.pattern_row, View<T>(half));
@@ -164,6 +167,7 @@ void Newton<T>::refine(const Iterate<T>& point, const Defect<T>& defect, const T
   trial_ = direction;
   int since_best = 0;
   for (int step = 0; step < kRefineSteps && since_best < kRefinePatience && best > goal_; ++step) {
+    spend_on<T>(static_cast<double>(data_.m()) * data_.m());
     schur_.solve(h_, p_);
     const T next = h_.dot(p_);
     if (step == 0)

@@ -11,6 +11,7 @@
 #include "base/scalars.h"
 #include "sdp/cover.h"
 #include "sdp/kernels.h"
+#include "sdp/work.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -200,6 +201,7 @@ void Schur<T>::assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y) {
 template <typename T>
 void Schur<T>::add_batch(const Plan& plan, const Batch& batch, const ConstMatrixMap<T>& inverse_X,
                          const ConstMatrixMap<T>& Y, Workspace& w) {
+  spend_on<T>(plan.cost / static_cast<double>(plan.batches.size()));
   if (plan.lists[batch.first].formula == Formula::rows)
     add_rows(plan, batch.first, inverse_X, Y, w);
   else
