@@ -4,6 +4,7 @@
 #include <chrono>
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "sdp/iterate.h"
 #include "sdp/newton.h"
@@ -43,6 +44,7 @@ class Ipm {
   template <typename Narrow>
   void start_from(const Iterate<Narrow>& point) {
     convert(point, point_);
+    if constexpr (!std::is_same_v<Narrow, T>) newton_.stay_wide();
     lift(static_cast<double>(std::numeric_limits<Narrow>::epsilon()));
   }
 
