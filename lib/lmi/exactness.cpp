@@ -100,6 +100,7 @@ bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
   const double rounding = 4 * (static_cast<double>(size) + m + 8) * kUnit * m;
   H.diagonal().array() -= sigma * sigma + rounding;
   H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
+  if (getenv("GSDEBUG")) fprintf(stderr, "Dr %g moved %g sigma2 %g rounding %g lambda %g\n", std::sqrt(norm), std::sqrt(moved), sigma*sigma, rounding, numbers::smallest_eigenvalue(H)+sigma*sigma + rounding);
   return static_cast<bool>(numbers::Cholesky(H));
 }
 

@@ -25,6 +25,7 @@ sdp::Problem interior_certificate_program(const Formulation& interior) {
 void add_depth(sdp::Solution& solution) {
   auto& blocks = solution.Y.values;
   const double t = blocks.back().front();
+  if (getenv("GSDEBUG")) fprintf(stderr, "t %g its %d status %s gap %g\n", t, solution.iterations, to_string(solution.cause).c_str(), solution.relative_gap);
   for (std::size_t k = 0; k + 1 < blocks.size(); ++k) {
     const auto n = static_cast<std::size_t>(std::lround(std::sqrt(blocks[k].size())));
     for (std::size_t i = 0; i < n; ++i) blocks[k][i * (n + 1)] += t;

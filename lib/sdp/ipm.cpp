@@ -80,12 +80,7 @@ Cause Ipm<T>::run(const Run& run) {
   best_error_ = progress_error_ = best_certificate_ = std::numeric_limits<double>::infinity();
   since_best_ = 0;
   left_ = false;
-  Cause cause = Cause::interrupted;
-  try {
-    cause = iterate();
-  } catch (const Stopped&) {
-    // What was reached is worth knowing.
-  }
+  const Cause cause = iterate_or_stop();
   if (cause != Cause::converged && cause != Cause::certificate) {
     const Concluding concluding;
     point_ = best_;
@@ -93,6 +88,16 @@ Cause Ipm<T>::run(const Run& run) {
     if (satisfied(options_.tolerance)) return Cause::converged;
   }
   return cause;
+}
+
+template <typename T>
+Cause Ipm<T>::iterate_or_stop() {
+  try {
+    return iterate();
+  } catch (const Stopped&) {
+    if (!std::isfinite(best_error_)) best_ = point_;
+    return Cause::interrupted;
+  }
 }
 
 template <typename T>

@@ -3,6 +3,7 @@
 
 #include <limits>
 #include <optional>
+#include <type_traits>
 
 #include "sdp/iterate.h"
 #include "sdp/newton.h"
@@ -41,6 +42,7 @@ class Ipm {
   template <typename Narrow>
   void start_from(const Iterate<Narrow>& point) {
     convert(point, point_);
+    if constexpr (!std::is_same_v<Narrow, T>) newton_.stay_wide();
     lift(static_cast<double>(std::numeric_limits<Narrow>::epsilon()));
   }
 
@@ -58,6 +60,7 @@ class Ipm {
  private:
   void start(const T& X, const T& Y);
   void lift(double rounding);
+  Cause iterate_or_stop();
   Cause iterate();
   bool satisfied(double tolerance) const;
   std::optional<Cause> stop() const;

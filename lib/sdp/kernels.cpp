@@ -11,6 +11,7 @@
 #include "base/stop.h"
 #include "sdp/pairs.h"
 #include "sdp/product.h"
+#include "sdp/work.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -125,6 +126,7 @@ template <typename T>
 void multiply_plain(const View<const T>& a, const View<const T>& b, const View<T>& c,
                     Update update) {
   for (Index j = 0; j < c.columns; ++j) {
+    spend_on<T>(static_cast<double>(c.rows * a.columns));
     if (update == Update::assign)
       for (Index i = 0; i < c.rows; ++i) c(i, j) = T(0);
     for (Index k = 0; k < a.columns; ++k) {
@@ -211,6 +213,8 @@ bool cholesky_blocked(const View<T>& a, Index width) {
   for (Index k = 0; k < a.columns; k += width) {
     const Index w = std::min(width, a.columns - k);
     const View<T> panel = a.part(k, k, a.rows - k, w);
+    if (std::is_same_v<T, double> && width > kInnerPanel)
+      spend_on<T>(static_cast<double>(w * (a.columns - k)) * static_cast<double>(a.rows - k) / 2);
     if (!(width > kInnerPanel ? cholesky_blocked(panel, kInnerPanel) : cholesky_plain(panel)))
       return false;
     for (Index j = k + w; j < a.columns; j += width) {
@@ -250,6 +254,8 @@ void invert_lower_blocked(const View<const T>& l, const View<T>& result, Index w
 
 template <typename T>
 void multiply(const View<const T>& a, const View<const T>& b, const View<T>& c, Update update) {
+  if constexpr (std::is_same_v<T, DoubleDouble>)
+    spend_on<T>(static_cast<double>(c.rows * c.columns) * static_cast<double>(b.rows));
   if constexpr (std::is_same_v<T, double>) {
     multiply_doubles(a, b, c, update);
   } else if constexpr (std::is_same_v<T, DoubleDouble>) {

@@ -6,6 +6,7 @@
 
 #include "base/scalars.h"
 #include "sdp/kernels.h"
+#include "sdp/work.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -22,6 +23,8 @@ constexpr double kImprecise = 0.02, kExhausted = 0.5;
 constexpr double kNegligible = 1e-4;
 /// The most steps, and how many of them may pass without a smaller residual.
 constexpr int kRefineSteps = 100, kRefinePatience = 20;
+/// The most steps with B in double, in wide arithmetic.
+constexpr int kRoundedSteps = 30;
 
 }  // namespace
 
@@ -55,6 +58,8 @@ void Newton<T>::scaled_product(const Blocks<T>& left, const Blocks<T>& right, Bl
     const BlockData& block = data_.dense[static_cast<std::size_t>(b)];
     auto half = half_.dense(b);
     auto product = product_.dense(b);
+    const auto n = static_cast<double>(product.rows());
+    if (std::is_same_v<T, double>) spend_on<T>(3 * n * n * n);
     if (block.sparse())
       multiply_sparse(View<const T>(right.dense(b)), View<const T>(left.dense(b)),
                       block.pattern_start, block.pattern_row, View<T>(half));
@@ -81,7 +86,7 @@ bool Newton<T>::prepare(const Iterate<T>& point, const Defect<T>& defect, Model 
                         double allowance) {
   model_ = model;
   factor_X_.inverse(inverse_X_);
-  schur_.assemble(inverse_X_, point.Y);
+  schur_.assemble(inverse_X_, point.Y, model != Model::fixed);
   if (!schur_.factorise()) return false;
 
   mu_ = model == Model::fixed ? point.mu_fixed() : point.mu();
@@ -106,7 +111,9 @@ bool Newton<T>::prepare(const Iterate<T>& point, const Defect<T>& defect, Model 
 // In double conjugate gradients cost little, and every digit of a direction helps.
 template <typename T>
 T Newton<T>::refinement_goal(const Defect<T>& defect, double allowance) const {
-  const T none = std::max(T(kRefineGoal), T(kRefineUnits * std::numeric_limits<T>::epsilon()));
+  T none(kRefineUnits * std::numeric_limits<T>::epsilon());
+  // Of a B with all digits nothing is asked that its first solution does not bring.
+  if (!schur_.rounded()) none = std::max(none, T(kRefineGoal));
   if constexpr (std::is_same_v<T, double>) return none;
   return std::max({none, T(T(kRefineShare) * defect.dual.norm()),
                    std::min(T(T(kRefineShare) * harmless_), T(kAllowanceShare * allowance))});
@@ -147,6 +154,8 @@ void Newton<T>::solve(const Iterate<T>& point, const Defect<T>& defect, const T&
   scaled_product(direction.X, point.Y, direction.Y);
   direction.Y.flat() = k_.flat() - direction.Y.flat();
   refine(point, defect, eta, direction);
+  if (missed_ && schur_.widen())
+    return solve(point, defect, sigma, eta, trace_c, c_tau_kappa, direction);
   direction.X.flat() += eta * defect.primal.flat();
 }
 
@@ -159,11 +168,13 @@ void Newton<T>::refine(const Iterate<T>& point, const Defect<T>& defect, const T
   apply(data_, direction.Y, a_);
   h_ = a_ - eta * defect.dual - direction.tau * c_;
   T best = h_.norm(), rho(0);
-  exhausted_ = imprecise_ = false;
+  exhausted_ = imprecise_ = missed_ = false;
   if (!(best > goal_)) return;
   trial_ = direction;
   int since_best = 0;
-  for (int step = 0; step < kRefineSteps && since_best < kRefinePatience && best > goal_; ++step) {
+  const int most = schur_.rounded() ? kRoundedSteps : kRefineSteps;
+  for (int step = 0; step < most && since_best < kRefinePatience && best > goal_; ++step) {
+    spend_on<T>(static_cast<double>(data_.m()) * data_.m());
     schur_.solve(h_, p_);
     const T next = h_.dot(p_);
     if (step == 0)
@@ -190,6 +201,7 @@ void Newton<T>::refine(const Iterate<T>& point, const Defect<T>& defect, const T
     direction.Y.flat() = trial_.Y.flat();
     since_best = 0;
   }
+  missed_ = best > goal_;
   imprecise_ = best > std::max(goal_, T(T(kImprecise) * defect.dual.norm()));
   // Negative curvature ends the loop too, but that is a matter of luck and may be gone next time.
   exhausted_ = since_best == kRefinePatience &&

@@ -3,7 +3,7 @@
 
 #include "sdp/factor.h"
 #include "sdp/iterate.h"
-#include "sdp/schur.h"
+#include "sdp/mixed_schur.h"
 
 namespace gainsmith::sdp {
 
@@ -50,6 +50,9 @@ class Newton {
   /// at a fixed tau, H(X^-1 R Y) is left out where it is nothing beside Y.
   bool prepare(const Iterate<T>& point, const Defect<T>& defect, Model model, double allowance);
 
+  /// MixedSchur::stay_wide.
+  void stay_wide() { schur_.stay_wide(); }
+
   /// sigma = 0, eta = 1, C = 0.
   void predict(const Iterate<T>& point, const Defect<T>& defect, Iterate<T>& direction);
 
@@ -83,7 +86,7 @@ class Newton {
 
   const Data& data_;
   Model model_ = Model::homogeneous;
-  Schur<T> schur_;
+  MixedSchur<T> schur_;
   ConeFactor<T> factor_X_, factor_Y_;
   Blocks<T> inverse_X_;
   Blocks<T> residual_term_;  ///< H(X^-1 R Y)
@@ -96,6 +99,7 @@ class Newton {
   T goal_{0};      ///< residual of the dual equation that refinement aims at
   T harmless_{0};  ///< residual that moves the objective by X.Y
   bool exhausted_ = false, imprecise_ = false;
+  bool missed_ = false;  ///< did refinement end above goal_?
 };
 
 }  // namespace gainsmith::sdp

@@ -13,6 +13,7 @@
 #include "sdp/cover.h"
 #include "sdp/forecast.h"
 #include "sdp/kernels.h"
+#include "sdp/work.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -207,6 +208,7 @@ void Schur<T>::assemble(const Blocks<T>& inverse_X, const Blocks<T>& Y) {
 template <typename T>
 void Schur<T>::add_batch(const Plan& plan, const Batch& batch, const ConstMatrixMap<T>& inverse_X,
                          const ConstMatrixMap<T>& Y, Workspace& w) {
+  spend_on<T>(plan.cost / static_cast<double>(plan.batches.size()));
   if (plan.lists[batch.first].formula == Formula::rows)
     add_rows(plan, batch.first, inverse_X, Y, w);
   else

@@ -81,9 +81,20 @@ class Ladder {
 
   /// From the point `from`, where there is one, or from a far point.
   Solution climb(int digits, const Iterate<double>* from = nullptr) {
+    try {
+      rise(digits, from);
+    } catch (const Stopped&) {
+      best_.cause = Cause::interrupted;
+    }
+    settle();
+    return std::move(best_);
+  }
+
+ private:
+  void rise(int digits, const Iterate<double>* from) {
     strict_ = digits > kDoubleDigits;
-    if (digits > kQuadDigits) return settle<Decimal100>(kFarthest);
-    if (digits > kDoubleDigits) return settle<DoubleDouble>(kFarther);
+    if (digits > kQuadDigits) return rise_in<Decimal100>(kFarthest);
+    if (digits > kDoubleDigits) return rise_in<DoubleDouble>(kFarther);
     Ipm<double> narrow(problem_, presolved_, options_);
     wider_ = digits == 0 && cost() <= kQuadCost;
     if (from) {
@@ -93,7 +104,7 @@ class Ladder {
     if (!from || !over()) attempt(narrow, 1);
     if (digits == 0) descend(narrow);
     if (!narrow.left()) search_both_ways(narrow);
-    if (over() || !wider_) return std::move(best_);
+    if (over() || !wider_) return;
 
     Ipm<DoubleDouble> wide(problem_, presolved_, options_);
     reason_ = reason("double");
@@ -104,15 +115,13 @@ class Ladder {
     }
     if (!over() && !relay(narrow, Leave::imprecise, wide, kFarther)) attempt(wide, kFarther);
     search_both_ways(narrow);
-    if (over() || cost() > kWideCost) return std::move(best_);
+    if (over() || cost() > kWideCost) return;
     reason_ = reason(name_of<DoubleDouble>());
     Ipm<Decimal100> widest(problem_, presolved_, options_);
     // 100 digits are dear: only for what 31 digits bring as near as kHandOver.
     relay(wide, Leave::never, widest, kFarthest);
-    return std::move(best_);
   }
 
- private:
   /// An error that shows no solution in sight: then the homogeneous model, which is slower but
   /// finds infeasibility on any problem, has its turn.
   static constexpr double kHopeless = 1e-3;
@@ -137,10 +146,19 @@ class Ladder {
   static constexpr double kQuadCost = 1e9, kWideCost = 6e4;
 
   template <typename T>
-  Solution settle(double factor) {
+  void rise_in(double factor) {
     Ipm<T> ipm(problem_, presolved_, options_);
     attempt(ipm, factor);
-    return std::move(best_);
+  }
+
+  /// Data that are rounded may have no Y at all for their equations, or one that has nothing to do
+  /// with the data before rounding: then residuals stop falling at the rounding of the data. Where
+  /// all errors are below the tolerance there, they decide.
+  void settle() {
+    if (over() || !strict_ || best_error_ > options_.tolerance) return;
+    if (worst(best_) > options_.tolerance) return;
+    best_.status = Status::optimal;
+    best_.cause = Cause::converged;
   }
 
   template <typename T>
@@ -186,9 +204,9 @@ class Ladder {
   void run(Ipm<T>& ipm, Model model);
 
   /// Decided, or stopped from outside.
-  bool over() const {
-    return best_.status != Status::undecided || best_.cause == Cause::iteration_limit ||
-           best_.cause == Cause::interrupted;
+  bool over() const { return best_.status != Status::undecided || stopped(best_.cause); }
+  static bool stopped(Cause cause) {
+    return cause == Cause::iteration_limit || cause == Cause::interrupted;
   }
   std::string reason(const std::string& arithmetic) const {
     return arithmetic + " " + to_string(best_.cause);
@@ -248,6 +266,7 @@ void Ladder::descend(const Ipm<double>& narrow) {
   const Solution found =
       Ladder(restricted, presolved, options_, iterations_).climb(0, &from);
   iterations_ = best_.iterations = found.iterations;
+  if (stopped(found.cause)) best_.cause = found.cause;
   if (found.status != Status::optimal) return;
   const auto point = lift(*face, problem_, found, kShift * options_.tolerance);
   if (!point) return;

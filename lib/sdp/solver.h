@@ -37,9 +37,10 @@ struct Options {
 
 /// Solves `problem`. Throws std::invalid_argument when the problem is malformed (indices out of
 /// range, entries below the diagonal, values that are not finite) or `options.precision` is none of
-/// the above. InputError when the memory that
-/// there is does not do (forecast.h). Every other outcome is a Solution, that of a stop
-/// (base/stop.h) too: the best point so far.
+/// the above; InputError when the memory that there is does not do (forecast.h). When everything is
+/// to stop (base/stop.h) it ends within a second, in any arithmetic, with the best point so far and
+/// the cause `interrupted`. Its work counts for the allowances of the caller, to whom OutOfAllowance
+/// passes. Every other outcome is a Solution.
 Solution solve(const Problem& problem, const Options& options = {});
 
 }  // namespace gainsmith::sdp
