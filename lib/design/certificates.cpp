@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/stop.h"
-#include "lmi/interior_certificate.h"
 
 namespace gainsmith::design {
 
@@ -33,14 +32,10 @@ class Certificates {
     return lmi::refute_on_boundary(posed_.inequalities, posed_.lmi, formulation_, solution);
   }
 
-  /// The exact certificate that is deepest inside of the cone, with its multipliers in `solution`.
-  lmi::Refutation deepest(const Solve& solve, sdp::Solution& solution) const {
-    sdp::Solution inside = solve(lmi::interior_certificate_program(formulation_), effort_);
-    if (inside.Y.values.empty()) return {};
-    lmi::add_depth(inside);
-    const auto found = exact(inside, lmi::Exactness::in_double);
-    if (found.exact) solution.Y = std::move(inside.Y);
-    return found;
+  /// However small its eigenvalues are: the steps are in double.
+  lmi::Refutation inside(const sdp::Solution& solution) const {
+    return lmi::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
+                                multipliers(solution), lmi::Steps::in_double);
   }
 
   /// Of small programs polishing is cheaper than a solution in more digits: from double it has a
@@ -50,7 +45,7 @@ class Certificates {
     const Allowance allowance(in_double() ? kWorth : std::numeric_limits<double>::infinity());
     try {
       return lmi::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
-                                  multipliers(solution));
+                                  multipliers(solution), lmi::Steps::in_wide);
     } catch (const OutOfAllowance&) {
       if (!in_double()) throw;
       return {};
@@ -79,8 +74,8 @@ class Certificates {
 }  // namespace
 
 lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
-                                 const lmi::Formulation& formulation, const Solve& solve,
-                                 sdp::Solution& solution) {
+                                 const lmi::Formulation& formulation,
+                                 const sdp::Solution& solution) {
   // With more of a margin than this no certificate is near.
   constexpr double kNear = 1e-6;
   const Certificates certificates(posed, effort, formulation);
@@ -90,8 +85,7 @@ lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
   if (posed.wide && near) {
     if (const auto boundary = certificates.on_boundary(solution); excludes(boundary))
       return boundary;
-    if (certificates.in_double())
-      if (const auto deepest = certificates.deepest(solve, solution); deepest.exact) return deepest;
+    if (const auto inside = certificates.inside(solution); excludes(inside)) return inside;
   }
   found = certificates.exact(solution, lmi::Exactness::in_wide);
   if (found.exact || !posed.wide || !near) return found;

@@ -2,9 +2,9 @@
 //
 //   1. the solver's multipliers, exact in double            robustly infeasible
 //   2. on the boundary of the cone, with x beside them      strict complementarity
-//   3. the deepest multipliers, exact in double             where those of 1 are nearly singular
+//   3. multipliers alone, polished with steps in double     where those of 1 are nearly singular
 //   4. the solver's multipliers, exact in 31 digits         small programs
-//   5. multipliers alone, polished                          whatever is left
+//   5. multipliers alone, polished with wide steps          whatever is left
 // Steps 1 and 4 are all for a search that does not want more digits.
 #pragma once
 
@@ -12,11 +12,10 @@
 
 namespace gainsmith::design {
 
-/// The first certificate that excludes every solution, or the best found (its omega). `solution`
-/// holds its multipliers afterwards where another program was solved for them. OutOfAllowance
-/// passes through.
+/// The first certificate that excludes every solution, or the best found (its omega).
+/// OutOfAllowance passes through.
 lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
-                                 const lmi::Formulation& formulation, const Solve& solve,
-                                 sdp::Solution& solution);
+                                 const lmi::Formulation& formulation,
+                                 const sdp::Solution& solution);
 
 }  // namespace gainsmith::design

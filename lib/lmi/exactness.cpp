@@ -96,11 +96,11 @@ bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
   Matrix H = Matrix::Zero(used, used);
   H.selfadjointView<Eigen::Lower>().rankUpdate(G.transpose());
   // sigma >= 2 |D r|, so that r' H^-1 r <= 1/4.
+  if (!std::isfinite(norm) || !std::isfinite(moved)) return false;
   const double sigma = (2 * std::sqrt(norm) + std::sqrt(moved)) * (1 + 1e-9) + 1e-150;
   const double rounding = 4 * (static_cast<double>(size) + m + 8) * kUnit * m;
   H.diagonal().array() -= sigma * sigma + rounding;
   H.triangularView<Eigen::StrictlyUpper>() = H.transpose();
-  if (getenv("GSDEBUG")) fprintf(stderr, "Dr %g moved %g sigma2 %g rounding %g lambda %g\n", std::sqrt(norm), std::sqrt(moved), sigma*sigma, rounding, numbers::smallest_eigenvalue(H)+sigma*sigma + rounding);
   return static_cast<bool>(numbers::Cholesky(H));
 }
 

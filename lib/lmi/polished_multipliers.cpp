@@ -5,11 +5,13 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <optional>
 #include <type_traits>
 #include <vector>
 
 #include "base/eigen_scalars.h"
 #include "lmi/wide_algebra.h"
+#include "numbers/dense.h"
 
 namespace gainsmith::lmi {
 
@@ -200,6 +202,76 @@ struct Way {
   }
 };
 
+/// The equations of a step in double: M_k with the elements of all B_ki L_k as its columns, and the
+/// factor of G = sum M_k' M_k in units in which its diagonal is 1.
+class StepInDouble {
+ public:
+  StepInDouble(const std::vector<FactoredMultiplier>& multipliers, int unknowns, bool with_constant)
+      : units_(numbers::Vector::Zero(unknowns + 1)) {
+    constexpr double kDamping = 1e-14;
+    numbers::Matrix G = numbers::Matrix::Zero(unknowns + 1, unknowns + 1);
+    for (const FactoredMultiplier& one : multipliers) {
+      moved_.push_back(images_of(one, unknowns));
+      if (moved_.back().rows() == 0) continue;
+      const auto m = static_cast<double>(unknowns);
+      spend(m * m * static_cast<double>(moved_.back().rows()) * kDoubleWork);
+      G.selfadjointView<Eigen::Lower>().rankUpdate(moved_.back().transpose());
+    }
+    for (Index i = with_constant ? 0 : 1; i <= unknowns; ++i)
+      if (G(i, i) > 0) units_[i] = 1 / std::sqrt(G(i, i));
+    G.triangularView<Eigen::StrictlyUpper>() = G.transpose();
+    G_ = units_.asDiagonal() * G * units_.asDiagonal();
+    numbers::Matrix damped = G_;
+    // An unknown without an equation has a row of zeros, and lambda = 0.
+    for (Index i = 0; i <= unknowns; ++i)
+      damped(i, i) = units_[i] > 0 ? 1 + kDamping * static_cast<double>(unknowns + 1) : 1;
+    spend(std::pow(static_cast<double>(unknowns), 3) / 3 * kDoubleWork);
+    factor_.emplace(damped);
+  }
+
+  explicit operator bool() const { return static_cast<bool>(*factor_); }
+
+  /// Moves the factors by the step for r; false when one changes by more than a half.
+  bool move(const Residuals& residuals, double scale,
+            std::vector<FactoredMultiplier>& multipliers) const {
+    constexpr int kRefinements = 3;
+    constexpr double kMost = 0.5;
+    numbers::Vector r(units_.size());
+    for (Index i = 0; i < r.size(); ++i)
+      r[i] = units_[i] * as<double>(Decimal100(residuals.r[static_cast<std::size_t>(i)] / scale));
+    numbers::Vector lambda = numbers::Vector::Zero(r.size());
+    for (int k = 0; k < kRefinements; ++k) lambda += factor_->solve(r - G_ * lambda);
+    lambda.array() *= units_.array() / 2;
+    for (std::size_t k = 0; k < multipliers.size(); ++k) {
+      Wide& L = multipliers[k].L;
+      if (L.size() == 0) continue;
+      const numbers::Vector change = moved_[k] * lambda;
+      if (!(scale * change.norm() <= kMost * narrow<double>(L).norm())) return false;
+      for (Index e = 0; e < L.size(); ++e) L(e) -= Decimal100(change[e]) * scale;
+    }
+    return true;
+  }
+
+ private:
+  static numbers::Matrix images_of(const FactoredMultiplier& one, int unknowns) {
+    const numbers::Matrix L = narrow<double>(one.L);
+    numbers::Matrix images = numbers::Matrix::Zero(L.size(), unknowns + 1);
+    numbers::Matrix image(L.rows(), L.cols());
+    for (const auto& [i, elements] : one.block->terms) {
+      spend(static_cast<double>(elements.size()) * static_cast<double>(L.cols()) * kDoubleWork);
+      image.setZero();
+      for (const auto& e : elements) image.row(e.row) += as<double>(e.mid) * L.row(e.column);
+      images.col(i) = image.reshaped();
+    }
+    return images;
+  }
+
+  numbers::Vector units_;
+  std::vector<numbers::Matrix> moved_;
+  numbers::Matrix G_;
+  std::optional<numbers::Cholesky> factor_;
+};
+
 bool follow(std::vector<FactoredMultiplier>& multipliers, int unknowns, const Way& way) {
   constexpr double kFalls = 0.1;
   constexpr double kNarrow = 1e-8;  // as far as 31 digits solve the equations of a double root
@@ -253,6 +325,25 @@ numbers::MatrixOf<Decimal100> factor_above(const numbers::MatrixOf<Decimal100>& 
     rest -= times<Decimal100>(Wide(L.col(rank)), Wide(L.col(rank).transpose()));
   }
   return L.leftCols(rank);
+}
+
+bool polish_in_double(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
+  constexpr int kMostSteps = 40;
+  constexpr double kFails = 0.5, kSlow = 1e-3;
+  double last = std::numeric_limits<double>::infinity();
+  std::optional<StepInDouble> step;
+  for (int k = 0; k < kMostSteps; ++k) {
+    const Residuals residuals = residuals_of(multipliers, unknowns);
+    const Distance distance(residuals);
+    if (distance.worst <= kSettled) return true;
+    if (!(distance.worst <= kFails * last)) return distance.worst <= kEnough;
+    if (!step || distance.worst > kSlow * last)
+      step.emplace(multipliers, unknowns, distance.with_constant);
+    if (!*step) return false;
+    last = distance.worst;
+    if (!step->move(residuals, distance.worst, multipliers)) return false;
+  }
+  return false;
 }
 
 bool polish(std::vector<FactoredMultiplier>& multipliers, int unknowns) {

@@ -75,10 +75,14 @@ constexpr double kNothing = 1e-70;
 Refutation refute_on_boundary(const Inequalities& of, const Lmi& lmi,
                               const Formulation& formulation, const sdp::Solution& solution);
 
-/// The same of multipliers alone (polished_multipliers.h): it takes longer, and leads to a
-/// certificate also where a solution beside them has no gap to it.
+/// In which arithmetic the steps of a polish are computed.
+enum class Steps { in_double, in_wide };
+
+/// The same of multipliers alone (polished_multipliers.h): certificates inside of the cone however
+/// small their eigenvalues are, and with steps of 31 and 100 digits those on its boundary where a
+/// solution beside them has no gap to it.
 Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
-                           const Multipliers& Y);
+                           const Multipliers& Y, Steps steps);
 
 /// omega of an interior solution for the blocks as they were solved, gain bounds and corners of
 /// boxes included, in double: what it excludes is only sufficient for the inequalities.

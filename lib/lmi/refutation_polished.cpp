@@ -85,7 +85,7 @@ Refutation refute_on_boundary(const Inequalities& of, const Lmi& lmi,
 }
 
 Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,
-                           const Multipliers& Y) {
+                           const Multipliers& Y, Steps steps) {
   // A block that a certificate does not need may keep the others from being one.
   constexpr double kShares[] = {0, 1e-8, 1e-4};
   // What is left beside the range of a singular certificate.
@@ -105,8 +105,12 @@ Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formula
     Kept kept = kept_of(blocks, Y, share * whole, 0);
     if (kept.which.size() == looked_at) continue;
     looked_at = kept.which.size();
-    if (polish(kept.multipliers, lmi.unknowns) && excludes(kept)) return best;
+    const bool settled = steps == Steps::in_double
+                             ? polish_in_double(kept.multipliers, lmi.unknowns)
+                             : polish(kept.multipliers, lmi.unknowns);
+    if (settled && excludes(kept)) return best;
   }
+  if (steps == Steps::in_double) return best;
   std::set<std::vector<Eigen::Index>> tried;
   for (const double range : kRanges) {
     Kept kept = kept_of(blocks, Y, range * whole, range * whole);

@@ -13,7 +13,8 @@ namespace gainsmith::numbers {
 Cholesky::Cholesky(const Matrix& M) {
   const Eigen::LLT<Matrix> factor(M);
   packed_ = factor.matrixLLT();
-  definite_ = factor.info() == Eigen::Success;
+  // What is not a number passes the factorisation's own test.
+  definite_ = factor.info() == Eigen::Success && (packed_.diagonal().array() > 0).all();
 }
 
 Matrix Cholesky::lower() const { return packed_.triangularView<Eigen::Lower>(); }

@@ -9,7 +9,6 @@
 #include "base/eigen_scalars.h"
 #include "base/stop.h"
 #include "lmi/boundary_pair.h"
-#include "lmi/interior_certificate.h"
 #include "lmi/refutation.h"
 #include "model/gains.h"
 #include "sdp/solver.h"
@@ -35,12 +34,6 @@ struct Posed {
 
   Refutation on_boundary() const {
     return refute_on_boundary(of, lmi, formulation, sdp::solve(formulation.problem));
-  }
-
-  sdp::Solution deepest() const {
-    sdp::Solution solution = sdp::solve(interior_certificate_program(formulation));
-    add_depth(solution);
-    return solution;
   }
 };
 
@@ -152,41 +145,25 @@ TEST(BoundaryPair, WhatIsBesideDoesNotHinder) {
   EXPECT_LE(posed.on_boundary().omega, kNothing);
 }
 
-/// x > 1 and x < 0: y_1 = y_2 = y_0, so that a third is the largest t.
-TEST(InteriorCertificate, IsAsDeepAsCanBe) {
-  const Posed posed("  unknowns: {x: scalar}\n  require: {low: x > 1, high: x < 0}\n");
-  const sdp::Solution solution = posed.deepest();
-  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(solution.Y.values[k][0], 1.0 / 3, 1e-6);
-  const auto Y = multipliers_of(posed.formulation, 2, solution);
-  EXPECT_TRUE((
-      refute<DoubleDouble>(posed.of, posed.lmi, posed.formulation, Y, Exactness::in_double).exact));
-}
-
-/// A bounded real lemma below the norm, 1 at most: exact in double, whatever the Gramians are like.
-TEST(InteriorCertificate, BelowANormItIsExact) {
-  const Posed posed(
-      "  data: {A: n x n, B: n x 1, C: 1 x n}\n  unknowns: {P: symmetric n}\n  require: {positive: "
-      "P > 0, gain: \"[He(P*A) + C'*C, P*B; *, -0.5*eye(1)] < 0\"}\n"
-      "data: {A: [[-1, 0, 0, 0], [1, -1, 0, 0], [0, 1, -1, 0], [0, 0, 1, -1]], B: [[1], [0], [0], "
-      "[0]], C: [[0, 0, 0, 1]]}\n");
-  const auto Y = multipliers_of(posed.formulation, 2, posed.deepest());
-  EXPECT_TRUE((
-      refute<DoubleDouble>(posed.of, posed.lmi, posed.formulation, Y, Exactness::in_double).exact));
-}
-
-/// In a feasible problem no multipliers are one, those of a problem beside it included.
-TEST(InteriorCertificate, FeasibleProblemsHaveNone) {
-  std::mt19937 generator(10);
-  for (int trial = 0; trial < 10; ++trial) {
-    const double depth = std::pow(10.0, -1 - trial);
-    const Matrix A = with_abscissa(random_matrix(3, 3, generator), -depth);
-    const Posed posed(lyapunov(A));
-    const Posed beside(lyapunov(-A));
-    for (const sdp::Solution& solution : {posed.deepest(), beside.deepest()}) {
-      const auto Y = multipliers_of(posed.formulation, 2, solution);
-      EXPECT_FALSE((refute<DoubleDouble>(posed.of, posed.lmi, posed.formulation, Y).exact))
-          << trial;
-    }
+/// A bounded real lemma below the norm, which is 1: the multipliers have eigenvalues like those of
+/// a Gramian, and rank far above what double tells.
+TEST(PolishedInDouble, BelowANormThereIsACertificate) {
+  for (const int n : {3, 6, 10}) {
+    const Matrix chain = Matrix::NullaryExpr(n, n, [](Eigen::Index r, Eigen::Index c) {
+      return r == c ? -1.0 : r == c + 1 ? 1.0 : 0.0;
+    });
+    Matrix B = Matrix::Zero(n, 1), C = Matrix::Zero(1, n);
+    B(0, 0) = C(0, n - 1) = 1;
+    const Posed posed(
+        "  data: {A: n x n, B: n x 1, C: 1 x n}\n  unknowns: {P: symmetric n}\n  require: "
+        "{positive: P > 0, gain: \"[He(P*A) + C'*C, P*B; *, -0.9*eye(1)] < 0\"}\ndata: {A: " +
+        tests::matrix_yaml(chain) + ", B: " + tests::matrix_yaml(B) +
+        ", C: " + tests::matrix_yaml(C) + "}\n");
+    const sdp::Solution solution = sdp::solve(posed.formulation.problem);
+    const auto Y = multipliers_of(posed.formulation, 2, solution);
+    const Refutation found =
+        refute_polished(posed.of, posed.lmi, posed.formulation, Y, Steps::in_double);
+    EXPECT_TRUE(found.exact || found.omega <= kNothing) << n << ": " << found.omega;
   }
 }
 

@@ -59,13 +59,8 @@ struct Posed {
   Refutation polished() const {
     const Formulation asked = formulation();
     const sdp::Solution solution = sdp::solve(asked.problem, {});
-    return refute_polished(of, lmi, asked, multipliers_of(asked, lmi.blocks.size(), solution));
-  }
-
-  /// What those with the solution beside them show.
-  Refutation on_boundary() const {
-    const Formulation asked = formulation();
-    return refute_on_boundary(of, lmi, asked, sdp::solve(asked.problem, {}));
+    return refute_polished(of, lmi, asked, multipliers_of(asked, lmi.blocks.size(), solution),
+                           Steps::in_wide);
   }
 };
 

@@ -3,8 +3,8 @@
 
 #include <chrono>
 #include <cmath>
-#include <limits>
 #include <random>
+#include <thread>
 
 #include "base/stop.h"
 #include "sdp/solver.h"
@@ -36,9 +36,13 @@ TEST(Stop, EndsARunIn100DigitsWithinAnIteration) {
   Options options;
   options.precision = "100";
   const auto start = std::chrono::steady_clock::now();
-  stop_after(0.5);
+  std::thread later([] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    request_stop();
+  });
   const Solution solution = solve(problem, options);
-  stop_after(std::numeric_limits<double>::infinity());
+  later.join();
+  stop_requested = false;
   const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
   EXPECT_EQ(solution.status, Status::undecided);
   EXPECT_EQ(solution.cause, Cause::interrupted);
