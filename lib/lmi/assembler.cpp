@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/double_double.h"
+#include "base/stop.h"
 
 namespace gainsmith::lmi {
 
@@ -111,7 +112,10 @@ void Assembler::add_entry(int i, int block, int row, int column, double value, d
 void Assembler::set_cost(int i, double cost) { problem_.c[static_cast<std::size_t>(i) - 1] = cost; }
 
 sdp::Problem Assembler::take() {
-  for (auto& entries : problem_.f) merge(entries);
+  for (auto& entries : problem_.f) {
+    check_stop();
+    merge(entries);
+  }
   return std::move(problem_);
 }
 

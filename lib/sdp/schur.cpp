@@ -74,8 +74,14 @@ Schur<T>::Schur(const Data& data, unsigned threads)
   }
   if (!sparse_.worthwhile()) {
     require_memory(m, bytes_of_iterates<T>(data) + bytes_of_dense_schur<T>(m));
-    b_.setZero(m, m);
-    factor_.setZero(m, m);
+    // The system gives their memory page by page, which takes its time.
+    for (Matrix<T>* both : {&b_, &factor_}) {
+      both->resize(m, m);
+      for (Eigen::Index j = 0; j < m; ++j) {
+        check_stop();
+        both->col(j).setZero();
+      }
+    }
   }
   scale_.setZero(m);
 }
