@@ -6,15 +6,21 @@
 
 namespace gainsmith::forall {
 
+namespace {
+
+bool has_interval(const model::Design::Inequality& inequality) {
+  const auto& domain = inequality.domain;
+  return std::any_of(domain.begin(), domain.end(),
+                     [](const auto& variable) { return variable.over == model::Over::interval; });
+}
+
+}  // namespace
+
 bool Plan::leave_hulls(const model::Design& design) {
   if (design.synthesis.way != model::Way::automatic) return false;
   bool left = false;
   for (std::size_t k = 0; k < inequalities.size(); ++k) {
-    const auto& domain = design.inequalities[k].domain;
-    const bool interval = std::any_of(domain.begin(), domain.end(), [](const auto& variable) {
-      return variable.over == model::Over::interval;
-    });
-    if (inequalities[k].way != model::Way::hull || !interval) continue;
+    if (inequalities[k].way != model::Way::hull || !has_interval(design.inequalities[k])) continue;
     inequalities[k] = {model::Way::exchange, true, {}};
     left = true;
   }
@@ -45,7 +51,7 @@ Plan make_plan(const model::Design& design) {
   for (const model::Design::Inequality& inequality : design.inequalities) {
     Imposed imposed{way, true, {}};
     if (way == model::Way::vertex_gains) {
-      imposed.exact = !inequality.calls_functions();
+      imposed.exact = !inequality.calls_functions() || !has_interval(inequality);
       if (imposed.exact) imposed.way = model::Way::automatic;
     }
     plan.inequalities.push_back(std::move(imposed));

@@ -143,9 +143,14 @@ Box vertex_box(const model::Instance& instance) {
   const AtomSearch search(instance);
   std::vector<Atom> atoms;
   std::optional<forall::Variable> interval;
+  const model::Design::Inequality* at_points = nullptr;  // at values of the functions
   for (const model::Design::Inequality& stated : design.inequalities) {
     if (!stated.calls_functions()) continue;
     const forall::Domain domain = forall::domain_of(stated, instance.values);
+    if (forall::intervals(domain).empty()) {
+      at_points = &stated;
+      continue;
+    }
     const forall::Variable& own = interval_of(domain, stated);
     if (!interval) interval = own;
     if (own.low != interval->low || own.high != interval->high)
@@ -155,6 +160,8 @@ Box vertex_box(const model::Instance& instance) {
     search.check_arguments(stated, domain, own.name);
     search.collect(stated, domain, own.name, atoms);
   }
+  if (!interval && at_points != nullptr)
+    interval_of(forall::domain_of(*at_points, instance.values), *at_points);
   if (!interval) return forall::box_of({}, "", 0, 0, {});
   return forall::box_of(std::move(atoms), interval->name, interval->low, interval->high,
                         interval->place);

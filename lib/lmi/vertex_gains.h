@@ -16,10 +16,11 @@
 
 namespace gainsmith::lmi {
 
-/// The box of the functions of tau in all inequalities that call an unknown function. InputError,
-/// at the place of the inequality, when one has not exactly one variable over an interval, or
-/// another interval than the first, calls a function with anything but its variable, or is not
-/// affine in functions of tau; at that of the method's name when there is no unknown function.
+/// The box of the functions of tau in all inequalities over an interval that call an unknown
+/// function; those over sets alone take its values. InputError, at the place of the inequality,
+/// when one has several variables over intervals, or none has one, or it is another than the first,
+/// calls a function with anything but its variable, or is not affine in functions of tau; at that
+/// of the method's name when there is no unknown function.
 forall::Box vertex_box(const model::Instance& instance);
 
 /// The blocks M_ii and (M_ij + M_ji)/2 of an inequality that calls unknown functions, for all

@@ -120,6 +120,27 @@ TEST(VertexGainsTest, SetsAndPolytopesMultiplyTheBlocks) {
   EXPECT_EQ(blocks.size(), 3U * 2U * 10U);
 }
 
+TEST(VertexGainsTest, OverASetTheValuesOfTheFunctionCount) {
+  const tests::YamlProblem yaml(
+      rotation(std::string(kStep) + "    points: {forall: \"k in {0.3, 1.2}\", that: \"[Q, S(k)'; "
+                                    "*, 3*Q] > 0\"}\n"));
+  const Inequalities of(yaml.instance);
+  const Lmi lmi = compile(of);
+  std::mt19937 generator(5);
+  std::vector<double> x;
+  int found = 0;
+  for (const Block& block : lmi.blocks) {
+    if (block.name != "points") continue;
+    const double k = ++found == 1 ? 0.3 : 1.2;
+    numbers::Values values = random_values(of, k, x, generator);
+    values["k"] = numbers::Matrix::Constant(1, 1, k);
+    const numbers::Matrix exact =
+        numbers::evaluate(of.statements.back().differences.front(), values);
+    EXPECT_LT((block.value(x) - exact).norm(), 1e-12 * exact.norm());
+  }
+  EXPECT_EQ(found, 2);
+}
+
 TEST(VertexGainsTest, OtherWaysLeaveTheInstanceAlone) {
   const std::string text = rotation(kStep);
   const tests::YamlProblem hull(text.substr(0, text.find("synthesis")));
