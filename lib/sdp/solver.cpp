@@ -235,8 +235,7 @@ void Ladder::run(Ipm<T>& ipm, Model model) {
                                .leave = wider_ ? Leave::exhausted : Leave::never,
                                .first_iteration = iterations_});
   iterations_ = ipm.iterations();
-  std::optional<Concluding> concluding;
-  if (cause == Cause::interrupted) concluding.emplace();
+  const Concluding concluding;
   Solution found = conclude(problem_, presolved_, options_, ipm, cause);
   const double error = ipm.residuals().worst();
   const bool decided = found.status != Status::undecided;

@@ -8,6 +8,7 @@
 
 #include "base/stop.h"
 #include "sdp/solver.h"
+#include "support/stop.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -35,15 +36,15 @@ TEST(Stop, EndsARunIn100DigitsWithinAnIteration) {
   const Problem problem = large();
   Options options;
   options.precision = "100";
-  const auto start = std::chrono::steady_clock::now();
-  std::thread later([] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+  const tests::StopInTest stop;
+  std::chrono::steady_clock::time_point asked;
+  std::jthread impatient([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(300));
+    asked = std::chrono::steady_clock::now();
     request_stop();
   });
   const Solution solution = solve(problem, options);
-  later.join();
-  stop_requested = false;
-  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+  const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - asked;
   EXPECT_EQ(solution.status, Status::undecided);
   EXPECT_EQ(solution.cause, Cause::interrupted);
   EXPECT_EQ(solution.x.size(), problem.c.size());
