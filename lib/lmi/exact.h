@@ -41,7 +41,7 @@ class ExactBlocks {
   numbers::EnclosedValues<S> values_at(const Block& block) const;
 
   const Inequalities& of_;
-  const Balance& balance_;
+  const Balance balance_;
   numbers::EnclosedValues<S> values_;  ///< of data and parameters
 };
 
