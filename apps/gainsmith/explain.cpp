@@ -18,11 +18,12 @@ namespace {
 
 struct ExplainOptions {
   std::string problem;
+  std::string effort;
   bool json = false;
 };
 
 ExitCode explain(const ExplainOptions& options) {
-  const model::Instance instance = load_problem(options.problem);
+  const model::Instance instance = load_problem(options.problem, effort(options.effort));
   const design::Explanation explanation = design::explain(instance, {});
   const Telling telling;
   fmt::print("{}", options.json ? io::to_text(explanation_json(explanation))
@@ -43,6 +44,9 @@ Command explain_command() {
       "explain",
       "Say why a problem has no solution and what would have to give",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       Option("--effort", options->effort,
+              "what double does not decide: ordinary (an allowance of work) or full (any)")
+           .one_of({"ordinary", "full"}),
        Option("--json", options->json, "print as JSON")},
       "The problem is taken at its own values: what it wants searched is not searched.\n"
       "Exit code: 0 there is nothing to explain: it is feasible, 1 infeasible, 2 wrong input,\n"

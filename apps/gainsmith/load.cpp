@@ -136,6 +136,12 @@ io::MethodLibrary built_in_methods() {
   return {[](const std::string& name) { return methods::find(name); }, methods::names()};
 }
 
+std::function<void(model::Problem&)> effort(const std::string& word) {
+  return [word](model::Problem& problem) {
+    if (!word.empty()) problem.synthesis.full_effort = word == "full";
+  };
+}
+
 model::Instance load_problem(const std::filesystem::path& path,
                              const std::function<void(model::Problem&)>& add) {
   const std::string text = read_text(path);

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <string>
 
 #include "io/problem_yaml.h"
 #include "model/gains.h"
@@ -17,6 +18,9 @@ io::MethodLibrary built_in_methods();
 /// checked without solving is checked.
 model::Instance load_problem(const std::filesystem::path& path,
                              const std::function<void(model::Problem&)>& add = {});
+
+/// What `--effort` says of a problem, for load_problem().
+std::function<void(model::Problem&)> effort(const std::string& word);
 
 /// A gain file with the problem that it states.
 struct LoadedGains {

@@ -23,6 +23,7 @@ namespace {
 
 struct SynthOptions {
   std::string problem;
+  std::string effort;
   std::string output;
   std::string sdpa;
   bool only_write = false;
@@ -58,7 +59,7 @@ ExitCode synth(const SynthOptions& options) {
   refuse_overwriting(options.problem, {options.output, options.sdpa});
   if (options.only_write && options.sdpa.empty())
     throw InputError({"--no-solve"}, "nothing to do: --sdpa FILE says where the program goes");
-  const model::Instance instance = load_problem(options.problem);
+  const model::Instance instance = load_problem(options.problem, effort(options.effort));
   const design::SearchRequest request = wanted_search(instance);
   // What is searched has no values before the search.
   const bool write_first = !options.sdpa.empty() && (request.empty() || options.only_write);
@@ -97,6 +98,9 @@ Command synth_command() {
        Option("--threads", options->threads,
               "threads of a search, 0: one a core; the result does not depend on it")
            .within(0, 1024),
+       Option("--effort", options->effort,
+              "what double does not decide: ordinary (an allowance of work) or full (any)")
+           .one_of({"ordinary", "full"}),
        Option("--json", options->json, "print the result as JSON")},
       "Exit code: 0 gains found, 1 infeasible by a checked certificate, 2 wrong input, 3 "
       "undecided.\n"
