@@ -182,7 +182,7 @@ TEST(CertificatesTest, HighDegreesAreRefutedAtMorePoints) {
     return solve(
         "problem: p\nmethod: clock-dependent\ndata: {A: [[0.2, -1.01], [1, 0]], C: "
         "[[0.5, -1]], T1: 0.5, T2: " +
-        T2 + "}\nparameters: {degree: 9}\n");
+        T2 + "}\nparameters: {degree: 9}\nsynthesis: {effort: full}\n");
   };
   const model::Gains gains = at("2.7");
   EXPECT_EQ(gains.verdict, model::Verdict::no) << gains.solver.message;
