@@ -161,6 +161,18 @@ void refute(const Posed& posed, Interior& interior, Interior::Solved solved, Att
         find_certificate(posed, result.question.effort, solved.formulation, solved.solution);
     const bool better = !result.refutation || found.exact || found.omega < result.refutation->omega;
     if (better) result.refutation = found;
+    if (result.refuted() && !result.refutation->exact && k == 0)
+      if (const auto few = lmi::rows_of_multipliers(solved.formulation, solved.solution);
+          !few.empty()) {
+        // On the coordinates that they live on certificates are exact, as a rule.
+        Interior::Solved inner = interior({}, few);
+        const lmi::Refutation exact = find_certificate(posed, result.question.effort,
+                                                       inner.formulation, inner.solution);
+        if (exact.exact) {
+          result.refutation = exact;
+          solved = std::move(inner);
+        }
+      }
     if (result.refuted()) {
       result.formulation = std::move(solved.formulation);
       result.solution = std::move(solved.solution);

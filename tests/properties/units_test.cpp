@@ -29,8 +29,9 @@ TEST_P(UnitsTest, PowersOfTwoChangeNoDigit) {
     const model::Gains one = solved(GetParam(), index, {});
     const model::Gains other = solved(GetParam(), index, OtherUnits{7, true});
     ASSERT_EQ(one.verdict, other.verdict) << GetParam() << " " << index;
-    // Beyond double the coefficients are those of the decimals, which differ in their last digits.
-    if (one.solver.precision == "double") {
+    // Beyond double the coefficients are those of the decimals, which differ in their last digits;
+    // so do certificates, which are made in 100.
+    if (one.solver.precision == "double" && one.verdict == model::Verdict::yes) {
       EXPECT_EQ(one.solver.iterations, other.solver.iterations) << GetParam() << " " << index;
     }
     ASSERT_EQ(one.margins.size(), other.margins.size());
