@@ -389,7 +389,6 @@ Problem restrict_to(const Face& face, const Problem& problem) {
 
 Iterate<double> restrict_to(const Face& face, const Problem& problem, const Point<double>& point,
                             const Problem& program, const Presolved& presolved) {
-  const Recovery& recovery = presolved.recovery;
   Point<double> on_face;
   for (std::size_t b = 0; b < problem.blocks.size(); ++b) {
     const Face::Rows& rows = face.blocks[b];
@@ -415,33 +414,10 @@ Iterate<double> restrict_to(const Face& face, const Problem& problem, const Poin
     along += d * point.x[i];
     square += d * d;
   }
+  for (std::size_t i = 0; i < point.x.size(); ++i)
+    on_face.x.push_back(point.x[i] - along / square * face.direction[i].hi());
   Iterate<double> result(presolved.data);
-  for (std::size_t i = 0; i < recovery.constraint.size(); ++i) {
-    const auto at = static_cast<std::size_t>(recovery.constraint[i]);
-    result.x[static_cast<Eigen::Index>(i)] =
-        (point.x[at] - along / square * face.direction[at].hi()) /
-        (recovery.gamma_f * recovery.s[i]);
-  }
-  const auto set = [&](const Recovery::Row& row, const Recovery::Row& column, double& x,
-                       double& y) {
-    std::size_t at = static_cast<std::size_t>(row.row);
-    const auto b = static_cast<std::size_t>(row.block);
-    if (!program.blocks[b].diagonal)
-      at += static_cast<std::size_t>(program.blocks[b].size) * static_cast<std::size_t>(column.row);
-    x = on_face.X[b][at] / recovery.gamma_f;
-    y = on_face.Y[b][at] / recovery.gamma_c;
-  };
-  for (std::size_t b = 0; b < recovery.dense.size(); ++b) {
-    auto x = result.X.dense(static_cast<int>(b)), y = result.Y.dense(static_cast<int>(b));
-    for (Eigen::Index j = 0; j < x.cols(); ++j)
-      for (Eigen::Index i = 0; i < x.rows(); ++i)
-        set(recovery.dense[b][static_cast<std::size_t>(i)],
-            recovery.dense[b][static_cast<std::size_t>(j)], x(i, j), y(i, j));
-  }
-  auto x = result.X.linear(), y = result.Y.linear();
-  for (std::size_t k = 0; k < recovery.linear.size(); ++k)
-    set(recovery.linear[k], recovery.linear[k], x[static_cast<Eigen::Index>(k)],
-        y[static_cast<Eigen::Index>(k)]);
+  reduce(program, presolved, on_face, result.x, result.X, result.Y);
   return result;
 }
 

@@ -35,7 +35,8 @@ constexpr double kLeastCentering = 1e-6;
 
 template <typename T>
 Ipm<T>::Ipm(const Problem& problem, const Presolved& presolved, const Options& options)
-    : presolved_(presolved),
+    : problem_(problem),
+      presolved_(presolved),
       options_(options),
       point_(presolved.data),
       best_(presolved.data),
@@ -81,7 +82,7 @@ Cause Ipm<T>::run(const Run& run) {
   since_best_ = 0;
   left_ = false;
   const Cause cause = iterate_or_stop();
-  if (cause != Cause::converged && cause != Cause::certificate) {
+  if (cause != Cause::converged && cause != Cause::certificate && cause != Cause::enough) {
     const Concluding concluding;
     point_ = best_;
     residuals_.update(point_);
@@ -182,6 +183,7 @@ std::optional<Cause> Ipm<T>::stop() const {
       options_.certificate_tolerance / 2)
     return Cause::certificate;
   if (!std::isfinite(residuals_.worst())) return Cause::numerical_breakdown;
+  if (is_enough()) return Cause::enough;
   if (since_best_ > (best_error_ < kNear ? kPatienceNear : run_.patience)) return Cause::stalled;
   return limits();
 }
@@ -191,6 +193,18 @@ std::optional<Cause> Ipm<T>::limits() const {
   if (iteration_ >= options_.iteration_limit) return Cause::iteration_limit;
   if (is_stopping()) return Cause::interrupted;
   return std::nullopt;
+}
+
+template <typename T>
+bool Ipm<T>::is_enough() const {
+  if (!run_.early || !options_.enough) return false;
+  const Recovery& recovery = presolved_.recovery;
+  std::vector<double> x(problem_.c.size(), 0.0);
+  for (std::size_t i = 0; i < recovery.constraint.size(); ++i)
+    x[static_cast<std::size_t>(recovery.constraint[i])] =
+        static_cast<double>(T(point_.x[static_cast<Eigen::Index>(i)] / point_.tau)) *
+        (recovery.gamma_f * recovery.s[i]);
+  return options_.enough(x);
 }
 
 template <typename T>

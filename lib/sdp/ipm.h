@@ -25,6 +25,7 @@ struct Run {
   Leave leave = Leave::never;
   int patience = 25;        ///< iterations without progress far from a solution
   int first_iteration = 0;  ///< continues the count of an earlier run
+  bool early = false;       ///< Options::enough may end it
 };
 
 /// Predictor-corrector (Mehrotra 1992) on the model of newton.h in the arithmetic of T.
@@ -65,6 +66,7 @@ class Ipm {
   bool satisfied(double tolerance) const;
   std::optional<Cause> stop() const;
   std::optional<Cause> limits() const;
+  bool is_enough() const;
   bool leaves() const;
   T centering(const Steps<T>& reach) const;
   Steps<T> shortened(const Steps<T>& longest, const Steps<T>& reach) const;
@@ -72,6 +74,7 @@ class Ipm {
   void keep_best();
   void report(const Steps<T>& step) const;
 
+  const Problem& problem_;
   const Presolved& presolved_;
   const Options& options_;
   Run run_;

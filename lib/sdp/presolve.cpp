@@ -259,6 +259,36 @@ Point<Out> restore(const Problem& problem, const Presolved& presolved, const Vec
   return point;
 }
 
+void reduce(const Problem& problem, const Presolved& presolved, const Point<double>& point,
+            Vector<double>& x, Blocks<double>& X, Blocks<double>& Y) {
+  const Recovery& r = presolved.recovery;
+  for (std::size_t i = 0; i < r.constraint.size(); ++i)
+    x[static_cast<Eigen::Index>(i)] =
+        point.x[static_cast<std::size_t>(r.constraint[i])] / (r.gamma_f * r.s[i]);
+  const auto set = [&](const Recovery::Row& row, const Recovery::Row& column, double& to_X,
+                       double& to_Y) {
+    const auto b = static_cast<std::size_t>(row.block);
+    const Block& block = problem.blocks[b];
+    const auto at =
+        static_cast<std::size_t>(block.diagonal ? row.row : row.row + block.size * column.row);
+    to_X = point.X[b][at] / r.gamma_f;
+    to_Y = point.Y[b][at] / r.gamma_c;
+  };
+  for (std::size_t b = 0; b < r.dense.size(); ++b) {
+    const auto& rows = r.dense[b];
+    auto block_X = X.dense(static_cast<int>(b)), block_Y = Y.dense(static_cast<int>(b));
+    for (std::size_t j = 0; j < rows.size(); ++j)
+      for (std::size_t i = 0; i < rows.size(); ++i) {
+        const auto p = static_cast<Eigen::Index>(i), q = static_cast<Eigen::Index>(j);
+        set(rows[i], rows[j], block_X(p, q), block_Y(p, q));
+      }
+  }
+  for (std::size_t k = 0; k < r.linear.size(); ++k) {
+    const auto p = static_cast<Eigen::Index>(k);
+    set(r.linear[k], r.linear[k], X.linear()[p], Y.linear()[p]);
+  }
+}
+
 #define GAINSMITH_INSTANTIATE(Out, T)                                                     \
   template Point<Out> restore<Out, T>(const Problem&, const Presolved&, const Vector<T>&, \
                                       const Blocks<T>&, const Blocks<T>&, const T&);

@@ -22,6 +22,8 @@ std::string to_string(Cause cause) {
       return "converged";
     case Cause::certificate:
       return "certificate";
+    case Cause::enough:
+      return "enough";
     case Cause::iteration_limit:
       return "iteration-limit";
     case Cause::interrupted:

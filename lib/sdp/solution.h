@@ -21,6 +21,7 @@ enum class Status { optimal, primal_infeasible, dual_infeasible, undecided };
 enum class Cause {
   converged,    ///< the stopping test held
   certificate,  ///< an infeasibility certificate passed its check
+  enough,       ///< the caller had enough (Options::enough)
   iteration_limit,
   interrupted,         ///< by a stop (base/stop.h)
   stalled,             ///< steps became too short or progress ended short of the tolerance

@@ -203,10 +203,11 @@ class Ladder {
   template <typename T>
   void run(Ipm<T>& ipm, Model model);
 
-  /// Decided, or stopped from outside.
+  /// Decided, or ended from outside.
   bool over() const { return best_.status != Status::undecided || stopped(best_.cause); }
   static bool stopped(Cause cause) {
-    return cause == Cause::iteration_limit || cause == Cause::interrupted;
+    return cause == Cause::iteration_limit || cause == Cause::interrupted ||
+           cause == Cause::enough;
   }
   std::string reason(const std::string& arithmetic) const {
     return arithmetic + " " + to_string(best_.cause);
@@ -233,13 +234,14 @@ void Ladder::run(Ipm<T>& ipm, Model model) {
                                .aim = kAim * options_.tolerance,
                                .feasibility = feasibility,
                                .leave = wider_ ? Leave::exhausted : Leave::never,
-                               .first_iteration = iterations_});
+                               .first_iteration = iterations_,
+                               .early = std::is_same_v<T, double>});
   iterations_ = ipm.iterations();
   const Concluding concluding;
   Solution found = conclude(problem_, presolved_, options_, ipm, cause);
   const double error = ipm.residuals().worst();
   const bool decided = found.status != Status::undecided;
-  if (decided || error < best_error_ || !std::isfinite(best_error_)) {
+  if (decided || cause == Cause::enough || error < best_error_ || !std::isfinite(best_error_)) {
     best_ = std::move(found);
     best_error_ = error;
     best_.precision = name_of<T>();
@@ -326,9 +328,15 @@ Solution solve(const Problem& problem, const Options& options) {
   validate(problem);
   const Presolved presolved = presolve(problem);
   require_memory(presolved.data.m(), bytes_of_iterates<double>(presolved.data));
+  std::optional<Iterate<double>> from;
+  if (options.from) {
+    from.emplace(presolved.data);
+    const Solution& near = *options.from;
+    reduce(problem, presolved, {near.x, near.X.values, near.Y.values}, from->x, from->X, from->Y);
+  }
   Solution solution = presolved.free_descent >= 0
                           ? free_descent(problem, presolved, options)
-                          : Ladder(problem, presolved, options).climb(digits);
+                          : Ladder(problem, presolved, options).climb(digits, from ? &*from : nullptr);
   solution.message = explain(solution);
   solution.seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return solution;

@@ -33,6 +33,11 @@ struct Options {
   /// there is.
   std::string precision = "auto";
   std::function<void(const Progress&)> progress;  ///< called once an iteration when set
+  /// Called with x once an iteration when set, in double: true ends the solve with `undecided` and
+  /// the cause `enough`. Whether x satisfies anything is for the caller to check.
+  std::function<bool(const std::vector<double>& x)> enough;
+  /// A point near the solution to begin with: its x, X and Y, the last two positive definite.
+  const Solution* from = nullptr;
 };
 
 /// Solves `problem`. Throws std::invalid_argument when the problem is malformed (indices out of

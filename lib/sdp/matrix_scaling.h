@@ -1,0 +1,38 @@
+// Nesterov and Todd's scaling of a point.
+#pragma once
+
+#include "sdp/linalg.h"
+
+namespace gainsmith::sdp {
+
+/// W = G G' with W S W = X, G^-1 X G^-T = G' S G = diag(d) block by block; in the linear part G is
+/// sqrt(w), w = sqrt(x / s).
+class Scaling {
+ public:
+  explicit Scaling(const Layout& layout);
+
+  /// Factors X and S first; false when one is not positive definite.
+  bool prepare(const Blocks<double>& X, const Blocks<double>& S);
+
+  const Blocks<double>& G() const { return G_; }
+  /// W; w^2 in the linear part.
+  const Blocks<double>& W() const { return W_; }
+  const Vector<double>& d(int block) const { return d_[static_cast<std::size_t>(block)]; }
+  const Vector<double>& linear_d() const { return linear_d_; }
+
+  /// result = G M G', and G' M G.
+  void outward(const Blocks<double>& M, Blocks<double>& result) const;
+  void inward(const Blocks<double>& M, Blocks<double>& result) const;
+  /// The longest a <= `longest`, or a little less, with diag(d) + a M >= 0.
+  double step(const Blocks<double>& M, double longest) const;
+
+ private:
+  Blocks<double> G_, W_;
+  std::vector<Vector<double>> d_;
+  Vector<double> linear_d_;
+};
+
+/// Is S positive definite?
+bool is_inside(const Blocks<double>& S);
+
+}  // namespace gainsmith::sdp

@@ -1,0 +1,257 @@
+#include "sdp/matrix_solver.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "base/stop.h"
+#include "sdp/matrix_operator.h"
+#include "sdp/matrix_preconditioner.h"
+#include "sdp/matrix_scaling.h"
+#include "sdp/work.h"
+
+namespace gainsmith::sdp {
+namespace {
+
+class MatrixIpm {
+ public:
+  MatrixIpm(const MatrixProgram& program, const MatrixOptions& options)
+      : options_(options),
+        operator_(program),
+        schur_(operator_),
+        preconditioner_(operator_),
+        scaling_(operator_.layout()),
+        c_(ConstVectorMap<double>(program.c.data(), static_cast<Eigen::Index>(program.c.size()))),
+        X_(operator_.layout()),
+        S_(operator_.layout()),
+        defect_(operator_.layout()),
+        dX_(operator_.layout()),
+        dS_(operator_.layout()),
+        image_(operator_.layout()),
+        target_(operator_.layout()),
+        work_(operator_.layout()) {}
+
+  Solution solve() {
+    Solution result;
+    result.cause = start() ? iterate(result.iterations) : Cause::stalled;
+    conclude(result);
+    return result;
+  }
+
+ private:
+  /// Of the right-hand side: what conjugate gradients may leave, and after how many steps they give
+  /// up.
+  static constexpr double kResidual = 1e-3;
+  static constexpr int kSteps = 150;
+  /// Of the way to the boundary.
+  static constexpr double kShortest = 0.9, kLongest = 0.99;
+  /// A step below this gets nowhere.
+  static constexpr double kNoStep = 1e-4;
+  /// Part of a step taken back when it leaves the cone, and how often.
+  static constexpr double kRetreat = 0.2;
+  static constexpr int kRetreats = 6;
+
+  bool start() {
+    const Layout& layout = operator_.layout();
+    x_.setZero(operator_.variables());
+    double size = 1;
+    if (!options_.start.empty()) {
+      x_ = ConstVectorMap<double>(options_.start.data(), x_.size());
+      update_S();
+      X_.set_identity(1.0 / layout.order());
+      return is_inside(S_);
+    }
+    const double constants = operator_.constant().flat().cwiseAbs().maxCoeff();
+    size = std::max({1.0, constants, c_.cwiseAbs().maxCoeff()}) * 10;
+    S_.set_identity(size);
+    X_.set_identity(size);
+    update_defect();
+    return true;
+  }
+
+  /// S = C + L(x).
+  void update_S() {
+    operator_.apply(x_, S_);
+    S_.flat() += operator_.constant().flat();
+    exact_ = true;
+    defect_.flat().setZero();
+  }
+  /// C + L(x) - S.
+  void update_defect() {
+    operator_.apply(x_, defect_);
+    defect_.flat() += operator_.constant().flat() - S_.flat();
+  }
+
+  double mu() const { return inner(X_, S_) / operator_.layout().order(); }
+
+  Cause iterate(int& iterations) {
+    for (iterations = 0; iterations < options_.iteration_limit; ++iterations) {
+      if (exact_ && options_.enough && options_.enough({x_.data(), x_.data() + x_.size()}))
+        return Cause::enough;
+      if (exact_ && gap() <= options_.tolerance) return Cause::converged;
+      check_stop();
+      if (!scaling_.prepare(X_, S_)) return Cause::stalled;
+      schur_.set_scaling(scaling_.W());
+      preconditioner_.prepare(schur_, scaling_.G());
+      if (!move()) return Cause::stalled;
+    }
+    return Cause::stalled;
+  }
+
+  /// A predictor and a corrector (Mehrotra 1992).
+  bool move() {
+    const double now = mu();
+    dx_.setZero(x_.size());
+    aim(0, false);
+    bool good = direction();
+    const double primal = scaling_.step(image_, 1), dual = scaling_.step(dX_, 1);
+    const double reached =
+        (now * operator_.layout().order() + primal * scaled_inner(image_) +
+         dual * scaled_inner(dX_) + primal * dual * inner(image_, dX_)) /
+        operator_.layout().order();
+    const double ratio = std::clamp(reached / now, 0.0, 1.0);
+    const double shorter = std::min(primal, dual);
+    const double sigma = std::max(1e-6, std::pow(ratio, std::max(1.0, 3 * shorter * shorter)));
+    aim(sigma * now, true);
+    good = direction() || good;
+    if (!good && ++failures_ > 1) return false;
+    return advance(shorter);
+  }
+
+  /// diag(d) . M
+  double scaled_inner(const Blocks<double>& M) const {
+    double sum = scaling_.linear_d().dot(M.linear());
+    for (int b = 0; b < M.layout().blocks(); ++b)
+      sum += scaling_.d(b).dot(M.dense(b).diagonal());
+    return sum;
+  }
+
+  /// target = G^-1 (X + R) G^-T = mu D^-1 - corr, with the second-order term of the last direction.
+  void aim(double mu, bool second_order) {
+    for (int b = 0; b < target_.layout().blocks(); ++b) {
+      const Vector<double>& d = scaling_.d(b);
+      auto target = target_.dense(b);
+      if (second_order) {
+        const Matrix<double> product = dX_.dense(b) * image_.dense(b);
+        for (Eigen::Index j = 0; j < d.size(); ++j)
+          for (Eigen::Index i = 0; i < d.size(); ++i)
+            target(i, j) = -(product(i, j) + product(j, i)) / (d[i] + d[j]);
+      } else {
+        target.setZero();
+      }
+      target.diagonal().array() += mu / d.array();
+    }
+    const auto& d = scaling_.linear_d();
+    target_.linear() = (mu / d.array()).matrix();
+    if (second_order)
+      target_.linear().array() -= dX_.linear().array() * image_.linear().array() / d.array();
+  }
+
+  /// dx, image = G' dS G and dX = G^-1 dX G^-T for the target.
+  bool direction() {
+    // L*(X + R) - c, without the part of the defect of S.
+    scaling_.outward(target_, work_);
+    if (!exact_) {
+      scaling_.inward(defect_, image_);
+      scaling_.outward(image_, dS_);
+      work_.flat() -= dS_.flat();
+    }
+    operator_.adjoint(work_, right_);
+    right_ -= c_;
+    const bool good = conjugate_gradients();
+    operator_.apply(dx_, dS_);
+    dS_.flat() += defect_.flat();
+    scaling_.inward(dS_, image_);
+    dX_.flat() = target_.flat() - image_.flat();
+    for (int b = 0; b < dX_.layout().blocks(); ++b) dX_.dense(b).diagonal() -= scaling_.d(b);
+    dX_.linear() -= scaling_.linear_d();
+    return good;
+  }
+
+  /// From the dx there is. False when the residual stays above its goal.
+  bool conjugate_gradients() {
+    const double goal = kResidual * right_.norm();
+    schur_.apply(dx_, product_);
+    residual_ = right_ - product_;
+    double rho = 0;
+    for (int step = 0; step < kSteps; ++step) {
+      if (residual_.norm() <= goal) return true;
+      check_stop();
+      preconditioner_.apply(residual_, half_);
+      const double next = residual_.dot(half_);
+      if (!(next > 0)) return false;
+      search_ = step == 0 ? half_ : Vector<double>(half_ + (next / rho) * search_);
+      rho = next;
+      schur_.apply(search_, product_);
+      const double curvature = search_.dot(product_);
+      if (!(curvature > 0)) return false;
+      dx_ += (rho / curvature) * search_;
+      residual_ -= (rho / curvature) * product_;
+    }
+    return residual_.norm() <= goal;
+  }
+
+  bool advance(double reach) {
+    const double part = kShortest + (kLongest - kShortest) * reach;
+    double primal = std::min(1.0, part * scaling_.step(image_, 2));
+    double dual = std::min(1.0, part * scaling_.step(dX_, 2));
+    scaling_.outward(dX_, work_);
+    const Vector<double> from = x_;
+    const Blocks<double> S = S_, X = X_;
+    for (int retreat = 0; retreat < kRetreats; ++retreat) {
+      if (std::max(primal, dual) < kNoStep) return false;
+      x_ = from + primal * dx_;
+      X_.flat() = X.flat() + dual * work_.flat();
+      if (exact_ || primal == 1) {
+        update_S();
+      } else {
+        S_.flat() = S.flat() + primal * dS_.flat();
+        update_defect();
+      }
+      if (is_inside(S_) && is_inside(X_)) return true;
+      primal *= kRetreat;
+      dual *= kRetreat;
+    }
+    return false;
+  }
+
+  double objective() const { return c_.dot(x_); }
+  double gap() const { return inner(X_, S_) / (1 + std::abs(objective())); }
+
+  void conclude(Solution& result) const {
+    result.x.assign(x_.data(), x_.data() + x_.size());
+    result.primal_objective = objective();
+    result.relative_gap = gap();
+    result.dual_objective = result.primal_objective - inner(X_, S_);
+    for (const auto& [from, to] : {std::pair(&S_, &result.X), std::pair(&X_, &result.Y)}) {
+      for (int b = 0; b < from->layout().blocks(); ++b) {
+        const auto block = from->dense(b);
+        to->values.emplace_back(block.data(), block.data() + block.size());
+      }
+      for (const double element : from->linear()) to->values.push_back({element});
+    }
+  }
+
+  const MatrixOptions& options_;
+  const MatrixOperator operator_;
+  SchurOperator schur_;
+  Preconditioner preconditioner_;
+  Scaling scaling_;
+  const Vector<double> c_;
+  Vector<double> x_, dx_, right_, residual_, half_, search_, product_;
+  Blocks<double> X_, S_;
+  Blocks<double> defect_;     ///< C + L(x) - S
+  Blocks<double> dX_, dS_;    ///< dX scaled, G^-1 dX G^-T
+  Blocks<double> image_;      ///< G' dS G
+  Blocks<double> target_, work_;
+  bool exact_ = false;        ///< S = C + L(x)
+  int failures_ = 0;
+};
+
+}  // namespace
+
+Solution solve(const MatrixProgram& program, const MatrixOptions& options) {
+  return MatrixIpm(program, options).solve();
+}
+
+}  // namespace gainsmith::sdp
