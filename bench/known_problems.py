@@ -7,6 +7,7 @@ import math
 import os
 import random
 import resource
+import shutil
 import signal
 import subprocess
 import tempfile
@@ -275,6 +276,16 @@ def ask(program, text, limit, *options):
         code, seconds, output = timed([program, "synth", str(path), *options], limit)
     ended = code in (-signal.SIGXCPU, -signal.SIGKILL)
     return Answer("no answer" if ended else VERDICTS.get(code, f"exit {code}"), seconds, output)
+
+
+def csdp_seconds(program, text, limit):
+    """Processor seconds of CSDP on the exported program, or None."""
+    if not shutil.which("csdp"):
+        return None
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "program.dat-s"
+        ask(program, text, limit, "--sdpa", str(path), "--no-solve")
+        return timed(["csdp", str(path)], limit)[1] if path.exists() else None
 
 
 def outcome(truth, verdict):

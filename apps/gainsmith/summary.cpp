@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "gainsmith/search_text.h"
+#include "sdp/solution.h"
 
 namespace gainsmith::app {
 
@@ -153,11 +154,22 @@ std::string message_lines(const model::Gains& gains) {
   return gains.solver.message.empty() ? "" : "            " + gains.solver.message + "\n";
 }
 
+/// What the solver has to do with the verdict: a yes rests on the check of the point alone.
+std::string solver_text(const model::Gains& gains) {
+  const model::SolverRecord& solver = gains.solver;
+  const std::string ended =
+      solver.cause == to_string(sdp::Cause::enough)
+          ? fmt::format("solver: a point inside after {} iterations", solver.iterations)
+          : fmt::format("solver: {}, {}, {} iterations", solver.status, solver.cause,
+                        solver.iterations);
+  const bool alone = gains.verdict == model::Verdict::yes && solver.status == "undecided";
+  return alone ? "the point was checked and holds; " + ended : ended;
+}
+
 std::string synthesis_summary(const model::Gains& gains) {
-  std::string text = fmt::format(
-      "problem     {}\nmethod      {}\nverdict     {} (solver: {}, {}, {} iterations)\n",
-      gains.problem_name, gains.statement.method_name, to_string(gains.verdict),
-      gains.solver.status, gains.solver.cause, gains.solver.iterations);
+  std::string text =
+      fmt::format("problem     {}\nmethod      {}\nverdict     {} ({})\n", gains.problem_name,
+                  gains.statement.method_name, to_string(gains.verdict), solver_text(gains));
   text += message_lines(gains);
   text += objective_text(gains) + named_matrices("gains", gains.gains, gains) +
           functions_text(gains) + named_matrices("report", gains.report, gains) +

@@ -7,6 +7,7 @@
 
 #include "base/stop.h"
 #include "design/certificates.h"
+#include "design/in_matrices.h"
 #include "lmi/correlation.h"
 
 namespace gainsmith::design {
@@ -82,7 +83,10 @@ void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
 void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   const Question& asked = result.question;
   result.formulation = lmi::formulate_objective(posed.lmi, asked.bounds, asked.shift);
-  result.solution = solve(result.formulation.problem, asked.effort);
+  Effort effort = asked.effort;
+  const auto near = solve_in_matrices(posed, asked, result.formulation, {}, {});
+  if (near) effort.from = &*near;
+  result.solution = solve(result.formulation.problem, effort);
   // Far from the minimum a point serves no one: one inside comes from the other goal.
   if (!result.is_near_optimal()) return;
   refine_price(posed, solve, result);
@@ -118,7 +122,18 @@ class Interior {
     Solved result;
     result.formulation = lmi::formulate_interior(posed_.lmi, asked_.bounds, round,
                                                  is_wide() ? exactly : lmi::Exactly{}, rows);
-    result.solution = solve_(result.formulation.problem, asked_.effort);
+    Effort effort = asked_.effort;
+    std::optional<sdp::Solution> near;
+    if (!is_wide() && rows.empty()) {
+      effort.enough = enough_for(posed_, asked_, result.formulation, round);
+      near = solve_in_matrices(posed_, asked_, result.formulation, round, effort.enough);
+      if (near && near->cause == sdp::Cause::enough) {
+        result.solution = std::move(*near);
+        return result;
+      }
+      if (near) effort.from = &*near;
+    }
+    result.solution = solve_(result.formulation.problem, effort);
     return result;
   }
 
@@ -138,7 +153,7 @@ Interior::Solved solve_interior(const Posed& posed, Interior& interior, Attempt&
   for (int k = 0; k < most_rounds; ++k) {
     Interior::Solved solved = interior(round);
     if (k == 0) first = solved;
-    const auto next = lmi::next_round(solved.formulation, solved.solution);
+    const auto next = lmi::next_round(solved.formulation, solved.solution.x);
     const std::vector<double> x = lmi::read_back(posed.lmi, solved.formulation, solved.solution);
     if (k == 0 || (next && next->margin > round.margin)) {
       result.formulation = std::move(solved.formulation);

@@ -13,10 +13,13 @@
 
 namespace gainsmith::design {
 
-/// How hard the solver tries: its arithmetic, and the relative gap at which it stops.
+/// How hard the solver tries: its arithmetic, and the relative gap at which it stops; where it
+/// begins, and what is enough (sdp::Options).
 struct Effort {
   std::string precision = "auto";
   double tolerance = 1e-9;
+  const sdp::Solution* from = nullptr;
+  std::function<bool(const std::vector<double>& x)> enough = {};
 };
 
 /// Solves a semidefinite program: sdp::solve with its options, or a script in a test.

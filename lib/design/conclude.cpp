@@ -13,7 +13,9 @@ namespace {
 model::SolverRecord record_of(const Attempt& attempt, bool has_objective) {
   const sdp::Solution& solution = attempt.solution;
   model::SolverRecord record;
-  record.status = attempt.refuted() ? "infeasible" : attempt.is_optimal() ? "optimal" : "undecided";
+  // Without an objective every point that holds is as good as another.
+  const bool solved = attempt.is_optimal() || solution.cause == sdp::Cause::enough;
+  record.status = attempt.refuted() ? "infeasible" : solved ? "optimal" : "undecided";
   // A point that came from inside is no minimum.
   if (has_objective && record.status == "optimal" && attempt.question.goal != lmi::Goal::objective)
     record.status = "feasible";

@@ -180,7 +180,7 @@ class OnFaces {
       lmi::Formulation formulation = formulate(left, round);
       sdp::Solution solution = solve_(formulation.problem, effort);
       if (solution.x.empty()) break;
-      const auto next = lmi::next_round(formulation, solution);
+      const auto next = lmi::next_round(formulation, solution.x);
       if (next && next->margin > round.margin)
         inside = lmi::read_back(left.lmi, formulation, solution);
       if (k == 0) {

@@ -264,6 +264,8 @@ class Synthesis {
     sdp::Options solver = options_;
     if (effort.precision != "auto") solver.precision = effort.precision;
     solver.tolerance = std::min(solver.tolerance, effort.tolerance);
+    solver.from = effort.from;
+    solver.enough = effort.enough;
     sdp::Solution solution = sdp::solve(problem, solver);
     iterations_ += solution.iterations;
     return solution;

@@ -166,13 +166,13 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
   return x;
 }
 
-std::optional<Round> next_round(const Formulation& formulation, const sdp::Solution& solution) {
+std::optional<Round> next_round(const Formulation& formulation, const std::vector<double>& x) {
   Round round;
   round.margin = 1;
-  round.constant = formulation.homogenised ? solution.x[solution.x.size() - 2] : 1;
+  round.constant = formulation.homogenised ? x[x.size() - 2] : 1;
   if (!(round.constant > 0)) return std::nullopt;
   for (const BalancedBlock& block : formulation.blocks) {
-    const numbers::Matrix value = value_of(block, solution.x, round.constant);
+    const numbers::Matrix value = value_of(block, x, round.constant);
     const double found = correlation_margin(value);
     if (!(found > 0)) return std::nullopt;
     round.margin = std::min(round.margin, found);

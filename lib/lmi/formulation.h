@@ -81,8 +81,9 @@ double interior_margin(const sdp::Solution& solution);
 std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
                               const sdp::Solution& solution);
 
-/// The round after an interior solution; none when a block has a diagonal element <= 0 there.
-std::optional<Round> next_round(const Formulation& formulation, const sdp::Solution& solution);
+/// The round after the solution x of an interior program; none when a block has a diagonal element
+/// <= 0 there.
+std::optional<Round> next_round(const Formulation& formulation, const std::vector<double>& x);
 
 /// A lower bound on the objective without margins by weak duality with the dual solution Y,
 ///   c'x >= -sum_k <B_k0, Y_k> + sum_i r_i x_i,   r_i = c_i - sum_k <B_ki, Y_k>,

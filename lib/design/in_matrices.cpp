@@ -1,0 +1,61 @@
+#include "design/in_matrices.h"
+
+#include <memory>
+#include <utility>
+
+#include "lmi/matrix_program.h"
+#include "sdp/matrix_solver.h"
+
+namespace gainsmith::design {
+
+namespace {
+
+/// Programs with fewer scalars take the ordinary solver no time.
+constexpr int kLarge = 200;
+/// The gap at which the ordinary solver goes on: a few of its iterations are left then, and
+/// conjugate gradients begin to take many steps.
+constexpr double kHandOver = 1e-4;
+
+}  // namespace
+
+Enough enough_for(const Posed& posed, const Question& asked, const lmi::Formulation& formulation,
+                  const lmi::Round& round) {
+  constexpr double kRoom = 2;  // between double and the exact check of the decimals
+  constexpr double kGrows = 2;
+  if (asked.goal != lmi::Goal::interior || asked.single || posed.lmi.has_objective ||
+      posed.plan.uses_exchange())
+    return {};
+  const double margin = kRoom * posed.choices().margin;
+  return [&formulation, &round, margin,
+          last = std::make_shared<double>(0)](const std::vector<double>& x) {
+    const double s = x.back();
+    const bool grows = s > kGrows * std::exchange(*last, s);
+    if (!(s > 0) || (grows && round.diagonals.empty())) return false;
+    const auto next = lmi::next_round(formulation, x);
+    return next && next->margin >= margin;
+  };
+}
+
+std::optional<sdp::Solution> solve_in_matrices(const Posed& posed, const Question& asked,
+                                               const lmi::Formulation& formulation,
+                                               const lmi::Round& round, const Enough& enough) {
+  if (posed.lmi.unknowns < kLarge || !round.diagonals.empty()) return std::nullopt;
+  const auto program = lmi::matrix_program(posed.lmi, asked.bounds, formulation, round);
+  if (!program) return std::nullopt;
+  sdp::MatrixOptions options;
+  options.tolerance = kHandOver;
+  if (asked.goal == lmi::Goal::interior) {
+    // s = -1 and all else 0: S_k = D_k.
+    options.start.assign(program->c.size(), 0);
+    options.start.back() = -1;
+  }
+  if (enough)
+    options.enough = [&](const std::vector<double>& x) {
+      return x.back() > 0 && enough(lmi::balanced_variables(formulation, *program, x));
+    };
+  sdp::Solution solution = sdp::solve(*program, options);
+  solution.x = lmi::balanced_variables(formulation, *program, solution.x);
+  return solution;
+}
+
+}  // namespace gainsmith::design
