@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <map>
-#include <tuple>
 #include <utility>
 
 #include "forall/hull.h"
@@ -43,7 +42,18 @@ numbers::Matrix dense_constant(const AffineForm& form) {
   return numbers::Matrix(found->second);
 }
 
+AffineForm expanded(const AffineForm& form) {
+  AffineForm result{form.shape, form.terms};
+  std::map<int, std::vector<Product>> by_monomial;
+  for (const Product& product : form.products) by_monomial[product.monomial].push_back(product);
+  for (const auto& [monomial, products] : by_monomial)
+    for (auto& [i, matrix] : coefficients(products, form.shape.rows, form.shape.cols))
+      add_term(result, {monomial, i}, std::move(matrix));
+  return result;
+}
+
 bool is_same(const AffineForm& a, const AffineForm& b) {
+  if (!a.products.empty() || !b.products.empty()) return is_same(expanded(a), expanded(b));
   return a.shape == b.shape && a.terms.size() == b.terms.size() &&
          std::equal(a.terms.begin(), a.terms.end(), b.terms.begin(),
                     [](const auto& left, const auto& right) {
@@ -52,8 +62,29 @@ bool is_same(const AffineForm& a, const AffineForm& b) {
                     });
 }
 
+void add_placed(AffineForm& form, const AffineForm& other, int row, int column, double factor) {
+  const auto [rows, columns] = std::pair(form.shape.rows, form.shape.cols);
+  for (const auto& [key, matrix] : other.terms)
+    add_term(form, key, placed(matrix, rows, columns, row, column), factor);
+  for (const Product& product : other.products) {
+    Product whole = product;
+    whole.left = placed(product.left, rows, static_cast<int>(product.left.cols()), row, 0);
+    whole.right = placed(product.right, static_cast<int>(product.right.rows()), columns, 0, column);
+    add_product(form.products, std::move(whole), factor);
+  }
+}
+
+AffineForm transposed(const AffineForm& form) {
+  AffineForm result{{form.shape.cols, form.shape.rows}, {}};
+  for (const auto& [key, matrix] : form.terms) result.terms.emplace(key, matrix.transpose());
+  for (const Product& product : form.products)
+    add_product(result.products, transposed(product));
+  return result;
+}
+
 bool AffineForm::is_constant() const {
-  return terms.empty() || (terms.size() == 1 && terms.begin()->first == Key{0, 0});
+  return products.empty() &&
+         (terms.empty() || (terms.size() == 1 && terms.begin()->first == Key{0, 0}));
 }
 
 bool AffineForm::has_unknown(int* which) const {
@@ -62,7 +93,9 @@ bool AffineForm::has_unknown(int* which) const {
     if (which != nullptr) *which = key.second;
     return true;
   }
-  return false;
+  if (products.empty()) return false;
+  if (which != nullptr) *which = products.front().unknown.first;
+  return true;
 }
 
 AffineForm constant_form(const numbers::Matrix& matrix) {
@@ -73,6 +106,17 @@ AffineForm constant_form(const numbers::Matrix& matrix) {
 
 AffineForm unknown_form(const Unknown& unknown) {
   AffineForm result{unknown.shape, {}};
+  if (unknown.whole) {
+    const auto [rows, columns] = std::pair(unknown.shape.rows, unknown.shape.cols);
+    Sparse left(rows, rows);
+    Sparse right(columns, columns);
+    left.setIdentity();
+    right.setIdentity();
+    const bool symmetric = unknown.structure == model::Structure::symmetric;
+    result.products.push_back(
+        {0, {unknown.first, rows, columns, symmetric}, false, std::move(left), std::move(right)});
+    return result;
+  }
   for (int k = 0; k < unknown.count; ++k) {
     Sparse matrix(unknown.shape.rows, unknown.shape.cols);
     for (const auto& [row, column] : unknown.places(k)) matrix.insert(row, column) = 1;
@@ -101,31 +145,51 @@ std::set<int> monomials_in(const AffineForm& form) {
   std::set<int> found;
   for (const auto& [key, matrix] : form.terms)
     if (key.first != 0) found.insert(key.first);
+  for (const Product& product : form.products)
+    if (product.monomial != 0) found.insert(product.monomial);
   return found;
 }
 
-void remove_noise(AffineForm& form, const forall::MonomialTable& monomials) {
-  // An element of a term counts beside the largest one that the same unknown has there, so that no
-  // unit matters.
-  using Element = std::tuple<int, Eigen::Index, Eigen::Index>;
-  std::map<Element, double> largest;
-  const auto for_each = [&](const auto& visit) {
-    for (const auto& [key, matrix] : form.terms)
-      for (int column = 0; column < matrix.outerSize(); ++column)
-        for (Sparse::InnerIterator it(matrix, column); it; ++it)
-          visit(key.first, Element(key.second, it.row(), it.col()), std::abs(it.value()));
-  };
-  if (form.terms.empty() || form.terms.rbegin()->first.first == 0) return;
-  for_each([&](int, const Element& at, double size) {
-    double& most = largest[at];
-    most = std::max(most, size);
-  });
+namespace {
+
+/// The largest share that an element of a monomial's terms has in the largest one that the same
+/// unknown has at its place, so that no unit matters.
+forall::Sizes shares_of(const AffineForm& form) {
+  std::map<int, std::vector<std::pair<int, const Sparse*>>> by_unknown;
+  for (const auto& [key, matrix] : form.terms)
+    by_unknown[key.second].emplace_back(key.first, &matrix);
+  numbers::Matrix largest = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
   forall::Sizes sizes;
-  for_each([&](int monomial, const Element& at, double size) {
-    if (size > 0) sizes[monomial] = std::max(sizes[monomial], size / largest[at]);
-  });
-  const std::set<int> noise = forall::noise(sizes, monomials);
+  const auto for_each = [](const Sparse& matrix, const auto& visit) {
+    for (int column = 0; column < matrix.outerSize(); ++column)
+      for (Sparse::InnerIterator it(matrix, column); it; ++it)
+        visit(it.row(), it.col(), std::abs(it.value()));
+  };
+  for (const auto& [unknown, list] : by_unknown) {
+    for (const auto& [monomial, matrix] : list)
+      for_each(*matrix, [&](Eigen::Index row, Eigen::Index column, double size) {
+        largest(row, column) = std::max(largest(row, column), size);
+      });
+    for (const auto& [monomial, matrix] : list)
+      for_each(*matrix, [&, of = monomial](Eigen::Index row, Eigen::Index column, double size) {
+        if (size > 0) sizes[of] = std::max(sizes[of], size / largest(row, column));
+      });
+    for (const auto& [monomial, matrix] : list)
+      for_each(*matrix, [&](Eigen::Index row, Eigen::Index column, double) {
+        largest(row, column) = 0;
+      });
+  }
+  return sizes;
+}
+
+}  // namespace
+
+void remove_noise(AffineForm& form, const forall::MonomialTable& monomials) {
+  if (monomials_in(form).empty()) return;
+  const std::set<int> noise = forall::noise(shares_of(expanded(form)), monomials);
   std::erase_if(form.terms, [&](const auto& term) { return noise.contains(term.first.first); });
+  std::erase_if(form.products,
+                [&](const Product& product) { return noise.contains(product.monomial); });
 }
 
 AffineForm at_vertex(const AffineForm& form, const std::vector<double>& values) {
@@ -135,6 +199,11 @@ AffineForm at_vertex(const AffineForm& form, const std::vector<double>& values) 
     const auto [found, fresh] = result.terms.try_emplace({0, key.second}, factor * matrix);
     if (!fresh) found->second = found->second + factor * matrix;
   }
+  for (Product product : form.products) {
+    const double factor = values[static_cast<std::size_t>(product.monomial)];
+    product.monomial = 0;
+    add_product(result.products, std::move(product), factor);
+  }
   return result;
 }
 
@@ -143,6 +212,12 @@ numbers::Matrix value_of(const AffineForm& form, const std::vector<double>& x) {
   for (const auto& [key, matrix] : form.terms)
     add_multiple(result, key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1],
                  matrix);
+  for (const Product& product : form.products) {
+    numbers::Matrix V = matrix_at(product.unknown, x);
+    if (product.transposed) V = V.transpose().eval();
+    const numbers::Matrix inner = product.left * V;
+    result += inner * product.right;
+  }
   return result;
 }
 

@@ -1,6 +1,9 @@
 // The number type "affine form": matrices that are affine in the unknown scalars x_1 ... x_m, with
 // coefficients that combine monomials phi_a in the variables of `forall` (forall/monomials.h):
-//   M(x, tau) = sum over (a, i) of phi_a(tau) x_i M_ai,    phi_0 = 1, x_0 = 1.
+//   M(x, tau) = sum over (a, i) of phi_a(tau) x_i M_ai + sum over products of phi_a(tau) E V(x) F,
+//   phi_0 = 1, x_0 = 1.
+// Large matrices V among the unknowns stand in products, not by the coefficients of their scalars:
+// those are many, and operations on them cost more than all else.
 #pragma once
 
 #include <map>
@@ -9,6 +12,7 @@
 #include <vector>
 
 #include "forall/monomials.h"
+#include "lmi/products.h"
 #include "lmi/sparse.h"
 #include "lmi/unknowns.h"
 #include "numbers/matrix.h"
@@ -19,14 +23,18 @@ struct AffineForm {
   using Key = std::pair<int, int>;
 
   expr::Shape shape;
-  std::map<Key, Sparse> terms;  ///< (monomial, unknown) -> M_ai; zeros are left out
+  std::map<Key, Sparse> terms;         ///< (monomial, unknown) -> M_ai; zeros are left out
+  std::vector<Product> products = {};  ///< none has a side that is zero
 
   bool is_constant() const;
   /// Whether an unknown stands in it; then `which` is the index of one.
   bool has_unknown(int* which = nullptr) const;
 };
 
-/// Whether both have the same shape and the same terms, bit by bit.
+/// The same form without products.
+AffineForm expanded(const AffineForm& form);
+
+/// Whether both have the same shape and, expanded, the same terms, bit by bit.
 bool is_same(const AffineForm& a, const AffineForm& b);
 
 /// A constant matrix.
@@ -39,6 +47,10 @@ AffineForm variable_form(forall::MonomialTable& monomials, int variable);
 /// Adds a coefficient to a form; what cancels is left out.
 void add_term(AffineForm& form, AffineForm::Key key, Sparse matrix);
 void add_term(AffineForm& form, AffineForm::Key key, const Sparse& matrix, double factor);
+
+/// Adds factor times `other`, with its first element at (row, column).
+void add_placed(AffineForm& form, const AffineForm& other, int row, int column, double factor = 1);
+AffineForm transposed(const AffineForm& form);
 
 /// The matrix of a constant form.
 numbers::Matrix dense_constant(const AffineForm& form);

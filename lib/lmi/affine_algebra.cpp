@@ -15,9 +15,7 @@ namespace gainsmith::lmi {
 
 namespace {
 
-expr::Shape transposed(expr::Shape shape) { return {shape.cols, shape.rows}; }
-
-/// The form with every coefficient mapped linearly.
+/// The form with every coefficient mapped linearly; it has no products.
 template <class Map>
 AffineForm map_terms(const AffineForm& form, expr::Shape shape, Map map) {
   AffineForm result{shape, {}};
@@ -28,6 +26,7 @@ AffineForm map_terms(const AffineForm& form, expr::Shape shape, Map map) {
 AffineForm sum(const AffineForm& a, const AffineForm& b, double factor) {
   AffineForm result = a;
   for (const auto& [key, matrix] : b.terms) add_term(result, key, matrix, factor);
+  for (const Product& product : b.products) add_product(result.products, product, factor);
   return result;
 }
 
@@ -50,9 +49,7 @@ AffineForm blocks(const expr::Instruction& instruction,
   for (std::size_t first = 0; first < operands.size(); first += columns) {
     int column = 0;
     for (std::size_t j = first; j < first + columns; ++j) {
-      for (const auto& [key, matrix] : operands[j]->terms)
-        add_term(result, key,
-                 placed(matrix, instruction.shape.rows, instruction.shape.cols, row, column));
+      add_placed(result, *operands[j], row, column);
       column += operands[j]->shape.cols;
     }
     row += operands[first]->shape.rows;
@@ -62,9 +59,16 @@ AffineForm blocks(const expr::Instruction& instruction,
 
 AffineForm index(const expr::Instruction& instruction, const AffineForm& form) {
   const auto& [row, row_end, column, column_end] = instruction.attributes;
-  return map_terms(form, instruction.shape, [&, row = row, column = column](const Sparse& matrix) {
-    return Sparse(matrix.block(row, column, instruction.shape.rows, instruction.shape.cols));
-  });
+  const auto [rows, columns] = std::pair(instruction.shape.rows, instruction.shape.cols);
+  AffineForm result{instruction.shape, {}};
+  for (const auto& [key, matrix] : form.terms)
+    add_term(result, key, Sparse(matrix.block(row, column, rows, columns)));
+  for (Product product : form.products) {
+    product.left = Sparse(product.left.block(row, 0, rows, product.left.cols()));
+    product.right = Sparse(product.right.block(0, column, product.right.rows(), columns));
+    add_product(result.products, std::move(product));
+  }
+  return result;
 }
 
 AffineForm identity(const AffineForm& form, expr::Shape shape) {
@@ -121,6 +125,16 @@ class Rules {
           add_term(result, {monomial, left_key.second + right_key.second}, matrix, factor);
       }
     }
+    for (const Product& left : a.products)
+      for (const auto& [key, right] : b.terms)
+        add_with_monomials(left, key.first, left.left, multiplied(left.right, right), result);
+    for (const auto& [key, left] : a.terms)
+      for (const Product& right : b.products)
+        add_with_monomials(right, key.first,
+                           op == expr::Op::scale ? right.left : multiplied(left, right.left),
+                           op == expr::Op::scale ? Sparse(left.coeff(0, 0) * right.right)
+                                                 : right.right,
+                           result);
     return result;
   }
 
@@ -148,8 +162,15 @@ class Rules {
     if (!b.is_constant()) refuse(op, b);
     const numbers::Matrix by = dense_constant(b);
     if ((by.array() == 0).any()) expr::fault::division_by_zero();
-    if (op == expr::Op::divide)
-      return map_terms(a, a.shape, [&](const Sparse& matrix) { return Sparse(matrix / by(0, 0)); });
+    if (op == expr::Op::divide) {
+      AffineForm result =
+          map_terms(a, a.shape, [&](const Sparse& matrix) { return Sparse(matrix / by(0, 0)); });
+      for (Product product : a.products) {
+        product.right /= by(0, 0);
+        add_product(result.products, std::move(product));
+      }
+      return result;
+    }
     return map_terms(a, a.shape, [&](const Sparse& matrix) {
       return moved(matrix, a.shape.rows, a.shape.cols, [&](const auto& it, auto& elements) {
         elements.emplace_back(it.row(), it.col(), it.value() / by(it.row(), it.col()));
@@ -216,10 +237,18 @@ class Rules {
 
   int largest_power(const AffineForm& form) const {
     int largest = 0;
-    for (const auto& [key, matrix] : form.terms)
-      for (const forall::Factor& factor : monomials_[key.first])
+    for (const int monomial : monomials_in(form))
+      for (const forall::Factor& factor : monomials_[monomial])
         largest = std::max(largest, factor.atom.power);
     return largest;
+  }
+
+  /// Adds E V F with the monomial of `product` times another one.
+  void add_with_monomials(const Product& product, int monomial, const Sparse& left,
+                          const Sparse& right, AffineForm& result) const {
+    for (const auto& [factor, both] : monomials_.product(product.monomial, monomial))
+      add_product(result.products, {both, product.unknown, product.transposed, left, right},
+                  factor);
   }
 
   /// constant + slope * (one interval variable).
@@ -312,8 +341,7 @@ struct AffineRules {
     out = rules.power(at[0], ones, at.attribute(0), Op::elementwise_product);
   }
   void operator()(Is<Op::transpose>, const At& at, AffineForm& out) const {
-    out = map_terms(at[0], transposed(at[0].shape),
-                    [](const Sparse& m) { return Sparse(m.transpose()); });
+    out = transposed(at[0]);
   }
   void operator()(Is<Op::blocks>, const At& at, AffineForm& out) const {
     out = blocks(at.instruction, at.operands);
@@ -374,6 +402,27 @@ struct AffineRules {
   }
 };
 
+/// Whether the operation takes products with matrix unknowns as they are.
+bool keeps_products(const expr::Instruction& instruction,
+                    std::span<const AffineForm* const> operands) {
+  using Op = expr::Op;
+  switch (instruction.op) {
+    case Op::add:
+    case Op::subtract:
+    case Op::negate:
+    case Op::multiply:
+    case Op::divide:
+    case Op::transpose:
+    case Op::blocks:
+    case Op::index:
+      return true;
+    case Op::scale:  // a scalar that is a product stands at many places
+      return operands[0]->products.empty();
+    default:
+      return false;
+  }
+}
+
 }  // namespace
 
 void AffineAlgebra::apply(const expr::Instruction& instruction,
@@ -384,7 +433,16 @@ void AffineAlgebra::apply(const expr::Instruction& instruction,
     return;
   }
   const Rules rules(*monomials, *unknowns);
-  expr::dispatch(AffineRules{rules}, instruction, operands, out);
+  std::vector<AffineForm> without_products;
+  std::vector<const AffineForm*> pointers(operands.begin(), operands.end());
+  if (!keeps_products(instruction, operands)) {
+    without_products.reserve(operands.size());
+    for (const AffineForm*& operand : pointers)
+      if (!operand->products.empty())
+        operand = &without_products.emplace_back(expanded(*operand));
+  }
+  expr::dispatch(AffineRules{rules}, instruction, std::span<const AffineForm* const>(pointers),
+                 out);
 }
 
 }  // namespace gainsmith::lmi

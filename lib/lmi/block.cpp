@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace gainsmith::lmi {
 
@@ -29,6 +30,8 @@ void check_finite(const Sparse& matrix, const Place& place, const std::string& n
                                     "finite: its data are too large for double");
 }
 
+constexpr double kSymmetric = 1e-12;
+
 /// Makes a coefficient exactly symmetric; InputError when it is not so up to rounding.
 Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place,
                       const std::string& name) {
@@ -37,13 +40,40 @@ Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place,
   const Sparse difference = matrix - mirrored;
   for (int k = 0; k < difference.outerSize(); ++k)
     for (Sparse::InnerIterator it(difference, k); it; ++it)
-      if (std::abs(it.value()) > 1e-12 * scale)
+      if (std::abs(it.value()) > kSymmetric * scale)
         throw InputError(place,
                          "the inequality '" + name + "' is not symmetric: elements (" +
                              std::to_string(it.row() + 1) + ", " + std::to_string(it.col() + 1) +
                              ") and (" + std::to_string(it.col() + 1) + ", " +
                              std::to_string(it.row() + 1) + ") differ; M + M' is written He(M)");
   return 0.5 * (matrix + mirrored);
+}
+
+/// Sorts the terms, of which the first `others` and the rest are sorted; those of one scalar become
+/// one.
+void merge_terms(std::vector<std::pair<int, Sparse>>& terms, std::size_t others) {
+  const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
+  std::inplace_merge(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(others),
+                     terms.end(), is_before);
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < terms.size(); ++k) {
+    if (kept > 0 && terms[kept - 1].first == terms[k].first) {
+      terms[kept - 1].second = sum_of(terms[kept - 1].second, terms[k].second, 1);
+      continue;
+    }
+    if (kept != k) terms[kept] = std::move(terms[k]);
+    ++kept;
+  }
+  terms.resize(kept);
+}
+
+/// Whether a scalar of the matrices in products also stands in a term.
+bool stands_elsewhere(const AffineForm& form) {
+  return std::any_of(form.products.begin(), form.products.end(), [&](const Product& product) {
+    const int first = product.unknown.first;
+    const auto found = form.terms.lower_bound({0, first});
+    return found != form.terms.end() && found->first.second < first + product.unknown.count();
+  });
 }
 
 }  // namespace
@@ -56,14 +86,35 @@ Block block_of(const AffineForm& form, std::string name, std::string point, bool
   block.strict = strict;
   block.size = form.shape.rows;
   if (block.size == 0) throw InputError(place, "the inequality '" + block.name + "' has no rows");
-  for (const auto& [key, matrix] : form.terms) {
+  const auto measure = [&](int i, const Sparse& matrix) {
     check_finite(matrix, place, block.name);
-    double& size = key.second == 0 ? block.constant_size : block.coefficient_size;
+    double& size = i == 0 ? block.constant_size : block.coefficient_size;
     size = std::max(size, largest_element(matrix));
+  };
+  std::vector<std::pair<int, Sparse>> of_matrices;
+  if (!form.products.empty()) {
+    std::vector<HermitianProduct> products = symmetric_part(form.products);
+    of_matrices = coefficients(products, block.size);
+    if (!stands_elsewhere(form)) block.products = std::move(products);
+  } else {
+    block.products.emplace();
   }
+  for (const auto& [i, matrix] : of_matrices) measure(i, matrix);
+  for (const auto& [key, matrix] : form.terms) measure(key.second, matrix);
   const double scale = std::max(block.constant_size, block.coefficient_size);
-  for (const auto& [key, matrix] : form.terms)
-    block.terms.emplace_back(key.second, symmetric_part(matrix, scale, place, block.name));
+  if (!form.products.empty() && !(asymmetry(form.products) <= kSymmetric * scale)) {
+    AffineForm products{form.shape, {}, form.products};
+    for (const auto& [key, matrix] : expanded(products).terms)
+      symmetric_part(matrix, scale, place, block.name);
+  }
+  for (const auto& [key, matrix] : form.terms) {
+    Sparse symmetric = symmetric_part(matrix, scale, place, block.name);
+    block.terms.emplace_back(key.second, std::move(symmetric));
+  }
+  const std::size_t others = block.terms.size();
+  block.terms.insert(block.terms.end(), std::make_move_iterator(of_matrices.begin()),
+                     std::make_move_iterator(of_matrices.end()));
+  merge_terms(block.terms, others);
   return block;
 }
 

@@ -12,7 +12,10 @@
 
 namespace gainsmith::lmi {
 
-/// One symmetric block. `terms` are (i, B_i) in the order of i, with i = 0 the constant.
+/// One symmetric block. `terms` are (i, B_i) in the order of i, with i = 0 the constant. With
+/// `products` those of scalars of matrices V are besides
+///   sum over t of He(E_t V_t F_t),
+/// and no scalar of these matrices stands elsewhere.
 struct Block {
   std::string name;    ///< of the requirement, "name.2" for the second comparison of a chain
   std::string point;   ///< "tau = 0.7", "cos(2*tau) = 1"; empty without forall
@@ -25,6 +28,7 @@ struct Block {
   std::optional<forall::Point> where;
   int size = 0;
   std::vector<std::pair<int, Sparse>> terms;
+  std::optional<std::vector<HermitianProduct>> products;
   /// b: largest |element| of B_0; c: largest |element| of the other B_i.
   double constant_size = 0;
   double coefficient_size = 0;

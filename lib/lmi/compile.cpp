@@ -106,8 +106,8 @@ void set_objective(const Inequalities& of, Lmi& lmi) {
   const auto& objective = of.design().objective;
   if (!objective) return;
   forall::MonomialTable none;
-  const AffineForm form =
-      evaluate_affine(of.bodies.link(objective->program), of.unknowns, none, of.instance.values);
+  const AffineForm form = expanded(
+      evaluate_affine(of.bodies.link(objective->program), of.unknowns, none, of.instance.values));
   for (const auto& [key, matrix] : form.terms)
     if (!std::isfinite(matrix.coeff(0, 0)))
       throw InputError(objective->place,

@@ -28,11 +28,17 @@ struct Part {
 std::vector<Part> parts_of(const AffineForm& form, const forall::MonomialTable& monomials,
                            const std::string& variable) {
   std::map<int, AffineForm> by_monomial;
-  if (form.terms.empty()) by_monomial[0].shape = form.shape;
+  if (form.terms.empty() && form.products.empty()) by_monomial[0].shape = form.shape;
   for (const auto& [key, matrix] : form.terms) {
     AffineForm& part = by_monomial[key.first];
     part.shape = form.shape;
     part.terms.emplace(std::pair(0, key.second), matrix);
+  }
+  for (Product product : form.products) {
+    AffineForm& part = by_monomial[product.monomial];
+    part.shape = form.shape;
+    product.monomial = 0;
+    part.products.push_back(std::move(product));
   }
   std::vector<Part> parts;
   for (auto& [index, part] : by_monomial)
@@ -183,6 +189,10 @@ Block bound_block(const BoundedProduct& bound, double beta) {
     matrix.setFromTriplets(list.begin(), list.end());
     whole.terms.emplace(std::pair(0, index), std::move(matrix));
   }
+  const AffineForm matrices_of_e{bound.e.shape, {}, bound.e.products};
+  add_placed(whole, {bound.s.shape, {}, bound.s.products}, 0, 0);
+  add_placed(whole, matrices_of_e, 0, n, 1 / beta);
+  add_placed(whole, transposed(matrices_of_e), n, 0, 1 / beta);
   return block_of(whole, "bound on " + bound.what, "", false, {});
 }
 
@@ -193,12 +203,6 @@ Block floor_block(const AffineForm& s, int scalar, const std::string& name) {
   identity.setIdentity();
   difference.terms.emplace(std::pair(0, scalar), -identity);
   return block_of(difference, "bound through " + name, "", false, {});
-}
-
-AffineForm transposed(const AffineForm& form) {
-  AffineForm result{{form.shape.cols, form.shape.rows}, {}};
-  for (const auto& [key, matrix] : form.terms) result.terms.emplace(key, matrix.transpose());
-  return result;
 }
 
 /// Collects the bounds of all gain formulas.

@@ -13,7 +13,7 @@ constexpr int kNone = std::numeric_limits<int>::min();
 /// log2 of the largest term of each element, in the units; kNone where there is none.
 Eigen::MatrixXi exponents_of(const AffineForm& form, const std::vector<int>& units) {
   Eigen::MatrixXi result = Eigen::MatrixXi::Constant(form.shape.rows, form.shape.cols, kNone);
-  for (const auto& [key, matrix] : form.terms) {
+  for (const auto& [key, matrix] : expanded(form).terms) {
     const int unit = key.second == 0 ? 0 : units[static_cast<std::size_t>(key.second) - 1];
     for (int column = 0; column < matrix.outerSize(); ++column)
       for (Sparse::InnerIterator it(matrix, column); it; ++it)
@@ -29,6 +29,14 @@ void scale(AffineForm& form, const Eigen::VectorXi& rows, const Eigen::VectorXi&
     for (int column = 0; column < matrix.outerSize(); ++column)
       for (Sparse::InnerIterator it(matrix, column); it; ++it)
         it.valueRef() = std::ldexp(it.value(), rows[it.row()] + columns[column]);
+  for (Product& product : form.products) {
+    for (int column = 0; column < product.left.outerSize(); ++column)
+      for (Sparse::InnerIterator it(product.left, column); it; ++it)
+        it.valueRef() = std::ldexp(it.value(), rows[it.row()]);
+    for (int column = 0; column < product.right.outerSize(); ++column)
+      for (Sparse::InnerIterator it(product.right, column); it; ++it)
+        it.valueRef() = std::ldexp(it.value(), columns[column]);
+  }
 }
 
 }  // namespace

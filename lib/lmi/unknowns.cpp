@@ -1,5 +1,7 @@
 #include "lmi/unknowns.h"
 
+#include <algorithm>
+
 namespace gainsmith::lmi {
 
 std::vector<std::pair<int, int>> Unknown::places(int k) const {
@@ -24,7 +26,7 @@ std::vector<std::pair<int, int>> Unknown::places(int k) const {
   return {{k % rows, k / rows}};
 }
 
-Unknowns::Unknowns(const std::vector<model::UnknownMatrix>& matrices) {
+Unknowns::Unknowns(const std::vector<model::UnknownMatrix>& matrices, int large) {
   for (const model::UnknownMatrix& declared : matrices) {
     Unknown unknown;
     unknown.name = declared.name;
@@ -38,6 +40,16 @@ Unknowns::Unknowns(const std::vector<model::UnknownMatrix>& matrices) {
     size_ += unknown.count;
     list_.push_back(std::move(unknown));
   }
+  constexpr int kFew = 3;
+  const auto is_matrix = [](const Unknown& unknown) {
+    return unknown.structure == model::Structure::symmetric ||
+           unknown.structure == model::Structure::full;
+  };
+  const bool some = std::any_of(list_.begin(), list_.end(), [&](const Unknown& unknown) {
+    return is_matrix(unknown) && unknown.count >= large;
+  });
+  for (Unknown& unknown : list_)
+    unknown.whole = some && is_matrix(unknown) && unknown.count > kFew;
 }
 
 const Unknown* Unknowns::find(const std::string& name) const {

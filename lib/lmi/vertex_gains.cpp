@@ -67,8 +67,8 @@ class AtomSearch {
         AffineForm form = evaluate_at(held_at(comparison.difference, functions_, 0), unknowns_,
                                       monomials, instance_.values, point);
         remove_noise(form, monomials);
-        for (const auto& [key, matrix] : form.terms)
-          for (const forall::Factor& factor : monomials[key.first])
+        for (const int monomial : monomials_in(form))
+          for (const forall::Factor& factor : monomials[monomial])
             if (factor.variable == tau &&
                 std::find(atoms.begin(), atoms.end(), factor.atom) == atoms.end())
               atoms.push_back(factor.atom);
@@ -121,6 +121,8 @@ AffineForm average(AffineForm a, const AffineForm& b) {
     const auto [found, fresh] = a.terms.try_emplace(key, 0.5 * matrix);
     if (!fresh) found->second = found->second + 0.5 * matrix;
   }
+  for (Product& product : a.products) product.right *= 0.5;
+  for (const Product& product : b.products) add_product(a.products, product, 0.5);
   return a;
 }
 

@@ -38,8 +38,10 @@ class AffineTest : public ::testing::Test {
     return expr::compile(expr::parse({text, "test"}), scope);
   }
 
-  AffineForm form(const std::string& text) {
-    return evaluate_affine(program(text), unknowns_, monomials_, yaml_.instance.values);
+  AffineForm form(const std::string& text) { return form(text, unknowns_); }
+
+  AffineForm form(const std::string& text, const Unknowns& unknowns) {
+    return evaluate_affine(program(text), unknowns, monomials_, yaml_.instance.values);
   }
 
   static double value(const forall::Monomial& monomial, double tau) {
@@ -49,16 +51,30 @@ class AffineTest : public ::testing::Test {
   /// The form at x and tau.
   numbers::Matrix at(const AffineForm& form, const std::vector<double>& x, double tau) const {
     numbers::Matrix sum = numbers::Matrix::Zero(form.shape.rows, form.shape.cols);
-    for (const auto& [key, matrix] : form.terms)
+    for (const auto& [key, matrix] : expanded(form).terms)
       sum += value(monomials_[key.first], tau) *
              (key.second == 0 ? 1.0 : x[static_cast<std::size_t>(key.second) - 1]) *
              numbers::Matrix(matrix);
     return sum;
   }
 
-  /// Compares the affine form with the text evaluated over double at random points.
+  /// The form with numbers for its monomials, at x.
+  numbers::Matrix at_numbers(const AffineForm& form, const std::vector<double>& x,
+                             double tau) const {
+    std::vector<double> values;
+    for (int k = 0; k < monomials_.size(); ++k) values.push_back(value(monomials_[k], tau));
+    return value_of(at_vertex(form, values), x);
+  }
+
+  /// Compares the affine form with the text evaluated over double at random points; unknowns stand
+  /// in it by their scalars, and as matrices in products.
   void expect_same(const std::string& text) {
-    const AffineForm affine = form(text);
+    expect_same(text, unknowns_);
+    expect_same(text, matrices_);
+  }
+
+  void expect_same(const std::string& text, const Unknowns& unknowns) {
+    const AffineForm affine = form(text, unknowns);
     const expr::Program direct = program(text);
     std::uniform_real_distribution<double> number(-2, 2);
     for (int trial = 0; trial < 5; ++trial) {
@@ -72,11 +88,17 @@ class AffineTest : public ::testing::Test {
       EXPECT_LT((at(affine, x, tau) - expected).cwiseAbs().maxCoeff(),
                 1e-11 * (1 + expected.norm()))
           << text;
+      EXPECT_LT((at_numbers(affine, x, tau) - expected).cwiseAbs().maxCoeff(),
+                1e-11 * (1 + expected.norm()))
+          << text;
     }
   }
 
   tests::YamlProblem yaml_{kProblem};
   Unknowns unknowns_ = Inequalities(yaml_.instance).unknowns;
+  Unknowns matrices_ = Unknowns(
+      model::unknown_matrices(*yaml_.instance.design, model::polynomials(*yaml_.instance.design)),
+      1);
   forall::MonomialTable monomials_{{forall::testing::interval("tau", -2, 2)}};
   std::mt19937 generator_{7};
 };
@@ -109,8 +131,32 @@ TEST_F(AffineTest, AgreesWithTheTextOverDouble) {
        {"P", "He(P*A - Y*C)", "[P, Y; *, g*I]", "-P/2 + 3*A'*P*A", "trace(P) + 2*g",
         "diag([g, 2*g, 1])", "diag(P)", "P(1:2, :)", "Y'", "ones(2, 2)*g", "expm(A)*P",
         "blkdiag(P, g)", "inv(A)'*Y*C - Y*C", "(1/3)*P + eye(3)", "[g, 1; 1, g]*C",
-        "C*P*C' + trace(Y*C)*I", "(g + 1)*inv(A)"})
+        "C*P*C' + trace(Y*C)*I", "(g + 1)*inv(A)", "(C(1, :)*P*C(2, :)')*A", "P.*A - (Y*C)./(A.*A + ones(3, 3))",
+        "(P*A)(2:3, 1:2)", "[Y', C*P; P, 2*P*A]", "P^1 - P", "sum(P)", "diag(Y(:, 1))*A"})
     expect_same(text);
+}
+
+TEST_F(AffineTest, ProductsWithTheSameSideAreOne) {
+  const auto products = [this](const std::string& text) {
+    const AffineForm affine = form(text, matrices_);
+    EXPECT_EQ(form(text).terms.size(), expanded(affine).terms.size()) << text;
+    return affine.products.size();
+  };
+  EXPECT_EQ(products("P*A + 0.3*P"), 1U);
+  EXPECT_EQ(products("A'*P*A - 2*(A'*P)"), 1U);
+  EXPECT_EQ(products("He(P*A)"), 2U);
+  EXPECT_EQ(products("Y*C - 3*(Y*C) + 2*(Y*C)"), 0U);
+  EXPECT_EQ(products("tau*P + tau*(P*A) + P"), 2U);
+  EXPECT_EQ(products("diag(P)"), 0U);
+}
+
+TEST_F(AffineTest, ProductsAreTheSameFormAsTheirTerms) {
+  const std::string text = "tau*(P*A)' + Y*C - g*A";
+  EXPECT_TRUE(is_same(form(text, matrices_), form(text)));
+  EXPECT_FALSE(is_same(form(text, matrices_), form("Y*C")));
+  EXPECT_FALSE(form("P", matrices_).is_constant());
+  EXPECT_TRUE(form("P", matrices_).has_unknown());
+  EXPECT_EQ(monomials_in(form(text, matrices_)), monomials_in(form(text)));
 }
 
 TEST_F(AffineTest, AgreesWithTheTextForFunctionsOfTau) {

@@ -1,0 +1,56 @@
+// Internal to lmi: collects the elements of one sparse matrix after the other.
+#pragma once
+
+#include <vector>
+
+#include "lmi/sparse.h"
+
+namespace gainsmith::lmi {
+
+/// Elements of one place add up in the order in which they come; what cancels is left out.
+class Gatherer {
+ public:
+  Gatherer(int rows, int columns);
+
+  void add(int row, int column, double value) {
+    const auto at = static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) +
+                    static_cast<std::size_t>(row);
+    if (stands_[at] != 0) {
+      values_[at] += value;
+      return;
+    }
+    stands_[at] = 1;
+    values_[at] = value;
+    int& count = counts_[static_cast<std::size_t>(column)];
+    touched_[static_cast<std::size_t>(column) * static_cast<std::size_t>(rows_) +
+             static_cast<std::size_t>(count++)] = row;
+    ++elements_;
+  }
+  /// Both (row, column) and (column, row), which is once where they are the same place.
+  void add_mirrored(int row, int column, double value) {
+    if (row <= column)
+      add(row, column, value);
+    else
+      add(column, row, value);
+  }
+
+  /// The matrix; then all is zero again.
+  Sparse take();
+  /// The symmetric matrix whose upper triangle was added.
+  Sparse take_mirrored();
+
+ private:
+  /// Visits the elements that are not 0 column by column, and forgets them.
+  template <class Visit>
+  void drain(Visit visit);
+
+  int rows_;
+  int columns_;
+  int elements_ = 0;
+  std::vector<double> values_;
+  std::vector<char> stands_;
+  std::vector<int> touched_;  ///< the rows that stand in each column
+  std::vector<int> counts_;   ///< of these, for each column
+};
+
+}  // namespace gainsmith::lmi
