@@ -259,20 +259,20 @@ Point<Out> restore(const Problem& problem, const Presolved& presolved, const Vec
   return point;
 }
 
-void reduce(const Problem& problem, const Presolved& presolved, const Point<double>& point,
-            Vector<double>& x, Blocks<double>& X, Blocks<double>& Y) {
+template <typename T>
+void reduce(const Problem& problem, const Presolved& presolved, const Point<T>& point, Vector<T>& x,
+            Blocks<T>& X, Blocks<T>& Y) {
   const Recovery& r = presolved.recovery;
   for (std::size_t i = 0; i < r.constraint.size(); ++i)
     x[static_cast<Eigen::Index>(i)] =
-        point.x[static_cast<std::size_t>(r.constraint[i])] / (r.gamma_f * r.s[i]);
-  const auto set = [&](const Recovery::Row& row, const Recovery::Row& column, double& to_X,
-                       double& to_Y) {
+        point.x[static_cast<std::size_t>(r.constraint[i])] / T(r.gamma_f * r.s[i]);
+  const auto set = [&](const Recovery::Row& row, const Recovery::Row& column, T& vx, T& vy) {
     const auto b = static_cast<std::size_t>(row.block);
     const Block& block = problem.blocks[b];
     const auto at =
         static_cast<std::size_t>(block.diagonal ? row.row : row.row + block.size * column.row);
-    to_X = point.X[b][at] / r.gamma_f;
-    to_Y = point.Y[b][at] / r.gamma_c;
+    vx = point.X[b][at] / T(r.gamma_f);
+    vy = point.Y[b][at] / T(r.gamma_c);
   };
   for (std::size_t b = 0; b < r.dense.size(); ++b) {
     const auto& rows = r.dense[b];
@@ -283,11 +283,18 @@ void reduce(const Problem& problem, const Presolved& presolved, const Point<doub
         set(rows[i], rows[j], block_X(p, q), block_Y(p, q));
       }
   }
+  auto linear_X = X.linear(), linear_Y = Y.linear();
   for (std::size_t k = 0; k < r.linear.size(); ++k) {
     const auto p = static_cast<Eigen::Index>(k);
-    set(r.linear[k], r.linear[k], X.linear()[p], Y.linear()[p]);
+    set(r.linear[k], r.linear[k], linear_X[p], linear_Y[p]);
   }
 }
+
+template void reduce<double>(const Problem&, const Presolved&, const Point<double>&,
+                             Vector<double>&, Blocks<double>&, Blocks<double>&);
+template void reduce<DoubleDouble>(const Problem&, const Presolved&, const Point<DoubleDouble>&,
+                                   Vector<DoubleDouble>&, Blocks<DoubleDouble>&,
+                                   Blocks<DoubleDouble>&);
 
 #define GAINSMITH_INSTANTIATE(Out, T)                                                     \
   template Point<Out> restore<Out, T>(const Problem&, const Presolved&, const Vector<T>&, \

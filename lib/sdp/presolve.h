@@ -59,8 +59,9 @@ template <typename Out, typename T>
 Point<Out> restore(const Problem& problem, const Presolved& presolved, const Vector<T>& x,
                    const Blocks<T>& X, const Blocks<T>& Y, const T& scale);
 
-/// The way back of a point of the original problem, in double.
-void reduce(const Problem& problem, const Presolved& presolved, const Point<double>& point,
-            Vector<double>& x, Blocks<double>& X, Blocks<double>& Y);
+/// Back from there, with scale = 1.
+template <typename T>
+void reduce(const Problem& problem, const Presolved& presolved, const Point<T>& point, Vector<T>& x,
+            Blocks<T>& X, Blocks<T>& Y);
 
 }  // namespace gainsmith::sdp

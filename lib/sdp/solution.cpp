@@ -1,5 +1,8 @@
 #include "sdp/solution.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace gainsmith::sdp {
 
 std::string to_string(Status status) {
@@ -34,6 +37,12 @@ std::string to_string(Cause cause) {
       return "numerical-breakdown";
   }
   return "numerical-breakdown";
+}
+
+double worst(const Solution& solution) {
+  double result = 0;
+  for (const double error : solution.dimacs) result = std::max(result, std::abs(error));
+  return result;
 }
 
 }  // namespace gainsmith::sdp

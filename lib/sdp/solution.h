@@ -89,4 +89,7 @@ struct Solution {
   double seconds = 0;                ///< wall time; never part of a result that must repeat
 };
 
+/// The worst of the DIMACS errors.
+double worst(const Solution& solution);
+
 }  // namespace gainsmith::sdp

@@ -15,6 +15,7 @@
 #include "sdp/face.h"
 #include "sdp/forecast.h"
 #include "sdp/ipm.h"
+#include "sdp/nearby.h"
 #include "sdp/presolve.h"
 #include "sdp/report.h"
 
@@ -36,13 +37,6 @@ int digits_of(const std::string& precision) {
         "sdp: precision must be auto, double, quad or a number of digits from 1 to " +
         std::to_string(kWideDigits) + ", not '" + precision + "'");
   return digits;
-}
-
-/// The worst of the DIMACS errors.
-double worst(const Solution& solution) {
-  double result = 0;
-  for (const double error : solution.dimacs) result = std::max(result, std::abs(error));
-  return result;
 }
 
 /// What the run showed, judged on the raw problem alone.
@@ -83,10 +77,12 @@ class Ladder {
   Solution climb(int digits, const Iterate<double>* from = nullptr) {
     try {
       rise(digits, from);
+      settle();
+      if (!from) go_nearby();
     } catch (const Stopped&) {
       best_.cause = Cause::interrupted;
+      settle();
     }
-    settle();
     return std::move(best_);
   }
 
@@ -142,8 +138,9 @@ class Ladder {
   static constexpr double kAim = 0.4;
   /// Part of the tolerance by which X of a solution on a face may miss its equation.
   static constexpr double kShift = 0.1;
-  /// Multiplications an iteration up to which a wider arithmetic is tried unasked.
-  static constexpr double kQuadCost = 1e9, kWideCost = 6e4;
+  /// Multiplications an iteration up to which a wider arithmetic is tried unasked, and the program
+  /// of nearby.h.
+  static constexpr double kQuadCost = 1e9, kWideCost = 6e4, kNearbyCost = 2e6;
 
   template <typename T>
   void rise_in(double factor) {
@@ -166,6 +163,9 @@ class Ladder {
     ipm.start_far(factor);
     run(ipm, Model::fixed);
   }
+
+  /// Where every arithmetic ends undecided, but at a feasible x: what nearby.h makes of it.
+  void go_nearby();
 
   /// Where the equations force a face: the program on it, and its solution here.
   void descend(const Ipm<double>& narrow);
@@ -264,8 +264,7 @@ void Ladder::descend(const Ipm<double>& narrow) {
   const Iterate<double> from = restrict_to(
       *face, problem_, restore<double>(problem_, presolved_, end.x, end.X, end.Y, end.tau),
       restricted, presolved);
-  const Solution found =
-      Ladder(restricted, presolved, options_, iterations_).climb(0, &from);
+  const Solution found = Ladder(restricted, presolved, options_, iterations_).climb(0, &from);
   iterations_ = best_.iterations = found.iterations;
   if (stopped(found.cause)) best_.cause = found.cause;
   if (found.status != Status::optimal) return;
@@ -281,6 +280,16 @@ void Ladder::descend(const Ipm<double>& narrow) {
   lifted.iterations = iterations_;
   store(*point, lifted);
   best_ = std::move(lifted);
+}
+
+void Ladder::go_nearby() {
+  if (over() || !wider_ || cost() > kNearbyCost) return;
+  Solution found = solve_nearby(problem_, presolved_, options_, iterations_);
+  best_.iterations = found.iterations = iterations_;
+  if (stopped(found.cause)) best_.cause = found.cause;
+  if (found.status != Status::optimal) return;
+  found.precision_reason = reason_;
+  best_ = std::move(found);
 }
 
 /// Multiplications of one iteration: products, factors and the Schur complement.
@@ -311,9 +320,9 @@ Solution free_descent(const Problem& problem, const Presolved& presolved, const 
   return solution;
 }
 
-/// One sentence for a person about a point that decides nothing.
+/// One sentence for a person about a point that decides nothing, or less than it seems to.
 std::string explain(const Solution& solution) {
-  if (solution.status != Status::undecided) return {};
+  if (solution.status != Status::undecided) return solution.message;
   return "stopped (" + to_string(solution.cause) + ") with the objectives in [" +
          decimal17(std::min(solution.dual_objective, solution.primal_objective)) + ", " +
          decimal17(std::max(solution.dual_objective, solution.primal_objective)) +
