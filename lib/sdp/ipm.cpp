@@ -12,10 +12,9 @@ namespace {
 
 /// Of the way to the boundary: closer when the predictor got far.
 constexpr double kShortest = 0.9, kLongest = 0.98;
-/// Iterations without a better point before the arithmetic counts as exhausted: soon once the point
-/// is good to three digits, late while the errors may still rise before they fall.
+/// Iterations without a better point before the arithmetic counts as exhausted once a solution is
+/// in sight; before, errors may still rise before they fall.
 constexpr int kPatienceNear = 4;
-constexpr double kNear = 1e-3;
 /// Far from a solution, a point that is better by less than this factor is no progress.
 constexpr double kProgress = 0.5;
 /// A step below this gets nowhere.
@@ -184,7 +183,7 @@ std::optional<Cause> Ipm<T>::stop() const {
     return Cause::certificate;
   if (!std::isfinite(residuals_.worst())) return Cause::numerical_breakdown;
   if (is_enough()) return Cause::enough;
-  if (since_best_ > (best_error_ < kNear ? kPatienceNear : run_.patience)) return Cause::stalled;
+  if (since_best_ > (best_error_ < kInSight ? kPatienceNear : run_.patience)) return Cause::stalled;
   return limits();
 }
 
@@ -225,7 +224,7 @@ void Ipm<T>::keep_best() {
   if (!(error < best_error_)) return;
   best_error_ = error;
   best_ = point_;
-  if (error > kNear && !(error < kProgress * progress_error_)) return;
+  if (error > kInSight && !(error < kProgress * progress_error_)) return;
   progress_error_ = error;
   since_best_ = 0;
 }

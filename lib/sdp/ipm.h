@@ -13,6 +13,10 @@
 
 namespace gainsmith::sdp {
 
+/// From this error on a solution is in sight: it ends what is tried without one, and is where an
+/// arithmetic hands over to the next.
+inline constexpr double kInSight = 1e-3;
+
 /// When to leave the rest to a wider arithmetic: as soon as a direction is imprecise (newton.h), or
 /// only where this arithmetic is exhausted.
 enum class Leave { never, exhausted, imprecise };

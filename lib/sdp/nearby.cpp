@@ -13,10 +13,9 @@ namespace {
 
 /// Parts of the tolerance that w and S take, and that the program is solved to.
 constexpr double kShare = 0.8, kShareSolved = 0.2;
-/// The error from which on the run towards centres is in 31 digits; the errors of centres, in
-/// tolerances; the primal infeasibility that x of one may have.
-constexpr double kHandOver = 1e-3, kFeasible = 1e-18;
+/// The errors of centres, in tolerances; the primal infeasibility that x of one may have.
 constexpr double kCentres[] = {10000, 3000, 1000, 500};
+constexpr double kFeasible = 1e-18;
 /// How many programs are solved: with another S, or where S can be no larger, around another
 /// centre.
 constexpr int kPrograms = 4;
@@ -150,7 +149,7 @@ Centres centres_of(const Problem& problem, const Presolved& presolved, const Opt
   Centres centres;
   Ipm<double> narrow(problem, presolved, options);
   Ipm<DoubleDouble> wide(problem, presolved, options);
-  Run near{.aim = kHandOver, .feasibility = kHandOver, .first_iteration = iterations};
+  Run near{.aim = kInSight, .feasibility = kInSight, .first_iteration = iterations};
   narrow.start_far(1);
   narrow.run(near);
   near.first_iteration = narrow.iterations();

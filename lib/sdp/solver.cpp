@@ -114,20 +114,13 @@ class Ladder {
     if (over() || cost() > kWideCost) return;
     reason_ = reason(name_of<DoubleDouble>());
     Ipm<Decimal100> widest(problem_, presolved_, options_);
-    // 100 digits are dear: only for what 31 digits bring as near as kHandOver.
+    // 100 digits are dear: only for what 31 digits bring as near as kInSight.
     relay(wide, Leave::never, widest, kFarthest);
   }
 
-  /// An error that shows no solution in sight: then the homogeneous model, which is slower but
-  /// finds infeasibility on any problem, has its turn.
-  static constexpr double kHopeless = 1e-3;
   /// How much farther than far_X, far_Y a run in wide arithmetic starts: problems that need it tend
   /// to have solutions of great norm, and it can afford the cancellation.
   static constexpr double kFarther = 1e4, kFarthest = 1e10;
-  /// The worst error at which an arithmetic hands over to the next in a relay.
-  static constexpr double kHandOver = 1e-3;
-  /// Iterations without progress before the first leg of a relay gives up.
-  static constexpr int kRelayPatience = 10;
   /// Where double ends farther than kIllPosed tolerances from an answer, the problem may be so ill
   /// posed that points which satisfy its equations to 1e-15 miss the optimum by any amount: then
   /// they must hold to kWideFeasibility in wide arithmetic.
@@ -170,25 +163,26 @@ class Ladder {
   /// Where the equations force a face: the program on it, and its solution here.
   void descend(const Ipm<double>& narrow);
 
-  /// Where no solution is in sight: the homogeneous model, once.
+  /// Where no solution is in sight: the homogeneous model, which is slower but finds infeasibility
+  /// on any problem, once.
   void search_both_ways(Ipm<double>& narrow) {
-    if (over() || best_error_ <= kHopeless || searched_) return;
+    if (over() || best_error_ <= kInSight || searched_) return;
     searched_ = true;
     narrow.start_at_identity();
     run(narrow, Model::homogeneous);
   }
 
-  /// From a far point: `narrow` comes as near as kHandOver, well before its digits run out, or to
+  /// From a far point: `narrow` comes as near as kInSight, well before its digits run out, or to
   /// where it leaves, and `wide` goes on from there. False when `narrow` comes to nothing: what it
   /// cannot find its way through, more digits rarely can.
   template <typename Narrow, typename Wide>
   bool relay(Ipm<Narrow>& narrow, Leave leave, Ipm<Wide>& wide, double factor) {
     narrow.start_far(factor);
     const Cause cause = narrow.run({.model = Model::fixed,
-                                    .aim = kHandOver,
-                                    .feasibility = kHandOver,
+                                    .aim = kInSight,
+                                    .feasibility = kInSight,
                                     .leave = leave,
-                                    .patience = kRelayPatience,
+
                                     .first_iteration = iterations_});
     iterations_ = best_.iterations = narrow.iterations();
     if (cause != Cause::converged && !narrow.left()) {
