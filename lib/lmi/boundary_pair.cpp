@@ -82,6 +82,10 @@ PairResiduals pair_residuals(const std::vector<const WideBlock*>& blocks,
     result.worst = std::max(result.worst, largest(result.c.back()));
     add_residuals(*blocks[k], Y, result.r, scale);
   }
+  if (pair.violated) {
+    result.r.front() = 0;
+    result.r.back() += 1;
+  }
   for (std::size_t i = 0; i < result.r.size(); ++i)
     if (const double of = scale[static_cast<Index>(i)]; of > 0)
       result.worst = std::max(result.worst, size_of(result.r[i]) / std::max(of, 1e-3));
@@ -141,8 +145,10 @@ struct BoundaryPart {
 
 class System {
  public:
-  System(const std::vector<const WideBlock*>& blocks, std::size_t unknowns)
-      : blocks_(blocks), unknowns_(static_cast<Index>(unknowns)) {}
+  System(const std::vector<const WideBlock*>& blocks, const BoundaryPair& pair)
+      : blocks_(blocks),
+        unknowns_(static_cast<Index>(pair.x.size())),
+        first_(pair.violated ? 1 : 0) {}
 
   /// False where the ranges are not told apart.
   bool set_up(const BoundaryPair& pair, double damping) {
@@ -172,7 +178,8 @@ class System {
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
       known.push_back(of_complementarity(parts_[k], residuals.c[k].unaryExpr(scaled), w));
       for (const auto& [i, elements] : blocks_[k]->terms)
-        for (const auto& e : elements) f[i] -= as<double>(e.mid) * known[k](e.row, e.column);
+        for (const auto& e : elements)
+          if (i >= first_) f[i] -= as<double>(e.mid) * known[k](e.row, e.column);
     }
     const auto [dx, dS] = solve(f, w);
     for (Index i = 0; i < unknowns_; ++i)
@@ -198,6 +205,7 @@ class System {
     part.across = Matrix::Zero(U.cols() * rank, unknowns_);
     Matrix BV(block.size, rank);
     for (const auto& [i, elements] : block.terms) {
+      if (i < first_) continue;
       spend(static_cast<double>(rank *
                                 (block.size * block.size + static_cast<Index>(elements.size()))) *
             kDoubleWork);
@@ -301,6 +309,7 @@ class System {
 
   const std::vector<const WideBlock*>& blocks_;
   const Index unknowns_;
+  const int first_;  ///< of the unknowns that are not fixed
   std::vector<BoundaryPart> parts_;
   Matrix A_;  ///< elements v <= w, with their roots, as dS and w
   Matrix H_;
@@ -326,7 +335,7 @@ bool polish(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
   constexpr double kLeast = 1e-9, kMost = 1e-3, kAboveResidual = 1e3;  // of the damping
   constexpr double kLess = 1e-2;
   constexpr int kMostSystems = 8;
-  System system(blocks, pair.x.size());
+  System system(blocks, pair);
   PairResiduals residuals = pair_residuals(blocks, pair);
   double damping = std::clamp(kAboveResidual * residuals.worst, kLeast, kMost);
   bool is_set_up = false;

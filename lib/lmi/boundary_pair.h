@@ -15,6 +15,10 @@
 // double; residuals (1) and the pair have 100 digits (Carson & Higham 2018): some ten digits a
 // step.
 //
+// Beside the least violation s < 0 of inequalities with constant parts (formulate_violation) the
+// same holds of B_k(x) - s I with x_0 fixed: its multiplier has no equation, and s is one more
+// unknown, with the equation tr Y = 1.
+//
 // What comes of it is checked like any other multipliers (refutation.h).
 #pragma once
 
@@ -29,6 +33,7 @@ namespace gainsmith::lmi {
 struct BoundaryPair {
   std::vector<Decimal100> x;  ///< x_0 (0 without a constant part), x_1, ..., x_m
   std::vector<numbers::MatrixOf<Decimal100>> Y;
+  bool violated = false;  ///< x_0 is fixed, and s the last of x
 };
 
 /// Makes (1) hold to some 90 digits, and Y_k a product V S V' of few columns. False, and `pair` of
