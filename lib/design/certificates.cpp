@@ -34,7 +34,7 @@ class Certificates {
 
   /// One program in double, of the inequalities as they stand.
   lmi::Refutation by_violation(const Solve& solve) const {
-    if (!formulation_.homogenised) return {};
+    if (!in_double() || !formulation_.homogenised || !posed_.lmi.stands_for_points()) return {};
     const lmi::Formulation violation = lmi::formulate_violation(posed_.lmi);
     const sdp::Solution solution = solve(violation.problem, {"double", 1e-10});
     if (solution.x.empty() || !(lmi::interior_margin(solution) < 0)) return {};
@@ -105,11 +105,7 @@ lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
 
 lmi::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
                                        const sdp::Solution& solution) {
-  const Certificates certificates(posed, {}, formulation);
-  auto found = certificates.exact(solution, lmi::Exactness::in_double);
-  if (!found.exact) found = certificates.on_boundary(solution);
-  if (!found.exact) found = certificates.inside(solution);
-  return found;
+  return Certificates(posed, {}, formulation).exact(solution, lmi::Exactness::in_double);
 }
 
 }  // namespace gainsmith::design

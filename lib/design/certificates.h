@@ -19,7 +19,7 @@ lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
                                  const lmi::Formulation& formulation, const sdp::Solution& solution,
                                  const Solve& solve);
 
-/// The same of certificates that are exact and take little time, or nothing.
+/// The first of them alone.
 lmi::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
                                        const sdp::Solution& solution);
 

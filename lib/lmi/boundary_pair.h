@@ -11,8 +11,9 @@
 //   [ -H  A' ] [dx]   [f]     H_ij = 2 sum_k tr(S V'B_i U Lambda^-1 U'B_j V),  A dx = V'B(dx)V (2)
 //   [  A  0  ] [dS] = [w]     w_ab = -(V'c V)_ab / (s_a + s_b)
 // The solutions are manifolds (the two faces), so (2) is singular and consistent up to second
-// order: it is solved with H + d I and d I in place of H and 0, and refined. Matrices of (2) are
-// double; residuals (1) and the pair have 100 digits (Carson & Higham 2018): some ten digits a
+// order: it is solved with H + d I and d I in place of H and 0. Near the solution d is small and
+// the step is refined; further off d is in proportion to the residual, and stays. Matrices of (2)
+// are double; residuals (1) and the pair have 100 digits (Carson & Higham 2018): some ten digits a
 // step.
 //
 // Beside the least violation s < 0 of inequalities with constant parts (formulate_violation) the
