@@ -61,7 +61,8 @@ void add_residuals(const WideBlock& block, const Wide& Y, std::vector<Decimal100
 }
 
 constexpr double kLeastDamping = 1e-9;  // refinement undoes it
-constexpr double kPairSettled = 1e-92;
+constexpr double kPairSettled = 1e-90;
+constexpr double kPairEnough = 1e-80;  // where steps lead no further
 
 /// The residuals (1) and how large they are.
 struct PairResiduals {
@@ -241,14 +242,14 @@ class System {
     for (Index v = 0, at = 0; v < rank; ++v)
       for (Index u = 0; u < U.cols(); ++u) weighed.row(at++) *= std::sqrt(2 * s[v] / lambda[u]);
     const auto m = static_cast<double>(unknowns_);
-    spend(m * m * static_cast<double>(weighed.rows()) * kDoubleWork);
+    spend(m * m * static_cast<double>(weighed.rows()) * kBlockWork);
     H_.selfadjointView<Eigen::Lower>().rankUpdate(weighed.transpose());
   }
 
   bool factor(double damping) {
     H_.triangularView<Eigen::StrictlyUpper>() = H_.transpose();
     const auto m = static_cast<double>(unknowns_), q = static_cast<double>(A_.rows());
-    spend((m * m * m / 3 + m * m * q + q * q * m + q * q * q / 3) * kDoubleWork);
+    spend((m * m * m / 3 + m * m * q + q * q * m + q * q * q / 3) * kBlockWork);
     Matrix upper = H_;
     upper.diagonal().array() += damping;
     upper_.emplace(upper);
@@ -363,14 +364,14 @@ bool polish(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
   bool is_set_up = false;
   int systems = 0;
   while (!(residuals.worst() <= kPairSettled)) {
-    if (!is_set_up && (systems++ == kMostSystems || !system.set_up(pair, damping))) return false;
+    if (!is_set_up && (systems++ == kMostSystems || !system.set_up(pair, damping))) break;
     is_set_up = true;
     BoundaryPair next = pair;
     system.move(residuals, next);
     PairResiduals left = pair_residuals(blocks, next);
     const double share = left.share_of(residuals);
     if (!(share <= kFails)) {
-      if (damping <= kLeastDamping) return false;
+      if (damping <= kLeastDamping) break;
       damping = std::max(kLeastDamping, kLess * damping);
       is_set_up = false;
       continue;
@@ -381,6 +382,7 @@ bool polish(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
     pair = std::move(next);
     residuals = std::move(left);
   }
+  if (!(residuals.worst() <= kPairEnough)) return false;
   for (Wide& Y : pair.Y) cut(Y);
   return true;
 }
