@@ -72,8 +72,7 @@ void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
   const bool exact = std::all_of(plan.inequalities.begin(), plan.inequalities.end(),
                                  [](const forall::Imposed& imposed) { return imposed.exact; });
   if (exact) {
-    gains.solver.add_message(
-        blunt_text(gains.certificate->omega, !gains.solver.out_of_allowance));
+    gains.solver.add_message(blunt_text(gains.certificate->omega, !gains.solver.out_of_allowance));
     gains.certificate.reset();
     return;
   }
