@@ -44,6 +44,8 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
   constexpr double kShortest = 0.01;  // of an interval that begins at no scalar
   std::vector<std::string> commands;
   if (gains.verdict == model::Verdict::yes) return commands;
+  if (gains.verdict == model::Verdict::undecided && gains.solver.out_of_allowance)
+    commands.push_back("gainsmith synth " + quoted(file) + " --effort full");
   if (gains.verdict == model::Verdict::undecided)
     commands.push_back("gainsmith explain " + quoted(file));
   // What the output does not show no interval shows.

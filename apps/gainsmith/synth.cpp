@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <string>
 
 #include "base/file.h"
+#include "base/stop.h"
 #include "design/optimize.h"
 #include "design/synthesize.h"
 #include "gainsmith/advice.h"
@@ -31,18 +34,20 @@ struct SynthOptions {
   bool json = false;
 };
 
-/// Why there are no gains, in one line.
-std::string reason(const model::Instance& instance, const model::Gains& gains) {
-  const auto conflict = design::find_conflict(instance, gains, {});
+/// Why there are no gains, in one line; `spent`: the work of finding that there are none.
+std::string reason(const model::Instance& instance, const model::Gains& gains, double spent) {
+  constexpr double kLeast = 0.1, kMost = 1, kTimes = 1.5;
+  const auto conflict =
+      design::guess_conflict(instance, gains, {}, std::clamp(kTimes * spent, kLeast, kMost));
   return explanation_line(conflict.value(), design::find_reaches(instance, {}));
 }
 
 /// Below the result: why, what to try next, where gains go.
 void say_more(const SynthOptions& options, const model::Instance& instance,
-              const model::Gains& gains) {
+              const model::Gains& gains, double spent) {
   const bool to_stdout = options.output == "-";
   if (gains.verdict == model::Verdict::no) {
-    const std::string why = reason(instance, gains);
+    const std::string why = reason(instance, gains, spent);
     check_stop();
     print_report("why         " + why + "\n", to_stdout);
   }
@@ -65,7 +70,13 @@ ExitCode synth(const SynthOptions& options) {
   const bool write_first = !options.sdpa.empty() && (request.empty() || options.only_write);
   if (write_first) write_program(options.sdpa, instance);
   if (options.only_write) return ExitCode::yes;
-  const model::Gains gains = design::synthesize_searched(instance, request, options.threads, {});
+  double spent = 0;
+  const model::Gains gains = [&] {
+    const Allowance work(std::numeric_limits<double>::infinity());
+    model::Gains found = design::synthesize_searched(instance, request, options.threads, {});
+    spent = work.spent();
+    return found;
+  }();
   {
     const Telling telling;
     if (!options.sdpa.empty() && !write_first)
@@ -76,7 +87,7 @@ ExitCode synth(const SynthOptions& options) {
         options.json);
   }
   try {
-    if (!options.json) say_more(options, instance, gains);
+    if (!options.json) say_more(options, instance, gains, spent);
   } catch (const Stopped&) {
     // The result is there.
   }

@@ -39,6 +39,7 @@ inline void check_stop() {
 
 /// Seconds of one operation, a multiplication with an addition.
 constexpr double kDoubleWork = 1.5e-10;
+constexpr double kBlockWork = 3e-11;  // in products and factors of large matrices of doubles
 constexpr double kQuadWork = 4e-9;
 constexpr double kWideWork = 1.2e-7;
 

@@ -169,11 +169,12 @@ Interior::Solved solve_interior(const Posed& posed, Interior& interior, Attempt&
 }
 
 /// The multipliers of the first round, and in more digits also those of the rows that they live on.
-void refute(const Posed& posed, Interior& interior, Interior::Solved solved, Attempt& result) {
+void refute(const Posed& posed, const Solve& solve, Interior& interior, Interior::Solved solved,
+            Attempt& result) {
   const int most_restrictions = result.question.single ? 0 : 3;
   for (int k = 0;; ++k) {
     const lmi::Refutation found =
-        find_certificate(posed, result.question.effort, solved.formulation, solved.solution);
+        find_certificate(posed, result.question.effort, solved.formulation, solved.solution, solve);
     const bool better = !result.refutation || found.exact || found.omega < result.refutation->omega;
     if (better) result.refutation = found;
     if (result.refuted() && !result.refutation->exact && k == 0)
@@ -181,8 +182,8 @@ void refute(const Posed& posed, Interior& interior, Interior::Solved solved, Att
           !few.empty()) {
         // On the coordinates that they live on certificates are exact, as a rule.
         Interior::Solved inner = interior({}, few);
-        const lmi::Refutation exact = find_certificate(posed, result.question.effort,
-                                                       inner.formulation, inner.solution);
+        const lmi::Refutation exact =
+            find_exact_certificate(posed, inner.formulation, inner.solution);
         if (exact.exact) {
           result.refutation = exact;
           solved = std::move(inner);
@@ -234,7 +235,7 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
         lmi::relaxed_omega(posed.lmi, result.question.bounds, first.formulation, first.solution);
   if (!result.question.bounds.list.empty()) return result;
   try {
-    refute(posed, interior, std::move(first), result);
+    refute(posed, solve, interior, std::move(first), result);
   } catch (const OutOfAllowance&) {
     result.out_of_allowance = true;
   }

@@ -32,6 +32,15 @@ class Certificates {
     return lmi::refute_on_boundary(posed_.inequalities, posed_.lmi, formulation_, solution);
   }
 
+  /// One program in double, of the inequalities as they stand.
+  lmi::Refutation by_violation(const Solve& solve) const {
+    if (!in_double() || !formulation_.homogenised || !posed_.lmi.stands_for_points()) return {};
+    const lmi::Formulation violation = lmi::formulate_violation(posed_.lmi);
+    const sdp::Solution solution = solve(violation.problem, {"double", 1e-10});
+    if (solution.x.empty() || !(lmi::interior_margin(solution) < 0)) return {};
+    return lmi::refute_by_violation(posed_.inequalities, posed_.lmi, violation, solution);
+  }
+
   /// However small its eigenvalues are: the steps are in double.
   lmi::Refutation inside(const sdp::Solution& solution) const {
     return lmi::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
@@ -74,8 +83,8 @@ class Certificates {
 }  // namespace
 
 lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
-                                 const lmi::Formulation& formulation,
-                                 const sdp::Solution& solution) {
+                                 const lmi::Formulation& formulation, const sdp::Solution& solution,
+                                 const Solve& solve) {
   // With more of a margin than this no certificate is near.
   constexpr double kNear = 1e-6;
   const Certificates certificates(posed, effort, formulation);
@@ -85,12 +94,18 @@ lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
   if (posed.wide && near) {
     if (const auto boundary = certificates.on_boundary(solution); excludes(boundary))
       return boundary;
+    if (const auto violated = certificates.by_violation(solve); excludes(violated)) return violated;
     if (const auto inside = certificates.inside(solution); excludes(inside)) return inside;
   }
   found = certificates.exact(solution, lmi::Exactness::in_wide);
   if (found.exact || !posed.wide || !near) return found;
   if (const auto polished = certificates.polished(solution); excludes(polished)) return polished;
   return certificates.in_double() ? found : certificates.in_100_digits(solution);
+}
+
+lmi::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
+                                       const sdp::Solution& solution) {
+  return Certificates(posed, {}, formulation).exact(solution, lmi::Exactness::in_double);
 }
 
 }  // namespace gainsmith::design

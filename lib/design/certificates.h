@@ -2,10 +2,11 @@
 //
 //   1. the solver's multipliers, exact in double            robustly infeasible
 //   2. on the boundary of the cone, with x beside them      strict complementarity
-//   3. multipliers alone, polished with steps in double     where those of 1 are nearly singular
-//   4. the solver's multipliers, exact in 31 digits         small programs
-//   5. multipliers alone, polished with wide steps          whatever is left
-// Steps 1 and 4 are all for a search that does not want more digits.
+//   3. the same of the least violation, one more program    constant parts, nearly singular in 1
+//   4. multipliers alone, polished with steps in double     where those of 1 are nearly singular
+//   5. the solver's multipliers, exact in 31 digits         small programs
+//   6. multipliers alone, polished with wide steps          whatever is left
+// Steps 1 and 5 are all for a search that does not want more digits.
 #pragma once
 
 #include "design/attempt.h"
@@ -15,7 +16,11 @@ namespace gainsmith::design {
 /// The first certificate that excludes every solution, or the best found (its omega).
 /// OutOfAllowance passes through.
 lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
-                                 const lmi::Formulation& formulation,
-                                 const sdp::Solution& solution);
+                                 const lmi::Formulation& formulation, const sdp::Solution& solution,
+                                 const Solve& solve);
+
+/// The first of them alone.
+lmi::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
+                                       const sdp::Solution& solution);
 
 }  // namespace gainsmith::design

@@ -220,6 +220,7 @@ void conclude(const Climb& climb, model::Gains& gains) {
     return accept_refutation(climb, *refuted, gains);
   }
   if (climb.is_out_of_allowance()) {
+    gains.solver.out_of_allowance = true;
     gains.solver.add_message(
         "the search for a point or a certificate in more digits was ended after its allowance of "
         "work; `--effort full`, or `effort: full` under `synthesis`, lets it go on");

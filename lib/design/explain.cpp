@@ -8,6 +8,7 @@
 #include "design/elastic.h"
 #include "design/synthesize.h"
 #include "lmi/compile.h"
+#include "lmi/formulation.h"
 
 namespace gainsmith::design {
 
@@ -47,6 +48,54 @@ model::Gains subset(const model::Instance& instance, const std::set<std::string>
     gains.verdict = model::Verdict::undecided;
   }
   return gains;
+}
+
+/// Whether the solver in double finds no point of the requirements named.
+bool seems_infeasible(const model::Instance& instance, const std::set<std::string>& names,
+                      const sdp::Options& solver) {
+  constexpr double kNone = 1e-8;  // of the largest margin
+  const model::Instance part = with_inequalities(instance, names);
+  if (holds_at_zero(part)) return false;
+  const lmi::Inequalities inequalities(part);
+  const lmi::Lmi lmi = lmi::compile(inequalities);
+  sdp::Options narrow = solver;
+  narrow.precision = "double";
+  const sdp::Solution solution = sdp::solve(lmi::formulate_interior(lmi, {}, {}).problem, narrow);
+  return !solution.x.empty() && lmi::interior_margin(solution) <= kNone;
+}
+
+/// Those of `names` that the solver in double does not find to be too many, as far as the allowance
+/// goes; `open` receives those that it did not get to.
+std::set<std::string> guessed(const model::Instance& instance, std::set<std::string> names,
+                              const sdp::Options& solver, double seconds,
+                              std::vector<std::string>& open) {
+  const std::vector<std::string> order = in_reverse(instance.design->inequalities);
+  std::size_t at = 0;
+  try {
+    const Allowance limit(seconds);
+    for (; at < order.size(); ++at) {
+      std::set<std::string> rest = names;
+      rest.erase(order[at]);
+      if (seems_infeasible(instance, rest, solver)) names = std::move(rest);
+    }
+  } catch (const OutOfAllowance&) {
+    open.assign(order.begin() + static_cast<std::ptrdiff_t>(at), order.end());
+  }
+  return names;
+}
+
+std::vector<std::string> in_order(const model::Design& design, const std::set<std::string>& names) {
+  std::vector<std::string> result;
+  for (const model::Design::Inequality& inequality : design.inequalities)
+    if (names.contains(inequality.name)) result.push_back(inequality.name);
+  return result;
+}
+
+std::set<std::string> all_names(const model::Design& design) {
+  std::set<std::string> names;
+  for (const model::Design::Inequality& inequality : design.inequalities)
+    names.insert(inequality.name);
+  return names;
 }
 
 /// Appends to `relaxations`, which keep what was found when it is stopped.
@@ -116,9 +165,7 @@ std::optional<Conflict> find_conflict(const model::Instance& instance, const mod
   if (gains.verdict != model::Verdict::no) return std::nullopt;
   const model::Design& design = *instance.design;
   const model::Instance plain = without_gains(instance);
-  std::set<std::string> names;
-  for (const model::Design::Inequality& inequality : design.inequalities)
-    names.insert(inequality.name);
+  std::set<std::string> names = all_names(design);
   Conflict conflict;
   const bool is_certified = gains.certificate && gains.certificate->is_about_problem();
   model::Gains certified = is_certified ? gains : subset(plain, names, solver);
@@ -127,8 +174,7 @@ std::optional<Conflict> find_conflict(const model::Instance& instance, const mod
     conflict.gain_bound = bounded && certified.verdict == model::Verdict::yes;
     conflict.within_gain_bound = bounded && !conflict.gain_bound;
     conflict.certificate = gains.certificate.value();
-    for (const model::Design::Inequality& inequality : design.inequalities)
-      conflict.names.push_back(inequality.name);
+    conflict.names = in_order(design, names);
     if (!conflict.gain_bound) conflict.undecided = conflict.names;
     return conflict;
   }
@@ -143,9 +189,39 @@ std::optional<Conflict> find_conflict(const model::Instance& instance, const mod
     names.insert(name);
     if (rest.verdict == model::Verdict::undecided) conflict.undecided.push_back(name);
   }
-  for (const model::Design::Inequality& inequality : design.inequalities)
-    if (names.contains(inequality.name)) conflict.names.push_back(inequality.name);
+  conflict.names = in_order(design, names);
   conflict.certificate = certified.certificate.value();
+  return conflict;
+}
+
+std::optional<Conflict> guess_conflict(const model::Instance& instance, const model::Gains& gains,
+                                       const sdp::Options& solver, double seconds) {
+  if (gains.verdict != model::Verdict::no) return std::nullopt;
+  // What only a bound or a hull excludes takes its own way.
+  if (!gains.certificate || !gains.certificate->is_about_problem())
+    return find_conflict(instance, gains, solver);
+  const model::Design& design = *instance.design;
+  const model::Instance plain = without_gains(instance);
+  Conflict conflict;
+  conflict.certificate = *gains.certificate;
+  const std::set<std::string> all = all_names(design);
+  const std::set<std::string> few = guessed(plain, all, solver, seconds, conflict.undecided);
+  bool excluded = few == all;
+  if (!excluded) try {
+      const Allowance limit(seconds);
+      if (const model::Gains rest = subset(plain, few, solver);
+          rest.verdict == model::Verdict::no) {
+        conflict.certificate = rest.certificate.value();
+        excluded = true;
+      }
+    } catch (const OutOfAllowance&) {
+      // Nothing is known of fewer.
+    }
+  conflict.names = in_order(design, excluded ? few : all);
+  if (!excluded) conflict.undecided = conflict.names;
+  std::erase_if(conflict.undecided, [&](const std::string& name) {
+    return std::find(conflict.names.begin(), conflict.names.end(), name) == conflict.names.end();
+  });
   return conflict;
 }
 

@@ -61,6 +61,13 @@ struct Explanation {
 std::optional<Conflict> find_conflict(const model::Instance& instance, const model::Gains& gains,
                                       const sdp::Options& solver);
 
+/// The same in little time: what may be left out is taken from the solver in double, and only the
+/// set that this leads to is decided, each within `seconds` of work (base/stop.h). Where they are
+/// not enough, or that set is not excluded, `names` are more than it takes; those of which nothing
+/// is known are `undecided`.
+std::optional<Conflict> guess_conflict(const model::Instance& instance, const model::Gains& gains,
+                                       const sdp::Options& solver, double seconds);
+
 /// Along every negotiable scalar, the others held: the nearest feasible value below the problem's
 /// own, and above it, as far as the range goes: the directions that have one, or one entry for a
 /// scalar that does not help. After a stop those that are found.

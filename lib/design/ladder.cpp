@@ -215,7 +215,7 @@ void Climb::climb(bool to_end) {
 }
 
 double Climb::allowance() const {
-  constexpr double kLeast = 2, kMost = 30, kTimes = 20;
+  constexpr double kLeast = 2, kMost = 60, kTimes = 20;
   constexpr double kIterations = 20;
   if (posed_.choices().full_effort) return std::numeric_limits<double>::infinity();
   return std::clamp(kTimes * kIterations * posed_.lmi.multiplications() * kDoubleWork, kLeast,

@@ -81,7 +81,7 @@ class Climb {
   const lmi::GainBounds& bounds() const { return bounds_; }
   double seconds() const { return seconds_; }
   /// Whether what is left would have taken more than the allowance: 20 times the work of the solver
-  /// in double, but at least two and at most thirty seconds; any with full effort.
+  /// in double, but at least two and at most sixty seconds; any with full effort.
   bool is_out_of_allowance() const { return out_of_allowance_; }
 
  private:

@@ -51,6 +51,15 @@ model::Gains stated(const model::Instance& instance) {
   return gains;
 }
 
+/// A certificate of the very inequalities that is not sharp enough to say no.
+std::string blunt_text(double omega, bool to_the_end) {
+  return std::string("a certificate in double speaks against any solution, ") +
+         (to_the_end ? "but more digits do not confirm it"
+                     : "and whether more digits confirm it is open") +
+         ": solutions, if any, do not survive a relative change of " + brief(omega, 2) +
+         " of the coefficients";
+}
+
 /// What the verdict rests on where an inequality holds for all values of a variable.
 void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
   if (plan.uses_exchange()) {
@@ -63,11 +72,7 @@ void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
   const bool exact = std::all_of(plan.inequalities.begin(), plan.inequalities.end(),
                                  [](const forall::Imposed& imposed) { return imposed.exact; });
   if (exact) {
-    // A certificate of the very inequalities that is not sharp enough to say no.
-    gains.solver.add_message(
-        "a certificate in double speaks against any solution, but more digits do not "
-        "confirm it: solutions, if any, do not survive a relative change of " +
-        brief(gains.certificate->omega, 2) + " of the coefficients");
+    gains.solver.add_message(blunt_text(gains.certificate->omega, !gains.solver.out_of_allowance));
     gains.certificate.reset();
     return;
   }

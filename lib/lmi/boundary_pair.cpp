@@ -60,11 +60,31 @@ void add_residuals(const WideBlock& block, const Wide& Y, std::vector<Decimal100
   }
 }
 
-/// The residuals (1) and how large they are beside their terms.
+constexpr double kLeastDamping = 1e-9;  // refinement undoes it
+constexpr double kPairSettled = 1e-90;
+constexpr double kPairEnough = 1e-80;  // where steps lead no further
+
+/// The residuals (1) and how large they are.
 struct PairResiduals {
   std::vector<Decimal100> r;
   std::vector<Wide> c;
-  double worst = 0;
+  double worst_r = 0;  ///< of |r_i| beside its terms
+  double worst_c = 0;
+
+  double worst() const { return std::max(worst_r, worst_c); }
+
+  /// What a step that led here left of those before it. Of two kinds that are of different sizes
+  /// both count: damped steps reduce one before the other.
+  double share_of(const PairResiduals& before) const {
+    constexpr double kGrows = 100;
+    const double of_r = ratio(worst_r, before.worst_r), of_c = ratio(worst_c, before.worst_c);
+    return std::max(of_r, of_c) <= kGrows ? std::sqrt(of_r * of_c) : std::max(of_r, of_c);
+  }
+
+ private:
+  static double ratio(double now, double before) {
+    return std::max(now, kPairSettled) / std::max(before, kPairSettled);
+  }
 };
 
 PairResiduals pair_residuals(const std::vector<const WideBlock*>& blocks,
@@ -79,12 +99,16 @@ PairResiduals pair_residuals(const std::vector<const WideBlock*>& blocks,
     spend(n * n * n * kWideWork);
     const Wide product = numbers::times<Decimal100>(B, Y);
     result.c.push_back(product + product.transpose());
-    result.worst = std::max(result.worst, largest(result.c.back()));
+    result.worst_c = std::max(result.worst_c, largest(result.c.back()));
     add_residuals(*blocks[k], Y, result.r, scale);
+  }
+  if (pair.violated) {
+    result.r.front() = 0;
+    result.r.back() += 1;
   }
   for (std::size_t i = 0; i < result.r.size(); ++i)
     if (const double of = scale[static_cast<Index>(i)]; of > 0)
-      result.worst = std::max(result.worst, size_of(result.r[i]) / std::max(of, 1e-3));
+      result.worst_r = std::max(result.worst_r, size_of(result.r[i]) / std::max(of, 1e-3));
   return result;
 }
 
@@ -141,8 +165,10 @@ struct BoundaryPart {
 
 class System {
  public:
-  System(const std::vector<const WideBlock*>& blocks, std::size_t unknowns)
-      : blocks_(blocks), unknowns_(static_cast<Index>(unknowns)) {}
+  System(const std::vector<const WideBlock*>& blocks, const BoundaryPair& pair)
+      : blocks_(blocks),
+        unknowns_(static_cast<Index>(pair.x.size())),
+        first_(pair.violated ? 1 : 0) {}
 
   /// False where the ranges are not told apart.
   bool set_up(const BoundaryPair& pair, double damping) {
@@ -156,6 +182,7 @@ class System {
       size += ranges->rank() * (ranges->rank() + 1) / 2;
     }
     if (size == 0) return false;
+    damping_ = damping;
     A_ = Matrix::Zero(size, unknowns_);
     H_ = Matrix::Zero(unknowns_, unknowns_);
     for (std::size_t k = 0; k < blocks_.size(); ++k) add_part(*blocks_[k], parts_[k]);
@@ -164,7 +191,7 @@ class System {
 
   /// Adds a step for residuals that were divided by `scale` to the pair.
   void move(const PairResiduals& residuals, BoundaryPair& pair) const {
-    const double scale = residuals.worst;
+    const double scale = residuals.worst();
     const auto scaled = [&](const Decimal100& x) { return as<double>(Decimal100(x / scale)); };
     std::vector<Matrix> known;  // of dY, what does not depend on dx and dS
     Vector f(unknowns_), w(A_.rows());
@@ -172,7 +199,8 @@ class System {
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
       known.push_back(of_complementarity(parts_[k], residuals.c[k].unaryExpr(scaled), w));
       for (const auto& [i, elements] : blocks_[k]->terms)
-        for (const auto& e : elements) f[i] -= as<double>(e.mid) * known[k](e.row, e.column);
+        for (const auto& e : elements)
+          if (i >= first_) f[i] -= as<double>(e.mid) * known[k](e.row, e.column);
     }
     const auto [dx, dS] = solve(f, w);
     for (Index i = 0; i < unknowns_; ++i)
@@ -198,6 +226,7 @@ class System {
     part.across = Matrix::Zero(U.cols() * rank, unknowns_);
     Matrix BV(block.size, rank);
     for (const auto& [i, elements] : block.terms) {
+      if (i < first_) continue;
       spend(static_cast<double>(rank *
                                 (block.size * block.size + static_cast<Index>(elements.size()))) *
             kDoubleWork);
@@ -213,14 +242,14 @@ class System {
     for (Index v = 0, at = 0; v < rank; ++v)
       for (Index u = 0; u < U.cols(); ++u) weighed.row(at++) *= std::sqrt(2 * s[v] / lambda[u]);
     const auto m = static_cast<double>(unknowns_);
-    spend(m * m * static_cast<double>(weighed.rows()) * kDoubleWork);
+    spend(m * m * static_cast<double>(weighed.rows()) * kBlockWork);
     H_.selfadjointView<Eigen::Lower>().rankUpdate(weighed.transpose());
   }
 
   bool factor(double damping) {
     H_.triangularView<Eigen::StrictlyUpper>() = H_.transpose();
     const auto m = static_cast<double>(unknowns_), q = static_cast<double>(A_.rows());
-    spend((m * m * m / 3 + m * m * q + q * q * m + q * q * q / 3) * kDoubleWork);
+    spend((m * m * m / 3 + m * m * q + q * q * m + q * q * q / 3) * kBlockWork);
     Matrix upper = H_;
     upper.diagonal().array() += damping;
     upper_.emplace(upper);
@@ -244,7 +273,9 @@ class System {
     Vector dx = Vector::Zero(unknowns_), dS = Vector::Zero(A_.rows());
     Vector first = f, second = w;
     double last = std::numeric_limits<double>::infinity();
-    for (int k = 0; k < kMost; ++k) {
+    // Of more than the least it is meant to stay: the residuals are consistent up to second order.
+    const int most = damping_ > kLeastDamping ? 1 : kMost;
+    for (int k = 0; k < most; ++k) {
       const auto m = static_cast<double>(unknowns_), q = static_cast<double>(A_.rows());
       spend((3 * m * m + 4 * m * q + q * q) * kDoubleWork);
       const Vector towards = upper_->solve(Matrix(first));
@@ -301,7 +332,9 @@ class System {
 
   const std::vector<const WideBlock*>& blocks_;
   const Index unknowns_;
+  const int first_;  ///< of the unknowns that are not fixed
   std::vector<BoundaryPart> parts_;
+  double damping_ = 0;
   Matrix A_;  ///< elements v <= w, with their roots, as dS and w
   Matrix H_;
   std::optional<numbers::Cholesky> upper_, lower_;
@@ -320,36 +353,36 @@ void cut(Wide& Y) {
 }  // namespace
 
 bool polish(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
-  constexpr double kSettled = 1e-92;
   constexpr double kFails = 0.5;   // a step that leaves as much of the residual is none
   constexpr double kFalls = 1e-3;  // one that leaves more wants another system
-  constexpr double kLeast = 1e-9, kMost = 1e-3, kAboveResidual = 1e3;  // of the damping
+  constexpr double kMost = 1e-3, kAboveResidual = 1e3;  // of the damping
   constexpr double kLess = 1e-2;
   constexpr int kMostSystems = 8;
-  System system(blocks, pair.x.size());
+  System system(blocks, pair);
   PairResiduals residuals = pair_residuals(blocks, pair);
-  double damping = std::clamp(kAboveResidual * residuals.worst, kLeast, kMost);
+  double damping = std::clamp(kAboveResidual * residuals.worst(), kLeastDamping, kMost);
   bool is_set_up = false;
   int systems = 0;
-  while (!(residuals.worst <= kSettled)) {
-    if (!is_set_up && (systems++ == kMostSystems || !system.set_up(pair, damping))) return false;
+  while (!(residuals.worst() <= kPairSettled)) {
+    if (!is_set_up && (systems++ == kMostSystems || !system.set_up(pair, damping))) break;
     is_set_up = true;
     BoundaryPair next = pair;
     system.move(residuals, next);
     PairResiduals left = pair_residuals(blocks, next);
-    const double share = left.worst / residuals.worst;
+    const double share = left.share_of(residuals);
     if (!(share <= kFails)) {
-      if (damping <= kLeast) return false;
-      damping = std::max(kLeast, kLess * damping);
+      if (damping <= kLeastDamping) break;
+      damping = std::max(kLeastDamping, kLess * damping);
       is_set_up = false;
       continue;
     }
     // The first system is made where the pair is still off, and damped by that.
-    is_set_up = share <= kFalls && damping <= kLeast;
-    if (!is_set_up) damping = std::clamp(kAboveResidual * left.worst, kLeast, damping);
+    is_set_up = share <= kFalls && damping <= kLeastDamping;
+    if (!is_set_up) damping = std::clamp(kAboveResidual * left.worst(), kLeastDamping, damping);
     pair = std::move(next);
     residuals = std::move(left);
   }
+  if (!(residuals.worst() <= kPairEnough)) return false;
   for (Wide& Y : pair.Y) cut(Y);
   return true;
 }

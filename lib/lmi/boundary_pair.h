@@ -11,9 +11,14 @@
 //   [ -H  A' ] [dx]   [f]     H_ij = 2 sum_k tr(S V'B_i U Lambda^-1 U'B_j V),  A dx = V'B(dx)V (2)
 //   [  A  0  ] [dS] = [w]     w_ab = -(V'c V)_ab / (s_a + s_b)
 // The solutions are manifolds (the two faces), so (2) is singular and consistent up to second
-// order: it is solved with H + d I and d I in place of H and 0, and refined. Matrices of (2) are
-// double; residuals (1) and the pair have 100 digits (Carson & Higham 2018): some ten digits a
+// order: it is solved with H + d I and d I in place of H and 0. Near the solution d is small and
+// the step is refined; further off d is in proportion to the residual, and stays. Matrices of (2)
+// are double; residuals (1) and the pair have 100 digits (Carson & Higham 2018): some ten digits a
 // step.
+//
+// Beside the least violation s < 0 of inequalities with constant parts (formulate_violation) the
+// same holds of B_k(x) - s I with x_0 fixed: its multiplier has no equation, and s is one more
+// unknown, with the equation tr Y = 1.
 //
 // What comes of it is checked like any other multipliers (refutation.h).
 #pragma once
@@ -29,6 +34,7 @@ namespace gainsmith::lmi {
 struct BoundaryPair {
   std::vector<Decimal100> x;  ///< x_0 (0 without a constant part), x_1, ..., x_m
   std::vector<numbers::MatrixOf<Decimal100>> Y;
+  bool violated = false;  ///< x_0 is fixed, and s the last of x
 };
 
 /// Makes (1) hold to some 90 digits, and Y_k a product V S V' of few columns. False, and `pair` of

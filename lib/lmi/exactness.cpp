@@ -91,7 +91,7 @@ bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
   }
   if (used == 0) return false;
   const auto m = static_cast<double>(used);
-  spend(m * m * (static_cast<double>(size) + m / 3) * kDoubleWork);
+  spend(m * m * (static_cast<double>(size) + m / 3) * kBlockWork);
   const auto G = images.G.leftCols(used);
   Matrix H = Matrix::Zero(used, used);
   H.selfadjointView<Eigen::Lower>().rankUpdate(G.transpose());

@@ -122,6 +122,28 @@ Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const R
   return result;
 }
 
+Formulation formulate_violation(const Lmi& lmi) {
+  Formulation result;
+  result.goal = Goal::interior;
+  const auto blocks = all_blocks(lmi, {});
+  const int margin = lmi.unknowns + 1;
+  result.balance = balance(blocks, lmi.unknowns, {});
+  result.releases = find_releases(lmi, {}, false);
+  Assembler assembler(margin);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    result.blocks.push_back(balanced(*blocks[k], result.balance, k, result.releases.kept[k]));
+    // A block without rows keeps its place.
+    const int added = result.blocks[k].size == 0 ? assembler.add_block(1, true)
+                                                 : assembler.add(result.blocks[k], 0, 1);
+    for (int r = 0; r < std::max(1, result.blocks[k].size); ++r)
+      assembler.add_entry(margin, added, r, r, -1);
+    result.rows += result.blocks[k].size;
+  }
+  assembler.set_cost(margin, -1);
+  result.problem = assembler.take();
+  return result;
+}
+
 std::vector<std::vector<int>> rows_of_multipliers(const Formulation& formulation,
                                                   const sdp::Solution& solution) {
   constexpr double kGap = 1e6;

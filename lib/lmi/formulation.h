@@ -66,6 +66,13 @@ Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const R
                                const Exactly& exactly = {},
                                const std::vector<std::vector<int>>& rows = {});
 
+/// The least violation of the inequalities as they stand, which have constant parts:
+///   maximise s,  B_k(x) >= s I
+/// without gain bounds; s is the last variable. Where s < 0 its multipliers are a certificate of
+/// small rank, and x a solution of B_k(x) >= s I beside them: both are of an ordinary size where
+/// the homogenised inequalities have no solution but 0.
+Formulation formulate_violation(const Lmi& lmi);
+
 /// The rows on which the multipliers of an interior solution without bounds live, where the others
 /// are noise beside them: their diagonal elements are smaller by a gap of at least 1e6. Empty when
 /// there is no such gap. A certificate on few coordinates is exact on them, as a rule, where in

@@ -214,7 +214,7 @@ class StepInDouble {
       moved_.push_back(images_of(one, unknowns));
       if (moved_.back().rows() == 0) continue;
       const auto m = static_cast<double>(unknowns);
-      spend(m * m * static_cast<double>(moved_.back().rows()) * kDoubleWork);
+      spend(m * m * static_cast<double>(moved_.back().rows()) * kBlockWork);
       G.selfadjointView<Eigen::Lower>().rankUpdate(moved_.back().transpose());
     }
     for (Index i = with_constant ? 0 : 1; i <= unknowns; ++i)
@@ -225,7 +225,7 @@ class StepInDouble {
     // An unknown without an equation has a row of zeros, and lambda = 0.
     for (Index i = 0; i <= unknowns; ++i)
       damped(i, i) = units_[i] > 0 ? 1 + kDamping * static_cast<double>(unknowns + 1) : 1;
-    spend(std::pow(static_cast<double>(unknowns), 3) / 3 * kDoubleWork);
+    spend(std::pow(static_cast<double>(unknowns), 3) / 3 * kBlockWork);
     factor_.emplace(damped);
   }
 

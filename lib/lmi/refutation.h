@@ -75,6 +75,10 @@ constexpr double kNothing = 1e-70;
 Refutation refute_on_boundary(const Inequalities& of, const Lmi& lmi,
                               const Formulation& formulation, const sdp::Solution& solution);
 
+/// The same of the least violation: a formulation and its solution by formulate_violation().
+Refutation refute_by_violation(const Inequalities& of, const Lmi& lmi,
+                               const Formulation& formulation, const sdp::Solution& solution);
+
 /// In which arithmetic the steps of a polish are computed.
 enum class Steps { in_double, in_wide };
 

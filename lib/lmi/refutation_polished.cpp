@@ -1,4 +1,6 @@
 // Certificates on the boundary of the cone, from multipliers that are only nearly one.
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
@@ -70,6 +72,29 @@ BoundaryPair pair_of(const Lmi& lmi, const Formulation& formulation,
   return pair;
 }
 
+/// -s I, s the unknown i.
+void add_identity(int i, ExactBlock<Decimal100>& block) {
+  ExactElements<Decimal100> elements;
+  for (int r = 0; r < block.size; ++r) elements.push_back({r, r, Decimal100(-1), 0});
+  if (!elements.empty()) block.terms.emplace_back(i, std::move(elements));
+}
+
+/// In units in which no unknown is above 1, and tr Y = 1.
+BoundaryPair violated_pair_of(const Lmi& lmi, const Formulation& formulation,
+                              const sdp::Solution& solution) {
+  BoundaryPair pair;
+  pair.violated = true;
+  double unit = 1;
+  for (const double x : solution.x) unit = std::max(unit, std::abs(x));
+  pair.x.push_back(Decimal100(1) / unit);
+  for (const double x : solution.x) pair.x.push_back(Decimal100(x) / unit);
+  pair.Y = wide_multipliers_of(formulation, lmi.blocks.size(), solution);
+  Decimal100 whole(0);
+  for (const Wide& Y : pair.Y) whole += Y.trace();
+  for (Wide& Y : pair.Y) Y /= whole;
+  return pair;
+}
+
 }  // namespace
 
 Refutation refute_on_boundary(const Inequalities& of, const Lmi& lmi,
@@ -83,6 +108,21 @@ Refutation refute_on_boundary(const Inequalities& of, const Lmi& lmi,
   BoundaryPair pair = pair_of(lmi, formulation, solution);
   if (!polish(all, pair)) return {};
   pair.Y.resize(blocks.size());
+  return refute<Decimal100>(lmi, blocks, std::move(pair.Y), Exactness::in_double);
+}
+
+Refutation refute_by_violation(const Inequalities& of, const Lmi& lmi,
+                               const Formulation& formulation, const sdp::Solution& solution) {
+  if (!lmi.stands_for_points()) return {};
+  auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
+  std::vector<ExactBlock<Decimal100>> shifted = blocks;
+  std::vector<const ExactBlock<Decimal100>*> all;
+  for (auto& block : shifted) {
+    add_identity(lmi.unknowns + 1, block);
+    all.push_back(&block);
+  }
+  BoundaryPair pair = violated_pair_of(lmi, formulation, solution);
+  if (!polish(all, pair)) return {};
   return refute<Decimal100>(lmi, blocks, std::move(pair.Y), Exactness::in_double);
 }
 

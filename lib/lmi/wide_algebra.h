@@ -8,6 +8,7 @@
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
 #include "base/stop.h"
+#include "numbers/factor.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::lmi {
@@ -36,21 +37,11 @@ constexpr double work_of() {
 /// L with M = L L'; none when M is not positive definite in S.
 template <class S>
 std::optional<MatrixOf<S>> cholesky(const MatrixOf<S>& M) {
-  using std::sqrt;
-  const Eigen::Index n = M.rows();
-  spend(static_cast<double>(n * n) * static_cast<double>(n) / 6 * work_of<S>());
-  MatrixOf<S> L = MatrixOf<S>::Zero(n, n);
-  for (Eigen::Index j = 0; j < n; ++j) {
-    S pivot = M(j, j);
-    for (Eigen::Index k = 0; k < j; ++k) pivot -= L(j, k) * L(j, k);
-    if (!(pivot > S(0))) return std::nullopt;
-    L(j, j) = sqrt(pivot);
-    for (Eigen::Index i = j + 1; i < n; ++i) {
-      S sum = M(i, j);
-      for (Eigen::Index k = 0; k < j; ++k) sum -= L(i, k) * L(j, k);
-      L(i, j) = sum / L(j, j);
-    }
-  }
+  const auto n = static_cast<double>(M.rows());
+  spend(n * n * n / 6 * work_of<S>());
+  MatrixOf<S> L = M;
+  if (!numbers::factor_in_place<S>(L)) return std::nullopt;
+  L.template triangularView<Eigen::StrictlyUpper>().setConstant(S(0));
   return L;
 }
 

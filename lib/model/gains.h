@@ -64,6 +64,7 @@ struct SolverRecord {
   double primal_infeasibility = 0;
   double dual_infeasibility = 0;
   std::string precision;
+  bool out_of_allowance = false;  ///< more work might decide (base/stop.h)
 
   void add_message(const std::string& text) { message += (message.empty() ? "" : "; ") + text; }
 };

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
-#include "base/stop.h"
 #include "numbers/definite.h"
 #include "numbers/dense.h"
+#include "numbers/factor.h"
 
 namespace gainsmith::numbers {
 
@@ -23,26 +23,6 @@ std::vector<int> halved_exponents(const MatrixOf<S>& mid) {
     exponents.push_back((std::ilogb(size) + 1) >> 1);  // leaves [1/2, 2)
   }
   return exponents;
-}
-
-/// Overwrites the lower triangle; false as soon as a pivot is not > 0.
-template <class S>
-bool factor(MatrixOf<S>& A) {
-  using std::sqrt;
-  const Eigen::Index n = A.rows();
-  for (Eigen::Index j = 0; j < n; ++j) {
-    check_stop();
-    S pivot = A(j, j);
-    for (Eigen::Index k = 0; k < j; ++k) pivot -= A(j, k) * A(j, k);
-    if (!(pivot > S(0))) return false;
-    A(j, j) = sqrt(pivot);
-    for (Eigen::Index i = j + 1; i < n; ++i) {
-      S element = A(i, j);
-      for (Eigen::Index k = 0; k < j; ++k) element -= A(i, k) * A(j, k);
-      A(i, j) = element / A(j, j);
-    }
-  }
-  return true;
 }
 
 /// The check of definite(), with radii rad + more; `more` may be empty.
@@ -66,7 +46,7 @@ bool passes(const Enclosed<S>& M, const Matrix& more) {
   const double shift = up(sums.maxCoeff(), 2 * m + 8) + 2 * m * m * unit_roundoff<S>() * (1 + 1e-9);
   if (!(shift < 2)) return false;
   for (Eigen::Index i = 0; i < n; ++i) A(i, i) -= S(shift);
-  return factor<S>(A);
+  return factor_in_place<S>(A);
 }
 
 /// v'Mv.

@@ -59,6 +59,24 @@ TEST(Explain, NamesTheConflictWhatItTakesAndHowFar) {
   EXPECT_FALSE(found.reaches[1].feasible);
 }
 
+/// The solver's guess is checked: the same names in little work, and all of them without any.
+TEST(Explain, AGuessedConflictIsCheckedOrSaysWhatIsOpen) {
+  const YamlProblem problem(kGap);
+  const model::Gains gains = synthesize(problem.instance, {});
+  const auto found = find_conflict(problem.instance, gains, {});
+  const auto guessed = guess_conflict(problem.instance, gains, {}, 10);
+  ASSERT_TRUE(found && guessed);
+  EXPECT_EQ(guessed->names, found->names);
+  EXPECT_TRUE(guessed->undecided.empty());
+  EXPECT_TRUE(guessed->certificate.exact || guessed->certificate.omega <= 1e-30);
+  const auto none = guess_conflict(problem.instance, gains, {}, 0);
+  ASSERT_TRUE(none);
+  EXPECT_EQ(none->names.size(), 4U);
+  EXPECT_EQ(none->undecided.size(), 4U);
+  const YamlProblem feasible(std::string(kGap).replace(kGap.find("{c: 3}"), 6, "{c: 0}"));
+  EXPECT_FALSE(guess_conflict(feasible.instance, synthesize(feasible.instance, {}), {}, 10));
+}
+
 /// A chain is one requirement with one slack.
 TEST(Explain, AChainAloneCanConflict) {
   const YamlProblem problem(

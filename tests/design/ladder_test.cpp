@@ -207,14 +207,16 @@ TEST(Ladder, PlainStepsOnFacesDecideWhateverTheSolverSays) {
 
 TEST(Ladder, MoreDigitsAreAskedForWithoutBoundsWhereNothingIsDecided) {
   const Case of(window("sqrt(1)", "sqrt(4)", true));
-  const Scripted run(of, {undecided(), undecided(), undecided(), inside(of, {1.5})});
+  const Scripted run(of, {undecided(), undecided(), undecided(), undecided(), inside(of, {1.5})});
   EXPECT_EQ(run.tried,
             (Rungs{Rung::inside, Rung::free_inside, Rung::in_31_digits, Rung::in_100_digits}));
   EXPECT_EQ(run.asked[0].blocks.size(), 4U);
-  EXPECT_EQ(run.asked[1].blocks.size(), 5U);
-  EXPECT_EQ(run.efforts[2].precision, "quad");
-  EXPECT_EQ(run.efforts[3].precision, "100");
-  EXPECT_LT(run.efforts[3].tolerance, 1e-30);
+  EXPECT_EQ(run.asked[1].blocks.size(), 2U) << "the least violation";
+  EXPECT_EQ(run.efforts[1].precision, "double");
+  EXPECT_EQ(run.asked[2].blocks.size(), 5U);
+  EXPECT_EQ(run.efforts[3].precision, "quad");
+  EXPECT_EQ(run.efforts[4].precision, "100");
+  EXPECT_LT(run.efforts[4].tolerance, 1e-30);
   EXPECT_EQ(run.gains.verdict, Verdict::yes) << run.message();
 }
 

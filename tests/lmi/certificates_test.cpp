@@ -35,6 +35,11 @@ struct Posed {
   Refutation on_boundary() const {
     return refute_on_boundary(of, lmi, formulation, sdp::solve(formulation.problem));
   }
+
+  Refutation by_violation() const {
+    const Formulation violation = formulate_violation(lmi);
+    return refute_by_violation(of, lmi, violation, sdp::solve(violation.problem));
+  }
 };
 
 Matrix random_matrix(int rows, int cols, std::mt19937& generator) {
@@ -165,6 +170,27 @@ TEST(PolishedInDouble, BelowANormThereIsACertificate) {
         refute_polished(posed.of, posed.lmi, posed.formulation, Y, Steps::in_double);
     EXPECT_TRUE(found.exact || found.omega <= kNothing) << n << ": " << found.omega;
   }
+}
+
+/// With 20 states and one input the homogenised inequalities have next to no solution but 0, and
+/// multipliers with eigenvalues that no gap divides; those of the least violation have rank 2.
+TEST(Violation, BelowANormThereIsACertificateOfSmallRank) {
+  std::mt19937 generator(11);
+  const Matrix A = with_abscissa(random_matrix(20, 20, generator), -0.3);
+  const Matrix B = random_matrix(20, 1, generator), C = random_matrix(1, 20, generator);
+  const double at_rest = std::abs((C * tests::inverse(A) * B)(0, 0));
+  const auto posed = [&](double gain) {
+    return Posed(
+        "  data: {A: n x n, B: n x m, C: p x n, g: scalar}\n  unknowns: {P: symmetric "
+        "n}\n  require: {positive: P > 0, gain: \"[He(P*A) + C'*C, P*B; *, -g*I] < "
+        "0\"}\ndata: {A: " +
+        tests::matrix_yaml(A) + ", B: " + tests::matrix_yaml(B) + ", C: " + tests::matrix_yaml(C) +
+        ", g: " + model::printed(gain * gain) + "}\n");
+  };
+  const Posed below = posed(0.7 * at_rest);
+  EXPECT_GT(below.on_boundary().omega, kNothing);
+  EXPECT_LE(below.by_violation().omega, kNothing);
+  EXPECT_GT(posed(1e3 * (at_rest + 1)).by_violation().omega, kNothing);
 }
 
 TEST(Certificates, EndWithTheirAllowance) {
