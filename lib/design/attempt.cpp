@@ -59,10 +59,11 @@ void take_point_beyond_double(const Posed& posed, const std::vector<double>& x, 
 }
 
 /// What the margins are said to cost, by the objective's size (lmi::objective_lower_bound).
-double price_of(const Posed& posed, const lmi::Formulation& formulation,
-                const sdp::Solution& solution) {
+double price_of(const Posed& posed, const Attempt& attempt, const sdp::Solution& solution) {
+  const lmi::Formulation& formulation = attempt.formulation;
   const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, formulation, solution));
-  const double least = lmi::objective_lower_bound(posed.lmi, formulation, solution);
+  const double least = lmi::objective_lower_bound(posed.lmi, attempt.question.bounds, formulation,
+                                                  solution);
   return (value - least) / std::abs(value);
 }
 
@@ -71,12 +72,12 @@ double price_of(const Posed& posed, const lmi::Formulation& formulation,
 void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
   constexpr double kCheap = 3e-7, kDear = 1e-3;  // dearer is no matter of the solver's digits
   constexpr double kFiner = 1e-3;
-  const double price = price_of(posed, result.formulation, result.solution);
+  const double price = price_of(posed, result, result.solution);
   if (!(kCheap < price && price < kDear)) return;
   Effort finer = result.question.effort;
   finer.tolerance *= kFiner;
   sdp::Solution again = solve(result.formulation.problem, finer);
-  if (again.status == sdp::Status::optimal && price_of(posed, result.formulation, again) < price)
+  if (again.status == sdp::Status::optimal && price_of(posed, result, again) < price)
     result.solution = std::move(again);
 }
 
@@ -120,8 +121,8 @@ class Interior {
       return lmi::rounded(exact_->block(posed_.lmi.blocks[k], k, kept));
     };
     Solved result;
-    result.formulation = lmi::formulate_interior(posed_.lmi, asked_.bounds, round,
-                                                 is_wide() ? exactly : lmi::Exactly{}, rows);
+    result.formulation =
+        rows.empty() ? of_all_rows() : lmi::pose_interior(posed_.lmi, asked_.bounds, rows);
     Effort effort = asked_.effort;
     std::optional<sdp::Solution> near;
     if (!is_wide() && rows.empty()) {
@@ -133,29 +134,40 @@ class Interior {
       }
       if (near) effort.from = &*near;
     }
+    lmi::assemble(posed_.lmi, asked_.bounds, round, result.formulation,
+                  is_wide() ? exactly : lmi::Exactly{});
     result.solution = solve_(result.formulation.problem, effort);
     return result;
   }
 
  private:
+  /// The same in every round but for its program.
+  const lmi::Formulation& of_all_rows() {
+    if (!of_all_rows_) of_all_rows_ = lmi::pose_interior(posed_.lmi, asked_.bounds);
+    return *of_all_rows_;
+  }
+
   const Posed& posed_;
   const Question& asked_;
   const Solve& solve_;
+  std::optional<lmi::Formulation> of_all_rows_;
   std::optional<lmi::ExactBlocks<Decimal100>> exact_;
 };
 
-/// The first round, whose multipliers are a certificate where there is no point.
-Interior::Solved solve_interior(const Posed& posed, Interior& interior, Attempt& result) {
+/// The first round, whose multipliers are a certificate where there is no point; none when it is
+/// the one that the result has.
+std::optional<Interior::Solved> solve_interior(const Posed& posed, Interior& interior, Attempt& result) {
   const int most_rounds = result.question.single ? 1 : 8;
   constexpr double kRises = 1e-3;
   lmi::Round round;
-  Interior::Solved first;
+  std::optional<Interior::Solved> first;
   for (int k = 0; k < most_rounds; ++k) {
     Interior::Solved solved = interior(round);
-    if (k == 0) first = solved;
-    const auto next = lmi::next_round(solved.formulation, solved.solution.x);
+    const auto next = lmi::next_round(posed.lmi, result.question.bounds, solved.formulation,
+                                      solved.solution.x);
     const std::vector<double> x = lmi::read_back(posed.lmi, solved.formulation, solved.solution);
     if (k == 0 || (next && next->margin > round.margin)) {
+      if (k > 0 && !first) first = {std::move(result.formulation), std::move(result.solution)};
       result.formulation = std::move(solved.formulation);
       result.solution = std::move(solved.solution);
       take_point(posed, x, result);
@@ -227,15 +239,21 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
     return result;
   }
   Interior interior(posed, result.question, solve);
-  Interior::Solved first = solve_interior(posed, interior, result);
+  std::optional<Interior::Solved> first = solve_interior(posed, interior, result);
   complete(posed, result);
-  if (result.holds() || first.solution.x.empty()) return result;
+  if (result.holds()) return result;
+  if (result.solution.cause == sdp::Cause::enough) {
+    result.question.largest = true;
+    return attempt(posed, std::move(result.question), solve);
+  }
+  if (!first) first = {result.formulation, result.solution};
+  if (first->solution.x.empty()) return result;
   if (!result.point)
     result.relaxed_omega =
-        lmi::relaxed_omega(posed.lmi, result.question.bounds, first.formulation, first.solution);
+        lmi::relaxed_omega(posed.lmi, result.question.bounds, first->formulation, first->solution);
   if (!result.question.bounds.list.empty()) return result;
   try {
-    refute(posed, solve, interior, std::move(first), result);
+    refute(posed, solve, interior, std::move(*first), result);
   } catch (const OutOfAllowance&) {
     result.out_of_allowance = true;
   }

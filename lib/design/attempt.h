@@ -44,6 +44,7 @@ struct Question {
   Effort effort;
   double shift = 0;     ///< objective: what strict blocks keep, in balanced units
   bool single = false;  ///< interior: one program alone, for its multipliers
+  bool largest = false;  ///< interior: the largest margin itself, not any that is enough
 };
 
 /// What came of it: why the solver stopped (solution), how good its point is (margins), and what

@@ -86,7 +86,8 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
     // The dual solution is feasible to the solver's tolerance only.
     const double least = point.least
                              ? *point.least
-                             : lmi::objective_lower_bound(lmi, point.formulation, point.solution);
+                             : lmi::objective_lower_bound(lmi, point.question.bounds,
+                                                          point.formulation, point.solution);
     gains.objective_lower_bound = std::min(*gains.objective, least);
     return;
   }

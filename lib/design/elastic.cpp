@@ -86,7 +86,7 @@ model::Instance with_inequalities(const model::Instance& instance,
 ByInequality scales_of(const model::Instance& instance) {
   const lmi::Inequalities inequalities(instance);
   const lmi::Lmi lmi = lmi::compile(inequalities);
-  const lmi::Balance balance = lmi::formulate_objective(lmi, {}, 0).balance;
+  const lmi::Balance balance = lmi::pose_objective(lmi, {}, 0).balance;
   ByInequality scales;
   for (const Design::Inequality& inequality : instance.design->inequalities) {
     double& scale = scales[inequality.name];

@@ -22,16 +22,16 @@ Enough enough_for(const Posed& posed, const Question& asked, const lmi::Formulat
                   const lmi::Round& round) {
   constexpr double kRoom = 2;  // between double and the exact check of the decimals
   constexpr double kGrows = 2;
-  if (asked.goal != lmi::Goal::interior || asked.single || posed.lmi.has_objective ||
-      posed.plan.uses_exchange())
+  if (asked.goal != lmi::Goal::interior || asked.single || asked.largest ||
+      posed.lmi.has_objective || posed.plan.uses_exchange())
     return {};
   const double margin = kRoom * posed.choices().margin;
-  return [&formulation, &round, margin,
+  return [&posed, &asked, &formulation, &round, margin,
           last = std::make_shared<double>(0)](const std::vector<double>& x) {
     const double s = x.back();
     const bool grows = s > kGrows * std::exchange(*last, s);
     if (!(s > 0) || (grows && round.diagonals.empty())) return false;
-    const auto next = lmi::next_round(formulation, x);
+    const auto next = lmi::next_round(posed.lmi, asked.bounds, formulation, x);
     return next && next->margin >= margin;
   };
 }

@@ -82,7 +82,7 @@ class OnFaces {
         stated_(lmi::rational_blocks(posed.inequalities, posed.lmi.blocks)),
         faces_(stated_, names_of(posed.lmi), posed.lmi.unknowns) {
     result_.question = {lmi::Goal::interior, {}, {"quad", 1e-22}, 0};
-    result_.formulation = lmi::formulate_interior(posed.lmi, {}, {});
+    result_.formulation = lmi::pose_interior(posed.lmi, {});
   }
 
   std::optional<Attempt> run() {
@@ -116,7 +116,7 @@ class OnFaces {
   sdp::Solution as_solution_of(const lmi::Formulation& formulation) const {
     sdp::Solution solution = solved_;
     solution.rest = {};
-    solution.x.assign(formulation.problem.c.size(), 0);
+    solution.x.assign(static_cast<std::size_t>(formulation.variables), 0);
     solution.Y.values.clear();
     for (const auto& rows : formulation.releases.kept)
       solution.Y.values.emplace_back(rows.size() * rows.size(), 0);
@@ -180,7 +180,7 @@ class OnFaces {
       lmi::Formulation formulation = formulate(left, round);
       sdp::Solution solution = solve_(formulation.problem, effort);
       if (solution.x.empty()) break;
-      const auto next = lmi::next_round(formulation, solution.x);
+      const auto next = lmi::next_round(left.lmi, {}, formulation, solution.x);
       if (next && next->margin > round.margin)
         inside = lmi::read_back(left.lmi, formulation, solution);
       if (k == 0) {
@@ -278,7 +278,7 @@ class OnFaces {
       result_.x = std::move(found->x);
       result_.margins = std::move(found->margins);
       solved_ = std::move(minimum.solution);
-      return settle(lmi::objective_lower_bound(left.lmi, formulation, solved_));
+      return settle(lmi::objective_lower_bound(left.lmi, {}, formulation, solved_));
     }
   }
 

@@ -13,7 +13,7 @@ SmoothBlocks smooth_blocks(const model::Instance& instance) {
   SmoothBlocks result;
   result.layout = inequalities.unknowns;
   result.bounds = lmi::gain_bounds(inequalities, lmi);
-  const lmi::Formulation formulation = lmi::formulate_objective(lmi, result.bounds, choices.margin);
+  const lmi::Formulation formulation = lmi::pose_objective(lmi, result.bounds, choices.margin);
   // The shift is that of the row with the smallest: any is enough, since what is found is solved
   // again.
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {

@@ -42,23 +42,10 @@ std::vector<int> all_rows(const Block& block) {
 
 BalancedBlock balanced(const Block& block, const Balance& balance, std::size_t at,
                        const std::vector<int>& kept) {
-  constexpr int kDropped = -1;
-  std::vector<int> moved(static_cast<std::size_t>(block.size), kDropped);
-  for (std::size_t k = 0; k < kept.size(); ++k)
-    moved[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
   BalancedBlock result{static_cast<int>(kept.size()), {}, {}};
-  for (const auto& [i, matrix] : block.terms) {
-    for (int k = 0; k < matrix.outerSize(); ++k) {
-      for (Sparse::InnerIterator it(matrix, k); it; ++it) {
-        const auto r = static_cast<int>(it.row());
-        const auto c = static_cast<int>(it.col());
-        const int row = moved[static_cast<std::size_t>(r)];
-        const int column = moved[static_cast<std::size_t>(c)];
-        if (row == kDropped || column == kDropped || row > column) continue;
-        result.elements.push_back({i, row, column, it.value() * balance.factor(at, r, c, i), 0});
-      }
-    }
-  }
+  for_each_balanced(block, balance, at, kept, [&](int i, int row, int column, double value) {
+    result.elements.push_back({i, row, column, value, 0});
+  });
   return result;
 }
 

@@ -27,6 +27,27 @@ struct BalancedBlock {
 BalancedBlock balanced(const Block& block, const Balance& balance, std::size_t at,
                        const std::vector<int>& kept);
 
+/// Calls visit(unknown, row, column, value) for the same elements.
+template <class Visit>
+void for_each_balanced(const Block& block, const Balance& balance, std::size_t at,
+                       const std::vector<int>& kept, Visit visit) {
+  constexpr int kDropped = -1;
+  std::vector<int> moved(static_cast<std::size_t>(block.size), kDropped);
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    moved[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
+  for (const auto& [i, matrix] : block.terms)
+    for (int c = 0; c < matrix.outerSize(); ++c) {
+      const int column = moved[static_cast<std::size_t>(c)];
+      if (column == kDropped) continue;
+      for (Sparse::InnerIterator it(matrix, c); it; ++it) {
+        const auto r = static_cast<int>(it.row());
+        const int row = moved[static_cast<std::size_t>(r)];
+        if (row == kDropped || row > column) continue;
+        visit(i, row, column, it.value() * balance.factor(at, r, c, i));
+      }
+    }
+}
+
 /// S B(x) S at the variables y of the program, the constant part times `one`.
 numbers::Matrix value_of(const BalancedBlock& block, const std::vector<double>& y, double one);
 

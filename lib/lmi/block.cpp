@@ -6,10 +6,40 @@
 
 namespace gainsmith::lmi {
 
-numbers::Matrix Block::value(const std::vector<double>& x) const {
+namespace {
+
+/// Whether scalar i is one of the matrices in products.
+class InProducts {
+ public:
+  explicit InProducts(const Block& block) {
+    if (!block.products) return;
+    for (const HermitianProduct& product : *block.products)
+      ranges_.emplace_back(product.unknown.first,
+                           product.unknown.first + product.unknown.count());
+  }
+  bool operator()(int i) const {
+    return std::any_of(ranges_.begin(), ranges_.end(),
+                       [&](const auto& range) { return range.first <= i && i < range.second; });
+  }
+
+ private:
+  std::vector<std::pair<int, int>> ranges_;
+};
+
+}  // namespace
+
+numbers::Matrix Block::value(const std::vector<double>& x, double one) const {
   numbers::Matrix result = numbers::Matrix::Zero(size, size);
+  const InProducts in_products(*this);
   for (const auto& [i, matrix] : terms)
-    add_multiple(result, i == 0 ? 1.0 : x[static_cast<std::size_t>(i) - 1], matrix);
+    if (!in_products(i))
+      add_multiple(result, i == 0 ? one : x[static_cast<std::size_t>(i) - 1], matrix);
+  if (!products) return result;
+  for (const HermitianProduct& product : *products) {
+    const numbers::Matrix inner = product.left * matrix_at(product.unknown, x);
+    const numbers::Matrix half = inner * product.right;
+    result += half + half.transpose();
+  }
   return result;
 }
 

@@ -33,8 +33,8 @@ struct Block {
   double constant_size = 0;
   double coefficient_size = 0;
 
-  /// B(x), for m scalars x.
-  numbers::Matrix value(const std::vector<double>& x) const;
+  /// B(x), for m scalars x, its constant part times `one`.
+  numbers::Matrix value(const std::vector<double>& x, double one = 1) const;
 };
 
 /// Whether no block has a constant term: then x = 0 satisfies every inequality but for strictness.

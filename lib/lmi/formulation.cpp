@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "base/scalars.h"
@@ -28,6 +29,24 @@ std::vector<std::vector<int>> rows_of(const Releases& releases, const GainBounds
   std::vector<std::vector<int>> rows = releases.kept;
   for (const Block& block : bounds.blocks) rows.push_back(all_rows(block));
   return rows;
+}
+
+/// The rows that stay of S_k M S_k.
+numbers::Matrix in_units(const numbers::Matrix& whole, const Balance& balance, std::size_t k,
+                         const std::vector<int>& rows) {
+  numbers::Matrix value = whole(rows, rows);
+  for (Eigen::Index c = 0; c < value.cols(); ++c)
+    for (Eigen::Index r = 0; r < value.rows(); ++r)
+      value(r, c) *= balance.row(k, rows[static_cast<std::size_t>(r)]) *
+                     balance.row(k, rows[static_cast<std::size_t>(c)]);
+  return value;
+}
+
+std::vector<int> sizes_of(const Releases& releases, const GainBounds& bounds) {
+  std::vector<int> sizes;
+  for (const auto& kept : releases.kept) sizes.push_back(static_cast<int>(kept.size()));
+  for (const Block& block : bounds.blocks) sizes.push_back(block.size);
+  return sizes;
 }
 
 /// 2^k with which the largest cost is in [1, 2): tolerances of the objective are relative to 1 and
@@ -60,43 +79,55 @@ bool has_minimum(const Lmi& lmi, const GainBounds& bounds) {
   return lmi.has_objective && !is_homogeneous(lmi, bounds);
 }
 
-Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double shift) {
+Formulation pose_objective(const Lmi& lmi, const GainBounds& bounds, double shift) {
   Formulation result;
   result.shift = shift;
-  const auto blocks = all_blocks(lmi, bounds);
-  const int variables = lmi.unknowns + bounds.scalars;
-  result.balance = balance(blocks, variables, lmi.objective);
+  result.variables = lmi.unknowns + bounds.scalars;
+  result.balance = balance(all_blocks(lmi, bounds), result.variables, lmi.objective);
   result.releases = find_releases(lmi, bounds.blocks, true);
-  const auto rows = rows_of(result.releases, bounds);
-  Assembler assembler(variables);
+  result.sizes = sizes_of(result.releases, bounds);
+  result.cost_unit = cost_unit_of(lmi, result.balance);
+  return result;
+}
+
+Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
+                          const std::vector<std::vector<int>>& rows) {
+  Formulation result;
+  result.goal = Goal::interior;
+  result.homogenised = !is_homogeneous(lmi, bounds);
+  const int own = lmi.unknowns + bounds.scalars;
+  result.variables = own + (result.homogenised ? 2 : 1);
+  result.balance = balance(all_blocks(lmi, bounds), own, {});
+  result.releases = find_releases(lmi, bounds.blocks, false);
+  if (!rows.empty()) result.releases.kept = rows;
+  result.sizes = sizes_of(result.releases, bounds);
+  result.rows = std::accumulate(result.sizes.begin(), result.sizes.end(), 0) +
+                (result.homogenised ? 1 : 0);
+  return result;
+}
+
+namespace {
+
+void assemble_objective(const Lmi& lmi, const std::vector<const Block*>& blocks,
+                        const std::vector<std::vector<int>>& rows, Formulation& result) {
+  Assembler assembler(result.variables);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     result.blocks.push_back(balanced(*blocks[k], result.balance, k, rows[k]));
     const int added = assembler.add(result.blocks[k], 0, 1);
     for (int r = 0; k < lmi.blocks.size() && r < result.blocks[k].size; ++r)
-      assembler.add_entry(0, added, r, r, -shift);
+      assembler.add_entry(0, added, r, r, -result.shift);
   }
-  result.cost_unit = cost_unit_of(lmi, result.balance);
   for (int i = 1; lmi.has_objective && i <= lmi.unknowns; ++i)
     assembler.set_cost(i, lmi.objective[static_cast<std::size_t>(i) - 1] * result.balance.unit(i) *
                               result.cost_unit);
   result.problem = assembler.take();
-  return result;
 }
 
-Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round,
-                               const Exactly& exactly,
-                               const std::vector<std::vector<int>>& rows_that_stay) {
-  Formulation result;
-  result.goal = Goal::interior;
-  result.homogenised = !is_homogeneous(lmi, bounds);
-  const auto blocks = all_blocks(lmi, bounds);
-  const int own = lmi.unknowns + bounds.scalars;
-  const int constant = result.homogenised ? own + 1 : 0;
-  const int margin = own + (result.homogenised ? 2 : 1);
-  result.balance = balance(blocks, own, {});
-  result.releases = find_releases(lmi, bounds.blocks, false);
-  if (!rows_that_stay.empty()) result.releases.kept = rows_that_stay;
-  const auto rows = rows_of(result.releases, bounds);
+void assemble_interior(const std::vector<const Block*>& blocks,
+                       const std::vector<std::vector<int>>& rows, const Round& round,
+                       const Exactly& exactly, Formulation& result) {
+  const int margin = result.variables;
+  const int constant = result.homogenised ? margin - 1 : 0;
   Assembler assembler(margin);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     result.blocks.push_back(exactly ? exactly(k, result.balance, rows[k])
@@ -108,17 +139,40 @@ Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const R
     for (int r = 0; r < result.blocks[k].size; ++r)
       assembler.add_entry(margin, added, r, r,
                           round.diagonals.empty() ? -1 : -round.diagonals[k][r]);
-    result.rows += result.blocks[k].size;
   }
   if (result.homogenised) {
     const int added = assembler.add_block(1, true);
     assembler.add_entry(constant, added, 0, 0, 1 - round.margin);
     assembler.add_entry(margin, added, 0, 0, -round.constant);
-    ++result.rows;
   }
   add_trace_limit(result.blocks, round, constant, result.rows, assembler);
   assembler.set_cost(margin, -1);
   result.problem = assembler.take();
+}
+
+}  // namespace
+
+void assemble(const Lmi& lmi, const GainBounds& bounds, const Round& round,
+              Formulation& formulation, const Exactly& exactly) {
+  const auto blocks = all_blocks(lmi, bounds);
+  const auto rows = rows_of(formulation.releases, bounds);
+  formulation.blocks.clear();
+  if (formulation.goal == Goal::objective)
+    assemble_objective(lmi, blocks, rows, formulation);
+  else
+    assemble_interior(blocks, rows, round, exactly, formulation);
+}
+
+Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double shift) {
+  Formulation result = pose_objective(lmi, bounds, shift);
+  assemble(lmi, bounds, {}, result);
+  return result;
+}
+
+Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round,
+                               const Exactly& exactly, const std::vector<std::vector<int>>& rows) {
+  Formulation result = pose_interior(lmi, bounds, rows);
+  assemble(lmi, bounds, round, result, exactly);
   return result;
 }
 
@@ -188,13 +242,22 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
   return x;
 }
 
-std::optional<Round> next_round(const Formulation& formulation, const std::vector<double>& x) {
+std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
+                                const Formulation& formulation, const std::vector<double>& x) {
   Round round;
   round.margin = 1;
   round.constant = formulation.homogenised ? x[x.size() - 2] : 1;
   if (!(round.constant > 0)) return std::nullopt;
-  for (const BalancedBlock& block : formulation.blocks) {
-    const numbers::Matrix value = value_of(block, x, round.constant);
+  const auto blocks = all_blocks(lmi, bounds);
+  const auto rows = rows_of(formulation.releases, bounds);
+  std::vector<double> in_given_units = x;
+  for (std::size_t i = 0; i < formulation.balance.unknowns.size(); ++i)
+    in_given_units[i] *= formulation.balance.unit(static_cast<int>(i) + 1);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const numbers::Matrix value =
+        formulation.blocks.empty() ? in_units(blocks[k]->value(in_given_units, round.constant),
+                                              formulation.balance, k, rows[k])
+                                   : value_of(formulation.blocks[k], x, round.constant);
     const double found = correlation_margin(value);
     if (!(found > 0)) return std::nullopt;
     round.margin = std::min(round.margin, found);
@@ -203,8 +266,8 @@ std::optional<Round> next_round(const Formulation& formulation, const std::vecto
   return round;
 }
 
-double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
-                             const sdp::Solution& solution) {
+double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
+                             const Formulation& formulation, const sdp::Solution& solution) {
   constexpr double kLike = 2;
   constexpr double kRounding = 3e-16;  // of the coefficients, which stand for decimals
   // c'x >= -sum_k <B_k0, Y_k> + r'x  with  r_i = c_i - sum_k <B_ki, Y_k>.
@@ -217,14 +280,17 @@ double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
   for (int i = 1; i <= lmi.unknowns; ++i)
     add(i, lmi.objective[static_cast<std::size_t>(i) - 1] * formulation.balance.unit(i) *
                formulation.cost_unit);
-  for (std::size_t k = 0; k < formulation.blocks.size(); ++k) {
-    const auto n = static_cast<std::size_t>(formulation.blocks[k].size);
+  const auto blocks = all_blocks(lmi, bounds);
+  const auto rows = rows_of(formulation.releases, bounds);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const std::size_t n = rows[k].size();
     const auto& Y = solution.Y.values[k];
-    for (const BalancedBlock::Element& e : formulation.blocks[k].elements) {
-      const auto row = static_cast<std::size_t>(e.row);
-      const auto column = static_cast<std::size_t>(e.column);
-      add(e.unknown, -(row == column ? 1 : 2) * e.value, Y[row * n + column]);
-    }
+    for_each_balanced(*blocks[k], formulation.balance, k, rows[k],
+                      [&](int i, int row, int column, double value) {
+                        add(i, -(row == column ? 1 : 2) * value,
+                            Y[static_cast<std::size_t>(row) * n +
+                              static_cast<std::size_t>(column)]);
+                      });
   }
   double bound = as<double>(r[0]) - kRounding * sizes[0];
   for (std::size_t i = 1; i < r.size(); ++i)

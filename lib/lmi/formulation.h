@@ -45,8 +45,12 @@ struct Formulation {
   double cost_unit = 1;      ///< objective: costs of the problem by those of the Lmi, 2^k
   bool homogenised = false;  ///< interior: x_0 stands before s, which is the last variable
   int rows = 0;              ///< interior: N
-  sdp::Problem problem;      ///< its first blocks are those of the Lmi, then the gain bounds
+  int variables = 0;         ///< of the program
   Releases releases;         ///< scalars left out, and the rows of each block that stay
+  std::vector<int> sizes;    ///< rows that stay in each block, those of the bounds last
+
+  // Of what is assembled:
+  sdp::Problem problem;               ///< its first blocks are those of the Lmi, then of the bounds
   std::vector<BalancedBlock> blocks;  ///< as solved, those of the bounds last
 };
 
@@ -58,10 +62,20 @@ using Exactly = std::function<BalancedBlock(std::size_t block, const Balance& ba
 /// scaled, and the infimum is 0 or there is none.
 bool has_minimum(const Lmi& lmi, const GainBounds& bounds);
 
+/// Without the program, which not every solver wants (matrix_program.h).
+Formulation pose_objective(const Lmi& lmi, const GainBounds& bounds, double shift);
+/// `rows`, unless empty: the rows of each block of the Lmi that stay, of those that releases leave.
+/// With fewer rows less is asked, so what refutes it refutes the whole.
+Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
+                          const std::vector<std::vector<int>>& rows = {});
+
+/// Adds the program. With `exactly` the coefficients of the Lmi's blocks are those, in 31 digits; there must be no
+/// bounds then. `round`: of an interior formulation.
+void assemble(const Lmi& lmi, const GainBounds& bounds, const Round& round,
+              Formulation& formulation, const Exactly& exactly = {});
+
+/// Both steps.
 Formulation formulate_objective(const Lmi& lmi, const GainBounds& bounds, double shift);
-/// With `exactly` the coefficients of the Lmi's blocks are those, in 31 digits; there must be no
-/// bounds then. `rows`, unless empty: the rows of each block of the Lmi that stay, of those that
-/// releases leave. With fewer rows less is asked, so what refutes it refutes the whole.
 Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const Round& round,
                                const Exactly& exactly = {},
                                const std::vector<std::vector<int>>& rows = {});
@@ -90,14 +104,15 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
 
 /// The round after the solution x of an interior program; none when a block has a diagonal element
 /// <= 0 there.
-std::optional<Round> next_round(const Formulation& formulation, const std::vector<double>& x);
+std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
+                                const Formulation& formulation, const std::vector<double>& x);
 
 /// A lower bound on the objective without margins by weak duality with the dual solution Y,
 ///   c'x >= -sum_k <B_k0, Y_k> + sum_i r_i x_i,   r_i = c_i - sum_k <B_ki, Y_k>,
 /// for every x that satisfies the inequalities and is like the solution: no |x_i| is more than
 /// twice as large.
-double objective_lower_bound(const Lmi& lmi, const Formulation& formulation,
-                             const sdp::Solution& solution);
+double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
+                             const Formulation& formulation, const sdp::Solution& solution);
 
 /// The multipliers Y_k of a dual solution in the units of the data, for the blocks of the Lmi and
 /// then of the bounds: <B_ki, Y_k> is the same number in both units.

@@ -66,7 +66,7 @@ BoundaryPair pair_of(const Lmi& lmi, const Formulation& formulation,
     pair.x.push_back(wide_number(solution.x, solution.rest.x, i));
   pair.Y = wide_multipliers_of(formulation, lmi.blocks.size(), solution);
   if (formulation.homogenised) {
-    const std::size_t k = formulation.blocks.size();
+    const std::size_t k = formulation.sizes.size();
     pair.Y.push_back(Wide::Constant(1, 1, Decimal100(solution.Y.values[k][0])));
   }
   return pair;

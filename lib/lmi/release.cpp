@@ -14,9 +14,10 @@ namespace {
 
 /// The coefficient of scalar i in a block, or nullptr.
 const Sparse* coefficient(const Block& block, int i) {
-  for (const auto& [index, matrix] : block.terms)
-    if (index == i) return &matrix;
-  return nullptr;
+  const auto found =
+      std::lower_bound(block.terms.begin(), block.terms.end(), i,
+                       [](const auto& term, int wanted) { return term.first < wanted; });
+  return found != block.terms.end() && found->first == i ? &found->second : nullptr;
 }
 
 /// +1 or -1 when the matrix is diagonal with elements of that sign, else 0.

@@ -16,7 +16,7 @@ std::vector<MatrixOf<S>> multipliers(const Formulation& formulation, std::size_t
                                      Element element) {
   std::vector<MatrixOf<S>> result;
   for (std::size_t k = 0; k < blocks; ++k) {
-    const Eigen::Index n = formulation.blocks[k].size;
+    const Eigen::Index n = formulation.sizes[k];
     MatrixOf<S> Y(n, n);
     for (Eigen::Index at = 0; at < n * n; ++at) Y(at) = element(k, static_cast<std::size_t>(at));
     result.push_back((Y + Y.transpose().eval()) * S(0.5));

@@ -6,6 +6,7 @@
 #include <random>
 #include <string>
 
+#include "lmi/free_rows.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::lmi {
@@ -115,6 +116,20 @@ Blocks in_other_units(const Blocks& blocks, std::mt19937& generator) {
   for (std::size_t i = 0; i < result.objective.size(); ++i)
     result.objective[i] = std::ldexp(result.objective[i], of_unknown[i + 1] + common);
   return result;
+}
+
+/// The search that ends early finds the rows that all equations leave.
+TEST(BalanceTest, FewEquationsLeaveTheRowsThatAllLeave) {
+  std::mt19937 generator(11);
+  int several = 0;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Blocks blocks = random_blocks(false, generator);
+    const BalanceElements elements(blocks.pointers(), blocks.unknowns, blocks.objective);
+    const std::vector<int> rows = free_rows(elements);
+    EXPECT_EQ(rows, free_rows_of_all(elements));
+    several += rows.size() > 1 && std::ssize(rows) < elements.rows();
+  }
+  EXPECT_GT(several, 50);
 }
 
 /// Whole numbers have their exact halves of exponents.

@@ -165,7 +165,7 @@ TEST(FormulationTest, APointInsideIsReadBackAndMeasured) {
   const std::vector<double> back = read_back(lmi, formulation, solution);
   ASSERT_EQ(back.size(), 3U);
   for (std::size_t i = 0; i < 3; ++i) EXPECT_DOUBLE_EQ(back[i], x[i]);
-  const auto next = next_round(formulation, solution.x);
+  const auto next = next_round(lmi, {}, formulation, solution.x);
   ASSERT_TRUE(next);
   EXPECT_EQ(next->constant, constant);
   double least = 1;
@@ -176,9 +176,9 @@ TEST(FormulationTest, APointInsideIsReadBackAndMeasured) {
   }
   EXPECT_NEAR(next->margin, least, 1e-12);
   solution.x[0] = -1;
-  EXPECT_FALSE(next_round(formulation, solution.x));
+  EXPECT_FALSE(next_round(lmi, {}, formulation, solution.x));
   solution.x = {1, 0, 1, -0.5, 0.01};
-  EXPECT_FALSE(next_round(formulation, solution.x));
+  EXPECT_FALSE(next_round(lmi, {}, formulation, solution.x));
 }
 
 /// <B_ki, Y_k> is the same number whatever the units.

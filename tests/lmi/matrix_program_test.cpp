@@ -199,6 +199,36 @@ TEST_P(MatrixProgramTest, IsTheProgramOfTheLargestMargin) {
   EXPECT_FALSE(matrix_program(posed.lmi, posed.bounds, formulation, round));
 }
 
+/// Without a program a round is measured by the blocks of the Lmi.
+TEST_P(MatrixProgramTest, TheNextRoundNeedsNoProgram) {
+  const Posed posed(GetParam().text, 1);
+  const Formulation assembled = formulate_interior(posed.lmi, posed.bounds, {});
+  const Formulation plain = pose_interior(posed.lmi, posed.bounds);
+  EXPECT_TRUE(plain.blocks.empty());
+  EXPECT_EQ(plain.variables, assembled.problem.m());
+  std::uniform_real_distribution<double> number(-1, 1);
+  for (int trial = 0; trial < 100; ++trial) {
+    sdp::Solution solution;
+    for (int i = 0; i < plain.variables; ++i) solution.x.push_back(number(generator_));
+    // Near P = I some are inside.
+    for (const Unknown& unknown : posed.inequalities.unknowns.list())
+      for (int k = 0; k < unknown.count; ++k) {
+        const auto [row, column] = unknown.places(k).front();
+        double& value = solution.x[static_cast<std::size_t>(unknown.first + k) - 1];
+        value = 0.1 * value + (unknown.structure == model::Structure::symmetric && row == column);
+      }
+    const auto one = next_round(posed.lmi, posed.bounds, plain, solution);
+    const auto other = next_round(posed.lmi, posed.bounds, assembled, solution);
+    ASSERT_EQ(one.has_value(), other.has_value());
+    if (!one) continue;
+    EXPECT_NEAR(one->margin, other->margin, 1e-12);
+    EXPECT_EQ(one->constant, other->constant);
+    for (std::size_t k = 0; k < one->diagonals.size(); ++k)
+      EXPECT_LT((one->diagonals[k] - other->diagonals[k]).norm(),
+                1e-12 * one->diagonals[k].norm());
+  }
+}
+
 TEST_P(MatrixProgramTest, IsTheProgramOfTheObjective) {
   const Posed posed(GetParam().text, 1);
   if (!posed.lmi.has_objective) return;
