@@ -218,8 +218,9 @@ double Climb::allowance() const {
   constexpr double kLeast = 2, kMost = 60, kTimes = 20;
   constexpr double kIterations = 20;
   if (posed_.choices().full_effort) return std::numeric_limits<double>::infinity();
-  return std::clamp(kTimes * kIterations * posed_.lmi.multiplications() * kDoubleWork, kLeast,
-                    kMost);
+  // Never less than the solver itself takes in double.
+  const double solver = kIterations * posed_.lmi.multiplications() * kDoubleWork;
+  return std::max(2 * solver, std::clamp(kTimes * solver, kLeast, kMost));
 }
 
 const Attempt* Climb::find(Rung rung) const {

@@ -19,6 +19,10 @@ Layout layout_of(const MatrixProgram& program) {
   return {std::move(sizes), static_cast<int>(program.rows.size())};
 }
 
+Dense stored(const DenseMatrix& M) {
+  return ConstMatrixMap<double>(M.values.data(), M.rows, M.columns);
+}
+
 /// sum += factor G.
 void add_elements(const std::vector<MatrixProgram::Element>& elements, double factor,
                   MatrixMap<double> sum) {
@@ -44,13 +48,15 @@ void add_between(const Dense& E, const Dense& V, const Dense& F, Dense& sum) {
     sum.noalias() += E * (V * F.transpose());
 }
 
+bool is_sparse(const Dense& M) {
+  for (Eigen::Index j = 0; j < M.cols(); ++j)
+    if ((M.col(j).array() != 0).count() > 1) return false;
+  return true;
+}
+
 }  // namespace
 
-Side::Side(const DenseMatrix& values, bool transposed)
-    : rows_(transposed ? values.columns : values.rows),
-      columns_(transposed ? values.rows : values.columns) {
-  const ConstMatrixMap<double> stored(values.values.data(), values.rows, values.columns);
-  dense_ = transposed ? Dense(stored.transpose()) : Dense(stored);
+Side::Side(Dense values) : rows_(values.rows()), columns_(values.cols()), dense_(std::move(values)) {
   row_.assign(static_cast<std::size_t>(columns_), 0);
   value_.assign(row_.size(), 0);
   for (Eigen::Index j = 0; j < columns_ && sparse_; ++j) {
@@ -107,14 +113,6 @@ Dense Side::times(const Dense& M) const {
   return result;
 }
 
-Dense Side::dense() const {
-  if (!sparse_) return dense_;
-  Dense result = Dense::Zero(rows_, columns_);
-  for (Eigen::Index j = 0; j < columns_; ++j)
-    result(row_[static_cast<std::size_t>(j)], j) = value_[static_cast<std::size_t>(j)];
-  return result;
-}
-
 MatrixOperator::MatrixOperator(const MatrixProgram& program)
     : program_(program), layout_(layout_of(program)), constant_(layout_) {
   std::vector<bool> in_matrix(program.c.size(), false);
@@ -126,9 +124,7 @@ MatrixOperator::MatrixOperator(const MatrixProgram& program)
     if (!in_matrix[i]) scalars_.push_back(static_cast<int>(i));
   for (std::size_t k = 0; k < program.blocks.size(); ++k) {
     Block& block = blocks_.emplace_back();
-    for (const MatrixProgram::Product& product : program.blocks[k].products)
-      block.terms.push_back({static_cast<std::size_t>(product.unknown), Side(product.E, false),
-                             Side(product.F, true)});
+    add_terms(program.blocks[k], block);
     std::map<int, std::vector<MatrixProgram::Element>> by_variable;
     for (const MatrixProgram::Element& e : program.blocks[k].elements)
       by_variable[e.variable].push_back(e);
@@ -145,6 +141,35 @@ MatrixOperator::MatrixOperator(const MatrixProgram& program)
       row.coefficients[variable] += value;
     constant_.linear()[static_cast<Eigen::Index>(r)] = program.rows[r].constant;
   }
+}
+
+void MatrixOperator::add_terms(const MatrixProgram::Block& from, Block& to) const {
+  struct Pair {
+    std::size_t unknown;
+    Dense E, F;
+  };
+  std::vector<Pair> pairs;
+  for (const MatrixProgram::Product& product : from.products) {
+    Pair pair{static_cast<std::size_t>(product.unknown), stored(product.E),
+              stored(product.F).transpose()};
+    if (program_.unknowns[pair.unknown].symmetric && is_sparse(pair.F) && !is_sparse(pair.E))
+      pair.E.swap(pair.F);
+    const bool sparse_F = is_sparse(pair.F) && !is_sparse(pair.E);
+    Dense &unit = sparse_F ? pair.F : pair.E, &other = sparse_F ? pair.E : pair.F;
+    const double size = unit.cwiseAbs().maxCoeff();
+    if (!(size > 0)) continue;
+    unit /= size;
+    other *= size;
+    const auto same = std::find_if(pairs.begin(), pairs.end(), [&](const Pair& known) {
+      return known.unknown == pair.unknown && known.E == pair.E;
+    });
+    if (same == pairs.end())
+      pairs.push_back(std::move(pair));
+    else
+      same->F += pair.F;
+  }
+  for (Pair& pair : pairs)
+    to.terms.push_back({pair.unknown, Side(std::move(pair.E)), Side(std::move(pair.F))});
 }
 
 Dense MatrixOperator::unpack(std::size_t unknown, const Vector<double>& x) const {
@@ -269,27 +294,6 @@ void SchurOperator::apply(const Vector<double>& v, Vector<double>& Mv) const {
     const Vector<double>& a = of_.rows()[r].coefficients;
     Mv += weights[static_cast<Eigen::Index>(r)] * a.dot(v) * a;
   }
-}
-
-Dense SchurOperator::apply_to(std::size_t unknown, const Dense& V) const {
-  Dense R = Dense::Zero(V.rows(), V.cols());
-  for (std::size_t k = 0; k < scaled_.size(); ++k) {
-    const MatrixOperator::Block& block = of_.blocks()[k];
-    const Eigen::Index n = W_->dense(static_cast<int>(k)).rows();
-    Dense half = Dense::Zero(n, n);
-    bool stands = false;
-    for (std::size_t t = 0; t < block.terms.size(); ++t) {
-      if (block.terms[t].unknown != unknown) continue;
-      add_between(scaled_[k].E[t], V, scaled_[k].F[t], half);
-      stands = true;
-    }
-    if (!stands) continue;
-    const Dense Q = half + half.transpose();
-    for (const MatrixOperator::Term& term : block.terms)
-      if (term.unknown == unknown) R += 2 * term.E.transposed_times(term.F.from_left(Q));
-  }
-  if (of_.program().unknowns[unknown].symmetric) R = (0.5 * (R + R.transpose())).eval();
-  return R;
 }
 
 double SchurOperator::diagonal(int scalar) const {

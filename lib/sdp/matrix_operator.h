@@ -14,8 +14,7 @@ namespace gainsmith::sdp {
 /// column costs no product.
 class Side {
  public:
-  /// E, or the transpose of F.
-  Side(const DenseMatrix& values, bool transposed);
+  explicit Side(Matrix<double> values);
 
   Eigen::Index rows() const { return rows_; }
   Eigen::Index columns() const { return columns_; }
@@ -27,7 +26,7 @@ class Side {
   Matrix<double> times(const Matrix<double>& M) const;
   /// sum += this * M.
   void add_product(const Matrix<double>& M, Matrix<double>& sum) const;
-  Matrix<double> dense() const;
+  bool operator==(const Side& other) const = default;
 
  private:
   Eigen::Index rows_, columns_;
@@ -42,6 +41,8 @@ class MatrixOperator {
  public:
   explicit MatrixOperator(const MatrixProgram& program);
 
+  /// Sides with few elements stand in E where V is symmetric, the largest element of one is 1, and
+  /// no two terms of one V in one block have the same E: so equal sides are seen to be equal.
   struct Term {
     std::size_t unknown;
     Side E, F;  ///< F transposed
@@ -83,6 +84,8 @@ class MatrixOperator {
   Matrix<double> gradient(std::size_t unknown, const Vector<double>& g) const;
 
  private:
+  void add_terms(const MatrixProgram::Block& from, Block& to) const;
+
   const MatrixProgram& program_;
   Layout layout_;
   std::vector<Block> blocks_;
@@ -98,8 +101,6 @@ class SchurOperator {
 
   void set_scaling(const Blocks<double>& W);
   void apply(const Vector<double>& v, Vector<double>& Mv) const;
-  /// R(V) of M restricted to one unknown: from V to the gradient there.
-  Matrix<double> apply_to(std::size_t unknown, const Matrix<double>& V) const;
   /// <G_i, W G_i W> of a scalar.
   double diagonal(int scalar) const;
 

@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <utility>
 
 #include "base/stop.h"
 #include "sdp/work.h"
@@ -14,27 +15,6 @@ using Dense = Matrix<double>;
 
 /// Part of the mean diagonal element that keeps a Gram matrix from being singular.
 constexpr double kFloor = 1e-13;
-
-/// G'E and G'F' of the terms of one unknown in one block.
-struct Scaled {
-  std::vector<Dense> E, F;
-};
-
-std::vector<Scaled> scaled_terms(const MatrixOperator& of, std::size_t unknown,
-                                 const Blocks<double>& G) {
-  std::vector<Scaled> result;
-  for (std::size_t k = 0; k < of.blocks().size(); ++k) {
-    Scaled scaled;
-    for (const MatrixOperator::Term& term : of.blocks()[k].terms) {
-      if (term.unknown != unknown) continue;
-      const Dense transposed = G.dense(static_cast<int>(k)).transpose();
-      scaled.E.push_back(term.E.from_left(transposed));
-      scaled.F.push_back(term.F.from_left(transposed));
-    }
-    if (!scaled.E.empty()) result.push_back(std::move(scaled));
-  }
-  return result;
-}
 
 /// T^-T of M = T T'.
 Dense whitening(Dense M) {
@@ -67,29 +47,124 @@ Dense reciprocal(const Dense& D) {
 
 }  // namespace
 
-Preconditioner::Basis Preconditioner::symmetric_basis(std::size_t unknown, const SchurOperator& M,
-                                                      const Blocks<double>& G) const {
-  const Eigen::Index n = of_.program().unknowns[unknown].rows;
-  std::vector<Scaled> blocks = scaled_terms(of_, unknown, G);
+Preconditioner::Preconditioner(const MatrixOperator& of) : of_(of) { find_links(); }
+
+bool Preconditioner::shares_a_side(std::size_t P, std::size_t Y, bool transposed) const {
+  for (const MatrixOperator::Block& block : of_.blocks())
+    for (const MatrixOperator::Term& y : block.terms)
+      for (const MatrixOperator::Term& p : block.terms) {
+        if (y.unknown != Y || p.unknown != P) continue;
+        const Side& common = transposed ? y.F : y.E;
+        if (common == p.E || common == p.F) return true;
+      }
+  return false;
+}
+
+/// One P for each Y, the first.
+void Preconditioner::find_links() {
+  const auto& unknowns = of_.program().unknowns;
+  for (std::size_t Y = 0; Y < unknowns.size(); ++Y) {
+    bool found = unknowns[Y].symmetric;
+    for (std::size_t P = 0; P < unknowns.size() && !found; ++P)
+      for (const bool transposed : {false, true}) {
+        if (found || !unknowns[P].symmetric || !shares_a_side(P, Y, transposed)) continue;
+        links_.push_back({P, Y, transposed, {}});
+        found = true;
+      }
+  }
+}
+
+Preconditioner::Terms Preconditioner::scaled_terms(std::size_t unknown,
+                                                   const Blocks<double>& G) const {
+  Terms result(of_.blocks().size());
+  for (std::size_t k = 0; k < result.size(); ++k)
+    for (const MatrixOperator::Term& term : of_.blocks()[k].terms) {
+      if (term.unknown != unknown) continue;
+      const Dense transposed = G.dense(static_cast<int>(k)).transpose();
+      result[k].push_back({term.E.from_left(transposed), term.F.from_left(transposed)});
+    }
+  return result;
+}
+
+/// K, and the terms of P with Y - P K for Y.
+void Preconditioner::decouple(Link& link, std::vector<Terms>& terms) const {
+  Terms& P = terms[link.P];
+  const Eigen::Index n = of_.program().unknowns[link.P].rows;
+  const MatrixProgram::Unknown& of = of_.program().unknowns[link.Y];
+  const Eigen::Index free = link.transposed ? of.rows : of.columns;
+  Dense across = Dense::Zero(n, free), own = Dense::Zero(free, free);
+  // The terms of Y with the term of P that has a common side, or none.
+  struct Beside {
+    std::size_t block;
+    Dense common, free;
+    Dense* matched;
+  };
+  std::vector<Beside> beside;
+  for (std::size_t k = 0; k < P.size(); ++k) {
+    std::size_t y = 0;
+    for (const MatrixOperator::Term& term : of_.blocks()[k].terms) {
+      if (term.unknown != link.Y) continue;
+      const Sides& sides = terms[link.Y][k][y++];
+      beside.push_back({k, link.transposed ? sides.F : sides.E,
+                        link.transposed ? sides.E : sides.F, nullptr});
+      const Side& common = link.transposed ? term.F : term.E;
+      std::size_t p = 0;
+      for (const MatrixOperator::Term& other : of_.blocks()[k].terms) {
+        if (other.unknown != link.P) continue;
+        Sides& matched = P[k][p++];
+        if (beside.back().matched) continue;
+        if (common == other.E) beside.back().matched = &matched.F;
+        if (common == other.F && !beside.back().matched) beside.back().matched = &matched.E;
+      }
+      own.noalias() += beside.back().free.transpose() * beside.back().free;
+      if (beside.back().matched)
+        across.noalias() += beside.back().matched->transpose() * beside.back().free;
+    }
+  }
+  own.diagonal().array() += kFloor * own.trace() / static_cast<double>(free);
+  link.K = own.llt().solve(across.transpose()).transpose();
+  std::vector<std::pair<std::size_t, Sides>> more;
+  for (const Beside& term : beside) {
+    const Dense part = term.free * link.K.transpose();
+    if (term.matched)
+      *term.matched -= part;
+    else
+      more.push_back({term.block, {term.common, -part}});
+  }
+  for (auto& [block, sides] : more) P[block].push_back(std::move(sides));
+}
+
+Preconditioner::Basis Preconditioner::symmetric_basis(const Terms& terms, Eigen::Index n) const {
   Dense total = Dense::Zero(n, n);
-  for (const Scaled& block : blocks)
-    for (std::size_t t = 0; t < block.E.size(); ++t) {
-      total.noalias() += block.E[t].transpose() * block.E[t];
-      total.noalias() += block.F[t].transpose() * block.F[t];
+  for (const auto& block : terms)
+    for (const Sides& term : block) {
+      total.noalias() += term.E.transpose() * term.E;
+      total.noalias() += term.F.transpose() * term.F;
     }
   const Dense Q0 = whitening(std::move(total));
-  const Dense image = Q0.transpose() * M.apply_to(unknown, Q0 * Q0.transpose()) * Q0;
+  Terms inside = terms;
+  Dense image = Dense::Zero(n, n);
+  for (auto& block : inside) {
+    if (block.empty()) continue;
+    Dense half = Dense::Zero(block[0].E.rows(), block[0].E.rows());
+    for (Sides& term : block) {
+      term = {term.E * Q0, term.F * Q0};
+      half.noalias() += term.E * term.F.transpose();
+    }
+    const Dense Q = half + half.transpose();
+    for (const Sides& term : block) image.noalias() += term.E.transpose() * (Q * term.F);
+  }
+  const Dense U = eigenvectors(image + image.transpose());
   Basis basis;
-  basis.left = Q0 * eigenvectors(image);
+  basis.left = Q0 * U;
   Dense D = Dense::Zero(n, n);
-  for (Scaled& block : blocks) {
-    for (Dense& E : block.E) E = (E * basis.left).eval();
-    for (Dense& F : block.F) F = (F * basis.left).eval();
-    for (std::size_t t = 0; t < block.E.size(); ++t)
-      for (std::size_t s = 0; s < block.E.size(); ++s) {
-        spend_on<double>(4 * static_cast<double>(n * block.E[t].size()));
-        add_symmetric(block.E[s].transpose() * block.E[t], block.F[t].transpose() * block.F[s], D);
-        add_symmetric(block.E[s].transpose() * block.F[t], block.E[t].transpose() * block.F[s], D);
+  for (auto& block : inside) {
+    for (Sides& term : block) term = {term.E * U, term.F * U};
+    for (const Sides& t : block)
+      for (const Sides& s : block) {
+        spend_on<double>(4 * static_cast<double>(n * t.E.size()));
+        add_symmetric(s.E.transpose() * t.E, t.F.transpose() * s.F, D);
+        add_symmetric(s.E.transpose() * t.F, t.E.transpose() * s.F, D);
       }
   }
   // Half of the quadratic form of e_i e_j' + e_j e_i' beside an element of the gradient.
@@ -98,25 +173,23 @@ Preconditioner::Basis Preconditioner::symmetric_basis(std::size_t unknown, const
   return basis;
 }
 
-Preconditioner::Basis Preconditioner::full_basis(std::size_t unknown,
-                                                 const Blocks<double>& G) const {
-  const MatrixProgram::Unknown& of = of_.program().unknowns[unknown];
-  std::vector<Scaled> blocks = scaled_terms(of_, unknown, G);
+Preconditioner::Basis Preconditioner::full_basis(Terms terms, Eigen::Index rows,
+                                                 Eigen::Index columns) const {
   std::vector<Dense> lefts, rights;
-  Dense left = Dense::Zero(of.rows, of.rows), right = Dense::Zero(of.columns, of.columns);
-  for (const Scaled& block : blocks) {
-    Dense& E = lefts.emplace_back(Dense::Zero(of.rows, of.rows));
-    Dense& F = rights.emplace_back(Dense::Zero(of.columns, of.columns));
-    for (std::size_t t = 0; t < block.E.size(); ++t) {
-      E.noalias() += block.E[t].transpose() * block.E[t];
-      F.noalias() += block.F[t].transpose() * block.F[t];
+  Dense left = Dense::Zero(rows, rows), right = Dense::Zero(columns, columns);
+  for (const auto& block : terms) {
+    Dense& E = lefts.emplace_back(Dense::Zero(rows, rows));
+    Dense& F = rights.emplace_back(Dense::Zero(columns, columns));
+    for (const Sides& term : block) {
+      E.noalias() += term.E.transpose() * term.E;
+      F.noalias() += term.F.transpose() * term.F;
     }
     left += E;
     right += F;
   }
   const Dense P = whitening(std::move(left)), Q = whitening(std::move(right));
-  Dense left_image = Dense::Zero(of.rows, of.rows), right_image = Dense::Zero(of.columns, of.columns);
-  for (std::size_t b = 0; b < blocks.size(); ++b) {
+  Dense left_image = Dense::Zero(rows, rows), right_image = Dense::Zero(columns, columns);
+  for (std::size_t b = 0; b < terms.size(); ++b) {
     lefts[b] = (P.transpose() * lefts[b] * P).eval();
     rights[b] = (Q.transpose() * rights[b] * Q).eval();
     left_image += rights[b].trace() * lefts[b];
@@ -125,17 +198,15 @@ Preconditioner::Basis Preconditioner::full_basis(std::size_t unknown,
   Basis basis;
   basis.left = P * eigenvectors(left_image);
   basis.right = Q * eigenvectors(right_image);
-  Dense D = Dense::Zero(of.rows, of.columns);
-  for (Scaled& block : blocks) {
-    for (Dense& E : block.E) E = (E * basis.left).eval();
-    for (Dense& F : block.F) F = (F * basis.right).eval();
-    for (std::size_t t = 0; t < block.E.size(); ++t)
-      for (std::size_t s = 0; s < block.E.size(); ++s) {
-        const Vector<double> e = block.E[s].cwiseProduct(block.E[t]).colwise().sum();
-        const Vector<double> f = block.F[s].cwiseProduct(block.F[t]).colwise().sum();
+  Dense D = Dense::Zero(rows, columns);
+  for (auto& block : terms) {
+    for (Sides& term : block) term = {term.E * basis.left, term.F * basis.right};
+    for (const Sides& t : block)
+      for (const Sides& s : block) {
+        const Vector<double> e = s.E.cwiseProduct(t.E).colwise().sum();
+        const Vector<double> f = s.F.cwiseProduct(t.F).colwise().sum();
         D.noalias() += 2 * e * f.transpose();
-        const Dense across = block.E[s].transpose() * block.F[t];
-        const Dense back = block.E[t].transpose() * block.F[s];
+        const Dense across = s.E.transpose() * t.F, back = t.E.transpose() * s.F;
         D.array() += 2 * across.array() * back.array();
       }
   }
@@ -144,12 +215,17 @@ Preconditioner::Basis Preconditioner::full_basis(std::size_t unknown,
 }
 
 void Preconditioner::prepare(const SchurOperator& M, const Blocks<double>& G) {
+  const auto& unknowns = of_.program().unknowns;
+  std::vector<Terms> terms;
+  for (std::size_t u = 0; u < unknowns.size(); ++u) terms.push_back(scaled_terms(u, G));
+  for (Link& link : links_) decouple(link, terms);
   bases_.clear();
   scalars_.clear();
-  for (std::size_t u = 0; u < of_.program().unknowns.size(); ++u) {
+  for (std::size_t u = 0; u < unknowns.size(); ++u) {
     check_stop();
-    bases_.push_back(of_.program().unknowns[u].symmetric ? symmetric_basis(u, M, G)
-                                                         : full_basis(u, G));
+    bases_.push_back(unknowns[u].symmetric
+                         ? symmetric_basis(terms[u], unknowns[u].rows)
+                         : full_basis(std::move(terms[u]), unknowns[u].rows, unknowns[u].columns));
   }
   for (const int scalar : of_.scalars()) {
     const double d = M.diagonal(scalar);
@@ -159,13 +235,25 @@ void Preconditioner::prepare(const SchurOperator& M, const Blocks<double>& G) {
 
 void Preconditioner::apply(const Vector<double>& r, Vector<double>& z) const {
   z.setZero(r.size());
+  std::vector<Dense> gradients, steps;
+  for (std::size_t u = 0; u < bases_.size(); ++u) gradients.push_back(of_.gradient(u, r));
+  for (const Link& link : links_) {
+    const Dense& Y = gradients[link.Y];
+    const Dense part = (link.transposed ? Dense(Y.transpose()) : Y) * link.K.transpose();
+    gradients[link.P] -= 0.5 * (part + part.transpose());
+  }
   for (std::size_t u = 0; u < bases_.size(); ++u) {
     const Basis& basis = bases_[u];
     const Dense& right = basis.right.size() > 0 ? basis.right : basis.left;
-    Dense inside = basis.left.transpose() * of_.gradient(u, r) * right;
+    Dense inside = basis.left.transpose() * gradients[u] * right;
     inside = inside.cwiseProduct(basis.weights).eval();
-    of_.pack(u, basis.left * inside * right.transpose(), z);
+    steps.push_back(basis.left * inside * right.transpose());
   }
+  for (const Link& link : links_) {
+    const Dense part = steps[link.P] * link.K;
+    steps[link.Y] -= link.transposed ? Dense(part.transpose()) : part;
+  }
+  for (std::size_t u = 0; u < bases_.size(); ++u) of_.pack(u, steps[u], z);
   for (std::size_t i = 0; i < scalars_.size(); ++i)
     z[of_.scalars()[i]] = scalars_[i] * r[of_.scalars()[i]];
 }

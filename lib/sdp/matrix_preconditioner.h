@@ -9,10 +9,12 @@ namespace gainsmith::sdp {
 
 /// For symmetric V the basis Q: Q0 = T^-T with T T' the sum of E'W E + F W F' over all terms, and
 /// Q = Q0 U with the eigenvectors U of Q0' M(Q0 Q0') Q0, the image of the identity; for a full V
-/// one basis for each side. There M counts as its diagonal; unknowns count as not coupled.
+/// one basis for each side. There M counts as its diagonal, and unknowns as not coupled. Before
+/// that, a full Y beside a symmetric P, as in He(E (P F + Y C)), is replaced by Y + P K with K = F W
+/// C' (C W C')^-1, which takes most of their coupling: what is left of F is orthogonal to C.
 class Preconditioner {
  public:
-  explicit Preconditioner(const MatrixOperator& of) : of_(of) {}
+  explicit Preconditioner(const MatrixOperator& of);
 
   /// G: factors of the scaling, W = G G'.
   void prepare(const SchurOperator& M, const Blocks<double>& G);
@@ -20,15 +22,32 @@ class Preconditioner {
   void apply(const Vector<double>& r, Vector<double>& z) const;
 
  private:
+  /// G'E and G'F' of one term.
+  struct Sides {
+    Matrix<double> E, F;
+  };
+  /// By blocks; many have none.
+  using Terms = std::vector<std::vector<Sides>>;
   struct Basis {
     Matrix<double> left, right;  ///< V = left Z right'; right empty: left
     Matrix<double> weights;      ///< 1 / D
   };
-  Basis symmetric_basis(std::size_t unknown, const SchurOperator& M,
-                        const Blocks<double>& G) const;
-  Basis full_basis(std::size_t unknown, const Blocks<double>& G) const;
+  /// Y or Y' beside P: both stand beside a common side somewhere.
+  struct Link {
+    std::size_t P, Y;
+    bool transposed;  ///< Y' P has the common side
+    Matrix<double> K;
+  };
+
+  void find_links();
+  bool shares_a_side(std::size_t P, std::size_t Y, bool transposed) const;
+  Terms scaled_terms(std::size_t unknown, const Blocks<double>& G) const;
+  void decouple(Link& link, std::vector<Terms>& terms) const;
+  Basis symmetric_basis(const Terms& terms, Eigen::Index n) const;
+  Basis full_basis(Terms terms, Eigen::Index rows, Eigen::Index columns) const;
 
   const MatrixOperator& of_;
+  std::vector<Link> links_;
   std::vector<Basis> bases_;
   std::vector<double> scalars_;  ///< 1 / <G, W G W>
 };
