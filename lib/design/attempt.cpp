@@ -62,15 +62,18 @@ void take_point_beyond_double(const Posed& posed, const std::vector<double>& x, 
 double price_of(const Posed& posed, const Attempt& attempt, const sdp::Solution& solution) {
   const lmi::Formulation& formulation = attempt.formulation;
   const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, formulation, solution));
-  const double least = lmi::objective_lower_bound(posed.lmi, attempt.question.bounds, formulation,
-                                                  solution);
+  const double least =
+      lmi::objective_lower_bound(posed.lmi, attempt.question.bounds, formulation, solution);
   return (value - least) / std::abs(value);
 }
+
+/// A price that is no matter of the solver's digits.
+constexpr double kCheap = 3e-7;
 
 /// A gap that is small beside the solver's 1 may be large beside the objective: then the program is
 /// solved to a finer one.
 void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
-  constexpr double kCheap = 3e-7, kDear = 1e-3;  // dearer is no matter of the solver's digits
+  constexpr double kDear = 1e-3;  // dearer is no matter of the solver's digits
   constexpr double kFiner = 1e-3;
   const double price = price_of(posed, result, result.solution);
   if (!(kCheap < price && price < kDear)) return;
@@ -83,10 +86,17 @@ void refine_price(const Posed& posed, const Solve& solve, Attempt& result) {
 
 void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   const Question& asked = result.question;
-  result.formulation = lmi::formulate_objective(posed.lmi, asked.bounds, asked.shift);
+  result.formulation = lmi::pose_objective(posed.lmi, asked.bounds, asked.shift);
   Effort effort = asked.effort;
-  const auto near = solve_in_matrices(posed, asked, result.formulation, {}, {});
+  auto near = solve_in_matrices(posed, asked, result.formulation, {}, {});
+  if (near && near->cause == sdp::Cause::converged && price_of(posed, result, *near) <= kCheap) {
+    near->status = sdp::Status::optimal;
+    result.solution = std::move(*near);
+    take_point(posed, lmi::read_back(posed.lmi, result.formulation, result.solution), result);
+    return;
+  }
   if (near) effort.from = &*near;
+  lmi::assemble(posed.lmi, asked.bounds, {}, result.formulation);
   result.solution = solve(result.formulation.problem, effort);
   // Far from the minimum a point serves no one: one inside comes from the other goal.
   if (!result.is_near_optimal()) return;
@@ -156,15 +166,16 @@ class Interior {
 
 /// The first round, whose multipliers are a certificate where there is no point; none when it is
 /// the one that the result has.
-std::optional<Interior::Solved> solve_interior(const Posed& posed, Interior& interior, Attempt& result) {
+std::optional<Interior::Solved> solve_interior(const Posed& posed, Interior& interior,
+                                               Attempt& result) {
   const int most_rounds = result.question.single ? 1 : 8;
   constexpr double kRises = 1e-3;
   lmi::Round round;
   std::optional<Interior::Solved> first;
   for (int k = 0; k < most_rounds; ++k) {
     Interior::Solved solved = interior(round);
-    const auto next = lmi::next_round(posed.lmi, result.question.bounds, solved.formulation,
-                                      solved.solution.x);
+    const auto next =
+        lmi::next_round(posed.lmi, result.question.bounds, solved.formulation, solved.solution.x);
     const std::vector<double> x = lmi::read_back(posed.lmi, solved.formulation, solved.solution);
     if (k == 0 || (next && next->margin > round.margin)) {
       if (k > 0 && !first) first = {std::move(result.formulation), std::move(result.solution)};

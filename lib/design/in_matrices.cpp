@@ -10,11 +10,11 @@ namespace gainsmith::design {
 
 namespace {
 
-/// Programs with fewer scalars take the ordinary solver no time.
-constexpr int kLarge = 200;
-/// The gap at which the ordinary solver goes on: a few of its iterations are left then, and
-/// conjugate gradients begin to take many steps.
-constexpr double kHandOver = 1e-4;
+/// Scalars from which on this solver is the faster one: a point inside takes it five iterations, a
+/// minimum many more steps of conjugate gradients.
+constexpr int kManyForAPoint = 200, kManyForAMinimum = 700;
+/// What conjugate gradients reach as a rule, and seven digits of an objective.
+constexpr double kGap = 1e-7;
 
 }  // namespace
 
@@ -39,12 +39,14 @@ Enough enough_for(const Posed& posed, const Question& asked, const lmi::Formulat
 std::optional<sdp::Solution> solve_in_matrices(const Posed& posed, const Question& asked,
                                                const lmi::Formulation& formulation,
                                                const lmi::Round& round, const Enough& enough) {
-  if (posed.lmi.unknowns < kLarge || !round.diagonals.empty()) return std::nullopt;
+  const bool minimum = asked.goal == lmi::Goal::objective;
+  if (posed.lmi.unknowns < (minimum ? kManyForAMinimum : kManyForAPoint)) return std::nullopt;
+  if (!round.diagonals.empty()) return std::nullopt;
   const auto program = lmi::matrix_program(posed.lmi, asked.bounds, formulation, round);
   if (!program) return std::nullopt;
   sdp::MatrixOptions options;
-  options.tolerance = kHandOver;
-  if (asked.goal == lmi::Goal::interior) {
+  options.tolerance = kGap;
+  if (!minimum) {
     // s = -1 and all else 0: S_k = D_k.
     options.start.assign(program->c.size(), 0);
     options.start.back() = -1;

@@ -56,7 +56,8 @@ bool is_sparse(const Dense& M) {
 
 }  // namespace
 
-Side::Side(Dense values) : rows_(values.rows()), columns_(values.cols()), dense_(std::move(values)) {
+Side::Side(Dense values)
+    : rows_(values.rows()), columns_(values.cols()), dense_(std::move(values)) {
   row_.assign(static_cast<std::size_t>(columns_), 0);
   value_.assign(row_.size(), 0);
   for (Eigen::Index j = 0; j < columns_ && sparse_; ++j) {
@@ -91,8 +92,7 @@ Dense Side::transposed_times(const Dense& M) const {
   Dense result(columns_, M.cols());
   for (Eigen::Index k = 0; k < M.cols(); ++k)
     for (Eigen::Index j = 0; j < columns_; ++j)
-      result(j, k) =
-          value_[static_cast<std::size_t>(j)] * M(row_[static_cast<std::size_t>(j)], k);
+      result(j, k) = value_[static_cast<std::size_t>(j)] * M(row_[static_cast<std::size_t>(j)], k);
   return result;
 }
 

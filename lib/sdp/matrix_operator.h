@@ -106,8 +106,8 @@ class SchurOperator {
 
  private:
   struct Scaled {
-    std::vector<Matrix<double>> E, F;      ///< W E, W F' of each term
-    std::vector<Matrix<double>> scalars;   ///< W G W
+    std::vector<Matrix<double>> E, F;     ///< W E, W F' of each term
+    std::vector<Matrix<double>> scalars;  ///< W G W
   };
   const MatrixOperator& of_;
   const Blocks<double>* W_ = nullptr;

@@ -105,8 +105,8 @@ void Preconditioner::decouple(Link& link, std::vector<Terms>& terms) const {
     for (const MatrixOperator::Term& term : of_.blocks()[k].terms) {
       if (term.unknown != link.Y) continue;
       const Sides& sides = terms[link.Y][k][y++];
-      beside.push_back({k, link.transposed ? sides.F : sides.E,
-                        link.transposed ? sides.E : sides.F, nullptr});
+      beside.push_back(
+          {k, link.transposed ? sides.F : sides.E, link.transposed ? sides.E : sides.F, nullptr});
       const Side& common = link.transposed ? term.F : term.E;
       std::size_t p = 0;
       for (const MatrixOperator::Term& other : of_.blocks()[k].terms) {

@@ -10,8 +10,8 @@ namespace gainsmith::sdp {
 /// For symmetric V the basis Q: Q0 = T^-T with T T' the sum of E'W E + F W F' over all terms, and
 /// Q = Q0 U with the eigenvectors U of Q0' M(Q0 Q0') Q0, the image of the identity; for a full V
 /// one basis for each side. There M counts as its diagonal, and unknowns as not coupled. Before
-/// that, a full Y beside a symmetric P, as in He(E (P F + Y C)), is replaced by Y + P K with K = F W
-/// C' (C W C')^-1, which takes most of their coupling: what is left of F is orthogonal to C.
+/// that, a full Y beside a symmetric P, as in He(E (P F + Y C)), is replaced by Y + P K with K = F
+/// W C' (C W C')^-1, which takes most of their coupling: what is left of F is orthogonal to C.
 class Preconditioner {
  public:
   explicit Preconditioner(const MatrixOperator& of);

@@ -39,16 +39,35 @@ bool is_inside(const Blocks<double>& S) {
 Scaling::Scaling(const Layout& layout)
     : G_(layout), W_(layout), d_(static_cast<std::size_t>(layout.blocks())) {}
 
-bool Scaling::prepare(const Blocks<double>& X, const Blocks<double>& S) {
-  if (X.linear().size() > 0 && !(std::min(X.linear().minCoeff(), S.linear().minCoeff()) > 0))
+void square(const Blocks<double>& R, Blocks<double>& X) {
+  for (int b = 0; b < R.layout().blocks(); ++b)
+    X.dense(b).noalias() = R.dense(b) * R.dense(b).transpose();
+  X.linear() = R.linear();
+}
+
+bool Scaling::factor(const Blocks<double>& M, double a, Blocks<double>& R) const {
+  R.linear() = G_.linear().cwiseAbs2().cwiseProduct(linear_d_ + a * M.linear());
+  if (R.linear().size() > 0 && !(R.linear().minCoeff() > 0)) return false;
+  for (int b = 0; b < M.layout().blocks(); ++b) {
+    Dense moved = a * M.dense(b);
+    moved.diagonal() += d_[static_cast<std::size_t>(b)];
+    const Eigen::LLT<Dense> root(moved);
+    if (root.info() != Eigen::Success) return false;
+    R.dense(b) = G_.dense(b) * Dense(root.matrixL());
+  }
+  return true;
+}
+
+bool Scaling::prepare(const Blocks<double>& R, const Blocks<double>& S) {
+  if (R.linear().size() > 0 && !(std::min(R.linear().minCoeff(), S.linear().minCoeff()) > 0))
     return false;
-  for (int b = 0; b < X.layout().blocks(); ++b) {
+  for (int b = 0; b < R.layout().blocks(); ++b) {
     check_stop();
-    const auto n = static_cast<double>(X.dense(b).rows());
+    const auto n = static_cast<double>(R.dense(b).rows());
     spend_on<double>(20 * n * n * n);
-    const Eigen::LLT<Dense> x(X.dense(b)), s(S.dense(b));
-    if (x.info() != Eigen::Success || s.info() != Eigen::Success) return false;
-    const Dense L = x.matrixL();
+    const Eigen::LLT<Dense> s(S.dense(b));
+    if (s.info() != Eigen::Success) return false;
+    const Dense L = R.dense(b);
     const Dense T = s.matrixU() * L;
     const Eigen::SelfAdjointEigenSolver<Dense> product(T.transpose() * T);
     if (product.info() != Eigen::Success || !(product.eigenvalues()[0] > 0)) return false;
@@ -57,9 +76,9 @@ bool Scaling::prepare(const Blocks<double>& X, const Blocks<double>& S) {
     G_.dense(b) = L * (product.eigenvectors() * d.cwiseSqrt().cwiseInverse().asDiagonal());
     W_.dense(b).noalias() = G_.dense(b) * G_.dense(b).transpose();
   }
-  linear_d_ = (X.linear().array() * S.linear().array()).sqrt();
-  G_.linear() = (X.linear().array() / S.linear().array()).sqrt().sqrt();
-  W_.linear() = X.linear().array() / S.linear().array();
+  linear_d_ = (R.linear().array() * S.linear().array()).sqrt();
+  G_.linear() = (R.linear().array() / S.linear().array()).sqrt().sqrt();
+  W_.linear() = R.linear().array() / S.linear().array();
   return true;
 }
 

@@ -11,8 +11,9 @@ class Scaling {
  public:
   explicit Scaling(const Layout& layout);
 
-  /// Factors X and S first; false when one is not positive definite.
-  bool prepare(const Blocks<double>& X, const Blocks<double>& S);
+  /// X = R R' with any square R, in the linear part X itself. False when S is not positive
+  /// definite.
+  bool prepare(const Blocks<double>& R, const Blocks<double>& S);
 
   const Blocks<double>& G() const { return G_; }
   /// W; w^2 in the linear part.
@@ -23,6 +24,9 @@ class Scaling {
   /// result = G M G', and G' M G.
   void outward(const Blocks<double>& M, Blocks<double>& result) const;
   void inward(const Blocks<double>& M, Blocks<double>& result) const;
+  /// R of X + a dX with dX = G M G', from the factor of diag(d) + a M: so X stays positive definite
+  /// although rounding hides its smallest eigenvalues. False when that is outside.
+  bool factor(const Blocks<double>& M, double a, Blocks<double>& R) const;
   /// The longest a <= `longest`, or a little less, with diag(d) + a M >= 0.
   double step(const Blocks<double>& M, double longest) const;
 
@@ -34,5 +38,8 @@ class Scaling {
 
 /// Is S positive definite?
 bool is_inside(const Blocks<double>& S);
+
+/// X = R R', in the linear part R.
+void square(const Blocks<double>& R, Blocks<double>& X);
 
 }  // namespace gainsmith::sdp

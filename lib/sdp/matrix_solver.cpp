@@ -23,6 +23,7 @@ class MatrixIpm {
         scaling_(operator_.layout()),
         c_(ConstVectorMap<double>(program.c.data(), static_cast<Eigen::Index>(program.c.size()))),
         X_(operator_.layout()),
+        root_(operator_.layout()),
         S_(operator_.layout()),
         defect_(operator_.layout()),
         dX_(operator_.layout()),
@@ -39,10 +40,11 @@ class MatrixIpm {
   }
 
  private:
-  /// Of the right-hand side: what conjugate gradients may leave, and after how many steps they give
-  /// up.
-  static constexpr double kResidual = 1e-3;
+  /// Of the right-hand side: what conjugate gradients may leave, at most and for each unit of the
+  /// gap, after how many steps they give up, and what a direction is of no use with.
+  static constexpr double kResidual = 1e-3, kResidualOfGap = 0.003, kLeastResidual = 1e-11;
   static constexpr int kSteps = 150;
+  static constexpr double kUseless = 0.03;
   /// Of the way to the boundary.
   static constexpr double kShortest = 0.9, kLongest = 0.99;
   /// A step below this gets nowhere.
@@ -58,15 +60,21 @@ class MatrixIpm {
     if (!options_.start.empty()) {
       x_ = ConstVectorMap<double>(options_.start.data(), x_.size());
       update_S();
-      X_.set_identity(1.0 / layout.order());
+      start_X(1.0 / layout.order());
       return is_inside(S_);
     }
     const double constants = operator_.constant().flat().cwiseAbs().maxCoeff();
     size = std::max({1.0, constants, c_.cwiseAbs().maxCoeff()}) * 10;
     S_.set_identity(size);
-    X_.set_identity(size);
+    start_X(size);
     update_defect();
     return true;
+  }
+
+  void start_X(double size) {
+    root_.set_identity(std::sqrt(size));
+    root_.linear().setConstant(size);
+    square(root_, X_);
   }
 
   /// S = C + L(x).
@@ -90,7 +98,7 @@ class MatrixIpm {
         return Cause::enough;
       if (exact_ && gap() <= options_.tolerance) return Cause::converged;
       check_stop();
-      if (!scaling_.prepare(X_, S_)) return Cause::stalled;
+      if (!scaling_.prepare(root_, S_)) return Cause::stalled;
       schur_.set_scaling(scaling_.W());
       preconditioner_.prepare(schur_, scaling_.G());
       if (!move()) return Cause::stalled;
@@ -105,10 +113,9 @@ class MatrixIpm {
     aim(0, false);
     bool good = direction();
     const double primal = scaling_.step(image_, 1), dual = scaling_.step(dX_, 1);
-    const double reached =
-        (now * operator_.layout().order() + primal * scaled_inner(image_) +
-         dual * scaled_inner(dX_) + primal * dual * inner(image_, dX_)) /
-        operator_.layout().order();
+    const double reached = (now * operator_.layout().order() + primal * scaled_inner(image_) +
+                            dual * scaled_inner(dX_) + primal * dual * inner(image_, dX_)) /
+                           operator_.layout().order();
     const double ratio = std::clamp(reached / now, 0.0, 1.0);
     const double shorter = std::min(primal, dual);
     const double sigma = std::max(1e-6, std::pow(ratio, std::max(1.0, 3 * shorter * shorter)));
@@ -121,8 +128,7 @@ class MatrixIpm {
   /// diag(d) . M
   double scaled_inner(const Blocks<double>& M) const {
     double sum = scaling_.linear_d().dot(M.linear());
-    for (int b = 0; b < M.layout().blocks(); ++b)
-      sum += scaling_.d(b).dot(M.dense(b).diagonal());
+    for (int b = 0; b < M.layout().blocks(); ++b) sum += scaling_.d(b).dot(M.dense(b).diagonal());
     return sum;
   }
 
@@ -168,9 +174,15 @@ class MatrixIpm {
     return good;
   }
 
-  /// From the dx there is. False when the residual stays above its goal.
+  /// Where a point is all that is wanted, L*(X) = c need not hold.
+  double residual_goal() const {
+    if (options_.enough) return kResidual;
+    return std::clamp(kResidualOfGap * gap(), kLeastResidual, kResidual);
+  }
+
+  /// From the dx there is. False when they lead nowhere.
   bool conjugate_gradients() {
-    const double goal = kResidual * right_.norm();
+    const double size = right_.norm(), goal = residual_goal() * size;
     schur_.apply(dx_, product_);
     residual_ = right_ - product_;
     double rho = 0;
@@ -188,27 +200,29 @@ class MatrixIpm {
       dx_ += (rho / curvature) * search_;
       residual_ -= (rho / curvature) * product_;
     }
-    return residual_.norm() <= goal;
+    return residual_.norm() <= kUseless * size;
   }
 
   bool advance(double reach) {
     const double part = kShortest + (kLongest - kShortest) * reach;
     double primal = std::min(1.0, part * scaling_.step(image_, 2));
     double dual = std::min(1.0, part * scaling_.step(dX_, 2));
-    scaling_.outward(dX_, work_);
     const Vector<double> from = x_;
-    const Blocks<double> S = S_, X = X_;
+    const Blocks<double> S = S_;
     for (int retreat = 0; retreat < kRetreats; ++retreat) {
       if (std::max(primal, dual) < kNoStep) return false;
       x_ = from + primal * dx_;
-      X_.flat() = X.flat() + dual * work_.flat();
+      const bool inside = scaling_.factor(dX_, dual, root_);
       if (exact_ || primal == 1) {
         update_S();
       } else {
         S_.flat() = S.flat() + primal * dS_.flat();
         update_defect();
       }
-      if (is_inside(S_) && is_inside(X_)) return true;
+      if (inside && is_inside(S_)) {
+        square(root_, X_);
+        return true;
+      }
       primal *= kRetreat;
       dual *= kRetreat;
     }
@@ -239,12 +253,13 @@ class MatrixIpm {
   Scaling scaling_;
   const Vector<double> c_;
   Vector<double> x_, dx_, right_, residual_, half_, search_, product_;
-  Blocks<double> X_, S_;
-  Blocks<double> defect_;     ///< C + L(x) - S
-  Blocks<double> dX_, dS_;    ///< dX scaled, G^-1 dX G^-T
-  Blocks<double> image_;      ///< G' dS G
+  Blocks<double> X_, root_;  ///< X = root root'
+  Blocks<double> S_;
+  Blocks<double> defect_;   ///< C + L(x) - S
+  Blocks<double> dX_, dS_;  ///< dX scaled, G^-1 dX G^-T
+  Blocks<double> image_;    ///< G' dS G
   Blocks<double> target_, work_;
-  bool exact_ = false;        ///< S = C + L(x)
+  bool exact_ = false;  ///< S = C + L(x)
   int failures_ = 0;
 };
 

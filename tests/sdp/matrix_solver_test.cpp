@@ -23,8 +23,7 @@ Dense normal(std::mt19937& random, Eigen::Index rows, Eigen::Index columns) {
 }
 
 DenseMatrix stored(const Dense& M) {
-  return {static_cast<int>(M.rows()), static_cast<int>(M.cols()),
-          {M.data(), M.data() + M.size()}};
+  return {static_cast<int>(M.rows()), static_cast<int>(M.cols()), {M.data(), M.data() + M.size()}};
 }
 
 /// A random matrix whose spectral abscissa is `to`.
@@ -75,8 +74,8 @@ MatrixProgram mixed_program(std::mt19937& random) {
                              {0, stored(normal(random, 5, 3)), stored(selection.transpose())},
                              {1, stored(normal(random, 5, 3)), stored(normal(random, 2, 5))}},
                             {{-1, 0, 0, 2}, {-1, 0, 3, 1}, {12, 1, 2, 3}, {13, 4, 4, 1}}});
-  program.blocks.push_back({2, {{1, stored(normal(random, 2, 3)), stored(normal(random, 2, 2))}},
-                            {{13, 0, 1, 1}}});
+  program.blocks.push_back(
+      {2, {{1, stored(normal(random, 2, 3)), stored(normal(random, 2, 2))}}, {{13, 0, 1, 1}}});
   program.rows = {{3, {{0, 1}, {7, -2}, {12, 1}}}, {1, {{13, 1}}}};
   return program;
 }
@@ -138,7 +137,9 @@ TEST(MatrixScaling, TakesOnePointToTheOther) {
   const Blocks<double> X = random_symmetric(layout, random, true);
   const Blocks<double> S = random_symmetric(layout, random, true);
   Scaling scaling(layout);
-  ASSERT_TRUE(scaling.prepare(X, S));
+  Blocks<double> R = X;
+  for (int b = 0; b < 2; ++b) R.dense(b) = Dense(X.dense(b).llt().matrixL());
+  ASSERT_TRUE(scaling.prepare(R, S));
   Blocks<double> image(layout);
   scaling.inward(S, image);
   for (int b = 0; b < 2; ++b) {
@@ -148,6 +149,13 @@ TEST(MatrixScaling, TakesOnePointToTheOther) {
   }
   EXPECT_LT((scaling.W().linear().cwiseProduct(S.linear()) - X.linear()).norm(), 1e-13);
   EXPECT_LT((image.linear() - scaling.linear_d()).norm(), 1e-13);
+  // One half of X is left after half of the step to 0.
+  Blocks<double> halved(layout), square_of_it(layout), toward = image;
+  toward.flat() *= -1;
+  ASSERT_TRUE(scaling.factor(toward, 0.5, halved));
+  square(halved, square_of_it);
+  EXPECT_LT((2 * square_of_it.flat() - X.flat()).norm(), 1e-11 * X.flat().norm());
+  EXPECT_FALSE(scaling.factor(toward, 1.1, halved));
   // diag(d) - a diag(d) stays inside up to a = 1.
   Blocks<double> back = image;
   back.flat() *= -1;
@@ -163,6 +171,7 @@ TEST(MatrixPreconditioner, IsTheInverseForOneBlockOfOneMatrix) {
   program.blocks = {{6, {{0, stored(0.5 * I), stored(I)}}, {}}};
   const MatrixOperator L(program);
   Scaling scaling(L.layout());
+  // Any square matrix is a factor of some X.
   ASSERT_TRUE(scaling.prepare(random_symmetric(L.layout(), random, true),
                               random_symmetric(L.layout(), random, true)));
   SchurOperator M(L);
@@ -209,7 +218,8 @@ TEST(MatrixSolver, FindsAnObserver) {
 }
 
 TEST(MatrixSolver, TheLargestMarginIsThatOfTheOrdinarySolver) {
-  // P >= s I, a P >= s I (2 a in F = a I), trace(P) (1 + 2 a) <= 2 n: s = min(1, 2 a) 2 / (1 + 2 a).
+  // P >= s I, a P >= s I (2 a in F = a I), trace(P) (1 + 2 a) <= 2 n: s = min(1, 2 a) 2 / (1 + 2
+  // a).
   const int n = 8;
   for (const double a : {0.1, 0.5, 3.0}) {
     const MatrixProgram program = margin_program(a * Dense::Identity(n, n), Dense(0, n));
@@ -251,7 +261,8 @@ TEST(MatrixSolver, BeginsOutsideWithoutAStart) {
 
 TEST(MatrixSolver, EndsWhenAllIsToStop) {
   std::mt19937 random(9);
-  const MatrixProgram program = margin_program(-shifted(normal(random, 20, 20), -0.1), Dense(0, 20));
+  const MatrixProgram program =
+      margin_program(-shifted(normal(random, 20, 20), -0.1), Dense(0, 20));
   const tests::StopInTest stop(true);
   EXPECT_THROW(solve(program, {}), Stopped);
 }
