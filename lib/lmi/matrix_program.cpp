@@ -48,6 +48,7 @@ class Maker {
     program_.c.assign(static_cast<std::size_t>(interior ? margin_ + 1 : own_), 0.0);
     trace_.assign(program_.c.size(), 0.0);
     find_unknowns();
+    if (stands_by_scalars()) return std::nullopt;
     for (std::size_t k = 0; k < blocks_.size(); ++k) add_block(k);
     if (interior) {
       if (homogenised) program_.rows.push_back({0, {{constant_, 1}, {margin_, -round_.constant}}});
@@ -85,6 +86,20 @@ class Maker {
           {first - 1, unknown.rows, unknown.columns, unknown.symmetric});
       std::fill_n(of_matrix_.begin() + (first - 1), unknown.count(), true);
     }
+  }
+
+  /// Whether a matrix stands in a block by its scalars, as in trace(P) < 1.
+  bool stands_by_scalars() const {
+    return std::any_of(blocks_.begin(), blocks_.end(), [&](const Block* block) {
+      std::vector<bool> in_products(of_matrix_.size(), false);
+      for (const HermitianProduct& product : *block->products)
+        std::fill_n(in_products.begin() + (product.unknown.first - 1), product.unknown.count(),
+                    true);
+      return std::any_of(block->terms.begin(), block->terms.end(), [&](const auto& term) {
+        const auto at = static_cast<std::size_t>(term.first) - 1;
+        return term.first > 0 && of_matrix_[at] && !in_products[at];
+      });
+    });
   }
 
   /// D_k: what a row keeps for the margin, and by what its diagonal counts in the limit.

@@ -108,6 +108,7 @@ template <class Add, class Take>
 void coefficients_of(const MatrixUnknown& unknown, const std::vector<Factors>& all, Add add,
                      Take take, std::vector<std::pair<int, Sparse>>& out) {
   int index = unknown.first;
+  out.reserve(out.size() + static_cast<std::size_t>(unknown.count()));
   for (int j = 0; j < unknown.columns; ++j) {
     check_stop();
     for (int i = unknown.symmetric ? j : 0; i < unknown.rows; ++i) {
@@ -116,7 +117,7 @@ void coefficients_of(const MatrixUnknown& unknown, const std::vector<Factors>& a
         outer_product(factors, factors.transposed ? j : i, factors.transposed ? i : j, add);
       }
       Sparse matrix = take();
-      if (matrix.nonZeros() > 0) out.emplace_back(index, std::move(matrix));
+      if (matrix.nonZeros() > 0) out.emplace_back(index, Sparse()).second.swap(matrix);
       ++index;
     }
   }

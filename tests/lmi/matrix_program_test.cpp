@@ -283,13 +283,28 @@ TEST(MatrixProgram, ProductsAreAsFewAsTheyCanBe) {
   EXPECT_EQ(count("A'*P*A < P"), 2U);
 }
 
-TEST(MatrixProgram, NoneWhereAScalarOfAMatrixStandsElsewhere) {
-  const Posed posed(
-      problem_with("  unknowns: {P: symmetric n}\n  require: {it: \"P + trace(P)*eye(3) > 0\"}\n"),
-      1);
+TEST(MatrixProgram, NoneWhereAMatrixStandsByItsScalars) {
+  const auto program = [](const std::string& require) {
+    const Posed posed(problem_with("  unknowns: {P: symmetric n}\n  require: {" + require + "}\n"),
+                      1);
+    return matrix_program(posed.lmi, {}, formulate_interior(posed.lmi, {}, {}), {});
+  };
+  EXPECT_FALSE(program("it: P + trace(P)*eye(3) > 0"));
+  EXPECT_FALSE(program("it: P > 0, small: trace(P) < 1"));
+  EXPECT_FALSE(program("it: P.*A - P.*eye(3) + P.*A' > 0"));
+  EXPECT_TRUE(program("\"it\": P > 0, \"element\": \"P(2, 2) + C(1, :)*P*C(1, :)' < 1\""));
+}
+
+/// The sum is symmetric, what stands in products alone is not.
+TEST(MatrixProgram, TermsAndProductsAreSymmetricTogether) {
+  const Posed posed(problem_with("  unknowns: {P: symmetric n}\n  require: {it: "
+                                 "\"P*A + (P*A)'.*ones(3, 3) < 0\"}\n"),
+                    1);
   EXPECT_FALSE(posed.lmi.blocks[0].products);
-  EXPECT_FALSE(
-      matrix_program(posed.lmi, {}, formulate_interior(posed.lmi, {}, {}), {}));
+  const Posed other(problem_with("  unknowns: {P: symmetric n}\n  require: {it: He(P*A) < 0}\n"),
+                    1);
+  std::vector<double> x = {1, 0.3, -0.2, 2, 0.5, 3};
+  EXPECT_LT((posed.lmi.blocks[0].value(x) - other.lmi.blocks[0].value(x)).norm(), 1e-14);
 }
 
 TEST(MatrixProgram, NoneWhereScalarsAreReleased) {
