@@ -62,8 +62,8 @@ void take_point_beyond_double(const Posed& posed, const std::vector<double>& x, 
 double price_of(const Posed& posed, const Attempt& attempt, const sdp::Solution& solution) {
   const lmi::Formulation& formulation = attempt.formulation;
   const double value = posed.lmi.objective_at(lmi::read_back(posed.lmi, formulation, solution));
-  const double least = lmi::objective_lower_bound(posed.lmi, attempt.question.bounds, formulation,
-                                                  solution);
+  const double least =
+      lmi::objective_lower_bound(posed.lmi, attempt.question.bounds, formulation, solution);
   return (value - least) / std::abs(value);
 }
 
@@ -156,15 +156,16 @@ class Interior {
 
 /// The first round, whose multipliers are a certificate where there is no point; none when it is
 /// the one that the result has.
-std::optional<Interior::Solved> solve_interior(const Posed& posed, Interior& interior, Attempt& result) {
+std::optional<Interior::Solved> solve_interior(const Posed& posed, Interior& interior,
+                                               Attempt& result) {
   const int most_rounds = result.question.single ? 1 : 8;
   constexpr double kRises = 1e-3;
   lmi::Round round;
   std::optional<Interior::Solved> first;
   for (int k = 0; k < most_rounds; ++k) {
     Interior::Solved solved = interior(round);
-    const auto next = lmi::next_round(posed.lmi, result.question.bounds, solved.formulation,
-                                      solved.solution.x);
+    const auto next =
+        lmi::next_round(posed.lmi, result.question.bounds, solved.formulation, solved.solution.x);
     const std::vector<double> x = lmi::read_back(posed.lmi, solved.formulation, solved.solution);
     if (k == 0 || (next && next->margin > round.margin)) {
       if (k > 0 && !first) first = {std::move(result.formulation), std::move(result.solution)};

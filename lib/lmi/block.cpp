@@ -13,8 +13,7 @@ class InProducts {
   explicit InProducts(const Block& block) {
     if (!block.products) return;
     for (const HermitianProduct& product : *block.products)
-      ranges_.emplace_back(product.unknown.first,
-                           product.unknown.first + product.unknown.count());
+      ranges_.emplace_back(product.unknown.first, product.unknown.first + product.unknown.count());
   }
   bool operator()(int i) const {
     return std::any_of(ranges_.begin(), ranges_.end(),

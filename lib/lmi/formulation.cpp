@@ -101,8 +101,8 @@ Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
   result.releases = find_releases(lmi, bounds.blocks, false);
   if (!rows.empty()) result.releases.kept = rows;
   result.sizes = sizes_of(result.releases, bounds);
-  result.rows = std::accumulate(result.sizes.begin(), result.sizes.end(), 0) +
-                (result.homogenised ? 1 : 0);
+  result.rows =
+      std::accumulate(result.sizes.begin(), result.sizes.end(), 0) + (result.homogenised ? 1 : 0);
   return result;
 }
 
@@ -285,12 +285,11 @@ double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const std::size_t n = rows[k].size();
     const auto& Y = solution.Y.values[k];
-    for_each_balanced(*blocks[k], formulation.balance, k, rows[k],
-                      [&](int i, int row, int column, double value) {
-                        add(i, -(row == column ? 1 : 2) * value,
-                            Y[static_cast<std::size_t>(row) * n +
-                              static_cast<std::size_t>(column)]);
-                      });
+    for_each_balanced(
+        *blocks[k], formulation.balance, k, rows[k], [&](int i, int row, int column, double value) {
+          add(i, -(row == column ? 1 : 2) * value,
+              Y[static_cast<std::size_t>(row) * n + static_cast<std::size_t>(column)]);
+        });
   }
   double bound = as<double>(r[0]) - kRounding * sizes[0];
   for (std::size_t i = 1; i < r.size(); ++i)

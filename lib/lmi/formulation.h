@@ -69,8 +69,8 @@ Formulation pose_objective(const Lmi& lmi, const GainBounds& bounds, double shif
 Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
                           const std::vector<std::vector<int>>& rows = {});
 
-/// Adds the program. With `exactly` the coefficients of the Lmi's blocks are those, in 31 digits; there must be no
-/// bounds then. `round`: of an interior formulation.
+/// Adds the program. With `exactly` the coefficients of the Lmi's blocks are those, in 31 digits;
+/// there must be no bounds then. `round`: of an interior formulation.
 void assemble(const Lmi& lmi, const GainBounds& bounds, const Round& round,
               Formulation& formulation, const Exactly& exactly = {});
 

@@ -77,10 +77,10 @@ std::vector<Sides> with_mirrors(const std::vector<Product>& sum, double sign) {
   for (const Product& product : sum) {
     if (product.transposed) {
       // E V' F = (F' V E')', which counts with the sign in S + sign S'.
-      add_with_mirror(result,
-                      {product.unknown, turned(product.right),
-                       Sparse(0.5 * sign * turned(product.left))},
-                      sign);
+      add_with_mirror(
+          result,
+          {product.unknown, turned(product.right), Sparse(0.5 * sign * turned(product.left))},
+          sign);
       continue;
     }
     add_with_mirror(result, {product.unknown, product.left, Sparse(0.5 * product.right)}, sign);
@@ -173,9 +173,9 @@ double asymmetry(const std::vector<Product>& sum) {
   for (const Sides& term : with_mirrors(sum, -1)) {
     // Of a symmetric V, E V F - (E V F)' is 0 where F' = c E.
     const Sparse mirrored = turned(term.right);
-    const Sparse rest =
-        term.unknown.symmetric ? sum_of(mirrored, term.left, -first_ratio(mirrored, term.left))
-                               : mirrored;
+    const Sparse rest = term.unknown.symmetric
+                            ? sum_of(mirrored, term.left, -first_ratio(mirrored, term.left))
+                            : mirrored;
     bound += kPlaces * largest_element(term.left) * largest_element(rest);
   }
   return bound;

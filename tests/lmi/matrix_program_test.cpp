@@ -68,10 +68,11 @@ const std::vector<Named>& problems() {
        problem_with("  unknowns: {P: symmetric n}\n  require:\n    positive: P > 0\n"
                     "    all: {forall: \"F in conv{A, A - eye(3), 1.5*A}\", that: He(P*F) < 0}\n")},
       {"functions",
-       problem_with("  unknowns: {P: {shape: symmetric n, of: tau, degree: 2}, Y: n x p}\n  require:\n"
-                    "    positive: {forall: \"tau in [0, 1]\", that: P(tau) > 0}\n"
-                    "    all: {forall: \"tau in [0, 1]\", that: \"He(P(tau)*A + tau*P(0) - "
-                    "Y*C) < 0\"}\n")},
+       problem_with(
+           "  unknowns: {P: {shape: symmetric n, of: tau, degree: 2}, Y: n x p}\n  require:\n"
+           "    positive: {forall: \"tau in [0, 1]\", that: P(tau) > 0}\n"
+           "    all: {forall: \"tau in [0, 1]\", that: \"He(P(tau)*A + tau*P(0) - "
+           "Y*C) < 0\"}\n")},
       {"sampled_data_hybrid",
        "problem: p\nmethod: sampled-data-hybrid\ndata:\n  A: [[-1, 0.7, 0], [-2, -3, 0.5], "
        "[0.25, 0.3, -0.9]]\n  C: [[1, 0, 2], [0, 0.3, 1]]\n  T1: 0.05\n  T2: 0.1\n  QF: I\n  QJ: "
@@ -88,8 +89,8 @@ struct Posed {
   GainBounds bounds;
 
   Posed(const std::string& text, int large) : yaml(text), inequalities(yaml.instance) {
-    inequalities.unknowns = Unknowns(
-        model::unknown_matrices(inequalities.design(), inequalities.functions), large);
+    inequalities.unknowns =
+        Unknowns(model::unknown_matrices(inequalities.design(), inequalities.functions), large);
     lmi = compile(inequalities);
     bounds = gain_bounds(inequalities, lmi);
   }
@@ -108,9 +109,9 @@ Matrix slack(const sdp::MatrixProgram& program, std::size_t k, const std::vector
   const sdp::MatrixProgram::Block& block = program.blocks[k];
   Matrix result = Matrix::Zero(block.size, block.size);
   for (const auto& product : block.products) {
-    const Matrix M =
-        dense(product.E) * value(program.unknowns[static_cast<std::size_t>(product.unknown)], x) *
-        dense(product.F);
+    const Matrix M = dense(product.E) *
+                     value(program.unknowns[static_cast<std::size_t>(product.unknown)], x) *
+                     dense(product.F);
     result += M + M.transpose();
   }
   for (const auto& e : block.elements) {
@@ -224,8 +225,7 @@ TEST_P(MatrixProgramTest, TheNextRoundNeedsNoProgram) {
     EXPECT_NEAR(one->margin, other->margin, 1e-12);
     EXPECT_EQ(one->constant, other->constant);
     for (std::size_t k = 0; k < one->diagonals.size(); ++k)
-      EXPECT_LT((one->diagonals[k] - other->diagonals[k]).norm(),
-                1e-12 * one->diagonals[k].norm());
+      EXPECT_LT((one->diagonals[k] - other->diagonals[k]).norm(), 1e-12 * one->diagonals[k].norm());
   }
 }
 
