@@ -218,8 +218,8 @@ TEST_P(MatrixProgramTest, TheNextRoundNeedsNoProgram) {
         double& value = solution.x[static_cast<std::size_t>(unknown.first + k) - 1];
         value = 0.1 * value + (unknown.structure == model::Structure::symmetric && row == column);
       }
-    const auto one = next_round(posed.lmi, posed.bounds, plain, solution);
-    const auto other = next_round(posed.lmi, posed.bounds, assembled, solution);
+    const auto one = next_round(posed.lmi, posed.bounds, plain, solution.x);
+    const auto other = next_round(posed.lmi, posed.bounds, assembled, solution.x);
     ASSERT_EQ(one.has_value(), other.has_value());
     if (!one) continue;
     EXPECT_NEAR(one->margin, other->margin, 1e-12);
