@@ -77,8 +77,7 @@ void add_placed(AffineForm& form, const AffineForm& other, int row, int column, 
 AffineForm transposed(const AffineForm& form) {
   AffineForm result{{form.shape.cols, form.shape.rows}, {}};
   for (const auto& [key, matrix] : form.terms) result.terms.emplace(key, matrix.transpose());
-  for (const Product& product : form.products)
-    add_product(result.products, transposed(product));
+  for (const Product& product : form.products) add_product(result.products, transposed(product));
   return result;
 }
 
@@ -175,9 +174,8 @@ forall::Sizes shares_of(const AffineForm& form) {
         if (size > 0) sizes[of] = std::max(sizes[of], size / largest(row, column));
       });
     for (const auto& [monomial, matrix] : list)
-      for_each(*matrix, [&](Eigen::Index row, Eigen::Index column, double) {
-        largest(row, column) = 0;
-      });
+      for_each(*matrix,
+               [&](Eigen::Index row, Eigen::Index column, double) { largest(row, column) = 0; });
   }
   return sizes;
 }

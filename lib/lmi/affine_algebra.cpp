@@ -7,6 +7,7 @@
 
 #include "base/stop.h"
 #include "forall/residues.h"
+#include "lmi/affine_maps.h"
 #include "numbers/degree.h"
 #include "numbers/dense.h"
 #include "numbers/real.h"
@@ -14,88 +15,6 @@
 namespace gainsmith::lmi {
 
 namespace {
-
-/// The form with every coefficient mapped linearly; it has no products.
-template <class Map>
-AffineForm map_terms(const AffineForm& form, expr::Shape shape, Map map) {
-  AffineForm result{shape, {}};
-  for (const auto& [key, matrix] : form.terms) add_term(result, key, map(matrix));
-  return result;
-}
-
-AffineForm sum(const AffineForm& a, const AffineForm& b, double factor) {
-  AffineForm result = a;
-  for (const auto& [key, matrix] : b.terms) add_term(result, key, matrix, factor);
-  for (const Product& product : b.products) add_product(result.products, product, factor);
-  return result;
-}
-
-/// A matrix from the elements of `matrix` moved to other places.
-template <class Move>
-Sparse moved(const Sparse& matrix, int rows, int cols, Move move) {
-  std::vector<Eigen::Triplet<double>> elements;
-  for (int k = 0; k < matrix.outerSize(); ++k)
-    for (Sparse::InnerIterator it(matrix, k); it; ++it) move(it, elements);
-  Sparse result(rows, cols);
-  result.setFromTriplets(elements.begin(), elements.end());
-  return result;
-}
-
-AffineForm blocks(const expr::Instruction& instruction,
-                  std::span<const AffineForm* const> operands) {
-  AffineForm result{instruction.shape, {}};
-  const auto columns = static_cast<std::size_t>(instruction.attributes[0]);
-  int row = 0;
-  for (std::size_t first = 0; first < operands.size(); first += columns) {
-    int column = 0;
-    for (std::size_t j = first; j < first + columns; ++j) {
-      add_placed(result, *operands[j], row, column);
-      column += operands[j]->shape.cols;
-    }
-    row += operands[first]->shape.rows;
-  }
-  return result;
-}
-
-AffineForm index(const expr::Instruction& instruction, const AffineForm& form) {
-  const auto& [row, row_end, column, column_end] = instruction.attributes;
-  const auto [rows, columns] = std::pair(instruction.shape.rows, instruction.shape.cols);
-  AffineForm result{instruction.shape, {}};
-  for (const auto& [key, matrix] : form.terms)
-    add_term(result, key, Sparse(matrix.block(row, column, rows, columns)));
-  for (Product product : form.products) {
-    product.left = Sparse(product.left.block(row, 0, rows, product.left.cols()));
-    product.right = Sparse(product.right.block(0, column, product.right.rows(), columns));
-    add_product(result.products, std::move(product));
-  }
-  return result;
-}
-
-AffineForm identity(const AffineForm& form, expr::Shape shape) {
-  return map_terms(form, shape, [&](const Sparse& matrix) {
-    Sparse eye(shape.rows, shape.cols);
-    eye.setIdentity();
-    return Sparse(matrix.coeff(0, 0) * eye);
-  });
-}
-
-AffineForm trace(const AffineForm& form) {
-  return map_terms(form, {}, [](const Sparse& matrix) {
-    return sparse(numbers::Matrix::Constant(1, 1, matrix.diagonal().sum()));
-  });
-}
-
-AffineForm diagonal(const expr::Instruction& instruction, const AffineForm& form) {
-  const expr::Shape shape = instruction.shape;
-  if (instruction.op == expr::Op::diagonal_of)
-    return map_terms(form, shape, [](const Sparse& matrix) { return sparse(matrix.diagonal()); });
-  return map_terms(form, shape, [&](const Sparse& matrix) {
-    return moved(matrix, shape.rows, shape.cols, [](const auto& it, auto& elements) {
-      const int at = static_cast<int>(it.row() + it.col());
-      elements.emplace_back(at, at, it.value());
-    });
-  });
-}
 
 bool all_constant(std::span<const AffineForm* const> operands) {
   return std::all_of(operands.begin(), operands.end(),
@@ -130,11 +49,9 @@ class Rules {
         add_with_monomials(left, key.first, left.left, multiplied(left.right, right), result);
     for (const auto& [key, left] : a.terms)
       for (const Product& right : b.products)
-        add_with_monomials(right, key.first,
-                           op == expr::Op::scale ? right.left : multiplied(left, right.left),
-                           op == expr::Op::scale ? Sparse(left.coeff(0, 0) * right.right)
-                                                 : right.right,
-                           result);
+        add_with_monomials(
+            right, key.first, op == expr::Op::scale ? right.left : multiplied(left, right.left),
+            op == expr::Op::scale ? Sparse(left.coeff(0, 0) * right.right) : right.right, result);
     return result;
   }
 
@@ -438,8 +355,7 @@ void AffineAlgebra::apply(const expr::Instruction& instruction,
   if (!keeps_products(instruction, operands)) {
     without_products.reserve(operands.size());
     for (const AffineForm*& operand : pointers)
-      if (!operand->products.empty())
-        operand = &without_products.emplace_back(expanded(*operand));
+      if (!operand->products.empty()) operand = &without_products.emplace_back(expanded(*operand));
   }
   expr::dispatch(AffineRules{rules}, instruction, std::span<const AffineForm* const>(pointers),
                  out);

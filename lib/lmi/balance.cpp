@@ -135,8 +135,7 @@ Units fit(const BalanceElements& elements) {
     normal(row, row) = 1;
     right[row] = 0;
   }
-  Units units{solved(std::move(normal), std::move(right)),
-              std::vector<double>(means.size(), 0.0)};
+  Units units{solved(std::move(normal), std::move(right)), std::vector<double>(means.size(), 0.0)};
   for (std::size_t i = 1; i < means.size(); ++i) {
     if (means[i].weight == 0) continue;
     double sum = means[i].logs;

@@ -58,10 +58,9 @@ BalanceElements::BalanceElements(const std::vector<const Block*>& blocks, int un
                                  std::log2(std::abs(it.value()))});
     }
     // Its unit, log2 s_c, enters with both rows: half of it is what is fitted.
-    const double cost =
-        i == 0 || objective.size() < static_cast<std::size_t>(i)
-            ? 0
-            : objective[static_cast<std::size_t>(i) - 1];
+    const double cost = i == 0 || objective.size() < static_cast<std::size_t>(i)
+                            ? 0
+                            : objective[static_cast<std::size_t>(i) - 1];
     if (cost == 0) continue;
     parts_.push_back({elements_.size(), 1});
     elements_.push_back({objective_, objective_, std::log2(std::abs(cost))});

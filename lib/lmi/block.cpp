@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
 
 namespace gainsmith::lmi {
 
@@ -14,8 +13,7 @@ class InProducts {
   explicit InProducts(const Block& block) {
     if (!block.products) return;
     for (const HermitianProduct& product : *block.products)
-      ranges_.emplace_back(product.unknown.first,
-                           product.unknown.first + product.unknown.count());
+      ranges_.emplace_back(product.unknown.first, product.unknown.first + product.unknown.count());
   }
   bool operator()(int i) const {
     return std::any_of(ranges_.begin(), ranges_.end(),
@@ -79,22 +77,27 @@ Sparse symmetric_part(const Sparse& matrix, double scale, const Place& place,
   return 0.5 * (matrix + mirrored);
 }
 
-/// Sorts the terms, of which the first `others` and the rest are sorted; those of one scalar become
-/// one.
-void merge_terms(std::vector<std::pair<int, Sparse>>& terms, std::size_t others) {
-  const auto is_before = [](const auto& a, const auto& b) { return a.first < b.first; };
-  std::inplace_merge(terms.begin(), terms.begin() + static_cast<std::ptrdiff_t>(others),
-                     terms.end(), is_before);
-  std::size_t kept = 0;
-  for (std::size_t k = 0; k < terms.size(); ++k) {
-    if (kept > 0 && terms[kept - 1].first == terms[k].first) {
-      terms[kept - 1].second = sum_of(terms[kept - 1].second, terms[k].second, 1);
-      continue;
-    }
-    if (kept != k) terms[kept] = std::move(terms[k]);
-    ++kept;
+/// The terms of two lists in the order of their scalars; those of one scalar become one. The lists
+/// are used up, for sparse matrices are not moved but copied.
+std::vector<std::pair<int, Sparse>> merged(std::vector<std::pair<int, Sparse>>& a,
+                                           std::vector<std::pair<int, Sparse>>& b) {
+  if (a.empty() || b.empty()) return std::move(a.empty() ? b : a);
+  std::vector<std::pair<int, Sparse>> result;
+  result.reserve(a.size() + b.size());
+  auto p = a.begin();
+  auto q = b.begin();
+  while (p != a.end() || q != b.end()) {
+    const bool takes_p = p != a.end() && (q == b.end() || p->first <= q->first);
+    const bool takes_q = q != b.end() && (p == a.end() || q->first <= p->first);
+    auto& [i, matrix] = result.emplace_back((takes_p ? p : q)->first, Sparse());
+    if (takes_p && takes_q)
+      matrix = sum_of(p->second, q->second, 1);
+    else
+      matrix.swap((takes_p ? p : q)->second);
+    if (takes_p) ++p;
+    if (takes_q) ++q;
   }
-  terms.resize(kept);
+  return result;
 }
 
 /// Whether a scalar of the matrices in products also stands in a term.
@@ -110,6 +113,11 @@ bool stands_elsewhere(const AffineForm& form) {
 
 Block block_of(const AffineForm& form, std::string name, std::string point, bool strict,
                const Place& place) {
+  if (stands_elsewhere(form)) {
+    Block block = block_of(expanded(form), std::move(name), std::move(point), strict, place);
+    block.products.reset();
+    return block;
+  }
   Block block;
   block.name = std::move(name);
   block.point = std::move(point);
@@ -121,14 +129,8 @@ Block block_of(const AffineForm& form, std::string name, std::string point, bool
     double& size = i == 0 ? block.constant_size : block.coefficient_size;
     size = std::max(size, largest_element(matrix));
   };
-  std::vector<std::pair<int, Sparse>> of_matrices;
-  if (!form.products.empty()) {
-    std::vector<HermitianProduct> products = symmetric_part(form.products);
-    of_matrices = coefficients(products, block.size);
-    if (!stands_elsewhere(form)) block.products = std::move(products);
-  } else {
-    block.products.emplace();
-  }
+  block.products = symmetric_part(form.products);
+  std::vector<std::pair<int, Sparse>> of_matrices = coefficients(*block.products, block.size);
   for (const auto& [i, matrix] : of_matrices) measure(i, matrix);
   for (const auto& [key, matrix] : form.terms) measure(key.second, matrix);
   const double scale = std::max(block.constant_size, block.coefficient_size);
@@ -137,14 +139,10 @@ Block block_of(const AffineForm& form, std::string name, std::string point, bool
     for (const auto& [key, matrix] : expanded(products).terms)
       symmetric_part(matrix, scale, place, block.name);
   }
-  for (const auto& [key, matrix] : form.terms) {
-    Sparse symmetric = symmetric_part(matrix, scale, place, block.name);
-    block.terms.emplace_back(key.second, std::move(symmetric));
-  }
-  const std::size_t others = block.terms.size();
-  block.terms.insert(block.terms.end(), std::make_move_iterator(of_matrices.begin()),
-                     std::make_move_iterator(of_matrices.end()));
-  merge_terms(block.terms, others);
+  std::vector<std::pair<int, Sparse>> others;
+  for (const auto& [key, matrix] : form.terms)
+    others.emplace_back(key.second, symmetric_part(matrix, scale, place, block.name));
+  block.terms = merged(others, of_matrices);
   return block;
 }
 

@@ -13,9 +13,9 @@
 namespace gainsmith::lmi {
 
 /// One symmetric block. `terms` are (i, B_i) in the order of i, with i = 0 the constant. With
-/// `products` those of scalars of matrices V are besides
-///   sum over t of He(E_t V_t F_t),
-/// and no scalar of these matrices stands elsewhere.
+/// `products` those of the scalars of their matrices V are
+///   sum over t of He(E_t V_t F_t)
+/// and nothing else; other matrices may stand in terms by their scalars.
 struct Block {
   std::string name;    ///< of the requirement, "name.2" for the second comparison of a chain
   std::string point;   ///< "tau = 0.7", "cos(2*tau) = 1"; empty without forall

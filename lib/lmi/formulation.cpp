@@ -177,12 +177,12 @@ Formulation formulate_interior(const Lmi& lmi, const GainBounds& bounds, const R
 }
 
 Formulation formulate_violation(const Lmi& lmi) {
-  Formulation result;
-  result.goal = Goal::interior;
+  Formulation result = pose_interior(lmi, {});
   const auto blocks = all_blocks(lmi, {});
   const int margin = lmi.unknowns + 1;
-  result.balance = balance(blocks, lmi.unknowns, {});
-  result.releases = find_releases(lmi, {}, false);
+  result.homogenised = false;
+  result.variables = margin;
+  result.rows = std::accumulate(result.sizes.begin(), result.sizes.end(), 0);
   Assembler assembler(margin);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     result.blocks.push_back(balanced(*blocks[k], result.balance, k, result.releases.kept[k]));
@@ -191,7 +191,6 @@ Formulation formulate_violation(const Lmi& lmi) {
                                                  : assembler.add(result.blocks[k], 0, 1);
     for (int r = 0; r < std::max(1, result.blocks[k].size); ++r)
       assembler.add_entry(margin, added, r, r, -1);
-    result.rows += result.blocks[k].size;
   }
   assembler.set_cost(margin, -1);
   result.problem = assembler.take();

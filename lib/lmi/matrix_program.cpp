@@ -48,6 +48,7 @@ class Maker {
     program_.c.assign(static_cast<std::size_t>(interior ? margin_ + 1 : own_), 0.0);
     trace_.assign(program_.c.size(), 0.0);
     find_unknowns();
+    if (stands_by_scalars()) return std::nullopt;
     for (std::size_t k = 0; k < blocks_.size(); ++k) add_block(k);
     if (interior) {
       if (homogenised) program_.rows.push_back({0, {{constant_, 1}, {margin_, -round_.constant}}});
@@ -81,10 +82,23 @@ class Maker {
     of_matrix_.assign(program_.c.size(), false);
     for (const auto& [first, unknown] : found) {
       place_[first] = static_cast<int>(program_.unknowns.size());
-      program_.unknowns.push_back(
-          {first - 1, unknown.rows, unknown.columns, unknown.symmetric});
+      program_.unknowns.push_back({first - 1, unknown.rows, unknown.columns, unknown.symmetric});
       std::fill_n(of_matrix_.begin() + (first - 1), unknown.count(), true);
     }
+  }
+
+  /// Whether a matrix stands in a block by its scalars, as in trace(P) < 1.
+  bool stands_by_scalars() const {
+    return std::any_of(blocks_.begin(), blocks_.end(), [&](const Block* block) {
+      std::vector<bool> in_products(of_matrix_.size(), false);
+      for (const HermitianProduct& product : *block->products)
+        std::fill_n(in_products.begin() + (product.unknown.first - 1), product.unknown.count(),
+                    true);
+      return std::any_of(block->terms.begin(), block->terms.end(), [&](const auto& term) {
+        const auto at = static_cast<std::size_t>(term.first) - 1;
+        return term.first > 0 && of_matrix_[at] && !in_products[at];
+      });
+    });
   }
 
   /// D_k: what a row keeps for the margin, and by what its diagonal counts in the limit.
@@ -99,8 +113,7 @@ class Maker {
     std::vector<double> units;
     for (int r = 0; r < block.size; ++r) units.push_back(formulation_.balance.row(k, r));
     for (const HermitianProduct& product : *block.products) {
-      added.products.push_back({place_.at(product.unknown.first),
-                                scaled(product.left, units, true),
+      added.products.push_back({place_.at(product.unknown.first), scaled(product.left, units, true),
                                 scaled(product.right, units, false)});
       if (margin_ >= 0) add_trace(k, product, units);
     }
@@ -129,8 +142,7 @@ class Maker {
   }
 
   /// tr(D_k^-1 S He(E V F) S) = 2 tr(W V) with W = F S D_k^-1 S E.
-  void add_trace(std::size_t k, const HermitianProduct& product,
-                 const std::vector<double>& units) {
+  void add_trace(std::size_t k, const HermitianProduct& product, const std::vector<double>& units) {
     Sparse left = product.left;
     for (int c = 0; c < left.outerSize(); ++c)
       for (Sparse::InnerIterator it(left, c); it; ++it) {
@@ -191,8 +203,8 @@ std::vector<double> balanced_variables(const Formulation& formulation,
                                        const std::vector<double>& x) {
   std::vector<double> y = x;
   for (const sdp::MatrixProgram::Unknown& unknown : program.unknowns) {
-    const int count = unknown.symmetric ? unknown.rows * (unknown.rows + 1) / 2
-                                        : unknown.rows * unknown.columns;
+    const int count =
+        unknown.symmetric ? unknown.rows * (unknown.rows + 1) / 2 : unknown.rows * unknown.columns;
     for (int i = unknown.first; i < unknown.first + count; ++i)
       y[static_cast<std::size_t>(i)] /= formulation.balance.unit(i + 1);
   }

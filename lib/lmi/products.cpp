@@ -77,10 +77,10 @@ std::vector<Sides> with_mirrors(const std::vector<Product>& sum, double sign) {
   for (const Product& product : sum) {
     if (product.transposed) {
       // E V' F = (F' V E')', which counts with the sign in S + sign S'.
-      add_with_mirror(result,
-                      {product.unknown, turned(product.right),
-                       Sparse(0.5 * sign * turned(product.left))},
-                      sign);
+      add_with_mirror(
+          result,
+          {product.unknown, turned(product.right), Sparse(0.5 * sign * turned(product.left))},
+          sign);
       continue;
     }
     add_with_mirror(result, {product.unknown, product.left, Sparse(0.5 * product.right)}, sign);
@@ -108,6 +108,7 @@ template <class Add, class Take>
 void coefficients_of(const MatrixUnknown& unknown, const std::vector<Factors>& all, Add add,
                      Take take, std::vector<std::pair<int, Sparse>>& out) {
   int index = unknown.first;
+  out.reserve(out.size() + static_cast<std::size_t>(unknown.count()));
   for (int j = 0; j < unknown.columns; ++j) {
     check_stop();
     for (int i = unknown.symmetric ? j : 0; i < unknown.rows; ++i) {
@@ -116,7 +117,7 @@ void coefficients_of(const MatrixUnknown& unknown, const std::vector<Factors>& a
         outer_product(factors, factors.transposed ? j : i, factors.transposed ? i : j, add);
       }
       Sparse matrix = take();
-      if (matrix.nonZeros() > 0) out.emplace_back(index, std::move(matrix));
+      if (matrix.nonZeros() > 0) out.emplace_back(index, Sparse()).second.swap(matrix);
       ++index;
     }
   }
@@ -172,9 +173,9 @@ double asymmetry(const std::vector<Product>& sum) {
   for (const Sides& term : with_mirrors(sum, -1)) {
     // Of a symmetric V, E V F - (E V F)' is 0 where F' = c E.
     const Sparse mirrored = turned(term.right);
-    const Sparse rest =
-        term.unknown.symmetric ? sum_of(mirrored, term.left, -first_ratio(mirrored, term.left))
-                               : mirrored;
+    const Sparse rest = term.unknown.symmetric
+                            ? sum_of(mirrored, term.left, -first_ratio(mirrored, term.left))
+                            : mirrored;
     bound += kPlaces * largest_element(term.left) * largest_element(rest);
   }
   return bound;

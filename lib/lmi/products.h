@@ -31,8 +31,7 @@ struct Product {
   Sparse right;             ///< F
 
   bool has_same_unknown(const Product& other) const {
-    return monomial == other.monomial && unknown == other.unknown &&
-           transposed == other.transposed;
+    return monomial == other.monomial && unknown == other.unknown && transposed == other.transposed;
   }
 };
 
@@ -54,8 +53,8 @@ struct HermitianProduct {
 /// with as few terms as come of merging those with the same side.
 std::vector<HermitianProduct> symmetric_part(const std::vector<Product>& sum);
 
-/// No element of a coefficient of S - S' is larger: 0, or rounding, where the products say that S is
-/// symmetric. A sum that is symmetric for another reason has a larger bound.
+/// No element of a coefficient of S - S' is larger: 0, or rounding, where the products say that S
+/// is symmetric. A sum that is symmetric for another reason has a larger bound.
 double asymmetry(const std::vector<Product>& sum);
 
 /// The coefficients of the scalars: (i, M_i) in the order of i, without zeros. All products must

@@ -48,8 +48,7 @@ Unknowns::Unknowns(const std::vector<model::UnknownMatrix>& matrices, int large)
   const bool some = std::any_of(list_.begin(), list_.end(), [&](const Unknown& unknown) {
     return is_matrix(unknown) && unknown.count >= large;
   });
-  for (Unknown& unknown : list_)
-    unknown.whole = some && is_matrix(unknown) && unknown.count > kFew;
+  for (Unknown& unknown : list_) unknown.whole = some && is_matrix(unknown) && unknown.count > kFew;
 }
 
 const Unknown* Unknowns::find(const std::string& name) const {

@@ -127,12 +127,30 @@ TEST_F(AffineTest, PowersThatExplodeAreRefused) {
 }
 
 TEST_F(AffineTest, AgreesWithTheTextOverDouble) {
-  for (const char* text :
-       {"P", "He(P*A - Y*C)", "[P, Y; *, g*I]", "-P/2 + 3*A'*P*A", "trace(P) + 2*g",
-        "diag([g, 2*g, 1])", "diag(P)", "P(1:2, :)", "Y'", "ones(2, 2)*g", "expm(A)*P",
-        "blkdiag(P, g)", "inv(A)'*Y*C - Y*C", "(1/3)*P + eye(3)", "[g, 1; 1, g]*C",
-        "C*P*C' + trace(Y*C)*I", "(g + 1)*inv(A)", "(C(1, :)*P*C(2, :)')*A", "P.*A - (Y*C)./(A.*A + ones(3, 3))",
-        "(P*A)(2:3, 1:2)", "[Y', C*P; P, 2*P*A]", "P^1 - P", "sum(P)", "diag(Y(:, 1))*A"})
+  for (const char* text : {"P",
+                           "He(P*A - Y*C)",
+                           "[P, Y; *, g*I]",
+                           "-P/2 + 3*A'*P*A",
+                           "trace(P) + 2*g",
+                           "diag([g, 2*g, 1])",
+                           "diag(P)",
+                           "P(1:2, :)",
+                           "Y'",
+                           "ones(2, 2)*g",
+                           "expm(A)*P",
+                           "blkdiag(P, g)",
+                           "inv(A)'*Y*C - Y*C",
+                           "(1/3)*P + eye(3)",
+                           "[g, 1; 1, g]*C",
+                           "C*P*C' + trace(Y*C)*I",
+                           "(g + 1)*inv(A)",
+                           "(C(1, :)*P*C(2, :)')*A",
+                           "P.*A - (Y*C)./(A.*A + ones(3, 3))",
+                           "(P*A)(2:3, 1:2)",
+                           "[Y', C*P; P, 2*P*A]",
+                           "P^1 - P",
+                           "sum(P)",
+                           "diag(Y(:, 1))*A"})
     expect_same(text);
 }
 

@@ -68,10 +68,11 @@ const std::vector<Named>& problems() {
        problem_with("  unknowns: {P: symmetric n}\n  require:\n    positive: P > 0\n"
                     "    all: {forall: \"F in conv{A, A - eye(3), 1.5*A}\", that: He(P*F) < 0}\n")},
       {"functions",
-       problem_with("  unknowns: {P: {shape: symmetric n, of: tau, degree: 2}, Y: n x p}\n  require:\n"
-                    "    positive: {forall: \"tau in [0, 1]\", that: P(tau) > 0}\n"
-                    "    all: {forall: \"tau in [0, 1]\", that: \"He(P(tau)*A + tau*P(0) - "
-                    "Y*C) < 0\"}\n")},
+       problem_with(
+           "  unknowns: {P: {shape: symmetric n, of: tau, degree: 2}, Y: n x p}\n  require:\n"
+           "    positive: {forall: \"tau in [0, 1]\", that: P(tau) > 0}\n"
+           "    all: {forall: \"tau in [0, 1]\", that: \"He(P(tau)*A + tau*P(0) - "
+           "Y*C) < 0\"}\n")},
       {"sampled_data_hybrid",
        "problem: p\nmethod: sampled-data-hybrid\ndata:\n  A: [[-1, 0.7, 0], [-2, -3, 0.5], "
        "[0.25, 0.3, -0.9]]\n  C: [[1, 0, 2], [0, 0.3, 1]]\n  T1: 0.05\n  T2: 0.1\n  QF: I\n  QJ: "
@@ -88,8 +89,8 @@ struct Posed {
   GainBounds bounds;
 
   Posed(const std::string& text, int large) : yaml(text), inequalities(yaml.instance) {
-    inequalities.unknowns = Unknowns(
-        model::unknown_matrices(inequalities.design(), inequalities.functions), large);
+    inequalities.unknowns =
+        Unknowns(model::unknown_matrices(inequalities.design(), inequalities.functions), large);
     lmi = compile(inequalities);
     bounds = gain_bounds(inequalities, lmi);
   }
@@ -108,9 +109,9 @@ Matrix slack(const sdp::MatrixProgram& program, std::size_t k, const std::vector
   const sdp::MatrixProgram::Block& block = program.blocks[k];
   Matrix result = Matrix::Zero(block.size, block.size);
   for (const auto& product : block.products) {
-    const Matrix M =
-        dense(product.E) * value(program.unknowns[static_cast<std::size_t>(product.unknown)], x) *
-        dense(product.F);
+    const Matrix M = dense(product.E) *
+                     value(program.unknowns[static_cast<std::size_t>(product.unknown)], x) *
+                     dense(product.F);
     result += M + M.transpose();
   }
   for (const auto& e : block.elements) {
@@ -217,15 +218,14 @@ TEST_P(MatrixProgramTest, TheNextRoundNeedsNoProgram) {
         double& value = solution.x[static_cast<std::size_t>(unknown.first + k) - 1];
         value = 0.1 * value + (unknown.structure == model::Structure::symmetric && row == column);
       }
-    const auto one = next_round(posed.lmi, posed.bounds, plain, solution);
-    const auto other = next_round(posed.lmi, posed.bounds, assembled, solution);
+    const auto one = next_round(posed.lmi, posed.bounds, plain, solution.x);
+    const auto other = next_round(posed.lmi, posed.bounds, assembled, solution.x);
     ASSERT_EQ(one.has_value(), other.has_value());
     if (!one) continue;
     EXPECT_NEAR(one->margin, other->margin, 1e-12);
     EXPECT_EQ(one->constant, other->constant);
     for (std::size_t k = 0; k < one->diagonals.size(); ++k)
-      EXPECT_LT((one->diagonals[k] - other->diagonals[k]).norm(),
-                1e-12 * one->diagonals[k].norm());
+      EXPECT_LT((one->diagonals[k] - other->diagonals[k]).norm(), 1e-12 * one->diagonals[k].norm());
   }
 }
 
@@ -283,13 +283,28 @@ TEST(MatrixProgram, ProductsAreAsFewAsTheyCanBe) {
   EXPECT_EQ(count("A'*P*A < P"), 2U);
 }
 
-TEST(MatrixProgram, NoneWhereAScalarOfAMatrixStandsElsewhere) {
-  const Posed posed(
-      problem_with("  unknowns: {P: symmetric n}\n  require: {it: \"P + trace(P)*eye(3) > 0\"}\n"),
-      1);
+TEST(MatrixProgram, NoneWhereAMatrixStandsByItsScalars) {
+  const auto program = [](const std::string& require) {
+    const Posed posed(problem_with("  unknowns: {P: symmetric n}\n  require: {" + require + "}\n"),
+                      1);
+    return matrix_program(posed.lmi, {}, formulate_interior(posed.lmi, {}, {}), {});
+  };
+  EXPECT_FALSE(program("it: P + trace(P)*eye(3) > 0"));
+  EXPECT_FALSE(program("it: P > 0, small: trace(P) < 1"));
+  EXPECT_FALSE(program("it: P.*A - P.*eye(3) + P.*A' > 0"));
+  EXPECT_TRUE(program("\"it\": P > 0, \"element\": \"P(2, 2) + C(1, :)*P*C(1, :)' < 1\""));
+}
+
+/// The sum is symmetric, what stands in products alone is not.
+TEST(MatrixProgram, TermsAndProductsAreSymmetricTogether) {
+  const Posed posed(problem_with("  unknowns: {P: symmetric n}\n  require: {it: "
+                                 "\"P*A + (P*A)'.*ones(3, 3) < 0\"}\n"),
+                    1);
   EXPECT_FALSE(posed.lmi.blocks[0].products);
-  EXPECT_FALSE(
-      matrix_program(posed.lmi, {}, formulate_interior(posed.lmi, {}, {}), {}));
+  const Posed other(problem_with("  unknowns: {P: symmetric n}\n  require: {it: He(P*A) < 0}\n"),
+                    1);
+  std::vector<double> x = {1, 0.3, -0.2, 2, 0.5, 3};
+  EXPECT_LT((posed.lmi.blocks[0].value(x) - other.lmi.blocks[0].value(x)).norm(), 1e-14);
 }
 
 TEST(MatrixProgram, NoneWhereScalarsAreReleased) {

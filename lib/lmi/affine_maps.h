@@ -1,0 +1,45 @@
+// Internal to lmi: linear maps of affine forms, one an operation.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "expr/program.h"
+#include "lmi/affine.h"
+
+namespace gainsmith::lmi {
+
+/// The form with every coefficient mapped linearly; it has no products.
+template <class Map>
+AffineForm map_terms(const AffineForm& form, expr::Shape shape, Map map) {
+  AffineForm result{shape, {}};
+  for (const auto& [key, matrix] : form.terms) add_term(result, key, map(matrix));
+  return result;
+}
+
+/// A matrix from the elements of `matrix` moved to other places.
+template <class Move>
+Sparse moved(const Sparse& matrix, int rows, int cols, Move move) {
+  std::vector<Eigen::Triplet<double>> elements;
+  for (int k = 0; k < matrix.outerSize(); ++k)
+    for (Sparse::InnerIterator it(matrix, k); it; ++it) move(it, elements);
+  Sparse result(rows, cols);
+  result.setFromTriplets(elements.begin(), elements.end());
+  return result;
+}
+
+/// a + factor b.
+AffineForm sum(const AffineForm& a, const AffineForm& b, double factor);
+
+AffineForm blocks(const expr::Instruction& instruction,
+                  std::span<const AffineForm* const> operands);
+AffineForm index(const expr::Instruction& instruction, const AffineForm& form);
+
+// Of forms without products:
+/// The scalar times the identity.
+AffineForm identity(const AffineForm& form, expr::Shape shape);
+AffineForm trace(const AffineForm& form);
+/// diagonal_of or diagonal_matrix.
+AffineForm diagonal(const expr::Instruction& instruction, const AffineForm& form);
+
+}  // namespace gainsmith::lmi
