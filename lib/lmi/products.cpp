@@ -168,7 +168,8 @@ std::vector<HermitianProduct> symmetric_part(const std::vector<Product>& sum) {
 }
 
 double asymmetry(const std::vector<Product>& sum) {
-  constexpr double kPlaces = 4;  // of S - S' = 2 (S - S')/2 twice for what is not on a diagonal
+  // (S - S')/2 is the sum of these, and V_ij stands at two places of V, both in E V F and (E V F)'.
+  constexpr double kPlaces = 8;
   double bound = 0;
   for (const Sides& term : with_mirrors(sum, -1)) {
     // Of a symmetric V, E V F - (E V F)' is 0 where F' = c E.
