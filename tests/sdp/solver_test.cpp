@@ -245,5 +245,50 @@ TEST(Solver, RefusesWhatIsNoProblem) {
   }
 }
 
+/// The smallest x with x I >= M, M = [2, 1; 1, 2]: 3.
+Problem largest_eigenvalue() {
+  Problem problem;
+  problem.blocks = {{2, false}};
+  problem.c = {1};
+  problem.f = {{{0, 0, 0, 2}, {0, 0, 1, 1}, {0, 1, 1, 2}}, {{0, 0, 0, 1}, {0, 1, 1, 1}}};
+  return problem;
+}
+
+TEST(Solver, EndsWhenTheCallerHasEnough) {
+  const Problem problem = largest_eigenvalue();
+  int asked = 0;
+  Options options;
+  options.enough = [&](const std::vector<double>& x) {
+    ++asked;
+    return x[0] > 3 && x[0] < 4;
+  };
+  const Solution solution = solve(problem, options);
+  EXPECT_EQ(solution.status, Status::undecided);
+  EXPECT_EQ(solution.cause, Cause::enough);
+  EXPECT_EQ(to_string(solution.cause), "enough");
+  ASSERT_EQ(solution.x.size(), 1U);
+  EXPECT_GT(solution.x[0], 3);
+  EXPECT_LT(solution.x[0], 4);
+  EXPECT_EQ(asked, solution.iterations + 1);
+  options.enough = [](const std::vector<double>&) { return false; };
+  EXPECT_EQ(solve(problem, options).status, Status::optimal);
+}
+
+TEST(Solver, BeginsAtAPointNearTheSolution) {
+  const Problem problem = largest_eigenvalue();
+  const Solution far = solve(problem);
+  ASSERT_EQ(far.status, Status::optimal);
+  Solution near;
+  near.x = {3.001};
+  near.X.values = {{1.001, -1, -1, 1.001}};
+  near.Y.values = {{0.501, 0.499, 0.499, 0.501}};
+  Options options;
+  options.from = &near;
+  const Solution solution = solve(problem, options);
+  ASSERT_EQ(solution.status, Status::optimal);
+  EXPECT_NEAR(solution.x[0], 3, 1e-7);
+  EXPECT_LT(solution.iterations, far.iterations);
+}
+
 }  // namespace
 }  // namespace gainsmith::sdp
