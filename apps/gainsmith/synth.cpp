@@ -19,6 +19,7 @@
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
 #include "sdp/sdpa_file.h"
+#include "sdp/solution.h"
 
 namespace gainsmith::app {
 
@@ -91,6 +92,7 @@ ExitCode synth(const SynthOptions& options) {
   } catch (const Stopped&) {
     // The result is there.
   }
+  if (gains.solver.cause == to_string(sdp::Cause::interrupted)) return ExitCode::undecided;
   return gains.search ? exit_of_search(gains) : exit_of(gains.verdict);
 }
 
@@ -114,7 +116,7 @@ Command synth_command() {
            .one_of({"ordinary", "full"}),
        Option("--json", options->json, "print the result as JSON")},
       "Exit code: 0 gains found, 1 infeasible by a checked certificate, 2 wrong input, 3 "
-      "undecided.\n"
+      "undecided or stopped.\n"
       "Examples:\n"
       "  gainsmith synth problems/ferrante-seuret-2021/t2-0.70.yaml -o gains.json\n"
       "  gainsmith synth problem.yaml --json | jq .gains",

@@ -87,7 +87,7 @@ void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
 
 /// `doing`: what the stop ended; empty before the first program.
 void note_stop(const std::string& doing, int iterations, model::Gains& gains) {
-  gains.solver.status = "undecided";
+  if (gains.verdict == model::Verdict::undecided) gains.solver.status = "undecided";
   gains.solver.cause = to_string(sdp::Cause::interrupted);
   gains.solver.iterations = iterations;
   gains.solver.add_message(doing.empty() ? "stopped before anything was solved"
@@ -208,7 +208,8 @@ class Synthesis {
       conclude(*climb_, gains);
       report_ways(plan_, round_, gains);
     }
-    if (stopped && gains.verdict == model::Verdict::undecided)
+    // A point inside, where a minimum was asked for, is not all that was to come.
+    if (stopped && (gains.verdict == model::Verdict::undecided || gains.solver.status == "feasible"))
       note_stop(climb_ ? climb_->doing() : "", iterations_, gains);
     add_gains(inequalities_, gains);
     if (gains.verdict != model::Verdict::yes)
