@@ -159,7 +159,7 @@ std::string solver_text(const model::Gains& gains) {
   const model::SolverRecord& solver = gains.solver;
   const std::string ended =
       solver.cause == to_string(sdp::Cause::enough)
-          ? fmt::format("solver: a point inside after {} iterations", solver.iterations)
+          ? fmt::format("solver: a strictly feasible point after {} iterations", solver.iterations)
           : fmt::format("solver: {}, {}, {} iterations", solver.status, solver.cause,
                         solver.iterations);
   const bool alone = gains.verdict == model::Verdict::yes && solver.status == "undecided";

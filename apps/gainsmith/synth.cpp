@@ -107,7 +107,7 @@ Command synth_command() {
        Option("-o,--output", options->output, "write the gain file here; - for standard output"),
        Option("--sdpa", options->sdpa,
               "write the semidefinite program here, for other solvers, before it is solved"),
-       Option("--no-solve", options->only_write, "write it, and no more"),
+       Option("--no-solve", options->only_write, "write that program and do not solve it"),
        Option("--threads", options->threads,
               "threads of a search, 0: one a core; the result does not depend on it")
            .within(0, 1024),

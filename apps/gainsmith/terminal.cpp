@@ -131,7 +131,7 @@ void end_work() {
 std::string stop_text() {
   if (!stop_requested) return {};
   if (out_of_time == 0) return "interrupted";
-  return "stopped after " + brief(patience_seconds) + " s (--time); more of it goes further";
+  return "stopped after " + brief(patience_seconds) + " s (--time); a longer time goes further";
 }
 
 }  // namespace gainsmith::app

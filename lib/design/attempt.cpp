@@ -67,8 +67,9 @@ double price_of(const Posed& posed, const Attempt& attempt, const sdp::Solution&
   return (value - least) / std::abs(value);
 }
 
-/// A price that is no matter of the solver's digits.
-constexpr double kCheap = 3e-7;
+/// A price that is no matter of the solver's digits, and one that ill-conditioned minima of large
+/// programs have in the dense solver too.
+constexpr double kCheap = 3e-7, kFair = 1e-6;
 
 /// A gap that is small beside the solver's 1 may be large beside the objective: then the program is
 /// solved to a finer one.
@@ -89,7 +90,7 @@ void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   result.formulation = lmi::pose_objective(posed.lmi, asked.bounds, asked.shift);
   Effort effort = asked.effort;
   auto near = solve_in_matrices(posed, asked, result.formulation, {}, {});
-  if (near && near->cause == sdp::Cause::converged && price_of(posed, result, *near) <= kCheap) {
+  if (near && near->cause == sdp::Cause::converged && price_of(posed, result, *near) <= kFair) {
     near->status = sdp::Status::optimal;
     result.solution = std::move(*near);
     take_point(posed, lmi::read_back(posed.lmi, result.formulation, result.solution), result);
@@ -98,6 +99,7 @@ void solve_objective(const Posed& posed, const Solve& solve, Attempt& result) {
   if (near) effort.from = &*near;
   lmi::assemble(posed.lmi, asked.bounds, {}, result.formulation);
   result.solution = solve(result.formulation.problem, effort);
+  if (near) result.solution.iterations += near->iterations;
   // Far from the minimum a point serves no one: one inside comes from the other goal.
   if (!result.is_near_optimal()) return;
   refine_price(posed, solve, result);
@@ -147,6 +149,7 @@ class Interior {
     lmi::assemble(posed_.lmi, asked_.bounds, round, result.formulation,
                   is_wide() ? exactly : lmi::Exactly{});
     result.solution = solve_(result.formulation.problem, effort);
+    if (near) result.solution.iterations += near->iterations;
     return result;
   }
 

@@ -175,14 +175,14 @@ void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains&
 void note_undecided(const Climb& climb, model::Gains& gains) {
   const Attempt& last = climb.last();
   const auto& refutation = last.refutation;
-  const double margin = last.question.goal == lmi::Goal::interior && !last.solution.x.empty()
-                            ? lmi::interior_margin(last.solution)
-                            : 0;
-  gains.solver.add_message("the largest margin found is " + brief(margin, 2) +
-                           (refutation && refutation->omega < 0.1
-                                ? ", and solutions, if any, do not survive a relative change of " +
-                                      brief(refutation->omega, 2) + " of the coefficients"
-                                : ""));
+  // A certificate is a direction, and an iterate outside has no margin.
+  if (last.question.goal == lmi::Goal::interior && !last.solution.x.empty() &&
+      last.solution.cause != sdp::Cause::certificate)
+    if (const double margin = lmi::interior_margin(last.solution); margin >= 0 && margin <= 1)
+      gains.solver.add_message("the largest margin found is " + brief(margin, 2));
+  if (refutation && refutation->omega < 0.1)
+    gains.solver.add_message("solutions, if any, do not survive a relative change of " +
+                             brief(refutation->omega, 2) + " of the coefficients");
 }
 
 /// A no without multipliers (lmi/refutation.h).

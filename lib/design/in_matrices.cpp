@@ -12,7 +12,7 @@ namespace {
 
 /// Scalars from which on this solver is the faster one: a point inside takes it five iterations, a
 /// minimum many more steps of conjugate gradients.
-constexpr int kManyForAPoint = 200, kManyForAMinimum = 700;
+constexpr int kManyForAPoint = 200, kManyForAMinimum = 400;
 /// What conjugate gradients reach as a rule, and seven digits of an objective.
 constexpr double kGap = 1e-7;
 

@@ -174,10 +174,10 @@ constexpr std::array<Row, 11> kLadder = {{
      "a certificate in 100 digits"},
     {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits,
      "the largest margin in 31 digits"},
-    {Rung::on_faces, Rungs::faces_are_due, Rungs::on_faces, "faces"},
+    {Rung::on_faces, Rungs::faces_are_due, Rungs::on_faces, "a face that all solutions share"},
     {Rung::in_100_digits, Rungs::most_digits_are_due, Rungs::in_100_digits,
      "the largest margin in 100 digits"},
-    {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter, "tighter bounds on gains"},
+    {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter, "smaller gains"},
 }};
 
 }  // namespace

@@ -91,7 +91,7 @@ void note_stop(const std::string& doing, int iterations, model::Gains& gains) {
   gains.solver.cause = to_string(sdp::Cause::interrupted);
   gains.solver.iterations = iterations;
   gains.solver.add_message(doing.empty() ? "stopped before anything was solved"
-                                         : "stopped at " + doing);
+                                         : "stopped while looking for " + doing);
 }
 
 lmi::Look look_of(Depth depth) {
@@ -209,7 +209,8 @@ class Synthesis {
       report_ways(plan_, round_, gains);
     }
     // A point inside, where a minimum was asked for, is not all that was to come.
-    if (stopped && (gains.verdict == model::Verdict::undecided || gains.solver.status == "feasible"))
+    if (stopped &&
+        (gains.verdict == model::Verdict::undecided || gains.solver.status == "feasible"))
       note_stop(climb_ ? climb_->doing() : "", iterations_, gains);
     add_gains(inequalities_, gains);
     if (gains.verdict != model::Verdict::yes)

@@ -45,6 +45,8 @@ class MatrixIpm {
   static constexpr double kResidual = 1e-3, kResidualOfGap = 0.003, kLeastResidual = 1e-11;
   static constexpr int kSteps = 150;
   static constexpr double kUseless = 0.03;
+  /// In all, where a minimum is sought: another solver is faster then.
+  static constexpr int kAllSteps = 1500;
   /// Of the way to the boundary.
   static constexpr double kShortest = 0.9, kLongest = 0.99;
   /// A step below this gets nowhere.
@@ -101,7 +103,7 @@ class MatrixIpm {
       if (!scaling_.prepare(root_, S_)) return Cause::stalled;
       schur_.set_scaling(scaling_.W());
       preconditioner_.prepare(schur_, scaling_.G());
-      if (!move()) return Cause::stalled;
+      if (!move() || (!options_.enough && steps_ > kAllSteps)) return Cause::stalled;
     }
     return Cause::stalled;
   }
@@ -186,7 +188,7 @@ class MatrixIpm {
     schur_.apply(dx_, product_);
     residual_ = right_ - product_;
     double rho = 0;
-    for (int step = 0; step < kSteps; ++step) {
+    for (int step = 0; step < kSteps; ++step, ++steps_) {
       if (residual_.norm() <= goal) return true;
       check_stop();
       preconditioner_.apply(residual_, half_);
@@ -261,6 +263,7 @@ class MatrixIpm {
   Blocks<double> target_, work_;
   bool exact_ = false;  ///< S = C + L(x)
   int failures_ = 0;
+  int steps_ = 0;  ///< of conjugate gradients
 };
 
 }  // namespace
