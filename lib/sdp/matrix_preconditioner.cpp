@@ -60,6 +60,18 @@ bool Preconditioner::shares_a_side(std::size_t P, std::size_t Y, bool transposed
   return false;
 }
 
+/// Has P two terms in a block of Y? Then Y + P K leaves one that is coupled with Y all the same.
+bool Preconditioner::stands_twice(std::size_t P, std::size_t Y) const {
+  for (const MatrixOperator::Block& block : of_.blocks()) {
+    const auto terms_of = [&](std::size_t unknown) {
+      return std::count_if(block.terms.begin(), block.terms.end(),
+                           [&](const auto& term) { return term.unknown == unknown; });
+    };
+    if (terms_of(Y) > 0 && terms_of(P) > 1) return true;
+  }
+  return false;
+}
+
 /// One P for each Y, the first.
 void Preconditioner::find_links() {
   const auto& unknowns = of_.program().unknowns;
@@ -68,6 +80,7 @@ void Preconditioner::find_links() {
     for (std::size_t P = 0; P < unknowns.size() && !found; ++P)
       for (const bool transposed : {false, true}) {
         if (found || !unknowns[P].symmetric || !shares_a_side(P, Y, transposed)) continue;
+        if (stands_twice(P, Y)) continue;
         links_.push_back({P, Y, transposed, {}});
         found = true;
       }
@@ -116,9 +129,10 @@ void Preconditioner::decouple(Link& link, std::vector<Terms>& terms) const {
         if (common == other.E) beside.back().matched = &matched.F;
         if (common == other.F && !beside.back().matched) beside.back().matched = &matched.E;
       }
-      own.noalias() += beside.back().free.transpose() * beside.back().free;
+      const double weight = beside.back().common.squaredNorm();
+      own.noalias() += weight * beside.back().free.transpose() * beside.back().free;
       if (beside.back().matched)
-        across.noalias() += beside.back().matched->transpose() * beside.back().free;
+        across.noalias() += weight * beside.back().matched->transpose() * beside.back().free;
     }
   }
   own.diagonal().array() += kFloor * own.trace() / static_cast<double>(free);

@@ -10,8 +10,10 @@ namespace gainsmith::sdp {
 /// For symmetric V the basis Q: Q0 = T^-T with T T' the sum of E'W E + F W F' over all terms, and
 /// Q = Q0 U with the eigenvectors U of Q0' M(Q0 Q0') Q0, the image of the identity; for a full V
 /// one basis for each side. There M counts as its diagonal, and unknowns as not coupled. Before
-/// that, a full Y beside a symmetric P, as in He(E (P F + Y C)), is replaced by Y + P K with K = F
-/// W C' (C W C')^-1, which takes most of their coupling: what is left of F is orthogonal to C.
+/// that, a full Y beside a symmetric P, as in He(E (P F + Y C)), is replaced by Y + P K with
+///   K = sum w F W C' (sum w C W C')^-1,  w = tr(E'W E), sums over the terms of Y,
+/// which takes most of their coupling: what is left of F is orthogonal to C. Not where P has two
+/// terms in a block of Y: there it would add more coupling than it takes.
 class Preconditioner {
  public:
   explicit Preconditioner(const MatrixOperator& of);
@@ -41,6 +43,7 @@ class Preconditioner {
 
   void find_links();
   bool shares_a_side(std::size_t P, std::size_t Y, bool transposed) const;
+  bool stands_twice(std::size_t P, std::size_t Y) const;
   Terms scaled_terms(std::size_t unknown, const Blocks<double>& G) const;
   void decouple(Link& link, std::vector<Terms>& terms) const;
   Basis symmetric_basis(const Terms& terms, Eigen::Index n) const;

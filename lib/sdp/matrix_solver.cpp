@@ -41,12 +41,12 @@ class MatrixIpm {
 
  private:
   /// Of the right-hand side: what conjugate gradients may leave, at most and for each unit of the
-  /// gap, after how many steps they give up, and what a direction is of no use with.
+  /// gap, after how many steps they give up, and what a direction is of no use with: where a point
+  /// is wanted, of the right-hand side, where a minimum is, of what they may leave. There L*(X) = c
+  /// would be lost, and with it the bound and the start of another solver.
   static constexpr double kResidual = 1e-3, kResidualOfGap = 0.003, kLeastResidual = 1e-11;
   static constexpr int kSteps = 150;
-  static constexpr double kUseless = 0.03;
-  /// In all, where a minimum is sought: another solver is faster then.
-  static constexpr int kAllSteps = 1500;
+  static constexpr double kUseless = 0.03, kUselessToMinimum = 10;
   /// Of the way to the boundary.
   static constexpr double kShortest = 0.9, kLongest = 0.99;
   /// A step below this gets nowhere.
@@ -103,7 +103,7 @@ class MatrixIpm {
       if (!scaling_.prepare(root_, S_)) return Cause::stalled;
       schur_.set_scaling(scaling_.W());
       preconditioner_.prepare(schur_, scaling_.G());
-      if (!move() || (!options_.enough && steps_ > kAllSteps)) return Cause::stalled;
+      if (!move()) return Cause::stalled;
     }
     return Cause::stalled;
   }
@@ -188,7 +188,7 @@ class MatrixIpm {
     schur_.apply(dx_, product_);
     residual_ = right_ - product_;
     double rho = 0;
-    for (int step = 0; step < kSteps; ++step, ++steps_) {
+    for (int step = 0; step < kSteps; ++step) {
       if (residual_.norm() <= goal) return true;
       check_stop();
       preconditioner_.apply(residual_, half_);
@@ -202,7 +202,7 @@ class MatrixIpm {
       dx_ += (rho / curvature) * search_;
       residual_ -= (rho / curvature) * product_;
     }
-    return residual_.norm() <= kUseless * size;
+    return residual_.norm() <= (options_.enough ? kUseless * size : kUselessToMinimum * goal);
   }
 
   bool advance(double reach) {
@@ -263,7 +263,6 @@ class MatrixIpm {
   Blocks<double> target_, work_;
   bool exact_ = false;  ///< S = C + L(x)
   int failures_ = 0;
-  int steps_ = 0;  ///< of conjugate gradients
 };
 
 }  // namespace
