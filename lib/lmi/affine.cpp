@@ -14,11 +14,11 @@ using Key = AffineForm::Key;
 
 }  // namespace
 
-void add_term(AffineForm& form, AffineForm::Key key, Sparse matrix) {
+void add_term(AffineForm& form, AffineForm::Key key, const Sparse& matrix) {
   if (matrix.nonZeros() == 0) return;
   const auto found = form.terms.lower_bound(key);
   if (found == form.terms.end() || found->first != key) {
-    form.terms.emplace_hint(found, key, std::move(matrix));
+    form.terms.emplace_hint(found, key, matrix);
     return;
   }
   found->second = sum_of(found->second, matrix, 1);
@@ -47,8 +47,8 @@ AffineForm expanded(const AffineForm& form) {
   std::map<int, std::vector<Product>> by_monomial;
   for (const Product& product : form.products) by_monomial[product.monomial].push_back(product);
   for (const auto& [monomial, products] : by_monomial)
-    for (auto& [i, matrix] : coefficients(products, form.shape.rows, form.shape.cols))
-      add_term(result, {monomial, i}, std::move(matrix));
+    for (const auto& [i, matrix] : coefficients(products, form.shape.rows, form.shape.cols))
+      add_term(result, {monomial, i}, matrix);
   return result;
 }
 
@@ -112,8 +112,7 @@ AffineForm unknown_form(const Unknown& unknown) {
     left.setIdentity();
     right.setIdentity();
     const bool symmetric = unknown.structure == model::Structure::symmetric;
-    result.products.push_back(
-        {0, {unknown.first, rows, columns, symmetric}, false, std::move(left), std::move(right)});
+    result.products.push_back({0, {unknown.first, rows, columns, symmetric}, false, left, right});
     return result;
   }
   for (int k = 0; k < unknown.count; ++k) {

@@ -45,7 +45,7 @@ AffineForm unknown_form(const Unknown& unknown);
 AffineForm variable_form(forall::MonomialTable& monomials, int variable);
 
 /// Adds a coefficient to a form; what cancels is left out.
-void add_term(AffineForm& form, AffineForm::Key key, Sparse matrix);
+void add_term(AffineForm& form, AffineForm::Key key, const Sparse& matrix);
 void add_term(AffineForm& form, AffineForm::Key key, const Sparse& matrix, double factor);
 
 /// Adds factor times `other`, with its first element at (row, column).

@@ -293,10 +293,12 @@ struct AffineRules {
     numbers::Degree degree = 0;
     std::vector<numbers::Degree> degrees;
     std::vector<const numbers::Degree*> operands;
+    degrees.reserve(at.operands.size());
     for (const AffineForm* operand : at.operands) degrees.push_back(operand->is_constant() ? 0 : 1);
     for (const numbers::Degree& one : degrees) operands.push_back(&one);
     numbers::DegreeAlgebra{}.apply(at.instruction, operands, degree);
     std::vector<AffineForm> constants;
+    constants.reserve(at.operands.size());
     std::vector<const AffineForm*> pointers;
     for (const AffineForm* operand : at.operands) {
       if (degree != 0 && !operand->is_constant()) rules.refuse(Op::jacobian, *operand);

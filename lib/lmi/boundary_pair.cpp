@@ -227,8 +227,8 @@ class System {
     Matrix BV(block.size, rank);
     for (const auto& [i, elements] : block.terms) {
       if (i < first_) continue;
-      spend(static_cast<double>(rank *
-                                (block.size * block.size + static_cast<Index>(elements.size()))) *
+      spend(static_cast<double>(
+                rank * (Index{block.size} * block.size + static_cast<Index>(elements.size()))) *
             kDoubleWork);
       product_with(elements, V, BV);
       part.across.col(i) = (U.transpose() * BV).reshaped();

@@ -84,7 +84,7 @@ std::optional<Face> find_face(const Problem& problem, const Presolved& presolved
     Face::Rows& block = face.blocks.emplace_back();
     block.parts.resize(rows.size());
     block.kept.resize(rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) block.kept[i] = !rows[i];
+    for (std::size_t i = 0; i < rows.size(); ++i) block.kept[i] = rows[i] ? 0 : 1;
     for (std::size_t i = 0; i < rows.size(); ++i)
       if (block.kept[i]) block.parts[i].push_back({block.size++, 1});
     if (block.size > 0) block.number = number++;
