@@ -6,6 +6,8 @@
 
 #include <chrono>
 #include <csignal>
+#include <filesystem>
+#include <fstream>
 #include <random>
 #include <regex>
 #include <thread>
@@ -25,6 +27,20 @@ struct Ended {
   std::string err;
 };
 
+/// Until the program has a handler for SIGINT, or five seconds: a busy machine may start it late.
+void wait_for_handler(pid_t child) {
+  constexpr int kMostLooks = 500;
+  for (int k = 0; k < kMostLooks; ++k) {
+    std::ifstream status("/proc/" + std::to_string(child) + "/status");
+    for (std::string line; std::getline(status, line);) {
+      if (!line.starts_with("SigCgt:")) continue;
+      const auto caught = std::stoull(line.substr(7), nullptr, 16);
+      if (((caught >> (SIGINT - 1)) & 1U) != 0) return;
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+}
+
 /// Runs gainsmith, and gives it the signal of Ctrl-C after some seconds.
 Ended interrupted(std::vector<std::string> arguments, double after = 1) {
   using Clock = std::chrono::steady_clock;
@@ -43,6 +59,7 @@ Ended interrupted(std::vector<std::string> arguments, double after = 1) {
     ::execv(words[0], words.data());
     ::_exit(127);
   }
+  wait_for_handler(child);
   std::this_thread::sleep_for(std::chrono::duration<double>(after));
   const auto start = Clock::now();
   ::kill(child, SIGINT);
