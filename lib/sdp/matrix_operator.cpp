@@ -42,6 +42,9 @@ double inner_with(const std::vector<MatrixProgram::Element>& elements, const Den
 
 /// sum += E V F of sides that may be scaled, in the cheaper order.
 void add_between(const Dense& E, const Dense& V, const Dense& F, Dense& sum) {
+  const auto inner = static_cast<double>(std::min(V.rows(), V.cols()));
+  spend(kBlockWork * (size_of(V) + inner * static_cast<double>(E.rows())) *
+        static_cast<double>(E.rows()));
   if (V.cols() <= V.rows())
     sum.noalias() += (E * V) * F.transpose();
   else

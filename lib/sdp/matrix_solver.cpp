@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
+#include <utility>
 
 #include "base/stop.h"
 #include "sdp/matrix_operator.h"
 #include "sdp/matrix_preconditioner.h"
 #include "sdp/matrix_scaling.h"
-#include "sdp/work.h"
 
 namespace gainsmith::sdp {
 namespace {
