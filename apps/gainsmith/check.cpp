@@ -26,10 +26,10 @@ struct CheckOptions {
 /// What of a campaign the problem leaves to the defaults.
 std::vector<std::string> campaign_defaults(const model::Design& design) {
   std::vector<std::string> words;
-  if ((!design.timer && !design.dynamics) || design.claims.empty() || !design.no_campaign.empty())
+  if (!design.dynamics || design.claims.empty() || !design.no_campaign.empty())
     return words;
-  if (design.timer && !design.campaign.horizon)
-    words.emplace_back("campaign.horizon: 40 of the timer's longest intervals");
+  if (!model::has_end(design) && model::ends(design))
+    words.emplace_back("campaign.horizon: 40 of the longest intervals between events");
   for (std::size_t i = 0; i < design.states.size(); ++i) {
     const auto& starts = design.campaign.starts;
     const bool given = std::any_of(starts.begin(), starts.end(),
@@ -45,7 +45,7 @@ std::vector<std::string> campaign_defaults(const model::Design& design) {
 /// which on nothing is claimed.
 void check_runs(const model::Instance& instance) {
   const model::Design& design = *instance.design;
-  const bool runs = design.dynamics && design.no_campaign.empty() && model::has_end(design);
+  const bool runs = design.dynamics && design.no_campaign.empty() && model::ends(design);
   const bool needs_nothing = design.unknowns.empty() && design.inequalities.empty() &&
                              design.open.empty() && design.gains.empty();
   if (runs && needs_nothing) verify::make_event_setup(instance, model::Gains{});

@@ -111,9 +111,9 @@ class Job {
   std::string why_no_campaign(const model::Gains& gains) const {
     const model::Design& design = *instance_.design;
     if (!design.no_campaign.empty()) return design.no_campaign;
-    if (!design.timer && !design.dynamics) return "the method has no dynamics";
+    if (!design.dynamics) return "the method has no dynamics";
     if (design.claims.empty()) return "the method makes no claims";
-    if (design.dynamics && !model::has_end(design)) return "the problem gives none";
+    if (!model::ends(design)) return "the problem gives none";
     if (gains.gains.size() + gains.gain_functions.size() < design.gains.size()) return "no gains";
     return "";
   }

@@ -75,10 +75,10 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
 void refuse_without_campaign(const model::Design& design, const std::string& file) {
   if (!design.no_campaign.empty())
     throw InputError({file}, "there is no campaign: " + design.no_campaign);
-  if (design.dynamics && !model::has_end(design))
+  if (design.dynamics && !model::ends(design))
     throw InputError({file},
-                     "the problem gives no campaign; a method with events needs 'campaign: "
-                     "{horizon: ...}': how long a run is");
+                     "the problem gives no campaign; it needs 'campaign: {horizon: ...}': how long "
+                     "a run is");
 }
 
 /// InputError when a file whose verdict is not yes has no gains.

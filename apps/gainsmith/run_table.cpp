@@ -6,7 +6,6 @@
 
 #include "base/number.h"
 #include "io/csv.h"
-#include "verify/replay.h"
 
 namespace gainsmith::app {
 
@@ -28,10 +27,7 @@ std::vector<std::string> names_of(const verify::EventReplay& replay) {
 
 std::string run_csv(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
                     std::uint64_t run) {
-  if (instance.design->dynamics)
-    return events_csv(verify::replay_events(instance, gains, seed, run, 0));
-  const verify::Replay replay = verify::replay(instance, gains, seed, run);
-  return io::to_csv(replay.columns, replay.table);
+  return events_csv(verify::replay_events(instance, gains, seed, run, 0));
 }
 
 std::string events_csv(const verify::EventReplay& replay) {

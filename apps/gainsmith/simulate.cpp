@@ -13,9 +13,7 @@
 #include "gainsmith/output.h"
 #include "gainsmith/run_table.h"
 #include "gainsmith/terminal.h"
-#include "io/csv.h"
 #include "io/json_text.h"
-#include "verify/replay.h"
 
 namespace gainsmith::app {
 
@@ -32,21 +30,6 @@ struct SimulateOptions {
   bool judge = false;
   bool json = false;
 };
-
-io::Json replay_json(const verify::Replay& replay) {
-  io::Json rows = io::Json::array();
-  for (Eigen::Index i = 0; i < replay.table.rows(); ++i) {
-    io::Json row = io::Json::array();
-    for (Eigen::Index j = 0; j < replay.table.cols(); ++j)
-      row.push_back(io::finite_or_null(replay.table(i, j)));
-    rows.push_back(std::move(row));
-  }
-  io::Json document = {{"termination", to_string(replay.arc.termination)}};
-  if (!replay.arc.message.empty()) document["message"] = replay.arc.message;
-  document["columns"] = replay.columns;
-  document["rows"] = rows;
-  return document;
-}
 
 /// `early`: the run ends before its horizon for a reason that decides nothing.
 void say_claims(const std::vector<verify::ReplayedClaim>& claims, bool early) {
@@ -83,22 +66,26 @@ verify::EventReplay for_plot(const SimulateOptions& options, const LoadedGains& 
                                replay.run.end / kPoints);
 }
 
-ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& loaded,
-                         std::uint64_t seed) {
-  if (options.compare) {
-    if (options.json || options.judge || !options.plot.empty() || options.step > 0)
-      throw InputError({options.gains},
-                       "--compare prints figures alone, without --json, --plot, --judge or --step");
-    const verify::Comparison comparison =
-        verify::compared_figures(loaded.stated, loaded.gains, seed, options.run);
-    if (comparison.figures.empty())
-      throw InputError({options.gains},
-                       "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
-    write(options, comparison_text(comparison.figures));
-    if (!comparison.early.empty())
-      say(fmt::format("run {} ended before its horizon, {}\n", options.run, comparison.early));
-    return ExitCode::yes;
-  }
+ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std::uint64_t seed) {
+  if (options.json || options.judge || !options.plot.empty() || options.step > 0)
+    throw InputError({options.gains},
+                     "--compare prints figures alone, without --json, --plot, --judge or --step");
+  const verify::Comparison comparison =
+      verify::compared_figures(loaded.stated, loaded.gains, seed, options.run);
+  if (comparison.figures.empty())
+    throw InputError({options.gains},
+                     "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
+  write(options, comparison_text(comparison.figures));
+  if (!comparison.early.empty())
+    say(fmt::format("run {} ended before its horizon, {}\n", options.run, comparison.early));
+  return ExitCode::yes;
+}
+
+ExitCode simulate(const SimulateOptions& options) {
+  refuse_overwriting(options.gains, {options.output, options.plot});
+  const LoadedGains loaded = load_run(options.gains);
+  const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
+  if (options.compare) return compare(options, loaded, seed);
   const verify::EventReplay replay = verify::replay_events(
       loaded.stated, loaded.gains, seed, options.run, options.step, options.judge);
   const bool stopped = replay.run.ending == hybrid::Ending::interrupted;
@@ -126,27 +113,6 @@ ExitCode simulate_events(const SimulateOptions& options, const LoadedGains& load
   return replay.faults.empty() ? ExitCode::yes : ExitCode::no;
 }
 
-ExitCode simulate(const SimulateOptions& options) {
-  refuse_overwriting(options.gains, {options.output, options.plot});
-  const LoadedGains loaded = load_run(options.gains);
-  const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
-  if (loaded.stated.design->dynamics) return simulate_events(options, loaded, seed);
-  if (options.compare || options.judge || !options.plot.empty() || options.step > 0)
-    throw InputError(
-        {options.gains},
-        "--compare, --judge, --plot and --step are for methods with events; this one has a "
-        "timer");
-  const verify::Replay replay = verify::replay(loaded.stated, loaded.gains, seed, options.run);
-  const std::string text =
-      options.json ? io::to_text(replay_json(replay)) : io::to_csv(replay.columns, replay.table);
-  write(options, text);
-  say(fmt::format("run {} of seed {}: {} samples, {} jumps, ended by: {}\n", options.run, seed,
-                  replay.arc.samples(), replay.arc.j.back(), to_string(replay.arc.termination)));
-  if (!replay.arc.message.empty()) say("  " + replay.arc.message + "\n");
-  say_claims(replay.claims, false);
-  return ExitCode::yes;
-}
-
 }  // namespace
 
 Command simulate_command() {
@@ -166,7 +132,7 @@ Command simulate_command() {
               "check the run against the texts, by computations of its own; exit code 1 if it "
               "finds a fault"),
        Option("--json", options->json, "write JSON instead of CSV")},
-      "Columns: t, j, the timer or the event, the states, the signals, then the value of each "
+      "Columns: t, j, the event, the states, the signals, then the value of each "
       "claim.\n"
       "Examples:\n"
       "  gainsmith simulate gains.json --run 17 -o run-17.csv\n"

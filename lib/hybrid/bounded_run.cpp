@@ -20,18 +20,19 @@ constexpr std::size_t kGather = 8;
 }  // namespace
 
 template <class Scalar>
-BoundedSimulator<Scalar>::BoundedSimulator(const System& system, const Scenario& scenario,
-                                           const FlowSteps& steps,
+BoundedSimulator<Scalar>::BoundedSimulator(const SampledSystem& system,
+                                           const EventScenario& scenario, const FlowSteps& steps,
                                            const BoundedSystem<Scalar>& bounded)
     : system_(&system),
       scenario_(&scenario),
       cutting_(&steps),
-      bounded_(&bounded),
-      starts_(scenario.starts, system),
-      rules_(&scenario.starts) {
-  for (const StartRule& rule : scenario.starts)
+      bounded_(&bounded) {
+  for (std::size_t i = 0; i < system.variable.size(); ++i) {
+    const StartRule& rule = *scenario.starts[system.variable[i]];
     if (rule.kind == model::StartKind::expression)
-      first_.emplace_back(rule.program, system.layout, bounded.constants);
+      first_.emplace_back(
+          i, BallFunction<Scalar>(rule.program, system.layout, bounded.constants));
+  }
   for (const Coordinate& coordinate : bounded.coordinates->list) {
     begin_.emplace_back(coordinate.start, system.layout, bounded.constants);
     after_.push_back(coordinate.jump
@@ -64,16 +65,13 @@ void BoundedSimulator<Scalar>::append(double t, std::int64_t j, const Scalar& ti
 }
 
 template <class Scalar>
-void BoundedSimulator<Scalar>::start(std::uint64_t run, RandomStream& random) {
+void BoundedSimulator<Scalar>::start(const Eigen::VectorXd& drawn) {
   const StateLayout& layout = system_->layout;
-  const Eigen::VectorXd drawn = starts_(run, random);
   ColumnOf<Scalar> x = drawn.cast<Scalar>();
   Eigen::VectorXd r = Eigen::VectorXd::Zero(layout.size);
-  std::size_t expression = 0;
-  for (std::size_t i = 0; i < rules_->size(); ++i) {
-    if ((*rules_)[i].kind != model::StartKind::expression) continue;
-    const Ball<Scalar>& value = first_[expression++](x, r, Scalar(0), 0);
-    const Slot& slot = layout.slots[i];
+  for (auto& [state, expression] : first_) {
+    const Ball<Scalar>& value = expression(x, r, Scalar(0), 0);
+    const Slot& slot = layout.slots[state];
     for (Index e = 0; e < slot.shape.size(); ++e) {
       x(slot.offset + e) = value.mid(e);
       r(slot.offset + e) = value.rad(e);
@@ -301,23 +299,22 @@ void BoundedSimulator<Scalar>::jump(double reset_value) {
 
 template <class Scalar>
 const Track<Scalar>& BoundedSimulator<Scalar>::run(std::uint64_t seed, std::uint64_t run) {
-  RandomStream random(seed, run);
-  const Law& law = scenario_->laws[run % scenario_->laws.size()];
+  SampledDraws draws(*system_, *scenario_, seed, run);
   track_.clear();
   track_.size = x_.rows();
-  start(run, random);
-  append(0, 0, Scalar(first_timer(*system_, *scenario_, random)), 0);
-  for (std::size_t jumps = 0;; ++jumps) {
-    const double left = scenario_->horizon - track_.t.back();
-    const double timer = static_cast<double>(track_.timer.back());
-    const bool jumps_again = expires(timer, track_.t.back(), scenario_->horizon);
-    flow(jumps_again ? timer : left);
-    if (track_.termination != Termination::horizon || !jumps_again) return track_;
-    if (track_.j.back() >= scenario_->jump_limit) {
+  start(draws.start());
+  append(0, 0, Scalar(draws.length()), 0);
+  while (true) {
+    const bool jumps = draws.is_within(scenario_->horizon);
+    flow(jumps ? draws.length() : scenario_->horizon - track_.t.back());
+    if (track_.termination != Termination::horizon || !jumps) return track_;
+    if (track_.j.back() >= kMostJumps) {
       track_.termination = Termination::jump_limit;
       return track_;
     }
-    jump(law.reset_value(jumps, track_.t.back(), random));
+    track_.t.back() = draws.due();
+    draws.jumped();
+    jump(draws.length());
     if (track_.termination != Termination::horizon || track_.t.back() >= scenario_->horizon)
       return track_;
   }

@@ -22,70 +22,28 @@
 #include <string>
 #include <vector>
 
-#include "hybrid/arc.h"
 #include "hybrid/bounded_system.h"
 #include "hybrid/error_ellipsoid.h"
-#include "hybrid/simulate.h"
+#include "hybrid/sampled_system.h"
+#include "hybrid/track.h"
 
 namespace gainsmith::hybrid {
-
-/// The samples of a run in these coordinates, those of the Arc of the same run.
-template <class Scalar>
-struct Track {
-  Eigen::Index size = 0;
-  std::vector<double> t;
-  std::vector<std::int64_t> j;
-  std::vector<Scalar> timer;
-  std::vector<double> timer_bound;
-  std::vector<Move> moves;
-  std::vector<Scalar> stacked;
-  std::vector<double> bounds;
-  /// By sample: the coordinate for whose sake alone it is there, or kForAll. Empty: all are for
-  /// all.
-  std::vector<int> looked_for;
-  static constexpr int kForAll = -1;
-  /// By coordinate, sample after sample: whether its value is the same to the last bit whatever the
-  /// errors of what it is made of. Empty: of none.
-  std::vector<char> is_fixed;
-  Termination termination = Termination::horizon;
-  std::string message;
-  /// The relative accuracy of a flow that is integrated (integrated_run.h): its bounds are
-  /// estimates. 0: they are bounds.
-  double accuracy = 0;
-
-  void clear() {
-    for (auto* list : {&t, &timer_bound, &bounds}) list->clear();
-    timer.clear();
-    j.clear();
-    moves.clear();
-    stacked.clear();
-    looked_for.clear();
-    is_fixed.clear();
-    termination = Termination::horizon;
-    message.clear();
-  }
-  std::size_t samples() const { return t.size(); }
-  Eigen::Map<const ColumnOf<Scalar>> state(std::size_t sample) const {
-    return {stacked.data() + static_cast<Eigen::Index>(sample) * size, size};
-  }
-  Eigen::Map<const Eigen::VectorXd> bound(std::size_t sample) const {
-    return {bounds.data() + static_cast<Eigen::Index>(sample) * size, size};
-  }
-};
 
 /// Simulates run after run; one for each thread. All arguments must outlive it.
 template <class Scalar>
 class BoundedSimulator {
  public:
-  BoundedSimulator(const System& system, const Scenario& scenario, const FlowSteps& steps,
-                   const BoundedSystem<Scalar>& bounded);
+  BoundedSimulator(const SampledSystem& system, const EventScenario& scenario,
+                   const FlowSteps& steps, const BoundedSystem<Scalar>& bounded);
 
-  /// The run that Simulator makes of the same seed and number. It ends as diverged when a
+  static constexpr std::int64_t kMostJumps = 1000000;
+
+  /// The run that EventSimulator makes of the same seed and number. It ends as diverged when a
   /// coordinate leaves [-1e150, 1e150]; what is no coordinate may grow.
   const Track<Scalar>& run(std::uint64_t seed, std::uint64_t run);
 
  private:
-  void start(std::uint64_t run, RandomStream& random);
+  void start(const Eigen::VectorXd& drawn);
   void flow(double interval);
   void jump(double reset_value);
   void linear_entry(std::size_t coordinate);
@@ -97,15 +55,14 @@ class BoundedSimulator {
   void take_step(const numbers::Matrix& E, const numbers::Matrix& sizes);
   void append(double t, std::int64_t j, const Scalar& timer, double timer_bound);
 
-  const System* system_;
-  const Scenario* scenario_;
+  const SampledSystem* system_;
+  const EventScenario* scenario_;
   const FlowSteps* cutting_;
   const BoundedSystem<Scalar>* bounded_;
-  Starts starts_;
-  std::vector<BallFunction<Scalar>> first_;  ///< of the expressions, over the system's states
+  /// Of the starts that are expressions, over the system's states, with their slots.
+  std::vector<std::pair<std::size_t, BallFunction<Scalar>>> first_;
   std::vector<BallFunction<Scalar>> begin_;  ///< of the coordinates, over the system's states
   std::vector<std::unique_ptr<BallFunction<Scalar>>> after_;
-  std::vector<StartRule> const* rules_;
   std::vector<FlowStep> cuts_;
   Track<Scalar> track_;
   ColumnOf<Scalar> x_, next_;

@@ -26,13 +26,14 @@ std::optional<Matrix> fixed_value(const expr::Program& program, const StateLayou
 
 /// The value of a clock, which is a state, when any flow begins.
 std::optional<Matrix> clock_start(const Coordinate& clock, const std::string& name,
-                                  const System& system, const std::vector<StartRule>& starts,
+                                  const SampledSystem& system, const EventScenario& scenario,
                                   const Coordinates& coordinates,
                                   const numbers::Values& constants) {
   const std::size_t state = index_of(system.layout, name);
-  if (!clock.jump || state >= starts.size() || starts[state].kind != model::StartKind::expression)
-    return std::nullopt;
-  const auto first = fixed_value(starts[state].program, system.layout, constants);
+  if (!clock.jump || state >= system.variable.size()) return std::nullopt;
+  const StartRule& rule = *scenario.starts[system.variable[state]];
+  if (rule.kind != model::StartKind::expression) return std::nullopt;
+  const auto first = fixed_value(rule.program, system.layout, constants);
   const auto next = fixed_value(*clock.jump, coordinates.layout, constants);
   const bool same = first && next && first->rows() == next->rows() &&
                     first->cols() == next->cols() && *first == *next;
@@ -52,8 +53,8 @@ Index triangle(Index n) { return (n + 1) * (n + 2) / 2; }
 
 }  // namespace
 
-std::optional<VectorXd> ClockedFlow::start_of(const System& system,
-                                              const std::vector<StartRule>& starts,
+std::optional<VectorXd> ClockedFlow::start_of(const SampledSystem& system,
+                                              const EventScenario& scenario,
                                               const Coordinates& coordinates,
                                               const numbers::Values& constants,
                                               const std::vector<Index>& integrals) {
@@ -67,7 +68,7 @@ std::optional<VectorXd> ClockedFlow::start_of(const System& system,
     const bool ticks = one.flow && one.rate_is_constant(layout);
     (ticks ? clocks : turning).push_back(slot.name);
     if (!ticks) continue;
-    const auto value = clock_start(one, slot.name, system, starts, coordinates, constants);
+    const auto value = clock_start(one, slot.name, system, scenario, coordinates, constants);
     if (!value) return std::nullopt;
     start.segment(slot.offset, slot.shape.size()) = value->reshaped();
   }

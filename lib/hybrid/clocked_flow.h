@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "hybrid/flow_rate.h"
-#include "hybrid/initial.h"
-#include "hybrid/system.h"
+#include "hybrid/coordinates.h"
+#include "hybrid/sampled_system.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::hybrid {
@@ -26,8 +26,8 @@ class ClockedFlow {
  public:
   /// The clocks when any flow begins, and 0 for all others; none when the system
   /// is not of this kind. `integrals`: the elements that are integrals, of quadratic forms all.
-  static std::optional<Eigen::VectorXd> start_of(const System& system,
-                                                 const std::vector<StartRule>& starts,
+  static std::optional<Eigen::VectorXd> start_of(const SampledSystem& system,
+                                                 const EventScenario& scenario,
                                                  const Coordinates& coordinates,
                                                  const numbers::Values& constants,
                                                  const std::vector<Eigen::Index>& integrals);

@@ -75,7 +75,7 @@ std::size_t count_moving(const Program& program, const std::set<std::string>& na
 
 class Builder {
  public:
-  Builder(const System& system, numbers::ValuesOf<Decimal100> constants,
+  Builder(const SampledSystem& system, numbers::ValuesOf<Decimal100> constants,
           const std::vector<Program>& functions)
       : system_(system), functions_(functions) {
     result_.constants = std::move(constants);
@@ -316,7 +316,7 @@ class Builder {
     result_.constant.bottomRows(n - before).setConstant(Decimal100(0));
   }
 
-  const System& system_;
+  const SampledSystem& system_;
   std::vector<Program> functions_;
   std::vector<Pair> pairs_;
   std::map<std::string, Program> by_;
@@ -342,13 +342,6 @@ bool Coordinates::is_still(std::size_t coordinate) const {
          constant.middleRows(slot.offset, slot.shape.size()).isZero(0);
 }
 
-Coordinates states_as_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants) {
-  std::vector<Program> states;
-  for (const Slot& slot : system.layout.slots)
-    states.push_back(input_program(slot.name, slot.shape));
-  return make_coordinates(system, std::move(constants), states);
-}
-
 Index add_integral(Coordinates& coordinates, const std::string& name, const Program& function) {
   const Index offset = coordinates.layout.size++;
   coordinates.layout.slots.push_back({name, {1, 1}, offset});
@@ -356,7 +349,7 @@ Index add_integral(Coordinates& coordinates, const std::string& name, const Prog
   return offset;
 }
 
-Coordinates make_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants,
+Coordinates make_coordinates(const SampledSystem& system, numbers::ValuesOf<Decimal100> constants,
                              const std::vector<Program>& functions) {
   return Builder(system, std::move(constants), functions).build();
 }

@@ -19,7 +19,7 @@
 #include <string>
 #include <vector>
 
-#include "hybrid/system.h"
+#include "hybrid/sampled_system.h"
 #include "hybrid/wide_function.h"
 
 namespace gainsmith::hybrid {
@@ -50,16 +50,13 @@ struct Coordinates {
   bool is_still(std::size_t coordinate) const;
 };
 
-/// The states themselves, all of them.
-Coordinates states_as_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants);
-
 /// Appends the integral over time of a 1 x 1 function of the coordinates, 0 at the start and kept
 /// by jumps; the offset of its element. The flow must not be affine.
 Eigen::Index add_integral(Coordinates& coordinates, const std::string& name,
                           const expr::Program& function);
 
 /// Coordinates for functions of the states, the timer and constants.
-Coordinates make_coordinates(const System& system, numbers::ValuesOf<Decimal100> constants,
+Coordinates make_coordinates(const SampledSystem& system, numbers::ValuesOf<Decimal100> constants,
                              const std::vector<expr::Program>& functions);
 
 }  // namespace gainsmith::hybrid

@@ -20,7 +20,7 @@
 #include "hybrid/integrator.h"
 #include "hybrid/measured_rows.h"
 #include "hybrid/run_record.h"
-#include "hybrid/simulate.h"
+#include "hybrid/track.h"
 
 namespace gainsmith::hybrid {
 

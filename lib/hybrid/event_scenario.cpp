@@ -1,5 +1,6 @@
 #include "hybrid/event_scenario.h"
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -59,6 +60,14 @@ StartRule rule_of(const model::Design::Start& start, const EventSystem& system) 
   return rule;
 }
 
+/// The box [-1, 1], of a state of which nothing says where it starts.
+StartRule default_box(const Dynamics::Variable& variable) {
+  const auto all = [&](double value) {
+    return numbers::Matrix(numbers::Matrix::Constant(variable.shape.rows, variable.shape.cols, value));
+  };
+  return {StartKind::box, {all(-1), all(1)}, {}, variable.place};
+}
+
 /// Rules for all states, from those of a campaign and from where the dynamics say.
 std::vector<std::optional<StartRule>> rules_of(const std::vector<model::Design::Start>& starts,
                                                const EventSystem& system) {
@@ -74,6 +83,9 @@ std::vector<std::optional<StartRule>> rules_of(const std::vector<model::Design::
     } else if (variables[i].start) {
       rules.back() = rule_of(
           {i, StartKind::expression, {*variables[i].start}, variables[i].start->place}, system);
+    } else if (variables[i].kind == Dynamics::VariableKind::state &&
+               variables[i].structure != model::Structure::symmetric) {
+      rules.back() = default_box(variables[i]);
     } else {
       throw InputError(variables[i].place, "the state " + variables[i].name +
                                                " has no start: neither its own nor in `initial`");
@@ -130,12 +142,23 @@ model::Design::Campaign with_laws_of(std::size_t event, model::Design::Campaign 
   return campaign;
 }
 
+/// Of runs of which nothing says how long they are: so many of the longest lengths of a clock. 0
+/// without a clock.
+double default_horizon(const EventSystem& system) {
+  constexpr double kIntervals = 40;
+  double longest = 0;
+  for (const auto& clock : system.clocks)
+    if (clock) longest = std::max(longest, clock->high);
+  return kIntervals * longest;
+}
+
 /// Where no horizon is given a run of measured data goes to their end.
 double horizon_of(const model::Design::Campaign& campaign, const EventSystem& system) {
   const auto& measured = system.dynamics.measured;
   double end = kNever;
   for (const Dynamics::Measured& one : measured) end = std::min(end, one.series->times.back());
-  if (!campaign.horizon && measured.empty())
+  if (measured.empty()) end = default_horizon(system);
+  if (!campaign.horizon && end == 0)
     throw InputError(campaign.place, "the campaign has no horizon");
   const double horizon = campaign.horizon ? system.scalar(*campaign.horizon) : end;
   const Place& place = campaign.horizon ? campaign.horizon->place : campaign.place;
@@ -149,6 +172,20 @@ double horizon_of(const model::Design::Campaign& campaign, const EventSystem& sy
   return horizon;
 }
 
+/// What a campaign says of the first time, within the range that the dynamics say.
+double first_of(const model::Formula& formula, const EventSystem::Clock& clock,
+                const EventSystem& system) {
+  constexpr double kRounding = 1e-12;
+  const double first = system.scalar(formula);
+  if (!clock.first) return first;
+  const auto [low, high] = *clock.first;
+  if (!(first >= low - kRounding * high && first <= high + kRounding * high))
+    throw InputError(formula.place,
+                     fmt::format("the first value {} of the timer is outside its range [{}, {}]",
+                                 brief(first), brief(low), brief(high)));
+  return std::clamp(first, low, high);
+}
+
 }  // namespace
 
 EventScenario make_event_scenario(const model::Design::Campaign& campaign,
@@ -159,11 +196,12 @@ EventScenario make_event_scenario(const model::Design::Campaign& campaign,
   for (const auto& clock : system.clocks) {
     scenario.first.emplace_back();
     scenario.laws.emplace_back();
-    if (!clock || clock->low == clock->high) continue;
+    if (!clock) continue;
+    if (campaign.first) scenario.first.back() = first_of(*campaign.first, *clock, system);
+    if (clock->low == clock->high) continue;
     scenario.laws.back() =
         make_laws(with_laws_of(scenario.laws.size() - 1, campaign), clock->low, clock->high,
                   [&](const model::Formula& formula) { return system.scalar(formula); });
-    if (campaign.first) scenario.first.back() = system.scalar(*campaign.first);
   }
   return scenario;
 }
@@ -205,9 +243,10 @@ EventClocks::EventClocks(const EventSystem& system, const EventScenario& scenari
                          std::uint64_t seed, std::uint64_t run)
     : system_(&system), scenario_(&scenario), run_(run) {
   for (std::size_t e = 0; e < system.dynamics.events.size(); ++e) {
-    clocks_.push_back({kNever, 0, 0, 0, event_stream(seed, run, Purpose::length, e),
+    clocks_.push_back({kNever, kNever, 0, 0, 0, event_stream(seed, run, Purpose::length, e),
                        event_stream(seed, run, Purpose::lost, e)});
-    clocks_.back().due = clocks_.back().first = first_due(e, clocks_.back(), seed);
+    Clock& clock = clocks_.back();
+    clock.due = clock.first = clock.length = first_due(e, clock, seed);
   }
 }
 
@@ -217,13 +256,13 @@ double EventClocks::first_due(std::size_t event, Clock& clock, std::uint64_t see
   const auto& rule = system_->clocks[event];
   if (!rule) return kNever;
   if (event < scenario_->first.size() && scenario_->first[event]) return *scenario_->first[event];
-  if (!rule->first) return length(event, clock, 0);
+  if (!rule->first) return drawn_length(event, clock, 0);
   const auto [low, high] = *rule->first;
   if (low == high) return low;
   return low + (high - low) * event_stream(seed, run_, Purpose::first, event).uniform();
 }
 
-double EventClocks::length(std::size_t event, Clock& clock, double t) const {
+double EventClocks::drawn_length(std::size_t event, Clock& clock, double t) const {
   const EventSystem::Clock& rule = *system_->clocks[event];
   const std::uint64_t number = clock.lengths++;
   if (rule.low == rule.high) return rule.low;
@@ -250,9 +289,11 @@ void EventClocks::advance(std::size_t event, double t) {
   if (!rule) {
     clock.due = clock.occurrences < times.size() ? times[clock.occurrences] : kNever;
   } else if (rule->low == rule->high) {
+    clock.length = rule->low;
     clock.due = clock.first + static_cast<double>(clock.occurrences) * rule->low;
   } else {
-    clock.due += length(event, clock, t);
+    clock.length = drawn_length(event, clock, t);
+    clock.due += clock.length;
   }
 }
 

@@ -66,6 +66,8 @@ class EventClocks {
 
   /// The time of the next occurrence; infinity for events without a clock or with none left.
   double due(std::size_t event) const { return clocks_[event].due; }
+  /// The length drawn for it: the time from the one before, or from the start.
+  double length(std::size_t event) const { return clocks_[event].length; }
   /// The earliest of all.
   double next() const;
   /// Times that differ by rounding alone are one instant.
@@ -78,6 +80,7 @@ class EventClocks {
  private:
   struct Clock {
     double due = 0;
+    double length = 0;
     std::uint64_t occurrences = 0;  ///< so far
     std::uint64_t lengths = 0;      ///< drawn so far
     double first = 0;
@@ -87,7 +90,7 @@ class EventClocks {
     int lost_in_a_row = 0;
   };
   double first_due(std::size_t event, Clock& clock, std::uint64_t seed) const;
-  double length(std::size_t event, Clock& clock, double t) const;
+  double drawn_length(std::size_t event, Clock& clock, double t) const;
 
   const EventSystem* system_;
   const EventScenario* scenario_;

@@ -52,7 +52,7 @@ Decimal100 shortest_decimal(double value) {
   return parsed ? *parsed : Decimal100(value);
 }
 
-numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance, const System& system,
+numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance, const numbers::Values& constants,
                                            const model::Gains& gains) {
   numbers::ValuesOf<Decimal100> values;
   const auto in_file = [&](const std::string& name) {
@@ -62,14 +62,14 @@ numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance, cons
   const model::Design& design = *instance.design;
   for (const auto* list : {&design.data, &design.parameters})
     for (const model::Design::Datum& datum : *list) {
-      const auto used = system.constants.find(datum.name);
-      if (used == system.constants.end()) continue;
+      const auto used = constants.find(datum.name);
+      if (used == constants.end()) continue;
       std::optional<Wide> wide;
       if (!in_file(datum.name) && !instance.overrides.contains(datum.name))
         wide = from_text(datum, used->second, values);
       values[datum.name] = wide ? *wide : shortest_decimals(used->second);
     }
-  for (const auto& [name, value] : system.constants)
+  for (const auto& [name, value] : constants)
     if (!values.contains(name)) values[name] = shortest_decimals(value);
   return values;
 }

@@ -44,11 +44,6 @@ double Law::reset_value(std::size_t jump, double t, RandomStream& random) const 
   return high;
 }
 
-std::vector<Law> make_laws(const model::Design::Campaign& campaign, const System& system) {
-  return make_laws(campaign, system.low, system.high,
-                   [&](const model::Formula& formula) { return system.scalar(formula); });
-}
-
 std::vector<Law> make_laws(const model::Design::Campaign& campaign, double low, double high,
                            const std::function<double(const model::Formula&)>& value) {
   if (campaign.laws.empty()) {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/random.h"
-#include "hybrid/system.h"
+#include "model/design.h"
 
 namespace gainsmith::hybrid {
 
@@ -22,12 +22,10 @@ struct Law {
   double reset_value(std::size_t jump, double t, RandomStream& random) const;
 };
 
-/// The laws of a campaign, in order; without any: uniform, extremes, sinusoid, constant low,
-/// constant high. InputError for a value outside [low, high] (1e-12 high is forgiven as rounding)
-/// and for a constant or list without a value.
-std::vector<Law> make_laws(const model::Design::Campaign& campaign, const System& system);
-
-/// The same for reset values in [low, high], with the values of formulas by `value`.
+/// The laws of a campaign for lengths in [low, high], in order, with the values of formulas by
+/// `value`; without any: uniform, extremes, sinusoid, constant low, constant high. InputError for a
+/// value outside [low, high] (1e-12 high is forgiven as rounding) and for a constant or list
+/// without a value.
 std::vector<Law> make_laws(const model::Design::Campaign& campaign, double low, double high,
                            const std::function<double(const model::Formula&)>& value);
 

@@ -278,11 +278,4 @@ Component component(const YamlFile& file, const YamlItem& item,
   return result;
 }
 
-bool has_events(const Component& component) {
-  return !component.events.empty() || !component.at.empty() || !component.modes.empty() ||
-         !component.let.empty() || component.frozen || !component.stays.empty() ||
-         std::any_of(component.outputs.begin(), component.outputs.end(),
-                     [](const model::Output& output) { return !output.at.empty(); });
-}
-
 }  // namespace gainsmith::io

@@ -23,7 +23,4 @@ std::vector<model::EventText> events(const YamlFile& file, const std::optional<Y
 /// One expression, or the two of a list [low, high].
 std::vector<expr::Expression> one_or_two(const YamlFile& file, const YamlItem& item);
 
-/// Whether it says more than the short form can: plant, observer and timer.
-bool has_events(const model::Component& component);
-
 }  // namespace gainsmith::io

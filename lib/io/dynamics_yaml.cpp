@@ -10,23 +10,43 @@ namespace gainsmith::io {
 
 namespace {
 
-std::optional<model::Timer> timer(const YamlFile& file, const std::optional<YamlItem>& item) {
-  if (!item) return std::nullopt;
+/// "tau: {reset: [T1, T2], first: [0, T2]}": the event {every: [T1, T2], first: [0, T2]}, with a name
+/// for what is left of its clock. Without `first` the first value is drawn as from a reset.
+model::EventText timer(const YamlFile& file, const YamlItem& item) {
   const auto items = items_of(file, item, "timer");
   if (items.size() != 1)
-    throw InputError(item->place, "timer: expected one timer, such as 'tau: {reset: [T1, T2]}'");
+    throw InputError(item.place, "timer: expected one timer, such as 'tau: {reset: [T1, T2]}'");
   YamlMap map(file, items.front().value, items.front().key);
   const auto range = [&](const YamlItem& ends) {
     if (!ends.value.IsSequence() || ends.value.size() != 2)
       throw InputError(file.place(ends.value), ends.key + ": expected [low, high]");
     return one_or_two(file, ends);
   };
-  const auto reset = range(map.require("reset"));
-  const auto first_item = map.find("first");
-  const auto first = first_item ? range(*first_item) : reset;
+  model::EventText event;
+  event.name = model::kTimerEvent;
+  event.kind = model::Dynamics::EventKind::every;
+  event.left = items.front().key;
+  event.place = items.front().place;
+  event.numbers = range(map.require("reset"));
+  const auto first = map.find("first");
+  event.first = first ? range(*first) : event.numbers;
   map.finish();
-  return model::Timer{items.front().key, reset[0], reset[1],
-                      first[0],          first[1], items.front().place};
+  return event;
+}
+
+/// "jump: {...}" of a component is what it does when the timer has run down.
+void read_jump(model::Component& component, bool has_timer) {
+  if (component.jump.empty()) return;
+  const Place place = component.jump.front().place;
+  if (!has_timer)
+    throw InputError(place,
+                     "jump: of a method with a timer; otherwise a jump stands under its event, "
+                     "'at: {sample: {...}}'");
+  model::PassText pass;
+  pass.map = std::move(component.jump);
+  pass.place = place;
+  component.at.insert(component.at.begin(), {model::kTimerEvent, {}, {std::move(pass)}, place});
+  component.jump.clear();
 }
 
 /// "{amplitude: 0.1, frequency: [1, 2], phase: [0, 2*pi]}", each a value or [low, high].
@@ -84,7 +104,7 @@ void read_observers(const YamlFile& file, const std::optional<YamlItem>& one,
                     const std::optional<YamlItem>& several, model::Method& method) {
   if (one && several)
     throw InputError(several->place, "either 'observer' or 'observers', not both");
-  if (one) method.observer = component(file, *one, {});
+  if (one) method.observers.push_back(component(file, *one, {}));
   if (!several) return;
   for (const YamlItem& item : items_of(file, several, "observers"))
     method.observers.push_back(component(file, item, method.observers));
@@ -112,8 +132,10 @@ void read_dynamics(const YamlFile& file, YamlMap& map, model::Method& method) {
   if (plant) method.plant = component(file, *plant, {}, &method.measured);
   method.plant.name = "plant";
   read_observers(file, observer, observers, method);
-  method.timer = timer(file, map.find("timer"));
-  method.events = events(file, event_list, "events");
+  const auto timer_item = map.find("timer");
+  if (timer_item) method.events.push_back(timer(file, *timer_item));
+  for (model::EventText& event : events(file, event_list, "events"))
+    method.events.push_back(std::move(event));
   method.order = names(file, order);
   for (const YamlItem& item : items_of(file, inputs, "inputs"))
     if (is_measured(item))
@@ -123,27 +145,12 @@ void read_dynamics(const YamlFile& file, YamlMap& map, model::Method& method) {
   for (const YamlItem& item : items_of(file, noises, "noise"))
     method.noise.push_back(noise(file, item));
 
-  for (const auto& item : {observers, event_list, order, inputs, noises, plant, observer})
+  for (const auto& item : {observers, event_list, order, inputs, noises, plant, observer, timer_item})
     if (item && method.dynamics_place.line == 0) method.dynamics_place = item->place;
-  const bool asks_for_events = observers || event_list || order || inputs || noises ||
-                               !method.measured.empty() || has_events(method.plant) ||
-                               has_events(method.observer);
-  if (method.timer && asks_for_events)
-    throw InputError(method.timer->place,
-                     "timer: the short form has one timer and nothing else; beside events, inputs, "
-                     "noise or several observers write it as an event, 'sample: {every: [T1, "
-                     "T2]}', and jumps as 'at: {sample: {...}}'");
-  method.has_events = asks_for_events || (!method.timer && (plant || observer));
-  if (!method.has_events) return;
-  for (model::Component* part : {&method.plant, &method.observer})
-    if (!part->jump.empty())
-      throw InputError(part->jump.front().place,
-                       "jump: of the short form with a timer; here a jump stands under its event, "
-                       "'at: {" +
-                           (method.events.empty() ? "sample" : method.events.front().name) +
-                           ": {...}}'");
-  if (observer) method.observers.push_back(std::move(method.observer));
-  method.observer = {};
+  method.has_dynamics = method.dynamics_place.line > 0;
+  read_jump(method.plant, timer_item.has_value());
+  for (model::Component& component : method.observers)
+    read_jump(component, timer_item.has_value());
 }
 
 }  // namespace gainsmith::io

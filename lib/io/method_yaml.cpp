@@ -131,8 +131,7 @@ model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
 
 void read_no_campaign(const YamlFile& file, const YamlItem& item, model::Method& method) {
   method.no_campaign = reason(file, item);
-  const bool moves = method.has_events || method.timer || !method.plant.states.empty() ||
-                     !method.observer.states.empty() || !method.claims.empty();
+  const bool moves = method.has_dynamics || !method.claims.empty();
   if (moves)
     throw InputError(item.place,
                      "no campaign: the method has dynamics or claims; the reason stands where "
@@ -227,8 +226,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
   map.finish({{"maximize", "write minimize: -(...)"},
               {"maximise", "write minimize: -(...)"},
               {"objective", "write minimize: ..."}});
-  const bool runs = method.has_events || method.timer;
-  if (method.require.empty() && !method.minimize && !runs && method.report.empty())
+  if (method.require.empty() && !method.minimize && !method.has_dynamics && method.report.empty())
     throw InputError(map.place(), "the method '" + method.name +
                                       "' has no inequality under 'require' and no dynamics");
   model::check_names(method);

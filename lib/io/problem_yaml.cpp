@@ -215,7 +215,7 @@ model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
 void read_sampling(const YamlFile& file, const YAML::Node& node, const std::string& event,
                    const model::Method& method, model::Campaign& result) {
   const bool by_event =
-      method.has_events && event.empty() && node.IsMap() && !node["constant"] && !node["list"];
+      event.empty() && node.IsMap() && !node["constant"] && !node["list"];
   if (by_event) {
     YamlMap map(file, node, "sampling");
     for (const YamlItem& item : map.items())
@@ -276,16 +276,8 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
   if (const auto first = map.find("first")) result.first = file.expression(first->value, "first");
   if (const auto sampling = map.find("sampling"))
     read_sampling(file, sampling->value, "", method, result);
-  std::vector<std::string> states;
-  for (const auto* part : {&method.plant, &method.observer})
-    for (const auto& state : part->states) states.push_back(state.name);
-  for (const YamlItem& entry : items_of(file, map.find("initial"), "initial")) {
-    const bool known = std::find(states.begin(), states.end(), entry.key) != states.end();
-    if (!known && !method.has_events)
-      throw InputError(entry.place,
-                       "initial: '" + entry.key + "' is no state" + suggestion(entry.key, states));
+  for (const YamlItem& entry : items_of(file, map.find("initial"), "initial"))
     result.initial.push_back(initial(file, entry));
-  }
   map.finish();
   return result;
 }

@@ -106,6 +106,12 @@ Instance bind_again(const Design& design, const Overrides& overrides) {
   return Binding(design.source, overrides, Checks::none).run();
 }
 
+std::string timer_name(const Method& method) {
+  for (const EventText& event : method.events)
+    if (!event.left.empty()) return event.left;
+  return {};
+}
+
 std::vector<std::string> scalar_names(const Method& method) {
   std::vector<std::string> names;
   for (const Declaration& datum : method.data)

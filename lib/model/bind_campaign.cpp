@@ -100,7 +100,6 @@ void Binding::bind_campaign() {
   const Campaign& campaign = problem().campaign;
   const expr::Scope& scope = names_->running;
   Design::Campaign& bound = design_->campaign;
-  const auto& timer = design_->timer;
   bound.runs = campaign.runs;
   bound.seed = campaign.seed;
   bound.place = campaign.place;
@@ -115,8 +114,8 @@ void Binding::bind_campaign() {
   }
   if (campaign.first) {
     bound.first = scalar(*campaign.first, scope);
-    if (timer)
-      check_within(*bound.first, timer->first_low, timer->first_high, "the first timer value");
+    if (const Dynamics::Event* timer = timer_event(); timer != nullptr)
+      check_within(*bound.first, *timer->first_low, *timer->first_high, "the first timer value");
   }
   for (const SamplingLaw& law : campaign.sampling) {
     Design::Law& into = bound.laws.emplace_back();
@@ -125,18 +124,27 @@ void Binding::bind_campaign() {
     if (!law.event.empty()) into.event = clock_of(law);
     for (const expr::Expression& each : law.values) {
       into.values.push_back(scalar(each, scope));
-      if (timer) check_within(into.values.back(), timer->low, timer->high, "the sampling interval");
+      if (const Dynamics::Event* timer = timer_event(); timer != nullptr && !into.event)
+        check_within(into.values.back(), *timer->low, *timer->high, "the sampling interval");
     }
   }
   if (campaign.accuracy) bind_accuracy(*campaign.accuracy);
   bind_starts();
 }
 
+/// The event of a timer that is the only clock; nullptr: there is none.
+const Dynamics::Event* Binding::timer_event() const {
+  if (!design_->dynamics || timer_name(method()).empty()) return nullptr;
+  const auto& events = design_->dynamics->events;
+  const Dynamics::Event* timer = nullptr;
+  for (const Dynamics::Event& event : events) {
+    if (event.low && timer != nullptr) return nullptr;
+    if (event.low) timer = &event;
+  }
+  return timer;
+}
+
 void Binding::bind_accuracy(const RunAccuracy& accuracy) {
-  if (!dynamics_names_)
-    throw InputError(accuracy.place,
-                     "'accuracy' is of methods with events; flows with a timer have bounds of "
-                     "their own");
   Design::RunAccuracy bound{accuracy.relative, accuracy.absolute, {}};
   for (const RunAccuracy::OfState& one : accuracy.states) {
     std::vector<std::string> names = dynamics_names_->states(one.state);
@@ -153,7 +161,8 @@ void Binding::bind_accuracy(const RunAccuracy& accuracy) {
 /// The event whose clock a law is for.
 std::size_t Binding::clock_of(const SamplingLaw& law) const {
   const auto name = dynamics_names_->event(nullptr, law.event);
-  const auto& events = design_->dynamics->events;
+  const std::vector<Dynamics::Event> events =
+      design_->dynamics ? design_->dynamics->events : std::vector<Dynamics::Event>{};
   for (std::size_t k = 0; name && k < events.size(); ++k)
     if (events[k].name == *name && events[k].low) return k;
   std::vector<std::string> clocks;
@@ -171,13 +180,12 @@ bool Binding::is_run() const {
   return wanted && !gains_alone && design_->no_campaign.empty();
 }
 
-/// Of a method with events a name stands for the state of each observer that has it, and a state
-/// that starts nowhere is an error.
+/// A name stands for the state of each observer that has it. A state that starts nowhere starts in
+/// the box [-1, 1]; a mode or a symmetric state must say where.
 void Binding::bind_starts() {
   auto& starts = design_->campaign.starts;
   for (const InitialValue& initial : problem().campaign.initial) {
-    const auto names =
-        dynamics_names_ ? dynamics_names_->states(initial.state) : std::vector<std::string>{};
+    const auto names = dynamics_names_->states(initial.state);
     if (names.empty()) starts.push_back(start(initial));
     for (const std::string& name : names) {
       InitialValue one = initial;
@@ -186,16 +194,19 @@ void Binding::bind_starts() {
     }
   }
   if (!design_->dynamics) return;
-  if (is_run() && !problem().campaign.horizon && method().measured.empty())
+  if (is_run() && !ends(*design_))
     throw InputError(
         problem().campaign.place.line > 0 ? problem().campaign.place : Place{problem().file},
-        "a method with events needs 'campaign: {horizon: ...}': how long a run is");
+        "the campaign needs 'horizon: ...': how long a run is");
   for (std::size_t k = 0; k < design_->states.size(); ++k) {
     const bool drawn = std::any_of(starts.begin(), starts.end(),
                                    [&](const Design::Start& one) { return one.state == k; });
     const Design::State& state = design_->states[k];
     const bool rests = design_->campaign.place.line == 0 && !is_run();
-    if (!drawn && !state.start && state.shape.size() > 0 && !rests)
+    const Dynamics::Variable& variable = design_->dynamics->variables[k];
+    const bool in_a_box = variable.kind == Dynamics::VariableKind::state &&
+                          variable.structure != Structure::symmetric;
+    if (!drawn && !state.start && state.shape.size() > 0 && !rests && !in_a_box)
       throw InputError(design_->dynamics->variables[k].place,
                        "the state '" + state.name +
                            "' has no start: {shape: ..., start: ...}, or under campaign.initial of "

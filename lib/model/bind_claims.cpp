@@ -21,9 +21,6 @@ std::vector<expr::Expression*> texts_of(Claim& claim) {
 
 void Binding::bind_claims() {
   for (const Claim& claim : method().claims) {
-    if (!claim.over.empty() && !dynamics_names_)
-      throw InputError(claim.over_place,
-                       "over: of methods with events; with one timer a claim is of the whole run");
     bool bound = false;
     bool missing = false;
     for (const Member& member : members(claim.indices, {}, names_->running))
@@ -34,8 +31,7 @@ void Binding::bind_claims() {
         if (!one.over.empty() && !over) continue;
         bound = true;
         add_claim(one,
-                  member.title_of(dynamics_names_ ? dynamics_names_->title(claim.name, observer)
-                                                  : claim.name),
+                  member.title_of(dynamics_names_->title(claim.name, observer)),
                   over);
       }
     if (!bound && missing)
@@ -53,7 +49,6 @@ Claim Binding::instantiated(Claim claim, const Member& member) const {
 
 /// A claim of an observer is one of each that has its names.
 std::vector<std::pair<std::string, Claim>> Binding::readings(Claim claim) const {
-  if (!dynamics_names_) return {{"", std::move(claim)}};
   std::vector<expr::Expression> texts;
   for (const expr::Expression* text : texts_of(claim)) texts.push_back(*text);
   std::vector<std::pair<std::string, Claim>> result;
@@ -69,7 +64,6 @@ std::vector<std::pair<std::string, Claim>> Binding::readings(Claim claim) const 
 Formula Binding::constant_of_claim(const expr::Expression& text, const std::string& key) const {
   Formula bound = scalar(text, names_->running);
   const auto changes = [&](const std::string& name) {
-    if (design_->timer && design_->timer->name == name) return true;
     if (state_of(name) < design_->states.size()) return true;
     const auto& dynamics = design_->dynamics;
     return dynamics && std::any_of(dynamics->variables.begin(), dynamics->variables.end(),

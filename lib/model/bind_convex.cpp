@@ -5,6 +5,7 @@
 
 #include "expr/functions.h"
 #include "model/binding.h"
+#include "model/dynamics_names.h"
 #include "model/convex.h"
 
 namespace gainsmith::model {
@@ -220,11 +221,12 @@ NodePtr Binding::bounding_unknown(const expr::Expression& text, const Node& call
   unknown.place = text.place(call);
   const auto is_taken = [&](const std::string& name) {
     return scope.symbols.contains(name) || scope.definitions.contains(name) ||
-           scope.dimensions.contains(name) || (method().timer && method().timer->name == name) ||
+           scope.dimensions.contains(name) || name == timer_name(method()) ||
            std::any_of(method().gains.begin(), method().gains.end(),
                        [&](const Gain& gain) { return gain.name == name; }) ||
-           std::any_of(design_->states.begin(), design_->states.end(),
-                       [&](const Design::State& state) { return state.name == name; });
+           std::any_of(method().observers.begin(), method().observers.end(),
+                       [&](const Component& one) { return names_of(one).contains(name); }) ||
+           names_of(method().plant).contains(name);
   };
   for (int k = 1; unknown.name.empty() || is_taken(unknown.name); ++k)
     unknown.name = call.text + "_" + std::to_string(k);

@@ -83,7 +83,6 @@ void Binding::bind_data() {
   add_definitions();
   for (const Named& assumption : method().assume) add_assumption(assumption);
   add_unknowns();
-  add_states();
 }
 
 void Binding::refuse_unknown_names() const {
@@ -259,9 +258,7 @@ void Binding::add_definitions() {
       throw InputError(let.place, "'" + name + "' already has a meaning");
     definitions[name] = {let.signature.parameters, let.body};
   }
-  if (method().has_events) return;  // outputs and signals come with the dynamics
-  for (const Component* part : {&method().plant, &method().observer})
-    for (const Named& output : part->outputs) definitions[output.name] = {{}, output.value};
+  if (method().has_dynamics) return;  // signals come with the dynamics
   for (const Named& signal : method().signals) definitions[signal.name] = {{}, signal.value};
 }
 
@@ -343,13 +340,6 @@ void Binding::add_unknown(const UnknownDeclaration& unknown) {
     scope.functions[expr::derivative_name(unknown.name)] = bound.shape;
   }
   design_->unknowns.push_back(std::move(bound));
-}
-
-void Binding::add_states() {
-  if (method().has_events) return;
-  for (const Component* part : {&method().plant, &method().observer})
-    for (const Declaration& state : part->states)
-      design_->states.push_back({state.name, known_shape(state, "state"), std::nullopt});
 }
 
 expr::Shape Binding::known_shape(const Declaration& declaration, const char* what) const {

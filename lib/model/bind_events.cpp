@@ -91,7 +91,9 @@ void DynamicsBinding::add_moments() {
     add(Kind::count, expr::event_number("count", event.name), k);
     add(Kind::since, expr::event_number("since", event.name), k);
     add(Kind::passes, expr::event_number("passes", event.name), k);
-    if (event.kind == EventKind::every) add(Kind::left, event.name + ".left", k);
+    const std::string& left = event_texts_[k]->left;
+    if (event.kind == EventKind::every)
+      add(Kind::left, left.empty() ? event.name + ".left" : left, k);
   }
 }
 

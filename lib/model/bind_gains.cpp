@@ -161,9 +161,6 @@ void Binding::bind_gains() {
       scope.symbols[gain.name] = {gain.shape};
     }
   }
-  for (const Design::State& state : design_->states)
-    scope.symbols[state.name] = {state.shape, false, true};
-  if (method().timer) scope.symbols[method().timer->name] = {{}, false, true};
   names_->results = scope;
   names_->results.symbols["objective"] = {};
 }

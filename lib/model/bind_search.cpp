@@ -100,9 +100,8 @@ void Binding::bind_expectation() {
 
 /// Of each observer that has the names in it, or the only one.
 std::vector<Figure> Binding::figures(const FigureText& text) const {
-  if (!dynamics_names_)
-    throw InputError(text.place,
-                     "figures of runs are of methods with events; this one has a timer");
+  if (!design_->dynamics)
+    throw InputError(text.place, "figures are of runs, and the method has no dynamics");
   std::vector<Reading> readings = {{text.observer, {}}};
   if (text.value && !text.observer.empty())
     readings = {dynamics_names_->of_observer(text.observer, {*text.value}, text.place)};

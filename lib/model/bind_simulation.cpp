@@ -1,4 +1,4 @@
-// The hybrid system: states, maps, the timer, signals and reports.
+// Plant, observers and events, outputs, signals and reports.
 #include <memory>
 #include <set>
 #include <utility>
@@ -44,16 +44,6 @@ std::size_t Binding::state_of(const std::string& name) const {
   return at;
 }
 
-std::vector<Design::MapEntry> Binding::map(const std::vector<Named>& entries) const {
-  std::vector<Design::MapEntry> bound;
-  for (const Named& entry : entries) {
-    const std::size_t state = state_of(entry.name);
-    bound.push_back(
-        {state, formula(entry.value, names_->running, design_->states[state].shape), entry.place});
-  }
-  return bound;
-}
-
 std::vector<NamedFormula> Binding::named(const std::vector<Named>& list,
                                          const expr::Scope& scope) const {
   std::vector<NamedFormula> bound;
@@ -63,28 +53,15 @@ std::vector<NamedFormula> Binding::named(const std::vector<Named>& list,
 }
 
 void Binding::bind_components() {
-  if (method().has_events) return bind_dynamics();
-  const expr::Scope& scope = names_->running;
-  for (const Component* part : {&method().plant, &method().observer}) {
-    for (const Declaration& state : part->states) {
-      Design::State& bound = design_->states[state_of(state.name)];
-      if (state.fallback) bound.start = formula(*state.fallback, scope, bound.shape);
-    }
-    for (const Output& output : part->outputs) formula(output.value, scope);
-    for (auto [entries, bound] :
-         {std::pair{&part->flow, &design_->flow}, std::pair{&part->jump, &design_->jump}})
-      for (Design::MapEntry& entry : map(*entries)) bound->push_back(std::move(entry));
-  }
-  design_->report = named(method().report, scope);
+  dynamics_names_ = std::make_unique<DynamicsNames>(method(), varied());
+  if (method().has_dynamics) return bind_dynamics();
+  design_->report = named(method().report, names_->running);
   for (const NamedFormula& shown : design_->report) note_estimate(shown.name, shown.value.program);
-  design_->signals = named(method().signals, scope);
-  bind_timer();
 }
 
 /// Plant, observers and events; outputs and signals by the names under which they are shown.
 void Binding::bind_dynamics() {
   expr::Scope& scope = names_->running;
-  dynamics_names_ = std::make_unique<DynamicsNames>(method(), varied());
   DynamicsBinding binding(method(), design_->dimensions, *dynamics_names_, problem().uncertain,
                           scope);
   design_->dynamics = binding.run();
@@ -164,7 +141,7 @@ std::set<std::string> Binding::varied() const {
 /// What no program asks for is left out; all texts are bound.
 void Binding::finish_dynamics() {
   if (!design_->dynamics) return;
-  std::set<std::string> read;
+  std::set<std::string> read = {timer_name(method())};
   const auto add = [&](const expr::Program& program) {
     for (const expr::Input& input : program.inputs) read.insert(input.name);
   };
@@ -189,14 +166,6 @@ void Binding::finish_dynamics() {
     if (claim.over) counted.insert(*claim.over);
   }
   drop_unread(*design_->dynamics, read, counted);
-}
-
-void Binding::bind_timer() {
-  if (!method().timer) return;
-  const Timer& timer = *method().timer;
-  const auto end = [&](const expr::Expression& text) { return scalar(text, names_->known); };
-  design_->timer = {timer.name,           end(timer.low),        end(timer.high),
-                    end(timer.first_low), end(timer.first_high), timer.place};
 }
 
 }  // namespace gainsmith::model

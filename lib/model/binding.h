@@ -20,7 +20,7 @@ namespace gainsmith::model {
 struct Names {
   expr::Scope known;    ///< data, parameters, definitions
   expr::Scope design;   ///< and unknowns
-  expr::Scope running;  ///< and gains, states, the timer
+  expr::Scope running;  ///< and gains, states
   expr::Scope results;  ///< and the objective
 };
 
@@ -73,7 +73,6 @@ class Binding {
   void add_unknown(const UnknownDeclaration& unknown);
   expr::Expression instantiate(const expr::Expression& expression, const Member& member,
                                const expr::Scope& scope) const;
-  void add_states();
   expr::Shape known_shape(const Declaration& declaration, const char* what) const;
 
   // bind_inequalities.cpp
@@ -122,9 +121,7 @@ class Binding {
 
   // bind_simulation.cpp
   void bind_components();
-  std::vector<Design::MapEntry> map(const std::vector<Named>& entries) const;
   std::vector<NamedFormula> named(const std::vector<Named>& list, const expr::Scope& scope) const;
-  void bind_timer();
   void bind_dynamics();
   void add_rates();
   std::set<std::string> varied() const;
@@ -141,6 +138,7 @@ class Binding {
   void bind_campaign();
   void bind_starts();
   bool is_run() const;
+  const Dynamics::Event* timer_event() const;
   std::size_t clock_of(const SamplingLaw& law) const;
   Design::Start start(const InitialValue& initial) const;
   std::vector<Formula> ellipsoid(const InitialValue& initial, expr::Shape state) const;
@@ -176,7 +174,7 @@ class Binding {
   std::shared_ptr<Design> design_;
   std::shared_ptr<Names> names_;
   std::shared_ptr<Recorder> recorder_;
-  std::unique_ptr<DynamicsNames> dynamics_names_;  ///< of a method with events
+  std::unique_ptr<DynamicsNames> dynamics_names_;  ///< from bind_components() on
 };
 
 /// The value of a datum or parameter from those declared before it.

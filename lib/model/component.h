@@ -28,8 +28,12 @@ struct EventText {
   std::optional<expr::Expression> only_if;
   double lost = 0;
   std::optional<int> lost_in_a_row;
+  std::string left{};  ///< the timer's name for what is left of its clock; empty: "NAME.left"
   Place place;
 };
+
+/// The event of a timer.
+constexpr const char* kTimerEvent = "timer";
 
 /// New values of states, and how often the map runs.
 struct PassText {
@@ -62,7 +66,7 @@ struct Component {
   std::vector<Output> outputs{};
   std::vector<Let> let{};
   std::vector<Named> flow{};  ///< derivatives; a state without an entry stays constant
-  std::vector<Named> jump{};  ///< of the short form: values when the timer has run down
+  std::vector<Named> jump{};  ///< as read: what it does when the timer has run down
   std::vector<EventText> events{};
   std::vector<ReactionText> at{};
   std::optional<expr::Expression> frozen{};

@@ -47,4 +47,11 @@ bool has_end(const Design& design) {
   return design.campaign.horizon || (design.dynamics && !design.dynamics->measured.empty());
 }
 
+bool ends(const Design& design) {
+  return has_end(design) ||
+         (design.dynamics && std::any_of(design.dynamics->events.begin(),
+                                         design.dynamics->events.end(),
+                                         [](const auto& event) { return event.low.has_value(); }));
+}
+
 }  // namespace gainsmith::model

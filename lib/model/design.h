@@ -9,7 +9,7 @@
 //   data, parameters, assumptions    data and parameters declared before, dimensions
 //   inequalities, objective, gains   all data and parameters, unknowns; a function's coefficients;
 //                                    the variables of `forall` and of a gain that is a function
-//   report, signals, flow, jump, claims, campaign   those, and gains, states and the timer
+//   report, dynamics, claims, campaign              those, and gains and what moves
 //   what is expected, searched or asked for         those, and `objective`
 // Unknown functions and gains that are functions are called, and linked before evaluation
 // (function.h, stated.h).
@@ -158,20 +158,6 @@ struct Design {
     std::optional<Formula> start;
   };
 
-  /// The derivative of a state, or its value after a jump.
-  struct MapEntry {
-    std::size_t state = 0;
-    Formula value;
-    Place place;
-  };
-
-  struct Timer {
-    std::string name;
-    Formula low, high;              ///< of its reset values
-    Formula first_low, first_high;  ///< of its first value
-    Place place;
-  };
-
   struct Claim {
     std::string name;
     ClaimKind kind = ClaimKind::nonincreasing;
@@ -201,7 +187,7 @@ struct Design {
     Place place;
   };
 
-  /// To what runs of dynamics with events are integrated; what is not given is as usual.
+  /// To what runs are integrated; what is not given is as usual.
   struct RunAccuracy {
     std::optional<double> relative, absolute;
     std::vector<std::pair<std::size_t, double>> states;  ///< with an absolute one of their own
@@ -276,14 +262,9 @@ struct Design {
   /// The data, parameters, gains and reports that rest on a search over a box; others are not here.
   std::map<std::string, expr::Estimate> estimates;
 
-  std::vector<State> states;  ///< plant first, then observer
-  std::vector<MapEntry> flow;
-  std::vector<MapEntry> jump;
-  std::optional<Timer> timer;
-  std::vector<NamedFormula> signals;
+  std::vector<State> states;  ///< of the dynamics, plant first: their first variables
   std::vector<Claim> claims;
-  /// Of a design with events or several observers: instead of flow, jump and timer.
-  std::optional<Dynamics> dynamics;
+  std::optional<Dynamics> dynamics;  ///< none: nothing moves
 
   SynthesisOptions synthesis;
   std::optional<Search> search;
@@ -313,8 +294,10 @@ bool is_comparison_of(const std::string& comparison, const std::string& inequali
 /// The names of the scalar data and the parameters, in order: what may be overridden.
 std::vector<std::string> scalar_names(const Design& design);
 
-/// Whether it says how long a run with events is: by a horizon, or by measured data.
+/// Whether it says how long a run is: by a horizon, or by measured data.
 bool has_end(const Design& design);
+/// The same, or an event with a clock gives a length by default (hybrid/event_scenario.h).
+bool ends(const Design& design);
 
 /// InputError at `place` when `name` is none of scalar_names, with the nearest that is.
 void check_scalar_name(const Design& design, const std::string& name, const Place& place);

@@ -69,17 +69,6 @@ struct Requirement {
   Place place;
 };
 
-/// A timer that runs down to 0, where a jump happens and it is reset to a value in [low, high]. Its
-/// first value lies in [first_low, first_high].
-struct Timer {
-  std::string name;
-  expr::Expression low;
-  expr::Expression high;
-  expr::Expression first_low;
-  expr::Expression first_high;
-  Place place;
-};
-
 /// What a simulation can check of the gains. Expressions may use data, parameters, gains, values of
 /// unknowns, states, outputs, signals and the timer.
 struct Claim {
@@ -98,9 +87,7 @@ struct Claim {
 };
 
 struct Method {
-  /// Whether its dynamics are written with events (dynamics.h), and not as the short form: plant,
-  /// observer and one timer.
-  bool has_events = false;
+  bool has_dynamics = false;
 
   std::string name;
   std::string source;   ///< paper, theorem, equations
@@ -119,20 +106,20 @@ struct Method {
   std::vector<Named> report;  ///< values that the synthesis shows beside the gains
 
   Component plant;
-  Component observer;
-  std::optional<Timer> timer;
-  /// Of the form with events: instead of `observer` and `timer`.
   std::vector<Component> observers;
   std::vector<EventText> events;
   std::vector<std::string> order;      ///< of the events, when it is not that of the file
   std::vector<Named> inputs;           ///< functions of the time t
   std::vector<MeasuredText> measured;  ///< inputs and outputs of the plant that files say
   std::vector<NoiseText> noise;
-  Place dynamics_place;        ///< where the form with events begins
+  Place dynamics_place;        ///< where the dynamics begin
   std::vector<Named> signals;  ///< e.g. the errors e = z - zh
   std::vector<Claim> claims;
   std::string no_campaign;  ///< why nothing is simulated: nothing moves; empty: it may be
 };
+
+/// Its name for what is left of the clock of its timer; empty: it has none.
+std::string timer_name(const Method& method);
 
 /// The names of the scalar data and the parameters of a method, in its order: what may be
 /// overridden.

@@ -209,7 +209,9 @@ void check_scalar_name(const std::string& method, const std::vector<std::string>
 
 void check_names(const Method& method) {
   NameCheck names;
-  for (const auto* list : {&method.data, &method.plant.states, &method.observer.states})
+  std::vector<const std::vector<Declaration>*> declared = {&method.data, &method.plant.states};
+  for (const Component& observer : method.observers) declared.push_back(&observer.states);
+  for (const auto* list : declared)
     for (const Declaration& declaration : *list) names.add_dimensions(declaration.shape);
   for (const UnknownDeclaration& unknown : method.unknowns) names.add_dimensions(unknown.shape);
   for (const Declaration& datum : method.data) names.add(datum.name, "datum", datum.place);
@@ -218,21 +220,15 @@ void check_names(const Method& method) {
   for (const UnknownDeclaration& unknown : method.unknowns)
     names.add(unknown.name, "unknown", unknown.place);
   for (const Let& let : method.let) names.add(let.signature.name, "definition", let.place);
-  if (method.has_events) {
-    add_gains(method, names);
-    add_component(method.plant, names, &NameCheck::add_hiding);
-  }
-  for (const Component* part : {&method.plant, &method.observer}) {
-    if (!method.has_events) add_component(*part, names);
-    check_maps(*part, part->flow, "the flow");
-    check_maps(*part, part->jump, "the jump");
-  }
+  add_gains(method, names);
+  add_component(method.plant, names, &NameCheck::add_hiding);
+  check_maps(method.plant, method.plant.flow, "the flow");
   add_inputs(method, names);
   for (const NoiseText& noise : method.noise) names.add(noise.name, "noise", noise.place);
   check_observers(method);
-  if (method.timer) names.add(method.timer->name, "timer", method.timer->place);
+  for (const EventText& event : method.events)
+    if (!event.left.empty()) names.add(event.left, "timer", event.place);
   for (const Named& signal : method.signals) names.add(signal.name, "signal", signal.place);
-  if (!method.has_events) add_gains(method, names);
   for (const UnknownDeclaration& unknown : method.unknowns) {
     if (unknown.variable.empty()) continue;
     names.check_parameter(unknown.variable, unknown.place);

@@ -134,7 +134,7 @@ Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, st
     for (std::uint64_t run = first; run < last; ++run) {
       check_stop();
       const RunVerdict verdict = judge(seed, run);
-      if (setup.events) check_stop();  // perhaps amid the run
+      if (!setup.sampled) check_stop();  // perhaps amid the run
       add(tally_of(run, verdict), sum);
     }
   } catch (const Stopped&) {
@@ -169,7 +169,7 @@ Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
 std::vector<CheckReport> report_checks(const Setup& setup, const Tally& tally) {
   std::vector<CheckReport> reports;
   std::size_t next = 0;
-  for (const LinkedClaim& claim : setup.claims) {
+  for (const LinkedClaim& claim : setup.claims()) {
     CheckReport report{claim.name, claim.kind, claim.stated(), claim.missing, 0, 0, 0, {}, 0};
     if (claim.stated()) {
       const ClaimTally& found = tally.claims[next++];
@@ -226,7 +226,7 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
   const model::Design& design = *instance.design;
   const std::unique_ptr<const Setup> made = make_setup(instance, gains);
   const Setup& setup = *made;
-  require_a_claim(design, setup.claims);
+  require_a_claim(design, setup.claims());
   Report report;
   report.asked = options.runs.value_or(design.campaign.runs);
   report.seed = options.seed.value_or(design.campaign.seed);
@@ -235,8 +235,8 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
 
   const Tally tally = judge_all(setup, report.seed, report.asked, options);
   report.runs = tally.runs;
-  report.horizon = setup.scenario.horizon;
-  report.integrated = !setup.steps;
+  report.horizon = setup.horizon();
+  report.integrated = setup.integrated();
   report.verdict = model::CampaignVerdict::undecided;
   if (!tally.run) return report;
   report.violations = tally.violations;

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "hybrid/arc.h"
+#include "hybrid/track.h"
 #include "model/gains.h"
 #include "model/instance.h"
 #include "model/words.h"

@@ -8,15 +8,18 @@ namespace gainsmith::verify {
 
 namespace {
 
-LinkedClaim link_claim(const model::Design::Claim& claim, const hybrid::System& system) {
+LinkedClaim link_claim(const model::Design::Claim& claim, const hybrid::EventSystem& system) {
   LinkedClaim linked;
   linked.name = claim.name;
   linked.kind = claim.kind;
   const auto link = [&](const model::Formula& formula) {
-    expr::Program program = system.link(formula);
-    for (const std::string& name : system.missing(program))
-      if (std::find(linked.missing.begin(), linked.missing.end(), name) == linked.missing.end())
-        linked.missing.push_back(name);
+    expr::Program program = system.bodies.link(formula.program);
+    for (const expr::Input& input : program.inputs) {
+      auto& missing = linked.missing;
+      const bool has_value = system.slot(input.name) || system.constants.contains(input.name);
+      if (!has_value && std::find(missing.begin(), missing.end(), input.name) == missing.end())
+        missing.push_back(input.name);
+    }
     return program;
   };
   linked.value = link(claim.value);
@@ -41,7 +44,7 @@ LinkedClaim link_claim(const model::Design::Claim& claim, const hybrid::System& 
 
 }  // namespace
 
-std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::System& system) {
+std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::EventSystem& system) {
   std::vector<LinkedClaim> claims;
   for (const model::Design::Claim& claim : design.claims) {
     claims.push_back(link_claim(claim, system));

@@ -185,11 +185,11 @@ EventReplay replay_events(const model::Instance& instance, const model::Gains& g
   }
   EventTable(*instance.design, events).fill(step, result);
   if (judged) result.faults = faults_of(result.run, instance, gains, events, seed, run);
-  if (setup->judged.empty()) return result;
+  if (events.judged.empty()) return result;
   Judge judge(*setup);
   const std::vector<Finding> findings = judge(seed, run).findings;
   for (std::size_t k = 0; k < findings.size(); ++k)
-    result.claims.push_back({setup->judged[k].name, findings[k]});
+    result.claims.push_back({events.judged[k].name, findings[k]});
   return result;
 }
 

@@ -9,9 +9,15 @@
 #include "hybrid/trajectory_judge.h"
 #include "model/gains.h"
 #include "model/instance.h"
-#include "verify/replay.h"
+#include "verify/claim_check.h"
 
 namespace gainsmith::verify {
+
+/// A claim in this run.
+struct ReplayedClaim {
+  std::string name;
+  Finding finding;
+};
 
 /// Where a claim is made, and what its value must not exceed or fall below.
 struct ClaimScope {

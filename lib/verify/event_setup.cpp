@@ -174,11 +174,7 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
   setup->layout.size = setup->system.size;
   setup->asked = design.campaign.accuracy;
   setup->scenario = hybrid::make_event_scenario(design.campaign, setup->system);
-  hybrid::System plain;
-  plain.layout = setup->layout;
-  plain.constants = setup->system.constants;
-  plain.bodies = setup->system.bodies;
-  setup->claims = link_claims(design, plain);
+  setup->claims = link_claims(design, setup->system);
   check_times(design, setup->claims, setup->scenario.horizon);
   setup->constants = rounded_once(setup->system.constants);
   setup->coordinates.affine = false;

@@ -8,7 +8,7 @@ namespace gainsmith::verify {
 namespace {
 
 using hybrid::Termination;
-using Rounding = hybrid::IntegratedSimulator::Rounding;
+using Rounding = hybrid::ClockedSimulator::Rounding;
 
 /// Whether the run left the range of the states for certain.
 template <class Scalar>
@@ -66,26 +66,34 @@ RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
 
 }  // namespace
 
-Judge::Judge(const Setup& setup)
-    : checks_(make_checks(setup, setup.events ? *setup.events->narrow : *setup.narrow)) {
-  if (setup.events) {
+Judge::Judge(const Setup& setup) {
+  if (!setup.sampled) {
     events_.emplace(*setup.events);
+    checks_ = make_checks(setup.events->judged, *setup.events->narrow);
     return;
   }
-  if (!setup.steps) {
-    integrated_.emplace(setup.system, setup.scenario, setup.coordinates, setup.shared.get());
+  const SampledSetup& sampled = *setup.sampled;
+  checks_ = make_checks(sampled.judged, *sampled.narrow);
+  if (!sampled.steps) {
+    clocked_.emplace(*sampled.system, sampled.scenario, sampled.coordinates, *sampled.flows);
     return;
   }
-  narrow_.emplace(setup.system, setup.scenario, *setup.steps, *setup.narrow);
-  wide_.emplace(setup.system, setup.scenario, *setup.steps, *setup.wide);
-  wide_checks_ = make_checks(setup, *setup.wide);
+  narrow_.emplace(*sampled.system, sampled.scenario, *sampled.steps, *sampled.narrow);
+  wide_.emplace(*sampled.system, sampled.scenario, *sampled.steps, *sampled.wide);
+  wide_checks_ = make_checks(sampled.judged, *sampled.wide);
+}
+
+/// In double, until the next call.
+const hybrid::Track<double>& Judge::track(std::uint64_t seed, std::uint64_t run) {
+  if (events_) return events_->run(seed, run, 1);
+  return clocked_ ? clocked_->run(seed, run, kUsual) : narrow_->run(seed, run);
 }
 
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
   if (events_) return last_verdict(events_->run(seed, run, kRepeated / kUsual), checks_);
-  if (!integrated_) return last_verdict(wide_->run(seed, run), wide_checks_);
+  if (!clocked_) return last_verdict(wide_->run(seed, run), wide_checks_);
   const auto rounded = [&](Rounding rounding) {
-    return last_verdict(integrated_->run(seed, run, kRepeated, rounding), checks_);
+    return last_verdict(clocked_->run(seed, run, kRepeated, rounding), checks_);
   };
   return agreed(rounded(Rounding::up), rounded(Rounding::down));
 }

@@ -1,5 +1,5 @@
 // The verdict on one run: in double, and in 31 digits where double does not decide. A flow that is
-// integrated (hybrid/integrated_run.h) is repeated to a hundredth of its error instead.
+// integrated is repeated to a hundredth of its error instead.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "hybrid/integrated_run.h"
 #include "verify/event_tracks.h"
 #include "verify/setup.h"
 
@@ -33,7 +32,7 @@ class Judge {
   static constexpr double kUsual = 1e-8;
   static constexpr double kRepeated = 1e-10;
 
-  /// A stop (base/stop.h) ends runs of dynamics with events; then their verdict says nothing.
+  /// A stop (base/stop.h) may end a careful run; then its verdict says nothing.
   explicit Judge(const Setup& setup);
 
   /// What double decides is decided; a run with a claim that it does not decide, or that does not
@@ -44,16 +43,11 @@ class Judge {
   /// The run repeated.
   RunVerdict confirm(std::uint64_t seed, std::uint64_t run);
 
-  /// In double, until the next call.
-  const hybrid::Track<double>& track(std::uint64_t seed, std::uint64_t run) {
-    if (events_) return events_->run(seed, run, 1);
-    return integrated_ ? integrated_->run(seed, run, kUsual) : narrow_->run(seed, run);
-  }
-  std::vector<ClaimCheck<double>>& checks() { return checks_; }
-
  private:
+  const hybrid::Track<double>& track(std::uint64_t seed, std::uint64_t run);
+
   std::optional<EventTracks> events_;
-  std::optional<hybrid::IntegratedSimulator> integrated_;  ///< otherwise the two below
+  std::optional<hybrid::ClockedSimulator> clocked_;
   std::optional<hybrid::BoundedSimulator<double>> narrow_;
   std::optional<hybrid::BoundedSimulator<DoubleDouble>> wide_;
   std::vector<ClaimCheck<double>> checks_;

@@ -1,5 +1,6 @@
 #include "verify/setup.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "hybrid/exact_values.h"
@@ -10,17 +11,19 @@ namespace {
 
 using Wide = numbers::MatrixOf<Decimal100>;
 
-std::vector<const LinkedClaim*> stated_claims(const Setup& setup) {
-  std::vector<const LinkedClaim*> stated;
-  for (const LinkedClaim& claim : setup.claims)
+using StatedClaims = std::vector<const LinkedClaim*>;
+
+StatedClaims stated_claims(const std::vector<LinkedClaim>& claims) {
+  StatedClaims stated;
+  for (const LinkedClaim& claim : claims)
     if (claim.stated()) stated.push_back(&claim);
   return stated;
 }
 
 /// The functions of the claims, in the order in which judged_claims takes them back.
-std::vector<expr::Program> functions_of(const Setup& setup) {
+std::vector<expr::Program> functions_of(const StatedClaims& claims) {
   std::vector<expr::Program> functions;
-  for (const LinkedClaim* claim : stated_claims(setup)) {
+  for (const LinkedClaim* claim : claims) {
     functions.push_back(claim->value);
     for (const auto* part : {&claim->flow_cost, &claim->jump_cost, &claim->factor, &claim->bound})
       if (*part) functions.push_back(**part);
@@ -30,10 +33,11 @@ std::vector<expr::Program> functions_of(const Setup& setup) {
 
 /// Of each stated claim, the coordinate that is the integral of its flow cost along flows that are
 /// integrated; none where there is no such cost.
-std::vector<std::optional<Eigen::Index>> add_integrals(Setup& setup) {
+std::vector<std::optional<Eigen::Index>> add_integrals(const StatedClaims& claims,
+                                                       SampledSetup& setup) {
   std::vector<std::optional<Eigen::Index>> added;
   std::size_t next = 0;
-  for (const LinkedClaim* claim : stated_claims(setup)) {
+  for (const LinkedClaim* claim : claims) {
     ++next;  // the value
     added.emplace_back();
     if (claim->flow_cost) {
@@ -48,14 +52,15 @@ std::vector<std::optional<Eigen::Index>> add_integrals(Setup& setup) {
   return added;
 }
 
-void add_judged_claims(Setup& setup, std::vector<Wide>& forms) {
-  const auto integrals = add_integrals(setup);
+void add_judged_claims(const StatedClaims& claims, SampledSetup& setup,
+                       std::vector<Wide>& forms) {
+  const auto integrals = add_integrals(claims, setup);
   auto accumulated = integrals.begin();
   std::size_t next = 0;
   const auto take = [&] {
     return make_function(setup.coordinates.functions[next++], setup.coordinates);
   };
-  for (const LinkedClaim* claim : stated_claims(setup)) {
+  for (const LinkedClaim* claim : claims) {
     JudgedClaim judged;
     judged.name = claim->name;
     judged.kind = claim->kind;
@@ -77,59 +82,58 @@ void add_judged_claims(Setup& setup, std::vector<Wide>& forms) {
   }
 }
 
-/// Costs must be quadratic: their integrals are a part of the flow.
-void add_shared_flows(Setup& setup) {
+/// Costs must be quadratic: their integrals are a part of the flow. Whether the flow is of the kind.
+bool add_clocked_flows(SampledSetup& setup) {
   std::vector<Eigen::Index> integrals;
   for (const JudgedClaim& claim : setup.judged) {
     if (!claim.accumulated) continue;
-    if (!claim.flow_cost->quadratic) return;
+    if (!claim.flow_cost->quadratic) return false;
     integrals.push_back(*claim.accumulated);
   }
-  setup.shared = std::make_unique<hybrid::SharedFlows>(setup.system, setup.scenario,
+  setup.flows = std::make_unique<hybrid::ClockedFlows>(*setup.system, setup.scenario,
                                                        setup.coordinates, integrals);
+  return setup.flows->to(kUsualOfMany) != nullptr;
 }
 
-std::unique_ptr<const Setup> setup_of(std::unique_ptr<const EventSetup> events) {
-  auto setup = std::make_unique<Setup>();
-  setup->scenario.horizon = events->scenario.horizon;
-  setup->claims = events->claims;
-  setup->judged = events->judged;
-  setup->events = std::move(events);
+/// None when the dynamics are of another kind.
+std::unique_ptr<const SampledSetup> make_sampled_setup(const model::Instance& instance,
+                                                       const model::Gains& gains,
+                                                       const std::vector<LinkedClaim>& claims) {
+  auto setup = std::make_unique<SampledSetup>();
+  setup->dynamics = hybrid::make_event_system(instance, gains);
+  setup->system = hybrid::make_sampled_system(setup->dynamics);
+  if (!setup->system) return nullptr;
+  const hybrid::SampledSystem& system = *setup->system;
+  setup->scenario = hybrid::make_event_scenario(instance.design->campaign, setup->dynamics);
+  if (system.flow) setup->steps.emplace(*system.flow, system.longest, system.flow_place);
+  const StatedClaims stated = stated_claims(claims);
+  setup->coordinates = hybrid::make_coordinates(
+      system, hybrid::exact_values(instance, system.constants(), gains), functions_of(stated));
+  std::vector<Wide> forms;
+  add_judged_claims(stated, *setup, forms);
+  if (!setup->steps && !add_clocked_flows(*setup)) return nullptr;
+  std::optional<hybrid::ExactSteps> exact;
+  if (setup->steps) exact = hybrid::exact_steps(setup->coordinates, *setup->steps, forms);
+  setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, exact);
+  if (exact)
+    setup->wide = std::make_unique<hybrid::BoundedSystem<DoubleDouble>>(setup->coordinates, exact);
   return setup;
+}
+
+/// Of claims that only the careful run understands.
+bool is_of_samples(const model::Design& design) {
+  return std::none_of(design.claims.begin(), design.claims.end(),
+                      [](const model::Design::Claim& claim) { return claim.over.has_value(); });
 }
 
 }  // namespace
 
 std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
                                         const model::Gains& gains) {
-  const model::Design& design = *instance.design;
-  if (design.dynamics) return setup_of(make_event_setup(instance, gains));
-  hybrid::System system = hybrid::make_system(instance, gains);
-  hybrid::Scenario scenario = hybrid::make_scenario(design, system);
-  std::optional<hybrid::FlowSteps> steps;
-  if (system.flow) steps = hybrid::make_steps(system);
-  std::vector<LinkedClaim> claims = link_claims(design, system);
-  check_times(design, claims, scenario.horizon);
-  auto setup = std::make_unique<Setup>(Setup{std::move(system),
-                                             std::move(scenario),
-                                             std::move(steps),
-                                             std::move(claims),
-                                             {},
-                                             {},
-                                             {},
-                                             {},
-                                             {},
-                                             {}});
-  setup->coordinates = hybrid::make_coordinates(
-      setup->system, hybrid::exact_values(instance, setup->system, gains), functions_of(*setup));
-  std::vector<Wide> forms;
-  add_judged_claims(*setup, forms);
-  if (!setup->steps) add_shared_flows(*setup);
-  std::optional<hybrid::ExactSteps> exact;
-  if (setup->steps) exact = hybrid::exact_steps(setup->coordinates, *setup->steps, forms);
-  setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, exact);
-  if (exact)
-    setup->wide = std::make_unique<hybrid::BoundedSystem<DoubleDouble>>(setup->coordinates, exact);
+  auto setup = std::make_unique<Setup>();
+  setup->events = make_event_setup(instance, gains);
+  if (!instance.design->campaign.accuracy && is_of_samples(*instance.design))
+    setup->sampled = make_sampled_setup(instance, gains, setup->claims());
   return setup;
 }
 

@@ -6,40 +6,47 @@
 #include <vector>
 
 #include "hybrid/bounded_run.h"
-#include "hybrid/integrated_run.h"
-#include "hybrid/simulate.h"
-#include "hybrid/system.h"
+#include "hybrid/clocked_run.h"
+#include "hybrid/sampled_system.h"
 #include "verify/claim_check.h"
 #include "verify/claims.h"
 #include "verify/event_setup.h"
 
 namespace gainsmith::verify {
 
-/// Of a flow that is not affine with constant coefficients, `narrow` is without steps and `wide`
-/// is not there: its runs are integrated.
-struct Setup {
-  hybrid::System system;
-  hybrid::Scenario scenario;
+/// How the runs of sampled dynamics (hybrid/sampled_system.h) are made and judged: with bounds
+/// where the flow is affine, otherwise by flows that all runs share.
+struct SampledSetup {
+  hybrid::EventSystem dynamics;
+  hybrid::EventScenario scenario;
+  std::unique_ptr<const hybrid::SampledSystem> system;
   std::optional<hybrid::FlowSteps> steps;  ///< of an affine flow
-  std::vector<LinkedClaim> claims;
-  hybrid::Coordinates coordinates;  ///< those of the claims that are stated
-  std::vector<JudgedClaim> judged;  ///< the claims that are stated, in order
+  hybrid::Coordinates coordinates;         ///< those of the claims that are stated
+  std::vector<JudgedClaim> judged;         ///< the claims that are stated, in order
   std::unique_ptr<hybrid::BoundedSystem<double>> narrow;
-  std::unique_ptr<hybrid::BoundedSystem<DoubleDouble>> wide;
-  std::unique_ptr<hybrid::SharedFlows> shared;  ///< of integrated flows
-  /// Of dynamics with events: then `system`, `coordinates` and `narrow` are not used.
-  std::unique_ptr<const EventSetup> events;
+  std::unique_ptr<hybrid::BoundedSystem<DoubleDouble>> wide;  ///< of an affine flow
+  std::unique_ptr<hybrid::ClockedFlows> flows;                ///< of any other
+};
+
+struct Setup {
+  std::unique_ptr<const EventSetup> events;      ///< the careful run
+  std::unique_ptr<const SampledSetup> sampled;   ///< none: all runs are careful
+
+  const std::vector<LinkedClaim>& claims() const { return events->claims; }
+  double horizon() const { return events->scenario.horizon; }
+  /// Whether the errors of runs are estimates.
+  bool integrated() const { return !sampled || !sampled->steps; }
 };
 
 /// At an address of its own: its parts point to each other.
 std::unique_ptr<const Setup> make_setup(const model::Instance& instance, const model::Gains& gains);
 
-/// A check for each claim that is stated, in order. The setup must outlive them.
+/// A check for each claim that is stated, in order. The claims and the system must outlive them.
 template <class Scalar>
-std::vector<ClaimCheck<Scalar>> make_checks(const Setup& setup,
+std::vector<ClaimCheck<Scalar>> make_checks(const std::vector<JudgedClaim>& claims,
                                             const hybrid::BoundedSystem<Scalar>& system) {
   std::vector<ClaimCheck<Scalar>> checks;
-  for (const JudgedClaim& claim : setup.judged) checks.emplace_back(claim, system);
+  for (const JudgedClaim& claim : claims) checks.emplace_back(claim, system);
   return checks;
 }
 

@@ -1,4 +1,4 @@
-#include "hybrid/arc.h"
+#include "hybrid/track.h"
 
 namespace gainsmith::hybrid {
 
@@ -18,13 +18,6 @@ std::string to_string(Termination termination) {
       return "an end before the horizon";
   }
   return "?";
-}
-
-void Arc::append(double time, std::int64_t jumps, double tau, const Eigen::VectorXd& x) {
-  t.push_back(time);
-  j.push_back(jumps);
-  timer.push_back(tau);
-  stacked.insert(stacked.end(), x.begin(), x.end());
 }
 
 }  // namespace gainsmith::hybrid

@@ -1,4 +1,4 @@
-#include "hybrid/integrated_run.h"
+#include "hybrid/clocked_run.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "base/number.h"
 #include "hybrid/ball.h"
 
 namespace gainsmith::hybrid {
@@ -18,9 +17,7 @@ using Eigen::Index;
 using Eigen::VectorXd;
 
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
-constexpr double kSharper = 1e-2;
 constexpr double kNoTime = 1e-14;  ///< of the time so far: a flow that only rounding made
-constexpr double kShorter = 0.25;  ///< longest step
 
 /// Where A and B happen to agree, samples beside it and a margin speak for the error.
 constexpr Index kBeside = 2;
@@ -38,15 +35,15 @@ bool is_within_range(const VectorXd& x) { return (x.array().abs() <= kLargestSta
 
 }  // namespace
 
-SharedFlows::SharedFlows(const System& system, const Scenario& scenario,
+ClockedFlows::ClockedFlows(const SampledSystem& system, const EventScenario& scenario,
                          const Coordinates& coordinates, std::vector<Index> integrals)
     : coordinates_(&coordinates),
       constants_(in_double(coordinates.constants)),
       integrals_(std::move(integrals)),
-      longest_(std::max(system.high, system.first_high)),
-      start_(ClockedFlow::start_of(system, scenario.starts, coordinates, constants_, integrals_)) {}
+      longest_(system.longest),
+      start_(ClockedFlow::start_of(system, scenario, coordinates, constants_, integrals_)) {}
 
-const ClockedFlow* SharedFlows::to(double relative) {
+const ClockedFlow* ClockedFlows::to(double relative) {
   if (!start_) return nullptr;
   const std::lock_guard lock(mutex_);
   const auto known = made_.find(relative);
@@ -60,14 +57,13 @@ const ClockedFlow* SharedFlows::to(double relative) {
   return flow.get();
 }
 
-IntegratedSimulator::IntegratedSimulator(const System& system, const Scenario& scenario,
-                                         const Coordinates& coordinates, SharedFlows* shared)
+ClockedSimulator::ClockedSimulator(const SampledSystem& system, const EventScenario& scenario,
+                                   const Coordinates& coordinates, ClockedFlows& flows)
     : system_(&system),
       scenario_(&scenario),
       coordinates_(&coordinates),
-      shared_(shared),
+      flows_(&flows),
       constants_(in_double(coordinates.constants)),
-      starts_(scenario.starts, system),
       rate_(coordinates, constants_) {
   const StateLayout& layout = coordinates.layout;
   for (const auto& [name, value] : coordinates.constants)
@@ -80,53 +76,10 @@ IntegratedSimulator::IntegratedSimulator(const System& system, const Scenario& s
     after_balls_.push_back(
         one.jump ? std::make_unique<BallFunction<double>>(*one.jump, layout, balls_) : nullptr);
   }
-  copies_.push_back(make_copy());
-  copies_.push_back(make_copy());
+  for (Copy& copy : copies_) copy.x = copy.start = VectorXd::Zero(layout.size);
 }
 
-IntegratedSimulator::Copy IntegratedSimulator::make_copy() {
-  const auto moving = static_cast<Index>(rate_.elements().size());
-  const VectorXd all = VectorXd::Zero(coordinates_->layout.size);
-  return {all, all, VectorXd::Zero(moving),
-          Integrator(moving, [this](double t, const VectorXd& x, VectorXd& slope) {
-            rate_(*flow_start_, flow_timer_, t, x, slope);
-          })};
-}
-
-VectorXd IntegratedSimulator::absolute(const VectorXd& x, double relative, double interval) {
-  constexpr double kBelow = 1e-2;
-  constexpr double kOfOthers = 1e-4;
-  VectorXd sizes = VectorXd::Zero(x.size());
-  double largest = 0;
-  for (std::size_t i = 0; i < coordinates_->list.size(); ++i) {
-    if (!rate_.is_integrated(i)) continue;
-    const Slot& slot = coordinates_->layout.slots[i];
-    const double size = x.segment(slot.offset, slot.shape.size()).lpNorm<Eigen::Infinity>();
-    sizes.segment(slot.offset, slot.shape.size()).setConstant(size);
-    largest = std::max(largest, size);
-  }
-  return (kBelow * relative *
-          sizes.cwiseMax(kOfOthers * std::max(largest, reach(x, interval))))(rate_.elements())
-      .cwiseMax(1e-250);
-}
-
-/// How far the rates at x lead in the time of the flow.
-double IntegratedSimulator::reach(const VectorXd& x, double interval) {
-  double largest = 0;
-  VectorXd slope(static_cast<Index>(rate_.elements().size()));
-  for (const double part : {0.0, 0.5, 1.0}) {
-    try {
-      rate_(x, flow_timer_, part * interval, x(rate_.elements()), slope);
-    } catch (const InputError&) {
-      continue;  // the integration says so where it matters
-    }
-    if (slope.size() > 0 && slope.allFinite())
-      largest = std::max(largest, interval * slope.lpNorm<Eigen::Infinity>());
-  }
-  return largest;
-}
-
-void IntegratedSimulator::append(double t, std::int64_t j, double timer, double timer_bound) {
+void ClockedSimulator::append(double t, std::int64_t j, double timer, double timer_bound) {
   const VectorXd& x = copies_[1].x;
   track_.t.push_back(t);
   track_.j.push_back(j);
@@ -139,7 +92,7 @@ void IntegratedSimulator::append(double t, std::int64_t j, double timer, double 
 }
 
 /// The largest |A - B| of each state.
-VectorXd IntegratedSimulator::difference() const {
+VectorXd ClockedSimulator::difference() const {
   VectorXd result = (copies_[0].x - copies_[1].x).cwiseAbs();
   for (const Slot& slot : coordinates_->layout.slots) {
     auto part = result.segment(slot.offset, slot.shape.size());
@@ -149,7 +102,7 @@ VectorXd IntegratedSimulator::difference() const {
 }
 
 /// Of the samples since the last jump, once all are there.
-void IntegratedSimulator::set_bounds() {
+void ClockedSimulator::set_bounds() {
   const std::size_t last = track_.samples() - 1;
   const Eigen::Map<numbers::Matrix> bounds(track_.bounds.data(), track_.size,
                                            static_cast<Index>(track_.samples()));
@@ -164,8 +117,7 @@ void IntegratedSimulator::set_bounds() {
   }
 }
 
-void IntegratedSimulator::begin(std::uint64_t run, RandomStream& random) {
-  const VectorXd drawn = starts_(run, random);
+void ClockedSimulator::begin(const VectorXd& drawn) {
   for (std::size_t i = 0; i < begin_.size(); ++i) {
     const Slot& slot = coordinates_->layout.slots[i];
     copies_[1].x.segment(slot.offset, slot.shape.size()) = begin_[i](drawn, 0).reshaped();
@@ -173,70 +125,39 @@ void IntegratedSimulator::begin(std::uint64_t run, RandomStream& random) {
         with_rounding(begin_balls_[i](drawn, VectorXd::Zero(drawn.size()), 0, 0), rounding_)
             .reshaped();
   }
-  for (Copy& copy : copies_) copy.integrator.reset();
 }
 
-/// Both copies to the time t of the flow, or to their end.
-void IntegratedSimulator::advance(double t) {
-  constexpr double kSame = 1e-6;
-  std::vector<IntegrationError> ends;
+/// Both copies to the time t of the flow.
+void ClockedSimulator::advance(double t) {
   for (Copy& copy : copies_) {
-    flow_start_ = &copy.start;
-    if (copy.shared != nullptr) {
-      (*copy.shared)(copy.start, t, copy.x);
-      copy.moving = copy.x(rate_.elements());
-      rate_.place(copy.start, t, copy.moving, copy.x);
-      continue;
-    }
-    try {
-      copy.integrator.advance(t, copy.moving);
-      rate_.place(copy.start, t, copy.moving, copy.x);
-    } catch (const IntegrationError& error) {
-      ends.push_back(error);
-    }
+    (*copy.flow)(copy.start, t, copy.x);
+    const VectorXd moving = copy.x(rate_.elements());
+    rate_.place(copy.start, t, moving, copy.x);
   }
-  if (ends.empty()) return;
-  const bool certain = ends.size() == 2 && ends[0].escaped && ends[1].escaped &&
-                       std::abs(ends[0].t - ends[1].t) <= kSame * t;
-  track_.termination = certain ? Termination::undefined : Termination::lost;
-  track_.message =
-      std::string(ends.back().what()) + ", " + brief(ends.back().t) + " after the last jump";
 }
 
-void IntegratedSimulator::flow(double interval, double relative) {
+void ClockedSimulator::flow(double interval) {
   const double start = track_.t.back();
+  const double timer = track_.timer.back();
   const std::int64_t jumps = track_.j.back();
-  flow_timer_ = track_.timer.back();
-  double accuracy = relative;
-  double longest = interval / kPieces;
-  for (Copy& copy : copies_) {
-    copy.start = copy.x;
-    copy.shared = shared_ != nullptr ? shared_->to(accuracy) : nullptr;
-    flow_start_ = &copy.start;
-    if (copy.shared == nullptr && interval > kNoTime * start)
-      copy.integrator.start(0, copy.x(rate_.elements()), interval, accuracy,
-                            absolute(copy.x, accuracy, interval), longest);
-    accuracy *= kSharper;
-    longest *= kShorter;
-  }
+  for (Copy& copy : copies_) copy.start = copy.x;
   if (interval > 0 && interval <= kNoTime * start) {
     track_.moves.push_back({false, {FlowStep::kRest, interval}});
-    append(start + interval, jumps, flow_timer_ - interval, kUnit * flow_timer_);
+    append(start + interval, jumps, timer - interval, kUnit * timer);
     return set_bounds();
   }
   for (int piece = 1; piece <= kPieces && interval > 0; ++piece) {
     const double t = piece == kPieces ? interval : interval * piece / kPieces;
     advance(t);
-    if (track_.termination != Termination::horizon) break;
     track_.moves.push_back({false, {FlowStep::kRest, interval / kPieces}});
-    const double left = flow_timer_ - t;
-    append(start + t, jumps, left, left == 0 ? 0 : 4 * kUnit * flow_timer_);
+    const double left = timer - t;
+    append(start + t, jumps, left, left == 0 ? 0 : 4 * kUnit * timer);
     if (track_.termination != Termination::horizon) break;
   }
   set_bounds();
 }
 
-void IntegratedSimulator::jump(VectorXd& x) {
+void ClockedSimulator::jump(VectorXd& x) {
   VectorXd after = x;
   for (std::size_t i = 0; i < after_.size(); ++i) {
     if (after_[i] == nullptr) continue;
@@ -246,7 +167,7 @@ void IntegratedSimulator::jump(VectorXd& x) {
   x = after;
 }
 
-void IntegratedSimulator::jump_with_rounding(VectorXd& x) {
+void ClockedSimulator::jump_with_rounding(VectorXd& x) {
   VectorXd after = x;
   const VectorXd exact = VectorXd::Zero(x.size());
   for (std::size_t i = 0; i < after_balls_.size(); ++i) {
@@ -258,12 +179,12 @@ void IntegratedSimulator::jump_with_rounding(VectorXd& x) {
   x = after;
 }
 
-void IntegratedSimulator::lose(const std::string& why) {
+void ClockedSimulator::lose(const std::string& why) {
   track_.termination = Termination::lost;
   track_.message = why;
 }
 
-void IntegratedSimulator::jump(double reset_value) {
+void ClockedSimulator::jump(double reset_value) {
   jump(copies_[1].x);
   try {
     jump_with_rounding(copies_[0].x);
@@ -278,28 +199,34 @@ void IntegratedSimulator::jump(double reset_value) {
   append(track_.t.back(), track_.j.back() + 1, reset_value, 0);
 }
 
-const Track<double>& IntegratedSimulator::run(std::uint64_t seed, std::uint64_t run,
-                                              double relative, Rounding rounding) {
+const Track<double>& ClockedSimulator::run(std::uint64_t seed, std::uint64_t run, double relative,
+                                           Rounding rounding) {
   track_.clear();
   track_.size = coordinates_->layout.size;
   track_.accuracy = relative;
   rounding_ = rounding == Rounding::up ? 2 : -2;
   flow_first_ = 0;
-  RandomStream random(seed, run);
-  const Law& law = scenario_->laws[run % scenario_->laws.size()];
+  copies_[0].flow = flows_->to(relative);
+  copies_[1].flow = flows_->to(ClockedFlows::kSharper * relative);
+  SampledDraws draws(*system_, *scenario_, seed, run);
   try {
-    begin(run, random);
-    append(0, 0, first_timer(*system_, *scenario_, random), 0);
-    for (std::size_t jumps = 0;; ++jumps) {
-      const double left = scenario_->horizon - track_.t.back();
-      const bool jumps_again = expires(track_.timer.back(), track_.t.back(), scenario_->horizon);
-      flow(jumps_again ? track_.timer.back() : left, relative);
-      if (track_.termination != Termination::horizon || !jumps_again) return track_;
-      if (track_.j.back() >= scenario_->jump_limit) {
+    begin(draws.start());
+    append(0, 0, draws.length(), 0);
+    if (copies_[0].flow == nullptr || copies_[1].flow == nullptr) {
+      lose("the flow cannot be integrated so accurately");
+      return track_;
+    }
+    while (true) {
+      const bool jumps = draws.is_within(scenario_->horizon);
+      flow(jumps ? draws.length() : scenario_->horizon - track_.t.back());
+      if (track_.termination != Termination::horizon || !jumps) return track_;
+      if (track_.j.back() >= kMostJumps) {
         track_.termination = Termination::jump_limit;
         return track_;
       }
-      jump(law.reset_value(jumps, track_.t.back(), random));
+      track_.t.back() = draws.due();
+      draws.jumped();
+      jump(draws.length());
       if (track_.termination != Termination::horizon || track_.t.back() >= scenario_->horizon) {
         set_bounds();
         return track_;
