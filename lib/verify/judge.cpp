@@ -83,7 +83,6 @@ Judge::Judge(const Setup& setup) {
   wide_checks_ = make_checks(sampled.judged, *sampled.wide);
 }
 
-/// In double, until the next call.
 const hybrid::Track<double>& Judge::track(std::uint64_t seed, std::uint64_t run) {
   if (events_) return events_->run(seed, run, 1);
   return clocked_ ? clocked_->run(seed, run, kUsual) : narrow_->run(seed, run);

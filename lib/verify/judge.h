@@ -43,9 +43,11 @@ class Judge {
   /// The run repeated.
   RunVerdict confirm(std::uint64_t seed, std::uint64_t run);
 
- private:
+  /// In double, until the next call.
   const hybrid::Track<double>& track(std::uint64_t seed, std::uint64_t run);
+  std::vector<ClaimCheck<double>>& checks() { return checks_; }
 
+ private:
   std::optional<EventTracks> events_;
   std::optional<hybrid::ClockedSimulator> clocked_;
   std::optional<hybrid::BoundedSimulator<double>> narrow_;

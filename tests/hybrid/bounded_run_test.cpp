@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hybrid/exact_values.h"
-#include "hybrid/text_problem.h"
+#include "hybrid/sampled_problem.h"
 #include "hybrid/wide_state.h"
 
 namespace gainsmith::hybrid {
@@ -44,14 +43,11 @@ Wide jumped(const Coordinates& all, const Wide& x) {
 
 template <class Scalar>
 void follow(const TextProblem& problem, const std::string& claim, double most) {
-  const model::Instance instance = problem.instance();
-  const System system = make_system(instance, problem.gains);
-  const Scenario scenario = make_scenario(*instance.design, system);
-  const FlowSteps steps = make_steps(system);
-  const Coordinates all = make_coordinates(system, exact_values(instance, system, problem.gains),
-                                           {problem.program(claim)});
-  const BoundedSystem<Scalar> bounded(all, exact_steps(all, steps, {}));
-  BoundedSimulator<Scalar> simulator(system, scenario, steps, bounded);
+  const SampledProblem made(problem);
+  const Coordinates all =
+      make_coordinates(made.system(), made.values, {problem.program(claim)});
+  const BoundedSystem<Scalar> bounded(all, exact_steps(all, *made.steps, {}));
+  BoundedSimulator<Scalar> simulator(made.system(), made.scenario, *made.steps, bounded);
   for (std::uint64_t run = 0; run < 6; ++run) {
     const Track<Scalar>& track = simulator.run(7, run);
     ASSERT_EQ(track.termination, Termination::horizon);

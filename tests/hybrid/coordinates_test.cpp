@@ -3,8 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hybrid/exact_values.h"
-#include "hybrid/text_problem.h"
+#include "hybrid/sampled_problem.h"
 #include "hybrid/wide_state.h"
 
 namespace gainsmith::hybrid {
@@ -18,9 +17,9 @@ using tests::TextProblem;
 class CoordinatesTest : public testing::Test {
  protected:
   void make(const TextProblem& problem, const std::vector<std::string>& functions) {
-    const model::Instance instance = problem.instance();
-    system_ = std::make_unique<System>(make_system(instance, problem.gains));
-    constants_ = exact_values(instance, *system_, problem.gains);
+    problem_ = std::make_unique<SampledProblem>(problem);
+    system_ = &problem_->system();
+    constants_ = problem_->values;
     std::vector<expr::Program> programs;
     for (const std::string& text : functions) programs.push_back(problem.program(text));
     made_ = make_coordinates(*system_, constants_, programs);
@@ -50,7 +49,8 @@ class CoordinatesTest : public testing::Test {
     return result;
   }
 
-  std::unique_ptr<System> system_;
+  std::unique_ptr<SampledProblem> problem_;
+  const SampledSystem* system_ = nullptr;
   numbers::ValuesOf<Decimal100> constants_;
   std::vector<expr::Program> programs_;
   Coordinates made_;

@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "hybrid/simulate.h"
+#include "hybrid/event_scenario.h"
 #include "hybrid/text_problem.h"
 
 namespace gainsmith::hybrid {
@@ -23,13 +23,14 @@ TextProblem plant() {
 
 std::vector<Law> laws(TextProblem& problem) {
   const model::Instance instance = problem.instance();
-  return make_laws(instance.design->campaign, make_system(instance, problem.gains));
+  const EventSystem system = make_event_system(instance, problem.gains);
+  return make_event_scenario(instance.design->campaign, system).laws.front();
 }
 
 std::string error_of(TextProblem& problem) {
   try {
     const model::Instance instance = problem.instance();
-    make_scenario(*instance.design, make_system(instance, problem.gains));
+    make_event_scenario(instance.design->campaign, make_event_system(instance, problem.gains));
   } catch (const InputError& error) {
     return error.what();
   }
@@ -149,7 +150,7 @@ TEST(Scenario, StartsAreChecked) {
   EXPECT_NE(error_of(unknown).find("no state 'y'"), std::string::npos);
   TextProblem later = plant();
   later.state("w", "scalar").start("x", Start::expression, {"w"});
-  EXPECT_NE(error_of(later).find("declared before"), std::string::npos);
+  EXPECT_NE(error_of(later).find("has no value yet"), std::string::npos);
   TextProblem empty = plant();
   empty.start("x", Start::box, {"1", "-1"});
   EXPECT_NE(error_of(empty).find("low end above its high end"), std::string::npos);

@@ -72,6 +72,8 @@ TextProblem& TextProblem::unknown_function(const std::string& name,
 
 TextProblem& TextProblem::state(const std::string& name, const std::string& shape) {
   method_.plant.states.push_back(declare(name, shape));
+  method_.plant.name = "plant";
+  method_.has_dynamics = true;
   return *this;
 }
 
@@ -81,7 +83,9 @@ TextProblem& TextProblem::flow(const Pairs& entries) {
 }
 
 TextProblem& TextProblem::jump(const Pairs& entries) {
-  method_.plant.jump = named(entries);
+  model::PassText pass;
+  pass.map = named(entries);
+  method_.plant.at = {{model::kTimerEvent, {}, {pass}, {kFile, 1, 1}}};
   return *this;
 }
 
@@ -92,8 +96,14 @@ TextProblem& TextProblem::signals(const Pairs& entries) {
 
 TextProblem& TextProblem::timer(const std::string& low, const std::string& high,
                                 const std::string& first_low, const std::string& first_high) {
-  method_.timer = model::Timer{
-      "tau", parse(low), parse(high), parse(first_low), parse(first_high), {kFile, 7, 3}};
+  model::EventText event;
+  event.name = model::kTimerEvent;
+  event.kind = model::Dynamics::EventKind::every;
+  event.left = "tau";
+  event.numbers = {parse(low), parse(high)};
+  event.first = {parse(first_low), parse(first_high)};
+  event.place = {kFile, 7, 3};
+  method_.events = {event};
   return *this;
 }
 
@@ -158,7 +168,7 @@ model::Instance TextProblem::instance() const {
 expr::Program TextProblem::program(const std::string& text) const {
   TextProblem problem = *this;
   problem.signals({{"value of " + text, text}});
-  return problem.instance().design->signals.front().value.program;
+  return problem.instance().design->dynamics->signals.front().value.program;
 }
 
 TextProblem sampled_data(const std::string& T2, const numbers::Matrix& L, const numbers::Matrix& F,

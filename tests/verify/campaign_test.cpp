@@ -9,7 +9,7 @@
 #include "base/progress.h"
 #include "hybrid/text_problem.h"
 #include "support/stop.h"
-#include "verify/replay.h"
+#include "verify/event_replay.h"
 
 namespace gainsmith::verify {
 namespace {
@@ -31,6 +31,11 @@ TextProblem row_two() {
 
 TextProblem row_three() {
   return sampled_data("1.1", column({3.68, -24.47}), column({0.040, -0.364}), scalar(-11.47));
+}
+
+EventReplay replay(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
+                   std::uint64_t run) {
+  return replay_events(instance, gains, seed, run, 0);
 }
 
 Report run(TextProblem& problem, CampaignOptions options = {}) {
@@ -72,7 +77,7 @@ TEST(Campaign, PublishedRowThreeIsCaughtAtTheLongestInterval) {
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
   EXPECT_EQ(report.violations, 15U);
   EXPECT_EQ(report.worst_run % 2, 1U);
-  const Replay again = replay(problem.instance(), problem.gains, report.seed, report.worst_run);
+  const EventReplay again = replay(problem.instance(), problem.gains, report.seed, report.worst_run);
   EXPECT_TRUE(again.claims[0].finding.violated());
   EXPECT_EQ(again.claims[0].finding.value, report.checks[0].worst.value);
   EXPECT_EQ(again.claims[0].finding.score, report.checks[0].worst.score);
@@ -94,7 +99,7 @@ TEST(Campaign, FlowsThatAreNotAffineAreIntegrated) {
   EXPECT_EQ(violated.verdict, CampaignVerdict::violated);
   EXPECT_EQ(violated.checks[0].violations, 0U);
   EXPECT_EQ(violated.checks[3].violations, 40U);
-  const Replay again = replay(dear.instance(), dear.gains, violated.seed, violated.worst_run);
+  const EventReplay again = replay(dear.instance(), dear.gains, violated.seed, violated.worst_run);
   EXPECT_TRUE(again.claims[3].finding.violated());
   EXPECT_EQ(again.claims[3].finding.value, violated.checks[3].worst.value);
   EXPECT_TRUE(again.claims[3].finding.estimated);
@@ -157,8 +162,8 @@ TEST(Campaign, AJumpAtTheHorizonBelongsToTheRun) {
     problem.start("c", StartKind::expression, {"0"}).start("y", StartKind::expression, {"1"});
     problem.horizon("0.3").nonincreasing("claim", "y");
     EXPECT_EQ(run(problem).verdict, CampaignVerdict::violated) << flow;
-    const Replay again = replay(problem.instance(), problem.gains, 1, 0);
-    EXPECT_EQ(again.arc.j.back(), 3) << flow;
+    const EventReplay again = replay(problem.instance(), problem.gains, 1, 0);
+    EXPECT_EQ(again.table(again.table.rows() - 1, 1), 3) << flow;
   }
 }
 
@@ -234,11 +239,11 @@ TEST(Campaign, UnitsOfTimeChangeNoSampleAndNoVerdict) {
     EXPECT_EQ(kFactor * a.checks[i].worst.t, b.checks[i].worst.t);
   }
   for (std::uint64_t law = 0; law < 5; ++law) {  // each law of the default
-    const Replay one = replay(seconds.instance(), seconds.gains, 3, law);
-    const Replay two = replay(others.instance(), others.gains, 3, law);
+    const EventReplay one = replay(seconds.instance(), seconds.gains, 3, law);
+    const EventReplay two = replay(others.instance(), others.gains, 3, law);
     ASSERT_EQ(one.table.rows(), two.table.rows()) << law;
     EXPECT_EQ(kFactor * one.table.col(0), two.table.col(0)) << law;
-    const Eigen::Index states = 3;  // after t, j and the timer
+    const Eigen::Index states = 2;  // after t and j
     EXPECT_EQ(one.table.middleCols(states, 5), two.table.middleCols(states, 5)) << law;
   }
 }

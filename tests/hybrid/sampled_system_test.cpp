@@ -1,9 +1,9 @@
-#include "hybrid/system.h"
+#include "hybrid/sampled_system.h"
 
 #include <gtest/gtest.h>
 
 #include "base/error.h"
-#include "hybrid/text_problem.h"
+#include "hybrid/sampled_problem.h"
 
 namespace gainsmith::hybrid {
 namespace {
@@ -13,20 +13,19 @@ using tests::sampled_data;
 using tests::scalar;
 using tests::TextProblem;
 
-System system_of(TextProblem& problem) { return make_system(problem.instance(), problem.gains); }
-
 std::string error_of(TextProblem& problem) {
   try {
-    system_of(problem);
+    const SampledProblem made(problem);
   } catch (const InputError& error) {
     return error.what();
   }
   return "";
 }
 
-TEST(System, FlowAndJumpOfPlantAndObserverAreRead) {
+TEST(SampledSystem, FlowAndJumpOfPlantAndObserverAreRead) {
   TextProblem problem = sampled_data("1.1", column({2, 3}), column({0.1, -0.9}), scalar(-5));
-  const System system = system_of(problem);
+  const SampledProblem made(problem);
+  const SampledSystem& system = made.system();
   numbers::Matrix flow{{0.2, -1.01, 0, 0, 0},
                        {1, 0, 0, 0, 0},
                        {0, 0, 0.2, -1.01, 2},
@@ -42,16 +41,16 @@ TEST(System, FlowAndJumpOfPlantAndObserverAreRead) {
                        {0.5 * rest, -rest, -0.5 * rest, rest, 0}};
   ASSERT_TRUE(system.affine_jump.has_value());
   EXPECT_LT((system.affine_jump->linear - jump).cwiseAbs().maxCoeff(), 1e-15);
-  EXPECT_EQ(system.high, 1.1);
-  EXPECT_EQ(system.first_low, 0);
+  EXPECT_EQ(system.longest, 1.1);
 }
 
-TEST(System, ErrorFlowIsEquationEight) {
+TEST(SampledSystem, ErrorFlowIsEquationEight) {
   const numbers::Matrix L = column({3.68, -24.47});
   const numbers::Matrix F = column({0.104, -0.948});
   const double H = -25.93;
   TextProblem problem = sampled_data("1.1", L, F, scalar(H));
-  const System system = system_of(problem);
+  const SampledProblem made(problem);
+  const SampledSystem& system = made.system();
   const numbers::Matrix A{{0.2, -1.01}, {1, 0}};
   const numbers::Matrix C{{0.5, -1}};
   numbers::Matrix errors(3, 5);  // [e; q] = errors x
@@ -65,25 +64,27 @@ TEST(System, ErrorFlowIsEquationEight) {
   EXPECT_LT((errors * system.affine_jump->linear - jump * errors).cwiseAbs().maxCoeff(), 1e-13);
 }
 
-TEST(System, OnlyAffineFlowsWithConstantCoefficientsAreExact) {
+TEST(SampledSystem, OnlyAffineFlowsWithConstantCoefficientsAreExact) {
   for (const char* flow : {"3 - tau", "x^2", "x*tau", "sin(x)"}) {
     TextProblem problem;
     problem.state("x", "scalar").flow({{"x", flow}}).timer("1", "2", "0", "2");
-    const System system = system_of(problem);
+    const SampledProblem made(problem);
+  const SampledSystem& system = made.system();
     EXPECT_FALSE(system.flow) << flow;
     EXPECT_EQ(system.flow_entries.size(), 1U);
   }
 }
 
-TEST(System, NonlinearJumpIsKeptAsText) {
+TEST(SampledSystem, NonlinearJumpIsKeptAsText) {
   TextProblem problem;
   problem.state("x", "scalar").state("w", "scalar").jump({{"x", "x^2"}}).timer("1", "2", "0", "2");
-  const System system = system_of(problem);
+  const SampledProblem made(problem);
+  const SampledSystem& system = made.system();
   EXPECT_FALSE(system.affine_jump.has_value());
   EXPECT_TRUE(system.flow->linear.isZero(0));
 }
 
-TEST(System, GainsMustBeThereAndFit) {
+TEST(SampledSystem, GainsMustBeThereAndFit) {
   TextProblem missing = sampled_data("1.1", column({2, 3}), column({0, 0}), scalar(-5));
   missing.gains.gains.pop_back();
   EXPECT_NE(error_of(missing).find("no value for H"), std::string::npos) << error_of(missing);
@@ -93,7 +94,7 @@ TEST(System, GainsMustBeThereAndFit) {
       << error_of(wrong);
 }
 
-TEST(System, TimerBoundsMustBeOrdered) {
+TEST(SampledSystem, TimerBoundsMustBeOrdered) {
   TextProblem reset;
   reset.state("x", "scalar").timer("2", "1", "0", "1");
   EXPECT_NE(error_of(reset).find("test.yaml:7:3"), std::string::npos) << error_of(reset);

@@ -1,4 +1,5 @@
-#include "hybrid/simulate.h"
+// Runs of sampled dynamics: draws, lengths, flows and jumps, and against the careful simulator.
+#include "hybrid/bounded_run.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +7,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "hybrid/text_problem.h"
+#include "hybrid/event_run.h"
+#include "hybrid/sampled_problem.h"
 #include "support/linear_algebra.h"
 
 namespace gainsmith::hybrid {
@@ -20,12 +22,18 @@ using tests::sampled_data;
 using tests::scalar;
 using tests::TextProblem;
 
-Arc simulate(TextProblem& problem, std::uint64_t seed = 1, std::uint64_t run = 0) {
-  const model::Instance instance = problem.instance();
-  const System system = make_system(instance, problem.gains);
-  const Scenario scenario = make_scenario(*instance.design, system);
-  const FlowSteps steps = make_steps(system);
-  return Simulator(system, scenario, steps).run(seed, run);
+Track<double> simulate(TextProblem& problem, std::uint64_t seed = 1, std::uint64_t run = 0) {
+  const SampledProblem made(problem);
+  const Coordinates states = made.states();
+  const BoundedSystem<double> bounded(states, exact_steps(states, *made.steps, {}));
+  return BoundedSimulator<double>(made.system(), made.scenario, *made.steps, bounded)
+      .run(seed, run);
+}
+
+double largest(const Track<double>& run) {
+  double size = 0;
+  for (const double x : run.stacked) size = std::max(size, std::abs(x));
+  return size;
 }
 
 TextProblem clock() {
@@ -36,10 +44,10 @@ TextProblem clock() {
   return problem;
 }
 
-TEST(Simulate, TimerIsSteppedToExactly) {
+TEST(SampledRun, TimerIsSteppedToExactly) {
   TextProblem problem = clock();
   problem.first("0.3").horizon("50").law(Law::list, {"0.5", "0.7", "1.1"});
-  const Arc arc = simulate(problem);
+  const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.termination, Termination::horizon);
   double expected = 0.3;  // the time of the next jump
   std::size_t jumps = 0;
@@ -64,10 +72,10 @@ TEST(Simulate, TimerIsSteppedToExactly) {
   EXPECT_NEAR(arc.state(arc.samples() - 1)(0), 50, 1e-12);
 }
 
-TEST(Simulate, FirstValueZeroIsAJumpAtTheStart) {
+TEST(SampledRun, FirstValueZeroIsAJumpAtTheStart) {
   TextProblem problem = clock();
   problem.first("0").horizon("0.25").law(Law::constant, {"0.5"});
-  const Arc arc = simulate(problem);
+  const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.t[0], 0);
   EXPECT_EQ(arc.t[1], 0);
   EXPECT_TRUE(arc.moves[0].jump);
@@ -78,47 +86,48 @@ TEST(Simulate, FirstValueZeroIsAJumpAtTheStart) {
   EXPECT_EQ(arc.timer.back(), 0.25);
 }
 
-TEST(Simulate, JumpAtTheHorizonBelongsToTheRun) {
+TEST(SampledRun, JumpAtTheHorizonBelongsToTheRun) {
   TextProblem problem = clock();
   problem.first("0.5").horizon("1").law(Law::constant, {"0.5"});
-  const Arc arc = simulate(problem);
+  const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.t.back(), 1);
   EXPECT_EQ(arc.j.back(), 2);
 }
 
-TEST(Simulate, EachRunIsAFunctionOfSeedAndRun) {
+TEST(SampledRun, EachRunIsAFunctionOfSeedAndRun) {
   TextProblem problem = clock();
   problem.law(Law::uniform);
-  const Arc a = simulate(problem, 7, 11);
-  const Arc b = simulate(problem, 7, 11);
+  const Track<double> a = simulate(problem, 7, 11);
+  const Track<double> b = simulate(problem, 7, 11);
   EXPECT_EQ(a.stacked, b.stacked);
   EXPECT_EQ(a.t, b.t);
   EXPECT_NE(a.t, simulate(problem, 7, 12).t);
   EXPECT_NE(a.t, simulate(problem, 8, 11).t);
 }
 
-TEST(Simulate, DrawsComeInTheDocumentedOrder) {
+TEST(SampledRun, DrawsAreThoseOfTheirPurposes) {
   TextProblem problem;
   problem.state("z", "2").state("x", "scalar").timer("1", "2", "0", "3").law(Law::uniform);
   problem.start("x", Start::box, {"10", "20"});
-  const Arc arc = simulate(problem, 5, 9);
-  RandomStream draws(5, 9);
-  for (int i = 0; i < 2; ++i) EXPECT_EQ(arc.state(0)(i), -1 + 2 * draws.uniform());
-  EXPECT_EQ(arc.state(0)(2), 10 + 10 * draws.uniform());
-  EXPECT_EQ(arc.timer[0], 3 * draws.uniform());
+  const Track<double> arc = simulate(problem, 5, 9);
+  RandomStream z = event_stream(5, 9, Purpose::start, 0);
+  for (int i = 0; i < 2; ++i) EXPECT_EQ(arc.state(0)(i), -1 + 2 * z.uniform());
+  EXPECT_EQ(arc.state(0)(2), 10 + 10 * event_stream(5, 9, Purpose::start, 1).uniform());
+  EXPECT_EQ(arc.timer[0], 3 * event_stream(5, 9, Purpose::first, 0).uniform());
+  RandomStream lengths = event_stream(5, 9, Purpose::length, 0);
   for (std::size_t k = 0; k + 1 < arc.samples(); ++k)
     if (arc.moves[k].jump) {
-      EXPECT_EQ(arc.timer[k + 1], 1 + draws.uniform());
+      EXPECT_EQ(arc.timer[k + 1], 1 + lengths.uniform());
     }
 }
 
-TEST(Simulate, StartsFromExpressionsAndLists) {
+TEST(SampledRun, StartsFromExpressionsAndLists) {
   TextProblem problem = sampled_data("1.1", column({0, 0}), column({0, 0}), scalar(0));
   problem.start("z", Start::list, {"[10, 0]", "[1, 2]"}).start("zh", Start::expression, {"[0, 0]"});
   problem.start("th", Start::expression, {"C*z"});
-  const Arc first = simulate(problem, 1, 0);
+  const Track<double> first = simulate(problem, 1, 0);
   EXPECT_EQ(Eigen::VectorXd(first.state(0)), column({10, 0, 0, 0, 5}));
-  const Arc second = simulate(problem, 1, 3);
+  const Track<double> second = simulate(problem, 1, 3);
   EXPECT_EQ(Eigen::VectorXd(second.state(0)), column({1, 2, 0, 0, -1.5}));
 }
 
@@ -141,11 +150,11 @@ Matrix sample_map(const Matrix& L, const Matrix& F, double H, double tau) {
   return tests::product({tests::exponential(error_flow(L, H) * tau), start}).topRows(2);
 }
 
-Eigen::Vector2d error(const Arc& arc, std::size_t k) {
+Eigen::Vector2d error(const Track<double>& arc, std::size_t k) {
   return arc.state(k).head(2) - arc.state(k).segment(2, 2);
 }
 
-double q(const Arc& arc, std::size_t k) {
+double q(const Track<double>& arc, std::size_t k) {
   return Matrix{{0.5, -1}}.row(0).dot(error(arc, k)) - arc.state(k)(4);
 }
 
@@ -155,8 +164,8 @@ TEST(SampledData, SamplesClearTheOutputErrorAndObeyTheSampleMap) {
   const double H = -25.93;
   TextProblem problem = sampled_data("1.1", L, F, scalar(H));
   problem.law(Law::uniform).horizon("20");
-  const Arc arc = simulate(problem, 2, 3);
-  const double scale = arc.states().cwiseAbs().maxCoeff();
+  const Track<double> arc = simulate(problem, 2, 3);
+  const double scale = largest(arc);
   std::size_t checked = 0;
   std::optional<std::size_t> before;  // the sample before the previous jump
   for (std::size_t k = 0; k + 1 < arc.samples(); ++k) {
@@ -178,7 +187,7 @@ TEST(SampledData, ErrorFollowsEquationEightBetweenSamples) {
   const Matrix L = column({3.68, -24.47});
   TextProblem problem = sampled_data("1.1", L, column({0.1, -0.9}), scalar(-11.47));
   problem.first("1.1").horizon("1.1");
-  const Arc arc = simulate(problem);
+  const Track<double> arc = simulate(problem);
   Eigen::Vector3d start;
   start << error(arc, 0), q(arc, 0);
   for (std::size_t k = 1; k < arc.samples() && !arc.moves[k - 1].jump; ++k) {
@@ -192,7 +201,7 @@ TEST(SampledData, ErrorFollowsEquationEightBetweenSamples) {
 /// The growth of the error per sample, from the last samples of a long run.
 double growth(TextProblem problem) {
   problem.law(Law::constant, {"T2"}).first("T2").horizon("60*T2");
-  const Arc arc = simulate(problem);
+  const Track<double> arc = simulate(problem);
   std::vector<double> norms;
   for (std::size_t k = 0; k + 1 < arc.samples(); ++k)
     if (arc.moves[k].jump) norms.push_back(error(arc, k).norm());
@@ -213,7 +222,7 @@ TEST(SampledData, RowTwoContractsInItsNorm) {
   problem.law(Law::uniform).law(Law::extremes).horizon("15");
   const Matrix Q{{5.697, -1.308}, {-1.308, 1.364}};
   for (std::uint64_t run = 0; run < 40; ++run) {
-    const Arc arc = simulate(problem, 1, run);
+    const Track<double> arc = simulate(problem, 1, run);
     double before = -1;
     for (std::size_t k = 0; k + 1 < arc.samples(); ++k) {
       if (!arc.moves[k].jump) continue;
@@ -226,45 +235,66 @@ TEST(SampledData, RowTwoContractsInItsNorm) {
   }
 }
 
-TEST(Simulate, OverflowIsNamed) {
+TEST(SampledRun, OverflowIsNamed) {
   TextProblem problem;
   problem.state("x", "scalar").flow({{"x", "x"}}).timer("1", "1", "1", "1").horizon("1000");
   problem.start("x", Start::expression, {"1"});
-  const Arc arc = simulate(problem);
+  const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.termination, Termination::diverged);
   EXPECT_NEAR(arc.t.back(), 150 * std::log(10), 0.2);
 }
 
-TEST(Simulate, JumpMapWithoutAValueIsNamed) {
+TEST(SampledRun, JumpMapWithoutAValueIsNamed) {
   TextProblem problem;
   problem.state("x", "scalar").jump({{"x", "sqrt(x - 1.5)"}}).timer("1", "1", "1", "1");
   problem.start("x", Start::expression, {"2"});
-  const Arc arc = simulate(problem);
+  const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.termination, Termination::undefined);
   EXPECT_EQ(arc.j.back(), 1);
   EXPECT_NE(arc.message.find("sqrt"), std::string::npos) << arc.message;
 }
 
-TEST(Simulate, NonlinearJumpIsEvaluated) {
+TEST(SampledRun, NonlinearJumpIsEvaluated) {
   TextProblem problem;
   problem.state("x", "scalar").jump({{"x", "x^2"}}).timer("1", "1", "1", "1").horizon("3");
   problem.start("x", Start::expression, {"2"});
-  const Arc arc = simulate(problem);
+  const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.state(arc.samples() - 1)(0), 256);
 }
 
-TEST(Simulate, IntervalsThatShrinkToNothingHitTheJumpLimit) {
+TEST(SampledRun, IntervalsThatShrinkToNothingHitTheJumpLimit) {
   TextProblem problem;
   problem.state("x", "scalar").timer("0", "1", "0", "0").law(Law::constant, {"0"});
-  const model::Instance instance = problem.instance();
-  const System system = make_system(instance, problem.gains);
-  Scenario scenario = make_scenario(*instance.design, system);
-  scenario.jump_limit = 100;
-  const FlowSteps steps = make_steps(system);
-  const Arc arc = Simulator(system, scenario, steps).run(1, 0);
+  const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.termination, Termination::jump_limit);
-  EXPECT_EQ(arc.j.back(), 100);
+  EXPECT_EQ(arc.j.back(), BoundedSimulator<double>::kMostJumps);
   EXPECT_EQ(arc.t.back(), 0);
+}
+
+/// The same draws, the same jumps: two simulators that share the texts alone.
+TEST(SampledRun, IsTheRunOfTheCarefulSimulator) {
+  TextProblem problem =
+      sampled_data("1.1", column({3.68, -24.47}), column({0.104, -0.948}), scalar(-25.93));
+  problem.horizon("20");
+  const SampledProblem made(problem);
+  EventSimulator careful(made.dynamics, made.scenario);
+  for (std::uint64_t run = 0; run < 10; ++run) {
+    const Track<double> arc = simulate(problem, 7, run);
+    const Trajectory trajectory = careful.run(7, run);
+    EXPECT_EQ(trajectory.start.head(arc.size), Eigen::VectorXd(arc.state(0)));
+    std::size_t k = 0;
+    for (const auto& part : trajectory.parts) {
+      const auto* jump = std::get_if<JumpPoint>(&part);
+      if (jump == nullptr) continue;
+      while (!arc.moves.at(k).jump) ++k;
+      EXPECT_NEAR(arc.t[k], jump->t, 1e-14 * jump->t);
+      const double size = largest(arc);
+      EXPECT_LT((jump->before.head(arc.size) - arc.state(k)).norm(), 1e-11 * size);
+      EXPECT_LT((jump->after.head(arc.size) - arc.state(k + 1)).norm(), 1e-11 * size);
+      ++k;
+    }
+    EXPECT_GT(k, 15U);
+  }
 }
 
 }  // namespace
