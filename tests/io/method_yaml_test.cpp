@@ -31,8 +31,11 @@ TEST(Method, IsReadWhole) {
   ASSERT_EQ(method.require[1].forall.size(), 1U);
   EXPECT_EQ(method.require[1].forall[0].over, model::Over::interval);
   EXPECT_EQ(method.require[1].place, (Place{"m.yaml", 17, 3}));
-  ASSERT_TRUE(method.timer);
-  EXPECT_EQ(method.timer->first_high.text->str(), "2") << "first is like reset when left out";
+  ASSERT_EQ(method.events.size(), 1U);
+  const model::EventText& timer = method.events.front();
+  EXPECT_EQ(timer.kind, model::Dynamics::EventKind::every);
+  EXPECT_EQ(timer.left, model::timer_name(method));
+  EXPECT_EQ(timer.first.back().text->str(), "2") << "first is like reset when left out";
   ASSERT_EQ(method.claims.size(), 3U);
   EXPECT_EQ(method.claims[1].kind, model::ClaimKind::cost);
   EXPECT_TRUE(method.claims[1].flow_cost);
