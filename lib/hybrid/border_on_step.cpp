@@ -61,16 +61,16 @@ std::optional<double> BorderOnStep::hidden_turn(Index element) {
   if (!(values.cwiseAbs().maxCoeff() > kPlain * noise)) return std::nullopt;
   const Matrix c = chebyshev::coefficients(values);
   const Matrix slope = chebyshev::derivative(c);
-  const double first = chebyshev::at(slope, -1)(0);
+  const double first = chebyshev::first(slope, -1);
   if (std::abs(first) <= kTurnDegree * kTurnDegree * noise) return kEarliestTurn;
   double low = -1;
   double high = -1 + 2 * kEarlyTurn;
-  if ((chebyshev::at(slope, high)(0) > 0) == (first > 0)) return std::nullopt;
+  if ((chebyshev::first(slope, high) > 0) == (first > 0)) return std::nullopt;
   for (int k = 0; k < 60; ++k) {
     const double x = low + (high - low) / 2;
-    ((chebyshev::at(slope, x)(0) > 0) == (first > 0) ? low : high) = x;
+    ((chebyshev::first(slope, x) > 0) == (first > 0) ? low : high) = x;
   }
-  if (std::abs(chebyshev::at(c, high)(0) - values(0)) > kPlain * noise) return std::nullopt;
+  if (std::abs(chebyshev::first(c, high) - values(0)) > kPlain * noise) return std::nullopt;
   return std::max((1 + high) / 2, kEarliestTurn);
 }
 

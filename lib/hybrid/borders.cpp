@@ -88,7 +88,7 @@ class RootSearch {
   bool agrees(const Matrix& c, double a, double b) {
     if (c.rightCols(2).cwiseAbs().sum() > tolerance()) return false;
     return std::all_of(kCheckPoints.begin(), kCheckPoints.end(), [&](double x) {
-      return std::abs(value(chebyshev::outer(x, a, b)) - chebyshev::at(c, x)(0)) <= tolerance();
+      return std::abs(value(chebyshev::outer(x, a, b)) - chebyshev::first(c, x)) <= tolerance();
     });
   }
 
@@ -125,8 +125,8 @@ class RootSearch {
 
   /// Where the slope is monotone: at most two roots.
   void around_extremum(const Matrix& c, const Matrix& slope, double a, double b) {
-    const double left = chebyshev::at(slope, -1)(0);
-    if ((left > 0) == (chebyshev::at(slope, 1)(0) > 0)) {
+    const double left = chebyshev::first(slope, -1);
+    if ((left > 0) == (chebyshev::first(slope, 1) > 0)) {
       between(a, b);
       return;
     }
@@ -134,13 +134,13 @@ class RootSearch {
     double high = 1;
     while (high - low > kEpsilon) {
       const double x = (low + high) / 2;
-      ((chebyshev::at(slope, x)(0) > 0) == (left > 0) ? low : high) = x;
+      ((chebyshev::first(slope, x) > 0) == (left > 0) ? low : high) = x;
     }
     const double t = std::clamp(chebyshev::outer(low, a, b), a, b);
     const bool found = between(a, t) | between(t, b);
     const double g = value(t);
     // A minimum of |g|: below zero the slope falls, above it rises.
-    const bool towards = (chebyshev::at(c, low)(0) > 0) == (left < 0);
+    const bool towards = (chebyshev::first(c, low) > 0) == (left < 0);
     if (!found && towards && std::abs(g) <= kGrazes * scale_) found_.grazings.push_back({t, g});
   }
 

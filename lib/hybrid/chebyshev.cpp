@@ -1,5 +1,7 @@
 #include "hybrid/chebyshev.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <stdexcept>
@@ -55,16 +57,41 @@ Matrix coefficients(const Matrix& values) {
   return values.lazyProduct(transform(values.cols() - 1).matrix);
 }
 
+namespace {
+
+/// sum_k c_k w_k of `rows` functions whose coefficients of one k stand together, those of the next
+/// `stride` apart: no operation waits for the one before.
+template <int rows>
+void combine(const double* c, Index stride, const double* weights, std::size_t terms, double* out) {
+  std::array<double, rows> sum{};
+  for (std::size_t k = 0; k < terms; ++k, c += stride)
+    for (std::size_t r = 0; r < rows; ++r) sum[r] += weights[k] * c[r];
+  std::copy(sum.begin(), sum.end(), out);
+}
+
+}  // namespace
+
+void at(const Matrix& coefficients, double x, double* out) {
+  const Index rows = coefficients.rows();
+  const auto terms = static_cast<std::size_t>(coefficients.cols());
+  std::array<double, kLargestDegree + 1> usual;
+  std::vector<double> more(terms > usual.size() ? terms : 0);
+  double* const weights = more.empty() ? usual.data() : more.data();  // T_k(x)
+  weights[0] = 1;
+  if (terms > 1) weights[1] = x;
+  for (std::size_t k = 2; k < terms; ++k) weights[k] = 2 * x * weights[k - 1] - weights[k - 2];
+  const double* const c = coefficients.data();
+  Index row = 0;
+  for (; row + 32 <= rows; row += 32) combine<32>(c + row, rows, weights, terms, out + row);
+  for (; row + 8 <= rows; row += 8) combine<8>(c + row, rows, weights, terms, out + row);
+  for (; row + 2 <= rows; row += 2) combine<2>(c + row, rows, weights, terms, out + row);
+  if (row < rows) combine<1>(c + row, rows, weights, terms, out + row);
+}
+
 VectorXd at(const Matrix& coefficients, double x) {
-  const Index last = coefficients.cols() - 1;
-  VectorXd result = coefficients.col(last);
-  if (last == 0) return result;
-  VectorXd after = VectorXd::Zero(result.size());
-  for (Index k = last - 1; k > 0; --k) {
-    after = coefficients.col(k) + 2 * x * result - after;
-    after.swap(result);
-  }
-  return coefficients.col(0) + x * result - after;
+  VectorXd result(coefficients.rows());
+  at(coefficients, x, result.data());
+  return result;
 }
 
 Matrix part(const Matrix& coefficients, double from, double to) {

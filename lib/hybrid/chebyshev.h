@@ -22,6 +22,20 @@ numbers::Matrix coefficients(const numbers::Matrix& values);
 
 /// p(x), x in [-1, 1].
 Eigen::VectorXd at(const numbers::Matrix& coefficients, double x);
+/// Of the first function alone; of a matrix or a row.
+template <class Coefficients>
+double first(const Coefficients& coefficients, double x) {
+  double result = 0;
+  double after = 0;
+  for (Eigen::Index k = coefficients.cols() - 1; k > 0; --k) {
+    const double next = coefficients(0, k) + 2 * x * result - after;
+    after = result;
+    result = next;
+  }
+  return coefficients(0, 0) + x * result - after;
+}
+/// p(x), to `out`.
+void at(const numbers::Matrix& coefficients, double x, double* out);
 
 /// p on [from, to], a part of [-1, 1], as a series of its own.
 numbers::Matrix part(const numbers::Matrix& coefficients, double from, double to);

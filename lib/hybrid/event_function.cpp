@@ -15,30 +15,28 @@ using Eigen::VectorXd;
 
 }  // namespace
 
+numbers::StackedFunctions stacked(std::vector<const expr::Program*> programs,
+                                  const EventSystem& system) {
+  const auto place = [&](const std::string& name) -> std::optional<Eigen::Index> {
+    const auto slot = system.slot(name);
+    if (!slot) return std::nullopt;
+    return system.layout.slots[*slot].offset;
+  };
+  return {std::move(programs), place, system.constants, system.whole};
+}
+
 EventFunction::EventFunction(const expr::Program& program, const EventSystem& system)
-    : evaluator_(program) {
-  used_.reserve(program.inputs.size());
+    : function_(stacked({&program}, system)) {
   bool flows = false;
   for (const expr::Input& input : program.inputs) {
     const auto slot = system.slot(input.name);
-    if (!slot) {
-      evaluator_.fix(input.name, system.constants.find(input.name)->second);
-      continue;
-    }
+    if (!slot) continue;
     rests_ = rests_ && system.moves[*slot] == Moves::rests;
     flows = flows || system.moves[*slot] == Moves::flows;
-    used_.push_back({system.layout.slots[*slot].offset,
-                     numbers::Matrix::Zero(input.shape.rows, input.shape.cols)});
-    evaluator_.set(input.name, used_.back().value);
   }
   is_line_ = !rests_ && !flows && first_not_affine(program, [&](const std::string& name) {
                                     return system.is_moving(name);
                                   }) == nullptr;
-}
-
-const numbers::Matrix& EventFunction::operator()(const VectorXd& values) {
-  for (Used& used : used_) used.value.reshaped() = values.segment(used.offset, used.value.size());
-  return evaluator_.run();
 }
 
 EventBorder::EventBorder(const expr::Program& program, const EventSystem& system)

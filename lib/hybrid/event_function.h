@@ -9,21 +9,22 @@
 #include <vector>
 
 #include "expr/condition.h"
-#include "expr/evaluate.h"
 #include "hybrid/breaks.h"
 #include "hybrid/event_system.h"
-#include "numbers/real.h"
+#include "numbers/stacked_functions.h"
 
 namespace gainsmith::hybrid {
+
+/// Programs over the variables of a system as one function of all its values.
+numbers::StackedFunctions stacked(std::vector<const expr::Program*> programs,
+                                  const EventSystem& system);
 
 class EventFunction {
  public:
   EventFunction(const expr::Program& program, const EventSystem& system);
-  EventFunction(EventFunction&&) = default;  // a copy's evaluator would point into the original
-  EventFunction& operator=(EventFunction&&) = default;
 
   /// The value; it stands until the next call. EvaluationError when an operation has no result.
-  const numbers::Matrix& operator()(const Eigen::VectorXd& values);
+  const numbers::Matrix& operator()(const Eigen::VectorXd& values) { return function_(values); }
 
   /// Whether it is the same all along a flow.
   bool rests() const { return rests_; }
@@ -31,14 +32,9 @@ class EventFunction {
   bool is_line() const { return is_line_; }
 
  private:
-  struct Used {
-    Eigen::Index offset = 0;
-    numbers::Matrix value;
-  };
-  std::vector<Used> used_;
   bool rests_ = true;
   bool is_line_ = false;
-  expr::Evaluator<numbers::RealAlgebra> evaluator_;
+  numbers::StackedFunctions function_;
 };
 
 /// A function whose sign matters, with the sizes of the terms that it is the sum of: its rounding

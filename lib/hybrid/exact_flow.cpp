@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
+#include <memory>
 #include <vector>
 
 #include "base/number.h"
@@ -19,8 +19,8 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using numbers::Matrix;
 
-// Squaring multiplies the rounding of a short step; the wider type pays for it.
-using WideMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+using WideMatrix = ExactTable::WideMatrix;
+using Level = ExactTable::Level;
 
 constexpr int kExactDegree = 12;
 constexpr int kMostDoublings = 60;
@@ -78,44 +78,42 @@ class ExactFlow : public Flow {
   }
 
  private:
-  struct Level {
-    double length = 0;
-    std::vector<WideMatrix> wide;  ///< to each point of the series
-    std::vector<Matrix> maps;
-  };
-
   /// z = (y, what is steady in y', 1),  z' = G z.
   void read_generator(const VectorXd& values) {
     const Index n = movement_->size();
     const auto& steady = movement_->steady_inputs();
     const auto m = static_cast<Index>(steady.size());
     const VectorXd parameters = movement_->parameters(values);
-    VectorXd key(parameters.size() + m);
-    key.head(parameters.size()) = parameters;
-    for (Index k = 0; k < m; ++k)
-      key(key.size() - m + k) = movement_->steady_rate(steady[static_cast<std::size_t>(k)]);
-    if (known_ && key == key_) return;
-    key_ = key;
-    known_ = true;
+    std::vector<double> key(parameters.begin(), parameters.end());
+    for (const Index element : steady) key.push_back(movement_->steady_rate(element));
+    key.push_back(longest_);
     size_ = n + m + 1;
-    generator_ = Matrix::Zero(size_, size_);
+    std::shared_ptr<ExactTable>& known = movement_->tables().at(key);
+    if (known == nullptr)
+      known = make_table(n, m, Eigen::Map<const VectorXd>(key.data() + parameters.size(), m));
+    table_ = known;
+  }
+
+  std::shared_ptr<ExactTable> make_table(Index n, Index m, const VectorXd& steady_rates) {
+    auto made = std::make_shared<ExactTable>();
+    Matrix& generator = made->generator = Matrix::Zero(size_, size_);
     VectorXd constant(n), rate(n);
     movement_->rate_at(VectorXd::Zero(n), VectorXd::Zero(m), constant);
     for (Index k = 0; k < n + m; ++k) {
       const VectorXd unit = VectorXd::Unit(n + m, k);
       movement_->rate_at(unit.head(n), unit.tail(m), rate);
-      generator_.col(k).head(n) = rate - constant;
+      generator.col(k).head(n) = rate - constant;
     }
-    generator_.col(n + m).head(n) = constant;
-    generator_.col(n + m).segment(n, m) = key.tail(m);
-    set_lengths();
+    generator.col(n + m).head(n) = constant;
+    generator.col(n + m).segment(n, m) = steady_rates;
+    set_lengths(*made);
+    return made;
   }
 
-  void set_lengths() {
+  void set_lengths(ExactTable& table) const {
     const Index n = size_ - 1;
-    const Matrix M = generator_.topLeftCorner(n, n);
-    levels_.clear();
-    if (!generator_.allFinite()) throw IntegrationError("the flow is not finite", t_, false);
+    const Matrix M = table.generator.topLeftCorner(n, n);
+    if (!table.generator.allFinite()) throw IntegrationError("the flow is not finite", t_, false);
     double norm = 0;
     double rate = 0;
     if (n > 0) {
@@ -126,37 +124,38 @@ class ExactFlow : public Flow {
         rate = std::max({rate, std::abs(lambda.imag()), lambda.real()});
     }
     const double top = rate > 0 ? std::min(longest_, 1 / rate) : longest_;
-    shortest_ = norm > 0 ? std::min(top, kStepNorm / norm) : top;
-    top_ = 0;
-    while (top_ < kMostDoublings && std::ldexp(shortest_, top_ + 1) <= top) ++top_;
+    table.shortest = norm > 0 ? std::min(top, kStepNorm / norm) : top;
+    while (table.top < kMostDoublings && std::ldexp(table.shortest, table.top + 1) <= top)
+      ++table.top;
   }
 
   /// The shortest level that covers a length, below 0 where s_0 is longer than it has to be: the
   /// rounding of a series is that of the interval that it is made for.
   int level_of(double length) const {
     int exponent = 0;
-    std::frexp(length / shortest_, &exponent);
+    std::frexp(length / table_->shortest, &exponent);
     return std::max(exponent, -kMostDoublings);
   }
 
   const Level& level_at(int number) {
-    const auto known = levels_.find(number);
-    if (known != levels_.end()) return known->second;
+    const auto known = table_->levels.find(number);
+    if (known != table_->levels.end()) return known->second;
     const Level* half = number > 0 ? &level_at(number - 1) : nullptr;
     const VectorXd& points = chebyshev::points(kExactDegree);
     Level level;
-    level.length = std::ldexp(shortest_, number);
+    level.length = std::ldexp(table_->shortest, number);
     for (Index k = 0; k < points.size(); ++k) {
       if (half != nullptr) {
         const WideMatrix& map = half->wide[static_cast<std::size_t>(k)];
         level.wide.push_back(map.lazyProduct(map));
       } else {
         const long double part = (1 + static_cast<long double>(points(k))) / 2;
-        level.wide.push_back(short_step(generator_.cast<long double>(), part * level.length));
+        level.wide.push_back(
+            short_step(table_->generator.cast<long double>(), part * level.length));
       }
       level.maps.push_back(level.wide.back().cast<double>());
     }
-    return levels_.emplace(number, std::move(level)).first->second;
+    return table_->levels.emplace(number, std::move(level)).first->second;
   }
 
   Matrix series_over(const Level& level, bool& agrees) {
@@ -179,7 +178,7 @@ class ExactFlow : public Flow {
     DenseStep step = movement_->step(t_, end, series);
     z_ = (level.maps.back() * z_).eval();
     t_ = end;
-    if (grows_ && level_ < top_) ++level_;
+    if (grows_ && level_ < table_->top) ++level_;
     grows_ = true;
     return step;
   }
@@ -196,13 +195,8 @@ class ExactFlow : public Flow {
   Movement* movement_;
   double longest_;
   double t_ = 0, last_ = 0;
-  bool known_ = false;
-  VectorXd key_;  ///< what the generator was read for
   Index size_ = 1;
-  Matrix generator_;
-  double shortest_ = 0;
-  int top_ = 0;
-  std::map<int, Level> levels_;
+  std::shared_ptr<ExactTable> table_;
   int level_ = 0;
   bool grows_ = true;  ///< false: the last try of a longer step failed
   VectorXd z_;

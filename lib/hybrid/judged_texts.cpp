@@ -64,13 +64,13 @@ Truth opposite(Truth truth) {
 Text::Text(const expr::Program& program, const Place& place, const StateLayout& layout,
            const model::Stated& stated)
     : program_(linked(program, place, layout, stated)),
-      value_(*program_, used_part(layout, *program_), stated.values) {
+      value_(stacked({program_.get()}, used_part(layout, *program_), stated.values)) {
   for (const Slot& slot : used_part(layout, *program_).slots)
     for (Eigen::Index i = 0; i < slot.shape.size(); ++i) elements_.push_back(slot.offset + i);
 }
 
 numbers::Matrix Text::spread(const Eigen::VectorXd& x, const Eigen::VectorXd& rounding) {
-  const numbers::Matrix here = value_(x, 0);
+  const numbers::Matrix here = value_.at(0, x);
   numbers::Matrix sum = numbers::Matrix::Zero(here.rows(), here.cols());
   Eigen::VectorXd moved = x;
   for (const Eigen::Index i : elements_) {
@@ -78,7 +78,7 @@ numbers::Matrix Text::spread(const Eigen::VectorXd& x, const Eigen::VectorXd& ro
     numbers::Matrix most = sum * 0;
     for (const double side : {-1.0, 1.0}) {
       moved(i) = x(i) + side * rounding(i);
-      most = most.cwiseMax((value_(moved, 0) - here).cwiseAbs());
+      most = most.cwiseMax((value_.at(0, moved) - here).cwiseAbs());
     }
     sum += most;
     moved(i) = x(i);

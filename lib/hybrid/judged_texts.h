@@ -25,13 +25,13 @@ class Text {
        const model::Stated& stated);
 
   /// It stands until the next call. EvaluationError when it has no value.
-  const numbers::Matrix& operator()(const Eigen::VectorXd& x) { return value_(x, 0); }
+  const numbers::Matrix& operator()(const Eigen::VectorXd& x) { return value_.at(0, x); }
   /// How much each element moves, at most and to first order, when each x_i does by rounding_i.
   numbers::Matrix spread(const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
 
  private:
   std::unique_ptr<const expr::Program> program_;  ///< on the heap: the evaluator points to it
-  PointFunction value_;
+  numbers::StackedFunctions value_;               ///< evaluated by Real, unlike what it judges
   std::vector<Eigen::Index> elements_;  ///< of x that it uses
 };
 

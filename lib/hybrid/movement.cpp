@@ -16,6 +16,14 @@ namespace {
 /// Of the largest rate in a run: what counts as rounding in the flow of a symmetric state.
 constexpr double kAsymmetryOfRate = 1e-9;
 
+/// The programs of what flows and is not steady.
+std::vector<const expr::Program*> flowing(const EventSystem& system) {
+  std::vector<const expr::Program*> programs;
+  for (const model::Dynamics::Assignment& one : system.dynamics.flow)
+    if (system.moves[one.variable] != Moves::steady) programs.push_back(&one.value.program);
+  return programs;
+}
+
 bool is_symmetric(const model::Dynamics::Variable& variable) {
   return variable.structure == model::Structure::symmetric;
 }
@@ -23,7 +31,9 @@ bool is_symmetric(const model::Dynamics::Variable& variable) {
 }  // namespace
 
 Movement::Movement(const EventSystem& system)
-    : system_(&system), largest_rate_(system.dynamics.variables.size(), 0) {
+    : system_(&system),
+      together_(stacked(flowing(system), system)),
+      largest_rate_(system.dynamics.variables.size(), 0) {
   using Kind = model::Dynamics::VariableKind;
   const auto& variables = system.dynamics.variables;
   for (std::size_t i = 0; i < variables.size(); ++i) {
@@ -58,6 +68,9 @@ void Movement::add_flow(std::size_t flow) {
     for (Index row = symmetric ? column : 0; row < rows; ++row) {
       elements_.push_back(slot.offset + column * rows + row);
       mirrors_.push_back(symmetric ? slot.offset + row * rows + column : elements_.back());
+      rate_of_.push_back({flows_.size() - 1,
+                          static_cast<std::size_t>(elements_.back() - slot.offset),
+                          static_cast<std::size_t>(mirrors_.back() - slot.offset)});
     }
 }
 
@@ -100,9 +113,14 @@ void Movement::begin(double t, const VectorXd& values) {
   for (std::size_t c = 0; c < frozen_.size(); ++c)
     is_frozen_[c] = frozen_[c] && (*frozen_[c])(values);
   for (Entry& entry : steady_) set_steady(entry, t);
-  for (Entry& entry : flows_)
-    if (is_symmetric(system_->dynamics.variables[entry.variable]))
-      require_symmetric(entry, text_of(entry, values_));
+  const auto symmetric = [&](const Entry& entry) {
+    return is_symmetric(system_->dynamics.variables[entry.variable]);
+  };
+  if (std::none_of(flows_.begin(), flows_.end(), symmetric)) return;
+  const bool known = together_.run(values_);
+  for (std::size_t k = 0; k < flows_.size(); ++k)
+    if (symmetric(flows_[k]))
+      require_symmetric(flows_[k], known ? together_.value(k) : text_of(flows_[k], values_));
 }
 
 /// A line goes on as it was where nothing has changed it.
@@ -141,10 +159,15 @@ const numbers::Matrix& Movement::text_of(Entry& entry, const VectorXd& values) {
   return (*entry.free)(values);
 }
 
+bool Movement::is_frozen(const Entry& entry) const {
+  const auto& variable = system_->dynamics.variables[entry.variable];
+  return variable.kind == model::Dynamics::VariableKind::state && is_frozen_[variable.component];
+}
+
 /// The rate of a variable: 0 in a frozen component, of a symmetric one its symmetric part.
 const numbers::Matrix& Movement::value_of(Entry& entry, const VectorXd& values) {
   const auto& variable = system_->dynamics.variables[entry.variable];
-  if (variable.kind == model::Dynamics::VariableKind::state && is_frozen_[variable.component]) {
+  if (is_frozen(entry)) {
     symmetric_ = numbers::Matrix::Zero(variable.shape.rows, variable.shape.cols);
     return symmetric_;
   }
@@ -175,6 +198,17 @@ void Movement::spread(const VectorXd& y, VectorXd& values) const {
 }
 
 void Movement::rates(VectorXd& rate) {
+  if (together_.run(values_)) {
+    for (std::size_t k = 0; k < rate_of_.size(); ++k) {
+      const Element& one = rate_of_[k];
+      const double value = together_.element(one.flow, one.at);
+      rate(static_cast<Index>(k)) = is_frozen(flows_[one.flow]) ? 0
+                                    : one.at == one.mirror
+                                        ? value
+                                        : (value + together_.element(one.flow, one.mirror)) / 2;
+    }
+    return;
+  }
   for (Entry& entry : flows_) {
     const numbers::Matrix& value = value_of(entry, values_);
     const Slot& slot = system_->layout.slots[entry.variable];
@@ -193,10 +227,12 @@ void Movement::rate(double t, const VectorXd& y, VectorXd& rate) {
 }
 
 void Movement::rate_at(const VectorXd& y, const VectorXd& steady, VectorXd& rate) {
+  const VectorXd before = values_;
   spread(y, values_);
   for (std::size_t k = 0; k < steady_inputs_.size(); ++k)
     values_(steady_inputs_[k]) = steady(static_cast<Index>(k));
   rates(rate);
+  values_ = before;
 }
 
 double Movement::steady_rate(Index element) const {

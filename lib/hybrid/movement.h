@@ -14,6 +14,7 @@
 
 #include "hybrid/event_function.h"
 #include "hybrid/event_system.h"
+#include "hybrid/exact_tables.h"
 #include "hybrid/trajectory.h"
 
 namespace gainsmith::hybrid {
@@ -56,6 +57,8 @@ class Movement {
   /// The part of a step up to t: what is steady stays the same line, and what rests keeps its bits.
   DenseStep until(const DenseStep& step, double t) const;
   const EventSystem& system() const { return *system_; }
+  /// Of exact flows.
+  ExactTables& tables() { return tables_; }
 
  private:
   struct Line {
@@ -83,6 +86,7 @@ class Movement {
   const numbers::Matrix& value_of(Entry& entry, const Eigen::VectorXd& values);
   void set_steady(Entry& entry, double t);
   void require_symmetric(Entry& entry, const numbers::Matrix& rate);
+  bool is_frozen(const Entry& entry) const;
   void rates(Eigen::VectorXd& rate);
   void set_lines(DenseStep& step) const;
 
@@ -92,12 +96,18 @@ class Movement {
   std::vector<Eigen::Index> elements_;  ///< of y among the values
   std::vector<Eigen::Index> mirrors_;   ///< the transposed ones
   std::vector<Entry> flows_, steady_;
+  numbers::StackedFunctions together_;  ///< of flows_
+  struct Element {
+    std::size_t flow = 0, at = 0, mirror = 0;  ///< of the value of together_
+  };
+  std::vector<Element> rate_of_;  ///< of each element of y
   std::vector<Eigen::Index> steady_inputs_, resting_inputs_;
   std::vector<std::optional<EventCondition>> frozen_;  ///< by component
   std::vector<bool> is_frozen_;
   std::vector<double> largest_rate_;  ///< by variable, in this run
   numbers::Matrix symmetric_;
   Eigen::VectorXd values_;
+  ExactTables tables_;
 };
 
 }  // namespace gainsmith::hybrid

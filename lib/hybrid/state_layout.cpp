@@ -1,6 +1,8 @@
 #include "hybrid/state_layout.h"
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 namespace gainsmith::hybrid {
 
@@ -19,24 +21,27 @@ StateLayout make_layout(const std::vector<model::Design::State>& states, const s
   return layout;
 }
 
-PointFunction::PointFunction(const expr::Program& program, const StateLayout& layout,
-                             const numbers::Values& constants)
-    : slots_(layout.slots), evaluator_(program) {
-  for (const Slot& slot : slots_)
-    moving_.push_back(numbers::Matrix::Zero(slot.shape.rows, slot.shape.cols));
-  moving_.push_back(numbers::Matrix::Zero(1, 1));
-  for (const expr::Input& input : program.inputs)
-    if (const auto known = constants.find(input.name); known != constants.end())
-      evaluator_.fix(input.name, known->second);
-  for (std::size_t i = 0; i < slots_.size(); ++i) evaluator_.set(slots_[i].name, moving_[i]);
-  evaluator_.set(layout.timer, moving_.back());
+namespace {
+
+/// The timer stands beside the states.
+std::optional<Eigen::Index> place_of(const std::string& name, const StateLayout& layout) {
+  if (name == layout.timer) return layout.size;
+  const auto found = std::find_if(layout.slots.begin(), layout.slots.end(),
+                                  [&](const Slot& slot) { return slot.name == name; });
+  if (found == layout.slots.end()) return std::nullopt;
+  return found->offset;
 }
 
-const numbers::Matrix& PointFunction::operator()(const Eigen::VectorXd& x, double tau) {
-  for (std::size_t i = 0; i < slots_.size(); ++i)
-    moving_[i].reshaped() = x.segment(slots_[i].offset, slots_[i].shape.size());
-  moving_.back()(0, 0) = tau;
-  return evaluator_.run();
+}  // namespace
+
+numbers::StackedFunctions stacked(std::vector<const expr::Program*> programs,
+                                  const StateLayout& layout, const numbers::Values& constants) {
+  const auto place = [&](const std::string& name) { return place_of(name, layout); };
+  return {std::move(programs), place, constants, layout.size};
 }
+
+PointFunction::PointFunction(const expr::Program& program, const StateLayout& layout,
+                             const numbers::Values& constants)
+    : function_(stacked({&program}, layout, constants)) {}
 
 }  // namespace gainsmith::hybrid

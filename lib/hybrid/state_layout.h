@@ -5,10 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "expr/evaluate.h"
 #include "expr/program.h"
 #include "model/design.h"
-#include "numbers/real.h"
+#include "numbers/stacked_functions.h"
 
 namespace gainsmith::hybrid {
 
@@ -32,22 +31,25 @@ struct StateLayout {
 
 StateLayout make_layout(const std::vector<model::Design::State>& states, const std::string& timer);
 
+/// Programs as one function of (x, tau). They and the constants must outlive it; every input must
+/// be a state, the timer or a constant.
+numbers::StackedFunctions stacked(std::vector<const expr::Program*> programs,
+                                  const StateLayout& layout, const numbers::Values& constants);
+
 /// A program as a function of (x, tau), one point at a time. The program and the constants must
 /// outlive it; every input must be a state, the timer or a constant.
 class PointFunction {
  public:
   PointFunction(const expr::Program& program, const StateLayout& layout,
                 const numbers::Values& constants);
-  PointFunction(PointFunction&&) = default;  // a copy's evaluator would point into the original
-  PointFunction& operator=(PointFunction&&) = default;
 
   /// The value; it stands until the next call. InputError when an operation has no result.
-  const numbers::Matrix& operator()(const Eigen::VectorXd& x, double tau);
+  const numbers::Matrix& operator()(const Eigen::VectorXd& x, double tau) {
+    return function_(x, tau);
+  }
 
  private:
-  std::vector<Slot> slots_;
-  std::vector<numbers::Matrix> moving_;  ///< the states, then the timer
-  expr::Evaluator<numbers::RealAlgebra> evaluator_;
+  numbers::StackedFunctions function_;
 };
 
 }  // namespace gainsmith::hybrid

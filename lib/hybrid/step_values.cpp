@@ -1,6 +1,7 @@
 #include "hybrid/step_values.h"
 
 #include "hybrid/borders.h"
+#include "hybrid/chebyshev.h"
 
 namespace gainsmith::hybrid {
 
@@ -9,7 +10,7 @@ using Eigen::VectorXd;
 VectorXd StepValues::at(double t) const {
   VectorXd values = *start_;
   if (t == step_->from) return values;
-  values.head(movement_->system().size) = (*step_)(t);
+  chebyshev::at(step_->coefficients, chebyshev::inner(t, step_->from, step_->to), values.data());
   movement_->fill(t, values);
   return values;
 }

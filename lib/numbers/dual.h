@@ -11,6 +11,7 @@
 // is the operation. They may still be left behind by index, max or where.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "expr/number_type.h"
@@ -49,6 +50,23 @@ template <class Scalar>
 MatrixOf<Scalar> jacobian(const expr::Instruction& instruction,
                           expr::Operands<MatrixOf<Scalar>> operands);
 
+/// The same again and again, of one instruction, which must outlive it.
+template <class Scalar>
+class JacobianEvaluator {
+ public:
+  explicit JacobianEvaluator(const expr::Instruction& instruction);
+  JacobianEvaluator(JacobianEvaluator&&) noexcept;
+  JacobianEvaluator& operator=(JacobianEvaluator&&) noexcept;
+  ~JacobianEvaluator();
+
+  MatrixOf<Scalar> operator()(expr::Operands<MatrixOf<Scalar>> operands);
+
+ private:
+  struct Kept;
+  std::unique_ptr<Kept> kept_;
+};
+
+extern template class JacobianEvaluator<double>;
 extern template Dual<double> constant_dual<double>(const Matrix&);
 extern template Dual<double> variable_dual<double>(const Matrix&);
 extern template struct DualNumbers<double>;

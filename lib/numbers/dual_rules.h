@@ -370,23 +370,45 @@ void DualNumbers<Scalar>::apply(const expr::Instruction& instruction,
 }
 
 template <class Scalar>
-MatrixOf<Scalar> jacobian(const expr::Instruction& instruction,
-                          expr::Operands<MatrixOf<Scalar>> operands) {
-  expr::Evaluator<DualNumbers<Scalar>> evaluator(*instruction.body);
-  std::vector<Dual<Scalar>> inputs;
-  inputs.reserve(operands.size());
-  for (const MatrixOf<Scalar>* operand : operands) {
-    inputs.push_back(inputs.empty() ? variable_dual<Scalar>(*operand)
-                                    : constant_dual<Scalar>(*operand));
-    evaluator.set(inputs.size() - 1, inputs.back());
+struct JacobianEvaluator<Scalar>::Kept {
+  explicit Kept(const expr::Instruction& instruction)
+      : evaluator(*instruction.body), inputs(instruction.operands.size()) {
+    for (std::size_t k = 0; k < inputs.size(); ++k) evaluator.set(k, inputs[k]);
   }
-  const Dual<Scalar>& result = evaluator.run();
+
+  expr::Evaluator<DualNumbers<Scalar>> evaluator;
+  std::vector<Dual<Scalar>> inputs;
+};
+
+template <class Scalar>
+JacobianEvaluator<Scalar>::JacobianEvaluator(const expr::Instruction& instruction)
+    : kept_(std::make_unique<Kept>(instruction)) {}
+template <class Scalar>
+JacobianEvaluator<Scalar>::JacobianEvaluator(JacobianEvaluator&&) noexcept = default;
+template <class Scalar>
+JacobianEvaluator<Scalar>& JacobianEvaluator<Scalar>::operator=(JacobianEvaluator&&) noexcept =
+    default;
+template <class Scalar>
+JacobianEvaluator<Scalar>::~JacobianEvaluator() = default;
+
+template <class Scalar>
+MatrixOf<Scalar> JacobianEvaluator<Scalar>::operator()(expr::Operands<MatrixOf<Scalar>> operands) {
+  for (std::size_t k = 0; k < operands.size(); ++k)
+    kept_->inputs[k] =
+        k == 0 ? variable_dual<Scalar>(*operands[k]) : constant_dual<Scalar>(*operands[k]);
+  const Dual<Scalar>& result = kept_->evaluator.run();
   if (!result.slope.allFinite())
     throw expr::EvaluationError(
         result.without ? "jacobian: the " + expr::to_string(*result.without) +
                              " has no derivative at this point"
                        : std::string("jacobian: the derivative is not a finite number"));
   return result.slope;
+}
+
+template <class Scalar>
+MatrixOf<Scalar> jacobian(const expr::Instruction& instruction,
+                          expr::Operands<MatrixOf<Scalar>> operands) {
+  return JacobianEvaluator<Scalar>(instruction)(operands);
 }
 
 }  // namespace gainsmith::numbers

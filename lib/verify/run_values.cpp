@@ -3,22 +3,51 @@
 #include <cmath>
 #include <limits>
 
+#include "hybrid/chebyshev.h"
+
 namespace gainsmith::verify {
 
 RunValue::RunValue(const expr::Program& program, const hybrid::StateLayout& layout,
                    const numbers::Values& constants)
-    : function_(program, layout, constants),
+    : function_(hybrid::stacked({&program}, layout, constants)),
       breaks_(program, layout, constants,
               [&](const std::string& name) { return layout.moves(name); }),
       none_(numbers::Matrix::Constant(program.shape().rows, program.shape().cols,
-                                      std::numeric_limits<double>::quiet_NaN())) {}
+                                      std::numeric_limits<double>::quiet_NaN())),
+      used_(function_.elements()),
+      used_values_(Eigen::VectorXd::Zero(static_cast<Eigen::Index>(used_.size()))),
+      point_(Eigen::VectorXd::Zero(layout.size)) {}
 
 const numbers::Matrix& RunValue::operator()(const Eigen::VectorXd& x) {
   try {
-    return function_(x, 0);
+    return function_(x);
   } catch (const InputError&) {
     return none_;
   }
+}
+
+double RunValue::number(const Eigen::VectorXd& x) {
+  return function_.run(x) ? function_.element(0, 0) : (*this)(x)(0, 0);
+}
+
+void RunValue::follow(const hybrid::DenseStep& step) {
+  from_ = step.from;
+  to_ = step.to;
+  followed_ = step.coefficients(used_, Eigen::all);
+}
+
+const Eigen::VectorXd& RunValue::point(double t) {
+  hybrid::chebyshev::at(followed_, hybrid::chebyshev::inner(t, from_, to_), used_values_.data());
+  for (std::size_t k = 0; k < used_.size(); ++k)
+    point_(used_[k]) = used_values_(static_cast<Eigen::Index>(k));
+  return point_;
+}
+
+Eigen::VectorXd RunValue::sizes() const {
+  Eigen::VectorXd result = Eigen::VectorXd::Zero(point_.size());
+  for (std::size_t k = 0; k < used_.size(); ++k)
+    result(used_[k]) = followed_.row(static_cast<Eigen::Index>(k)).cwiseAbs().sum();
+  return result;
 }
 
 namespace {

@@ -7,7 +7,7 @@
 
 #include "hybrid/breaks.h"
 #include "hybrid/trajectory.h"
-#include "model/stated.h"
+#include "numbers/stacked_functions.h"
 
 namespace gainsmith::verify {
 
@@ -21,14 +21,24 @@ class RunValue {
 
   /// Not a number where it has no value.
   const numbers::Matrix& operator()(const Eigen::VectorXd& x);
-  double number(const Eigen::VectorXd& x) { return (*this)(x)(0, 0); }
+  double number(const Eigen::VectorXd& x);
+
+  /// From now on at() and breaks() are along this step: the variables that it uses are computed
+  /// alone.
+  void follow(const hybrid::DenseStep& step);
+  /// The value at t in the step.
+  double at(double t) { return number(point(t)); }
+  /// At t all variables that it uses; others are 0.
+  const Eigen::VectorXd& point(double t);
+  /// Of each of the variables that it uses, the sum of the sizes of its coefficients; others are 0.
+  Eigen::VectorXd sizes() const;
 
   /// Whether it is smooth along every flow.
   bool is_smooth() const { return breaks_.none(); }
   /// Where it is not, on a step.
-  std::vector<hybrid::Break> breaks_on(const hybrid::DenseStep& step,
-                                       std::vector<double>* near = nullptr) {
-    return breaks_.on(step, step.from, step.to, near);
+  std::vector<hybrid::Break> breaks(std::vector<double>* near = nullptr) {
+    return breaks_.on([this](double t) -> const Eigen::VectorXd& { return point(t); }, from_, to_,
+                      near);
   }
   /// What is 0 there.
   std::vector<const expr::Program*> differences() const { return breaks_.differences(); }
@@ -38,9 +48,13 @@ class RunValue {
   }
 
  private:
-  hybrid::PointFunction function_;
+  numbers::StackedFunctions function_;
   hybrid::Breaks breaks_;
   numbers::Matrix none_;
+  std::vector<Eigen::Index> used_;  ///< elements of the variables
+  double from_ = 0, to_ = 0;
+  numbers::Matrix followed_;  ///< coefficients of what is used
+  Eigen::VectorXd used_values_, point_;
 };
 
 /// A moment of a run.

@@ -65,7 +65,7 @@ class Halving {
       bool agrees = part.series.tail(2).cwiseAbs().sum() <= tolerance;
       for (std::size_t k = 0; k < kChecks.size(); ++k)
         agrees =
-            agrees && std::abs(chebyshev::at(part.series, kChecks[k])(0) - checks[k]) <= tolerance;
+            agrees && std::abs(chebyshev::first(part.series, kChecks[k]) - checks[k]) <= tolerance;
       if (agrees) return true;
     }
     return false;
@@ -80,8 +80,8 @@ class Halving {
 
   /// In some directions.
   double noise_at(double t) {
-    const Eigen::VectorXd x = step_(t);
-    const Eigen::VectorXd sizes = step_.coefficients.cwiseAbs().rowwise().sum();
+    const Eigen::VectorXd x = value_.point(t);
+    const Eigen::VectorXd sizes = value_.sizes();
     const double value = value_.number(x);
     double result = 0;
     for (const Index period : {1, 2, 4}) {
@@ -98,7 +98,7 @@ class Halving {
     // At a border itself a sign may be 0, beside it never.
     const double inside = std::clamp(x, -1 + kBeside, 1 - kBeside);
     const double t = chebyshev::outer(inside, part.from, part.to);
-    const double value = value_.number(step_(t));
+    const double value = value_.at(t);
     if (!std::isfinite(value) && !part.undefined) part.undefined = t;
     return value;
   }
@@ -123,11 +123,11 @@ void add_roots(const numbers::Matrix& c, double low, double high, int halvings,
   if (excludes(chebyshev::derivative(c)) || halvings >= kMostTurnHalvings) {
     double left = -1;
     double right = 1;
-    const bool first = chebyshev::at(c, left)(0) > 0;
-    if (first == (chebyshev::at(c, right)(0) > 0)) return;
+    const bool first = chebyshev::first(c, left) > 0;
+    if (first == (chebyshev::first(c, right) > 0)) return;
     for (int k = 0; k < kBisections; ++k) {
       const double middle = (left + right) / 2;
-      ((chebyshev::at(c, middle)(0) > 0) == first ? left : right) = middle;
+      ((chebyshev::first(c, middle) > 0) == first ? left : right) = middle;
     }
     roots.push_back(chebyshev::outer(left, low, high));
     return;
@@ -151,15 +151,16 @@ double SmoothPart::time(int point) const {
 }
 
 double SmoothPart::operator()(double t) const {
-  return chebyshev::at(series, chebyshev::inner(t, from, to))(0);
+  return chebyshev::first(series, chebyshev::inner(t, from, to));
 }
 
 std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& step,
                                      std::vector<double>* near, double agreement) {
+  value.follow(step);
   std::vector<SmoothPart> parts;
   Halving halving(value, step, agreement);
   SmoothPart part{step.from, step.to};
-  for (const hybrid::Break& one : value.breaks_on(step, near)) {
+  for (const hybrid::Break& one : value.breaks(near)) {
     part.to = one.left;
     if (part.from < part.to || parts.empty()) halving.halve(part, kPatience, parts);
     parts.back().before_jump = one.jumps;

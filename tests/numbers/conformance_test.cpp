@@ -5,6 +5,7 @@
 #include "numbers/enclosure.h"
 #include "numbers/jet.h"
 #include "numbers/pack.h"
+#include "numbers/stacked_functions.h"
 
 namespace gainsmith::numbers {
 namespace {
@@ -88,11 +89,41 @@ Subject pack() {
   return subject<PackAlgebra>("pack", 1e-14, constant_pack, moving, value);
 }
 
+/// Constants, and one vector of what moves.
+Subject tape() {
+  Subject result;
+  result.name = "tape";
+  result.tolerance = 1e-14;
+  result.of_jacobians = 1e-14;
+  result.evaluate = [](const expr::Program& program, const Values& fixed, const Values& moving) {
+    std::map<std::string, Eigen::Index> places;
+    Vector x(0);
+    for (const auto& [name, value] : moving) {
+      places[name] = x.size();
+      x.conservativeResize(x.size() + value.size());
+      x.tail(value.size()) = value.reshaped();
+    }
+    const auto place = [&](const std::string& name) {
+      const auto found = places.find(name);
+      return found == places.end() ? std::nullopt : std::optional(found->second);
+    };
+    StackedFunctions functions({&program, &program}, place, fixed, x.size());
+    if (!functions.run(x)) return Matrix(functions.at(0, x));
+    const Matrix first = functions.value(0);
+    EXPECT_EQ(functions.value(1), first);
+    EXPECT_TRUE(functions.run(x));
+    EXPECT_EQ(functions.value(0), first) << "another run gives other bits";
+    EXPECT_EQ(shape_of(first), program.shape());
+    return first;
+  };
+  return result;
+}
+
 INSTANTIATE_TEST_SUITE_P(NumberTypes, Conformance,
                          testing::Values(real<double>("double", 1e-14),
                                          real<DoubleDouble>("31 digits", 1e-29),
                                          real<Decimal100>("100 digits", 1e-97), pack(), jet(),
-                                         dual(), enclosure<double>("enclosure", 1e-14),
+                                         dual(), tape(), enclosure<double>("enclosure", 1e-14),
                                          enclosure<DoubleDouble>("enclosure 31 digits", 1e-29),
                                          enclosure<Decimal100>("enclosure 100 digits", 1e-97)),
                          [](const auto& tested) {

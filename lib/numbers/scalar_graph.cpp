@@ -1,0 +1,198 @@
+#include "numbers/scalar_graph.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "numbers/scalar_functions.h"
+
+namespace gainsmith::numbers {
+
+double apply(ScalarOp op, double a, double b, double c) {
+  switch (op) {
+    case ScalarOp::add:
+      return a + b;
+    case ScalarOp::subtract:
+      return a - b;
+    case ScalarOp::multiply:
+      return a * b;
+    case ScalarOp::divide:
+      return a / b;
+    case ScalarOp::negate:
+      return -a;
+    case ScalarOp::minimum:
+      return b < a ? b : a;
+    case ScalarOp::maximum:
+      return a < b ? b : a;
+    case ScalarOp::where_positive:
+      return a > 0 ? b : c;
+    case ScalarOp::where_nonnegative:
+      return a >= 0 ? b : c;
+    case ScalarOp::power:
+      return std::pow(a, b);
+    case ScalarOp::mod:
+      return b == 0 ? std::numeric_limits<double>::quiet_NaN() : mod(a, b);
+    case ScalarOp::angle:
+      return angle(a, b);
+    case ScalarOp::abs:
+      return std::abs(a);
+    case ScalarOp::sign:
+      return a > 0 ? 1 : a < 0 ? -1 : 0;
+    case ScalarOp::floor:
+      return std::floor(a);
+    case ScalarOp::exp:
+      return std::exp(a);
+    case ScalarOp::log:
+      return std::log(a);
+    case ScalarOp::sqrt:
+      return std::sqrt(a);
+    case ScalarOp::sin:
+      return std::sin(a);
+    case ScalarOp::cos:
+      return std::cos(a);
+    case ScalarOp::tanh:
+      return std::tanh(a);
+    case ScalarOp::multiply_add:
+      return a * b + c;
+    default:
+      break;
+  }
+  throw std::logic_error("no operation on numbers");
+}
+
+std::size_t ScalarGraph::Hash::operator()(const Key& key) const {
+  std::uint64_t hash = 0;
+  for (const int part : key) {
+    hash ^= static_cast<std::uint32_t>(part);
+    hash *= 0x9e3779b97f4a7c15U;
+    hash ^= hash >> 32;
+  }
+  return static_cast<std::size_t>(hash);
+}
+
+void ScalarGraph::return_to(Mark mark) {
+  const auto is_later = [&](const auto& known) { return known.second >= mark.nodes; };
+  std::erase_if(known_, is_later);
+  std::erase_if(known_constants_, is_later);
+  std::erase_if(known_blocks_, [&](const auto& known) { return known.second >= mark.blocks; });
+  nodes_.resize(index(mark.nodes));
+  blocks_.resize(index(mark.blocks));
+}
+
+int ScalarGraph::constant(double value) {
+  const auto [found, fresh] = known_constants_.emplace(std::bit_cast<std::uint64_t>(value),
+                                                       static_cast<int>(nodes_.size()));
+  if (fresh) {
+    nodes_.push_back({ScalarOp::constant, static_cast<int>(constants_.size()), -1, -1});
+    constants_.push_back(value);
+  }
+  return found->second;
+}
+
+int ScalarGraph::node(const Node& made) {
+  const Key key{static_cast<int>(made.op), made.a, made.b, made.c};
+  const auto [found, fresh] = known_.emplace(key, static_cast<int>(nodes_.size()));
+  if (fresh) nodes_.push_back(made);
+  return found->second;
+}
+
+int ScalarGraph::folded(const Node& made) {
+  const auto known = [&](int at) { return at < 0 || is_constant(at); };
+  if (known(made.a) && known(made.b) && known(made.c)) {
+    const auto number = [&](int at) { return at < 0 ? 0 : value(at); };
+    const double result = numbers::apply(made.op, number(made.a), number(made.b), number(made.c));
+    if (std::isfinite(result)) return constant(result);
+  }
+  return node(made);
+}
+
+int ScalarGraph::add(int a, int b) {
+  if (is_zero(a)) return b;
+  if (is_zero(b)) return a;
+  if (nodes_[index(b)].op == ScalarOp::negate) return subtract(a, nodes_[index(b)].a);
+  return folded({ScalarOp::add, std::min(a, b), std::max(a, b), -1});
+}
+
+int ScalarGraph::subtract(int a, int b) {
+  if (is_zero(b)) return a;
+  if (is_zero(a)) return negate(b);
+  if (nodes_[index(b)].op == ScalarOp::negate) return add(a, nodes_[index(b)].a);
+  return folded({ScalarOp::subtract, a, b, -1});
+}
+
+int ScalarGraph::multiply(int a, int b) {
+  if (is_zero(a)) return a;
+  if (is_zero(b)) return b;
+  for (const auto& [one, other] : {std::pair(a, b), std::pair(b, a)}) {
+    if (is_constant(one) && value(one) == 1) return other;
+    if (is_constant(one) && value(one) == -1) return negate(other);
+  }
+  return folded({ScalarOp::multiply, std::min(a, b), std::max(a, b), -1});
+}
+
+int ScalarGraph::divide(int a, int b) {
+  if (is_constant(b) && value(b) == 1) return a;
+  return folded({ScalarOp::divide, a, b, -1});
+}
+
+int ScalarGraph::negate(int a) {
+  if (nodes_[index(a)].op == ScalarOp::negate) return nodes_[index(a)].a;
+  return folded({ScalarOp::negate, a, -1, -1});
+}
+
+int ScalarGraph::where(bool strict, int difference, int b, int c) {
+  if (b == c) return b;
+  if (is_constant(difference)) {
+    const double d = value(difference);
+    return (strict ? d > 0 : d >= 0) ? b : c;
+  }
+  return node({strict ? ScalarOp::where_positive : ScalarOp::where_nonnegative, difference, b, c});
+}
+
+int ScalarGraph::apply(ScalarOp op, int a, int b) { return folded({op, a, b, -1}); }
+
+bool ScalarGraph::is_partial(int at) const {
+  const Node& one = nodes_[index(at)];
+  switch (one.op) {
+    case ScalarOp::divide:
+      return !is_constant(one.b) || value(one.b) == 0;
+    case ScalarOp::power:
+    case ScalarOp::mod:
+    case ScalarOp::exp:
+    case ScalarOp::log:
+    case ScalarOp::sqrt:
+      return true;
+    default:
+      return false;
+  }
+}
+
+int ScalarGraph::number_of(const std::shared_ptr<const expr::Program>& body) {
+  if (!body) return -1;
+  const auto found = std::ranges::find_if(
+      bodies_, [&](const auto& known) { return known == body || is_same(*known, *body); });
+  if (found != bodies_.end()) return static_cast<int>(found - bodies_.begin());
+  bodies_.push_back(body);
+  return static_cast<int>(bodies_.size()) - 1;
+}
+
+int ScalarGraph::block(Block block) {
+  const expr::Instruction& instruction = block.instruction;
+  std::vector<int> heights;
+  for (const expr::Shape& shape : block.shapes) heights.push_back(shape.rows);
+  heights.push_back(instruction.shape.rows);
+  const BlockKey key{instruction.op, instruction.attributes, number_of(instruction.body),
+                     block.operands, std::move(heights)};
+  const auto [found, fresh] = known_blocks_.emplace(key, static_cast<int>(blocks_.size()));
+  if (!fresh) return blocks_[index(found->second)].first;
+  block.first = static_cast<int>(nodes_.size());
+  for (int k = 0; k < instruction.shape.size(); ++k)
+    nodes_.push_back({ScalarOp::element, found->second, -1, -1});
+  blocks_.push_back(std::move(block));
+  return blocks_.back().first;
+}
+
+}  // namespace gainsmith::numbers

@@ -1,0 +1,125 @@
+// Internal to numbers: operations on single numbers as a graph without equal nodes. What is known
+// is folded: sums with 0, products with 0 and 1, operations on constants.
+//
+// A product with the constant 0 is 0, whatever the other factor is; but what may have no value
+// (is_partial) stays, so that its fault is seen.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <unordered_map>
+#include <vector>
+
+#include "expr/program.h"
+
+namespace gainsmith::numbers {
+
+enum class ScalarOp : std::uint8_t {
+  input,     ///< number `a` of the stacked inputs
+  constant,  ///< number `a` of the constants
+  element,   ///< of the result of block `a`
+  add,
+  subtract,
+  multiply,
+  divide,
+  negate,
+  minimum,
+  maximum,
+  where_positive,     ///< a > 0 ? b : c
+  where_nonnegative,  ///< a >= 0 ? b : c
+  power,
+  mod,
+  angle,  ///< atan2(a, b)
+  abs,
+  sign,
+  floor,
+  exp,
+  log,
+  sqrt,
+  sin,
+  cos,
+  tanh,
+  multiply_add,  ///< a b + c, rounded twice; of tapes (tape.h) alone
+  block          ///< number `a` of the blocks; of tapes alone
+};
+
+/// The operation on doubles.
+double apply(ScalarOp op, double a, double b, double c);
+
+class ScalarGraph {
+ public:
+  struct Node {
+    ScalarOp op = ScalarOp::constant;
+    int a = -1, b = -1, c = -1;  ///< nodes before it, or as ScalarOp says
+  };
+  /// An operation on matrices whose operands and result are nodes, column by column.
+  struct Block {
+    expr::Instruction instruction;
+    std::vector<std::vector<int>> operands;
+    std::vector<expr::Shape> shapes;  ///< of the operands
+    int first = 0;                    ///< node of its result; the others follow
+  };
+
+  int input(int position) { return node({ScalarOp::input, position, -1, -1}); }
+  int constant(double value);
+  int add(int a, int b);
+  int subtract(int a, int b);
+  int multiply(int a, int b);
+  int divide(int a, int b);
+  int negate(int a);
+  /// b where the node `difference` is > 0 (`strict`) or >= 0, otherwise c.
+  int where(bool strict, int difference, int b, int c);
+  /// Any other operation on one or two nodes.
+  int apply(ScalarOp op, int a, int b = -1);
+  /// The first node of the result, unless there is one like it.
+  int block(Block block);
+
+  /// What is there, to come back to: what was added since is forgotten.
+  struct Mark {
+    int nodes = 0, blocks = 0;
+  };
+  Mark mark() const { return {static_cast<int>(nodes_.size()), static_cast<int>(blocks_.size())}; }
+  void return_to(Mark mark);
+
+  bool is_constant(int at) const { return nodes_[index(at)].op == ScalarOp::constant; }
+  bool is_zero(int at) const { return is_constant(at) && value(at) == 0; }
+  /// Of a constant.
+  double value(int at) const { return constants_[index(nodes_[index(at)].a)]; }
+  /// Whether it may have no value, or none that is finite, where its operands have.
+  bool is_partial(int at) const;
+
+  const std::vector<Node>& nodes() const { return nodes_; }
+  const std::vector<Block>& blocks() const { return blocks_; }
+
+ private:
+  using Key = std::array<int, 4>;
+  struct Hash {
+    std::size_t operator()(const Key& key) const;
+  };
+  struct BlockKey {
+    expr::Op op;
+    expr::Attributes attributes;
+    int body;
+    std::vector<std::vector<int>> operands;
+    std::vector<int> heights;  ///< of the operands, then of the result
+    auto operator<=>(const BlockKey&) const = default;
+  };
+
+  static std::size_t index(int at) { return static_cast<std::size_t>(at); }
+  int node(const Node& node);
+  /// The constant that it is, if its operands are and it has a value.
+  int folded(const Node& node);
+  int number_of(const std::shared_ptr<const expr::Program>& body);
+
+  std::vector<Node> nodes_;
+  std::vector<double> constants_;
+  std::vector<Block> blocks_;
+  std::unordered_map<Key, int, Hash> known_;
+  std::unordered_map<std::uint64_t, int> known_constants_;  ///< by their bits
+  std::map<BlockKey, int> known_blocks_;
+  std::vector<std::shared_ptr<const expr::Program>> bodies_;
+};
+
+}  // namespace gainsmith::numbers

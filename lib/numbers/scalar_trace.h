@@ -1,0 +1,36 @@
+// Internal to numbers: programs as nodes of a scalar graph.
+//
+// The rules are those of Real, element by element; derivatives (Op::jacobian) are those of Dual,
+// whose slopes are nodes too. What has no formula on numbers is one block: decompositions of
+// matrices, projections, flow_map, extremum, and derivatives of these.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "expr/program.h"
+#include "numbers/real.h"
+#include "numbers/scalar_graph.h"
+
+namespace gainsmith::numbers {
+
+/// Nodes of a matrix, column by column.
+struct TracedMatrix {
+  expr::Shape shape;
+  std::vector<int> value;
+  /// By direction the nodes of its derivative; empty: it does not move.
+  std::vector<std::vector<int>> slopes{};
+
+  bool moves() const { return !slopes.empty(); }
+};
+
+/// What stands for an input.
+using TracedInput = std::function<TracedMatrix(const expr::Input&)>;
+
+/// The result of a program without calls.
+TracedMatrix trace(const expr::Program& program, const TracedInput& input, ScalarGraph& graph);
+
+/// The nodes of a known matrix.
+TracedMatrix traced(const Matrix& value, ScalarGraph& graph);
+
+}  // namespace gainsmith::numbers

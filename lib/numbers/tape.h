@@ -1,0 +1,70 @@
+// Programs over doubles as one list of operations on single numbers, which all of them share:
+//
+//   registers   the inputs, the constants, one for each operation
+//   operation   register <- op(register, register, register); what has no formula on numbers is a
+//               block, an operation on matrices
+//
+// What several results need is computed once, and so is what `let` shares between states. The
+// values are those of Real up to rounding, the same on every machine but for elementary functions.
+// A run allocates nothing, blocks apart.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "numbers/dual.h"
+#include "numbers/scalar_trace.h"
+
+namespace gainsmith::numbers {
+
+class Tape {
+ public:
+  /// Computes the nodes of `results` and what may have no value, from `inputs` numbers.
+  Tape(const ScalarGraph& graph, const std::vector<std::vector<int>>& results, int inputs);
+  Tape(Tape&&) noexcept = default;
+  Tape& operator=(Tape&&) noexcept = default;
+
+  /// Where the inputs are written before a run, and which of them are read.
+  double* inputs() { return registers_.data(); }
+  const std::vector<std::uint32_t>& reads() const { return reads_; }
+  /// False: something has no value, or is not finite. Then the results say nothing.
+  bool run();
+  /// Element `k` of a result.
+  double operator()(std::size_t result, std::size_t k) const {
+    return registers_[results_[result][k]];
+  }
+  /// All elements, to `out`.
+  void copy(std::size_t result, double* out) const {
+    for (const std::uint32_t at : results_[result]) *out++ = registers_[at];
+  }
+  std::size_t operations() const { return steps_.size(); }
+
+ private:
+  struct Step {
+    ScalarOp op;
+    std::uint32_t out, a, b, c;
+  };
+  struct Block {
+    expr::Instruction instruction;
+    std::vector<std::vector<std::uint32_t>> from;
+    std::vector<Matrix> operands;
+    std::vector<const Matrix*> pointers;
+    Matrix out;
+    bool is_known = false;  ///< `out` is the value for these operands
+    std::unique_ptr<JacobianEvaluator<double>> jacobian;
+  };
+
+  class Maker;
+  bool run_block(Block& block, double* out);
+  bool is_finite() const;
+
+  std::vector<double> registers_;
+  std::vector<Step> steps_;
+  std::vector<std::unique_ptr<Block>> blocks_;
+  std::vector<std::vector<std::uint32_t>> results_;
+  std::vector<std::uint32_t> reads_;
+  std::size_t first_ = 0;  ///< register that is computed
+};
+
+}  // namespace gainsmith::numbers

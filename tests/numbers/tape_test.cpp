@@ -1,0 +1,110 @@
+// Programs as one tape: what they share, what is known, and where there is no value.
+#include "numbers/tape.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+
+#include "expr/compile.h"
+#include "expr/parser.h"
+#include "numbers/stacked_functions.h"
+
+namespace gainsmith::numbers {
+namespace {
+
+/// Texts over x of three elements and the constant A.
+class Texts {
+ public:
+  explicit Texts(std::initializer_list<std::string> texts) {
+    constants_["A"] = (Matrix(3, 3) << 0, 1, 0, -2, -1, 0, 0, 0, 3).finished();
+    expr::Scope scope;
+    scope.symbols["A"] = {{3, 3}, true};
+    scope.symbols["x"] = {{3, 1}, false};
+    for (const std::string& text : texts)
+      programs_.push_back(expr::compile(expr::parse({text, "test"}), scope));
+  }
+
+  StackedFunctions functions() const {
+    std::vector<const expr::Program*> all;
+    for (const expr::Program& program : programs_) all.push_back(&program);
+    return {all, place, constants_, 3};
+  }
+
+  /// How many operations there are.
+  std::size_t operations() const {
+    ScalarGraph graph;
+    std::vector<std::vector<int>> results;
+    for (const expr::Program& program : programs_) {
+      const auto input = [&](const expr::Input& one) {
+        if (one.name == "A") return traced(constants_.at("A"), graph);
+        return TracedMatrix{{3, 1}, {graph.input(0), graph.input(1), graph.input(2)}};
+      };
+      results.push_back(trace(program, input, graph).value);
+    }
+    return Tape(graph, results, 3).operations();
+  }
+
+ private:
+  static std::optional<Eigen::Index> place(const std::string& name) {
+    return name == "x" ? std::optional<Eigen::Index>(0) : std::nullopt;
+  }
+
+  Values constants_;
+  std::deque<expr::Program> programs_;
+};
+
+Vector point(double a, double b, double c) { return (Vector(3) << a, b, c).finished(); }
+
+TEST(Tape, WhatSeveralResultsShareIsComputedOnce) {
+  const std::size_t one = Texts({"exp(x(1))*sin(x(2))"}).operations();
+  EXPECT_EQ(Texts({"exp(x(1))*sin(x(2))", "sin(x(2))*exp(x(1))"}).operations(), one);
+  EXPECT_EQ(Texts({"exp(x(1))*sin(x(2))", "exp(x(1))*sin(x(2)) + x(3)"}).operations(), one + 1);
+}
+
+TEST(Tape, ZerosAndOnesOfAMatrixCostNothing) {
+  // x(2); -2 x(1) - x(2); 3 x(3)
+  EXPECT_LE(Texts({"A*x"}).operations(), 3U);
+  EXPECT_EQ(Texts({"eye(3)*x + zeros(3, 1)"}).operations(), 0U);
+}
+
+TEST(Tape, ADerivativeIsAFormula) {
+  const Texts texts({"jacobian([x(1)*x(2); x(3)^2; sin(x(1))], x)"});
+  StackedFunctions functions = texts.functions();
+  ASSERT_TRUE(functions.run(point(2, 3, 5)));
+  Matrix expected(3, 3);
+  expected << 3, 2, 0, 0, 0, 10, std::cos(2.0), 0, 0;
+  EXPECT_EQ(functions.value(0), expected);
+  EXPECT_LE(texts.operations(), 2U);  // cos and 2 x(3)
+}
+
+TEST(Tape, WhereSomethingHasNoValueItsPlaceIsNamed) {
+  const Texts texts({"x(1)", "log(x(2))", "1/x(3)"});
+  StackedFunctions functions = texts.functions();
+  EXPECT_FALSE(functions.run(point(1, -1, 1)));
+  EXPECT_EQ(functions.at(0, point(1, -1, 1))(0), 1);
+  EXPECT_THROW(functions.at(1, point(1, -1, 1)), expr::EvaluationError);
+  EXPECT_FALSE(functions.run(point(1, 1, 0)));
+  EXPECT_TRUE(functions.run(point(1, 1, 1)));
+}
+
+TEST(Tape, AZeroHidesNoFault) {
+  const Texts texts({"0*log(x(1)) + 0*inv([x(2), 1; 1, x(2)])(1, 1)"});
+  StackedFunctions functions = texts.functions();
+  EXPECT_TRUE(functions.run(point(1, 2, 0)));
+  EXPECT_FALSE(functions.run(point(-1, 2, 0)));
+  EXPECT_FALSE(functions.run(point(1, 1, 0)));
+}
+
+TEST(Tape, TheInverseOfASmallMatrixIsThatOfReal) {
+  const Texts texts({"inv([x(1), 1, 0; 1e6, x(2), 1; 0, 1, 1e-6*x(3)])"});
+  StackedFunctions functions = texts.functions();
+  for (const Vector& x : {point(2, 3, 5), point(0, 1, -2), point(-1e3, 7, 1e4)}) {
+    ASSERT_TRUE(functions.run(x));
+    const Matrix value = functions.value(0);
+    const Matrix expected = functions.at(0, x);
+    EXPECT_LE((value - expected).cwiseAbs().maxCoeff(), 1e-11 * expected.cwiseAbs().maxCoeff());
+  }
+}
+
+}  // namespace
+}  // namespace gainsmith::numbers
