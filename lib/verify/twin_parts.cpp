@@ -1,7 +1,10 @@
 #include "verify/twin_parts.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "verify/flow_looks.h"
@@ -15,14 +18,20 @@ using hybrid::FlowPiece;
 using hybrid::JumpPoint;
 using hybrid::Trajectory;
 
-constexpr std::size_t kMostAtOnce = 16;  ///< jumps of one instant
-
-/// The next jumps of a run, and the length of the flows before and between them.
+/// The next jumps of a run that lie within one instant.
 struct Instant {
-  std::vector<const JumpPoint*> jumps;
-  std::size_t end = 0;  ///< the part after them
-  double flows = 0;
+  struct Jump {
+    const JumpPoint* point;
+    std::size_t part;
+  };
+  std::vector<Jump> jumps;
 };
+
+/// What is told apart of a jump.
+using Key = std::pair<std::size_t, bool>;
+Key key_of(const JumpPoint& jump) { return {jump.event, jump.lost}; }
+
+double length_of(const FlowPiece& flow) { return flow.to() - flow.from(); }
 
 class Pairs {
  public:
@@ -31,23 +40,33 @@ class Pairs {
       : run_(run), twin_(twin), system_(system), maps_(maps) {}
 
   TwinParts all() {
-    while (at_ < run_.parts.size() && other_ < twin_.parts.size())
-      if (!alike() && !at_once()) return std::move(result_);
-    result_.whole = at_ == run_.parts.size() && other_ == twin_.parts.size();
+    while (at_ < run_.parts.size() || other_ < twin_.parts.size())
+      if (!alike(true) && !at_once() && !alike(false)) return std::move(result_);
+    result_.whole = true;
     return std::move(result_);
   }
 
  private:
-  bool alike() {
+  bool is_short(const FlowPiece& flow) const {
+    return length_of(flow) <= kInstantOfRun * run_.end;
+  }
+
+  /// `strictly`: not a flow within an instant beside a longer one.
+  bool alike(bool strictly) {
+    if (at_ == run_.parts.size() || other_ == twin_.parts.size()) return false;
     const auto& one = run_.parts[at_];
     const auto& other = twin_.parts[other_];
     if (one.index() != other.index()) return false;
     if (const auto* flow = std::get_if<FlowPiece>(&one)) {
-      result_.parts.emplace_back(TwinFlow{flow, &std::get<FlowPiece>(other), {}});
+      const auto& twin = std::get<FlowPiece>(other);
+      if (strictly && is_short(*flow) != is_short(twin)) return false;
+      if (!is_short(*flow)) happened_.clear();
+      result_.parts.emplace_back(TwinFlow{flow, &twin, {}});
     } else {
       const auto& jump = std::get<JumpPoint>(one);
       const auto& twin = std::get<JumpPoint>(other);
-      if (jump.event != twin.event || jump.lost != twin.lost) return false;
+      if (key_of(jump) != key_of(twin)) return false;
+      happened_.insert(key_of(jump));
       result_.parts.emplace_back(TwinJump{&jump, twin.before, twin.after, twin.t});
     }
     ++at_;
@@ -55,46 +74,54 @@ class Pairs {
     return true;
   }
 
-  /// The same jumps in another order, as few as there are.
+  /// The same jumps in another order, as few as there are; or the same events, some of them more
+  /// often than in the other.
   bool at_once() {
-    for (std::size_t count = 1; count <= kMostAtOnce; ++count) {
-      const auto own = next(run_, at_, count);
-      const auto other = next(twin_, other_, count);
-      const double longest = kInstantOfRun * run_.end;
-      if (!own || !other || own->flows > longest || other->flows > longest) return false;
-      if (keys(*own) == keys(*other)) return in_order(*own, *other);
+    const Instant own = next(run_, at_);
+    const Instant other = next(twin_, other_);
+    std::map<Key, int> open;
+    const auto add = [&](const JumpPoint& jump, int by) {
+      if ((open[key_of(jump)] += by) == 0) open.erase(key_of(jump));
+    };
+    for (std::size_t k = 0; k < std::min(own.jumps.size(), other.jumps.size()); ++k) {
+      add(*own.jumps[k].point, 1);
+      add(*other.jumps[k].point, -1);
+      if (open.empty()) return in_order(own, k + 1, other, k + 1);
     }
-    return false;
+    if (own.jumps.empty() && other.jumps.empty()) return false;
+    if (with_happened(own) != with_happened(other)) return false;
+    return in_order(own, own.jumps.size(), other, other.jumps.size());
   }
 
-  static std::optional<Instant> next(const Trajectory& run, std::size_t from, std::size_t count) {
+  Instant next(const Trajectory& run, std::size_t from) const {
     Instant result;
-    result.end = from;
-    while (result.jumps.size() < count) {
-      if (result.end == run.parts.size()) return std::nullopt;
-      const auto& part = run.parts[result.end++];
-      if (const auto* flow = std::get_if<FlowPiece>(&part))
-        result.flows += flow->to() - flow->from();
-      else
-        result.jumps.push_back(&std::get<JumpPoint>(part));
+    double flows = 0;
+    for (std::size_t part = from; part < run.parts.size(); ++part) {
+      if (const auto* flow = std::get_if<FlowPiece>(&run.parts[part])) {
+        flows += length_of(*flow);
+        if (flows > kInstantOfRun * run_.end) break;
+      } else {
+        result.jumps.push_back({&std::get<JumpPoint>(run.parts[part]), part});
+      }
     }
     return result;
   }
 
-  static std::vector<std::pair<std::size_t, bool>> keys(const Instant& instant) {
-    std::vector<std::pair<std::size_t, bool>> result;
-    for (const JumpPoint* jump : instant.jumps) result.emplace_back(jump->event, jump->lost);
-    std::sort(result.begin(), result.end());
+  std::set<Key> with_happened(const Instant& instant) const {
+    std::set<Key> result = happened_;
+    for (const auto& jump : instant.jumps) result.insert(key_of(*jump.point));
     return result;
   }
 
-  bool in_order(const Instant& own, const Instant& other) {
-    const auto& first = twin_.parts[other_];
-    const auto* flow = std::get_if<FlowPiece>(&first);
-    VectorXd values = flow != nullptr ? flow->start : std::get<JumpPoint>(first).before;
-    const double twin_t = flow != nullptr ? flow->from() : std::get<JumpPoint>(first).t;
+  /// So many jumps of both; the twin's are taken again.
+  bool in_order(const Instant& own, std::size_t count, const Instant& other,
+                std::size_t other_count) {
+    const auto start = before_next();
+    if (!start) return false;
+    auto [values, twin_t] = *start;
     std::vector<std::variant<TwinFlow, TwinJump>> parts;
-    for (; at_ < own.end; ++at_) {
+    const std::size_t end = count > 0 ? own.jumps[count - 1].part + 1 : at_;
+    for (; at_ < end; ++at_) {
       if (const auto* piece = std::get_if<FlowPiece>(&run_.parts[at_])) {
         parts.emplace_back(TwinFlow{piece, nullptr, with_clocks_of(piece->start, values)});
         continue;
@@ -106,12 +133,30 @@ class Pairs {
       } catch (const std::exception&) {
         return false;
       }
+      happened_.insert(key_of(jump));
       parts.emplace_back(TwinJump{&jump, before, values, twin_t});
     }
-    std::get<TwinJump>(parts.back()).twin_after = other.jumps.back()->after;
     std::move(parts.begin(), parts.end(), std::back_inserter(result_.parts));
-    other_ = other.end;
+    if (other_count == 0) return true;
+    const auto& last = other.jumps[other_count - 1];
+    other_ = last.part + 1;
+    if (auto* jump = std::get_if<TwinJump>(&result_.parts.back()))
+      jump->twin_after = with_clocks_of(jump->jump->after, last.point->after);
     return true;
+  }
+
+  /// The twin's values and time there; none where nothing is left of it.
+  std::optional<std::pair<VectorXd, double>> before_next() const {
+    if (other_ < twin_.parts.size()) {
+      const auto& part = twin_.parts[other_];
+      if (const auto* flow = std::get_if<FlowPiece>(&part))
+        return std::pair(flow->start, flow->from());
+      return std::pair(std::get<JumpPoint>(part).before, std::get<JumpPoint>(part).t);
+    }
+    if (other_ == 0) return std::nullopt;
+    const auto& part = twin_.parts[other_ - 1];
+    if (const auto* flow = std::get_if<FlowPiece>(&part)) return std::pair(flow->end, flow->to());
+    return std::pair(std::get<JumpPoint>(part).after, std::get<JumpPoint>(part).t);
   }
 
   VectorXd after(const JumpPoint& jump, const VectorXd& before) {
@@ -142,6 +187,7 @@ class Pairs {
   const hybrid::EventSystem& system_;
   hybrid::JumpMaps& maps_;
   std::size_t at_ = 0, other_ = 0;
+  std::set<Key> happened_;  ///< within this instant
   TwinParts result_;
 };
 

@@ -4,7 +4,7 @@
 // Where both have the same events at one instant in another order, or with a flow of hardly any
 // length between them, the twin's jumps are taken again in the order of the run, from the twin's
 // values before the first of them: events that do not touch each other are the same in any order,
-// and what they do otherwise shows in the values.
+// and what they do otherwise shows in the values. So it is where a chain of jumps is longer in one.
 #pragma once
 
 #include <Eigen/Core>
