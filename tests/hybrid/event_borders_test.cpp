@@ -64,7 +64,8 @@ TEST(Borders, APairThatHardlyCrosses) {
   ASSERT_EQ(found.roots.size(), 2U);
   EXPECT_NEAR(found.roots[0].right, 1 - half, 1e-10);
   EXPECT_NEAR(found.roots[1].right, 1 + half, 1e-10);
-  EXPECT_TRUE(found.turns.empty());
+  ASSERT_EQ(found.turns.size(), 1U);
+  EXPECT_TRUE(found.turns[0].reached);
 }
 
 TEST(Borders, WhatComesNearWithoutReachingIsNoted) {
