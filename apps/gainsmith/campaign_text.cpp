@@ -186,9 +186,8 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
   for (const verify::CheckReport& check : report.checks) width = std::max(width, check.name.size());
   for (const verify::CheckReport& check : report.checks) text += check_text(check, width);
   if (report.unfinished > 0)
-    text +=
-        fmt::format("  {} did not reach the horizon; run {}: {}\n", runs_text(report.unfinished),
-                    report.unfinished_run, ending_text(report));
+    text += fmt::format("  {} did not reach the horizon; run {}: {}\n",
+                        runs_text(report.unfinished), report.unfinished_run, ending_text(report));
   text += undecided_text(report, gains_file);
   if (report.violation_probability < 1)
     text += fmt::format("  with {} % confidence at most {} of such runs violate\n",

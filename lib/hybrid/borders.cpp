@@ -99,8 +99,7 @@ class RootSearch {
     const double step =
         (values.rightCols(kBorderDegree) - values.leftCols(kBorderDegree)).cwiseAbs().maxCoeff();
     const double nearest = values.cwiseAbs().minCoeff();
-    return nearest > 2 * step && nearest > near() &&
-           values.minCoeff() * values.maxCoeff() > 0;
+    return nearest > 2 * step && nearest > near() && values.minCoeff() * values.maxCoeff() > 0;
   }
 
   void by_sides(const VectorXd& times) {

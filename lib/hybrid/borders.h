@@ -22,7 +22,8 @@ struct Root {
   double right = 0;
 };
 
-/// A turning point of g next to 0: a minimum of |g| without a root, or an extremum between two roots.
+/// A turning point of g next to 0: a minimum of |g| without a root, or an extremum between two
+/// roots.
 struct Turn {
   double t = 0;
   double value = 0;      ///< of g
@@ -33,7 +34,8 @@ struct Border {
   std::function<double(double)> value;  ///< g; deterministic
   bool strict = false;                  ///< side: > 0; otherwise >= 0
   double noise = 0;                     ///< how far rounding may lead g astray
-  double near = 0;  ///< turning points as near to 0 as that are told; 1e-10 of the largest |g| always
+  double near =
+      0;  ///< turning points as near to 0 as that are told; 1e-10 of the largest |g| always
 };
 
 struct Found {

@@ -72,8 +72,7 @@ class EventRun {
  public:
   EventRun(const EventSystem& system, const EventScenario& scenario, Movement& movement,
            EventWatch& watch, JumpMaps& maps, std::uint64_t seed, std::uint64_t run,
-           const Accuracy& accuracy, const RecordLimits& limits,
-           std::optional<std::uint64_t> moved)
+           const Accuracy& accuracy, const RecordLimits& limits, std::optional<std::uint64_t> moved)
       : system_(system),
         movement_(movement),
         watch_(watch),
@@ -342,8 +341,8 @@ class EventRun {
       if (moved_) {
         record_.add(turn);
       } else if (!reached && turn.of == NearTurn::Of::when) {
-        record_.note(fmt::format("t = {}: '{}' comes near without being reached",
-                                 brief(turn.t, 12), turn.text));
+        record_.note(fmt::format("t = {}: '{}' comes near without being reached", brief(turn.t, 12),
+                                 turn.text));
       }
     }
   }

@@ -92,9 +92,10 @@ EventBorder& EventWatch::border_of(const NearTurn& turn) {
   return condition.comparisons()[turn.comparison].border;
 }
 
-std::vector<double> EventWatch::crossings(
-    const StepValues& inside, const VectorXd& values, double near,
-    const std::function<void(const NearTurn&, bool)>& turn, std::optional<double>* hidden) {
+std::vector<double> EventWatch::crossings(const StepValues& inside, const VectorXd& values,
+                                          double near,
+                                          const std::function<void(const NearTurn&, bool)>& turn,
+                                          std::optional<double>* hidden) {
   std::vector<double> result;
   StepPoints points(inside);
   active_borders(values, [&](EventBorder& border, Sides sides, const Role& role) {
@@ -113,8 +114,8 @@ std::vector<double> EventWatch::crossings(
           const std::string text = role.condition == nullptr
                                        ? system_->dynamics.events[role.index].name
                                        : role.condition->comparisons()[role.comparison].text;
-          turn({role.of, role.index, role.comparison, element, time_of(one, found.roots),
-                one.value, text},
+          turn({role.of, role.index, role.comparison, element, time_of(one, found.roots), one.value,
+                text},
                one.reached);
         }
       }

@@ -34,7 +34,8 @@ class EventWatch {
   /// that may decide about something from `values` on, those at the start of the step. `turn` is
   /// told of turning points within `near` of their terms, and of those that come nearest.
   /// `hidden`, at the start of a flow: the first BorderOnStep::hidden_turn, if any.
-  std::vector<double> crossings(const StepValues& inside, const Eigen::VectorXd& values, double near,
+  std::vector<double> crossings(const StepValues& inside, const Eigen::VectorXd& values,
+                                double near,
                                 const std::function<void(const NearTurn&, bool reached)>& turn,
                                 std::optional<double>* hidden = nullptr);
 

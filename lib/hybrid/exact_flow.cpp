@@ -230,8 +230,7 @@ class ExactFlow : public Flow {
 
 }  // namespace
 
-std::unique_ptr<Flow> exact_flow(Movement& movement, double longest,
-                                 const LastPlaces* moved) {
+std::unique_ptr<Flow> exact_flow(Movement& movement, double longest, const LastPlaces* moved) {
   return std::make_unique<ExactFlow>(movement, longest, moved);
 }
 

@@ -3,9 +3,9 @@
 //
 //   move = +-8 u size,   u = 2^-53, size: the sum of the absolute values of the terms
 //
-// The sign is a function of (seed, run, draw), the number of steps so far and the bits of the value:
-// what is equal bit by bit at one time is moved alike, so that copies stay equal. A whole number is
-// not moved: counts, modes and values that a text sets.
+// The sign is a function of (seed, run, draw), the number of steps so far and the bits of the
+// value: what is equal bit by bit at one time is moved alike, so that copies stay equal. A whole
+// number is not moved: counts, modes and values that a text sets.
 #pragma once
 
 #include <cstdint>

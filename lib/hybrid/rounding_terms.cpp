@@ -97,9 +97,7 @@ class Terms {
     return result;
   }
 
-  int absolute(int at) {
-    return made(Op::abs, {at}, program_.code[static_cast<std::size_t>(at)]);
-  }
+  int absolute(int at) { return made(Op::abs, {at}, program_.code[static_cast<std::size_t>(at)]); }
 
   int made(Op op, std::vector<int> operands, Instruction like) {
     like.op = op;

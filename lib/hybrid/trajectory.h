@@ -88,10 +88,10 @@ struct Trajectory {
   std::vector<std::variant<FlowPiece, JumpPoint>> parts;  ///< in order
   double horizon = 0;
   Ending ending = Ending::horizon;
-  double end = 0;           ///< its time
-  std::string message;      ///< why it ended, with time, place and values; empty at the horizon
-  double accumulation = 0;  ///< zeno: the time at which jumps accumulate
-  std::vector<NearTurn> turns;     ///< of a twin (event_run.h), in order
+  double end = 0;               ///< its time
+  std::string message;          ///< why it ended, with time, place and values; empty at the horizon
+  double accumulation = 0;      ///< zeno: the time at which jumps accumulate
+  std::vector<NearTurn> turns;  ///< of a twin (event_run.h), in order
   std::vector<std::string> notes;  ///< such as a border that came near without being reached
 };
 

@@ -69,8 +69,8 @@ struct Finding {
   double floor = 0;
   int digits = kDoubleDigits;  ///< of the arithmetic that says so
   bool looked = true;          ///< false: the run has no sample at which the claim is made
-  bool ended = false;          ///< the run ends at t, before its horizon, and the claim is left open
-  bool estimated = false;      ///< `rounding` is an estimate, of the error of integration too
+  bool ended = false;      ///< the run ends at t, before its horizon, and the claim is left open
+  bool estimated = false;  ///< `rounding` is an estimate, of the error of integration too
 
   bool violated() const { return judgement == Judgement::violated; }
   bool undecided() const { return judgement == Judgement::undecided; }

@@ -134,8 +134,7 @@ void EventDoubts::set_time_error(Instant& at) {
       [](const Guard& a, const Guard& b) { return std::abs(a.value) < std::abs(b.value); });
   if (nearest == at.own.end()) return;
   const double rate = std::abs(nearest->value - nearest->before) / at.since;
-  if (rate > 0)
-    at.time_error += noise_of(*nearest->border, at.now, 0) / rate;
+  if (rate > 0) at.time_error += noise_of(*nearest->border, at.now, 0) / rate;
 }
 
 /// Whether the event is arrived at, and lies within its error.
@@ -221,8 +220,7 @@ std::optional<std::string> EventDoubts::clocks_after(const TwinParts& twins, std
     const std::size_t other = next.jump->event;
     if (!has_clock(system_->dynamics.events[other].kind)) continue;
     const double gap = next.jump->t - at.t;
-    const double error =
-        kOfDifference * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
+    const double error = kOfDifference * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
     if (gap <= error && !commute(other, {}, at)) return message(at, other, gap, error);
   }
   return std::nullopt;

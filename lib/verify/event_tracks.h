@@ -60,7 +60,7 @@ class EventTracks {
   std::vector<RunValue> functions_;
   std::vector<TextBall> balls_;  ///< of the functions
   EventDoubts doubts_;
-  std::vector<bool> rounds_;     ///< by element: whether it is no whole number, which is exact
+  std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
   hybrid::Track<double> track_;
   std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track
   RiseLimits rises_;
@@ -69,12 +69,12 @@ class EventTracks {
     double low = 0, high = 0;
     bool seen = false;
   };
-  std::vector<Range> ranges_;   ///< by function
-  std::vector<double> sizes_;   ///< by claim, at its first function: of values and their terms
-  std::vector<char> parted_;    ///< the same: whether the two runs have
-  std::size_t next_turn_ = 0;   ///< of the turning points of the twin
-  std::string doubt_;           ///< why the run is lost
-  double rounded_ = 0;  ///< steps and jumps so far
+  std::vector<Range> ranges_;  ///< by function
+  std::vector<double> sizes_;  ///< by claim, at its first function: of values and their terms
+  std::vector<char> parted_;   ///< the same: whether the two runs have
+  std::size_t next_turn_ = 0;  ///< of the turning points of the twin
+  std::string doubt_;          ///< why the run is lost
+  double rounded_ = 0;         ///< steps and jumps so far
 };
 
 }  // namespace gainsmith::verify

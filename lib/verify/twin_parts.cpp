@@ -47,9 +47,7 @@ class Pairs {
   }
 
  private:
-  bool is_short(const FlowPiece& flow) const {
-    return length_of(flow) <= kInstantOfRun * run_.end;
-  }
+  bool is_short(const FlowPiece& flow) const { return length_of(flow) <= kInstantOfRun * run_.end; }
 
   /// `strictly`: not a flow within an instant beside a longer one.
   bool alike(bool strictly) {
