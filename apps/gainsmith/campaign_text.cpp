@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 #include "base/number.h"
 #include "base/scalars.h"
@@ -56,7 +57,7 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
   if (!check.stated)
     return fmt::format("  {:<{}} not stated: no value for {}\n", check.name, width,
                        fmt::join(check.missing, ", "));
-  if (!check.worst.looked)
+  if (!check.worst.looked && !check.worst.ended)
     return fmt::format(
         "  {:<{}} {:<17} held      never looked at: no run comes to where it is "
         "claimed\n",
@@ -73,7 +74,13 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
       fmt::format("  {:<{}} {:<17} {:<8}  {} run {}: {} against {} at (t, j) = ({}, {})\n",
                   check.name, width, kind_text(check.kind), verdict, held ? "nearest" : "worst",
                   check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
-  if (worst.undecided())
+  if (worst.ended)
+    text += "               left open: the run ends there, before the horizon\n";
+  else if (worst.undecided() && std::isinf(worst.rounding))
+    text +=
+        "               nothing is certain: two runs that differ in accuracy and in their last "
+        "places have parted by then\n";
+  else if (worst.undecided())
     text += fmt::format(
         "               known to {} {}: nothing is certain of {} {} {}\n", brief(worst.rounding, 2),
         worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits),
@@ -84,6 +91,14 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
                         brief(check.floor, 2), bounded ? "largest terms" : "start",
                         worst.estimated ? "integration shows" : "digits show");
   return text;
+}
+
+/// Why the first run that did not reach the horizon ended.
+std::string ending_text(const verify::Report& report) {
+  const std::string& message = report.unfinished_message;
+  if (report.unfinished_termination == hybrid::Termination::lost && !message.empty())
+    return message;
+  return to_string(report.unfinished_termination) + (message.empty() ? "" : ", " + message);
 }
 
 /// What stopped an undecided campaign, and what to try.
@@ -171,10 +186,8 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
   for (const verify::CheckReport& check : report.checks) width = std::max(width, check.name.size());
   for (const verify::CheckReport& check : report.checks) text += check_text(check, width);
   if (report.unfinished > 0)
-    text +=
-        fmt::format("  {} did not reach the horizon; run {}: {}{}\n", runs_text(report.unfinished),
-                    report.unfinished_run, to_string(report.unfinished_termination),
-                    report.unfinished_message.empty() ? "" : ", " + report.unfinished_message);
+    text += fmt::format("  {} did not reach the horizon; run {}: {}\n",
+                        runs_text(report.unfinished), report.unfinished_run, ending_text(report));
   text += undecided_text(report, gains_file);
   if (report.violation_probability < 1)
     text += fmt::format("  with {} % confidence at most {} of such runs violate\n",

@@ -37,9 +37,10 @@ BorderOnStep::BorderOnStep(EventBorder& border, StepPoints& points)
   breaks_ = border.breaks().on([&](double t) { return inside.at(t); }, inside.from(), inside.to());
 }
 
-Found BorderOnStep::roots(Index element, bool strict) {
+Found BorderOnStep::roots(Index element, bool strict, double near) {
   const StepValues& inside = points_.inside();
-  const Border border{[&](double t) { return value(element, t); }, strict, noise_(element)};
+  const Border border{[&](double t) { return value(element, t); }, strict, noise_(element),
+                      near * noise_(element) / kTermRounding};
   return find_roots(border, inside.from(), inside.to(), breaks_);
 }
 

@@ -16,7 +16,8 @@ class BorderOnStep {
   /// Both must outlive it.
   BorderOnStep(EventBorder& border, StepPoints& points);
 
-  Found roots(Eigen::Index element, bool strict);
+  /// `near`: of the terms, as Border::near.
+  Found roots(Eigen::Index element, bool strict, double near = 0);
   double value(Eigen::Index element, double t);
   /// The part of the step after which an element turns back that starts within its noise and has
   /// hardly left it, so that a root may lie in the noise; of an element whose first slope is noise

@@ -21,7 +21,7 @@ constexpr int kBorderDegree = 16;
 /// Where the interpolant is compared with g, besides its own last coefficients.
 constexpr std::array<double, 2> kCheckPoints = {-0.617, 0.443};
 constexpr double kAgreement = 1e-13;
-constexpr double kGrazes = 1e-10;
+constexpr double kTurnsNear = 1e-10;
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 /// Of the step: what is too short to be a time of its own at t = 0.
 constexpr double kShortestOfStep = 1e-20;
@@ -53,6 +53,8 @@ class RootSearch {
     return border_.value(t);
   }
   bool side(double g) const { return border_.strict ? g > 0 : g >= 0; }
+  /// How near to 0 a turning point is looked at.
+  double near() const { return std::max(kTurnsNear * scale_, border_.near); }
   double tolerance() const { return kAgreement * scale_ + border_.noise; }
   double resolution(double a, double b) const {
     return 2 * kEpsilon * std::max(std::abs(a), std::abs(b)) + kShortestOfStep * (to_ - from_);
@@ -97,8 +99,7 @@ class RootSearch {
     const double step =
         (values.rightCols(kBorderDegree) - values.leftCols(kBorderDegree)).cwiseAbs().maxCoeff();
     const double nearest = values.cwiseAbs().minCoeff();
-    return nearest > 2 * step && nearest > kGrazes * scale_ &&
-           values.minCoeff() * values.maxCoeff() > 0;
+    return nearest > 2 * step && nearest > near() && values.minCoeff() * values.maxCoeff() > 0;
   }
 
   void by_sides(const VectorXd& times) {
@@ -107,7 +108,7 @@ class RootSearch {
 
   /// Roots of g on [a, b], on which c is its interpolant.
   void part(const Matrix& c, double a, double b, int halvings) {
-    if (excludes_roots(c, kGrazes * scale_ + border_.noise)) return;
+    if (excludes_roots(c, near() + border_.noise)) return;
     const Matrix slope = chebyshev::derivative(c);
     const double noise = border_.noise + kEpsilon * scale_;
     if (excludes_roots(slope) || swing(c) <= noise || halvings >= kMostHalvings) {
@@ -141,7 +142,7 @@ class RootSearch {
     const double g = value(t);
     // A minimum of |g|: below zero the slope falls, above it rises.
     const bool towards = (chebyshev::first(c, low) > 0) == (left < 0);
-    if (!found && towards && std::abs(g) <= kGrazes * scale_) found_.grazings.push_back({t, g});
+    if ((found || towards) && std::abs(g) <= near()) found_.turns.push_back({t, g, found});
   }
 
   /// The root between a and b where the sides differ.
@@ -181,7 +182,7 @@ Found find_roots(const Border& border, double from, double to, const std::vector
     if (!(a < b)) return;
     const Found found = find_roots(border, a, b);
     all.roots.insert(all.roots.end(), found.roots.begin(), found.roots.end());
-    all.grazings.insert(all.grazings.end(), found.grazings.begin(), found.grazings.end());
+    all.turns.insert(all.turns.end(), found.turns.begin(), found.turns.end());
   };
   double left = from;
   for (const Break& one : breaks) {

@@ -22,21 +22,25 @@ struct Root {
   double right = 0;
 };
 
-/// Where |g| has a minimum below 1e-10 of its largest value on the step and no root.
-struct Grazing {
+/// A turning point of g next to 0: a minimum of |g| without a root, or an extremum between two
+/// roots.
+struct Turn {
   double t = 0;
-  double value = 0;  ///< of g
+  double value = 0;      ///< of g
+  bool reached = false;  ///< between two roots, or a root itself
 };
 
 struct Border {
   std::function<double(double)> value;  ///< g; deterministic
   bool strict = false;                  ///< side: > 0; otherwise >= 0
   double noise = 0;                     ///< how far rounding may lead g astray
+  double near =
+      0;  ///< turning points as near to 0 as that are told; 1e-10 of the largest |g| always
 };
 
 struct Found {
   std::vector<Root> roots;  ///< in rising order
-  std::vector<Grazing> grazings;
+  std::vector<Turn> turns;
 };
 
 /// What `value` throws leaves it.

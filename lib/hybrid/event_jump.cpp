@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/number.h"
+#include "hybrid/rounding_terms.h"
 
 namespace gainsmith::hybrid {
 
@@ -16,6 +17,14 @@ namespace {
 /// Of the largest element before and after the jump.
 constexpr double kAsymmetryOfJump = 1e-9;
 
+bool is_mode(const EventSystem& system, std::size_t variable) {
+  return system.dynamics.variables[variable].kind == model::Dynamics::VariableKind::mode;
+}
+
+bool is_symmetric_state(const EventSystem& system, std::size_t variable) {
+  return system.dynamics.variables[variable].structure == model::Structure::symmetric;
+}
+
 }  // namespace
 
 JumpMaps::JumpMaps(const EventSystem& system) : system_(&system) {
@@ -23,14 +32,23 @@ JumpMaps::JumpMaps(const EventSystem& system) : system_(&system) {
     Maps& maps = maps_.emplace_back();
     for (const model::Dynamics::Pass& pass : reaction.passes) {
       Map& map = maps.emplace_back();
-      for (const model::Dynamics::Assignment& one : pass.map)
-        map.entries.push_back({one.variable, EventFunction(one.value.program, system), one.place});
+      for (const model::Dynamics::Assignment& one : pass.map) {
+        map.entries.push_back(
+            {one.variable, EventFunction(one.value.program, system), one.place, nullptr, {}});
+        MapEntry& entry = map.entries.back();
+        auto terms = rounding_terms(one.value.program);
+        if (!terms || is_mode(system, one.variable)) continue;
+        entry.terms_program = std::make_unique<const expr::Program>(std::move(*terms));
+        entry.terms.emplace(*entry.terms_program, system);
+      }
       if (pass.until) map.until.emplace(*pass.until, system);
     }
   }
 }
 
-VectorXd JumpMaps::operator()(std::size_t event, bool lost, const VectorXd& before) {
+VectorXd JumpMaps::operator()(std::size_t event, bool lost, const VectorXd& before,
+                              const LastPlaces* moved) {
+  moved_ = moved;
   VectorXd after = before;
   std::int64_t passes = 0;
   const auto& reactions = system_->dynamics.reactions;
@@ -83,10 +101,28 @@ void JumpMaps::apply(Map& map, VectorXd& own) {
   for (std::size_t i = 0; i < map.entries.size(); ++i) {
     results_[i] = map.entries[i].value(own);
     check(map.entries[i], own, results_[i]);
+    if (moved_ != nullptr && map.entries[i].terms) move(map.entries[i], own, results_[i]);
   }
   for (std::size_t i = 0; i < map.entries.size(); ++i) {
     const Slot& slot = system_->layout.slots[map.entries[i].variable];
     own.segment(slot.offset, slot.shape.size()) = results_[i].reshaped();
+  }
+}
+
+void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value) const {
+  const bool symmetric = is_symmetric_state(*system_, entry.variable);
+  const Eigen::Index first = system_->layout.slots[entry.variable].offset;
+  try {
+    const numbers::Matrix& sizes = (*entry.terms)(own);
+    for (Eigen::Index column = 0; column < value.cols(); ++column)
+      for (Eigen::Index row = symmetric ? column : 0; row < value.rows(); ++row) {
+        // What a branch leaves as it was has not been computed.
+        if (value(row, column) == own(first + column * value.rows() + row)) continue;
+        value(row, column) += moved_->of(value(row, column), sizes(row, column));
+        if (symmetric) value(column, row) = value(row, column);
+      }
+  } catch (const expr::EvaluationError&) {
+    // Without sizes it stays where it is.
   }
 }
 

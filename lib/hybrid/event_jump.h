@@ -2,12 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "hybrid/event_function.h"
+#include "hybrid/last_places.h"
 #include "hybrid/trajectory.h"
 
 namespace gainsmith::hybrid {
@@ -27,13 +29,17 @@ class JumpMaps {
   /// own variables j, count(event) and passes(event) are new: passes of the loops of the jump
   /// together. RunEnd for a loop whose `until` does not become true; EvaluationError where a map
   /// has no value; InputError for a mode that is no whole number and a symmetric state that is not.
-  Eigen::VectorXd operator()(std::size_t event, bool lost, const Eigen::VectorXd& before);
+  /// `moved`: by which results of arithmetic are moved, in a twin.
+  Eigen::VectorXd operator()(std::size_t event, bool lost, const Eigen::VectorXd& before,
+                             const LastPlaces* moved = nullptr);
 
  private:
   struct MapEntry {
     std::size_t variable = 0;
     EventFunction value;
     Place place;
+    std::unique_ptr<const expr::Program> terms_program;
+    std::optional<EventFunction> terms;  ///< rounding_terms.h; none: the value is exact
   };
   struct Map {
     std::vector<MapEntry> entries;
@@ -45,12 +51,14 @@ class JumpMaps {
   std::int64_t repeat(const model::Dynamics::Pass& pass, std::int64_t most, Map& map,
                       Eigen::VectorXd& own);
   void apply(Map& map, Eigen::VectorXd& own);
+  void move(MapEntry& entry, const Eigen::VectorXd& own, numbers::Matrix& value) const;
   void check(const MapEntry& entry, const Eigen::VectorXd& own, numbers::Matrix& value) const;
   void count(std::size_t event, std::int64_t passes, Eigen::VectorXd& after) const;
 
   const EventSystem* system_;
   std::vector<Maps> maps_;                ///< by reaction
   std::vector<numbers::Matrix> results_;  ///< of one map
+  const LastPlaces* moved_ = nullptr;
 };
 
 }  // namespace gainsmith::hybrid

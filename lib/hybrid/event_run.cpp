@@ -51,6 +51,8 @@ constexpr double kEarly = 0.1;            ///< of a step
 constexpr double kShorterStep = 1.5;      ///< of the time up to an event
 constexpr double kBeyondTurn = 4;         ///< of the time up to a turn near a border
 constexpr double kShortestAgain = 1e-13;  ///< of the time
+/// Of the terms of a guard: turning points that a twin keeps, to be compared with their errors.
+constexpr double kNearOfTerms = 1e-3;
 /// At one time, before a kink counts as one that does not matter.
 constexpr int kMostTurns = 8;
 
@@ -70,17 +72,18 @@ class EventRun {
  public:
   EventRun(const EventSystem& system, const EventScenario& scenario, Movement& movement,
            EventWatch& watch, JumpMaps& maps, std::uint64_t seed, std::uint64_t run,
-           const Accuracy& accuracy, const RecordLimits& limits)
+           const Accuracy& accuracy, const RecordLimits& limits, std::optional<std::uint64_t> moved)
       : system_(system),
         movement_(movement),
         watch_(watch),
         maps_(maps),
         horizon_(scenario.horizon),
+        moved_(moved ? std::optional<LastPlaces>(std::in_place, seed, run, *moved) : std::nullopt),
         due_(system, watch, EventClocks(system, scenario, seed, run), scenario.horizon),
         noise_(system, seed, run),
         rows_(system),
         branches_(system, watch, accuracy),
-        flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon)),
+        flow_(make_flow(movement, accuracy, kLongestStep * scenario.horizon, places())),
         rhythm_(scenario.horizon),
         state_rows_(rows_of_states(system)),
         stays_(watch),
@@ -114,6 +117,7 @@ class EventRun {
 
  private:
   enum class Went { on, stopped };
+  using Turns = std::vector<std::pair<NearTurn, bool>>;
 
   // --- The start and the end. ---
 
@@ -127,6 +131,8 @@ class EventRun {
     record_.start(variables(values_));
     require_range();
   }
+
+  const LastPlaces* places() const { return moved_ ? &*moved_ : nullptr; }
 
   VectorXd variables(const VectorXd& values) const { return values.head(system_.size); }
 
@@ -164,7 +170,7 @@ class EventRun {
     sliding_.jumped();
     const VectorXd before = values_;
     const bool lost = system_.dynamics.events[event].lost > 0 && due_.clocks().loses(event);
-    values_ = maps_(event, lost, before);
+    values_ = maps_(event, lost, before, places());
     record_.flow_ends();
     due_.spend(event, t_, movement_);
     movement_.set_since(event, t_);
@@ -269,10 +275,11 @@ class EventRun {
   Went along(const DenseStep& step) {
     const StepValues inside(movement_, values_, step);
     stays_.require_inside(inside, std::min(inside.to(), inside.from() + kOutside * horizon_));
-    std::vector<std::pair<double, std::string>> near;
+    Turns near;
     std::optional<double> hidden;
     const auto crossings = watch_.crossings(
-        inside, values_, [&](double t, const std::string& text) { near.emplace_back(t, text); },
+        inside, values_, moved_ ? kNearOfTerms : 0,
+        [&](const NearTurn& turn, bool reached) { near.emplace_back(turn, reached); },
         starts_ ? &hidden : nullptr);
     if (hidden && is_coarse(step, step.from + *hidden * (step.to - step.from)))
       return take_shorter(step.from + kBeyondTurn * *hidden * (step.to - step.from));
@@ -319,6 +326,7 @@ class EventRun {
     record_.add(step, variables(values));
     values_ = std::move(values);
     t_ = step.to;
+    if (moved_) moved_->next();
     chain_ = 0;
     turned_back_ = 0;
     starts_ = false;
@@ -327,11 +335,16 @@ class EventRun {
   }
 
   /// Borders that came near up to a time.
-  void note(const std::vector<std::pair<double, std::string>>& near, double until) {
-    for (const auto& [t, text] : near)
-      if (t <= until)
-        record_.note(
-            fmt::format("t = {}: '{}' comes near without being reached", brief(t, 12), text));
+  void note(const Turns& near, double until) {
+    for (const auto& [turn, reached] : near) {
+      if (turn.t > until) continue;
+      if (moved_) {
+        record_.add(turn);
+      } else if (!reached && turn.of == NearTurn::Of::when) {
+        record_.note(fmt::format("t = {}: '{}' comes near without being reached", brief(turn.t, 12),
+                                 turn.text));
+      }
+    }
   }
 
   /// Steps without end that hardly advance.
@@ -351,6 +364,7 @@ class EventRun {
   EventWatch& watch_;
   JumpMaps& maps_;
   double horizon_;
+  std::optional<LastPlaces> moved_;
   DueEvents due_;
   NoiseDraws noise_;
   MeasuredRows rows_;
@@ -381,9 +395,9 @@ EventSimulator& EventSimulator::operator=(EventSimulator&&) noexcept = default;
 EventSimulator::~EventSimulator() = default;
 
 Trajectory EventSimulator::run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy,
-                               const RecordLimits& limits) {
+                               const RecordLimits& limits, std::optional<std::uint64_t> moved) {
   return EventRun(*system_, *scenario_, texts_->movement, texts_->watch, texts_->maps, seed, run,
-                  accuracy, limits)
+                  accuracy, limits, moved)
       .trajectory();
 }
 

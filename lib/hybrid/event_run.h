@@ -23,6 +23,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 
 #include "hybrid/event_scenario.h"
 #include "hybrid/event_system.h"
@@ -44,8 +45,9 @@ class EventSimulator {
   /// The solution on [0, horizon], or to where it ends before, with the reason. InputError for what
   /// is wrong in the text whatever the run: a symmetric state that jumps or flows out of symmetry,
   /// a mode that is no whole number.
+  /// `moved`: which of its twins it is, moved in the last places (last_places.h); none: the run.
   Trajectory run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy = {},
-                 const RecordLimits& limits = {});
+                 const RecordLimits& limits = {}, std::optional<std::uint64_t> moved = {});
 
  private:
   struct Texts;

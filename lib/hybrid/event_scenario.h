@@ -16,6 +16,7 @@
 //   noise    noise     two an element and drawing of normal noise, sqrt(-2 log(1 - u)) cos(2 pi v);
 //                      one of uniform noise; none of vertices and corners, where run k takes one
 //                      by its number
+//   places   moved run signs of moves in the last places (last_places.h)
 #pragma once
 
 #include <cstdint>
@@ -48,7 +49,7 @@ EventScenario make_event_scenario(const model::Design::Campaign& campaign,
 /// Where the dynamics say that states start, up to a horizon.
 EventScenario make_event_scenario(double horizon, const EventSystem& system);
 
-enum class Purpose : std::uint32_t { start = 1, first, length, lost, noise };
+enum class Purpose : std::uint32_t { start = 1, first, length, lost, noise, last_places };
 
 RandomStream event_stream(std::uint64_t seed, std::uint64_t run, Purpose purpose,
                           std::size_t index);

@@ -29,6 +29,15 @@ double line_root(const std::function<double(double)>& g, bool strict, double t, 
   return root;
 }
 
+/// Of a turning point beyond a root that of the root, where something may happen.
+double time_of(const Turn& turn, const std::vector<Root>& roots) {
+  double t = turn.t;
+  if (turn.reached)
+    for (const Root& root : roots)
+      if (root.right <= turn.t) t = root.right;
+  return t;
+}
+
 }  // namespace
 
 EventWatch::EventWatch(const EventSystem& system) : system_(&system) {
@@ -47,47 +56,68 @@ EventWatch::EventWatch(const EventSystem& system) : system_(&system) {
   for (const Switch& one : system.switches) switches.emplace_back(one.difference, system);
 }
 
-void EventWatch::comparisons_of(EventCondition& condition, const VectorXd& values, bool is_event,
-                                const Visit& visit) {
+void EventWatch::comparisons_of(const Role& role, const VectorXd& values, const Visit& visit) {
+  EventCondition& condition = *role.condition;
   if (condition.at_rest(values) != Truth::open) return;
   using Kind = expr::Condition::Kind;
   for (std::size_t k = 0; k < condition.comparisons().size(); ++k) {
     EventCondition::Comparison& one = condition.comparisons()[k];
     if (one.border.rests()) continue;
     visit(one.border, {one.kind != Kind::nonnegative, one.kind != Kind::positive},
-          is_event ? &condition : nullptr, k);
+          {role.of, role.index, &condition, k});
   }
 }
 
 void EventWatch::active_borders(const VectorXd& values, const Visit& visit) {
+  using Of = NearTurn::Of;
   for (std::size_t e = 0; e < when.size(); ++e) {
-    if (when[e]) comparisons_of(*when[e], values, true, visit);
-    if (crossing[e] && !crossing[e]->rests()) visit(*crossing[e], {true, true}, nullptr, 0);
+    if (when[e]) comparisons_of({Of::when, e, &*when[e], 0}, values, visit);
+    if (crossing[e] && !crossing[e]->rests())
+      visit(*crossing[e], {true, true}, {Of::crossing, e, nullptr, 0});
   }
-  for (Stay& stay : stays) comparisons_of(stay.where, values, false, visit);
+  for (std::size_t s = 0; s < stays.size(); ++s)
+    comparisons_of({Of::stay, s, &stays[s].where, 0}, values, visit);
 }
 
-std::vector<double> EventWatch::crossings(
-    const StepValues& inside, const VectorXd& values,
-    const std::function<void(double, const std::string&)>& graze, std::optional<double>* hidden) {
+/// Whether it matters on which side of 0 the border is.
+bool EventWatch::decides(const Role& role, const VectorXd& values) {
+  return role.condition == nullptr ||
+         role.condition->if_changed(values, role.comparison) != (*role.condition)(values);
+}
+
+EventBorder& EventWatch::border_of(const NearTurn& turn) {
+  if (turn.of == NearTurn::Of::crossing) return *crossing[turn.index];
+  EventCondition& condition =
+      turn.of == NearTurn::Of::when ? *when[turn.index] : stays[turn.index].where;
+  return condition.comparisons()[turn.comparison].border;
+}
+
+std::vector<double> EventWatch::crossings(const StepValues& inside, const VectorXd& values,
+                                          double near,
+                                          const std::function<void(const NearTurn&, bool)>& turn,
+                                          std::optional<double>* hidden) {
   std::vector<double> result;
   StepPoints points(inside);
-  active_borders(values, [&](EventBorder& border, Sides sides, EventCondition* condition,
-                             std::size_t comparison) {
+  active_borders(values, [&](EventBorder& border, Sides sides, const Role& role) {
     if (border.size() == 0) return;
     BorderOnStep on_step(border, points);
     for (Index element = 0; element < border.size(); ++element) {
       if (hidden != nullptr)
-        if (const auto turn = on_step.hidden_turn(element); turn && turn < hidden->value_or(1))
-          *hidden = turn;
+        if (const auto early = on_step.hidden_turn(element); early && early < hidden->value_or(1))
+          *hidden = early;
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;
-        const Found found = on_step.roots(element, strict);
+        const Found found = on_step.roots(element, strict, near);
         for (const Root& root : found.roots) result.push_back(root.right);
-        if (condition == nullptr) continue;
-        for (const Grazing& one : found.grazings)
-          if (condition->if_changed(inside.at(one.t), comparison))
-            graze(one.t, condition->comparisons()[comparison].text);
+        for (const Turn& one : found.turns) {
+          if (!decides(role, inside.at(one.t))) continue;
+          const std::string text = role.condition == nullptr
+                                       ? system_->dynamics.events[role.index].name
+                                       : role.condition->comparisons()[role.comparison].text;
+          turn({role.of, role.index, role.comparison, element, time_of(one, found.roots), one.value,
+                text},
+               one.reached);
+        }
       }
     }
   });
@@ -112,9 +142,8 @@ double EventWatch::next_line(const Movement& movement, double t, double last,
         first = std::min(first, line_root(g, strict, t, first));
       }
   };
-  active_borders(values, [&](EventBorder& border, Sides sides, EventCondition*, std::size_t) {
-    look(border, sides);
-  });
+  active_borders(values,
+                 [&](EventBorder& border, Sides sides, const Role&) { look(border, sides); });
   for (std::size_t k = 0; k < switches.size(); ++k) {
     const Switch& one = system_->switches[k];
     if (!switches[k].rests())

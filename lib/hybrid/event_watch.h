@@ -31,12 +31,16 @@ class EventWatch {
   std::vector<EventBorder> switches;
 
   /// The times just after all crossings on a step, in order, of borders of events and of `while`
-  /// that may decide about something from `values` on, those at the start of the step. `graze` is
-  /// told of borders of `when` that come near without being reached, where reaching them would have
-  /// been the event. `hidden`, at the start of a flow: the first BorderOnStep::hidden_turn, if any.
+  /// that may decide about something from `values` on, those at the start of the step. `turn` is
+  /// told of turning points within `near` of their terms, and of those that come nearest.
+  /// `hidden`, at the start of a flow: the first BorderOnStep::hidden_turn, if any.
   std::vector<double> crossings(const StepValues& inside, const Eigen::VectorXd& values,
-                                const std::function<void(double t, const std::string& text)>& graze,
+                                double near,
+                                const std::function<void(const NearTurn&, bool reached)>& turn,
                                 std::optional<double>* hidden = nullptr);
+
+  /// The border that a turning point is of.
+  EventBorder& border_of(const NearTurn& turn);
 
   /// The first time in (t, last] at which a border that is affine in what is steady is crossed;
   /// `last` when there is none.
@@ -47,11 +51,18 @@ class EventWatch {
     bool above = false;     ///< > 0
     bool at_least = false;  ///< >= 0
   };
-  using Visit = std::function<void(EventBorder&, Sides, EventCondition*, std::size_t comparison)>;
+  /// What a border decides about; the condition is none of a crossing.
+  struct Role {
+    NearTurn::Of of;
+    std::size_t index;
+    EventCondition* condition;
+    std::size_t comparison;
+  };
+  using Visit = std::function<void(EventBorder&, Sides, const Role&)>;
 
   void active_borders(const Eigen::VectorXd& values, const Visit& visit);
-  static void comparisons_of(EventCondition& condition, const Eigen::VectorXd& values,
-                             bool is_event, const Visit& visit);
+  static void comparisons_of(const Role& role, const Eigen::VectorXd& values, const Visit& visit);
+  static bool decides(const Role& role, const Eigen::VectorXd& values);
 
   const EventSystem* system_;
 };

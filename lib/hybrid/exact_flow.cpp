@@ -44,7 +44,8 @@ WideMatrix short_step(const WideMatrix& G, long double length) {
 
 class ExactFlow : public Flow {
  public:
-  ExactFlow(Movement& movement, double longest) : movement_(&movement), longest_(longest) {}
+  ExactFlow(Movement& movement, double longest, const LastPlaces* moved)
+      : movement_(&movement), longest_(longest), moved_(moved) {}
 
   void start(double t, const VectorXd& values, double last) override {
     t_ = t;
@@ -63,7 +64,7 @@ class ExactFlow : public Flow {
     while (true) {
       const Level& level = level_at(std::min(level_, level_of(last_ - t_)));
       bool agrees = false;
-      const Matrix series = series_over(level, agrees);
+      Matrix series = series_over(level, agrees);
       if (!agrees && level_ > 0) {
         --level_;
         grows_ = false;
@@ -73,6 +74,7 @@ class ExactFlow : public Flow {
       if (!series.allFinite()) throw IntegrationError("the flow is not finite", t_, true);
       if (end <= t_)
         throw IntegrationError("the flow is too fast to be followed at this time", t_, false);
+      if (moved_ != nullptr) move(series);
       return end < last_ ? whole_step(level, series, end) : last_step(series, end);
     }
   }
@@ -170,13 +172,27 @@ class ExactFlow : public Flow {
     Matrix series = chebyshev::coefficients(values);
     const VectorXd tail = series.rightCols(2).cwiseAbs().rowwise().sum();
     peaks_ = peaks_.cwiseMax(sizes);
+    sizes_ = level.maps.back().topRows(n).cwiseAbs().lazyProduct(z_.cwiseAbs());
     agrees = (tail.array() <= kSeriesRounding * sizes.array() + kDied * peaks_.array()).all();
     return series;
+  }
+
+  /// What rests stays.
+  void move(Matrix& series) {
+    moves_ = VectorXd::Zero(series.rows());
+    for (Index k = 0; k < series.rows(); ++k) {
+      const auto row = series.row(k);
+      if ((row.tail(kExactDegree).array() == 0).all()) continue;
+      moves_(k) = moved_->of(row.sum(), sizes_(k));
+      series(k, 0) += moves_(k) / 2;
+      series(k, 1) += moves_(k) / 2;
+    }
   }
 
   DenseStep whole_step(const Level& level, const Matrix& series, double end) {
     DenseStep step = movement_->step(t_, end, series);
     z_ = (level.maps.back() * z_).eval();
+    if (moved_ != nullptr) z_.head(moves_.size()) += moves_;
     t_ = end;
     if (grows_ && level_ < table_->top) ++level_;
     grows_ = true;
@@ -201,16 +217,20 @@ class ExactFlow : public Flow {
   bool grows_ = true;  ///< false: the last try of a longer step failed
   VectorXd z_;
   VectorXd peaks_;  ///< the largest sizes of this flow
+  VectorXd sizes_;  ///< of the terms at the end of the step
+  const LastPlaces* moved_;
+  VectorXd moves_;  ///< at the end of the step
 };
 
 }  // namespace
 
-std::unique_ptr<Flow> exact_flow(Movement& movement, double longest) {
-  return std::make_unique<ExactFlow>(movement, longest);
+std::unique_ptr<Flow> exact_flow(Movement& movement, double longest, const LastPlaces* moved) {
+  return std::make_unique<ExactFlow>(movement, longest, moved);
 }
 
-std::unique_ptr<Flow> make_flow(Movement& movement, const Accuracy& accuracy, double longest) {
-  return movement.system().affine ? exact_flow(movement, longest)
+std::unique_ptr<Flow> make_flow(Movement& movement, const Accuracy& accuracy, double longest,
+                                const LastPlaces* moved) {
+  return movement.system().affine ? exact_flow(movement, longest, moved)
                                   : integrated_flow(movement, accuracy, longest);
 }
 

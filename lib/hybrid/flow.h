@@ -11,6 +11,7 @@
 #include <Eigen/Core>
 #include <memory>
 
+#include "hybrid/last_places.h"
 #include "hybrid/movement.h"
 #include "hybrid/trajectory.h"
 
@@ -41,10 +42,15 @@ class Flow {
 };
 
 /// The flow of the system of a movement, which must outlive it; no step is longer than `longest`.
-std::unique_ptr<Flow> make_flow(Movement& movement, const Accuracy& accuracy, double longest);
+/// `moved`: by which each step of an exact flow is moved, from nothing at its start to a move in
+/// the last places at its end, so that what has just happened does not happen again. Integrated
+/// flows to two accuracies round apart by themselves.
+std::unique_ptr<Flow> make_flow(Movement& movement, const Accuracy& accuracy, double longest,
+                                const LastPlaces* moved = nullptr);
 
 /// The two kinds, for tests; the exact one for affine systems only.
-std::unique_ptr<Flow> exact_flow(Movement& movement, double longest);
+std::unique_ptr<Flow> exact_flow(Movement& movement, double longest,
+                                 const LastPlaces* moved = nullptr);
 std::unique_ptr<Flow> integrated_flow(Movement& movement, const Accuracy& accuracy, double longest);
 
 }  // namespace gainsmith::hybrid

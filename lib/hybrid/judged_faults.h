@@ -41,7 +41,9 @@ class Faults {
 
 /// Of sums of a few times: eight units in the last place.
 inline double time_rounding(double a, double b) {
-  return 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b));
+  // Below the smallest normal number digits are lost.
+  return 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b)) +
+         std::numeric_limits<double>::min();
 }
 
 /// Whether rounding may have made two times of one, such as sums of lengths.

@@ -1,5 +1,6 @@
 #include "hybrid/judged_flow.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "expr/number_type.h"
@@ -45,6 +46,16 @@ Eigen::VectorXd rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd&
   return result;
 }
 
+/// What the rounding of the time at which a step begins makes of its values: a switch may just have
+/// made the flow fast.
+Eigen::VectorXd shift_of(const DenseStep& step) {
+  const Eigen::VectorXd swing =
+      step.coefficients.rightCols(step.coefficients.cols() - 1).cwiseAbs().rowwise().sum();
+  const double length = step.to - step.from;
+  const double part = length > 0 ? 2 * time_rounding(step.from, step.to) / length : 1;
+  return std::min(part, 1.0) * swing;
+}
+
 FlowCheck::FlowCheck(JudgedTexts& texts, Faults& faults)
     : texts_(texts), faults_(faults), moving_{{}, Eigen::VectorXd::Zero(texts.layout.size)} {
   for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v)
@@ -73,14 +84,14 @@ void FlowCheck::operator()(std::size_t part, const FlowPiece& piece) {
     const Eigen::VectorXd sizes = step_sizes(texts_, step);
     largest = largest.cwiseMax(sizes);
     Eigen::VectorXd from = step(step.from);
-    check_joint(x, step.from, from, sizes, &step != &piece.steps.front());
+    check_joint(x, step.from, from, sizes, &step != &piece.steps.front(), shift_of(step));
     check_rest(step, from, sizes);
     check_measured(texts_, part_, step, faults_);
     texts_.settle(piece.start, from);
     check_step(step, from, sizes, sum);
     x = step(step.to);
   }
-  check_joint(x, piece.to(), piece.end, largest, false);
+  check_joint(x, piece.to(), piece.end, largest, false, Eigen::VectorXd::Zero(texts_.layout.size));
   const double steps = static_cast<double>(piece.steps.size());
   report(piece.to(), "a flow drifts away from its text", sum.cwiseAbs(),
          (kFactor + 10 * steps) * texts_.accuracy(largest) +
@@ -88,7 +99,8 @@ void FlowCheck::operator()(std::size_t part, const FlowPiece& piece) {
 }
 
 void FlowCheck::check_joint(const Eigen::VectorXd& x, double t, const Eigen::VectorXd& next,
-                            const Eigen::VectorXd& sizes, bool inner) {
+                            const Eigen::VectorXd& sizes, bool inner,
+                            const Eigen::VectorXd& shift) {
   Eigen::VectorXd difference = (next - x).cwiseAbs();
   for (std::size_t v = 0; inner && v < flowing_.size(); ++v)
     if (texts_.is_measured(v)) {
@@ -100,7 +112,7 @@ void FlowCheck::check_joint(const Eigen::VectorXd& x, double t, const Eigen::Vec
     }
   report(t, "the steps of a flow do not join", difference,
          kJoint * sizes + kRoundingOfAccuracy * texts_.accuracy(sizes) +
-             time_rounding_at(texts_, t, next));
+             time_rounding_at(texts_, t, next) + shift);
 }
 
 void FlowCheck::check_rest(const DenseStep& step, const Eigen::VectorXd& x,

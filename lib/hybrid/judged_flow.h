@@ -34,7 +34,7 @@ class FlowCheck {
 
  private:
   void check_joint(const Eigen::VectorXd& x, double t, const Eigen::VectorXd& next,
-                   const Eigen::VectorXd& sizes, bool inner);
+                   const Eigen::VectorXd& sizes, bool inner, const Eigen::VectorXd& shift);
   void check_rest(const DenseStep& step, const Eigen::VectorXd& x, const Eigen::VectorXd& sizes);
   /// Adds to `sum` the difference at the end.
   void check_step(const DenseStep& step, const Eigen::VectorXd& x, const Eigen::VectorXd& sizes,

@@ -41,6 +41,7 @@ class RunRecord {
   std::string last_events() const;
 
   void note(const std::string& text);
+  void add(const NearTurn& turn) { result_.turns.push_back(turn); }
   void accumulates(double t) { result_.accumulation = t; }
 
   Trajectory take(double end);

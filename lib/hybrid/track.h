@@ -55,6 +55,9 @@ struct Track {
   /// By coordinate, sample after sample: whether its value is the same to the last bit whatever the
   /// errors of what it is made of. Empty: of none.
   std::vector<char> is_fixed;
+  /// By sample: whether it lies in a flow of hardly any length, near others as its own may be.
+  /// Empty: none does.
+  std::vector<char> within_instant;
   Termination termination = Termination::horizon;
   std::string message;
   /// The relative accuracy of a flow that is integrated: its bounds are
@@ -69,6 +72,7 @@ struct Track {
     stacked.clear();
     looked_for.clear();
     is_fixed.clear();
+    within_instant.clear();
     termination = Termination::horizon;
     message.clear();
   }

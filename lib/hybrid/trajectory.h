@@ -48,6 +48,19 @@ struct DenseStep {
   DenseStep until(double t) const;
 };
 
+/// A turning point of what decides about an event, or about `while`, next to 0: had it come to the
+/// other side of 0, or not, something else would have happened.
+struct NearTurn {
+  enum class Of { when, crossing, stay };
+  Of of = Of::when;
+  std::size_t index = 0;       ///< of the event, or of the `while`
+  std::size_t comparison = 0;  ///< of its condition
+  Eigen::Index element = 0;
+  double t = 0;      ///< where the flow turns there, or where 0 is reached before
+  double value = 0;  ///< at the turning point
+  std::string text;
+};
+
 /// A flow of positive length.
 struct FlowPiece {
   std::int64_t j = 0;  ///< the number of jumps before it
@@ -75,9 +88,10 @@ struct Trajectory {
   std::vector<std::variant<FlowPiece, JumpPoint>> parts;  ///< in order
   double horizon = 0;
   Ending ending = Ending::horizon;
-  double end = 0;           ///< its time
-  std::string message;      ///< why it ended, with time, place and values; empty at the horizon
-  double accumulation = 0;  ///< zeno: the time at which jumps accumulate
+  double end = 0;               ///< its time
+  std::string message;          ///< why it ended, with time, place and values; empty at the horizon
+  double accumulation = 0;      ///< zeno: the time at which jumps accumulate
+  std::vector<NearTurn> turns;  ///< of a twin (event_run.h), in order
   std::vector<std::string> notes;  ///< such as a border that came near without being reached
 };
 

@@ -139,6 +139,13 @@ bool ClaimCheck<Scalar>::is_own(const Track& track, std::size_t sample) const {
   return !track.looked_for.empty() && track.looked_for[sample] != Track::kForAll;
 }
 
+/// Whether it may lie so near the one before that no value has changed in between.
+template <class Scalar>
+bool ClaimCheck<Scalar>::is_crowded(const Track& track, std::size_t sample) const {
+  return is_own(track, sample) ||
+         (!track.within_instant.empty() && track.within_instant[sample] != 0);
+}
+
 /// Whether it is there for the sake of another.
 template <class Scalar>
 bool ClaimCheck<Scalar>::is_of_another(const Track& track, std::size_t sample) const {
@@ -209,7 +216,7 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
       judgement = compare(v[k], low);
       if (judgement == Judgement::violated) judgement = Judgement::undecided;
     }
-    if (judgement == Judgement::undecided && is_own(track, k) && is_number(v[k]) &&
+    if (judgement == Judgement::undecided && is_crowded(track, k) && is_number(v[k]) &&
         static_cast<double>(v[k].value - high.value) <= kGrown * (v[k].bound + high.bound))
       judgement = Judgement::held;
     const double top = hybrid::size_of(v[k].value) + v[k].bound;
@@ -272,7 +279,9 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
   const double scale = b.value == Scalar(0) ? 1 : hybrid::size_of(b.value);
   const std::vector<double> sizes =
       b.value == Scalar(0) ? term_sizes(track, v) : std::vector<double>();
-  const double largest = sizes.empty() ? 0 : *std::max_element(sizes.begin(), sizes.end());
+  double largest = 0;
+  for (const double size : sizes)
+    if (std::isfinite(size)) largest = std::max(largest, size);
   std::optional<Finding> worst;
   double noise = 0;
   const auto rank = [](const Finding& one) {

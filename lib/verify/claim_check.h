@@ -8,8 +8,9 @@
 //   shrinks         v(end) <= factor v(0)            held at once when v(0) = 0
 //   below, above    v(k) <= b, v(k) >= b             at every sample; b a constant
 //
-// At samples that a track has for the sake of the value alone, near others as they may be, what is
-// undecided counts when the value seems to have grown by a part kGrown of its bounds.
+// At samples that a track has for the sake of the value alone, or in a flow of hardly any length,
+// near others as they may be, what is undecided counts when the value seems to have grown by a part
+// kGrown of its bounds: those that follow are compared with the least of all.
 //
 // `after` a time, the samples before it do not count; `over` an event, only those just after its
 // jumps do. Then v(0) is the first that counts.
@@ -68,7 +69,8 @@ struct Finding {
   double floor = 0;
   int digits = kDoubleDigits;  ///< of the arithmetic that says so
   bool looked = true;          ///< false: the run has no sample at which the claim is made
-  bool estimated = false;      ///< `rounding` is an estimate, of the error of integration too
+  bool ended = false;      ///< the run ends at t, before its horizon, and the claim is left open
+  bool estimated = false;  ///< `rounding` is an estimate, of the error of integration too
 
   bool violated() const { return judgement == Judgement::violated; }
   bool undecided() const { return judgement == Judgement::undecided; }
@@ -123,6 +125,7 @@ class ClaimCheck {
   std::vector<double> term_sizes(const Track& track, const std::vector<Bounded>& v);
   bool counts(const Track& track, std::size_t sample) const;
   bool is_own(const Track& track, std::size_t sample) const;
+  bool is_crowded(const Track& track, std::size_t sample) const;
   bool is_of_another(const Track& track, std::size_t sample) const;
   bool may_change(const Track& track, std::size_t before, std::size_t sample,
                   const std::vector<Bounded>& v) const;

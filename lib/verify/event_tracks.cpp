@@ -23,9 +23,6 @@ Index last_around(Index k, Index all) {
   return std::min<Index>(first_around(k, all) + kAround, all);
 }
 
-constexpr double kOfDifference =
-    4;  ///< of the difference of two runs, as the error of the better one
-
 bool is_whole(model::Dynamics::VariableKind kind) {
   using Kind = model::Dynamics::VariableKind;
   return kind == Kind::mode || kind == Kind::jumps || kind == Kind::count || kind == Kind::passes;
@@ -36,6 +33,7 @@ bool is_whole(model::Dynamics::VariableKind kind) {
 EventTracks::EventTracks(const EventSetup& setup)
     : setup_(&setup),
       simulator_(setup.system, setup.scenario),
+      doubts_(setup.system),
       rounds_(static_cast<std::size_t>(setup.system.whole), false) {
   const auto& variables = setup.system.dynamics.variables;
   for (std::size_t k = 0; k < variables.size(); ++k) {
@@ -88,12 +86,14 @@ VectorXd EventTracks::errors(const VectorXd& fine, const VectorXd& around) const
 
 /// The bits `pattern`, `pattern` + `stride`, ... of the numbers of elements are rounded apart.
 void EventTracks::append(const FlowLook& look, std::int64_t j, const VectorXd& coarse,
-                         const VectorXd& fine, const VectorXd& around, int pattern, int stride) {
+                         const VectorXd& fine, const VectorXd& around, int pattern, int stride,
+                         bool within_instant) {
   VectorXd value = values(look, fine);
   VectorXd difference = (values(look, coarse) - value).cwiseAbs();
   for (int bit = pattern; bit == 0 || (fine.size() - 1) >> bit > 0; bit += stride)
     difference = difference.cwiseMax((values(look, with_rounding(fine, bit)) - value).cwiseAbs());
   const VectorXd error = errors(fine, around);
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const auto row = static_cast<Index>(k);
     if (!counts(look, k)) {
@@ -105,15 +105,17 @@ void EventTracks::append(const FlowLook& look, std::int64_t j, const VectorXd& c
     track_.is_fixed.push_back(!is_open && difference(row) == 0 ? 1 : 0);
     if (!is_open) {
       rounding_.push_back(balls_[k].rounding(fine));
+      if (parts(k, value(row), difference(row), rounding_.back())) difference(row) = kUnknown;
       continue;
     }
     const hybrid::Bounded<double> hull = balls_[k].hull(fine, error);
     if (!std::isnan(hull.value)) value(row) = hull.value;
-    difference(row) = 0;
+    difference(row) = parts(k, value(row), 0, 0) ? kUnknown : 0;
     rounding_.push_back(hull.bound);
   }
   track_.t.push_back(look.t);
   track_.looked_for.push_back(look.function);
+  track_.within_instant.push_back(within_instant ? 1 : 0);
   track_.j.push_back(j);
   track_.timer.push_back(0);
   track_.timer_bound.push_back(0);
@@ -122,19 +124,48 @@ void EventTracks::append(const FlowLook& look, std::int64_t j, const VectorXd& c
                        difference.data() + difference.size());
 }
 
-void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPiece& fine) {
+bool EventTracks::parts(std::size_t function, double value, double difference, double rounding) {
+  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+  constexpr double kOfRange = 1e-3;
+  constexpr double kOfAccuracy = 1e3;
+  const auto claim = static_cast<std::size_t>(setup_->first_of_claim[function]);
+  Range& range = ranges_[function];
+  range.low = range.seen ? std::fmin(range.low, value) : value;
+  range.high = range.seen ? std::fmax(range.high, value) : value;
+  range.seen = true;
+  sizes_[claim] = std::fmax(sizes_[claim], std::fmax(std::abs(value), rounding / kUnit));
+  // A value that is nothing but errors of its terms goes on to be known to them.
+  if (difference > kOfRange * (range.high - range.low) &&
+      difference > kOfAccuracy * track_.accuracy * sizes_[claim])
+    parted_[claim] = 1;
+  return parted_[claim] != 0;
+}
+
+void EventTracks::add_flow(const TwinFlow& flow, const hybrid::Trajectory& run) {
+  const hybrid::FlowPiece& fine = *flow.flow;
+  double certain = std::numeric_limits<double>::infinity();
+  for (; next_turn_ < run.turns.size() && run.turns[next_turn_].t <= fine.to(); ++next_turn_) {
+    const hybrid::NearTurn& turn = run.turns[next_turn_];
+    if (turn.t < fine.from() || !doubt_.empty()) continue;
+    if (auto doubt = doubts_.of_turn(turn, flow)) {
+      doubt_ = *doubt;
+      certain = turn.t;
+    }
+  }
   rounded_ += static_cast<double>(fine.steps.size());
   const std::vector<FlowLook> looks = looks_along(fine, setup_->looks, functions_, rises_);
   std::vector<VectorXd> coarse_x;
   std::vector<VectorXd> fine_x;
   for (const FlowLook& look : looks) {
-    coarse_x.push_back(state_at(coarse, look.share));
+    coarse_x.push_back(flow.twin_at(look.share));
     fine_x.push_back(state_at(fine, look.share));
   }
   const auto count = static_cast<Index>(looks.size());
   double before = fine.from();
+  const bool within_instant = fine.to() - fine.from() <= kInstantOfRun * run.end;
   for (Index k = 0; k < count; ++k) {
     const FlowLook& look = looks[static_cast<std::size_t>(k)];
+    if (look.t >= certain) break;
     VectorXd difference = VectorXd::Zero(fine.start.size());
     for (Index other = first_around(k, count); other < last_around(k, count); ++other) {
       const auto at = static_cast<std::size_t>(other);
@@ -143,9 +174,20 @@ void EventTracks::add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPi
     track_.moves.push_back({false, {hybrid::FlowStep::kRest, look.t - before}});
     const auto at = static_cast<std::size_t>(k);
     append(look, fine.j, coarse_x[at], fine_x[at], difference, static_cast<int>((k + 1) % kAround),
-           kAround);
+           kAround, within_instant);
     before = look.t;
   }
+}
+
+void EventTracks::add_jump(const TwinParts& twins, std::size_t at) {
+  const auto& [jump, before, after, t] = std::get<TwinJump>(twins.parts[at]);
+  if (auto doubt = doubts_.of_jump(twins, at)) {
+    doubt_ = *doubt;
+    return;
+  }
+  rounded_ += 1;
+  track_.moves.push_back({true, {}, jump->event});
+  append({1, jump->t}, jump->j + 1, after, jump->after, (after - jump->after).cwiseAbs(), 0, 1);
 }
 
 /// A rise within the noise of a run is never certain.
@@ -166,28 +208,21 @@ RiseLimits EventTracks::limits_of_rises(const VectorXd& start, double accuracy) 
   return limits;
 }
 
-/// What the two runs have in common.
-void EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
+bool EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
   append({0, 0}, 0, coarse.start, fine.start, (coarse.start - fine.start).cwiseAbs(), 0, 1);
+  const TwinParts twins = pair_twins(fine, coarse, setup_->system, doubts_.maps());
   std::size_t first = 0;
-  const std::size_t parts = std::min(coarse.parts.size(), fine.parts.size());
-  for (std::size_t k = 0; k < parts; ++k) {
-    if (coarse.parts[k].index() != fine.parts[k].index()) break;
-    if (const auto* flow = std::get_if<hybrid::FlowPiece>(&fine.parts[k])) {
-      add_flow(std::get<hybrid::FlowPiece>(coarse.parts[k]), *flow);
+  for (std::size_t k = 0; k < twins.parts.size() && doubt_.empty(); ++k) {
+    if (const auto* flow = std::get_if<TwinFlow>(&twins.parts[k])) {
+      add_flow(*flow, fine);
       continue;
     }
-    const auto& jump = std::get<hybrid::JumpPoint>(fine.parts[k]);
-    const auto& other = std::get<hybrid::JumpPoint>(coarse.parts[k]);
-    if (jump.event != other.event || jump.lost != other.lost) break;
     widen(first);
     first = track_.samples();
-    rounded_ += 1;
-    track_.moves.push_back({true, {}, jump.event});
-    append({1, jump.t}, jump.j + 1, other.after, jump.after, (other.after - jump.after).cwiseAbs(),
-           0, 1);
+    add_jump(twins, k);
   }
   widen(first);
+  return twins.whole && doubt_.empty();
 }
 
 /// Of the samples of one flow, once all are there.
@@ -218,10 +253,11 @@ void EventTracks::widen(std::size_t first) {
   }
 }
 
-void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
+void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine,
+                      bool certain) {
   constexpr double kSame = 1e-6;
   track_.message = fine.message;
-  const bool same = coarse.ending == fine.ending && coarse.parts.size() == fine.parts.size() &&
+  const bool same = certain && coarse.ending == fine.ending &&
                     std::abs(coarse.end - fine.end) <= kSame * fine.end;
   const bool complete = is_complete(fine.ending);
   const bool breaks = fine.ending == Ending::escaped || fine.ending == Ending::undefined ||
@@ -232,7 +268,9 @@ void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory
     track_.termination = Termination::broken_off;
   } else {
     track_.termination = Termination::lost;
-    if (!same)
+    if (!doubt_.empty())
+      track_.message = doubt_;
+    else if (!same)
       track_.message = "which events happen, and when, hangs on the accuracy" +
                        (fine.message.empty() ? "" : "; " + fine.message);
   }
@@ -248,10 +286,16 @@ const hybrid::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t 
   rounded_ = 0;
   rounding_.clear();
   const hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
-  const hybrid::Trajectory fine = simulator_.run(seed, run, accuracy.times(kSharper));
+  const hybrid::Trajectory fine =
+      simulator_.run(seed, run, accuracy.times(kSharper), {}, factor < 1 ? 1 : 0);
   rises_ = limits_of_rises(fine.start, accuracy.relative);
-  add_parts(coarse, fine);
-  end(coarse, fine);
+  ranges_.assign(functions_.size(), {});
+  sizes_.assign(functions_.size(), 0);
+  parted_.assign(functions_.size(), 0);
+  next_turn_ = 0;
+  doubt_.clear();
+  const bool certain = add_parts(coarse, fine);
+  end(coarse, fine, certain);
   return track_;
 }
 

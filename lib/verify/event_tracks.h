@@ -4,13 +4,16 @@
 #include <functional>
 #include <vector>
 
+#include "verify/event_doubts.h"
 #include "verify/event_setup.h"
 #include "verify/text_ball.h"
+#include "verify/twin_parts.h"
 
 namespace gainsmith::verify {
 
-/// The runs of one (seed, number), to an accuracy and to a hundredth of it, as the samples of the
-/// functions; one for each thread. The setup must outlive it.
+/// The runs of one (seed, number) as the samples of the functions: one to an accuracy, and its twin
+/// to a hundredth of it, of which every exact flow and every jump is moved by random units in the
+/// last place (hybrid/last_places.h). One for each thread. The setup must outlive it.
 ///
 ///   samples   the looks along each flow (flow_looks.h), and the values after each jump; of a look
 ///             for the sake of one claim only its values, 0 for the others
@@ -20,8 +23,13 @@ namespace gainsmith::verify {
 ///             (text_ball.h): an estimate that leaves a margin, and no proof. Where such an error
 ///             of the variables makes a branch uncertain, all values that are possible
 ///
-/// Where the two runs take other events, or end otherwise, it hangs on the accuracy: the run is
-/// lost. A run that ends by accumulating jumps is complete.
+/// Once the two runs differ by more than a thousandth of the range of a value so far, they are two
+/// runs that have nothing to do with each other: from there on bounds of the claim are infinite.
+///
+/// Where it is not certain which events happen, because the two runs take others or because they
+/// lie within their errors (event_doubts.h), the run is lost: the samples end there. Events at one
+/// instant may come in another order (twin_parts.h). A run that ends by accumulating jumps is
+/// complete.
 class EventTracks {
  public:
   explicit EventTracks(const EventSetup& setup);
@@ -31,11 +39,16 @@ class EventTracks {
 
  private:
   void append(const FlowLook& look, std::int64_t j, const Eigen::VectorXd& coarse,
-              const Eigen::VectorXd& fine, const Eigen::VectorXd& around, int pattern, int stride);
-  void add_flow(const hybrid::FlowPiece& coarse, const hybrid::FlowPiece& fine);
-  void add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
+              const Eigen::VectorXd& fine, const Eigen::VectorXd& around, int pattern, int stride,
+              bool within_instant = false);
+  void add_flow(const TwinFlow& flow, const hybrid::Trajectory& fine);
+  void add_jump(const TwinParts& twins, std::size_t at);
+  /// The part of both runs that is certain; whether that is all.
+  bool add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
+  /// Whether the two runs have parted in a value.
+  bool parts(std::size_t function, double value, double difference, double rounding);
   RiseLimits limits_of_rises(const Eigen::VectorXd& start, double accuracy);
-  void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
+  void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine, bool certain);
   void widen(std::size_t first);
   bool counts(const FlowLook& look, std::size_t function) const;
   Eigen::VectorXd values(const FlowLook& look, const Eigen::VectorXd& x);
@@ -46,11 +59,22 @@ class EventTracks {
   hybrid::EventSimulator simulator_;
   std::vector<RunValue> functions_;
   std::vector<TextBall> balls_;  ///< of the functions
-  std::vector<bool> rounds_;     ///< by element: whether it is no whole number, which is exact
+  EventDoubts doubts_;
+  std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
   hybrid::Track<double> track_;
   std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track
   RiseLimits rises_;
-  double rounded_ = 0;  ///< steps and jumps so far
+  /// What a function has been so far.
+  struct Range {
+    double low = 0, high = 0;
+    bool seen = false;
+  };
+  std::vector<Range> ranges_;  ///< by function
+  std::vector<double> sizes_;  ///< by claim, at its first function: of values and their terms
+  std::vector<char> parted_;   ///< the same: whether the two runs have
+  std::size_t next_turn_ = 0;  ///< of the turning points of the twin
+  std::string doubt_;          ///< why the run is lost
+  double rounded_ = 0;         ///< steps and jumps so far
 };
 
 }  // namespace gainsmith::verify

@@ -42,14 +42,27 @@ RunVerdict verdict_on(const hybrid::Track<Scalar>& track, std::vector<ClaimCheck
   return verdict;
 }
 
+/// Of a run that ends before its horizon a claim that holds so far is left open.
+template <class Scalar>
+void leave_open(const hybrid::Track<Scalar>& track, Judgement open, Finding& finding) {
+  if (finding.violated() || (finding.undecided() && open == Judgement::undecided)) return;
+  finding.judgement = open;
+  finding.ended = true;
+  finding.t = track.t.back();
+  finding.j = track.j.back();
+}
+
 /// The verdict on a run that is not repeated again.
 template <class Scalar>
 RunVerdict last_verdict(const hybrid::Track<Scalar>& track,
                         std::vector<ClaimCheck<Scalar>>& checks) {
   RunVerdict verdict = verdict_on(track, checks);
   verdict.repeated = true;
-  if (verdict.unfinished() && verdict.judgement != Judgement::violated)
-    verdict.judgement = is_certain_end(track) ? Judgement::violated : Judgement::undecided;
+  if (verdict.unfinished()) {
+    const Judgement open = is_certain_end(track) ? Judgement::violated : Judgement::undecided;
+    for (Finding& finding : verdict.findings) leave_open(track, open, finding);
+    if (verdict.judgement != Judgement::violated) verdict.judgement = open;
+  }
   verdict.confirmed = verdict.judgement == Judgement::violated;
   return verdict;
 }

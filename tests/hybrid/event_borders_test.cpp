@@ -64,18 +64,19 @@ TEST(Borders, APairThatHardlyCrosses) {
   ASSERT_EQ(found.roots.size(), 2U);
   EXPECT_NEAR(found.roots[0].right, 1 - half, 1e-10);
   EXPECT_NEAR(found.roots[1].right, 1 + half, 1e-10);
-  EXPECT_TRUE(found.grazings.empty());
+  ASSERT_EQ(found.turns.size(), 1U);
+  EXPECT_TRUE(found.turns[0].reached);
 }
 
 TEST(Borders, WhatComesNearWithoutReachingIsNoted) {
   const auto g = [](double t) { return (t - 1) * (t - 1) + 1e-11; };
   const Found found = roots(g, 0, 3);
   EXPECT_TRUE(found.roots.empty());
-  ASSERT_EQ(found.grazings.size(), 1U);
-  EXPECT_NEAR(found.grazings[0].t, 1, 1e-5);
-  EXPECT_NEAR(found.grazings[0].value, 1e-11, 1e-12);
+  ASSERT_EQ(found.turns.size(), 1U);
+  EXPECT_NEAR(found.turns[0].t, 1, 1e-5);
+  EXPECT_NEAR(found.turns[0].value, 1e-11, 1e-12);
   const auto far = [](double t) { return (t - 1) * (t - 1) + 1e-8; };
-  EXPECT_TRUE(roots(far, 0, 3).grazings.empty());
+  EXPECT_TRUE(roots(far, 0, 3).turns.empty());
 }
 
 TEST(Borders, ATouchIsReachedWhereTheValueSaysSo) {

@@ -1,0 +1,15 @@
+// Internal to hybrid: what the evaluation of a text may round.
+#pragma once
+
+#include <optional>
+
+#include "expr/program.h"
+
+namespace gainsmith::hybrid {
+
+/// The sizes of the terms that a text is the sum of, element by element: sums, products and
+/// matrices of the absolute values of their parts. None where nothing is computed: of a text that
+/// only chooses and arranges values.
+std::optional<expr::Program> rounding_terms(const expr::Program& program);
+
+}  // namespace gainsmith::hybrid
