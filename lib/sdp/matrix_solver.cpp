@@ -48,7 +48,7 @@ class MatrixIpm {
   static constexpr double kResidual = 1e-3, kResidualOfGap = 0.003, kLeastResidual = 1e-11;
   static constexpr int kSteps = 150;
   /// Steps with the factor: what these leave is rounding.
-  static constexpr int kFactoredSteps = 30;
+  static constexpr int kFactoredSteps = 20;
   static constexpr double kUseless = 0.03, kUselessToMinimum = 10;
   /// Of the way to the boundary.
   static constexpr double kShortest = 0.9, kLongest = 0.99;
@@ -110,8 +110,7 @@ class MatrixIpm {
       if (!prepare()) return Cause::stalled;
       steps_ = 0;
       if (!move()) return Cause::stalled;
-      // Where a point is wanted a few iterations bring it, and conjugate gradients take few steps.
-      direct_ |= !options_.enough && steps_ * schur_.cost() > factored_.cost();
+      direct_ |= may_factor_ && steps_ * schur_.cost() > factored_.cost();
     }
     return Cause::stalled;
   }
@@ -202,12 +201,7 @@ class MatrixIpm {
     }
     operator_.adjoint(work_, right_);
     right_ -= c_;
-    bool good = conjugate_gradients();
-    if (!good && !direct_ && !options_.enough) {
-      direct_ = true;
-      dx_.setZero();
-      good = prepare() && conjugate_gradients();
-    }
+    const bool good = solve_for_dx();
     operator_.apply(dx_, dS_);
     dS_.flat() += defect_.flat();
     scaling_.inward(dS_, image_);
@@ -215,6 +209,20 @@ class MatrixIpm {
     for (int b = 0; b < dX_.layout().blocks(); ++b) dX_.dense(b).diagonal() -= scaling_.d(b);
     dX_.linear() -= scaling_.linear_d();
     return good;
+  }
+
+  /// Where one preconditioner fails, by the other. Rounding ends the factor's use first where M has
+  /// small eigenvalues that the products still have digits of.
+  bool solve_for_dx() {
+    if (conjugate_gradients()) return true;
+    if (!may_factor_) return false;
+    const Vector<double> dx = dx_;
+    const double missed = residual_.norm();
+    may_factor_ = !direct_;
+    direct_ = !direct_;
+    if (prepare() && conjugate_gradients()) return true;
+    if (!(residual_.norm() < missed)) dx_ = dx;
+    return false;
   }
 
   /// Where a point is all that is wanted, L*(X) = c need not hold.
@@ -311,7 +319,9 @@ class MatrixIpm {
   bool exact_ = false;  ///< S = C + L(x)
   int failures_ = 0;
   int steps_ = 0;        ///< of conjugate gradients in this iteration
-  bool direct_ = false;  ///< from here on with the factor of the Schur operator
+  bool direct_ = false;  ///< by the factor of the Schur operator
+  /// Not where a point is wanted: a few iterations of few steps bring it.
+  bool may_factor_ = !options_.enough;
 };
 
 }  // namespace
