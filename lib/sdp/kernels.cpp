@@ -174,8 +174,11 @@ void solve_factored_pairs(const View<const DoubleDouble>& l, Vector<DoubleDouble
 // ---- Cholesky and inverse, blocked on products
 // ---------------------------------------------------
 
-/// Columns of a panel, and of the panels that it is factored by.
-constexpr Index kPanel = 32, kInnerPanel = 8;
+/// Columns of a panel, and of the panels that it is factored by; and those of the panels of a large
+/// matrix, which would come from memory too often otherwise.
+constexpr Index kPanel = 32, kInnerPanel = 8, kOuterPanel = 128;
+/// Columns of a large matrix.
+constexpr Index kLarge = 512;
 
 template <typename T>
 void invert_lower_plain(const View<const T>& l, const View<T>& result) {
@@ -205,8 +208,22 @@ bool cholesky_plain(const View<T>& a) {
   return true;
 }
 
+/// The panels that one of `width` columns is factored by.
+Index narrower(Index width) {
+  if (width > kPanel) return kPanel;
+  return width > kInnerPanel ? kInnerPanel : 1;
+}
+
+template <typename T>
+bool is_zero(const View<T>& a) {
+  for (Index j = 0; j < a.columns; ++j)
+    for (Index i = 0; i < a.rows; ++i)
+      if (a(i, j) != T(0)) return false;
+  return true;
+}
+
 //   [ L11        ]   columns k .. k+w: the panel, factored by itself
-//   [ L21   A22  ]   A22 -= L21 L21', lower triangle, by block columns
+//   [ L21   A22  ]   A22 -= L21 L21', lower triangle, by block columns where L21 has rows
 //   A may have more rows than columns: then they are a panel of a larger matrix.
 template <typename T>
 bool cholesky_blocked(const View<T>& a, Index width) {
@@ -215,12 +232,14 @@ bool cholesky_blocked(const View<T>& a, Index width) {
     const View<T> panel = a.part(k, k, a.rows - k, w);
     if (std::is_same_v<T, double> && width > kInnerPanel)
       spend_on<T>(static_cast<double>(w * (a.columns - k)) * static_cast<double>(a.rows - k) / 2);
-    if (!(width > kInnerPanel ? cholesky_blocked(panel, kInnerPanel) : cholesky_plain(panel)))
-      return false;
+    const Index inner = narrower(width);
+    if (!(inner > 1 ? cholesky_blocked(panel, inner) : cholesky_plain(panel))) return false;
     for (Index j = k + w; j < a.columns; j += width) {
       check_stop();
       const Index wj = std::min(width, a.columns - j);
-      multiply_outer(constant(a.part(j, k, a.rows - j, w)), constant(a.part(j, k, wj, w)),
+      const View<T> rows = a.part(j, k, wj, w);
+      if (is_zero(rows)) continue;
+      multiply_outer(constant(a.part(j, k, a.rows - j, w)), constant(rows),
                      a.part(j, j, a.rows - j, wj), Update::subtract);
     }
   }
@@ -330,7 +349,7 @@ void multiply_transposed(const View<const T>& a, const View<const T>& a_transpos
 
 template <typename T>
 bool cholesky(const View<T>& a) {
-  return cholesky_blocked(a, kPanel);
+  return cholesky_blocked(a, a.columns > kLarge ? kOuterPanel : kPanel);
 }
 
 template <typename T>

@@ -299,6 +299,18 @@ void SchurOperator::apply(const Vector<double>& v, Vector<double>& Mv) const {
   }
 }
 
+double SchurOperator::cost() const {
+  double sum = 0;
+  for (const MatrixOperator::Block& block : of_.blocks())
+    for (const MatrixOperator::Term& term : block.terms) {
+      const auto size = static_cast<double>(term.E.rows());
+      const auto rows = static_cast<double>(term.E.columns());
+      const auto columns = static_cast<double>(term.F.columns());
+      sum += size * (2 * rows * columns + size * (columns + std::min(rows, columns)));
+    }
+  return sum;
+}
+
 double SchurOperator::diagonal(int scalar) const {
   double sum = 0;
   for (std::size_t k = 0; k < scaled_.size(); ++k)

@@ -103,6 +103,8 @@ class SchurOperator {
   void apply(const Vector<double>& v, Vector<double>& Mv) const;
   /// <G_i, W G_i W> of a scalar.
   double diagonal(int scalar) const;
+  /// Multiplications of apply(), about.
+  double cost() const;
 
  private:
   struct Scaled {

@@ -7,6 +7,7 @@
 
 #include "base/stop.h"
 #include "sdp/extreme.h"
+#include "sdp/kernels.h"
 #include "sdp/work.h"
 
 namespace gainsmith::sdp {
@@ -25,7 +26,12 @@ double smallest_eigenvalue(const Dense& M, double enough) {
     const double bound = Lanczos(M.rows()).lower_bound(identity, M, enough, converged);
     if (converged) return bound;
   }
-  return Eigen::SelfAdjointEigenSolver<Dense>(M, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  Dense shifted = M;
+  shifted.diagonal().array() -= enough;
+  if (cholesky(View<double>(shifted))) return enough;
+  const Eigen::Tridiagonalization<Dense> reduced(M);
+  Vector<double> diagonal = reduced.diagonal(), beside = reduced.subDiagonal();
+  return smallest_of_tridiagonal(diagonal, beside, enough);
 }
 
 }  // namespace

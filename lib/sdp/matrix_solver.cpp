@@ -8,6 +8,7 @@
 #include "sdp/matrix_operator.h"
 #include "sdp/matrix_preconditioner.h"
 #include "sdp/matrix_scaling.h"
+#include "sdp/matrix_schur.h"
 
 namespace gainsmith::sdp {
 namespace {
@@ -19,6 +20,7 @@ class MatrixIpm {
         operator_(program),
         schur_(operator_),
         preconditioner_(operator_),
+        factored_(operator_),
         scaling_(operator_.layout()),
         c_(ConstVectorMap<double>(program.c.data(), static_cast<Eigen::Index>(program.c.size()))),
         X_(operator_.layout()),
@@ -45,9 +47,13 @@ class MatrixIpm {
   /// would be lost, and with it the bound and the start of another solver.
   static constexpr double kResidual = 1e-3, kResidualOfGap = 0.003, kLeastResidual = 1e-11;
   static constexpr int kSteps = 150;
+  /// Steps with the factor: what these leave is rounding.
+  static constexpr int kFactoredSteps = 20;
   static constexpr double kUseless = 0.03, kUselessToMinimum = 10;
   /// Of the way to the boundary.
   static constexpr double kShortest = 0.9, kLongest = 0.99;
+  /// Corrections of a direction beyond the first, with the factor.
+  static constexpr int kCorrections = 2;
   /// A step below this gets nowhere.
   static constexpr double kNoStep = 1e-4;
   /// Part of a step taken back when it leaves the cone, and how often.
@@ -101,10 +107,18 @@ class MatrixIpm {
       check_stop();
       if (!scaling_.prepare(root_, S_)) return Cause::stalled;
       schur_.set_scaling(scaling_.W());
-      preconditioner_.prepare(schur_, scaling_.G());
+      if (!prepare()) return Cause::stalled;
+      steps_ = 0;
       if (!move()) return Cause::stalled;
+      direct_ |= may_factor_ && steps_ * schur_.cost() > factored_.cost();
     }
     return Cause::stalled;
+  }
+
+  bool prepare() {
+    if (direct_) return factored_.prepare(schur_, scaling_.W());
+    preconditioner_.prepare(schur_, scaling_.G());
+    return true;
   }
 
   /// A predictor and a corrector (Mehrotra 1992).
@@ -122,8 +136,30 @@ class MatrixIpm {
     const double sigma = std::max(1e-6, std::pow(ratio, std::max(1.0, 3 * shorter * shorter)));
     aim(sigma * now, true);
     good = direction() || good;
+    if (direct_) correct_further(sigma * now);
     if (!good && ++failures_ > 1) return false;
     return advance(shorter);
+  }
+
+  /// The second-order term of the last direction, again, while that lengthens the steps.
+  void correct_further(double mu) {
+    const auto reach = [&] { return scaling_.step(image_, 1) * scaling_.step(dX_, 1); };
+    double longest = reach();
+    for (int k = 0; k < kCorrections; ++k) {
+      const Vector<double> dx = dx_;
+      const Blocks<double> dX = dX_, dS = dS_, image = image_;
+      aim(mu, true);
+      direction();
+      if (const double next = reach(); next > longest) {
+        longest = next;
+        continue;
+      }
+      dx_ = dx;
+      dX_ = dX;
+      dS_ = dS;
+      image_ = image;
+      return;
+    }
   }
 
   /// diag(d) . M
@@ -165,7 +201,7 @@ class MatrixIpm {
     }
     operator_.adjoint(work_, right_);
     right_ -= c_;
-    const bool good = conjugate_gradients();
+    const bool good = solve_for_dx();
     operator_.apply(dx_, dS_);
     dS_.flat() += defect_.flat();
     scaling_.inward(dS_, image_);
@@ -173,6 +209,20 @@ class MatrixIpm {
     for (int b = 0; b < dX_.layout().blocks(); ++b) dX_.dense(b).diagonal() -= scaling_.d(b);
     dX_.linear() -= scaling_.linear_d();
     return good;
+  }
+
+  /// Where one preconditioner fails, by the other. Rounding ends the factor's use first where M has
+  /// small eigenvalues that the products still have digits of.
+  bool solve_for_dx() {
+    if (conjugate_gradients()) return true;
+    if (!may_factor_) return false;
+    const Vector<double> dx = dx_;
+    const double missed = residual_.norm();
+    may_factor_ = !direct_;
+    direct_ = !direct_;
+    if (prepare() && conjugate_gradients()) return true;
+    if (!(residual_.norm() < missed)) dx_ = dx;
+    return false;
   }
 
   /// Where a point is all that is wanted, L*(X) = c need not hold.
@@ -187,10 +237,15 @@ class MatrixIpm {
     schur_.apply(dx_, product_);
     residual_ = right_ - product_;
     double rho = 0;
-    for (int step = 0; step < kSteps; ++step) {
+    const int most = direct_ ? kFactoredSteps : kSteps;
+    for (int step = 0; step < most; ++step) {
       if (residual_.norm() <= goal) return true;
       check_stop();
-      preconditioner_.apply(residual_, half_);
+      ++steps_;
+      if (direct_)
+        factored_.apply(residual_, half_);
+      else
+        preconditioner_.apply(residual_, half_);
       const double next = residual_.dot(half_);
       if (!(next > 0)) return false;
       search_ = step == 0 ? half_ : Vector<double>(half_ + (next / rho) * search_);
@@ -251,6 +306,7 @@ class MatrixIpm {
   const MatrixOperator operator_;
   SchurOperator schur_;
   Preconditioner preconditioner_;
+  MatrixSchur factored_;
   Scaling scaling_;
   const Vector<double> c_;
   Vector<double> x_, dx_, right_, residual_, half_, search_, product_;
@@ -262,6 +318,10 @@ class MatrixIpm {
   Blocks<double> target_, work_;
   bool exact_ = false;  ///< S = C + L(x)
   int failures_ = 0;
+  int steps_ = 0;        ///< of conjugate gradients in this iteration
+  bool direct_ = false;  ///< by the factor of the Schur operator
+  /// Not where a point is wanted: a few iterations of few steps bring it.
+  bool may_factor_ = !options_.enough;
 };
 
 }  // namespace

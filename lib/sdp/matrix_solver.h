@@ -1,10 +1,12 @@
-// An interior-point method for programs in matrices, without the Schur complement.
+// An interior-point method for programs in matrices, as far as it goes without the Schur
+// complement.
 //
 // Nesterov and Todd's direction: with W S W = X the step in x solves
 //   M dx = L*(X + R) - c,   M(v) = L*(W L(v) W),
 // by conjugate gradients on products of matrices (Toh & Kojima 2002, Toh 2004), preconditioned in
 // a basis of each unknown (matrix_preconditioner.h). S = C + L(x) holds to rounding whatever the
-// conjugate gradients leave; only L*(X) = c is inexact.
+// conjugate gradients leave; only L*(X) = c is inexact. For a minimum, M is formed and factored
+// (matrix_schur.h) from where its conjugate gradients would cost more.
 #pragma once
 
 #include <functional>

@@ -9,6 +9,7 @@
 #include "sdp/matrix_operator.h"
 #include "sdp/matrix_preconditioner.h"
 #include "sdp/matrix_scaling.h"
+#include "sdp/matrix_schur.h"
 #include "sdp/solver.h"
 #include "support/stop.h"
 
@@ -78,6 +79,33 @@ MatrixProgram mixed_program(std::mt19937& random) {
       {2, {{1, stored(normal(random, 2, 3)), stored(normal(random, 2, 2))}}, {{13, 0, 1, 1}}});
   program.rows = {{3, {{0, 1}, {7, -2}, {12, 1}}}, {1, {{13, 1}}}};
   return program;
+}
+
+/// The same program in its scalars.
+Problem expanded(const MatrixProgram& program) {
+  const MatrixOperator L(program);
+  Problem problem;
+  problem.c = program.c;
+  for (const MatrixProgram::Block& block : program.blocks) problem.blocks.push_back({block.size});
+  problem.blocks.push_back({static_cast<int>(program.rows.size()), true});
+  const auto entries = [](const Blocks<double>& S, double sign) {
+    std::vector<Entry> result;
+    const int blocks = S.layout().blocks();
+    for (int b = 0; b < blocks; ++b)
+      for (int j = 0; j < S.dense(b).cols(); ++j)
+        for (int i = 0; i <= j; ++i)
+          if (S.dense(b)(i, j) != 0) result.push_back({b, i, j, sign * S.dense(b)(i, j)});
+    for (int r = 0; r < S.linear().size(); ++r)
+      if (S.linear()[r] != 0) result.push_back({blocks, r, r, sign * S.linear()[r]});
+    return result;
+  };
+  problem.f.push_back(entries(L.constant(), -1));
+  for (int i = 0; i < L.variables(); ++i) {
+    Blocks<double> S(L.layout());
+    L.apply(Vector<double>::Unit(L.variables(), i), S);
+    problem.f.push_back(entries(S, 1));
+  }
+  return problem;
 }
 
 Blocks<double> random_symmetric(const Layout& layout, std::mt19937& random, bool positive) {
@@ -185,6 +213,32 @@ TEST(MatrixPreconditioner, IsTheInverseForOneBlockOfOneMatrix) {
   EXPECT_LT((back - x).norm(), 1e-10 * x.norm());
 }
 
+TEST(MatrixSchur, TheFactorIsThatOfTheOperator) {
+  std::mt19937 random(9);
+  MatrixProgram program = mixed_program(random);
+  // Z beside P alone in a block, and beside Y in a row.
+  program.c.resize(17, 1);
+  program.unknowns.push_back({14, 2, 2, true});
+  program.blocks.push_back({4,
+                            {{0, stored(normal(random, 4, 3)), stored(normal(random, 3, 4))},
+                             {2, stored(normal(random, 4, 2)), stored(normal(random, 2, 4))}},
+                            {}});
+  program.rows.push_back({2, {{8, 1}, {15, -3}}});
+  const MatrixOperator L(program);
+  SchurOperator M(L);
+  const Blocks<double> W = random_symmetric(L.layout(), random, true);
+  M.set_scaling(W);
+  MatrixSchur factored(L);
+  ASSERT_TRUE(factored.prepare(M, W));
+  for (Eigen::Index i = 0; i < L.variables(); ++i) {
+    const Vector<double> x = Vector<double>::Unit(L.variables(), i);
+    Vector<double> image, back;
+    M.apply(x, image);
+    factored.apply(image, back);
+    EXPECT_LT((back - x).norm(), 1e-9) << i;
+  }
+}
+
 TEST(MatrixSolver, FindsAPointInside) {
   for (const int n : {4, 12, 25}) {
     std::mt19937 random(static_cast<unsigned>(n));
@@ -231,6 +285,22 @@ TEST(MatrixSolver, TheLargestMarginIsThatOfTheOrdinarySolver) {
     EXPECT_NEAR(found.x.back(), std::min(1.0, 2 * a) * 2 / (1 + 2 * a), 1e-7);
     EXPECT_LE(found.relative_gap, options.tolerance);
   }
+}
+
+TEST(MatrixSolver, AMinimumThatTakesTheFactorIsThatOfTheOrdinarySolver) {
+  // Conjugate gradients alone give up well before this gap.
+  std::mt19937 random(10);
+  const int n = 12;
+  const Dense A = shifted(0.3 * normal(random, n, n), 0.1), C = normal(random, 3, n);
+  const MatrixProgram program = margin_program(-A, C);
+  MatrixOptions options;
+  options.tolerance = 1e-9;
+  const Solution found = solve(program, options);
+  ASSERT_EQ(found.cause, Cause::converged);
+  const Solution ordinary = solve(expanded(program));
+  ASSERT_EQ(ordinary.status, Status::optimal);
+  EXPECT_NEAR(found.primal_objective, ordinary.primal_objective,
+              1e-7 * (1 + std::abs(ordinary.primal_objective)));
 }
 
 TEST(MatrixSolver, OfAnUnstableMatrixNoPointIsInside) {

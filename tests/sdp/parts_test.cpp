@@ -122,6 +122,20 @@ TYPED_TEST(Kernels, CholeskyFactorsInverts) {
   EXPECT_LT(this->norm(x), this->tolerance() * 10);
 }
 
+// Its outer panels, and those that the zeros leave out.
+TEST(LargeKernels, CholeskyFactorsALargeMatrixWithAZeroBlock) {
+  constexpr int n = 700, first = 250, second = 250;
+  MatrixXd a = positive(n, 3);
+  a.block(first, 0, second, first).setZero();
+  a.block(0, first, first, second).setZero();
+  a.diagonal().array() += a.cwiseAbs().rowwise().sum().maxCoeff();
+  MatrixXd l = a;
+  ASSERT_TRUE(cholesky(View<double>(l)));
+  l.triangularView<Eigen::StrictlyUpper>().setZero();
+  EXPECT_EQ(l.block(first, 0, second, first).norm(), 0);
+  EXPECT_LT((l * l.transpose() - a).norm(), 1e-13 * a.norm());
+}
+
 TYPED_TEST(Kernels, CholeskyRefusesWhatIsNotPositive) {
   using T = TypeParam;
   Matrix<T> a = widened<T>(positive(40, 3));
