@@ -6,9 +6,9 @@
 
 namespace gainsmith::io {
 
-/// The keys plant, observer, observers, timer, events, order, inputs, noise of a method.
-/// InputError for what is none of their forms, and for a mixture of the short form (timer) with the
-/// one with events.
+/// The keys plant, observer, observers, timer, events, order, inputs, noise of a method. A timer is
+/// an event (model::kTimerEvent), and `jump` what a component does at it. InputError for what is
+/// none of their forms.
 void read_dynamics(const YamlFile& file, YamlMap& map, model::Method& method);
 
 }  // namespace gainsmith::io

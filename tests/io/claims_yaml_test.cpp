@@ -56,17 +56,18 @@ TEST(Claims, AnEventThatOnlyAClaimNamesIsOne) {
   EXPECT_EQ(bound(replaced(text, "over: impact", "over: look"))->claims[0].over, 0U);
 }
 
-TEST(Claims, TheShortFormHasBoundsAndTimes) {
+TEST(Claims, OfAMethodWithATimer) {
   const std::string text =
       "problem: p\nmethod:\n  method: m\n  plant: {state: {z: scalar}, flow: {z: -z}}\n"
       "  timer: {tau: {reset: [1, 2]}}\n"
       "  claims: {c: {above: z, bound: -1, after: 3}, d: {nonincreasing: abs(z)}}\n";
   EXPECT_EQ(bound(text)->claims[0].kind, ClaimKind::above);
-  const auto refused = [&](const std::string& by) {
-    return input_error([&] { bound(replaced(text, "abs(z)", by)); }).message();
-  };
-  EXPECT_NE(refused("z, over: tau").find("over: of methods with events"), std::string::npos);
-  EXPECT_NE(refused("rate(z)").find("of methods with events"), std::string::npos);
+  EXPECT_EQ(bound(replaced(text, "abs(z)", "z, over: timer"))->claims[1].over, 0U);
+  EXPECT_EQ(bound(replaced(text, "abs(z)", "rate(z)"))->claims.size(), 2U);
+  EXPECT_NE(input_error([&] { bound(replaced(text, "abs(z)", "z, over: tau")); })
+                .message()
+                .find("there is no event 'tau'"),
+            std::string::npos);
 }
 
 TEST(Claims, MistakesAreNamedAtTheirPlace) {

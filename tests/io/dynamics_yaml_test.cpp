@@ -121,7 +121,6 @@ TEST(Dynamics, MistakesAreNamedAtTheirPlace) {
        "'LL' is no definition of plain, and nothing reads it; did you mean 'L'?"},
       {"{shrinks: V, to: 0.1}", "{shrinks: VV, to: 0.1}", "did you mean"},
       {"campaign:", "uncertain: {f: {box: [1, 2]}}\ncampaign:", "'f' is a definition"},
-      {"plant:\n", "timer: {tau: {reset: [1, 2]}}\n  plant:\n", "the short form has one timer"},
       {"flow: {x: f(x)}", "flow: {x: f(x)}\n    jump: {x: x}", "a jump stands under its event"},
       {"new at: sample", "new at: simple", "there is no event 'simple'"},
       {"every: [0.1, 0.2]", "every: [0.2, 0.1]", "expected 0 <= low <= high"},
