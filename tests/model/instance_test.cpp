@@ -110,10 +110,11 @@ TEST(Instance, ProgramsTakeWhatTheyUseAsInputs) {
             (Names{"P", "A", "Q", "g", "delta", "tau"}));
   EXPECT_EQ(inputs_of(design.objective->program), Names{"g"});
   EXPECT_EQ(inputs_of(design.gains[0].formula.program), (Names{"b", "P"}));
-  ASSERT_EQ(design.flow.size(), 2U);
-  EXPECT_EQ(inputs_of(design.flow[1].value.program), (Names{"K", "zh"}));
-  EXPECT_EQ(design.states[design.flow[1].state].name, "th");
-  EXPECT_EQ(inputs_of(design.claims[0].value.program), (Names{"P", "z", "zh", "s"}));
+  const Dynamics& dynamics = *design.dynamics;
+  ASSERT_EQ(dynamics.flow.size(), 2U);
+  EXPECT_EQ(inputs_of(dynamics.flow[1].value.program), (Names{"K", "observer.zh"}));
+  EXPECT_EQ(dynamics.variables[dynamics.flow[1].variable].name, "observer.th");
+  EXPECT_EQ(inputs_of(design.claims[0].value.program), (Names{"P", "z", "observer.zh", "s"}));
   EXPECT_EQ(inputs_of(design.claims[1].flow_cost->program), (Names{"b", "z"}));
   EXPECT_EQ(inputs_of(design.campaign.horizon->program), Names{"T2"});
   EXPECT_EQ(inputs_of(design.expect->values[0].what.program), Names{"objective"});
@@ -125,7 +126,7 @@ TEST(Instance, EachPartMayUseWhatItsScopeHolds) {
   const model::Names& names = *small.design().names;
   const std::vector<std::pair<std::string, int>> first = {
       {"A", 0}, {"delta", 0}, {"P", 1}, {"g", 1},        {"K", 2},
-      {"z", 2}, {"th", 2},    {"s", 2}, {"objective", 3}};
+      {"z", 2}, {"observer.th", 2}, {"s", 2}, {"objective", 3}};
   const expr::Scope* scopes[] = {&names.known, &names.design, &names.running, &names.results};
   for (const auto& [name, from] : first)
     for (int k = 0; k < 4; ++k)
@@ -138,7 +139,7 @@ TEST(Instance, DefinitionsOutputsAndSignalsEvaluate) {
   const Small small;
   numbers::Values values = small.instance.values;
   values["z"] = numbers::Matrix{{1}, {2}};
-  values["zh"] = numbers::Matrix{{3}, {5}};
+  values["observer.zh"] = numbers::Matrix{{3}, {5}};
   const auto value = [&](const std::string& text) {
     const auto program =
         expr::compile(expr::parse({text, "t"}), small.design().names->running, expr::Shape{});
@@ -147,8 +148,8 @@ TEST(Instance, DefinitionsOutputsAndSignalsEvaluate) {
   EXPECT_EQ(value("y"), 5 * 1 + 6 * 2);
   EXPECT_EQ(value("e(2)"), 2 - 5);
   EXPECT_DOUBLE_EQ(value("f(2)"), std::exp(0.05 * 2));
-  ASSERT_EQ(small.design().signals.size(), 1U);
-  EXPECT_EQ(numbers::evaluate(small.design().signals[0].value.program, values),
+  const auto& signals = small.design().dynamics->signals;
+  EXPECT_EQ(numbers::evaluate(signals.back().value.program, values),
             (numbers::Matrix{{-2}, {-3}}));
 }
 
