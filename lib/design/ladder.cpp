@@ -75,6 +75,10 @@ struct Rungs {
     return climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb) &&
            !climb.waits_for_points();
   }
+  static bool equations_are_due(const Climb& climb) {
+    return climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb) &&
+           states_equations(climb.posed_.lmi);
+  }
   static bool tighter_is_due(const Climb& climb) {
     const Attempt* point = climb.point();
     if (!climb.posed_.look.describe || point == nullptr || !climb.is_yes(*point) ||
@@ -136,8 +140,13 @@ struct Rungs {
   static std::optional<Attempt> in_31_digits(const Climb& climb) {
     return ask(climb, interior({}, {"quad", 1e-22}));
   }
+  static std::optional<Attempt> on_equations(const Climb& climb) {
+    return measured(climb, attempt_on_equations(climb.posed_, climb.solve_));
+  }
   static std::optional<Attempt> on_faces(const Climb& climb) {
-    auto found = attempt_on_faces(climb.posed_, climb.solve_);
+    return measured(climb, attempt_on_faces(climb.posed_, climb.solve_));
+  }
+  static std::optional<Attempt> measured(const Climb& climb, std::optional<Attempt> found) {
     if (found) found = measured(climb, std::move(*found));
     return found;
   }
@@ -160,7 +169,7 @@ struct Row {
   const char* doing;
 };
 
-constexpr std::array<Row, 11> kLadder = {{
+constexpr std::array<Row, 12> kLadder = {{
     {Rung::minimum, Rungs::minimum_is_due, Rungs::minimum, "the minimum"},
     {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside,
      "the largest margin, gains of any size"},
@@ -170,6 +179,8 @@ constexpr std::array<Row, 11> kLadder = {{
      "the minimum, gains of any size"},
     {Rung::free_inside, Rungs::bounds_leave_nothing, Rungs::free_inside,
      "the largest margin, gains of any size"},
+    {Rung::on_equations, Rungs::equations_are_due, Rungs::on_equations,
+     "a point that satisfies the equations"},
     {Rung::in_100_digits, Rungs::certificate_is_due, Rungs::certificate_in_100_digits,
      "a certificate in 100 digits"},
     {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits,
@@ -230,9 +241,9 @@ const Attempt* Climb::find(Rung rung) const {
 
 const Attempt* Climb::point() const {
   // A minimum is worth more than a point inside; within the bounds more than without.
-  constexpr Rung kWorth[] = {Rung::minimum,      Rung::blended,      Rung::inside,
-                             Rung::free_minimum, Rung::free_inside,  Rung::in_31_digits,
-                             Rung::on_faces,     Rung::in_100_digits};
+  constexpr Rung kWorth[] = {Rung::minimum,      Rung::blended,     Rung::inside,
+                             Rung::free_minimum, Rung::free_inside, Rung::on_equations,
+                             Rung::in_31_digits, Rung::on_faces,    Rung::in_100_digits};
   const Attempt* holding = nullptr;
   const Attempt* first = nullptr;
   for (const Rung rung : kWorth) {

@@ -8,6 +8,8 @@
 //   inside          the largest margin, within the bounds   nothing that holds within them
 //   blended         a point between minimum and inside      both, the minimum found but not holding
 //   free minimum    the objective, gains of any size        nothing that holds within the bounds
+//   on equations    a point that satisfies stated equations nothing that holds, nothing refuted
+//                   exactly, or a no (on_faces.h)
 //   100 digits      a certificate alone, in these digits    the same, of large programs whose
 //                                                           multipliers in double exclude them
 //   31 digits       the largest margin in these digits      nothing that holds, nothing refuted
@@ -39,6 +41,7 @@ enum class Rung {
   inside,
   blended,
   free_minimum,
+  on_equations,
   in_31_digits,
   on_faces,
   in_100_digits,

@@ -85,6 +85,17 @@ class OnFaces {
     result_.formulation = lmi::pose_interior(posed.lmi, {});
   }
 
+  /// The plain steps, and a point in double.
+  std::optional<Attempt> run_plain() {
+    faces_.find_plain();
+    if (faces_.steps() == 0) return std::nullopt;
+    if (!faces_.excluded()) faces_.drop_dependent();
+    if (!faces_.excluded() && faces_.unknowns() > 0)
+      solve_left(left_of(faces_, posed_.lmi), {}, Want::point);
+    if (!faces_.excluded() && !result_.holds()) return std::nullopt;
+    return finished();
+  }
+
   std::optional<Attempt> run() {
     const bool any = std::any_of(stated_.begin(), stated_.end(),
                                  [](const RationalBlock& block) { return block.exact; });
@@ -95,22 +106,28 @@ class OnFaces {
       if (faces_.steps() == 0) return std::nullopt;
     }
     while (!done_) step();
-    if (faces_.excluded()) {
-      result_.point = false;
-      result_.refutation = lmi::Refutation{true, 0, kWideDigits};
-      result_.chain = faces_.why();
-    }
     if (!result_.point && !faces_.excluded()) {
       if (faces_.steps() == 0) return std::nullopt;
       result_.left_open = "every solution has only equality somewhere (" + faces_.why() +
                           "); no numbers of 16 digits were found that keep it";
+    }
+    return finished();
+  }
+
+ private:
+  enum class Want { point, point_or_multipliers };
+
+  Attempt finished() {
+    if (faces_.excluded()) {
+      result_.point = false;
+      result_.refutation = lmi::Refutation{true, 0, kWideDigits};
+      result_.chain = faces_.why();
     }
     result_.on_face = true;
     result_.solution = as_solution_of(result_.formulation);
     return std::move(result_);
   }
 
- private:
   /// What the solver said of what was left, in the shape of the program of all blocks; the
   /// multipliers are 0, as they are those of a face.
   sdp::Solution as_solution_of(const lmi::Formulation& formulation) const {
@@ -142,7 +159,7 @@ class OnFaces {
     const Left left = left_of(faces_, posed_.lmi);
     const std::size_t steps = faces_.steps();
     for (const Effort& effort : {Effort{"quad", 1e-22}, Effort{"100", 1e-40}}) {
-      solve_left(left, effort);
+      solve_left(left, effort, Want::point_or_multipliers);
       if (done_ || faces_.steps() > steps || !posed_.wide) break;
     }
     if (done_ || faces_.steps() > steps) return;
@@ -170,7 +187,7 @@ class OnFaces {
         });
   }
 
-  void solve_left(const Left& left, const Effort& effort) {
+  void solve_left(const Left& left, const Effort& effort, Want want) {
     constexpr int kMostRounds = 4;
     constexpr double kRises = 1.5;
     lmi::Round round;
@@ -196,7 +213,7 @@ class OnFaces {
                     [](double value) { return std::isfinite(value); }))
       try_point(*inside);
     if (result_.holds() && posed_.lmi.has_objective) minimise(left, *inside);
-    if (!done_ && first) take_multipliers(left, *first);
+    if (want == Want::point_or_multipliers && !done_ && first) take_multipliers(left, *first);
   }
 
   /// Decimals near a point of the face that the exact blocks take, and their margins.
@@ -337,6 +354,21 @@ class OnFaces {
 };
 
 }  // namespace
+
+bool states_equations(const lmi::Lmi& lmi) {
+  return std::any_of(lmi.blocks.begin(), lmi.blocks.end(), [](const lmi::Block& block) {
+    if (block.strict) return false;
+    std::vector<bool> nonzero(static_cast<std::size_t>(block.size), false);
+    for (const auto& [i, matrix] : block.terms)
+      for (int row = 0; row < block.size; ++row)
+        if (matrix.coeff(row, row) != 0) nonzero[static_cast<std::size_t>(row)] = true;
+    return std::find(nonzero.begin(), nonzero.end(), false) != nonzero.end();
+  });
+}
+
+std::optional<Attempt> attempt_on_equations(const Posed& posed, const Solve& solve) {
+  return OnFaces(posed, solve).run_plain();
+}
 
 std::optional<Attempt> attempt_on_faces(const Posed& posed, const Solve& solve) {
   if (posed.lmi.unknowns > kMostUnknowns || posed.lmi.rows() > kMostRows) return std::nullopt;

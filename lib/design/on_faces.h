@@ -14,6 +14,13 @@
 
 namespace gainsmith::design {
 
+/// Whether a block states equations: an element of its diagonal is 0 for all unknowns.
+bool states_equations(const lmi::Lmi& lmi);
+
+/// The plain steps alone, and the largest margin of what they leave in double: a point that holds,
+/// or a no; otherwise none.
+std::optional<Attempt> attempt_on_equations(const Posed& posed, const Solve& solve);
+
 /// None when nothing came of it; without a point and a no what it found is in left_open.
 std::optional<Attempt> attempt_on_faces(const Posed& posed, const Solve& solve);
 

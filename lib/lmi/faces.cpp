@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 #include <utility>
 
 #include "base/stop.h"
@@ -21,7 +22,12 @@ const RationalMatrix* term_of(const RationalBlock& block, int i) {
 
 std::string place_of(int row) {
   const std::string number = std::to_string(row + 1);
-  return "element (" + number + ", " + number + ")";
+  return "(" + number + ", " + number + ")";
+}
+
+void add_multiple(RationalMatrix& sum, const Rational& factor, const RationalMatrix& matrix) {
+  for (Eigen::Index e = 0; e < sum.size(); ++e)
+    if (matrix(e) != 0) sum(e) += factor * matrix(e);
 }
 
 /// c > 0 with a = -c b for all coefficients but, with `constants`, those of x_0; none otherwise.
@@ -82,13 +88,33 @@ void Faces::find_plain() {
 }
 
 bool Faces::find_zero() {
-  for (std::size_t k = 0; k < blocks_.size(); ++k)
-    for (int row = 0; blocks_[k].exact && row < blocks_[k].size; ++row)
-      if (looks_at_diagonal(k, row)) return true;
+  for (std::size_t k = 0; k < blocks_.size(); ++k) {
+    const RationalBlock& block = blocks_[k];
+    std::vector<int> rows;
+    for (int row = 0; block.exact && row < block.size; ++row) {
+      if (is_zero_diagonal(k, row)) rows.push_back(row);
+      if (excluded_) return true;
+    }
+    if (rows.empty()) continue;
+    RationalMatrix V = RationalMatrix::Constant(block.size, std::ssize(rows), Rational(0));
+    std::string places;
+    for (std::size_t c = 0; c < rows.size(); ++c) {
+      V(rows[c], static_cast<Eigen::Index>(c)) = 1;
+      const int stated = kept_[k][static_cast<std::size_t>(rows[c])];
+      places += (c == 0 ? "" : c + 1 == rows.size() ? " and " : ", ") + place_of(stated);
+    }
+    steps_.push_back(
+        names_[k] +
+        (rows.size() == 1
+             ? ": element " + places + " is 0 for all unknowns, so its row must be 0"
+             : ": elements " + places + " are 0 for all unknowns, so their rows must be 0"));
+    restrict_to({{k, rows, std::move(V)}});
+    return true;
+  }
   return false;
 }
 
-bool Faces::looks_at_diagonal(std::size_t k, int row) {
+bool Faces::is_zero_diagonal(std::size_t k, int row) {
   const RationalBlock& block = blocks_[k];
   Rational constant = 0;
   for (const auto& [i, matrix] : block.terms) {
@@ -97,21 +123,11 @@ bool Faces::looks_at_diagonal(std::size_t k, int row) {
     constant = matrix(row, row);
   }
   if (constant > 0) return false;
+  if (constant == 0 && !block.strict) return true;
   const int stated = kept_[k][static_cast<std::size_t>(row)];
-  const std::string what = names_[k] + ": " + place_of(stated) + " is ";
-  if (constant < 0) {
-    exclude(what + "below 0 for all unknowns");
-    return true;
-  }
-  if (block.strict) {
-    exclude(what + "0 for all unknowns");
-    return true;
-  }
-  RationalMatrix V = RationalMatrix::Constant(block.size, 1, Rational(0));
-  V(row, 0) = 1;
-  steps_.push_back(what + "0 for all unknowns, so its row must be 0");
-  restrict_to({{k, {row}, std::move(V)}});
-  return true;
+  exclude(names_[k] + ": element " + place_of(stated) + " is " + (constant < 0 ? "below " : "") +
+          "0 for all unknowns");
+  return false;
 }
 
 bool Faces::find_pair() {
@@ -155,27 +171,39 @@ bool Faces::pairs(std::size_t k, std::size_t l) {
 
 void Faces::restrict_to(const std::vector<FaceOfBlock>& faces) {
   std::vector<std::vector<Rational>> equations;
-  const auto d = static_cast<std::size_t>(unknowns());
+  const std::vector<Rational> none(static_cast<std::size_t>(unknowns()) + 1, Rational(0));
   for (const FaceOfBlock& face : faces) {
     const RationalBlock& block = blocks_[face.block];
     const Eigen::Index columns = face.V.cols();
     const std::size_t first = equations.size();
-    equations.resize(first + static_cast<std::size_t>(block.size * columns),
-                     std::vector<Rational>(d + 1, Rational(0)));
+    equations.resize(first + static_cast<std::size_t>(block.size * columns), none);
     for (const auto& [i, matrix] : block.terms) {
       check_stop();
-      const RationalMatrix product = matrix.lazyProduct(face.V);
+      const RationalMatrix product = numbers::rational_product(matrix, face.V);
       for (Eigen::Index e = 0; e < product.size(); ++e)
         equations[first + static_cast<std::size_t>(e)][static_cast<std::size_t>(i)] = product(e);
     }
   }
   for (const FaceOfBlock& face : faces) drop_rows(face.block, face.pivots);
-  RationalMatrix whole(static_cast<Eigen::Index>(equations.size()),
-                       static_cast<Eigen::Index>(d) + 1);
+  // Both triangles say the same, and so do the blocks of a pair.
+  std::set<std::vector<Rational>> known = {none};
+  std::erase_if(equations, [&](const auto& equation) { return !known.insert(equation).second; });
+  RationalMatrix whole(static_cast<Eigen::Index>(equations.size()), std::ssize(none));
   for (Eigen::Index r = 0; r < whole.rows(); ++r)
     for (Eigen::Index c = 0; c < whole.cols(); ++c)
       whole(r, c) = equations[static_cast<std::size_t>(r)][static_cast<std::size_t>(c)];
+  keep(whole);
   if (!impose(whole)) exclude("the equations that this leaves have no solution");
+}
+
+void Faces::keep(const RationalMatrix& equations) {
+  for (Eigen::Index r = 0; r < equations.rows(); ++r) {
+    Equation equation{{}, -equations(r, 0)};
+    for (Eigen::Index c = 1; c < equations.cols(); ++c)
+      if (equations(r, c) != 0)
+        equation.terms.emplace_back(free_[static_cast<std::size_t>(c) - 1], equations(r, c));
+    equations_.push_back(std::move(equation));
+  }
 }
 
 void Faces::drop_rows(std::size_t block, const std::vector<int>& rows) {
@@ -227,7 +255,7 @@ bool Faces::impose(const RationalMatrix& equations) {
       check_stop();
       RationalMatrix sum = RationalMatrix::Constant(block.size, block.size, Rational(0));
       for (const auto& [i, matrix] : block.terms)
-        if (M(i, z) != 0) sum += M(i, z) * matrix;
+        if (M(i, z) != 0) add_multiple(sum, M(i, z), matrix);
       if (!numbers::is_rational_zero(sum)) terms.emplace_back(static_cast<int>(z), std::move(sum));
     }
     block.terms = std::move(terms);
@@ -236,7 +264,7 @@ bool Faces::impose(const RationalMatrix& equations) {
   for (Eigen::Index i = 0; i < whole.rows(); ++i)
     whole(i, 0) = origin_[static_cast<std::size_t>(i)];
   whole.rightCols(d) = directions_;
-  const RationalMatrix moved = whole.lazyProduct(M);
+  const RationalMatrix moved = numbers::rational_product(whole, M);
   for (Eigen::Index i = 0; i < moved.rows(); ++i)
     origin_[static_cast<std::size_t>(i)] = moved(i, 0);
   directions_ = moved.rightCols(kept);
@@ -261,6 +289,7 @@ void Faces::drop_dependent() {
     }
     first += block.size * (block.size + 1) / 2;
   }
+  if (numbers::are_surely_independent(columns)) return;
   const auto pivots = numbers::reduced_echelon(std::move(columns)).pivots;
   if (static_cast<Eigen::Index>(pivots.size()) == d) return;
   RationalMatrix equations = RationalMatrix::Constant(d - std::ssize(pivots), d + 1, Rational(0));

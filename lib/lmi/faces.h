@@ -67,6 +67,13 @@ class Faces {
   /// The unknowns x, counted from 1, that the y are.
   const std::vector<int>& free() const { return free_; }
 
+  /// The equations so far, as they came: sum over (i, a) of a x_i = right, i counted from 1.
+  struct Equation {
+    std::vector<std::pair<int, Rational>> terms;
+    Rational right;
+  };
+  const std::vector<Equation>& equations() const { return equations_; }
+
   /// x_0 + N y.
   std::vector<Rational> point(const std::vector<Rational>& y) const;
   const std::vector<Rational>& origin() const { return origin_; }
@@ -76,7 +83,9 @@ class Faces {
   bool find_pair();
   bool find_zero();
   bool pairs(std::size_t k, std::size_t l);
-  bool looks_at_diagonal(std::size_t k, int row);
+  /// Whether there is one more to drop: element (row, row) is 0; or it excludes the block.
+  bool is_zero_diagonal(std::size_t k, int row);
+  void keep(const numbers::RationalMatrix& equations);
   /// equations . (1, y) = 0; false when no y satisfies them.
   bool impose(const numbers::RationalMatrix& equations);
   void drop_rows(std::size_t block, const std::vector<int>& rows);
@@ -85,6 +94,7 @@ class Faces {
   std::vector<std::vector<int>> kept_;  ///< the rows of each block that stay, from 0
   std::vector<std::string> names_;
   std::vector<int> free_;
+  std::vector<Equation> equations_;
   std::vector<Rational> origin_;
   numbers::RationalMatrix directions_;
   std::vector<std::string> steps_;

@@ -32,8 +32,7 @@ Rational rounded(const Rational& x, int decimals) {
   return Rational(nearest_integer(Rational(x * power_of_ten(decimals)))) * power_of_ten(-decimals);
 }
 
-/// The equations of the space between unknowns that move, one a row: those that are not free are
-/// x_i - sum_j N_ij x_j = x_0i.
+/// The equations of the space between unknowns that move, one a row.
 struct Equations {
   std::vector<Eigen::Index> unknowns;  ///< that stand in them, from 0
   RationalMatrix A;
@@ -42,41 +41,37 @@ struct Equations {
 
 Equations equations_of(const Faces& faces) {
   const RationalMatrix& N = faces.directions();
-  const auto is_free = [&](Eigen::Index i) {
-    return std::binary_search(faces.free().begin(), faces.free().end(), static_cast<int>(i) + 1);
+  const auto moves = [&](int i) {
+    return std::any_of(N.row(i - 1).begin(), N.row(i - 1).end(),
+                       [](const Rational& x) { return x != 0; });
   };
-  std::vector<Eigen::Index> rows;
-  std::vector<bool> used(static_cast<std::size_t>(N.rows()), false);
-  for (Eigen::Index i = 0; i < N.rows(); ++i) {
-    if (is_free(i)) continue;
-    bool moves = false;
-    for (Eigen::Index j = 0; j < N.cols(); ++j) {
-      if (N(i, j) == 0) continue;
-      moves = true;
-      used[static_cast<std::size_t>(faces.free()[static_cast<std::size_t>(j)]) - 1] = true;
-    }
-    if (!moves) continue;
-    rows.push_back(i);
-    used[static_cast<std::size_t>(i)] = true;
-  }
+  std::vector<Eigen::Index> place(static_cast<std::size_t>(N.rows()), -1);
+  std::vector<const Faces::Equation*> rows;
   Equations result;
-  std::vector<Eigen::Index> place(used.size(), -1);
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i]) continue;
-    place[i] = std::ssize(result.unknowns);
-    result.unknowns.push_back(static_cast<Eigen::Index>(i));
+  for (const Faces::Equation& equation : faces.equations()) {
+    bool any = false;
+    for (const auto& [i, a] : equation.terms) {
+      if (!moves(i)) continue;
+      any = true;
+      Eigen::Index& at = place[static_cast<std::size_t>(i) - 1];
+      if (at >= 0) continue;
+      at = std::ssize(result.unknowns);
+      result.unknowns.push_back(i - 1);
+    }
+    if (any) rows.push_back(&equation);
   }
   result.A = RationalMatrix::Constant(std::ssize(rows), std::ssize(result.unknowns), Rational(0));
   result.b = RationalMatrix::Constant(std::ssize(rows), 1, Rational(0));
   for (Eigen::Index r = 0; r < std::ssize(rows); ++r) {
-    const Eigen::Index i = rows[static_cast<std::size_t>(r)];
-    result.A(r, place[static_cast<std::size_t>(i)]) = 1;
-    for (Eigen::Index j = 0; j < N.cols(); ++j)
-      if (N(i, j) != 0)
-        result.A(r,
-                 place[static_cast<std::size_t>(faces.free()[static_cast<std::size_t>(j)]) - 1]) =
-            -N(i, j);
-    result.b(r) = faces.origin()[static_cast<std::size_t>(i)];
+    const Faces::Equation& equation = *rows[static_cast<std::size_t>(r)];
+    result.b(r) = equation.right;
+    for (const auto& [i, a] : equation.terms) {
+      const auto x = static_cast<std::size_t>(i) - 1;
+      if (place[x] < 0)
+        result.b(r) -= a * faces.origin()[x];
+      else
+        result.A(r, place[x]) = a;
+    }
   }
   return result;
 }
@@ -95,9 +90,6 @@ std::optional<std::vector<double>> printable_point(const Faces& faces,
     Rational& value = x[static_cast<std::size_t>(i) - 1];
     value = rounded(value, decimals[static_cast<std::size_t>(i) - 1]);
   }
-  // Reduction of lattices of more unknowns takes minutes.
-  constexpr std::size_t kMostUnknowns = 20;
-  if (equations.unknowns.size() > kMostUnknowns) return std::nullopt;
   if (!equations.unknowns.empty()) {
     RationalMatrix A = equations.A;
     std::vector<Rational> near;

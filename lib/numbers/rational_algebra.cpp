@@ -1,5 +1,7 @@
 #include "numbers/rational_algebra.h"
 
+#include <cstdint>
+
 #include "base/stop.h"
 
 namespace gainsmith::numbers {
@@ -14,7 +16,74 @@ void subtract_row(RationalMatrix& M, Eigen::Index i, Eigen::Index r, Eigen::Inde
     if (M(r, j) != 0) M(i, j) -= factor * M(r, j);
 }
 
+/// A prime whose square is a number of 64 bits.
+constexpr std::uint64_t kPrime = 2147483647;
+
+std::uint64_t power_modulo(std::uint64_t base, std::uint64_t exponent) {
+  std::uint64_t result = 1;
+  for (; exponent > 0; exponent /= 2, base = base * base % kPrime)
+    if (exponent % 2 == 1) result = result * base % kPrime;
+  return result;
+}
+
+std::uint64_t inverse_modulo(std::uint64_t x) { return power_modulo(x, kPrime - 2); }
+
+std::uint64_t remainder_of(const Integer& x) {
+  const Integer prime(kPrime);
+  return static_cast<std::uint64_t>(Integer((x % prime + prime) % prime));
+}
+
+using Residues = Eigen::Matrix<std::uint64_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+/// None when the prime divides a denominator.
+std::optional<Residues> residues_of(const RationalMatrix& M) {
+  Residues result = Residues::Zero(M.rows(), M.cols());
+  for (Eigen::Index i = 0; i < M.rows(); ++i)
+    for (Eigen::Index j = 0; j < M.cols(); ++j) {
+      const Rational& x = M(i, j);
+      if (x == 0) continue;
+      const std::uint64_t below = remainder_of(denominator(x));
+      if (below == 0) return std::nullopt;
+      const std::uint64_t above = remainder_of(numerator(x));
+      result(i, j) = below == 1 ? above : above * inverse_modulo(below) % kPrime;
+    }
+  return result;
+}
+
 }  // namespace
+
+bool are_surely_independent(const RationalMatrix& M) {
+  if (M.rows() < M.cols()) return false;
+  auto residues = residues_of(M);
+  if (!residues) return false;
+  Residues& R = *residues;
+  for (Eigen::Index c = 0; c < R.cols(); ++c) {
+    check_stop();
+    Eigen::Index found = c;
+    while (found < R.rows() && R(found, c) == 0) ++found;
+    if (found == R.rows()) return false;
+    if (found != c) R.row(found).swap(R.row(c));
+    const std::uint64_t inverse = inverse_modulo(R(c, c));
+    for (Eigen::Index i = found + 1; i < R.rows(); ++i) {
+      if (R(i, c) == 0) continue;
+      const std::uint64_t factor = kPrime - R(i, c) * inverse % kPrime;
+      for (Eigen::Index j = c; j < R.cols(); ++j)
+        if (R(c, j) != 0) R(i, j) = (R(i, j) + factor * R(c, j)) % kPrime;
+    }
+  }
+  return true;
+}
+
+RationalMatrix rational_product(const RationalMatrix& A, const RationalMatrix& B) {
+  RationalMatrix result = RationalMatrix::Constant(A.rows(), B.cols(), Rational(0));
+  for (Eigen::Index k = 0; k < A.cols(); ++k)
+    for (Eigen::Index i = 0; i < A.rows(); ++i) {
+      if (A(i, k) == 0) continue;
+      for (Eigen::Index j = 0; j < B.cols(); ++j)
+        if (B(k, j) != 0) result(i, j) += A(i, k) * B(k, j);
+    }
+  return result;
+}
 
 bool is_rational_zero(const RationalMatrix& M) {
   for (const Rational& x : M.reshaped())

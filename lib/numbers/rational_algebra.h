@@ -10,6 +10,9 @@ namespace gainsmith::numbers {
 
 bool is_rational_zero(const RationalMatrix& M);
 
+/// A B, quick where elements are 0.
+RationalMatrix rational_product(const RationalMatrix& A, const RationalMatrix& B);
+
 /// The reduced echelon form of M without its rows of zeros: row r has a 1 in column pivots[r],
 /// where the other rows have 0.
 struct Echelon {
@@ -17,6 +20,10 @@ struct Echelon {
   std::vector<Eigen::Index> pivots;
 };
 Echelon reduced_echelon(RationalMatrix M);
+
+/// Whether the columns of M are independent, told by their images in the numbers modulo a prime:
+/// true is certain, and false means that they may be dependent.
+bool are_surely_independent(const RationalMatrix& M);
 
 /// Some X with M X = B; none when there is none.
 std::optional<RationalMatrix> rational_solution(const RationalMatrix& M, const RationalMatrix& B);

@@ -44,6 +44,62 @@ TEST(Equations, ThoseOfPassivityHoldExactly) {
             model::Verdict::no);
 }
 
+/// Elements in 64ths, in [-1, 1].
+numbers::Matrix random_matrix(RandomStream& random, int rows, int columns) {
+  numbers::Matrix M(rows, columns);
+  for (double& x : M.reshaped()) x = std::round(128 * random.uniform() - 64) / 64;
+  return M;
+}
+
+numbers::Matrix in_64ths(const numbers::Matrix& M) {
+  return M.unaryExpr([](double x) { return std::round(64 * x) / 64; });
+}
+
+/// C = B'P without rounding for a P that is planted, with He(P A) = -2 I up to the rounding of
+/// A = P^-1 (S - S' - I).
+TEST(Equations, ThoseOfPassivityHoldExactlyForTenStatesAndTwoInputs) {
+  RandomStream random(0xE1, 1);
+  constexpr int n = 10;
+  const numbers::Matrix R = random_matrix(random, n, n);
+  const numbers::Matrix I = numbers::Matrix::Identity(n, n);
+  const numbers::Matrix P = in_64ths(0.25 * R * R.transpose() + I);
+  const numbers::Matrix S = random_matrix(random, n, n);
+  const numbers::Matrix A = in_64ths(numbers::Cholesky(P).solve(S - S.transpose() - I));
+  const numbers::Matrix B = random_matrix(random, n, 2);
+  const numbers::Matrix C = B.transpose() * P;
+  const std::string method =
+      "  data: {A: n x n, B: n x m, C: m x n}\n  unknowns: {P: symmetric n}\n"
+      "  require: {positive: P > 0, decrease: He(P*A) < 0, output: P*B == C'}\n";
+  const auto data = [&](const numbers::Matrix& output) {
+    return "data:\n  A: " + tests::matrix_yaml(A) + "\n  B: " + tests::matrix_yaml(B) +
+           "\n  C: " + tests::matrix_yaml(output) + "\n";
+  };
+  const model::Gains gains = solve(method, data(C));
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  const numbers::Matrix& found = gains.unknowns.front().second;
+  EXPECT_LT((found * B - C.transpose()).cwiseAbs().maxCoeff(), 1e-13);
+  EXPECT_GT(numbers::smallest_eigenvalue(found), 0);
+  EXPECT_GT(numbers::smallest_eigenvalue(-found * A - A.transpose() * found), 0);
+  // C B = B'P B is positive definite.
+  EXPECT_EQ(solve(method, data(-C)).verdict, model::Verdict::no);
+}
+
+/// More unknowns than fractions are used for in searches of faces.
+TEST(Equations, ATraceOfALyapunovMatrixOfFourteenStates) {
+  constexpr int n = 14;
+  RandomStream random(0xE2, 1);
+  const numbers::Matrix S = random_matrix(random, n, n);
+  const numbers::Matrix A = S - S.transpose() - numbers::Matrix::Identity(n, n);
+  const std::string method =
+      "  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"
+      "  require: {positive: P > 0, decrease: He(P*A) < 0, one: trace(P) == 1}\n";
+  const model::Gains gains = solve(method, "data: {A: " + tests::matrix_yaml(A) + "}\n");
+  ASSERT_EQ(gains.verdict, model::Verdict::yes);
+  EXPECT_NEAR(gains.unknowns.front().second.trace(), 1, 1e-15);
+  EXPECT_EQ(solve(method, "data: {A: " + tests::matrix_yaml(-A) + "}\n").verdict,
+            model::Verdict::no);
+}
+
 TEST(Equations, WithoutASolutionAreANo) {
   EXPECT_EQ(
       solve("  unknowns: {P: symmetric 2}\n  require: {a: P > I, b: trace(P) == 2}\n").verdict,
