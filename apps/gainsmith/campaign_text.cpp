@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 
 #include "base/number.h"
 #include "base/scalars.h"
@@ -51,6 +52,19 @@ std::string runs_text(std::uint64_t runs) {
   return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
 }
 
+/// Why nothing is certain of an undecided comparison.
+std::string uncertainty_text(model::ClaimKind kind, const verify::Finding& worst) {
+  const std::string how =
+      worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits);
+  const std::string known =
+      std::isfinite(worst.rounding)
+          ? fmt::format("known to {} {}", brief(worst.rounding, 2), how)
+          : fmt::format("{} the bound on the error is larger than all numbers", how);
+  return fmt::format("               {}: nothing is certain of {} {} {}\n", known,
+                     brief(worst.value),
+                     kind == model::ClaimKind::above ? ">=" : "<=", brief(worst.bound));
+}
+
 /// `width`: of the names.
 std::string check_text(const verify::CheckReport& check, std::size_t width) {
   if (!check.stated)
@@ -73,12 +87,7 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
       fmt::format("  {:<{}} {:<17} {:<8}  {} run {}: {} against {} at (t, j) = ({}, {})\n",
                   check.name, width, kind_text(check.kind), verdict, held ? "nearest" : "worst",
                   check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
-  if (worst.undecided())
-    text += fmt::format(
-        "               known to {} {}: nothing is certain of {} {} {}\n", brief(worst.rounding, 2),
-        worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits),
-        brief(worst.value),
-        check.kind == model::ClaimKind::above ? ">=" : "<=", brief(worst.bound));
+  if (worst.undecided()) text += uncertainty_text(check.kind, worst);
   if (check.floor > 0)
     text += fmt::format("               checked down to {} of the {}: the {} no larger drop\n",
                         brief(check.floor, 2), bounded ? "largest terms" : "start",
