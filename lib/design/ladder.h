@@ -37,6 +37,7 @@ enum class Rung {
   minimum,
   free_inside,
   inside,
+  large_minimum,
   blended,
   free_minimum,
   in_31_digits,
