@@ -52,6 +52,22 @@ std::string runs_text(std::uint64_t runs) {
   return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
 }
 
+/// Why nothing is certain of an undecided comparison.
+std::string uncertainty_text(model::ClaimKind kind, const verify::Finding& worst) {
+  if (worst.estimated && !std::isfinite(worst.rounding))
+    return "               nothing is certain: two runs that differ in accuracy and in their last "
+           "places have parted by then\n";
+  const std::string how =
+      worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits);
+  const std::string known =
+      std::isfinite(worst.rounding)
+          ? fmt::format("known to {} {}", brief(worst.rounding, 2), how)
+          : fmt::format("{} the bound on the error is larger than all numbers", how);
+  return fmt::format("               {}: nothing is certain of {} {} {}\n", known,
+                     brief(worst.value),
+                     kind == model::ClaimKind::above ? ">=" : "<=", brief(worst.bound));
+}
+
 /// `width`: of the names.
 std::string check_text(const verify::CheckReport& check, std::size_t width) {
   if (!check.stated)
@@ -75,17 +91,10 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
                   check.name, width, kind_text(check.kind), verdict, held ? "nearest" : "worst",
                   check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
   if (worst.ended)
-    text += "               left open: the run ends there, before the horizon\n";
-  else if (worst.undecided() && std::isinf(worst.rounding))
-    text +=
-        "               nothing is certain: two runs that differ in accuracy and in their last "
-        "places have parted by then\n";
+    text += "               left open: the run ends there, before the horizon
+";
   else if (worst.undecided())
-    text += fmt::format(
-        "               known to {} {}: nothing is certain of {} {} {}\n", brief(worst.rounding, 2),
-        worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits),
-        brief(worst.value),
-        check.kind == model::ClaimKind::above ? ">=" : "<=", brief(worst.bound));
+    text += uncertainty_text(check.kind, worst);
   if (check.floor > 0)
     text += fmt::format("               checked down to {} of the {}: the {} no larger drop\n",
                         brief(check.floor, 2), bounded ? "largest terms" : "start",

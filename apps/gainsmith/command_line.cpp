@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "base/nearest.h"
+#include "base/number.h"
 #include "gainsmith/terminal.h"
 
 namespace gainsmith::app {
@@ -25,9 +26,20 @@ std::string whole_number_error(const std::string& text) {
   return "expected a whole number from 0 to 18446744073709551615 (2^64 - 1), not '" + text + "'";
 }
 
-CLI::Range validator(const Option::Range<double>& range) {
-  const bool endless = range.first == 0 && range.second == std::numeric_limits<double>::max();
-  return endless ? CLI::NonNegativeNumber : CLI::Range(range.first, range.second);
+CLI::Validator validator(const Option::Range<double>& range) {
+  const std::string ends = brief(range.first) + " to " + brief(range.second);
+  return {[range, ends](const std::string& text) -> std::string {
+            const auto value = parse_decimal(text);
+            if (value && range.first <= *value && *value <= range.second) return {};
+            return "expected a number from " + ends + ", not '" + text + "'";
+          },
+          "NUMBER in [" + ends + "]"};
+}
+
+std::string seconds_error(const std::string& text) {
+  const auto value = parse_decimal(text);
+  if (value && *value > 0) return {};
+  return "expected a positive number of seconds, such as 60 or 0.5, not '" + text + "'";
 }
 
 template <typename Whole>
@@ -100,9 +112,9 @@ void add_command(CLI::App& program, const Command& command, Patience& patience, 
   if (command.computes) {
     added
         .add_option("--time", patience.seconds,
-                    "stop after so many seconds with what is known; 0: no limit")
-        ->capture_default_str()
-        ->check(CLI::NonNegativeNumber);
+                    "stop after so many seconds with what is known; no limit without it")
+        ->type_name("SECONDS")
+        ->check(seconds_error, "");
     added.add_flag("--progress", patience.progress,
                    "say every 10 s on standard error what is being done");
   }

@@ -38,7 +38,6 @@ struct Option {
   Option& within(Number low, Number high) {
     return range = Range<Number>(low, high), *this;
   }
-  Option& not_negative() { return within(0.0, std::numeric_limits<double>::max()); }
   Option& one_of(std::vector<std::string> words) { return choices = std::move(words), *this; }
   /// `find_error` says what is wrong with a text; nothing when it is fine.
   Option& checked(Check find_error) { return check = std::move(find_error), *this; }

@@ -1,4 +1,5 @@
 #include "design/explain.h"
+#include "design/hautus.h"
 
 #include <fmt/format.h>
 
@@ -22,13 +23,21 @@ struct ExplainOptions {
   bool json = false;
 };
 
+/// The hidden mode, unless it stands above: without a conflict the message of the solver does.
+std::string plant_line(const model::Instance& instance, const design::Explanation& explanation) {
+  const std::string hidden = design::hidden_mode_text(instance);
+  const bool stands =
+      !explanation.conflict && explanation.gains.solver.message.find(hidden) != std::string::npos;
+  return stands ? "" : hidden_line(instance);
+}
+
 ExitCode explain(const ExplainOptions& options) {
   const model::Instance instance = load_problem(options.problem, effort(options.effort));
   const design::Explanation explanation = design::explain(instance, {});
   const Telling telling;
   fmt::print("{}", options.json ? io::to_text(explanation_json(explanation))
-                                : explanation_text(explanation) + hidden_line(instance) +
-                                      held_line(instance));
+                                : explanation_text(explanation) +
+                                      plant_line(instance, explanation) + held_line(instance));
   if (!explanation.finished) {
     say("not finished: what is called undecided, or is not there, was not looked at to its end\n");
     return ExitCode::undecided;

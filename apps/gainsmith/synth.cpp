@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/stop.h"
 #include "design/optimize.h"
+#include "design/semidefinite_program.h"
 #include "design/synthesize.h"
 #include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
@@ -58,7 +59,8 @@ void say_more(const SynthOptions& options, const model::Instance& instance,
 }
 
 void write_program(const std::string& path, const model::Instance& instance) {
-  write_atomically(path, sdp::write_sdpa(design::semidefinite_program(instance)));
+  const design::SemidefiniteProgram program = design::semidefinite_program(instance);
+  write_atomically(path, sdp::write_sdpa(program.problem, program.remarks));
 }
 
 ExitCode synth(const SynthOptions& options) {

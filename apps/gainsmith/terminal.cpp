@@ -39,6 +39,8 @@ void set_timer(double seconds) {
   timer.it_value.tv_sec = static_cast<time_t>(whole);
   timer.it_value.tv_usec =
       static_cast<suseconds_t>(1e6 * std::clamp(seconds - whole, 0.0, 0.999999));
+  // A timer of 0 would not end.
+  if (seconds > 0 && whole == 0 && timer.it_value.tv_usec == 0) timer.it_value.tv_usec = 1;
   ::setitimer(ITIMER_REAL, &timer, nullptr);
 }
 

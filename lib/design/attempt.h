@@ -20,6 +20,7 @@ struct Effort {
   double tolerance = 1e-9;
   const sdp::Solution* from = nullptr;
   std::function<bool(const std::vector<double>& x)> enough = {};
+  double certificate_tolerance = 1e-8;  ///< smaller: only certificates against larger x end it
 };
 
 /// Solves a semidefinite program: sdp::solve with its options, or a script in a test.

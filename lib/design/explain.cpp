@@ -84,6 +84,21 @@ std::set<std::string> guessed(const model::Instance& instance, std::set<std::str
   return names;
 }
 
+/// That the requirements named have no solution, where the allowance suffices to find it.
+std::optional<model::CertificateRecord> certificate_against(const model::Instance& instance,
+                                                            const std::set<std::string>& names,
+                                                            const sdp::Options& solver,
+                                                            double seconds) {
+  try {
+    const Allowance limit(seconds);
+    const model::Gains gains = subset(instance, names, solver);
+    if (gains.verdict == model::Verdict::no) return gains.certificate.value();
+  } catch (const OutOfAllowance&) {
+    // Nothing is known.
+  }
+  return std::nullopt;
+}
+
 std::vector<std::string> in_order(const model::Design& design, const std::set<std::string>& names) {
   std::vector<std::string> result;
   for (const model::Design::Inequality& inequality : design.inequalities)
@@ -207,16 +222,12 @@ std::optional<Conflict> guess_conflict(const model::Instance& instance, const mo
   const std::set<std::string> all = all_names(design);
   const std::set<std::string> few = guessed(plain, all, solver, seconds, conflict.undecided);
   bool excluded = few == all;
-  if (!excluded) try {
-      const Allowance limit(seconds);
-      if (const model::Gains rest = subset(plain, few, solver);
-          rest.verdict == model::Verdict::no) {
-        conflict.certificate = rest.certificate.value();
-        excluded = true;
-      }
-    } catch (const OutOfAllowance&) {
-      // Nothing is known of fewer.
+  if (!excluded) {
+    if (const auto certificate = certificate_against(plain, few, solver, seconds)) {
+      conflict.certificate = *certificate;
+      excluded = true;
     }
+  }
   conflict.names = in_order(design, excluded ? few : all);
   if (!excluded) conflict.undecided = conflict.names;
   std::erase_if(conflict.undecided, [&](const std::string& name) {

@@ -11,6 +11,8 @@ namespace gainsmith::design {
 
 namespace {
 
+constexpr double kRank = 1e-11;  // relative, of [A - lambda I; C] with rows of size 1
+
 /// 2n x 2n or 2(n+p) x 2n: the complex matrix X + iY as [X, -Y; Y, X].
 numbers::Matrix real_form(const numbers::Matrix& X, const numbers::Matrix& Y) {
   numbers::Matrix whole(2 * X.rows(), 2 * X.cols());
@@ -28,6 +30,15 @@ numbers::Matrix hautus_matrix(const numbers::Matrix& A, const numbers::Matrix& C
   return real_form(X, Y);
 }
 
+/// With the digits that are known, one at least; what may as well be 0 says to what.
+std::string known_part(double value, double accuracy) {
+  constexpr int kDigits = 4;
+  if (value == 0) return "0";
+  const double digits = std::ceil(std::log10(std::abs(value) / accuracy));
+  if (!(digits >= 1)) return "0 (to " + brief(accuracy, 1) + ")";
+  return brief(value, static_cast<int>(std::min<double>(digits, kDigits)));
+}
+
 bool is_declared(const model::Design& design, const std::string& name, bool square) {
   return std::any_of(design.data.begin(), design.data.end(), [&](const auto& datum) {
     return datum.name == name && (!square || datum.shape.rows == datum.shape.cols);
@@ -37,7 +48,6 @@ bool is_declared(const model::Design& design, const std::string& name, bool squa
 }  // namespace
 
 std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C) {
-  constexpr double kRank = 1e-11;    // relative, of [A - lambda I; C] with rows of size 1
   constexpr double kStable = 1e-12;  // of |A|: an eigenvalue on the axis is known to that
   const Eigen::Index n = A.rows();
   const double size = A.cwiseAbs().rowwise().sum().maxCoeff();
@@ -60,7 +70,7 @@ std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::M
     if (imaginary.norm() > v.norm()) v = imaginary;
     Eigen::Index at = 0;
     v.cwiseAbs().maxCoeff(&at);
-    found = HiddenMode{lambda * size, v / v(at), residual};
+    found = HiddenMode{lambda * size, v / v(at), residual, kStable * size};
   }
   return found;
 }
@@ -77,15 +87,13 @@ std::string hidden_mode_text(const model::Instance& instance) {
   if (!mode) return "";
   std::string direction;
   for (const double element : mode->direction)
-    direction += (direction.empty() ? "" : "; ") + brief(std::abs(element) < 1e-9 ? 0 : element, 4);
+    direction +=
+        (direction.empty() ? "" : "; ") + brief(std::abs(element) < kRank ? 0 : element, 4);
   const double imaginary = mode->eigenvalue.imag();
   return "the output does not show a mode of the plant that does not decay: eigenvalue " +
-         brief(std::abs(mode->eigenvalue.real()) < 1e-9 * std::abs(mode->eigenvalue)
-                   ? 0
-                   : mode->eigenvalue.real(),
-               4) +
-         (imaginary > 0 ? " +- " + brief(imaginary, 4) + "i" : "") + " in the direction [" +
-         direction +
+         known_part(mode->eigenvalue.real(), mode->accuracy) +
+         (imaginary > 0 ? " +- " + known_part(imaginary, mode->accuracy) + "i" : "") +
+         " in the direction [" + direction +
          "], where [A - lambda*I; C] loses rank (Hautus); no gain changes it, so another "
          "output is needed";
 }

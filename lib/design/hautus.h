@@ -16,6 +16,7 @@ struct HiddenMode {
   std::complex<double> eigenvalue;
   numbers::Vector direction;  ///< real part of v, or its imaginary part where that is larger
   double residual = 0;        ///< the smallest singular value over the largest
+  double accuracy = 0;        ///< how far the eigenvalue may be from that of A
 };
 
 /// The hidden mode that is farthest right, in balanced units; none when (A, C) is detectable as far

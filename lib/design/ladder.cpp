@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -41,11 +42,24 @@ struct Rungs {
            nothing_holds_at_all(climb);
   }
   static bool minimum_is_due(const Climb& climb) { return has_minimum(climb); }
+  /// The last attempt at the minimum within the bounds.
+  static const Attempt* last_minimum(const Climb& climb) {
+    const Attempt* large = climb.find(Rung::large_minimum);
+    return large != nullptr ? large : climb.find(Rung::minimum);
+  }
   static bool blended_is_due(const Climb& climb) {
-    const Attempt* minimum = climb.find(Rung::minimum);
+    const Attempt* minimum = last_minimum(climb);
     const Attempt* inside = climb.find(Rung::inside);
     return minimum != nullptr && minimum->is_near_optimal() && !minimum->holds() &&
            inside != nullptr && inside->holds();
+  }
+  /// That no x of ordinary size has the margin says nothing where a point holds.
+  static bool large_minimum_is_due(const Climb& climb) {
+    const Attempt* minimum = climb.find(Rung::minimum);
+    const Attempt* inside = climb.find(Rung::inside);
+    return minimum != nullptr && inside != nullptr && inside->holds() &&
+           minimum->solution.status == sdp::Status::primal_infeasible &&
+           std::isfinite(minimum->solution.certificate.excluded_radius);
   }
   static bool free_minimum_is_due(const Climb& climb) {
     return is_bounded(climb) && has_minimum(climb) && nothing_holds(climb);
@@ -124,8 +138,14 @@ struct Rungs {
   static std::optional<Attempt> inside(const Climb& climb) {
     return ask(climb, interior(climb.bounds_));
   }
+  /// Not ended by a certificate against x below some 1e16.
+  static std::optional<Attempt> large_minimum(const Climb& climb) {
+    Question question = objective(climb, climb.bounds_);
+    question.effort.certificate_tolerance = 1e-16;
+    return ask(climb, std::move(question));
+  }
   static std::optional<Attempt> blended(const Climb& climb) {
-    return design::blended(climb.posed_, *climb.find(Rung::minimum), *climb.find(Rung::inside));
+    return design::blended(climb.posed_, *last_minimum(climb), *climb.find(Rung::inside));
   }
   static std::optional<Attempt> free_minimum(const Climb& climb) {
     return ask(climb, objective(climb, {}));
@@ -174,6 +194,8 @@ constexpr std::array<Row, 12> kLadder = {{
     {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside,
      "the largest margin, gains of any size"},
     {Rung::inside, Rungs::nothing_holds, Rungs::inside, "the largest margin"},
+    {Rung::large_minimum, Rungs::large_minimum_is_due, Rungs::large_minimum,
+     "the minimum, unknowns of any size"},
     {Rung::blended, Rungs::blended_is_due, Rungs::blended, "a point near the minimum"},
     {Rung::free_minimum, Rungs::free_minimum_is_due, Rungs::free_minimum,
      "the minimum, gains of any size"},
@@ -241,9 +263,10 @@ const Attempt* Climb::find(Rung rung) const {
 
 const Attempt* Climb::point() const {
   // A minimum is worth more than a point inside; within the bounds more than without.
-  constexpr Rung kWorth[] = {Rung::minimum,      Rung::blended,     Rung::inside,
-                             Rung::free_minimum, Rung::free_inside, Rung::on_equations,
-                             Rung::in_31_digits, Rung::on_faces,    Rung::in_100_digits};
+  constexpr Rung kWorth[] = {Rung::minimum,      Rung::large_minimum, Rung::blended,
+                             Rung::inside,       Rung::free_minimum,  Rung::free_inside,
+                             Rung::on_equations, Rung::in_31_digits,  Rung::on_faces,
+                             Rung::in_100_digits};
   const Attempt* holding = nullptr;
   const Attempt* first = nullptr;
   for (const Rung rung : kWorth) {

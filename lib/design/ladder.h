@@ -39,6 +39,7 @@ enum class Rung {
   minimum,
   free_inside,
   inside,
+  large_minimum,
   blended,
   free_minimum,
   on_equations,

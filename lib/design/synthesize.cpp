@@ -270,6 +270,8 @@ class Synthesis {
   sdp::Solution solve(const sdp::Problem& problem, const Effort& effort) {
     sdp::Options solver = options_;
     if (effort.precision != "auto") solver.precision = effort.precision;
+    solver.certificate_tolerance =
+        std::min(solver.certificate_tolerance, effort.certificate_tolerance);
     solver.tolerance = std::min(solver.tolerance, effort.tolerance);
     solver.from = effort.from;
     solver.enough = effort.enough;
@@ -335,23 +337,6 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
 model::Gains synthesize_at(const model::DesignPtr& design, const model::Overrides& overrides,
                            const sdp::Options& options, Depth depth) {
   return synthesize(model::evaluate(design, overrides), options, depth);
-}
-
-sdp::Problem semidefinite_program(const model::Instance& instance) {
-  if (instance.design->inequalities.empty())
-    throw InputError({instance.design->method_file, 0, 0},
-                     "the method requires nothing, so there is no semidefinite program");
-  if (instance.design->quotient)
-    throw InputError(instance.design->quotient->place,
-                     "minimize: " + instance.design->quotient->text +
-                         " is solved by several semidefinite programs; there is no one to write");
-  const lmi::Inequalities inequalities(instance);
-  const model::SynthesisOptions& choices = inequalities.design().synthesis;
-  const lmi::Lmi lmi = lmi::compile(inequalities);
-  const lmi::GainBounds bounds = lmi::gain_bounds(inequalities, lmi);
-  if (lmi::has_minimum(lmi, bounds))
-    return lmi::formulate_objective(lmi, bounds, choices.margin).problem;
-  return lmi::formulate_interior(lmi, bounds, {}).problem;
 }
 
 }  // namespace gainsmith::design

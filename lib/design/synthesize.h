@@ -33,7 +33,4 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
 model::Gains synthesize_at(const model::DesignPtr& design, const model::Overrides& overrides,
                            const sdp::Options& options, Depth depth = Depth::thorough);
 
-/// The semidefinite program that synthesize() solves first (see lmi/formulation.h).
-sdp::Problem semidefinite_program(const model::Instance& instance);
-
 }  // namespace gainsmith::design

@@ -101,10 +101,8 @@ template <class Scalar>
 void BoundedSimulator<Scalar>::add_coarse_errors(const BoundedMap<Scalar>& map) {
   for (Index i = 0; i < x_.rows(); ++i) {
     if (map.unchanged[static_cast<std::size_t>(i)]) continue;
-    double reach = map.constant_sizes(i) > 0 ? 1 : 0;  // the error of E keeps its pattern
-    for (Index k = 0; k < x_.rows(); ++k)
-      if (map.sizes(i, k) > 0) reach += size_(k) + r_(k);
-    delta_(i) += map.error * reach;
+    delta_(i) += map.errors(i, x_.rows());
+    for (Index k = 0; k < x_.rows(); ++k) delta_(i) += map.errors(i, k) * (size_(k) + r_(k));
   }
 }
 

@@ -76,7 +76,9 @@ template <class Scalar>
 BoundedSystem<Scalar>::BoundedSystem(const Coordinates& all, const std::optional<ExactSteps>& exact)
     : coordinates(&all), steps(exact ? StepMaps<Scalar>(*exact) : StepMaps<Scalar>()) {
   for (const auto& [name, value] : all.constants) constants.emplace(name, ball_of<Scalar>(value));
-  if (const auto map = affine_jump(all)) jump = bounded_map<Scalar>(map->linear, map->constant, 0);
+  const Eigen::Index n = all.layout.size;
+  if (const auto map = affine_jump(all))
+    jump = bounded_map<Scalar>(map->linear, map->constant, numbers::Matrix::Zero(n, n + 1));
   std::set<std::string> turning;
   for (std::size_t i = 0; i < all.list.size(); ++i)
     if (!all.list[i].clock) turning.insert(all.layout.slots[i].name);

@@ -24,22 +24,46 @@ numbers::MatrixOf<Scalar> rounded_to(const Wide& matrix) {
   return matrix.unaryExpr([](const Decimal100& value) { return as<Scalar>(value); });
 }
 
-double row_norm(const Wide& matrix) {
-  if (matrix.size() == 0) return 0;
-  return sizes_of(rounded_to<double>(matrix)).rowwise().sum().maxCoeff() * kBoundSlack;
+/// |matrix| from above.
+Matrix upper_sizes(const Wide& matrix) {
+  return sizes_of(rounded_to<double>(matrix)) * kBoundSlack;
 }
+
+constexpr double kLeastTerm = 1e-4;  // of kWideUnit
 
 /// sum_k of terms that `next(term, k)` makes one of the other, to 100 digits.
 template <class Next>
 Wide series(Wide term, Next next) {
   Wide sum = term;
-  const Decimal100 least = Decimal100(kWideUnit) * Decimal100(1e-4);
+  const Decimal100 least = Decimal100(kWideUnit) * Decimal100(kLeastTerm);
   for (int k = 1; k <= kMostTerms; ++k) {
     term = next(term, k);
     sum += term;
     if (largest_of(term) <= least * largest_of(sum)) break;
   }
   return sum;
+}
+
+/// R_0 of expm(step) by `series`: the rounding of its terms, and those that it leaves out.
+Matrix series_errors(const Wide& step) {
+  constexpr int kTerms = 60;  // of columns whose sum is at most 1/4, but for the constant's
+  const Matrix sizes = upper_sizes(step);
+  Matrix term = Matrix::Identity(step.rows(), step.cols());
+  Matrix sum = term;
+  for (int k = 1; k <= kTerms; ++k) {
+    term = times<double>(term, sizes) / k;
+    sum += term;
+  }
+  const double left_out = kLeastTerm * sum.maxCoeff();
+  const double unit = kWideUnit * static_cast<double>(step.rows() + 1) * kBoundSlack;
+  return sum.unaryExpr([=](double size) { return size > 0 ? unit * (size + left_out) : 0; });
+}
+
+/// R_(k+1) of X_k and R_k.
+Matrix squared_errors(const Matrix& sizes, const Matrix& errors) {
+  const double unit = kWideUnit * static_cast<double>(sizes.rows() + 1);
+  return kBoundSlack * (times<double>(sizes, errors) + times<double>(errors, sizes) +
+                        times<double>(errors, errors) + unit * times<double>(sizes, sizes));
 }
 
 /// The tails of a series whose terms are at most `term` and what `next` makes of it, k = 1, 2, ...
@@ -145,7 +169,7 @@ Bounded<Scalar> value_of_form(const Form<Scalar>& form, Index size, const Scalar
 }  // namespace
 
 template <class Scalar>
-BoundedMap<Scalar> bounded_map(const Wide& linear, const Wide& constant, double error) {
+BoundedMap<Scalar> bounded_map(const Wide& linear, const Wide& constant, const Matrix& errors) {
   const Index n = linear.rows();
   BoundedMap<Scalar> map;
   map.linear = rounded_to<Scalar>(linear);
@@ -153,9 +177,8 @@ BoundedMap<Scalar> bounded_map(const Wide& linear, const Wide& constant, double 
   map.rounded = rounded_to<double>(linear);
   map.sizes = sizes_of(map.rounded);
   map.constant_sizes = sizes_of(rounded_to<double>(constant)).col(0);
-  map.error = error;
+  map.errors = errors;
   map.gamma.resize(n);
-  double least = std::numeric_limits<double>::infinity();  // of what is not 0
   for (Index i = 0; i < n; ++i) {
     Wide row = linear.row(i);
     row(i) = row(i) - Decimal100(1);
@@ -163,10 +186,10 @@ BoundedMap<Scalar> bounded_map(const Wide& linear, const Wide& constant, double 
     map.unchanged.push_back(unchanged);
     map.gamma(i) = unchanged ? 0 : (static_cast<double>(n) + 5) * unit_roundoff<Scalar>();
     for (Index k = 0; k <= n; ++k)
-      if (const double size = k < n ? map.sizes(i, k) : map.constant_sizes(i); size > 0)
-        least = std::min(least, size);
+      if (const double size = k < n ? map.sizes(i, k) : map.constant_sizes(i);
+          !(errors(i, k) <= unit_roundoff<Scalar>() * size))
+        map.coarse = true;
   }
-  map.coarse = error > unit_roundoff<Scalar>() * least;
   return map;
 }
 
@@ -235,8 +258,7 @@ ExactSteps exact_steps(const Coordinates& coordinates, const FlowSteps& steps,
   exact.maps.push_back(series(I, [&](const Wide& term, int k) {
     return Wide(times<Decimal100>(term, G) * (length / Decimal100(k)));
   }));
-  const double unit = kWideUnit * static_cast<double>(n + 2);
-  exact.errors.push_back(unit * std::exp(std::min(row_norm(G) * steps.shortest(), 100.0)));
+  exact.errors.push_back(series_errors(G * length));
   for (const Wide& Q : forms)
     exact.integrals.push_back({series(Wide(Q * length), [&](const Wide& term, int k) {
       return Wide(Wide(times<Decimal100>(G.transpose(), term) + times<Decimal100>(term, G)) *
@@ -244,9 +266,7 @@ ExactSteps exact_steps(const Coordinates& coordinates, const FlowSteps& steps,
     })});
   for (int level = 1; level < steps.levels(); ++level) {
     const Wide X = exact.maps.back();
-    const double size = row_norm(X);
-    const double e = exact.errors.back();
-    exact.errors.push_back(2 * size * e + e * e + unit * size * size);
+    exact.errors.push_back(squared_errors(upper_sizes(X), exact.errors.back()));
     exact.maps.push_back(times<Decimal100>(X, X));
     for (auto& integral : exact.integrals) {
       const Wide W = integral.back();
@@ -262,7 +282,8 @@ StepMaps<Scalar>::StepMaps(const ExactSteps& exact) : rest(series_of<Scalar>(exa
   const Index n = exact.maps.front().rows() - 1;
   for (std::size_t k = 0; k < exact.maps.size(); ++k)
     maps.push_back(bounded_map<Scalar>(exact.maps[k].topLeftCorner(n, n),
-                                       exact.maps[k].topRightCorner(n, 1), exact.errors[k]));
+                                       exact.maps[k].topRightCorner(n, 1),
+                                       exact.errors[k].topRows(n)));
   for (const auto& integral : exact.integrals) {
     integrals.emplace_back();
     for (const Wide& W : integral) integrals.back().push_back(form_of<Scalar>(W));
@@ -271,14 +292,14 @@ StepMaps<Scalar>::StepMaps(const ExactSteps& exact) : rest(series_of<Scalar>(exa
     rest_integrals.push_back(series_of<Scalar>(integral));
 }
 
-#define GAINSMITH_STEP_MAPS(Scalar)                                                    \
-  template BoundedMap<Scalar> bounded_map<Scalar>(const Wide&, const Wide&, double);   \
-  template Form<Scalar> form_of<Scalar>(const Wide&);                                  \
-  template Series<Scalar> series_of<Scalar>(const ExactSeries&);                       \
-  template struct Series<Scalar>;                                                      \
-  template Bounded<Scalar> value_of<Scalar>(const Form<Scalar>&,                       \
-                                            const Eigen::Ref<const ColumnOf<Scalar>>&, \
-                                            const Eigen::Ref<const Eigen::VectorXd>&); \
+#define GAINSMITH_STEP_MAPS(Scalar)                                                         \
+  template BoundedMap<Scalar> bounded_map<Scalar>(const Wide&, const Wide&, const Matrix&); \
+  template Form<Scalar> form_of<Scalar>(const Wide&);                                       \
+  template Series<Scalar> series_of<Scalar>(const ExactSeries&);                            \
+  template struct Series<Scalar>;                                                           \
+  template Bounded<Scalar> value_of<Scalar>(const Form<Scalar>&,                            \
+                                            const Eigen::Ref<const ColumnOf<Scalar>>&,      \
+                                            const Eigen::Ref<const Eigen::VectorXd>&);      \
   template struct StepMaps<Scalar>;
 GAINSMITH_STEP_MAPS(double)
 GAINSMITH_STEP_MAPS(DoubleDouble)

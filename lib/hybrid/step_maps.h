@@ -6,9 +6,13 @@
 //   X_k = expm(s_k G),  X_(k+1) = X_k^2          W_(k+1) = W_k + X_k' W_k X_k
 //   int_0^(s_k) [x; 1]' Q [x; 1] ds = [x0; 1]' W_k [x0; 1]
 //
-// X_0 and W_0 by their series. The error of the squarings, e <- 2 |X| e + e^2 + n u |X|^2 with
-// u = 1e-98, is carried along; what is rounded once is the result. Over a rest s <= s_0 both are
-// polynomials in s, sums of the same series (Series).
+// X_0 and W_0 by their series. The error of the squarings, element by element
+//
+//   R <- |X| R + R |X| + R^2 + n u |X|^2,   u = 1e-98,
+//
+// is carried along; it does not depend on the units of the states, as one of norms would. What is
+// rounded once is the result. Over a rest s <= s_0 both are polynomials in s, sums of the same
+// series (Series).
 #pragma once
 
 #include <Eigen/Core>
@@ -32,7 +36,7 @@ struct BoundedMap {
   numbers::Matrix rounded;  ///< linear in double
   numbers::Matrix sizes;    ///< |linear|
   Eigen::VectorXd constant_sizes;
-  double error = 0;             ///< besides that rounding, of each element that is not 0
+  numbers::Matrix errors;       ///< of [linear, constant] besides that rounding
   bool coarse = false;          ///< whether that is more than the rounding of an element
   std::vector<bool> unchanged;  ///< the rows that are those of the identity
   Eigen::VectorXd gamma;        ///< relative rounding of linear x + constant; 0 of those rows
@@ -40,7 +44,8 @@ struct BoundedMap {
 
 template <class Scalar>
 BoundedMap<Scalar> bounded_map(const numbers::MatrixOf<Decimal100>& linear,
-                               const numbers::MatrixOf<Decimal100>& constant, double error);
+                               const numbers::MatrixOf<Decimal100>& constant,
+                               const numbers::Matrix& errors);
 
 /// A quadratic form [x; 1]' Q [x; 1].
 template <class Scalar>
@@ -89,8 +94,8 @@ Series<Scalar> series_of(const ExactSeries& exact);
 
 /// All in 100 digits.
 struct ExactSteps {
-  std::vector<numbers::MatrixOf<Decimal100>> maps;  ///< X_k
-  std::vector<double> errors;
+  std::vector<numbers::MatrixOf<Decimal100>> maps;                    ///< X_k
+  std::vector<numbers::Matrix> errors;                                ///< R_k
   std::vector<std::vector<numbers::MatrixOf<Decimal100>>> integrals;  ///< [form][k]: W_k
   ExactSeries rest;                                                   ///< expm(s G) - I
   std::vector<ExactSeries> rest_integrals;                            ///< of each form over a rest

@@ -9,6 +9,7 @@
 
 #include "base/number.h"
 #include "forall/hull.h"
+#include "lmi/symmetry.h"
 #include "lmi/vertex_gains.h"
 
 namespace gainsmith::lmi {
@@ -86,14 +87,30 @@ class Compiler {
     std::vector<Block> blocks;
     for (const forall::Vertex& vertex : hull.vertices) {
       Block block =
-          block_of(at_vertex(form, vertex.values), comparison.name,
-                   joined(point.label, vertex.label), comparison.strict, stated.that_place);
+          block_at(at_vertex(form, vertex.values), comparison, joined(point.label, vertex.label));
       block.comparison = k;
       block.where = vertex.point;
       if (block.where) block.where->values.insert(point.values.begin(), point.values.end());
       blocks.push_back(std::move(block));
     }
     return blocks;
+  }
+
+  /// InputError where the unknown at fault is declared, when it is one.
+  Block block_at(const AffineForm& form, const model::Design::Comparison& comparison,
+                 const std::string& point) const {
+    try {
+      return block_of(form, comparison.name, point, comparison.strict,
+                      statement_.stated->that_place);
+    } catch (const InputError&) {
+      const model::Design::Unknown* unknown = needs_symmetric(form, of_);
+      if (unknown == nullptr) throw;
+      const std::string size = unknown->declared.substr(0, unknown->declared.find(" x "));
+      throw InputError(unknown->place, "the unknown " + unknown->name + " is " + unknown->declared +
+                                           ", and the inequality '" + comparison.name +
+                                           "' is symmetric only where it is; declare " +
+                                           unknown->name + ": symmetric " + size);
+    }
   }
 
   const Inequalities& of_;

@@ -324,6 +324,7 @@ void Binding::add_unknown(const UnknownDeclaration& unknown) {
   bound.shape = known_shape(unknown, "unknown");
   bound.structure = unknown.shape.structure;
   bound.variable = unknown.variable;
+  bound.declared = unknown.shape.text;
   bound.place = unknown.place;
   bound.degree = degree_of(unknown, bound);
   if (unknown.in) {

@@ -87,6 +87,7 @@ struct Design {
     std::optional<Formula> degree_formula;
     /// Where its digits are kept: a basis of Chebyshev polynomials; none: of powers.
     std::optional<Range> in;
+    std::string declared;  ///< its shape as written: "n x n"
     Place place;
   };
 

@@ -289,9 +289,10 @@ Problem read_sdpa(std::string_view text, const std::string& file_name) {
   return problem;
 }
 
-std::string write_sdpa(const Problem& problem) {
-  std::string text =
-      std::to_string(problem.m()) + "\n" + std::to_string(problem.blocks.size()) + "\n";
+std::string write_sdpa(const Problem& problem, const std::vector<std::string>& remarks) {
+  std::string text;
+  for (const std::string& remark : remarks) text += "* " + remark + "\n";
+  text += std::to_string(problem.m()) + "\n" + std::to_string(problem.blocks.size()) + "\n";
   for (const Block& block : problem.blocks)
     text += std::to_string(block.diagonal ? -block.size : block.size) + " ";
   text += "\n";

@@ -3,6 +3,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "sdp/problem.h"
 
@@ -24,7 +25,7 @@ namespace gainsmith::sdp {
 Problem read_sdpa(std::string_view text, const std::string& file_name);
 
 /// The text of a problem in that format, numbers with 17 digits: read_sdpa gives the same doubles.
-/// What they were rounded from (Entry::rest) is not written.
-std::string write_sdpa(const Problem& problem);
+/// What they were rounded from (Entry::rest) is not written. `remarks`: comment lines before it.
+std::string write_sdpa(const Problem& problem, const std::vector<std::string>& remarks = {});
 
 }  // namespace gainsmith::sdp

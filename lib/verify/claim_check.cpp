@@ -59,7 +59,9 @@ Finding finding_at(const Track<Scalar>& track, std::size_t sample, const Bounded
   finding.judgement = judgement;
   finding.value = static_cast<double>(value.value);
   finding.bound = static_cast<double>(bound.value);
+  // What overflowed bounds nothing; a difference of two such is no number.
   finding.rounding = value.bound + bound.bound;
+  if (std::isnan(finding.rounding)) finding.rounding = kInfinity;
   finding.t = track.t[sample];
   finding.j = track.j[sample];
   finding.digits = kDigits<Scalar>;

@@ -61,7 +61,7 @@ struct Finding {
   double score = -1;
   double value = 0;     ///< at the worst sample
   double bound = 0;     ///< what it must not exceed there
-  double rounding = 0;  ///< how far value - bound may be from the true one
+  double rounding = 0;  ///< how far value - bound may be from the true one; infinite: not known
   double t = 0;         ///< where that is, in hybrid time
   std::int64_t j = 0;
   /// The largest value, relative to v(0), that was not compared because no digits are left; 0:

@@ -94,9 +94,9 @@ void FlowIntegral<Scalar>::advance(double length, int level) {
   if (level >= 0) {
     const auto& map = system_->steps.maps[static_cast<std::size_t>(level)];
     r_ = (map.sizes.lazyProduct(r_) * (1 + 8 * unit * static_cast<double>(n)) +
-          map.gamma.cwiseProduct(map.sizes.lazyProduct(sizes) + map.constant_sizes))
+          map.gamma.cwiseProduct(map.sizes.lazyProduct(sizes) + map.constant_sizes) +
+          map.errors.leftCols(n).lazyProduct(sizes + r_) + map.errors.col(n))
              .eval();
-    if (map.error > 0) r_.array() += map.error * (sizes.sum() + r_.sum() + 1);
     x_ = (map.linear.lazyProduct(x_) + map.constant).eval();
     return;
   }

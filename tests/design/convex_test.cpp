@@ -6,6 +6,7 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "design/semidefinite_program.h"
 #include "design/solve.h"
 #include "numbers/dense.h"
 #include "support/input_error.h"

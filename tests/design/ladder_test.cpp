@@ -96,24 +96,39 @@ TEST(Ladder, AMinimumThatDoesNotHoldIsBlendedWithAPointInside) {
 /// What is no minimum has no lower bound, and nothing is blended with it.
 TEST(Ladder, WithoutAMinimumAPointInsideIsTheAnswer) {
   const Case of(kFloor);
-  for (const Answer& first : {undecided(), unbounded(), infeasible()}) {
-    const Scripted run(of, {[&](const sdp::Problem& problem) {
-                              sdp::Solution solution = first(problem);
-                              solution.x = {0.9};
-                              solution.dual_objective = 100;
-                              return solution;
-                            },
-                            inside(of, {3})});
-    EXPECT_EQ(run.tried, (Rungs{Rung::minimum, Rung::inside}));
+  const auto far = [](const Answer& first) {
+    return [first](const sdp::Problem& problem) {
+      sdp::Solution solution = first(problem);
+      solution.x = {0.9};
+      solution.dual_objective = 100;
+      return solution;
+    };
+  };
+  const auto expect_inside = [](const Scripted& run, const Rungs& tried, const char* message) {
+    EXPECT_EQ(run.tried, tried);
     EXPECT_EQ(run.gains.verdict, Verdict::yes);
     EXPECT_EQ(run.unknown("x"), 3);
     EXPECT_EQ(run.gains.objective, 3);
     EXPECT_FALSE(run.gains.objective_lower_bound);
-    EXPECT_TRUE(run.says(run.at(Rung::minimum).solution.status == sdp::Status::dual_infeasible
-                             ? "that of a point inside: the solver finds it unbounded below"
-                             : "not its minimum"))
-        << run.message();
-  }
+    EXPECT_TRUE(run.says(message)) << run.message();
+  };
+  expect_inside({of, {far(undecided()), inside(of, {3})}}, {Rung::minimum, Rung::inside},
+                "not its minimum");
+  expect_inside({of, {far(unbounded()), inside(of, {3})}}, {Rung::minimum, Rung::inside},
+                "that of a point inside: the solver finds it unbounded below");
+  expect_inside({of, {far(infeasible()), inside(of, {3}), far(undecided())}},
+                {Rung::minimum, Rung::inside, Rung::large_minimum}, "not its minimum");
+}
+
+/// A certificate against x below 1e8 does not end the second question.
+TEST(Ladder, WhereAPointHoldsTheMinimumIsSoughtAmongLargeOnes) {
+  const Case of(kFloor);
+  const Scripted run(of, {infeasible(), inside(of, {3}), minimum(of, {1.5})});
+  EXPECT_EQ(run.tried, (Rungs{Rung::minimum, Rung::inside, Rung::large_minimum}));
+  EXPECT_LT(run.at(Rung::large_minimum).question.effort.certificate_tolerance, 1e-15);
+  EXPECT_EQ(run.gains.verdict, Verdict::yes);
+  EXPECT_EQ(run.unknown("x"), 1.5);
+  EXPECT_FALSE(run.says("not its minimum")) << run.message();
 }
 
 TEST(Ladder, APointInsideIsTheAnswerWithoutAnObjective) {

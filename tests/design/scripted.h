@@ -115,9 +115,9 @@ inline Answer refuting(const Case& of, const std::vector<double>& Y) {
   };
 }
 
-inline constexpr Rung kRungs[] = {Rung::minimum,       Rung::inside,      Rung::blended,
-                                  Rung::free_minimum,  Rung::free_inside, Rung::in_31_digits,
-                                  Rung::in_100_digits, Rung::tighter};
+inline constexpr Rung kRungs[] = {Rung::minimum,      Rung::inside,        Rung::large_minimum,
+                                  Rung::blended,      Rung::free_minimum,  Rung::free_inside,
+                                  Rung::in_31_digits, Rung::in_100_digits, Rung::tighter};
 
 /// One climb over a script, with what holds for every climb: each rung is tried once, in their
 /// order, and a record stays as it was.

@@ -134,6 +134,23 @@ TEST(CampaignTest, UnitsOfTheStatesDoNotMatter) {
   EXPECT_EQ(verified(problem("0.001"), 1)["verdict"], "violated");
 }
 
+/// The plant of Ferrante and Seuret with its output in units of 1e9, and with a state in units 1e9
+/// apart: gains and the flow of the errors have elements that far apart.
+TEST(CampaignTest, UnitsOfOutputsAndGainsDoNotMatter) {
+  const auto problem = [](const std::string& plant) {
+    return "problem: units\nmethod: sampled-data-hybrid\ndata: {" + plant +
+           ", T1: 0.5, T2: 0.7, QF: I, QJ: 0.01*I}\n"
+           "parameters: {delta: 0.03, eta: 1e-4, a1: 100, a2: 1}\n"
+           "campaign: {runs: 20, horizon: 100, initial: {z: {box: [-10, 10]}, zh: 0, th: C*z}}\n";
+  };
+  for (const char* plant : {"A: [[0.2, -1.01], [1, 0]], C: [[5e-10, -1e-9]]",
+                            "A: [[0.2, -1.01e-9], [1e9, 0]], C: [[5e4, -1e-4]]"}) {
+    const Json report = verified(problem(plant), 0);
+    EXPECT_EQ(report["verdict"], "held") << plant;
+    EXPECT_EQ(report["undecided"], 0) << plant;
+  }
+}
+
 TEST(CampaignTest, WhatIsNotCertainIsUndecided) {
   // e' = (0.5 - 0.5) e is exactly 0: the claim that e^2 does not rise holds, bound 0.
   const Json still = verified(scalar_observer("0.5", "0.5", "10"), 3);

@@ -61,6 +61,53 @@ TEST(CommandLineTest, WhatIsWrongIsSaidInOneLineWithTheCure) {
   }
 }
 
+TEST(CommandLineTest, ATimeIsAPositiveNumberOfSeconds) {
+  for (const char* command : {"synth", "bisect", "scan", "optimize", "explain", "verify",
+                              "simulate", "solve", "check", "run"}) {
+    if (gainsmith({command, "--help"}).out.find("--time") == std::string::npos) continue;
+    for (const std::string text :
+         {"-1", "0", "-0", "nan", "inf", "1e400", "1e-400", "soon", "5s", "0x10", "", " 5"}) {
+      const Outcome outcome = gainsmith({command, "x", "--time", text});
+      EXPECT_EQ(outcome.exit, 2) << text;
+      EXPECT_NE(outcome.err.find(std::string(command) +
+                                 ": --time: expected a positive number of seconds, such as 60 or "
+                                 "0.5, not '" +
+                                 text + "'"),
+                std::string::npos)
+          << outcome.err;
+      EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+    }
+  }
+}
+
+/// Of [cos, -sin; sin, cos] diag(0.3, -1) [cos, sin; -sin, cos] in 17 digits C shows only the
+/// second mode, up to rounding: undecided.
+TEST(CommandLineTest, ExplainNamesAHiddenModeOnce) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "hidden.yaml",
+      "problem: hidden\nmethod:\n  method: m\n  data: {A: n x n, C: p x n}\n"
+      "  unknowns: {P: symmetric n, Y: n x p}\n  require: {positive: P > 0, decrease: He(P*A - "
+      "Y*C) "
+      "< 0}\n  gains: {L: inv(P)*Y}\n  plant: {state: {x: n}, output: {y: C*x}, flow: {x: A*x}}\n"
+      "  observer: {state: {xh: n}, flow: {xh: A*xh + L*(y - C*xh)}}\n"
+      "data:\n  A: [[-0.2395213571148433, 0.6405423244924991], [0.6405423244924991, "
+      "-0.4604786428851567]]\n  C: [[0.644217687237691, -0.7648421872844885]]\n"
+      "no campaign: static\n");
+  const Outcome outcome = gainsmith({"explain", file});
+  const std::size_t first = outcome.out.find("(Hautus)");
+  ASSERT_NE(first, std::string::npos) << outcome.out;
+  EXPECT_EQ(outcome.out.find("(Hautus)", first + 1), std::string::npos) << outcome.out;
+  EXPECT_NE(outcome.out.find("eigenvalue 0.3 "), std::string::npos) << outcome.out;
+}
+
+TEST(CommandLineTest, RangesOfNumbersAreNamedShortly) {
+  const Outcome outcome = gainsmith({"solve", "x", "--tolerance", "1"});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.err.find("expected a number from 1e-30 to 0.01, not '1'"), std::string::npos)
+      << outcome.err;
+}
+
 TEST(CommandLineTest, TheLargestSeedIsTaken) {
   const Folder folder;
   const std::string gains = folder.path("gains.json");

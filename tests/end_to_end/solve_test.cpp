@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <map>
+#include <regex>
 
 #include "end_to_end/program.h"
 
@@ -72,12 +73,41 @@ TEST(SolveTest, AnExportedProblemHasTheSameOptimum) {
       gainsmith({"synth", problem("classics/hinf-norm.yaml"), "--json", "--sdpa", file});
   const Outcome solved = gainsmith({"solve", file, "--json"});
   ASSERT_EQ(solved.exit, 0) << solved.err;
-  // The program is written in units of the data, so the optima differ by a factor; the dual
-  // solution of the exported file reaches the primal one.
-  EXPECT_NEAR(solved.json()["primal_objective"].get<double>(),
-              solved.json()["dual_objective"].get<double>(),
-              1e-6 * std::abs(solved.json()["primal_objective"].get<double>()));
-  EXPECT_EQ(synthesized.exit, 0);
+  const auto objective = solved.json()["primal_objective"].get<double>();
+  EXPECT_NEAR(objective, solved.json()["dual_objective"].get<double>(), 1e-6 * std::abs(objective));
+  ASSERT_EQ(synthesized.exit, 0);
+  std::smatch unit;
+  const std::string text = text_of(file);
+  ASSERT_TRUE(std::regex_search(
+      text, unit, std::regex("\\* Objective of the problem = \\(c'x\\)/([^ ]*)\\.\n")))
+      << text.substr(0, 1000);
+  const auto expected = synthesized.json()["objective"].get<double>();
+  EXPECT_NEAR(objective / std::stod(unit[1]), expected, 1e-6 * expected);
+}
+
+/// The comments of the file say how its x gives the scalars of the problem: here x > 4 and y <
+/// -1e-3 with the least x/1000 - y + 7.
+TEST(SolveTest, CommentsOfAnExportedProblemGiveItsUnknowns) {
+  const Folder folder;
+  const std::string yaml = folder.file(
+      "p.yaml",
+      "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar, y: scalar}\n  require: {a: x >= "
+      "4000, b: y <= -1e-3}\n  minimize: x/1000 - y + 7\nno campaign: static\n");
+  const std::string file = folder.path("p.dat-s");
+  ASSERT_EQ(gainsmith({"synth", yaml, "--sdpa", file, "--no-solve"}).exit, 0);
+  const Outcome solved = gainsmith({"solve", file, "-o", folder.path("x.json")});
+  ASSERT_EQ(solved.exit, 0) << solved.out;
+  const auto x = nlohmann::json::parse(text_of(folder.path("x.json")))["x"];
+  const std::string text = text_of(file);
+  const auto scalar = [&](const std::string& name) {
+    std::smatch said;
+    if (!std::regex_search(text, said,
+                           std::regex("\\* " + name + "[^ ]* = ([^*]*)\\*x_([0-9]+)\n")))
+      return std::nan("");
+    return std::stod(said[1]) * x.at(std::stoul(said[2]) - 1).get<double>();
+  };
+  EXPECT_NEAR(scalar("x"), 4000, 4e-3) << text;
+  EXPECT_NEAR(scalar("y"), -1e-3, 1e-6) << text;
 }
 
 TEST(SolveTest, GarbledFilesAreRefusedWithTheLine) {

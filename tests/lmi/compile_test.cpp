@@ -221,6 +221,31 @@ TEST(CompileTest, WhatIsNotSymmetricIsRefused) {
   EXPECT_NE(error.message().find("not symmetric"), std::string::npos);
 }
 
+TEST(CompileTest, AnUnknownThatMustBeSymmetricIsRefusedWhereItIsDeclared) {
+  for (const char* require :
+       {"    it: Y > 0\n", "    it: A'*Y + Y*A < 0\n", "    it: \"[P, A; *, Y] > 0\"\n",
+        "    it: {forall: \"tau in [0, T]\", that: \"P + tau*Y > 0\"}\n"}) {
+    const tests::YamlProblem yaml(problem_with(require));
+    const InputError error = tests::input_error([&] { compile(Inequalities(yaml.instance)); });
+    EXPECT_EQ(error.place().line, 5) << require;
+    EXPECT_EQ(error.place().column, 30) << require;
+    EXPECT_NE(error.message().find("the unknown Y is n x n, and the inequality 'it' is symmetric "
+                                   "only where it is; declare Y: symmetric n"),
+              std::string::npos)
+        << error.message();
+  }
+}
+
+/// Y*A is not symmetric for a symmetric Y either.
+TEST(CompileTest, NoUnknownIsAtFaultWhereSymmetryDoesNotHelp) {
+  for (const char* require : {"    it: Y*A < 0\n", "    it: Y + P*A < 0\n"}) {
+    const tests::YamlProblem yaml(problem_with(require));
+    const InputError error = tests::input_error([&] { compile(Inequalities(yaml.instance)); });
+    EXPECT_EQ(error.place().line, 7) << require;
+    EXPECT_NE(error.message().find("not symmetric"), std::string::npos) << error.message();
+  }
+}
+
 TEST(CompileTest, DataTooLargeForDoubleAreRefused) {
   const tests::YamlProblem yaml(
       "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n}\n"

@@ -1,0 +1,51 @@
+#include "design/hautus.h"
+
+#include <gtest/gtest.h>
+
+#include <regex>
+
+#include "support/yaml_problem.h"
+
+namespace gainsmith::design {
+namespace {
+
+std::string text_for(const std::string& A, const std::string& C) {
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n, C: p x n}\n"
+      "  unknowns: {P: symmetric n}\n  require: {positive: P > I}\n"
+      "  plant: {state: {x: n}, flow: {x: A*x}}\ndata: {A: " +
+      A + ", C: " + C + "}\nno campaign: static\n");
+  return hidden_mode_text(yaml.instance);
+}
+
+std::string eigenvalue_in(const std::string& text) {
+  std::smatch found;
+  std::regex_search(text, found, std::regex("eigenvalue (.*) in the direction"));
+  return found.empty() ? "" : found[1].str();
+}
+
+TEST(Hautus, EigenvaluesAreNamedWithTheDigitsThatAreKnown) {
+  const std::string C = "[[0, 0, 1]]";
+  const auto rotation = [](const std::string& rate, const std::string& speed) {
+    return "[[" + rate + ", " + speed + ", 0], [-" + speed + ", " + rate + ", 0], [0, 0, -1]]";
+  };
+  EXPECT_EQ(eigenvalue_in(text_for(rotation("0.25", "3"), C)), "0.25 +- 3i");
+  // The norm of A is 1; eigenvalues are known to 1e-12 of it.
+  EXPECT_EQ(eigenvalue_in(text_for(rotation("2e-10", "1"), C)), "2e-10 +- 1i");
+  EXPECT_EQ(eigenvalue_in(text_for(rotation("2.3456e-10", "1"), C)), "2.35e-10 +- 1i");
+  EXPECT_EQ(eigenvalue_in(text_for(rotation("3e-13", "1"), C)), "0 (to 1e-12) +- 1i");
+  EXPECT_EQ(eigenvalue_in(text_for(rotation("0", "1"), C)), "0 +- 1i");
+  EXPECT_EQ(eigenvalue_in(text_for("[[2e-10, 0, 0], [0, -1, 0], [0, 0, -1]]", C)), "2e-10");
+}
+
+TEST(Hautus, NothingIsSaidWithoutAPlantOrWhereAllIsSeen) {
+  EXPECT_EQ(text_for("[[1, 1], [0, 2]]", "[[1, 0]]"), "");
+  const tests::YamlProblem yaml(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n, C: p x n}\n"
+      "  unknowns: {P: symmetric n}\n  require: {positive: P > I}\n"
+      "data: {A: [[1, 0], [0, -2]], C: [[0, 1]]}\nno campaign: static\n");
+  EXPECT_EQ(hidden_mode_text(yaml.instance), "");
+}
+
+}  // namespace
+}  // namespace gainsmith::design
