@@ -91,8 +91,7 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
                   check.name, width, kind_text(check.kind), verdict, held ? "nearest" : "worst",
                   check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
   if (worst.ended)
-    text += "               left open: the run ends there, before the horizon
-";
+    text += "               left open: the run ends there, before the horizon\n";
   else if (worst.undecided())
     text += uncertainty_text(check.kind, worst);
   if (check.floor > 0)

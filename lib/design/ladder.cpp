@@ -189,7 +189,7 @@ struct Row {
   const char* doing;
 };
 
-constexpr std::array<Row, 12> kLadder = {{
+constexpr std::array<Row, 13> kLadder = {{
     {Rung::minimum, Rungs::minimum_is_due, Rungs::minimum, "the minimum"},
     {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside,
      "the largest margin, gains of any size"},
