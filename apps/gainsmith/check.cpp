@@ -29,7 +29,7 @@ std::vector<std::string> campaign_defaults(const model::Design& design) {
   if (!design.dynamics || design.claims.empty() || !design.no_campaign.empty())
     return words;
   if (!model::has_end(design) && model::ends(design))
-    words.emplace_back("campaign.horizon: 40 of the longest intervals between events");
+    words.emplace_back("campaign.horizon: 40 of the timer's longest intervals");
   for (std::size_t i = 0; i < design.states.size(); ++i) {
     const auto& starts = design.campaign.starts;
     const bool given = std::any_of(starts.begin(), starts.end(),

@@ -60,7 +60,7 @@ StartRule rule_of(const model::Design::Start& start, const EventSystem& system) 
   return rule;
 }
 
-/// The box [-1, 1], of a state of which nothing says where it starts.
+/// The box [-1, 1], of a state beside a timer of which nothing says where it starts.
 StartRule default_box(const Dynamics::Variable& variable) {
   const auto all = [&](double value) {
     return numbers::Matrix(numbers::Matrix::Constant(variable.shape.rows, variable.shape.cols, value));
@@ -83,7 +83,7 @@ std::vector<std::optional<StartRule>> rules_of(const std::vector<model::Design::
     } else if (variables[i].start) {
       rules.back() = rule_of(
           {i, StartKind::expression, {*variables[i].start}, variables[i].start->place}, system);
-    } else if (variables[i].kind == Dynamics::VariableKind::state &&
+    } else if (system.dynamics.has_timer && variables[i].kind == Dynamics::VariableKind::state &&
                variables[i].structure != model::Structure::symmetric) {
       rules.back() = default_box(variables[i]);
     } else {
@@ -142,13 +142,13 @@ model::Design::Campaign with_laws_of(std::size_t event, model::Design::Campaign 
   return campaign;
 }
 
-/// Of runs of which nothing says how long they are: so many of the longest lengths of a clock. 0
-/// without a clock.
+/// Of runs of which nothing says how long they are: so many of the longest lengths. 0 without a
+/// timer.
 double default_horizon(const EventSystem& system) {
   constexpr double kIntervals = 40;
   double longest = 0;
   for (const auto& clock : system.clocks)
-    if (clock) longest = std::max(longest, clock->high);
+    if (clock && system.dynamics.has_timer) longest = std::max(longest, clock->high);
   return kIntervals * longest;
 }
 

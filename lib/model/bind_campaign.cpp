@@ -180,8 +180,8 @@ bool Binding::is_run() const {
   return wanted && !gains_alone && design_->no_campaign.empty();
 }
 
-/// A name stands for the state of each observer that has it. A state that starts nowhere starts in
-/// the box [-1, 1]; a mode or a symmetric state must say where.
+/// A name stands for the state of each observer that has it. A state that starts nowhere is an
+/// error; beside a timer it starts in the box [-1, 1], unless it is symmetric or a mode.
 void Binding::bind_starts() {
   auto& starts = design_->campaign.starts;
   for (const InitialValue& initial : problem().campaign.initial) {
@@ -204,7 +204,8 @@ void Binding::bind_starts() {
     const Design::State& state = design_->states[k];
     const bool rests = design_->campaign.place.line == 0 && !is_run();
     const Dynamics::Variable& variable = design_->dynamics->variables[k];
-    const bool in_a_box = variable.kind == Dynamics::VariableKind::state &&
+    const bool in_a_box = design_->dynamics->has_timer &&
+                          variable.kind == Dynamics::VariableKind::state &&
                           variable.structure != Structure::symmetric;
     if (!drawn && !state.start && state.shape.size() > 0 && !rests && !in_a_box)
       throw InputError(design_->dynamics->variables[k].place,

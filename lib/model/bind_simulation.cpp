@@ -36,6 +36,22 @@ expr::Expression named_alone(const std::string& name, const Place& place) {
   return {std::make_shared<const expr::Text>(expr::Text::generated(name, place)), node};
 }
 
+/// 1 or -1, as a text.
+expr::Expression unit_rate(bool falls, const Place& place) {
+  auto one = std::make_shared<expr::Node>();
+  one->kind = expr::NodeKind::number;
+  one->text = "1";
+  auto root = one;
+  if (falls) {
+    root = std::make_shared<expr::Node>();
+    root->kind = expr::NodeKind::negate;
+    root->children = {one};
+  }
+  const std::string text = falls ? "-1" : "1";
+  root->end = text.size();
+  return {std::make_shared<const expr::Text>(expr::Text::generated(text, place)), root};
+}
+
 }  // namespace
 
 std::size_t Binding::state_of(const std::string& name) const {
@@ -66,6 +82,7 @@ void Binding::bind_dynamics() {
                           scope);
   design_->dynamics = binding.run();
   Dynamics& dynamics = *design_->dynamics;
+  dynamics.has_timer = !timer_name(method()).empty();
   for (const Dynamics::Variable& variable : dynamics.variables)
     if (variable.kind == Dynamics::VariableKind::state ||
         variable.kind == Dynamics::VariableKind::mode)
@@ -99,13 +116,11 @@ void Binding::bind_dynamics() {
 void Binding::add_rates() {
   using Kind = Dynamics::VariableKind;
   expr::Scope& scope = names_->running;
-  const auto add = [&](const std::string& name, const char* rate) {
-    scope.definitions[expr::rate_name(name)] = {
-        {}, expr::parse(expr::Text::generated(rate, method().dynamics_place))};
-  };
   for (const Dynamics::Variable& variable : design_->dynamics->variables) {
-    if (variable.kind == Kind::time || variable.kind == Kind::since) add(variable.name, "1");
-    if (variable.kind == Kind::left) add(variable.name, "-1");
+    const bool rises = variable.kind == Kind::time || variable.kind == Kind::since;
+    if (rises || variable.kind == Kind::left)
+      scope.definitions[expr::rate_name(variable.name)] = {
+          {}, unit_rate(!rises, method().dynamics_place)};
     if (variable.kind == Kind::measured_rate)
       scope.definitions[expr::rate_name(design_->dynamics->measured[variable.of].name)] = {
           {}, named_alone(variable.name, method().dynamics_place)};

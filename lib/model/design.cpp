@@ -48,10 +48,7 @@ bool has_end(const Design& design) {
 }
 
 bool ends(const Design& design) {
-  return has_end(design) ||
-         (design.dynamics && std::any_of(design.dynamics->events.begin(),
-                                         design.dynamics->events.end(),
-                                         [](const auto& event) { return event.low.has_value(); }));
+  return has_end(design) || (design.dynamics && design.dynamics->has_timer);
 }
 
 }  // namespace gainsmith::model

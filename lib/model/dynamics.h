@@ -156,6 +156,9 @@ struct Dynamics {
     std::optional<std::size_t> at;  ///< the event at which alone it exists
   };
 
+  /// Of a method with a timer: where nothing says so, states start in the box [-1, 1], and a run
+  /// lasts 40 of its longest lengths.
+  bool has_timer = false;
   std::vector<Component> components;  ///< the plant first
   std::vector<Variable> variables;
   std::vector<Assignment> flow;

@@ -181,11 +181,11 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"  rate: 2", "  n: 2", 9, 3, "dimension"},
                     Mistake{"g: scalar", "rate: scalar", 12, 28, "already names a parameter"},
                     Mistake{"  mu(tau)", "  P(tau)", 14, 3, "already names an unknown"},
-                    Mistake{"{z: n}", "{P: n}", 24, 11, "already names an unknown"},
+                    Mistake{"{z: n}", "{P: n}", 26, 10, "the flow of 'z', which is no state"},
                     Mistake{"{y: b'*z}", "{z: b'*z}", 25, 12, "already names a state"},
                     Mistake{"flow: {z: A*z}", "flow: {y: A*z}", 26, 10, "'y', which is no state"},
                     Mistake{"  w: 2*y", "  y: 2", 30, 3, "already names an output"},
-                    Mistake{"  K: b'*P", "  w: b'*P", 22, 3, "already names a signal"},
+                    Mistake{"  K: b'*P", "  w: b'*P", 30, 3, "already names a gain"},
                     Mistake{"forall: tau in", "forall: rate in", 18, 13,
                             "already names a parameter"}));
 

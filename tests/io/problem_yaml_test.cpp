@@ -140,7 +140,6 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"{list: [T1, T2]}", "{list: []}", 16, 46, "list of intervals"},
         Mistake{"{list: [T1, T2]}", "{list: T1}", 16, 46, "list of intervals"},
         Mistake{"{list: [T1, T2]}", "{constant: 1, list: [1]}", 16, 39, "expected {constant"},
-        Mistake{"    zh:", "    zg:", 19, 5, "'zg' is no state; did you mean"},
         Mistake{"[-10, 10]}", "[-10]}", 18, 14, "expected [low, high]"},
         Mistake{"box: [-10, 10]", "box: 10", 18, 14, "expected [low, high]"},
         Mistake{"[[1, 2], [3, 4]]", "[]", 19, 16, "list of values"},

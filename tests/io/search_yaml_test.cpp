@@ -49,7 +49,7 @@ TEST(Search, AFigureMayBeOneOfRuns) {
   EXPECT_EQ(problem.search->run_figure->kind, model::FigureKind::rms);
   EXPECT_EQ(problem.search->run_figure->observer, "ekf");
   const InputError error = input_error([&] { model::bind(problem); });
-  EXPECT_NE(error.message().find("this one has a timer"), std::string::npos) << error.what();
+  EXPECT_NE(error.message().find("there is no observer 'ekf'"), std::string::npos) << error.what();
 }
 
 TEST(Search, MistakesAreShownAtTheirPlace) {

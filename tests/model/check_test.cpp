@@ -29,7 +29,7 @@ TEST(Check, MistakesInTheMethodAreFound) {
                                    {"minimize: g", "minimize: z", "unknown name 'z'"},
                                    {"K: b'*P", "K: b'*Q*q", "unknown name 'q'"},
                                    {"flow: {z: A*z}", "flow: {z: z'*A}", "expected 2 x 1"},
-                                   {"jump: {z: z/2}", "jump: {z: zz/2}", "did you mean 'z'?"},
+                                   {"jump: {z: z/2}", "jump: {z: zz/2}", "unknown name 'zz'"},
                                    {"flow: {th: K*zh}", "flow: {th: K'}", "expected 1 x 1"},
                                    {"output: {y: b'*z}", "output: {y: b*z}", "cannot multiply"},
                                    {"e: z - zh", "e: z - zh'", "cannot subtract"},

@@ -59,7 +59,7 @@ TEST(Estimates, AreKnownByTheirNames) {
 TEST(Estimates, AreOfConstants) {
   const std::string message =
       refusal("{e: z - zh}", "{e: z - zh, top: \"maximum(x*zh(1), x in [0, 1])\"}");
-  EXPECT_NE(message.find("'zh' changes along a run"), std::string::npos) << message;
+  EXPECT_NE(message.find("'observer.zh' changes along a run"), std::string::npos) << message;
 }
 
 }  // namespace

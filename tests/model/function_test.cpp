@@ -238,7 +238,6 @@ TEST(UnknownFunction, IsNotKnownBeforehand) {
   };
   const std::string unknown = "unknown function 'X'";
   EXPECT_EQ(message("method", "[0, T2]", "[0, X(1)]").substr(0, 20), unknown);
-  EXPECT_EQ(message("method", "reset: [T1, T2]", "reset: [T1, X(1)]").substr(0, 20), unknown);
   EXPECT_EQ(message("problem", "campaign:", "search: {largest: {T1: [0, X(1)]}}\ncampaign:")
                 .substr(0, 20),
             unknown);

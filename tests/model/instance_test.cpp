@@ -82,7 +82,7 @@ TEST(Instance, KnowsTheShapesOfUnknownsStatesAndGains) {
                                         {"X", {2, 1}, Structure::full},
                                         {"g", {1, 1}, Structure::scalar}}));
   EXPECT_EQ(shapes_of(small.design().states),
-            (Shapes{{"z", {2, 1}}, {"zh", {2, 1}}, {"th", {1, 1}}}));
+            (Shapes{{"z", {2, 1}}, {"observer.zh", {2, 1}}, {"observer.th", {1, 1}}}));
   EXPECT_EQ(shapes_of(small.design().gains), (Shapes{{"K", {1, 2}}, {"A", {2, 2}}}));
 }
 
@@ -146,7 +146,7 @@ TEST(Instance, DefinitionsOutputsAndSignalsEvaluate) {
     return numbers::evaluate(program, values)(0, 0);
   };
   EXPECT_EQ(value("y"), 5 * 1 + 6 * 2);
-  EXPECT_EQ(value("e(2)"), 2 - 5);
+  EXPECT_EQ(value("observer.e(2)"), 2 - 5);
   EXPECT_DOUBLE_EQ(value("f(2)"), std::exp(0.05 * 2));
   const auto& signals = small.design().dynamics->signals;
   EXPECT_EQ(numbers::evaluate(signals.back().value.program, values),

@@ -80,7 +80,7 @@ TEST(Stated, ABasisOfTheFileTakesTheProblemsPlaceAndDataFollowIt) {
 
 TEST(Stated, AFormulaIsEvaluatedOverTheFilesTexts) {
   Gains gains = file();
-  gains.gain_functions = {{"G", "t", Kind::formula, "inv(P)*X(t)", {}}};
+  gains.gain_functions = {{"G", "t", Kind::formula, "inv(P)*X(u)", {}}};
   EXPECT_TRUE(value(gains, "G(3)").isApprox((kFirst + 3 * kSecond) / 2, 1e-15));
   gains.functions = {{"X(tau)", "exp(-tau)*X_0 + (1 - exp(-tau))*X_1", {}}};
   const double w = std::exp(-3.0);
@@ -162,7 +162,7 @@ TEST(Stated, WhatDoesNotFitIsRefused) {
   gains.gain_functions = {{"G", "t", Kind::formula, "b'", {}}};
   EXPECT_NE(refusal(gains).find("G in the gain file is 1 x 2, expected 2 x 1"), std::string::npos);
   gains.gain_functions = {{"G", "s", Kind::formula, "inv(P)*X(t)", {}}};
-  EXPECT_NE(refusal(gains).find("unknown name 't'"), std::string::npos);
+  EXPECT_NE(refusal(gains).find("unknown name 'u'"), std::string::npos);
 }
 
 TEST(Stated, WithoutAPointNothingOfItHasAValue) {

@@ -136,7 +136,7 @@ TEST(Campaign, IntegratedFlowsAreNoCauseOfWrongVerdicts) {
       {"0", "-0.01*y*abs(y)", "x + 0.1", "where(x > 0.3, where(x < 0.35, 3*y, y), y)", "5",
        undecided},
       {"1 - x^2", "-0.1*y + 1e-3*(1 - cos(x))", "x", "y", "1", held},
-      {"-1e12*sin(x)", "-0.1*y*abs(y) + x - x", "x", "y + 1e-3*x^2", "1", held}};
+      {"-1e12*sin(x)", "-0.1*y*abs(y) + x - x", "x", "y + 1e-3*x^2", "1", undecided}};
   for (const Integrated& one : cases) {
     TextProblem problem;
     problem.state("x", "scalar").state("y", "scalar").timer("1", "1", "1", "1").runs(1);
@@ -180,14 +180,15 @@ TEST(Campaign, NothingMayBeLeftToIntegrate) {
   }
 }
 
-/// An error that decays in the coordinates z - zh is checked however large z is.
-TEST(Campaign, IntegratedErrorsAreCoordinates) {
+/// An error that decays below the rounding of what it is the difference of is not certain.
+TEST(Campaign, IntegratedErrorsOfWhatGrowsAreUndecided) {
   TextProblem problem;
   problem.state("z", "scalar").state("zh", "scalar").timer("1", "1", "1", "1");
   problem.flow({{"z", "3*z + tau"}, {"zh", "3*zh + tau - (4 + tau)*(zh - z)"}});
-  problem.runs(20).horizon("8").nonincreasing("error", "(z - zh)^2");
+  problem.runs(5).horizon("8").nonincreasing("error", "(z - zh)^2");
   const Report report = run(problem);
-  EXPECT_EQ(report.verdict, CampaignVerdict::held);
+  EXPECT_EQ(report.verdict, CampaignVerdict::undecided);
+  EXPECT_EQ(report.violations, 0U);
   EXPECT_TRUE(report.integrated);
 }
 

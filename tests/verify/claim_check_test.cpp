@@ -181,6 +181,7 @@ TEST(Nonincreasing, HeldRunSaysWhatIsLeft) {
 
 TEST(Shrinks, ComparesTheEndWithTheStart) {
   TextProblem problem = linear_plant("[-0.1, 0; 0, -0.1]");
+  problem.first("1").law(Law::constant, {"1"});  // lengths that add up to the horizon exactly
   problem.jump({}).horizon("5").shrinks("most", "norm(x)", "exp(-0.5)");
   problem.shrinks("more", "norm(x)", "exp(-0.5001)");
   const auto findings = check(problem).findings;
