@@ -41,6 +41,17 @@ class Certificates {
     return lmi::refute_by_violation(posed_.inequalities, posed_.lmi, violation, solution);
   }
 
+  /// The same of homogeneous inequalities, one unknown of which is a scale.
+  lmi::Refutation by_violation_in_scale(const Solve& solve) const {
+    if (!in_double() || formulation_.homogenised || !posed_.lmi.stands_for_points()) return {};
+    const auto scale = lmi::find_scale(posed_.lmi, posed_.inequalities.unknowns);
+    if (!scale) return {};
+    const lmi::Formulation violation = lmi::formulate_violation(lmi::scaled(posed_.lmi, *scale));
+    const sdp::Solution solution = solve(violation.problem, {"double", 1e-10});
+    if (solution.x.empty() || !(lmi::interior_margin(solution) < 0)) return {};
+    return lmi::refute_by_violation(posed_.inequalities, posed_.lmi, *scale, violation, solution);
+  }
+
   /// However small its eigenvalues are: the steps are in double.
   lmi::Refutation inside(const sdp::Solution& solution) const {
     return lmi::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
@@ -96,6 +107,8 @@ lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
       return boundary;
     if (const auto violated = certificates.by_violation(solve); excludes(violated)) return violated;
     if (const auto inside = certificates.inside(solution); excludes(inside)) return inside;
+    if (const auto violated = certificates.by_violation_in_scale(solve); excludes(violated))
+      return violated;
   }
   found = certificates.exact(solution, lmi::Exactness::in_wide);
   if (found.exact || !posed.wide || !near) return found;

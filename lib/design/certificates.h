@@ -4,9 +4,10 @@
 //   2. on the boundary of the cone, with x beside them      strict complementarity
 //   3. the same of the least violation, one more program    constant parts, nearly singular in 1
 //   4. multipliers alone, polished with steps in double     where those of 1 are nearly singular
-//   5. the solver's multipliers, exact in 31 digits         small programs
-//   6. multipliers alone, polished with wide steps          whatever is left
-// Steps 1 and 5 are all for a search that does not want more digits.
+//   5. the least violation again, by a scale              homogeneous, one scalar > 0 by itself
+//   6. the solver's multipliers, exact in 31 digits         small programs
+//   7. multipliers alone, polished with wide steps          whatever is left
+// Steps 1 and 6 are all for a search that does not want more digits.
 #pragma once
 
 #include "design/attempt.h"

@@ -21,6 +21,7 @@
 #include "lmi/compile.h"
 #include "lmi/exact.h"
 #include "lmi/formulation.h"
+#include "lmi/scale.h"
 #include "sdp/solution.h"
 
 namespace gainsmith::lmi {
@@ -77,6 +78,10 @@ Refutation refute_on_boundary(const Inequalities& of, const Lmi& lmi,
 
 /// The same of the least violation: a formulation and its solution by formulate_violation().
 Refutation refute_by_violation(const Inequalities& of, const Lmi& lmi,
+                               const Formulation& formulation, const sdp::Solution& solution);
+
+/// The same of homogeneous inequalities, by the formulation and solution of scaled(lmi, scale).
+Refutation refute_by_violation(const Inequalities& of, const Lmi& lmi, const Scale& scale,
                                const Formulation& formulation, const sdp::Solution& solution);
 
 /// In which arithmetic the steps of a polish are computed.

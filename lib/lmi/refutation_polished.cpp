@@ -1,6 +1,7 @@
 // Certificates on the boundary of the cone, from multipliers that are only nearly one.
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -111,19 +112,72 @@ Refutation refute_on_boundary(const Inequalities& of, const Lmi& lmi,
   return refute<Decimal100>(lmi, blocks, std::move(pair.Y), Exactness::in_double);
 }
 
+namespace {
+
+/// Multipliers of the least violation of blocks with a constant part, without a residual; none
+/// where they do not settle.
+std::optional<std::vector<Wide>> violation_of(std::vector<ExactBlock<Decimal100>> blocks,
+                                              int unknowns, BoundaryPair pair) {
+  std::vector<const ExactBlock<Decimal100>*> all;
+  for (auto& block : blocks) {
+    add_identity(unknowns + 1, block);
+    all.push_back(&block);
+  }
+  if (!polish(all, pair)) return std::nullopt;
+  return std::move(pair.Y);
+}
+
+/// Adds v/|c| to Y. False where v < 0, or the element was not solved.
+bool close(const std::vector<ExactBlock<Decimal100>>& blocks, const Scale& scale,
+           const std::vector<int>& kept, std::vector<Wide>& Y) {
+  const auto row = std::find(kept.begin(), kept.end(), scale.row);
+  if (row == kept.end()) return false;
+  const auto at = row - kept.begin();
+  Decimal100 r(0), c(0);
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    for (const auto& [i, elements] : blocks[k].terms) {
+      if (i != scale.unknown) continue;
+      for (const auto& e : elements) {
+        r += e.mid * Y[k](e.row, e.column);
+        if (k == scale.block && e.row == at && e.column == at) c = e.mid;
+      }
+    }
+  if (c == 0) return false;
+  const Decimal100 added = -r / c;
+  if (added < 0) return false;
+  Y[scale.block](at, at) += added;
+  return true;
+}
+
+}  // namespace
+
 Refutation refute_by_violation(const Inequalities& of, const Lmi& lmi,
                                const Formulation& formulation, const sdp::Solution& solution) {
   if (!lmi.stands_for_points()) return {};
-  auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
-  std::vector<ExactBlock<Decimal100>> shifted = blocks;
-  std::vector<const ExactBlock<Decimal100>*> all;
-  for (auto& block : shifted) {
-    add_identity(lmi.unknowns + 1, block);
-    all.push_back(&block);
-  }
-  BoundaryPair pair = violated_pair_of(lmi, formulation, solution);
-  if (!polish(all, pair)) return {};
-  return refute<Decimal100>(lmi, blocks, std::move(pair.Y), Exactness::in_double);
+  const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
+  auto Y = violation_of(blocks, lmi.unknowns, violated_pair_of(lmi, formulation, solution));
+  return Y ? refute<Decimal100>(lmi, blocks, std::move(*Y), Exactness::in_double) : Refutation{};
+}
+
+Refutation refute_by_violation(const Inequalities& of, const Lmi& lmi, const Scale& scale,
+                               const Formulation& formulation, const sdp::Solution& solution) {
+  if (!lmi.stands_for_points()) return {};
+  Formulation stated;
+  stated.balance = formulation.balance;
+  stated.balance.unknowns.insert(stated.balance.unknowns.begin() + scale.unknown - 1, 0);
+  stated.releases = formulation.releases;
+  const auto blocks = exact_blocks<Decimal100>(of, lmi, stated);
+  auto with_constants = blocks;
+  for (auto& block : with_constants)
+    for (auto& [i, elements] : block.terms) {
+      i = scaled_number(i, scale);
+      if (i != 0 || scale.sign > 0) continue;
+      for (auto& e : elements) e.mid = -e.mid;
+    }
+  auto Y = violation_of(std::move(with_constants), lmi.unknowns - 1,
+                        violated_pair_of(lmi, formulation, solution));
+  if (!Y || !close(blocks, scale, formulation.releases.kept[scale.block], *Y)) return {};
+  return refute<Decimal100>(lmi, blocks, std::move(*Y), Exactness::in_double);
 }
 
 Refutation refute_polished(const Inequalities& of, const Lmi& lmi, const Formulation& formulation,

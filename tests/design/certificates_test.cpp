@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
 #include <random>
 #include <string>
 #include <vector>
@@ -190,6 +192,31 @@ TEST(CertificatesTest, HighDegreesAreRefutedAtMorePoints) {
   EXPECT_LE(gains.certificate->omega, lmi::kNothing);
   EXPECT_EQ(gains.certificate->digits, 100);
   EXPECT_EQ(at("2.5").verdict, model::Verdict::yes);
+}
+
+/// |C A^-1 B|^2 = 2 g2, so the bounded real lemma with q C'C has no solution. One input hardly
+/// reaches some of the states, so all multipliers are next to singular.
+TEST(CertificatesTest, AHomogeneousBoundedRealLemmaIsRefutedByItsScale) {
+  std::mt19937 generator(20);
+  std::normal_distribution<double> normal;
+  const auto in_1024ths = [&](double size) {
+    return std::round(1024 * size * normal(generator)) / 1024;
+  };
+  constexpr int n = 20;
+  using numbers::Matrix;
+  Matrix A = Matrix::NullaryExpr(n, n, [&] { return in_1024ths(0.3); });
+  A.diagonal().array() -= std::round(64 * (tests::spectral_abscissa(A) + 0.3)) / 64;
+  const Matrix B = Matrix::NullaryExpr(n, 1, [&] { return in_1024ths(1); });
+  const Matrix C = Matrix::NullaryExpr(1, n, [&] { return in_1024ths(1); });
+  const double gain = (C * A.partialPivLu().solve(B))(0);
+  const model::Gains gains = solve(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n, B: n x m, C: p x n, g2: scalar}\n"
+      "  unknowns: {P: symmetric n, q: scalar}\n"
+      "  require: {b: \"[He(P*A) + q*C'*C, P*B; *, -g2*q*I] < 0\"}\ndata:\n  A: " +
+      tests::matrix_yaml(A) + "\n  B: " + tests::matrix_yaml(B) +
+      "\n  C: " + tests::matrix_yaml(C) + "\n  g2: " + model::printed(gain * gain / 2) + "\n");
+  EXPECT_EQ(gains.verdict, model::Verdict::no) << gains.solver.message;
+  EXPECT_FALSE(gains.solver.out_of_allowance);
 }
 
 }  // namespace
