@@ -127,7 +127,7 @@ TEST(VerifyTest, AViolationReplaysFromItsSeedAndRun) {
   std::string last;
   std::getline(lines, header);
   for (std::string line; std::getline(lines, line);) last = line;
-  EXPECT_EQ(header.substr(0, 8), "t,j,tau,");
+  EXPECT_EQ(header.substr(0, 10), "t,j,event,");
   const auto column = [](const std::string& line, std::size_t at) {
     std::istringstream fields(line);
     std::string field;
@@ -139,7 +139,7 @@ TEST(VerifyTest, AViolationReplaysFromItsSeedAndRun) {
   double worst = 0;
   for (const auto& check : report["checks"])
     if (check["claim"] == "error") worst = check["worst"]["value"].get<double>();
-  EXPECT_DOUBLE_EQ(std::stod(column(last, at)), worst);
+  EXPECT_NEAR(std::stod(column(last, at)), worst, 1e-9 * worst);
 }
 
 TEST(VerifyTest, AYesWithoutItsMatricesIsRefused) {

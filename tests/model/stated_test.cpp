@@ -80,7 +80,7 @@ TEST(Stated, ABasisOfTheFileTakesTheProblemsPlaceAndDataFollowIt) {
 
 TEST(Stated, AFormulaIsEvaluatedOverTheFilesTexts) {
   Gains gains = file();
-  gains.gain_functions = {{"G", "t", Kind::formula, "inv(P)*X(u)", {}}};
+  gains.gain_functions = {{"G", "t", Kind::formula, "inv(P)*X(t)", {}}};
   EXPECT_TRUE(value(gains, "G(3)").isApprox((kFirst + 3 * kSecond) / 2, 1e-15));
   gains.functions = {{"X(tau)", "exp(-tau)*X_0 + (1 - exp(-tau))*X_1", {}}};
   const double w = std::exp(-3.0);
@@ -161,7 +161,7 @@ TEST(Stated, WhatDoesNotFitIsRefused) {
   EXPECT_NE(refusal(gains).find("no coefficients"), std::string::npos);
   gains.gain_functions = {{"G", "t", Kind::formula, "b'", {}}};
   EXPECT_NE(refusal(gains).find("G in the gain file is 1 x 2, expected 2 x 1"), std::string::npos);
-  gains.gain_functions = {{"G", "s", Kind::formula, "inv(P)*X(t)", {}}};
+  gains.gain_functions = {{"G", "s", Kind::formula, "inv(P)*X(u)", {}}};
   EXPECT_NE(refusal(gains).find("unknown name 'u'"), std::string::npos);
 }
 
