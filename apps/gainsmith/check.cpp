@@ -26,8 +26,7 @@ struct CheckOptions {
 /// What of a campaign the problem leaves to the defaults.
 std::vector<std::string> campaign_defaults(const model::Design& design) {
   std::vector<std::string> words;
-  if (!design.dynamics || design.claims.empty() || !design.no_campaign.empty())
-    return words;
+  if (!design.dynamics || design.claims.empty() || !design.no_campaign.empty()) return words;
   if (!model::has_end(design) && model::ends(design))
     words.emplace_back("campaign.horizon: 40 of the timer's longest intervals");
   for (std::size_t i = 0; i < design.states.size(); ++i) {

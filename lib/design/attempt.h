@@ -43,8 +43,8 @@ struct Question {
   lmi::Goal goal = lmi::Goal::objective;
   lmi::GainBounds bounds;  ///< none: gains of any size
   Effort effort;
-  double shift = 0;     ///< objective: what strict blocks keep, in balanced units
-  bool single = false;  ///< interior: one program alone, for its multipliers
+  double shift = 0;      ///< objective: what strict blocks keep, in balanced units
+  bool single = false;   ///< interior: one program alone, for its multipliers
   bool largest = false;  ///< interior: the largest margin itself, not any that is enough
 };
 

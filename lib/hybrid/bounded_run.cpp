@@ -23,15 +23,11 @@ template <class Scalar>
 BoundedSimulator<Scalar>::BoundedSimulator(const SampledSystem& system,
                                            const EventScenario& scenario, const FlowSteps& steps,
                                            const BoundedSystem<Scalar>& bounded)
-    : system_(&system),
-      scenario_(&scenario),
-      cutting_(&steps),
-      bounded_(&bounded) {
+    : system_(&system), scenario_(&scenario), cutting_(&steps), bounded_(&bounded) {
   for (std::size_t i = 0; i < system.variable.size(); ++i) {
     const StartRule& rule = *scenario.starts[system.variable[i]];
     if (rule.kind == model::StartKind::expression)
-      first_.emplace_back(
-          i, BallFunction<Scalar>(rule.program, system.layout, bounded.constants));
+      first_.emplace_back(i, BallFunction<Scalar>(rule.program, system.layout, bounded.constants));
   }
   for (const Coordinate& coordinate : bounded.coordinates->list) {
     begin_.emplace_back(coordinate.start, system.layout, bounded.constants);

@@ -15,8 +15,8 @@
 #include <optional>
 #include <vector>
 
-#include "hybrid/flow_rate.h"
 #include "hybrid/coordinates.h"
+#include "hybrid/flow_rate.h"
 #include "hybrid/sampled_system.h"
 #include "numbers/matrix.h"
 

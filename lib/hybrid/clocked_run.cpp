@@ -36,7 +36,7 @@ bool is_within_range(const VectorXd& x) { return (x.array().abs() <= kLargestSta
 }  // namespace
 
 ClockedFlows::ClockedFlows(const SampledSystem& system, const EventScenario& scenario,
-                         const Coordinates& coordinates, std::vector<Index> integrals)
+                           const Coordinates& coordinates, std::vector<Index> integrals)
     : coordinates_(&coordinates),
       constants_(in_double(coordinates.constants)),
       integrals_(std::move(integrals)),

@@ -6,8 +6,8 @@
 // becomes of such errors shows in |A - B|.
 //
 // The samples are those of B. The bound of an element's error is four times the largest |A - B| of
-// its state at the sample and at two on each side, + 8 u |B|: A errs some hundred times more than B,
-// so it is an estimate that leaves a margin, and no proof. u has to stay below the accuracy.
+// its state at the sample and at two on each side, + 8 u |B|: A errs some hundred times more than
+// B, so it is an estimate that leaves a margin, and no proof. u has to stay below the accuracy.
 #pragma once
 
 #include <Eigen/Core>
@@ -64,9 +64,9 @@ class ClockedSimulator {
   ClockedSimulator(const SampledSystem& system, const EventScenario& scenario,
                    const Coordinates& coordinates, ClockedFlows& flows);
 
-  /// The run that EventSimulator makes of the same seed and number, to `relative` and to a hundredth
-  /// of it. It ends as undefined where a jump map has no value, as lost where the flows are not
-  /// known so accurately, as diverged where a coordinate leaves [-1e150, 1e150].
+  /// The run that EventSimulator makes of the same seed and number, to `relative` and to a
+  /// hundredth of it. It ends as undefined where a jump map has no value, as lost where the flows
+  /// are not known so accurately, as diverged where a coordinate leaves [-1e150, 1e150].
   const Track<double>& run(std::uint64_t seed, std::uint64_t run, double relative,
                            Rounding rounding = Rounding::up);
 

@@ -63,7 +63,8 @@ StartRule rule_of(const model::Design::Start& start, const EventSystem& system) 
 /// The box [-1, 1], of a state beside a timer of which nothing says where it starts.
 StartRule default_box(const Dynamics::Variable& variable) {
   const auto all = [&](double value) {
-    return numbers::Matrix(numbers::Matrix::Constant(variable.shape.rows, variable.shape.cols, value));
+    return numbers::Matrix(
+        numbers::Matrix::Constant(variable.shape.rows, variable.shape.cols, value));
   };
   return {StartKind::box, {all(-1), all(1)}, {}, variable.place};
 }

@@ -52,7 +52,8 @@ Decimal100 shortest_decimal(double value) {
   return parsed ? *parsed : Decimal100(value);
 }
 
-numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance, const numbers::Values& constants,
+numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance,
+                                           const numbers::Values& constants,
                                            const model::Gains& gains) {
   numbers::ValuesOf<Decimal100> values;
   const auto in_file = [&](const std::string& name) {

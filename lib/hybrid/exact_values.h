@@ -14,7 +14,8 @@ namespace gainsmith::hybrid {
 /// 100 digits; a number of the gain file, and one that replaced the problem's, is the shortest
 /// decimal that reads as its double, which is the number that a person wrote. A basis (orth, null)
 /// is that of the gain file, and what a datum's text does not give to 1e-9 keeps its double.
-numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance, const numbers::Values& constants,
+numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance,
+                                           const numbers::Values& constants,
                                            const model::Gains& gains);
 
 /// The shortest decimal that reads as this double, in 100 digits.

@@ -32,7 +32,7 @@ class Text {
  private:
   std::unique_ptr<const expr::Program> program_;  ///< on the heap: the evaluator points to it
   numbers::StackedFunctions value_;               ///< evaluated by Real, unlike what it judges
-  std::vector<Eigen::Index> elements_;  ///< of x that it uses
+  std::vector<Eigen::Index> elements_;            ///< of x that it uses
 };
 
 enum class Truth { no, unsure, yes };

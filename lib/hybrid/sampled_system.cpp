@@ -22,8 +22,8 @@ bool is_plain(const Dynamics::Component& component) {
 }
 
 bool is_plain(const Dynamics::Variable& variable) {
-  const bool state = variable.kind == VariableKind::state &&
-                     variable.structure != model::Structure::symmetric;
+  const bool state =
+      variable.kind == VariableKind::state && variable.structure != model::Structure::symmetric;
   return state || variable.kind == VariableKind::left;
 }
 

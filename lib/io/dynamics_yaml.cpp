@@ -10,8 +10,8 @@ namespace gainsmith::io {
 
 namespace {
 
-/// "tau: {reset: [T1, T2], first: [0, T2]}": the event {every: [T1, T2], first: [0, T2]}, with a name
-/// for what is left of its clock. Without `first` the first value is drawn as from a reset.
+/// "tau: {reset: [T1, T2], first: [0, T2]}": the event {every: [T1, T2], first: [0, T2]}, with a
+/// name for what is left of its clock. Without `first` the first value is drawn as from a reset.
 model::EventText timer(const YamlFile& file, const YamlItem& item) {
   const auto items = items_of(file, item, "timer");
   if (items.size() != 1)
@@ -145,12 +145,12 @@ void read_dynamics(const YamlFile& file, YamlMap& map, model::Method& method) {
   for (const YamlItem& item : items_of(file, noises, "noise"))
     method.noise.push_back(noise(file, item));
 
-  for (const auto& item : {observers, event_list, order, inputs, noises, plant, observer, timer_item})
+  for (const auto& item :
+       {observers, event_list, order, inputs, noises, plant, observer, timer_item})
     if (item && method.dynamics_place.line == 0) method.dynamics_place = item->place;
   method.has_dynamics = method.dynamics_place.line > 0;
   read_jump(method.plant, timer_item.has_value());
-  for (model::Component& component : method.observers)
-    read_jump(component, timer_item.has_value());
+  for (model::Component& component : method.observers) read_jump(component, timer_item.has_value());
 }
 
 }  // namespace gainsmith::io

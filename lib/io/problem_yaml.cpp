@@ -214,8 +214,7 @@ model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
 /// A law, a list of laws, or those of each event: {sample: [uniform, extremes], tick: golden}.
 void read_sampling(const YamlFile& file, const YAML::Node& node, const std::string& event,
                    const model::Method& method, model::Campaign& result) {
-  const bool by_event =
-      event.empty() && node.IsMap() && !node["constant"] && !node["list"];
+  const bool by_event = event.empty() && node.IsMap() && !node["constant"] && !node["list"];
   if (by_event) {
     YamlMap map(file, node, "sampling");
     for (const YamlItem& item : map.items())

@@ -30,9 +30,7 @@ void Binding::bind_claims() {
         missing = missing || (!one.over.empty() && !over);
         if (!one.over.empty() && !over) continue;
         bound = true;
-        add_claim(one,
-                  member.title_of(dynamics_names_->title(claim.name, observer)),
-                  over);
+        add_claim(one, member.title_of(dynamics_names_->title(claim.name, observer)), over);
       }
     if (!bound && missing)
       throw InputError(claim.over_place,
@@ -94,7 +92,8 @@ void Binding::add_claim(const Claim& claim, const std::string& title,
   if (claim.after) bound.after = constant_of_claim(*claim.after, "after");
   bound.over = over;
   bool estimated = estimate(bound.value.program) != expr::Estimate::none;
-  for (const auto* part : {&bound.flow_cost, &bound.jump_cost, &bound.factor, &bound.bound, &bound.after})
+  for (const auto* part :
+       {&bound.flow_cost, &bound.jump_cost, &bound.factor, &bound.bound, &bound.after})
     if (*part && estimate((*part)->program) != expr::Estimate::none) estimated = true;
   if (estimated) bound.name += " (from estimates)";
   design_->claims.push_back(std::move(bound));

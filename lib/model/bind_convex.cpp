@@ -5,8 +5,8 @@
 
 #include "expr/functions.h"
 #include "model/binding.h"
-#include "model/dynamics_names.h"
 #include "model/convex.h"
+#include "model/dynamics_names.h"
 
 namespace gainsmith::model {
 

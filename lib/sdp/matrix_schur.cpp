@@ -34,9 +34,8 @@ bool MatrixSchur::is_coupled(std::size_t V, std::size_t U) const {
     return std::any_of(block.terms.begin(), block.terms.end(),
                        [&](const auto& term) { return term.unknown == unknown; });
   };
-  return std::any_of(of_.blocks().begin(), of_.blocks().end(), [&](const auto& block) {
-    return stands_in(block, V) && stands_in(block, U);
-  });
+  return std::any_of(of_.blocks().begin(), of_.blocks().end(),
+                     [&](const auto& block) { return stands_in(block, V) && stands_in(block, U); });
 }
 
 // Those with the fewest neighbours first, counted in variables.

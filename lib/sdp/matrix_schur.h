@@ -47,11 +47,11 @@ class MatrixSchur {
   void add_rows(const Blocks<double>& W);
 
   const MatrixOperator& of_;
-  std::vector<std::size_t> order_;   ///< of the unknowns
-  std::vector<Eigen::Index> place_;  ///< of a variable in M
+  std::vector<std::size_t> order_;      ///< of the unknowns
+  std::vector<Eigen::Index> place_;     ///< of a variable in M
   double forming_ = 0, factoring_ = 0;  ///< multiplications
-  Matrix<double> factor_;  ///< lower triangle
-  Vector<double> scale_;   ///< diag(M)^-1/2
+  Matrix<double> factor_;               ///< lower triangle
+  Vector<double> scale_;                ///< diag(M)^-1/2
   Matrix<double> left_, right_, image_;
 };
 

@@ -44,7 +44,8 @@ LinkedClaim link_claim(const model::Design::Claim& claim, const hybrid::EventSys
 
 }  // namespace
 
-std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::EventSystem& system) {
+std::vector<LinkedClaim> link_claims(const model::Design& design,
+                                     const hybrid::EventSystem& system) {
   std::vector<LinkedClaim> claims;
   for (const model::Design::Claim& claim : design.claims) {
     claims.push_back(link_claim(claim, system));

@@ -31,7 +31,8 @@ struct LinkedClaim {
 
 /// All claims, in the method's order. InputError for `shrinks` without a factor, a bound that is
 /// missing, and a time `after` that is no number from 0 on.
-std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::EventSystem& system);
+std::vector<LinkedClaim> link_claims(const model::Design& design,
+                                     const hybrid::EventSystem& system);
 
 /// InputError for a claim that begins at the end of the runs or later. `claims`: of the design.
 void check_times(const model::Design& design, const std::vector<LinkedClaim>& claims,

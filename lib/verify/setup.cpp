@@ -52,8 +52,7 @@ std::vector<std::optional<Eigen::Index>> add_integrals(const StatedClaims& claim
   return added;
 }
 
-void add_judged_claims(const StatedClaims& claims, SampledSetup& setup,
-                       std::vector<Wide>& forms) {
+void add_judged_claims(const StatedClaims& claims, SampledSetup& setup, std::vector<Wide>& forms) {
   const auto integrals = add_integrals(claims, setup);
   auto accumulated = integrals.begin();
   std::size_t next = 0;
@@ -82,7 +81,8 @@ void add_judged_claims(const StatedClaims& claims, SampledSetup& setup,
   }
 }
 
-/// Costs must be quadratic: their integrals are a part of the flow. Whether the flow is of the kind.
+/// Costs must be quadratic: their integrals are a part of the flow. Whether the flow is of the
+/// kind.
 bool add_clocked_flows(SampledSetup& setup) {
   std::vector<Eigen::Index> integrals;
   for (const JudgedClaim& claim : setup.judged) {

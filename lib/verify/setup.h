@@ -29,8 +29,8 @@ struct SampledSetup {
 };
 
 struct Setup {
-  std::unique_ptr<const EventSetup> events;      ///< the careful run
-  std::unique_ptr<const SampledSetup> sampled;   ///< none: all runs are careful
+  std::unique_ptr<const EventSetup> events;     ///< the careful run
+  std::unique_ptr<const SampledSetup> sampled;  ///< none: all runs are careful
 
   const std::vector<LinkedClaim>& claims() const { return events->claims; }
   double horizon() const { return events->scenario.horizon; }

@@ -44,8 +44,7 @@ Wide jumped(const Coordinates& all, const Wide& x) {
 template <class Scalar>
 void follow(const TextProblem& problem, const std::string& claim, double most) {
   const SampledProblem made(problem);
-  const Coordinates all =
-      make_coordinates(made.system(), made.values, {problem.program(claim)});
+  const Coordinates all = make_coordinates(made.system(), made.values, {problem.program(claim)});
   const BoundedSystem<Scalar> bounded(all, exact_steps(all, *made.steps, {}));
   BoundedSimulator<Scalar> simulator(made.system(), made.scenario, *made.steps, bounded);
   for (std::uint64_t run = 0; run < 6; ++run) {

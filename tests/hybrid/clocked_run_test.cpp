@@ -85,8 +85,7 @@ TEST(Integrator, SaysWhereAFlowEnds) {
 TEST(ClockedRun, SharesFlowsThatAreLinearButForClocks) {
   TextProblem problem;
   problem.state("x", "2").state("k", "scalar").state("s", "scalar").state("c", "scalar");
-  problem.flow(
-      {{"x", "[0, 1; -1, -s]*x + [k; s]"}, {"s", "1"}, {"c", "x'*x/(1 + s) + k*x(2)"}});
+  problem.flow({{"x", "[0, 1; -1, -s]*x + [k; s]"}, {"s", "1"}, {"c", "x'*x/(1 + s) + k*x(2)"}});
   problem.jump({{"x", "x*exp(-s)"}, {"k", "x(1)"}, {"s", "0"}}).timer("0.1", "2", "0", "2");
   problem.start("c", StartKind::expression, {"0"});
   problem.horizon("15").start("s", StartKind::expression, {"0"});

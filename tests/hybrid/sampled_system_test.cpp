@@ -69,7 +69,7 @@ TEST(SampledSystem, OnlyAffineFlowsWithConstantCoefficientsAreExact) {
     TextProblem problem;
     problem.state("x", "scalar").flow({{"x", flow}}).timer("1", "2", "0", "2");
     const SampledProblem made(problem);
-  const SampledSystem& system = made.system();
+    const SampledSystem& system = made.system();
     EXPECT_FALSE(system.flow) << flow;
     EXPECT_EQ(system.flow_entries.size(), 1U);
   }

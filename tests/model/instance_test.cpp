@@ -125,7 +125,7 @@ TEST(Instance, EachPartMayUseWhatItsScopeHolds) {
   const Small small;
   const model::Names& names = *small.design().names;
   const std::vector<std::pair<std::string, int>> first = {
-      {"A", 0}, {"delta", 0}, {"P", 1}, {"g", 1},        {"K", 2},
+      {"A", 0}, {"delta", 0},       {"P", 1}, {"g", 1},        {"K", 2},
       {"z", 2}, {"observer.th", 2}, {"s", 2}, {"objective", 3}};
   const expr::Scope* scopes[] = {&names.known, &names.design, &names.running, &names.results};
   for (const auto& [name, from] : first)
@@ -149,8 +149,7 @@ TEST(Instance, DefinitionsOutputsAndSignalsEvaluate) {
   EXPECT_EQ(value("observer.e(2)"), 2 - 5);
   EXPECT_DOUBLE_EQ(value("f(2)"), std::exp(0.05 * 2));
   const auto& signals = small.design().dynamics->signals;
-  EXPECT_EQ(numbers::evaluate(signals.back().value.program, values),
-            (numbers::Matrix{{-2}, {-3}}));
+  EXPECT_EQ(numbers::evaluate(signals.back().value.program, values), (numbers::Matrix{{-2}, {-3}}));
 }
 
 }  // namespace

@@ -77,7 +77,8 @@ TEST(Campaign, PublishedRowThreeIsCaughtAtTheLongestInterval) {
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
   EXPECT_EQ(report.violations, 15U);
   EXPECT_EQ(report.worst_run % 2, 1U);
-  const EventReplay again = replay(problem.instance(), problem.gains, report.seed, report.worst_run);
+  const EventReplay again =
+      replay(problem.instance(), problem.gains, report.seed, report.worst_run);
   EXPECT_TRUE(again.claims[0].finding.violated());
   EXPECT_EQ(again.claims[0].finding.value, report.checks[0].worst.value);
   EXPECT_EQ(again.claims[0].finding.score, report.checks[0].worst.score);
