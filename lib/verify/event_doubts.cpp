@@ -48,7 +48,7 @@ double length(const hybrid::FlowPiece& flow) { return flow.to() - flow.from(); }
 }  // namespace
 
 EventDoubts::EventDoubts(const hybrid::EventSystem& system)
-    : system_(&system), watch_(system), maps_(system) {}
+    : system_(&system), watch_(system), maps_(system), are_independent_(system.dynamics) {}
 
 VectorXd EventDoubts::whole(const VectorXd& variables) const {
   VectorXd result = VectorXd::Zero(system_->whole);
@@ -184,6 +184,7 @@ bool EventDoubts::fires(std::size_t event, const std::vector<Guard>& guards, con
 }
 
 bool EventDoubts::commute(std::size_t other, const std::vector<Guard>& guards, const Instant& at) {
+  if (are_independent_(at.event, other)) return true;
   try {
     VectorXd first = maps_(at.event, at.lost, at.now);
     if (fires(other, guards, at, first)) first = maps_(other, false, first);

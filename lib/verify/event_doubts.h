@@ -16,6 +16,7 @@
 
 #include "hybrid/event_jump.h"
 #include "hybrid/event_watch.h"
+#include "hybrid/independence.h"
 #include "verify/twin_parts.h"
 
 namespace gainsmith::verify {
@@ -66,6 +67,7 @@ class EventDoubts {
   const hybrid::EventSystem* system_;
   hybrid::EventWatch watch_;
   hybrid::JumpMaps maps_;
+  hybrid::Independence are_independent_;
 };
 
 }  // namespace gainsmith::verify
