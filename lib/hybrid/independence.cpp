@@ -38,8 +38,6 @@ class Reads {
 /// Whether a jump of the event changes it besides its maps.
 bool is_of_event(const Dynamics& dynamics, const Dynamics::Variable& variable, std::size_t event) {
   switch (variable.kind) {
-    case Kind::jumps:
-      return true;
     case Kind::count:
     case Kind::since:
     case Kind::passes:
@@ -80,8 +78,11 @@ Independence::Independence(const Dynamics& dynamics) {
         }
       }
     }
-    for (std::size_t k = 0; k < variables; ++k)
+    for (std::size_t k = 0; k < variables; ++k) {
       if (is_of_event(dynamics, dynamics.variables[k], event)) touched.writes[k] = true;
+      const bool of_all = dynamics.variables[k].kind == Kind::jumps;
+      touched.counts_jumps = touched.counts_jumps || (of_all && touched.reads[k]);
+    }
   }
 }
 
@@ -91,7 +92,8 @@ bool Independence::operator()(std::size_t one, std::size_t other) const {
   const auto is_apart = [](const Touched& from, const Touched& to) {
     return !any_of_both(from.writes, to.reads);
   };
-  return is_apart(a, b) && is_apart(b, a) && !any_of_both(a.writes, b.writes);
+  return !a.counts_jumps && !b.counts_jumps && is_apart(a, b) && is_apart(b, a) &&
+         !any_of_both(a.writes, b.writes);
 }
 
 }  // namespace gainsmith::hybrid

@@ -1,7 +1,9 @@
 // Which events commute whatever the state: neither writes what the other one reads or writes.
 //
 //   reads    what the conditions, the crossing, `if` and the maps of an event use
-//   writes   the states of its maps, its counts and its clock, the noise that it draws, and j
+//   writes   the states of its maps, its counts and its clock, the noise that it draws
+//
+// An event that reads j is independent of none: every jump changes it.
 #pragma once
 
 #include <cstddef>
@@ -24,6 +26,7 @@ class Independence {
   struct Touched {
     std::vector<bool> reads;
     std::vector<bool> writes;
+    bool counts_jumps = false;  ///< reads j
   };
   std::vector<Touched> events_;
 };

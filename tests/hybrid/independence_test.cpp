@@ -35,6 +35,11 @@ TEST(Independence, EndsWhereOneReadsWhatTheOtherWrites) {
   EXPECT_TRUE(are_apart("b.z >= x", "b.z - x", 1, 2));
 }
 
+TEST(Independence, IsOfNoneThatReadsTheNumberOfJumps) {
+  EXPECT_FALSE(are_apart("b.z >= 1", "b.z + j", 1, 2));
+  EXPECT_FALSE(are_apart("b.z >= 1", "b.z + j", 2, 0));
+}
+
 TEST(Independence, IsNotOfAnEventAndItself) {
   EXPECT_FALSE(are_apart("b.z >= 1", "b.z - 1", 2, 2));
 }
