@@ -53,7 +53,7 @@ std::string runs_text(std::uint64_t runs) {
 }
 
 /// Why nothing is certain of an undecided comparison.
-std::string uncertainty_text(model::ClaimKind kind, const verify::Finding& worst) {
+std::string uncertainty_text(model::ClaimKind kind, const claims::Finding& worst) {
   if (worst.estimated && !std::isfinite(worst.rounding))
     return "               nothing is certain: two runs that differ in accuracy and in their last "
            "places have parted by then\n";
@@ -78,7 +78,7 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
         "  {:<{}} {:<17} held      never looked at: no run comes to where it is "
         "claimed\n",
         check.name, width, kind_text(check.kind));
-  const verify::Finding& worst = check.worst;
+  const claims::Finding& worst = check.worst;
   const bool bounded =
       check.kind == model::ClaimKind::below || check.kind == model::ClaimKind::above;
   const bool held = check.violations == 0 && check.undecided == 0;
@@ -104,7 +104,7 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
 /// Why the first run that did not reach the horizon ended.
 std::string ending_text(const verify::Report& report) {
   const std::string& message = report.unfinished_message;
-  if (report.unfinished_termination == hybrid::Termination::lost && !message.empty())
+  if (report.unfinished_termination == bounded::Termination::lost && !message.empty())
     return message;
   return to_string(report.unfinished_termination) + (message.empty() ? "" : ", " + message);
 }

@@ -12,7 +12,7 @@
 #include "gainsmith/terminal.h"
 #include "io/json_text.h"
 #include "lmi/compile.h"
-#include "verify/event_setup.h"
+#include "verify/careful_runs.h"
 
 namespace gainsmith::app {
 

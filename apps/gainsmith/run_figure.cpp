@@ -12,12 +12,12 @@ namespace gainsmith::app {
 namespace {
 
 using verify::Column;
-using verify::EventReplay;
+using verify::Replay;
 using Kind = Column::Kind;
 
 constexpr std::size_t kMostPanels = 6;
 
-report::Curve curve(const EventReplay& replay, std::size_t column) {
+report::Curve curve(const Replay& replay, std::size_t column) {
   report::Curve result;
   result.label = replay.columns[column].name;
   for (Eigen::Index row = 0; row < replay.table.rows(); ++row) {
@@ -38,13 +38,13 @@ bool estimates(const Column& estimate, const Column& state) {
          own == estimate.stem + index;
 }
 
-bool has_estimate(const EventReplay& replay, const Column& column) {
+bool has_estimate(const Replay& replay, const Column& column) {
   return std::any_of(replay.columns.begin(), replay.columns.end(),
                      [&](const Column& one) { return estimates(one, column); });
 }
 
 /// Where the plant has neither, as a log: one panel a state of the observers.
-void add_own_states(const EventReplay& replay, report::Figure& figure) {
+void add_own_states(const Replay& replay, report::Figure& figure) {
   for (std::size_t k = 0; k < replay.columns.size(); ++k) {
     const Column& state = replay.columns[k];
     if (state.kind != Kind::state || state.observer.empty()) continue;
@@ -60,7 +60,7 @@ void add_own_states(const EventReplay& replay, report::Figure& figure) {
 }
 
 /// One panel a state of the plant, or an output that is estimated, each observer in its colour.
-void add_states(const EventReplay& replay, report::Figure& figure) {
+void add_states(const Replay& replay, report::Figure& figure) {
   for (std::size_t k = 0; k < replay.columns.size() && figure.panels.size() < kMostPanels; ++k) {
     const Column& state = replay.columns[k];
     const bool is_output = state.kind == Kind::signal && has_estimate(replay, state);
@@ -89,7 +89,7 @@ bool is_error(const Column& column) {
 }
 
 /// The sizes of errors, signals e, e_... or error..., on a logarithmic axis.
-void add_errors(const EventReplay& replay, report::Figure& figure) {
+void add_errors(const Replay& replay, report::Figure& figure) {
   std::map<std::string, report::Curve> sizes;
   std::vector<std::string> order;
   for (std::size_t k = 0; k < replay.columns.size(); ++k) {
@@ -118,7 +118,7 @@ void add_errors(const EventReplay& replay, report::Figure& figure) {
 }
 
 /// The value of a claim where it is made.
-report::Curve claimed(const EventReplay& replay, std::size_t column) {
+report::Curve claimed(const Replay& replay, std::size_t column) {
   const verify::ClaimScope& scope = replay.columns[column].scope;
   report::Curve result = curve(replay, column);
   for (std::size_t row = 0; row < result.t.size(); ++row)
@@ -128,7 +128,7 @@ report::Curve claimed(const EventReplay& replay, std::size_t column) {
 }
 
 /// What it must not exceed or fall below.
-report::Curve bound_of(const EventReplay& replay, const report::Curve& claim,
+report::Curve bound_of(const Replay& replay, const report::Curve& claim,
                        const verify::ClaimScope& scope) {
   report::Curve line;
   line.t = {scope.after, replay.run.end};
@@ -154,7 +154,7 @@ bool is_wide(const report::Panel& panel) {
 
 /// On a logarithmic axis those that are never negative; the others, such as dissipation
 /// inequalities, on one of their own.
-void add_claims(const EventReplay& replay, report::Figure& figure) {
+void add_claims(const Replay& replay, report::Figure& figure) {
   report::Panel sizes;
   sizes.title = "claims";
   report::Panel signed_ones;
@@ -182,7 +182,7 @@ void add_claims(const EventReplay& replay, report::Figure& figure) {
 
 }  // namespace
 
-std::string run_figure(const std::string& title, const EventReplay& replay) {
+std::string run_figure(const std::string& title, const Replay& replay) {
   report::Figure figure;
   figure.title = title;
   figure.axis = "t";

@@ -14,7 +14,7 @@ namespace {
 using Kind = verify::Column::Kind;
 
 /// t, j, then the event, which is no number.
-std::vector<std::string> names_of(const verify::EventReplay& replay) {
+std::vector<std::string> names_of(const verify::Replay& replay) {
   std::vector<std::string> names;
   for (const verify::Column& column : replay.columns) {
     names.push_back(column.name);
@@ -27,10 +27,10 @@ std::vector<std::string> names_of(const verify::EventReplay& replay) {
 
 std::string run_csv(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
                     std::uint64_t run) {
-  return events_csv(verify::replay_events(instance, gains, seed, run, 0));
+  return events_csv(verify::replay_run(instance, gains, seed, run, 0));
 }
 
-std::string events_csv(const verify::EventReplay& replay) {
+std::string events_csv(const verify::Replay& replay) {
   std::string text;
   io::add_csv_line(names_of(replay), text);
   std::vector<std::string> cells;
@@ -47,7 +47,7 @@ std::string events_csv(const verify::EventReplay& replay) {
   return text;
 }
 
-io::Json events_json(const verify::EventReplay& replay) {
+io::Json events_json(const verify::Replay& replay) {
   io::Json rows = io::Json::array();
   for (Eigen::Index row = 0; row < replay.table.rows(); ++row) {
     io::Json cells = io::Json::array();

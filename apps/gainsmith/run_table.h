@@ -8,8 +8,8 @@
 #include "io/json_text.h"
 #include "model/gains.h"
 #include "model/instance.h"
-#include "verify/event_replay.h"
 #include "verify/expected_run.h"
+#include "verify/replay.h"
 
 namespace gainsmith::app {
 
@@ -18,11 +18,11 @@ std::string run_csv(const model::Instance& instance, const model::Gains& gains, 
                     std::uint64_t run);
 
 /// Columns t, j, event, variables, signals, claims; what is no number is an empty cell.
-std::string events_csv(const verify::EventReplay& replay);
-io::Json events_json(const verify::EventReplay& replay);
+std::string events_csv(const verify::Replay& replay);
+io::Json events_json(const verify::Replay& replay);
 
 /// States with their estimates, errors and claims over time (SVG).
-std::string run_figure(const std::string& title, const verify::EventReplay& replay);
+std::string run_figure(const std::string& title, const verify::Replay& replay);
 
 /// Figures of observers side by side.
 std::string comparison_text(const std::vector<verify::FoundFigure>& figures);

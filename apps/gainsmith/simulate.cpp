@@ -34,7 +34,7 @@ struct SimulateOptions {
 /// `early`: the run ends before its horizon for a reason that decides nothing.
 void say_claims(const std::vector<verify::ReplayedClaim>& claims, bool early) {
   for (const verify::ReplayedClaim& claim : claims) {
-    const verify::Finding& finding = claim.finding;
+    const claims::Finding& finding = claim.finding;
     if (!finding.looked) {
       say(fmt::format("  {:<12} {}\n", claim.name,
                       early ? "undecided: never looked at, as the run ends before"
@@ -42,7 +42,7 @@ void say_claims(const std::vector<verify::ReplayedClaim>& claims, bool early) {
                               "claimed"));
       continue;
     }
-    const bool so_far = early && finding.judgement == verify::Judgement::held;
+    const bool so_far = early && finding.judgement == claims::Judgement::held;
     say(fmt::format("  {:<12} {}{}: {} against {} at (t, j) = ({}, {})\n", claim.name,
                     to_string(finding.judgement), so_far ? " so far" : "", brief(finding.value),
                     brief(finding.bound), brief(finding.t), finding.j));
@@ -57,13 +57,13 @@ void write(const SimulateOptions& options, const std::string& text) {
 }
 
 /// Steps of exact flows are long: a picture shows what lies between their ends.
-verify::EventReplay for_plot(const SimulateOptions& options, const LoadedGains& loaded,
-                             std::uint64_t seed, const verify::EventReplay& replay) {
+verify::Replay for_plot(const SimulateOptions& options, const LoadedGains& loaded,
+                        std::uint64_t seed, const verify::Replay& replay) {
   constexpr double kPoints = 1500;
   if (options.step > 0 || replay.run.end <= 0 || replay.run.ending == hybrid::Ending::interrupted)
     return replay;
-  return verify::replay_events(loaded.stated, loaded.gains, seed, options.run,
-                               replay.run.end / kPoints);
+  return verify::replay_run(loaded.stated, loaded.gains, seed, options.run,
+                            replay.run.end / kPoints);
 }
 
 ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std::uint64_t seed) {
@@ -86,8 +86,8 @@ ExitCode simulate(const SimulateOptions& options) {
   const LoadedGains loaded = load_run(options.gains);
   const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
   if (options.compare) return compare(options, loaded, seed);
-  const verify::EventReplay replay = verify::replay_events(
-      loaded.stated, loaded.gains, seed, options.run, options.step, options.judge);
+  const verify::Replay replay = verify::replay_run(loaded.stated, loaded.gains, seed, options.run,
+                                                   options.step, options.judge);
   const bool stopped = replay.run.ending == hybrid::Ending::interrupted;
   const Telling telling;
   if (!options.plot.empty())
@@ -106,7 +106,7 @@ ExitCode simulate(const SimulateOptions& options) {
   say_claims(replay.claims, !is_complete(replay.run.ending));
   if (stopped) return ExitCode::undecided;
   if (!options.judge) return ExitCode::yes;
-  for (const hybrid::Fault& fault : replay.faults)
+  for (const judge::Fault& fault : replay.faults)
     say(fmt::format("  judged: t = {}: {} ({} > {})\n", brief(fault.t), fault.what,
                     brief(fault.size), brief(fault.allowed)));
   if (replay.faults.empty()) say("  judged: the run satisfies the texts\n");

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "expr/branches.h"
-#include "hybrid/step_range.h"
 #include "numbers/golden_section.h"
+#include "ode/step_range.h"
 
 namespace gainsmith::hybrid {
 
@@ -94,14 +94,15 @@ VectorXd moved(const VectorXd& x, const VectorXd& r, int bit) {
 }
 
 /// Adds the roots of g on the pieces between the breaks so far, and to these what it does there.
-void add_roots(const Border& g, bool jumps, double from, double to, std::vector<Break>& breaks) {
-  std::vector<Break> fresh;
+void add_roots(const ode::RootFunction& g, bool jumps, double from, double to,
+               std::vector<ode::Break>& breaks) {
+  std::vector<ode::Break> fresh;
   const auto add = [&](double a, double b) {
     if (!(a < b)) return;
-    for (const Root& root : find_roots(g, a, b).roots) fresh.push_back({root, jumps});
+    for (const ode::Root& root : ode::find_roots(g, a, b).roots) fresh.push_back({root, jumps});
   };
   double left = from;
-  for (Break& one : breaks) {
+  for (ode::Break& one : breaks) {
     one.jumps = one.jumps || (jumps && g.value(one.left) * g.value(one.right) <= 0);
     add(left, one.left);
     left = one.right;
@@ -109,14 +110,14 @@ void add_roots(const Border& g, bool jumps, double from, double to, std::vector<
   add(left, to);
   breaks.insert(breaks.end(), fresh.begin(), fresh.end());
   std::stable_sort(breaks.begin(), breaks.end(),
-                   [](const Break& a, const Break& b) { return a.left < b.left; });
+                   [](const ode::Break& a, const ode::Break& b) { return a.left < b.left; });
 }
 
 /// Adds the place where |g| is least on a step, if it is small there and not at an end.
 void add_near(const std::function<double(double)>& g, double from, double to,
               std::vector<double>& near) {
   constexpr double kNear = 0.02;
-  const std::vector<double> times = first_points(from, to);
+  const std::vector<double> times = ode::first_points(from, to);
   std::vector<double> sizes;
   for (const double t : times) sizes.push_back(std::abs(g(t)));
   const auto least = std::min_element(sizes.begin(), sizes.end());
@@ -128,12 +129,12 @@ void add_near(const std::function<double(double)>& g, double from, double to,
 }
 
 /// Makes one of breaks with next to nothing between them.
-void merge(std::vector<Break>& breaks, double from, double to) {
+void merge(std::vector<ode::Break>& breaks, double from, double to) {
   constexpr double kUnit = std::numeric_limits<double>::epsilon();
   const double nothing = 1e-12 * (to - from) + 8 * kUnit * std::max(std::abs(from), std::abs(to));
   std::size_t kept = 0;
   for (std::size_t k = 1; k < breaks.size(); ++k) {
-    const Break& one = breaks[k];
+    const ode::Break& one = breaks[k];
     if (one.left - breaks[kept].right > nothing) {
       breaks[++kept] = one;
       continue;
@@ -209,9 +210,9 @@ double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
   return least;
 }
 
-std::vector<Break> Breaks::on(const std::function<VectorXd(double)>& x, double from, double to,
-                              std::vector<double>* near) {
-  std::vector<Break> breaks;
+std::vector<ode::Break> Breaks::on(const std::function<VectorXd(double)>& x, double from, double to,
+                                   std::vector<double>* near) {
+  std::vector<ode::Break> breaks;
   if (none() || !(from < to)) return breaks;
   const std::array<VectorXd, 3> points = {x(from), x(from + (to - from) / 2), x(to)};
   for (Text& text : texts_) {
@@ -219,7 +220,7 @@ std::vector<Break> Breaks::on(const std::function<VectorXd(double)>& x, double f
     for (Index e = 0; e < size && breaks.size() < kMostBreaks; ++e) {
       const auto at = [&](const VectorXd& values) { return element(text.value, values, e); };
       const bool is_slow = breaks.empty() && !text.waves;
-      if (is_slow && StepRange(at, points).is_far_from_zero()) continue;
+      if (is_slow && ode::StepRange(at, points).is_far_from_zero()) continue;
       double terms = 0;
       for (const VectorXd& point : points) terms = std::fmax(terms, element(text.terms, point, e));
       const auto difference = [&](double t) { return at(x(t)); };

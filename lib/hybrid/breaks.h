@@ -8,8 +8,8 @@
 #include <memory>
 #include <vector>
 
-#include "hybrid/borders.h"
 #include "hybrid/state_layout.h"
+#include "ode/roots.h"
 
 namespace gainsmith::hybrid {
 
@@ -26,8 +26,8 @@ class Breaks {
   /// value nothing is found. Beyond two thousand breaks no more are looked for.
   /// `near` takes the places where a difference comes near 0, by a 50th of its largest size on the
   /// step, and turns back.
-  std::vector<Break> on(const std::function<Eigen::VectorXd(double)>& x, double from, double to,
-                        std::vector<double>* near = nullptr);
+  std::vector<ode::Break> on(const std::function<Eigen::VectorXd(double)>& x, double from,
+                             double to, std::vector<double>* near = nullptr);
 
   /// What is 0 at a break.
   std::vector<const expr::Program*> differences() const;

@@ -5,7 +5,8 @@
 
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
-#include "hybrid/sampled_system.h"
+#include "model/gains.h"
+#include "model/instance.h"
 #include "numbers/real.h"
 
 namespace gainsmith::hybrid {

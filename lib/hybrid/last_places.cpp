@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "hybrid/event_scenario.h"
+#include "hybrid/scenario.h"
 
 namespace gainsmith::hybrid {
 
@@ -16,7 +16,7 @@ constexpr double kMove = 8 * std::numeric_limits<double>::epsilon() / 2;
 }  // namespace
 
 LastPlaces::LastPlaces(std::uint64_t seed, std::uint64_t run, std::uint64_t draw)
-    : random_(event_stream(seed, run, Purpose::last_places, draw)) {}
+    : random_(draw_stream(seed, run, Purpose::last_places, draw)) {}
 
 double LastPlaces::of(double value, double size) const {
   if (!std::isfinite(size) || std::rint(value) == value) return 0;

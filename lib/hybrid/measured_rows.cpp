@@ -17,7 +17,7 @@ auto row_of(const model::Series& series, std::size_t row) {
 
 }  // namespace
 
-MeasuredRows::MeasuredRows(const EventSystem& system) {
+MeasuredRows::MeasuredRows(const System& system) {
   using Kind = model::Dynamics::VariableKind;
   for (const model::Dynamics::Measured& one : system.dynamics.measured)
     quantities_.push_back({&one, 0, std::nullopt});

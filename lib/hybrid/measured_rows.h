@@ -9,13 +9,13 @@
 #include <optional>
 #include <vector>
 
-#include "hybrid/event_system.h"
+#include "hybrid/system.h"
 
 namespace gainsmith::hybrid {
 
 class MeasuredRows {
  public:
-  explicit MeasuredRows(const EventSystem& system);
+  explicit MeasuredRows(const System& system);
 
   /// The values at t = 0.
   void begin(Eigen::VectorXd& values);

@@ -1,6 +1,6 @@
 #include "hybrid/trajectory.h"
 
-#include "hybrid/chebyshev.h"
+#include "ode/chebyshev.h"
 
 namespace gainsmith::hybrid {
 
@@ -35,11 +35,11 @@ std::string to_string(Ending ending) {
 }
 
 Eigen::VectorXd DenseStep::operator()(double t) const {
-  return chebyshev::at(coefficients, chebyshev::inner(t, from, to));
+  return ode::chebyshev::at(coefficients, ode::chebyshev::inner(t, from, to));
 }
 
 DenseStep DenseStep::until(double t) const {
-  return {from, t, chebyshev::part(coefficients, -1, chebyshev::inner(t, from, to))};
+  return {from, t, ode::chebyshev::part(coefficients, -1, ode::chebyshev::inner(t, from, to))};
 }
 
 }  // namespace gainsmith::hybrid

@@ -12,6 +12,9 @@
 
 namespace gainsmith::hybrid {
 
+/// A run of which a state leaves [-this, this] has diverged.
+constexpr double kLargestState = 1e150;
+
 /// Why a run ended.
 enum class Ending {
   horizon,      ///< the horizon was reached
@@ -51,7 +54,7 @@ struct DenseStep {
 /// A turning point of what decides about an event, or about `while`, next to 0: had it come to the
 /// other side of 0, or not, something else would have happened.
 struct NearTurn {
-  enum class Of { when, crossing, stay };
+  enum class Of { when, crossing, flow_set };
   Of of = Of::when;
   std::size_t index = 0;       ///< of the event, or of the `while`
   std::size_t comparison = 0;  ///< of its condition

@@ -157,16 +157,17 @@ model::ReactionText reaction(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
-std::vector<model::StayText> stays(const YamlFile& file, const std::optional<YamlItem>& item) {
-  std::vector<model::StayText> result;
+std::vector<model::FlowSetText> flow_sets(const YamlFile& file,
+                                          const std::optional<YamlItem>& item) {
+  std::vector<model::FlowSetText> result;
   if (!item) return result;
   YamlMap map(file, item->value, "while");
-  model::StayText stay;
-  stay.place = item->place;
-  stay.condition = file.expression(map.require("c").value, "c");
-  stay.say = file.string(map.require("say").value, "say");
+  model::FlowSetText flow_set;
+  flow_set.place = item->place;
+  flow_set.condition = file.expression(map.require("c").value, "c");
+  flow_set.say = file.string(map.require("say").value, "say");
   map.finish();
-  result.push_back(std::move(stay));
+  result.push_back(std::move(flow_set));
   return result;
 }
 
@@ -273,7 +274,7 @@ Component component(const YamlFile& file, const YamlItem& item,
   overlay(result.events, events(file, own_events, item.key + ".events"), removed);
   if (const auto frozen = map.find("frozen"))
     result.frozen = file.expression(frozen->value, "frozen");
-  if (const auto stay = map.find("while")) result.stays = stays(file, stay);
+  if (const auto flow_set = map.find("while")) result.flow_sets = flow_sets(file, flow_set);
   map.finish();
   return result;
 }

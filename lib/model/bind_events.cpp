@@ -253,10 +253,10 @@ void DynamicsBinding::bind_stays(const Component& component, std::size_t at) {
                   [&](const std::string& name) { return is_moving(name) && !is_mode(name); }))
       throw InputError(bound.frozen->place, "frozen: a condition of modes, which do not flow");
   }
-  for (const StayText& stay : component.stays)
-    bound.stays.push_back(
-        {condition(names_->within(component, stay.condition), &component, std::nullopt, *scope_),
-         stay.say, stay.place});
+  for (const FlowSetText& flow_set : component.flow_sets)
+    bound.flow_sets.push_back({condition(names_->within(component, flow_set.condition), &component,
+                                         std::nullopt, *scope_),
+                               flow_set.say, flow_set.place});
 }
 
 /// The name of the time; a method may name something else t.

@@ -53,7 +53,7 @@ struct ReactionText {
   Place place;
 };
 
-struct StayText {
+struct FlowSetText {
   expr::Expression condition;
   std::string say;
   Place place;
@@ -70,7 +70,7 @@ struct Component {
   std::vector<EventText> events{};
   std::vector<ReactionText> at{};
   std::optional<expr::Expression> frozen{};
-  std::vector<StayText> stays{};
+  std::vector<FlowSetText> flow_sets{};
   Place place{};
 };
 

@@ -22,8 +22,8 @@ void visit_condition(const std::optional<expr::Condition>& condition, const Visi
 void for_each_program(const Dynamics& dynamics, const Visit& visit) {
   for (const Dynamics::Component& component : dynamics.components) {
     visit_condition(component.frozen, visit);
-    for (const Dynamics::Component::Stay& stay : component.stays)
-      visit_condition(stay.where, visit);
+    for (const Dynamics::Component::FlowSet& flow_set : component.flow_sets)
+      visit_condition(flow_set.where, visit);
   }
   for (const Dynamics::Assignment& entry : dynamics.flow) visit(entry.value.program);
   for (const Dynamics::Event& event : dynamics.events) {

@@ -33,12 +33,12 @@ struct Dynamics {
     /// Where true its states do not flow; of modes alone.
     std::optional<expr::Condition> frozen;
     /// `while`: a run that leaves it ends with `say`.
-    struct Stay {
+    struct FlowSet {
       expr::Condition where;
       std::string say;
       Place place;
     };
-    std::vector<Stay> stays;
+    std::vector<FlowSet> flow_sets;
     Place place;
   };
 

@@ -6,7 +6,7 @@
 namespace gainsmith::verify {
 
 BoundFigure::BoundFigure(const model::Figure& figure, const EventSetup& setup) {
-  std::optional<RunValue> value;
+  std::optional<claims::RunValue> value;
   if (figure.value) {
     program_ = setup.system.bodies.link(figure.value->program);
     for (const expr::Input& input : program_->inputs)

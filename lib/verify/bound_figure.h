@@ -3,9 +3,9 @@
 
 #include <optional>
 
+#include "claims/run_figures.h"
 #include "model/figure.h"
-#include "verify/event_setup.h"
-#include "verify/run_figures.h"
+#include "verify/careful_runs.h"
 
 namespace gainsmith::verify {
 
@@ -20,7 +20,7 @@ class BoundFigure {
 
  private:
   std::optional<expr::Program> program_;  ///< that the value of the figure reads
-  std::optional<FigureOf> number_;
+  std::optional<claims::FigureOf> number_;
 };
 
 }  // namespace gainsmith::verify

@@ -20,14 +20,14 @@ namespace gainsmith::verify {
 
 namespace {
 
-using hybrid::Termination;
+using bounded::Termination;
 
 /// The worst of some runs for one claim.
 struct ClaimTally {
   std::uint64_t violations = 0;
   std::uint64_t undecided = 0;
   std::optional<std::uint64_t> run;
-  Finding worst;
+  claims::Finding worst;
   double floor = 0;
 };
 
@@ -41,7 +41,7 @@ struct Tally {
   std::uint64_t repeated = 0;
   std::vector<std::uint64_t> confirmed;
   std::optional<std::uint64_t> run;  ///< the worst
-  Judgement judgement = Judgement::held;
+  claims::Judgement judgement = claims::Judgement::held;
   double score = 0;
   Termination termination = Termination::horizon;
   std::uint64_t unfinished_run = 0;  ///< the first
@@ -50,21 +50,23 @@ struct Tally {
   std::vector<ClaimTally> claims;
 };
 
-int rank_of(Judgement judgement) {
-  return judgement == Judgement::violated ? 2 : judgement == Judgement::undecided ? 1 : 0;
+int rank_of(claims::Judgement judgement) {
+  return judgement == claims::Judgement::violated    ? 2
+         : judgement == claims::Judgement::undecided ? 1
+                                                     : 0;
 }
 
 /// What is violated for certain is worse than a run that is lost, which is worse than any other.
 bool is_worse(const Tally& a, const Tally& b) {
   const auto key = [](const Tally& tally) {
-    return std::tuple(tally.judgement == Judgement::violated,
+    return std::tuple(tally.judgement == claims::Judgement::violated,
                       tally.termination != Termination::horizon, rank_of(tally.judgement),
                       tally.score);
   };
   return key(a) > key(b);
 }
 
-bool is_worse(const Finding& a, const Finding& b) {
+bool is_worse(const claims::Finding& a, const claims::Finding& b) {
   return std::tuple(rank_of(a.judgement), a.score) > std::tuple(rank_of(b.judgement), b.score);
 }
 
@@ -110,17 +112,17 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
   tally.unfinished_run = run;
   tally.unfinished_termination = verdict.termination;
   tally.unfinished_message = verdict.message;
-  tally.violations = verdict.judgement == Judgement::violated ? 1 : 0;
-  tally.undecided = verdict.judgement == Judgement::undecided ? 1 : 0;
+  tally.violations = verdict.judgement == claims::Judgement::violated ? 1 : 0;
+  tally.undecided = verdict.judgement == claims::Judgement::undecided ? 1 : 0;
   tally.unfinished = verdict.unfinished() ? 1 : 0;
   tally.close = tally.undecided > 0 && !verdict.unfinished() ? 1 : 0;
   tally.repeated = verdict.repeated ? 1 : 0;
   if (verdict.confirmed) tally.confirmed.push_back(run);
   tally.score = -std::numeric_limits<double>::infinity();
-  for (const Finding& finding : verdict.findings) {
+  for (const claims::Finding& finding : verdict.findings) {
     tally.claims.push_back(
         {finding.violated() ? 1U : 0U, finding.undecided() ? 1U : 0U, run, finding, finding.floor});
-    if (finding.violated() || verdict.judgement != Judgement::violated)
+    if (finding.violated() || verdict.judgement != claims::Judgement::violated)
       tally.score = std::max(tally.score, finding.score);
   }
   return tally;
@@ -169,7 +171,7 @@ Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
 std::vector<CheckReport> report_checks(const Setup& setup, const Tally& tally) {
   std::vector<CheckReport> reports;
   std::size_t next = 0;
-  for (const LinkedClaim& claim : setup.claims()) {
+  for (const claims::LinkedClaim& claim : setup.claims()) {
     CheckReport report{claim.name, claim.kind, claim.stated(), claim.missing, 0, 0, 0, {}, 0};
     if (claim.stated()) {
       const ClaimTally& found = tally.claims[next++];
@@ -203,16 +205,16 @@ bool confirm_worst(const Setup& setup, std::uint64_t seed, Report& report) {
         std::binary_search(report.confirmed.begin(), report.confirmed.end(), check.worst_run);
     if (check.violations == 0 || shown) continue;
     check.undecided += std::exchange(check.violations, 0);
-    check.worst.judgement = Judgement::undecided;
+    check.worst.judgement = claims::Judgement::undecided;
   }
   return std::binary_search(report.confirmed.begin(), report.confirmed.end(), report.worst_run);
 }
 
-void require_a_claim(const model::Design& design, const std::vector<LinkedClaim>& claims) {
+void require_a_claim(const model::Design& design, const std::vector<claims::LinkedClaim>& claims) {
   const Place place{design.method_file, 0, 0};
   if (claims.empty())
     throw InputError(place, "the method makes no claims, so there is nothing to verify");
-  for (const LinkedClaim& claim : claims)
+  for (const claims::LinkedClaim& claim : claims)
     if (claim.stated()) return;
   throw InputError(place, "no claim can be checked: there is no value for " +
                               claims.front().missing.front() + ", which '" + claims.front().name +

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "hybrid/track.h"
+#include "bounded/track.h"
+#include "claims/claim_check.h"
 #include "model/gains.h"
 #include "model/instance.h"
 #include "model/words.h"
-#include "verify/claim_check.h"
 
 namespace gainsmith::verify {
 
@@ -33,8 +33,8 @@ struct CheckReport {
   std::uint64_t undecided = 0;
   /// Violating runs first, then undecided ones, then by score; ties to the lowest.
   std::uint64_t worst_run = 0;
-  Finding worst;     ///< in that run
-  double floor = 0;  ///< the largest Finding::floor
+  claims::Finding worst;  ///< in that run
+  double floor = 0;       ///< the largest Finding::floor
 };
 
 struct Report {
@@ -46,7 +46,7 @@ struct Report {
   std::uint64_t undecided = 0;   ///< runs of which neither is certain when repeated
   std::uint64_t unfinished = 0;  ///< runs that do not reach the horizon; of the first of them:
   std::uint64_t unfinished_run = 0;
-  hybrid::Termination unfinished_termination = hybrid::Termination::horizon;
+  bounded::Termination unfinished_termination = bounded::Termination::horizon;
   std::string unfinished_message;  ///< why it ended
   std::uint64_t close = 0;         ///< undecided runs that reach it: a comparison is too close
   std::uint64_t repeated = 0;      ///< runs that were repeated, in 31 digits

@@ -8,7 +8,7 @@
 #include "base/number.h"
 #include "base/stop.h"
 #include "verify/bound_figure.h"
-#include "verify/event_setup.h"
+#include "verify/careful_runs.h"
 
 namespace gainsmith::verify {
 
@@ -21,7 +21,7 @@ class TwoRuns {
           std::uint64_t run)
       : setup_(make_event_setup(instance, gains)) {
     constexpr double kSharper = 1e-2;
-    hybrid::EventSimulator simulator(setup_->system, setup_->scenario);
+    simulate::Simulator simulator(setup_->system, setup_->scenario);
     usual_ = simulator.run(seed, run, setup_->accuracy(kUsualOfOne));
     sharper_ = simulator.run(seed, run, setup_->accuracy(kUsualOfOne, kSharper));
     check_stop();

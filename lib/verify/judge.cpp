@@ -7,45 +7,47 @@ namespace gainsmith::verify {
 
 namespace {
 
-using hybrid::Termination;
-using Rounding = hybrid::ClockedSimulator::Rounding;
+using bounded::Termination;
+using Rounding = bounded::ClockedSimulator::Rounding;
 
 /// Whether the run left the range of the states for certain.
 template <class Scalar>
-bool is_certain_end(const hybrid::Track<Scalar>& track) {
+bool is_certain_end(const bounded::Track<Scalar>& track) {
   if (track.termination == Termination::lost) return false;
   if (track.termination != Termination::diverged) return true;
   const std::size_t last = track.samples() - 1;
   for (Eigen::Index i = 0; i < track.size; ++i) {
-    const double size = hybrid::size_of(track.state(last)(i));
+    const double size = bounded::size_of(track.state(last)(i));
     if (size > 1e150 && track.bound(last)(i) <= size / 2) return true;
   }
   return false;
 }
 
-Judgement worst_of(const std::vector<Finding>& findings) {
-  const auto any = [&](Judgement judgement) {
+claims::Judgement worst_of(const std::vector<claims::Finding>& findings) {
+  const auto any = [&](claims::Judgement judgement) {
     return std::any_of(findings.begin(), findings.end(),
-                       [&](const Finding& one) { return one.judgement == judgement; });
+                       [&](const claims::Finding& one) { return one.judgement == judgement; });
   };
-  if (any(Judgement::violated)) return Judgement::violated;
-  return any(Judgement::undecided) ? Judgement::undecided : Judgement::held;
+  if (any(claims::Judgement::violated)) return claims::Judgement::violated;
+  return any(claims::Judgement::undecided) ? claims::Judgement::undecided : claims::Judgement::held;
 }
 
 template <class Scalar>
-RunVerdict verdict_on(const hybrid::Track<Scalar>& track, std::vector<ClaimCheck<Scalar>>& checks) {
+RunVerdict verdict_on(const bounded::Track<Scalar>& track,
+                      std::vector<claims::ClaimCheck<Scalar>>& checks) {
   RunVerdict verdict;
   verdict.termination = track.termination;
   verdict.message = track.message;
-  for (ClaimCheck<Scalar>& check : checks) verdict.findings.push_back(check(track));
+  for (claims::ClaimCheck<Scalar>& check : checks) verdict.findings.push_back(check(track));
   verdict.judgement = worst_of(verdict.findings);
   return verdict;
 }
 
 /// Of a run that ends before its horizon a claim that holds so far is left open.
 template <class Scalar>
-void leave_open(const hybrid::Track<Scalar>& track, Judgement open, Finding& finding) {
-  if (finding.violated() || (finding.undecided() && open == Judgement::undecided)) return;
+void leave_open(const bounded::Track<Scalar>& track, claims::Judgement open,
+                claims::Finding& finding) {
+  if (finding.violated() || (finding.undecided() && open == claims::Judgement::undecided)) return;
   finding.judgement = open;
   finding.ended = true;
   finding.t = track.t.back();
@@ -54,16 +56,17 @@ void leave_open(const hybrid::Track<Scalar>& track, Judgement open, Finding& fin
 
 /// The verdict on a run that is not repeated again.
 template <class Scalar>
-RunVerdict last_verdict(const hybrid::Track<Scalar>& track,
-                        std::vector<ClaimCheck<Scalar>>& checks) {
+RunVerdict last_verdict(const bounded::Track<Scalar>& track,
+                        std::vector<claims::ClaimCheck<Scalar>>& checks) {
   RunVerdict verdict = verdict_on(track, checks);
   verdict.repeated = true;
   if (verdict.unfinished()) {
-    const Judgement open = is_certain_end(track) ? Judgement::violated : Judgement::undecided;
-    for (Finding& finding : verdict.findings) leave_open(track, open, finding);
-    if (verdict.judgement != Judgement::violated) verdict.judgement = open;
+    const claims::Judgement open =
+        is_certain_end(track) ? claims::Judgement::violated : claims::Judgement::undecided;
+    for (claims::Finding& finding : verdict.findings) leave_open(track, open, finding);
+    if (verdict.judgement != claims::Judgement::violated) verdict.judgement = open;
   }
-  verdict.confirmed = verdict.judgement == Judgement::violated;
+  verdict.confirmed = verdict.judgement == claims::Judgement::violated;
   return verdict;
 }
 
@@ -71,9 +74,9 @@ RunVerdict last_verdict(const hybrid::Track<Scalar>& track,
 RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
   for (std::size_t i = 0; i < one.findings.size(); ++i)
     if (one.findings[i].judgement != other.findings[i].judgement)
-      one.findings[i].judgement = Judgement::undecided;
-  if (one.judgement != other.judgement) one.judgement = Judgement::undecided;
-  one.confirmed = one.judgement == Judgement::violated;
+      one.findings[i].judgement = claims::Judgement::undecided;
+  if (one.judgement != other.judgement) one.judgement = claims::Judgement::undecided;
+  one.confirmed = one.judgement == claims::Judgement::violated;
   return one;
 }
 
@@ -96,7 +99,7 @@ Judge::Judge(const Setup& setup) {
   wide_checks_ = make_checks(sampled.judged, *sampled.wide);
 }
 
-const hybrid::Track<double>& Judge::track(std::uint64_t seed, std::uint64_t run) {
+const bounded::Track<double>& Judge::track(std::uint64_t seed, std::uint64_t run) {
   if (events_) return events_->run(seed, run, 1);
   return clocked_ ? clocked_->run(seed, run, kUsual) : narrow_->run(seed, run);
 }
@@ -114,7 +117,7 @@ RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run) {
   RunVerdict verdict = verdict_on(track(seed, run), checks_);
   if (verdict.unfinished()) return confirm(seed, run);
   const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
-                                [](const Finding& one) { return one.undecided(); });
+                                [](const claims::Finding& one) { return one.undecided(); });
   if (!open) return verdict;
   RunVerdict again = confirm(seed, run);
   for (std::size_t i = 0; i < again.findings.size(); ++i)

@@ -9,20 +9,20 @@
 #include <string>
 #include <vector>
 
-#include "verify/event_tracks.h"
 #include "verify/setup.h"
+#include "verify/tracks.h"
 
 namespace gainsmith::verify {
 
 struct RunVerdict {
-  Judgement judgement = Judgement::held;
-  std::vector<Finding> findings;  ///< of the claims that are stated, in order
-  hybrid::Termination termination = hybrid::Termination::horizon;
+  claims::Judgement judgement = claims::Judgement::held;
+  std::vector<claims::Finding> findings;  ///< of the claims that are stated, in order
+  bounded::Termination termination = bounded::Termination::horizon;
   std::string message;  ///< why it ended, when a jump map had no value
   bool repeated = false;
   bool confirmed = false;  ///< violated when repeated
 
-  bool unfinished() const { return termination != hybrid::Termination::horizon; }
+  bool unfinished() const { return termination != bounded::Termination::horizon; }
 };
 
 /// Judges run after run; one for each thread. The setup must outlive it.
@@ -44,16 +44,16 @@ class Judge {
   RunVerdict confirm(std::uint64_t seed, std::uint64_t run);
 
   /// In double, until the next call.
-  const hybrid::Track<double>& track(std::uint64_t seed, std::uint64_t run);
-  std::vector<ClaimCheck<double>>& checks() { return checks_; }
+  const bounded::Track<double>& track(std::uint64_t seed, std::uint64_t run);
+  std::vector<claims::ClaimCheck<double>>& checks() { return checks_; }
 
  private:
   std::optional<EventTracks> events_;
-  std::optional<hybrid::ClockedSimulator> clocked_;
-  std::optional<hybrid::BoundedSimulator<double>> narrow_;
-  std::optional<hybrid::BoundedSimulator<DoubleDouble>> wide_;
-  std::vector<ClaimCheck<double>> checks_;
-  std::vector<ClaimCheck<DoubleDouble>> wide_checks_;
+  std::optional<bounded::ClockedSimulator> clocked_;
+  std::optional<bounded::BoundedSimulator<double>> narrow_;
+  std::optional<bounded::BoundedSimulator<DoubleDouble>> wide_;
+  std::vector<claims::ClaimCheck<double>> checks_;
+  std::vector<claims::ClaimCheck<DoubleDouble>> wide_checks_;
 };
 
 }  // namespace gainsmith::verify

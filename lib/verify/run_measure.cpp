@@ -10,9 +10,9 @@ namespace gainsmith::verify {
 std::optional<double> mean_figure(const model::Instance& instance, const model::Gains& gains,
                                   const model::Figure& figure, std::uint64_t runs) {
   const auto setup = make_event_setup(instance, gains);
-  hybrid::EventSimulator simulator(setup->system, setup->scenario);
+  simulate::Simulator simulator(setup->system, setup->scenario);
   BoundFigure bound(figure, *setup);
-  const hybrid::Accuracy accuracy = setup->accuracy(kUsualOfMany);
+  const simulate::Accuracy accuracy = setup->accuracy(kUsualOfMany);
   double sum = 0;
   for (std::uint64_t run = 0; run < runs; ++run) {
     const auto trajectory = simulator.run(instance.design->campaign.seed, run, accuracy);

@@ -11,11 +11,11 @@ namespace {
 
 using Wide = numbers::MatrixOf<Decimal100>;
 
-using StatedClaims = std::vector<const LinkedClaim*>;
+using StatedClaims = std::vector<const claims::LinkedClaim*>;
 
-StatedClaims stated_claims(const std::vector<LinkedClaim>& claims) {
+StatedClaims stated_claims(const std::vector<claims::LinkedClaim>& claims) {
   StatedClaims stated;
-  for (const LinkedClaim& claim : claims)
+  for (const claims::LinkedClaim& claim : claims)
     if (claim.stated()) stated.push_back(&claim);
   return stated;
 }
@@ -23,7 +23,7 @@ StatedClaims stated_claims(const std::vector<LinkedClaim>& claims) {
 /// The functions of the claims, in the order in which judged_claims takes them back.
 std::vector<expr::Program> functions_of(const StatedClaims& claims) {
   std::vector<expr::Program> functions;
-  for (const LinkedClaim* claim : claims) {
+  for (const claims::LinkedClaim* claim : claims) {
     functions.push_back(claim->value);
     for (const auto* part : {&claim->flow_cost, &claim->jump_cost, &claim->factor, &claim->bound})
       if (*part) functions.push_back(**part);
@@ -37,13 +37,13 @@ std::vector<std::optional<Eigen::Index>> add_integrals(const StatedClaims& claim
                                                        SampledSetup& setup) {
   std::vector<std::optional<Eigen::Index>> added;
   std::size_t next = 0;
-  for (const LinkedClaim* claim : claims) {
+  for (const claims::LinkedClaim* claim : claims) {
     ++next;  // the value
     added.emplace_back();
     if (claim->flow_cost) {
       const expr::Program& cost = setup.coordinates.functions[next++];
       if (!setup.steps)
-        added.back() = hybrid::add_integral(setup.coordinates, "integral of " + claim->name, cost);
+        added.back() = bounded::add_integral(setup.coordinates, "integral of " + claim->name, cost);
     }
     next += static_cast<std::size_t>(claim->jump_cost.has_value()) +
             static_cast<std::size_t>(claim->factor.has_value()) +
@@ -57,10 +57,10 @@ void add_judged_claims(const StatedClaims& claims, SampledSetup& setup, std::vec
   auto accumulated = integrals.begin();
   std::size_t next = 0;
   const auto take = [&] {
-    return make_function(setup.coordinates.functions[next++], setup.coordinates);
+    return claims::make_function(setup.coordinates.functions[next++], setup.coordinates);
   };
-  for (const LinkedClaim* claim : claims) {
-    JudgedClaim judged;
+  for (const claims::LinkedClaim* claim : claims) {
+    claims::JudgedClaim judged;
     judged.name = claim->name;
     judged.kind = claim->kind;
     judged.value = take();
@@ -85,38 +85,38 @@ void add_judged_claims(const StatedClaims& claims, SampledSetup& setup, std::vec
 /// kind.
 bool add_clocked_flows(SampledSetup& setup) {
   std::vector<Eigen::Index> integrals;
-  for (const JudgedClaim& claim : setup.judged) {
+  for (const claims::JudgedClaim& claim : setup.judged) {
     if (!claim.accumulated) continue;
     if (!claim.flow_cost->quadratic) return false;
     integrals.push_back(*claim.accumulated);
   }
-  setup.flows = std::make_unique<hybrid::ClockedFlows>(*setup.system, setup.scenario,
-                                                       setup.coordinates, integrals);
+  setup.flows = std::make_unique<bounded::ClockedFlows>(*setup.system, setup.scenario,
+                                                        setup.coordinates, integrals);
   return setup.flows->to(kUsualOfMany) != nullptr;
 }
 
 /// None when the dynamics are of another kind.
-std::unique_ptr<const SampledSetup> make_sampled_setup(const model::Instance& instance,
-                                                       const model::Gains& gains,
-                                                       const std::vector<LinkedClaim>& claims) {
+std::unique_ptr<const SampledSetup> make_sampled_setup(
+    const model::Instance& instance, const model::Gains& gains,
+    const std::vector<claims::LinkedClaim>& claims) {
   auto setup = std::make_unique<SampledSetup>();
-  setup->dynamics = hybrid::make_event_system(instance, gains);
-  setup->system = hybrid::make_sampled_system(setup->dynamics);
+  setup->dynamics = hybrid::make_system(instance, gains);
+  setup->system = bounded::make_sampled_system(setup->dynamics);
   if (!setup->system) return nullptr;
-  const hybrid::SampledSystem& system = *setup->system;
-  setup->scenario = hybrid::make_event_scenario(instance.design->campaign, setup->dynamics);
+  const bounded::SampledSystem& system = *setup->system;
+  setup->scenario = hybrid::make_scenario(instance.design->campaign, setup->dynamics);
   if (system.flow) setup->steps.emplace(*system.flow, system.longest, system.flow_place);
   const StatedClaims stated = stated_claims(claims);
-  setup->coordinates = hybrid::make_coordinates(
+  setup->coordinates = bounded::make_coordinates(
       system, hybrid::exact_values(instance, system.constants(), gains), functions_of(stated));
   std::vector<Wide> forms;
   add_judged_claims(stated, *setup, forms);
   if (!setup->steps && !add_clocked_flows(*setup)) return nullptr;
-  std::optional<hybrid::ExactSteps> exact;
-  if (setup->steps) exact = hybrid::exact_steps(setup->coordinates, *setup->steps, forms);
-  setup->narrow = std::make_unique<hybrid::BoundedSystem<double>>(setup->coordinates, exact);
+  std::optional<bounded::ExactSteps> exact;
+  if (setup->steps) exact = bounded::exact_steps(setup->coordinates, *setup->steps, forms);
+  setup->narrow = std::make_unique<bounded::BoundedSystem<double>>(setup->coordinates, exact);
   if (exact)
-    setup->wide = std::make_unique<hybrid::BoundedSystem<DoubleDouble>>(setup->coordinates, exact);
+    setup->wide = std::make_unique<bounded::BoundedSystem<DoubleDouble>>(setup->coordinates, exact);
   return setup;
 }
 

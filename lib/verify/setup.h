@@ -5,34 +5,34 @@
 #include <optional>
 #include <vector>
 
-#include "hybrid/bounded_run.h"
-#include "hybrid/clocked_run.h"
-#include "hybrid/sampled_system.h"
-#include "verify/claim_check.h"
-#include "verify/claims.h"
-#include "verify/event_setup.h"
+#include "bounded/bounded_run.h"
+#include "bounded/clocked_run.h"
+#include "bounded/sampled_system.h"
+#include "claims/claim_check.h"
+#include "claims/claims.h"
+#include "verify/careful_runs.h"
 
 namespace gainsmith::verify {
 
 /// How the runs of sampled dynamics (hybrid/sampled_system.h) are made and judged: with bounds
 /// where the flow is affine, otherwise by flows that all runs share.
 struct SampledSetup {
-  hybrid::EventSystem dynamics;
-  hybrid::EventScenario scenario;
-  std::unique_ptr<const hybrid::SampledSystem> system;
-  std::optional<hybrid::FlowSteps> steps;  ///< of an affine flow
-  hybrid::Coordinates coordinates;         ///< those of the claims that are stated
-  std::vector<JudgedClaim> judged;         ///< the claims that are stated, in order
-  std::unique_ptr<hybrid::BoundedSystem<double>> narrow;
-  std::unique_ptr<hybrid::BoundedSystem<DoubleDouble>> wide;  ///< of an affine flow
-  std::unique_ptr<hybrid::ClockedFlows> flows;                ///< of any other
+  hybrid::System dynamics;
+  hybrid::Scenario scenario;
+  std::unique_ptr<const bounded::SampledSystem> system;
+  std::optional<bounded::FlowSteps> steps;  ///< of an affine flow
+  bounded::Coordinates coordinates;         ///< those of the claims that are stated
+  std::vector<claims::JudgedClaim> judged;  ///< the claims that are stated, in order
+  std::unique_ptr<bounded::BoundedSystem<double>> narrow;
+  std::unique_ptr<bounded::BoundedSystem<DoubleDouble>> wide;  ///< of an affine flow
+  std::unique_ptr<bounded::ClockedFlows> flows;                ///< of any other
 };
 
 struct Setup {
   std::unique_ptr<const EventSetup> events;     ///< the careful run
   std::unique_ptr<const SampledSetup> sampled;  ///< none: all runs are careful
 
-  const std::vector<LinkedClaim>& claims() const { return events->claims; }
+  const std::vector<claims::LinkedClaim>& claims() const { return events->claims; }
   double horizon() const { return events->scenario.horizon; }
   /// Whether the errors of runs are estimates.
   bool integrated() const { return !sampled || !sampled->steps; }
@@ -43,10 +43,10 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance, const m
 
 /// A check for each claim that is stated, in order. The claims and the system must outlive them.
 template <class Scalar>
-std::vector<ClaimCheck<Scalar>> make_checks(const std::vector<JudgedClaim>& claims,
-                                            const hybrid::BoundedSystem<Scalar>& system) {
-  std::vector<ClaimCheck<Scalar>> checks;
-  for (const JudgedClaim& claim : claims) checks.emplace_back(claim, system);
+std::vector<claims::ClaimCheck<Scalar>> make_checks(const std::vector<claims::JudgedClaim>& claims,
+                                                    const bounded::BoundedSystem<Scalar>& system) {
+  std::vector<claims::ClaimCheck<Scalar>> checks;
+  for (const claims::JudgedClaim& claim : claims) checks.emplace_back(claim, system);
   return checks;
 }
 

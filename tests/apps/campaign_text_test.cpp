@@ -12,7 +12,7 @@ std::string summary_with(double rounding) {
   check.name = "cost";
   check.kind = model::ClaimKind::cost;
   check.undecided = 1;
-  check.worst.judgement = verify::Judgement::undecided;
+  check.worst.judgement = claims::Judgement::undecided;
   check.worst.value = 87.4;
   check.worst.bound = 2435;
   check.worst.rounding = rounding;

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hybrid/text_problem.h"
+#include "support/text_problem.h"
 
 namespace gainsmith::hybrid {
 namespace {

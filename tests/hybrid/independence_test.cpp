@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hybrid/event_problem.h"
+#include "support/event_problem.h"
 
 namespace gainsmith::hybrid {
 namespace {

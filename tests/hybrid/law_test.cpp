@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "hybrid/event_scenario.h"
-#include "hybrid/text_problem.h"
+#include "hybrid/scenario.h"
+#include "support/text_problem.h"
 
 namespace gainsmith::hybrid {
 namespace {
@@ -23,14 +23,14 @@ TextProblem plant() {
 
 std::vector<Law> laws(TextProblem& problem) {
   const model::Instance instance = problem.instance();
-  const EventSystem system = make_event_system(instance, problem.gains);
-  return make_event_scenario(instance.design->campaign, system).laws.front();
+  const System system = make_system(instance, problem.gains);
+  return make_scenario(instance.design->campaign, system).laws.front();
 }
 
 std::string error_of(TextProblem& problem) {
   try {
     const model::Instance instance = problem.instance();
-    make_event_scenario(instance.design->campaign, make_event_system(instance, problem.gains));
+    make_scenario(instance.design->campaign, make_system(instance, problem.gains));
   } catch (const InputError& error) {
     return error.what();
   }

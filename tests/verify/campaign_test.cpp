@@ -7,9 +7,9 @@
 
 #include "base/error.h"
 #include "base/progress.h"
-#include "hybrid/text_problem.h"
 #include "support/stop.h"
-#include "verify/event_replay.h"
+#include "support/text_problem.h"
+#include "verify/replay.h"
 
 namespace gainsmith::verify {
 namespace {
@@ -33,9 +33,9 @@ TextProblem row_three() {
   return sampled_data("1.1", column({3.68, -24.47}), column({0.040, -0.364}), scalar(-11.47));
 }
 
-EventReplay replay(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
-                   std::uint64_t run) {
-  return replay_events(instance, gains, seed, run, 0);
+Replay replay(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
+              std::uint64_t run) {
+  return replay_run(instance, gains, seed, run, 0);
 }
 
 Report run(TextProblem& problem, CampaignOptions options = {}) {
@@ -46,8 +46,8 @@ bool same(const Report& a, const Report& b) {
   bool equal = a.verdict == b.verdict && a.violations == b.violations &&
                a.worst_run == b.worst_run && a.checks.size() == b.checks.size();
   for (std::size_t i = 0; equal && i < a.checks.size(); ++i) {
-    const Finding& x = a.checks[i].worst;
-    const Finding& y = b.checks[i].worst;
+    const claims::Finding& x = a.checks[i].worst;
+    const claims::Finding& y = b.checks[i].worst;
     equal = x.score == y.score && x.value == y.value && x.bound == y.bound && x.t == y.t &&
             x.j == y.j && a.checks[i].worst_run == b.checks[i].worst_run &&
             a.checks[i].violations == b.checks[i].violations;
@@ -77,8 +77,7 @@ TEST(Campaign, PublishedRowThreeIsCaughtAtTheLongestInterval) {
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
   EXPECT_EQ(report.violations, 15U);
   EXPECT_EQ(report.worst_run % 2, 1U);
-  const EventReplay again =
-      replay(problem.instance(), problem.gains, report.seed, report.worst_run);
+  const Replay again = replay(problem.instance(), problem.gains, report.seed, report.worst_run);
   EXPECT_TRUE(again.claims[0].finding.violated());
   EXPECT_EQ(again.claims[0].finding.value, report.checks[0].worst.value);
   EXPECT_EQ(again.claims[0].finding.score, report.checks[0].worst.score);
@@ -100,7 +99,7 @@ TEST(Campaign, FlowsThatAreNotAffineAreIntegrated) {
   EXPECT_EQ(violated.verdict, CampaignVerdict::violated);
   EXPECT_EQ(violated.checks[0].violations, 0U);
   EXPECT_EQ(violated.checks[3].violations, 40U);
-  const EventReplay again = replay(dear.instance(), dear.gains, violated.seed, violated.worst_run);
+  const Replay again = replay(dear.instance(), dear.gains, violated.seed, violated.worst_run);
   EXPECT_TRUE(again.claims[3].finding.violated());
   EXPECT_EQ(again.claims[3].finding.value, violated.checks[3].worst.value);
   EXPECT_TRUE(again.claims[3].finding.estimated);
@@ -163,7 +162,7 @@ TEST(Campaign, AJumpAtTheHorizonBelongsToTheRun) {
     problem.start("c", StartKind::expression, {"0"}).start("y", StartKind::expression, {"1"});
     problem.horizon("0.3").nonincreasing("claim", "y");
     EXPECT_EQ(run(problem).verdict, CampaignVerdict::violated) << flow;
-    const EventReplay again = replay(problem.instance(), problem.gains, 1, 0);
+    const Replay again = replay(problem.instance(), problem.gains, 1, 0);
     EXPECT_EQ(again.table(again.table.rows() - 1, 1), 3) << flow;
   }
 }
@@ -241,8 +240,8 @@ TEST(Campaign, UnitsOfTimeChangeNoSampleAndNoVerdict) {
     EXPECT_EQ(kFactor * a.checks[i].worst.t, b.checks[i].worst.t);
   }
   for (std::uint64_t law = 0; law < 5; ++law) {  // each law of the default
-    const EventReplay one = replay(seconds.instance(), seconds.gains, 3, law);
-    const EventReplay two = replay(others.instance(), others.gains, 3, law);
+    const Replay one = replay(seconds.instance(), seconds.gains, 3, law);
+    const Replay two = replay(others.instance(), others.gains, 3, law);
     ASSERT_EQ(one.table.rows(), two.table.rows()) << law;
     EXPECT_EQ(kFactor * one.table.col(0), two.table.col(0)) << law;
     const Eigen::Index states = 2;  // after t and j
@@ -335,7 +334,7 @@ TEST(Campaign, RunThatDivergesViolates) {
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
   EXPECT_EQ(report.unfinished, 3U);
   EXPECT_EQ(report.worst_run, 0U);
-  EXPECT_EQ(report.unfinished_termination, hybrid::Termination::diverged);
+  EXPECT_EQ(report.unfinished_termination, bounded::Termination::diverged);
   EXPECT_EQ(report.violation_probability, 1);
 }
 

@@ -1,12 +1,12 @@
-#include "verify/claim_check.h"
+#include "claims/claim_check.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
 #include <cmath>
 
-#include "hybrid/text_problem.h"
 #include "support/linear_algebra.h"
+#include "support/text_problem.h"
 #include "verify/judge.h"
 
 namespace gainsmith::verify {
@@ -19,7 +19,7 @@ using tests::TextProblem;
 
 /// A run of a problem, its claims judged one by one, and the costs in double.
 struct Checked {
-  std::vector<Finding> findings;
+  std::vector<claims::Finding> findings;
   std::vector<Eigen::VectorXd> costs;
 };
 
@@ -28,8 +28,8 @@ Checked check(TextProblem& problem, std::uint64_t run = 0) {
   Judge judge(*setup);
   Checked result;
   result.findings = judge(1, run).findings;
-  const hybrid::Track<double>& track = judge.track(1, run);
-  for (ClaimCheck<double>& one : judge.checks()) {
+  const bounded::Track<double>& track = judge.track(1, run);
+  for (claims::ClaimCheck<double>& one : judge.checks()) {
     const auto costs = one.running_cost(track);
     Eigen::VectorXd column(static_cast<Eigen::Index>(costs.size()));
     for (std::size_t k = 0; k < costs.size(); ++k)
@@ -122,7 +122,8 @@ TEST(Cost, AFlowCostThatIsNoQuadraticFormIsBounded) {
       problem.cost("J", std::to_string(one.expected * (holds ? 1.02 : 0.98)), one.cost, "0");
       const Checked result = check(problem);
       EXPECT_NEAR(result.costs[0].tail(1)(0), one.expected, 0.02 * one.expected) << one.cost;
-      EXPECT_EQ(result.findings[0].judgement, holds ? Judgement::held : Judgement::violated)
+      EXPECT_EQ(result.findings[0].judgement,
+                holds ? claims::Judgement::held : claims::Judgement::violated)
           << one.cost << " " << result.findings[0].value << " +- " << result.findings[0].rounding;
     }
   }
@@ -143,7 +144,7 @@ TEST(Cost, BoundMustHoldAtEveryInstant) {
 TEST(Nonincreasing, RotationKeepsItsNormWhichIsNotCertain) {
   TextProblem problem = linear_plant("[0, -7; 7, 0]");
   problem.jump({}).horizon("100").nonincreasing("V", "x'*x");
-  const Finding finding = check(problem).findings[0];
+  const claims::Finding finding = check(problem).findings[0];
   EXPECT_TRUE(finding.undecided());
   EXPECT_EQ(finding.digits, kQuadDigits);
   EXPECT_GT(finding.rounding, 0);
@@ -154,7 +155,7 @@ TEST(Nonincreasing, SlowCreepIsSeen) {
   // Each step raises V by less than 1e-9 of it, all of them by 2e-6.
   TextProblem problem = linear_plant("[1e-8, 0; 0, 1e-8]");
   problem.jump({}).horizon("100").nonincreasing("V", "x'*x");
-  const Finding finding = check(problem).findings[0];
+  const claims::Finding finding = check(problem).findings[0];
   EXPECT_TRUE(finding.violated());
   EXPECT_EQ(finding.t, 100);
   EXPECT_NEAR(finding.score, 2e-6, 1e-9);
@@ -163,7 +164,7 @@ TEST(Nonincreasing, SlowCreepIsSeen) {
 TEST(Nonincreasing, RiseOverAJumpIsFoundAtTheJump) {
   TextProblem problem = linear_plant("[-0.1, 0; 0, -0.1]");
   problem.jump({{"x", "3*x"}}).first("0.7").horizon("0.8").nonincreasing("V", "x'*x");
-  const Finding finding = check(problem).findings[0];
+  const claims::Finding finding = check(problem).findings[0];
   EXPECT_TRUE(finding.violated());
   EXPECT_EQ(finding.t, 0.7);
   EXPECT_EQ(finding.j, 1);
@@ -174,7 +175,7 @@ TEST(Nonincreasing, RiseOverAJumpIsFoundAtTheJump) {
 TEST(Nonincreasing, HeldRunSaysWhatIsLeft) {
   TextProblem problem = linear_plant("[-0.1, 0; 0, -0.1]");
   problem.jump({}).horizon("5").nonincreasing("V", "x'*x");
-  const Finding finding = check(problem).findings[0];
+  const claims::Finding finding = check(problem).findings[0];
   EXPECT_FALSE(finding.violated());
   EXPECT_NEAR(finding.score, std::exp(-1) - 1, 1e-13);
 }
@@ -194,7 +195,7 @@ TEST(Shrinks, ComparesTheEndWithTheStart) {
 TEST(Shrinks, StartAtZeroHolds) {
   TextProblem problem = linear_plant("[0, 1; 0, 0]");
   problem.horizon("40").shrinks("grows", "abs(x(1) - 1)", "0.1");
-  const Finding finding = check(problem).findings[0];
+  const claims::Finding finding = check(problem).findings[0];
   EXPECT_FALSE(finding.violated());
   EXPECT_EQ(finding.score, -1);
 }
@@ -204,8 +205,8 @@ TEST(Nonincreasing, DropBelowTheDigitsIsSaid) {
   TextProblem problem = linear_plant("[-1, 0; 0, -1]");
   problem.flow({{"x", "A*x + [1; 1]"}}).jump({}).horizon("100");
   problem.nonincreasing("V", "(x - [1; 1])'*(x - [1; 1])");
-  const Finding finding = check(problem).findings[0];
-  EXPECT_EQ(finding.judgement, Judgement::held);
+  const claims::Finding finding = check(problem).findings[0];
+  EXPECT_EQ(finding.judgement, claims::Judgement::held);
   EXPECT_GT(finding.floor, 0);
   EXPECT_LE(finding.floor, 1e-24);
 }
@@ -213,8 +214,8 @@ TEST(Nonincreasing, DropBelowTheDigitsIsSaid) {
 TEST(Nonincreasing, DropOverHundredsOfDecadesIsSeenInTheErrorItself) {
   TextProblem problem = linear_plant("[-6, 0; 0, -6]");
   problem.jump({}).horizon("30").nonincreasing("V", "x'*x");  // exp(-360) = 5e-157
-  const Finding finding = check(problem).findings[0];
-  EXPECT_EQ(finding.judgement, Judgement::held);
+  const claims::Finding finding = check(problem).findings[0];
+  EXPECT_EQ(finding.judgement, claims::Judgement::held);
   EXPECT_EQ(finding.floor, 0);
   EXPECT_EQ(finding.digits, kDoubleDigits);
 }

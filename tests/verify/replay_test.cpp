@@ -1,11 +1,11 @@
-#include "verify/event_replay.h"
+#include "verify/replay.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "hybrid/text_problem.h"
+#include "support/text_problem.h"
 #include "verify/campaign.h"
 
 namespace gainsmith::verify {
@@ -25,23 +25,23 @@ TextProblem problem_with_claims() {
   return problem;
 }
 
-EventReplay replay(const TextProblem& problem, std::uint64_t seed, std::uint64_t run) {
-  return replay_events(problem.instance(), problem.gains, seed, run, 0);
+Replay replay(const TextProblem& problem, std::uint64_t seed, std::uint64_t run) {
+  return replay_run(problem.instance(), problem.gains, seed, run, 0);
 }
 
-std::vector<std::string> names(const EventReplay& replay) {
+std::vector<std::string> names(const Replay& replay) {
   std::vector<std::string> result;
   for (const Column& column : replay.columns) result.push_back(column.name);
   return result;
 }
 
-Eigen::VectorXd column_of(const EventReplay& replay, const std::string& name) {
+Eigen::VectorXd column_of(const Replay& replay, const std::string& name) {
   const std::vector<std::string> all = names(replay);
   return replay.table.col(std::find(all.begin(), all.end(), name) - all.begin());
 }
 
 TEST(Replay, HasAColumnForEachThing) {
-  const EventReplay result = replay(problem_with_claims(), 1, 4);
+  const Replay result = replay(problem_with_claims(), 1, 4);
   EXPECT_THAT(names(result), ElementsAre("t", "j", "z1", "z2", "zh1", "zh2", "th", "tau", "e1",
                                          "e2", "q", "small", "J"));
   ASSERT_EQ(static_cast<std::size_t>(result.table.cols()), result.columns.size());
@@ -57,8 +57,8 @@ TEST(Replay, FindsWhatTheCampaignFound) {
   const Report report = run_campaign(problem.instance(), problem.gains, {});
   for (std::size_t i = 0; i < report.checks.size(); ++i) {
     const CheckReport& check = report.checks[i];
-    const EventReplay again = replay(problem, report.seed, check.worst_run);
-    const Finding& finding = again.claims[i].finding;
+    const Replay again = replay(problem, report.seed, check.worst_run);
+    const claims::Finding& finding = again.claims[i].finding;
     EXPECT_EQ(again.claims[i].name, check.name);
     EXPECT_EQ(finding.judgement, check.worst.judgement);
     EXPECT_EQ(finding.score, check.worst.score);
@@ -75,7 +75,7 @@ TEST(Replay, FunctionsAreThoseOfTheGainFile) {
   problem.state("x", "scalar").jump({{"x", "F(0.25)*x"}}).timer("1", "1", "1", "1").horizon("2.5");
   problem.signals({{"w", "W(tau)"}}).nonincreasing("V", "W(tau)*x^2");
   problem.start("x", model::StartKind::expression, {"8"});
-  const EventReplay result = replay(problem, 1, 0);
+  const Replay result = replay(problem, 1, 0);
   const double factor = 0.5 - 0.25 + 3 * 0.25 * 0.25;
   const Eigen::VectorXd jumps = column_of(result, "j");
   for (Eigen::Index k = 0; k < result.table.rows(); ++k) {
@@ -89,7 +89,7 @@ TEST(Replay, FunctionsAreThoseOfTheGainFile) {
   EXPECT_EQ(jumps.tail(1)(0), 2);
 
   problem.gains.unknowns.clear();
-  const EventReplay without = replay(problem, 1, 0);
+  const Replay without = replay(problem, 1, 0);
   EXPECT_TRUE(without.claims.empty());
   EXPECT_THAT(names(without), ElementsAre("t", "j", "x", "tau"));
 }

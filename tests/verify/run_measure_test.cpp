@@ -37,7 +37,7 @@ class Measures : public testing::Test {
   }
   static double start_of(const YamlProblem& problem, std::uint64_t run) {
     const auto setup = make_event_setup(problem.instance, {});
-    hybrid::EventSimulator simulator(setup->system, setup->scenario);
+    simulate::Simulator simulator(setup->system, setup->scenario);
     const YamlProblem first(decay("{at: {t: 0}, value: x}"));
     BoundFigure start(*first.instance.design->search->run_figure, *setup);
     return start.of(simulator.run(5, run)).value();

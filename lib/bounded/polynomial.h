@@ -1,0 +1,89 @@
+// Programs as polynomials in what they are made of, so that equal terms cancel exactly.
+//
+//   (A - L*C)*zh + L*C*z  with  zh = z - d   is   A z - A d + L C d
+//
+// because L C z - L C z is nothing here, while A - fl(L C) - fl(A - L C) is not 0 in any arithmetic
+// and would multiply a large z. A polynomial is a sum of words with whole coefficients; a word is a
+// product of atoms: inputs, decimals, and the values of functions that are no sums or products
+// (exp, inv, expm, where, ...). Products of matrices keep their order, 1 x 1 factors commute.
+// Nothing else is used, no numbers of the data: what cancels, cancels for all of them.
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "expr/program.h"
+
+namespace gainsmith::bounded {
+
+/// An atom or its transpose.
+struct Factor {
+  int atom = 0;
+  bool transposed = false;
+  auto operator<=>(const Factor&) const = default;  // NOLINT(modernize-use-nullptr)
+};
+
+/// A product of factors, left to right.
+using Chain = std::vector<Factor>;
+
+/// The product of 1 x 1 atoms, of 1 x 1 chains, and of one chain of the polynomial's shape; an
+/// empty chain of that shape is the identity. No part of a chain that can stand alone is 1 x 1:
+/// L*C*z with a row C is the chain L and the inner chain C z.
+struct Word {
+  std::vector<int> scalars;  ///< sorted
+  std::vector<Chain> inner;  ///< sorted; each the lesser of itself and its transpose
+  Chain chain;
+  auto operator<=>(const Word&) const = default;  // NOLINT(modernize-use-nullptr)
+};
+
+struct Polynomial {
+  expr::Shape shape;
+  std::map<Word, std::int64_t> terms;
+};
+
+/// Polynomials over one table of atoms.
+class Polynomials {
+ public:
+  /// The program's value. std::length_error when it has more than kMostTerms words.
+  static constexpr std::size_t kMostTerms = 2000;
+  Polynomial of(const expr::Program& program);
+
+  /// A program for the polynomial.
+  expr::Program program(const Polynomial& polynomial) const;
+  /// The atom as a program.
+  const expr::Program& atom(int at) const { return atoms_[static_cast<std::size_t>(at)]; }
+  /// How many factors of the word are the input `name`.
+  int degree(const Word& word, const std::string& name) const;
+  /// Every atom of the word once.
+  static std::vector<int> atoms_of(const Word& word);
+
+ private:
+  int atom_of(const expr::Program& program);
+  Polynomial of_atom(int atom);
+  expr::Shape shape_of(const Factor& factor) const;
+  /// Moves the 1 x 1 parts of the chain to the inner chains.
+  void split(Word& word) const;
+  Polynomial multiply(const Polynomial& a, const Polynomial& b, expr::Shape shape) const;
+  static Polynomial transpose(const Polynomial& a);
+  Polynomial of_instruction(const expr::Program& program, std::size_t at,
+                            const std::vector<Polynomial>& values);
+
+  std::vector<expr::Program> atoms_;
+  std::map<std::string, int> known_;
+};
+
+/// The program with inputs replaced by programs of the same shape over its other inputs.
+expr::Program replace_inputs(const expr::Program& program,
+                             const std::map<std::string, expr::Program>& by);
+
+/// The program of a - b.
+expr::Program difference(const expr::Program& a, const expr::Program& b);
+
+/// The program that reads one input.
+expr::Program input_program(const std::string& name, expr::Shape shape);
+
+}  // namespace gainsmith::bounded

@@ -1,0 +1,146 @@
+#include "bounded/sampled_system.h"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+
+namespace gainsmith::bounded {
+
+namespace {
+
+using model::Dynamics;
+using VariableKind = Dynamics::VariableKind;
+
+bool is_one_clock(const Dynamics& dynamics) {
+  if (dynamics.events.size() != 1) return false;
+  const Dynamics::Event& event = dynamics.events.front();
+  return event.kind == Dynamics::EventKind::every && !event.only_if && event.lost == 0;
+}
+
+bool is_plain(const Dynamics::Component& component) {
+  return !component.frozen && component.flow_sets.empty();
+}
+
+bool is_plain(const Dynamics::Variable& variable) {
+  const bool state =
+      variable.kind == VariableKind::state && variable.structure != model::Structure::symmetric;
+  return state || variable.kind == VariableKind::left;
+}
+
+bool is_plain(const Dynamics::Reaction& reaction) {
+  if (reaction.passes.size() != 1) return false;
+  const Dynamics::Pass& pass = reaction.passes.front();
+  return !pass.repeats && !pass.until;
+}
+
+bool is_sampled(const hybrid::System& system) {
+  const Dynamics& dynamics = system.dynamics;
+  const auto all = [](const auto& list) {
+    return std::all_of(list.begin(), list.end(), [](const auto& one) { return is_plain(one); });
+  };
+  return is_one_clock(dynamics) && dynamics.noise.empty() && dynamics.measured.empty() &&
+         system.switches.empty() && all(dynamics.components) && all(dynamics.variables) &&
+         all(dynamics.reactions);
+}
+
+/// The values of the entries at (x, tau = 0); the other elements come from `rest`.
+Eigen::VectorXd values_at(const SampledSystem& system, const std::vector<MapEntry>& map,
+                          const Eigen::VectorXd& x, Eigen::VectorXd rest) {
+  for (const MapEntry& entry : map) {
+    const hybrid::Slot& slot = system.layout.slots[entry.slot];
+    hybrid::PointFunction value(entry.program, system.layout, system.constants());
+    rest.segment(slot.offset, slot.shape.size()) = value(x, 0).reshaped();
+  }
+  return rest;
+}
+
+bool is_exact_flow(const std::vector<MapEntry>& map, const hybrid::StateLayout& layout) {
+  const auto moves = [&](const std::string& name) { return layout.moves(name); };
+  return std::none_of(map.begin(), map.end(), [&](const MapEntry& entry) {
+    return hybrid::first_not_affine(entry.program, moves) != nullptr ||
+           entry.program.uses(layout.timer);
+  });
+}
+
+void find_affine_flow(const std::vector<Place>& places, SampledSystem& system) {
+  const auto& map = system.flow_entries;
+  if (!is_exact_flow(map, system.layout)) return;
+  const Eigen::Index n = system.layout.size;
+  system.flow = hybrid::sample_affine(
+      [&](const Eigen::VectorXd& x) { return values_at(system, map, x, Eigen::VectorXd::Zero(n)); },
+      n);
+  double fastest = 0;
+  for (std::size_t k = 0; k < map.size(); ++k) {
+    const hybrid::Slot& slot = system.layout.slots[map[k].slot];
+    const double size =
+        system.flow->linear.middleRows(slot.offset, slot.shape.size()).cwiseAbs().sum();
+    if (size > fastest) system.flow_place = places[k];
+    fastest = std::max(fastest, size);
+  }
+}
+
+std::optional<hybrid::AffineMap> make_affine_jump(const SampledSystem& system) {
+  const auto moves = [&](const std::string& name) {
+    return name != system.layout.timer && system.layout.moves(name);
+  };
+  for (const MapEntry& entry : system.jump)
+    if (hybrid::first_not_affine(entry.program, moves) != nullptr) return std::nullopt;
+  return hybrid::sample_affine(
+      [&](const Eigen::VectorXd& x) { return values_at(system, system.jump, x, x); },
+      system.layout.size);
+}
+
+void add_variables(SampledSystem& system) {
+  const auto& variables = system.dynamics->dynamics.variables;
+  system.layout.timer = system.dynamics->dynamics.events.front().name + ".left";
+  for (std::size_t k = 0; k < variables.size(); ++k) {
+    if (variables[k].kind == VariableKind::left) {
+      system.layout.timer = variables[k].name;
+      continue;
+    }
+    hybrid::Slot slot = system.dynamics->layout.slots[k];
+    slot.offset = system.layout.size;
+    system.layout.size += slot.shape.size();
+    system.layout.slots.push_back(std::move(slot));
+    system.variable.push_back(k);
+  }
+}
+
+}  // namespace
+
+std::unique_ptr<const SampledSystem> make_sampled_system(const hybrid::System& dynamics) {
+  if (!is_sampled(dynamics)) return nullptr;
+  auto system = std::make_unique<SampledSystem>();
+  system->dynamics = &dynamics;
+  add_variables(*system);
+  const auto slot_of = [&](std::size_t variable) {
+    const auto& all = system->variable;
+    return static_cast<std::size_t>(std::find(all.begin(), all.end(), variable) - all.begin());
+  };
+  std::vector<Place> places;
+  for (const Dynamics::Assignment& one : dynamics.dynamics.flow) {
+    system->flow_entries.push_back({slot_of(one.variable), one.value.program});
+    places.push_back(one.place);
+  }
+  for (const Dynamics::Reaction& reaction : dynamics.dynamics.reactions)
+    for (const Dynamics::Assignment& one : reaction.passes.front().map)
+      system->jump.push_back({slot_of(one.variable), one.value.program});
+  const hybrid::System::Clock& clock = *dynamics.clocks.front();
+  system->longest = std::max(clock.high, clock.first ? clock.first->second : 0);
+  find_affine_flow(places, *system);
+  system->affine_jump = make_affine_jump(*system);
+  return system;
+}
+
+SampledDraws::SampledDraws(const SampledSystem& system, const hybrid::Scenario& scenario,
+                           std::uint64_t seed, std::uint64_t run)
+    : start_(system.layout.size), clocks_(*system.dynamics, scenario, seed, run) {
+  const Eigen::VectorXd all = hybrid::draw_start(*system.dynamics, scenario, seed, run);
+  for (std::size_t k = 0; k < system.variable.size(); ++k) {
+    const hybrid::Slot& slot = system.layout.slots[k];
+    const Eigen::Index from = system.dynamics->layout.slots[system.variable[k]].offset;
+    start_.segment(slot.offset, slot.shape.size()) = all.segment(from, slot.shape.size());
+  }
+}
+
+}  // namespace gainsmith::bounded

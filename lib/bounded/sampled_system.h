@@ -1,0 +1,69 @@
+// Dynamics with one clock and nothing else that makes a jump: what campaigns run with error bounds.
+//
+//   flow, while the timer tau runs down to 0:   x' = f(x, tau),  tau' = -1
+//   jump, when tau = 0:                          x+ = g(x),       tau+ a length of the clock
+//
+// x stacks the states, in the order of the dynamics; tau is what is left of the clock. Whether the
+// flow is M x + b with constant M and b is read from its program: such a flow is exact (steps.h).
+// Jump maps may be any expression. Runs are those of the careful simulator (event_run.h): the same
+// draws, the same maps.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hybrid/affine.h"
+#include "hybrid/scenario.h"
+#include "hybrid/state_layout.h"
+#include "hybrid/system.h"
+
+namespace gainsmith::bounded {
+
+/// One state's derivative, or its value after a jump, as a function of the whole state.
+struct MapEntry {
+  std::size_t slot = 0;
+  expr::Program program;
+};
+
+struct SampledSystem {
+  const hybrid::System* dynamics = nullptr;
+  hybrid::StateLayout layout;         ///< the states, and the name of the timer
+  std::vector<std::size_t> variable;  ///< of the dynamics, of each slot
+  std::vector<MapEntry> flow_entries;
+  std::optional<hybrid::AffineMap> flow;  ///< when it is affine and does not depend on the timer
+  Place flow_place;                       ///< where the fastest part of the flow stands
+  std::vector<MapEntry> jump;             ///< states that change; the others keep their value
+  std::optional<hybrid::AffineMap> affine_jump;  ///< when every entry of `jump` is affine
+  double longest = 0;                            ///< length between jumps, or up to the first one
+
+  const numbers::Values& constants() const { return dynamics->constants; }
+};
+
+/// The same dynamics in this form; none when they are of another kind: other events, conditions,
+/// noise, measured data, modes, losses, texts that ask for the time or branch. The dynamics must
+/// outlive it.
+std::unique_ptr<const SampledSystem> make_sampled_system(const hybrid::System& dynamics);
+
+/// The draws of one run: its first state, and the lengths from jump to jump.
+class SampledDraws {
+ public:
+  SampledDraws(const SampledSystem& system, const hybrid::Scenario& scenario, std::uint64_t seed,
+               std::uint64_t run);
+
+  const Eigen::VectorXd& start() const { return start_; }
+  /// Up to the next jump.
+  double length() const { return clocks_.length(0); }
+  /// The time of the next jump.
+  double due() const { return clocks_.due(0); }
+  /// Whether the next jump belongs to a run up to the horizon.
+  bool is_within(double horizon) const { return clocks_.is_due(0, horizon); }
+  void jumped() { clocks_.advance(0, clocks_.due(0)); }
+
+ private:
+  Eigen::VectorXd start_;
+  hybrid::EventClocks clocks_;
+};
+
+}  // namespace gainsmith::bounded

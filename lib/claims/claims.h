@@ -1,0 +1,40 @@
+// The claims of a method for one gain file.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hybrid/system.h"
+#include "model/design.h"
+
+namespace gainsmith::claims {
+
+/// A claim whose programs call nothing. It is stated when every symbol that they use has a value
+/// and, of `shrinks`, the problem gives the time in which it must: how far an error shrinks says
+/// something only about a time that somebody chose. Otherwise `missing` names what has no value (P1
+/// when the analysis was infeasible, campaign.horizon) and the claim cannot be checked.
+struct LinkedClaim {
+  std::string name;
+  model::ClaimKind kind = model::ClaimKind::nonincreasing;
+  std::vector<std::string> missing;
+  expr::Program value;
+  std::optional<expr::Program> flow_cost;
+  std::optional<expr::Program> jump_cost;
+  std::optional<expr::Program> factor;
+  std::optional<expr::Program> bound;
+  double after = 0;                   ///< the time from which on it is claimed
+  std::optional<std::size_t> over{};  ///< the event just after whose jumps alone it is
+
+  bool stated() const { return missing.empty(); }
+};
+
+/// All claims, in the method's order. InputError for `shrinks` without a factor, a bound that is
+/// missing, and a time `after` that is no number from 0 on.
+std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::System& system);
+
+/// InputError for a claim that begins at the end of the runs or later. `claims`: of the design.
+void check_times(const model::Design& design, const std::vector<LinkedClaim>& claims,
+                 double horizon);
+
+}  // namespace gainsmith::claims

@@ -1,0 +1,230 @@
+#include "claims/run_figures.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "claims/smooth_parts.h"
+#include "numbers/golden_section.h"
+
+namespace gainsmith::claims {
+
+namespace {
+
+using hybrid::DenseStep;
+using hybrid::FlowPiece;
+using hybrid::JumpPoint;
+using hybrid::Trajectory;
+
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();
+
+/// Points of a part of a step at which a value is looked at before it is looked at more closely.
+constexpr int kSamplePoints = 24;
+
+double look(const SmoothPart& part, int k) {
+  return k == kSamplePoints ? part.to : part.from + (part.to - part.from) * k / kSamplePoints;
+}
+
+}  // namespace
+
+FigureOf::FigureOf(model::FigureKind kind, std::optional<RunValue> value,
+                   std::vector<double> numbers, std::size_t event, std::int64_t count, bool after,
+                   std::optional<Eigen::Index> passes)
+    : kind_(kind),
+      value_(std::move(value)),
+      numbers_(std::move(numbers)),
+      event_(event),
+      count_(count),
+      after_(after),
+      passes_(passes) {}
+
+std::optional<double> FigureOf::operator()(const Trajectory& run) {
+  using Kind = model::FigureKind;
+  const auto finite = [](std::optional<double> value) {
+    return value && std::isnan(*value) ? std::nullopt : value;
+  };
+  switch (kind_) {
+    case Kind::at_event:
+      return finite(at_event(run));
+    case Kind::at_time:
+      return finite(at_time(run));
+    case Kind::peak:
+      return finite(extreme(run, 1));
+    case Kind::least:
+      return finite(extreme(run, -1));
+    case Kind::settles: {
+      const double time = settled(run);
+      return std::isinf(time) && !is_complete(run.ending) ? std::nullopt : finite(time);
+    }
+    case Kind::rms:
+      return finite(root_mean_square(run));
+    case Kind::count:
+    case Kind::passes:
+    case Kind::lost:
+      // Of a chain without an end only some jumps are kept.
+      return run.ending == hybrid::Ending::stuck ? std::nullopt : std::optional(number_of(run));
+    case Kind::ended:
+      break;
+  }
+  return std::nullopt;
+}
+
+std::optional<double> FigureOf::at_event(const Trajectory& run) {
+  std::int64_t found = 0;
+  for (const auto& part : run.parts) {
+    const auto* jump = std::get_if<JumpPoint>(&part);
+    if (jump == nullptr || jump->event != event_ || ++found < count_) continue;
+    return value_->number(after_ ? jump->after : jump->before);
+  }
+  return std::nullopt;
+}
+
+std::optional<double> FigureOf::at_time(const Trajectory& run) {
+  const double t = numbers_.front();
+  if (!(t >= 0 && t <= run.end)) return std::nullopt;
+  double value = value_->number(run.start);
+  for (const auto& part : run.parts) {
+    if (const auto* jump = std::get_if<JumpPoint>(&part)) {
+      if (jump->t > t) break;
+      value = value_->number(jump->after);
+      continue;
+    }
+    const auto& flow = std::get<FlowPiece>(part);
+    if (flow.from() > t) break;
+    const auto step = std::find_if(flow.steps.begin(), flow.steps.end(),
+                                   [&](const DenseStep& one) { return t <= one.to; });
+    value = value_->number(step == flow.steps.end() ? flow.end : (*step)(t));
+  }
+  return value;
+}
+
+/// The largest of `most` and the values of a step times `sign`: where a top of a series may lie
+/// above it, by golden section.
+double FigureOf::extreme(const DenseStep& step, double sign, double most) {
+  const auto at = [&](double t) { return sign * value_->number(step(t)); };
+  std::vector<Top> tops;
+  for (const SmoothPart& part : smooth_parts(*value_, step)) {
+    if (part.undefined) return std::numeric_limits<double>::quiet_NaN();
+    add_tops(part, part.from, part.to, sign, tops);
+  }
+  for (const Top& top : tops) {
+    if (top.value + top.rise <= most) continue;
+    most = std::max({most, at(top.t), at(numbers::peak_between(at, top.before, top.after))});
+  }
+  return most;
+}
+
+double FigureOf::extreme(const Trajectory& run, double sign) {
+  double most = sign * value_->number(run.start);
+  for (const auto& part : run.parts) {
+    if (const auto* jump = std::get_if<JumpPoint>(&part)) {
+      most = std::max(most, sign * value_->number(jump->after));
+      continue;
+    }
+    for (const DenseStep& step : std::get<FlowPiece>(part).steps) {
+      most = extreme(step, sign, most);
+      if (std::isnan(most)) return most;
+    }
+  }
+  return sign * most;
+}
+
+/// The last time of a step at which the value is not below a level; minus infinity: never.
+double FigureOf::last_above(const DenseStep& step, double level) {
+  constexpr int kHalvings = 60;
+  const auto above = [&](double t) { return !(value_->number(step(t)) < level); };
+  const auto last_between = [&](double high, double below) {
+    for (int i = 0; i < kHalvings; ++i) {
+      const double middle = high + (below - high) / 2;
+      (above(middle) ? high : below) = middle;
+    }
+    return high;
+  };
+  const auto at = [&](double t) { return value_->number(step(t)); };
+  std::vector<SmoothPart> parts = smooth_parts(*value_, step);
+  for (; !parts.empty(); parts.pop_back()) {
+    const SmoothPart& part = parts.back();
+    std::array<double, kSamplePoints + 1> looks{};
+    for (int k = 0; k <= kSamplePoints; ++k) looks[static_cast<std::size_t>(k)] = at(look(part, k));
+    for (int k = kSamplePoints; k >= 0; --k) {
+      const int before = std::max(k - 1, 0);
+      const int after = std::min(k + 1, kSamplePoints);
+      const double here = looks[static_cast<std::size_t>(k)];
+      if (!(here < level))
+        return k == kSamplePoints ? part.to : last_between(look(part, k), look(part, after));
+      // A top between looks that lie below the level.
+      const double beside =
+          std::min(looks[static_cast<std::size_t>(before)], looks[static_cast<std::size_t>(after)]);
+      const bool is_top = here >= looks[static_cast<std::size_t>(before)] &&
+                          here >= looks[static_cast<std::size_t>(after)];
+      if (!is_top || here + (here - beside) < level) continue;
+      const double top = numbers::peak_between(at, look(part, before), look(part, after));
+      if (above(top)) return last_between(top, look(part, top > look(part, k) ? after : k));
+    }
+  }
+  return -kUnbounded;
+}
+
+double FigureOf::settled(const Trajectory& run) {
+  const double level = numbers_.front();
+  bool last = true;
+  for (std::size_t k = run.parts.size(); k-- > 0; last = false) {
+    if (const auto* jump = std::get_if<JumpPoint>(&run.parts[k])) {
+      if (!(value_->number(jump->after) < level)) return last ? kUnbounded : jump->t;
+      continue;
+    }
+    const auto& flow = std::get<FlowPiece>(run.parts[k]);
+    if (last && !(value_->number(flow.end) < level)) return kUnbounded;
+    for (std::size_t i = flow.steps.size(); i-- > 0;)
+      if (const double t = last_above(flow.steps[i], level); t >= 0) return t;
+  }
+  return value_->number(run.start) < level ? 0 : (run.parts.empty() ? kUnbounded : 0);
+}
+
+/// Gauss' rule with five nodes on pieces of the series of each part.
+std::optional<double> FigureOf::root_mean_square(const Trajectory& run) {
+  constexpr std::array<std::pair<double, double>, 5> kRule = {
+      {{-0.906179845938664, 0.236926885056189},
+       {-0.538469310105683, 0.478628670499366},
+       {0, 0.568888888888889},
+       {0.538469310105683, 0.478628670499366},
+       {0.906179845938664, 0.236926885056189}}};
+  constexpr double kAgreement = 1e-10;
+  const double from = numbers_.front();
+  const double to = numbers_.back();
+  if (!(0 <= from && from < to && to <= run.end * (1 + 1e-12))) return std::nullopt;
+  double sum = 0;
+  visit_steps(run, [&](const DenseStep& step) {
+    if (!(std::max(from, step.from) < std::min(to, step.to))) return;
+    for (const SmoothPart& part : smooth_parts(*value_, step, nullptr, kAgreement)) {
+      const double low = std::max(from, part.from);
+      const auto pieces = static_cast<int>(part.series.size());
+      const double half = (std::min(to, part.to) - low) / (2 * pieces);
+      if (part.undefined) sum = std::numeric_limits<double>::quiet_NaN();
+      for (int piece = 0; half > 0 && piece < pieces; ++piece)
+        for (const auto& [node, weight] : kRule) {
+          const double value = part(low + half * (2 * piece + 1 + node));
+          sum += half * weight * value * value;
+        }
+    }
+  });
+  return std::sqrt(sum / (to - from));
+}
+
+double FigureOf::number_of(const Trajectory& run) const {
+  using Kind = model::FigureKind;
+  double count = 0;
+  for (const auto& part : run.parts) {
+    const auto* jump = std::get_if<JumpPoint>(&part);
+    if (jump == nullptr || jump->event != event_) continue;
+    if (kind_ == Kind::passes)
+      count += passes_ ? jump->after(*passes_) : 0;
+    else
+      count += kind_ == Kind::count || jump->lost ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace gainsmith::claims

@@ -1,0 +1,42 @@
+// Figures of a run (model/figure.h), on its dense output.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "claims/run_values.h"
+
+namespace gainsmith::claims {
+
+/// The number of a figure; infinite where a value never settles. None where the run has none: an
+/// event that did not happen so often, a time beyond its end, a value that is no number. `ended` is
+/// no number. `passes`: the element of the variable that counts them, of a figure that needs it.
+class FigureOf {
+ public:
+  /// `value` and `numbers` as the figure has them, without calls.
+  FigureOf(const model::FigureKind kind, std::optional<RunValue> value, std::vector<double> numbers,
+           std::size_t event, std::int64_t count, bool after, std::optional<Eigen::Index> passes);
+
+  std::optional<double> operator()(const hybrid::Trajectory& run);
+
+ private:
+  std::optional<double> at_event(const hybrid::Trajectory& run);
+  std::optional<double> at_time(const hybrid::Trajectory& run);
+  double extreme(const hybrid::Trajectory& run, double sign);
+  double extreme(const hybrid::DenseStep& step, double sign, double most);
+  double settled(const hybrid::Trajectory& run);
+  double last_above(const hybrid::DenseStep& step, double level);
+  std::optional<double> root_mean_square(const hybrid::Trajectory& run);
+  double number_of(const hybrid::Trajectory& run) const;
+
+  model::FigureKind kind_;
+  std::optional<RunValue> value_;
+  std::vector<double> numbers_;
+  std::size_t event_;
+  std::int64_t count_;
+  bool after_;
+  std::optional<Eigen::Index> passes_;
+};
+
+}  // namespace gainsmith::claims

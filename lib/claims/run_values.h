@@ -1,0 +1,78 @@
+// Values of texts along a run of dynamics with events.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <vector>
+
+#include "hybrid/breaks.h"
+#include "hybrid/trajectory.h"
+#include "numbers/stacked_functions.h"
+
+namespace gainsmith::claims {
+
+/// A text as a function of all variables. The layout, the constants and the program must outlive
+/// it.
+class RunValue {
+ public:
+  /// `program` without calls.
+  RunValue(const expr::Program& program, const hybrid::StateLayout& layout,
+           const numbers::Values& constants);
+
+  /// Not a number where it has no value.
+  const numbers::Matrix& operator()(const Eigen::VectorXd& x);
+  double number(const Eigen::VectorXd& x);
+
+  /// From now on at() and breaks() are along this step: the variables that it uses are computed
+  /// alone.
+  void follow(const hybrid::DenseStep& step);
+  /// The value at t in the step.
+  double at(double t) { return number(point(t)); }
+  /// At t all variables that it uses; others are 0.
+  const Eigen::VectorXd& point(double t);
+  /// Of each of the variables that it uses, the sum of the sizes of its coefficients; others are 0.
+  Eigen::VectorXd sizes() const;
+
+  /// Whether it is smooth along every flow.
+  bool is_smooth() const { return breaks_.none(); }
+  /// Where it is not, on a step.
+  std::vector<ode::Break> breaks(std::vector<double>* near = nullptr) {
+    return breaks_.on([this](double t) -> const Eigen::VectorXd& { return point(t); }, from_, to_,
+                      near);
+  }
+  /// What is 0 there.
+  std::vector<const expr::Program*> differences() const { return breaks_.differences(); }
+  /// Breaks::distance of the k-th.
+  double distance(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r) {
+    return breaks_.distance(k, x, r);
+  }
+
+ private:
+  numbers::StackedFunctions function_;
+  hybrid::Breaks breaks_;
+  numbers::Matrix none_;
+  std::vector<Eigen::Index> used_;  ///< elements of the variables
+  double from_ = 0, to_ = 0;
+  numbers::Matrix followed_;  ///< coefficients of what is used
+  Eigen::VectorXd used_values_, point_;
+};
+
+/// A moment of a run.
+struct Moment {
+  double t = 0;
+  std::int64_t j = 0;
+  const hybrid::JumpPoint* jump = nullptr;  ///< just after it
+  Eigen::VectorXd x;
+};
+
+/// Visits the start, the ends of all flows, points between them and the states after jumps, in
+/// order: the points that are multiples of `step`, or, when it is 0, the ends of the steps of the
+/// integration and their middles.
+void visit(const hybrid::Trajectory& run, double step,
+           const std::function<void(const Moment&)>& seen);
+
+/// Visits the steps of all flows in order.
+void visit_steps(const hybrid::Trajectory& run,
+                 const std::function<void(const hybrid::DenseStep&)>& seen);
+
+}  // namespace gainsmith::claims

@@ -1,0 +1,215 @@
+#include "claims/sample_points.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+
+#include "claims/smooth_parts.h"
+#include "numbers/golden_section.h"
+
+namespace gainsmith::claims {
+
+namespace {
+
+using hybrid::DenseStep;
+using hybrid::FlowPiece;
+
+constexpr int kParts = 32;
+constexpr int kSections = 40;
+/// Of a part beside a jump of a value: two runs to two accuracies jump at times that differ less.
+constexpr double kMargin = 1e-5;
+
+Eigen::VectorXd state_at_time(const FlowPiece& flow, double t) {
+  const auto step = std::find_if(flow.steps.begin(), std::prev(flow.steps.end()),
+                                 [&](const DenseStep& one) { return t <= one.to; });
+  return (*step)(t);
+}
+
+/// Where a value jumps, and where it nearly branches.
+struct Borders {
+  std::vector<double> jumps, near;
+};
+
+/// Whether nothing breaks on a step.
+bool is_whole(const std::vector<SmoothPart>& parts) {
+  return parts.size() == 1 && !parts[0].after_jump && !parts[0].before_jump;
+}
+
+/// A part on which a value does not jump, without the margins beside jumps, from a time on.
+struct Stretch {
+  SmoothPart part;
+  double from = 0;
+  double to = 0;
+};
+
+/// In order, with where the value jumps and where it nearly branches.
+std::vector<Stretch> stretches_of(const FlowPiece& flow, RunValue& function, double after,
+                                  Borders* borders = nullptr, double agreement = 1e-6) {
+  std::vector<Stretch> result;
+  bool jumped = false;  // at the end of the part before
+  for (const DenseStep& step : flow.steps) {
+    if (step.to < after) continue;
+    const std::vector<SmoothPart> parts =
+        smooth_parts(function, step, borders != nullptr ? &borders->near : nullptr, agreement);
+    if (borders != nullptr && !jumped && is_whole(parts)) continue;
+    for (const SmoothPart& part : parts) {
+      if (borders != nullptr && part.after_jump) borders->jumps.push_back(part.from);
+      if (borders != nullptr && part.before_jump) borders->jumps.push_back(part.to);
+      const double aside = kMargin * (part.to - part.from);
+      const bool jumps = part.after_jump || jumped;
+      jumped = part.before_jump;
+      const double from = std::max(jumps ? part.from + aside : part.from, after);
+      const double to = jumped ? part.to - aside : part.to;
+      if (from <= to) result.push_back({part, from, to});
+    }
+  }
+  return result;
+}
+
+/// The ends and middles of the stretches; where its borders are asked for, only of the steps that
+/// have some.
+void add_places(const FlowPiece& flow, RunValue& function, Borders& borders,
+                const std::function<void(double)>& add) {
+  for (const Stretch& one : stretches_of(flow, function, flow.from(), &borders))
+    for (const double t : {one.from, one.from + (one.to - one.from) / 2, one.to}) add(t);
+}
+
+/// The time of a peak; a value that is no number is one.
+double time_of(const SamplePoints::Peak& peak, const FlowPiece& flow, RunValue& function) {
+  std::vector<Top> tops;
+  for (const Stretch& one : stretches_of(flow, function, peak.after)) {
+    if (one.part.undefined) return *one.part.undefined;
+    add_tops(one.part, one.from, one.to, peak.sign, tops);
+  }
+  std::stable_sort(tops.begin(), tops.end(),
+                   [](const Top& a, const Top& b) { return a.value > b.value; });
+  const auto at = [&](double t) { return peak.sign * function.number(state_at_time(flow, t)); };
+  double best = flow.to();
+  double most = -std::numeric_limits<double>::infinity();
+  for (const Top& top : tops) {
+    if (top.value + top.rise <= most) continue;
+    const double refined = numbers::peak_between(at, top.before, top.after, kSections);
+    for (const double t : {top.t, refined})
+      if (const double value = at(t); value > most) {
+        most = value;
+        best = t;
+      }
+  }
+  return best;
+}
+
+/// The lows of a value and the tops after them, where it rises by more than its noise, and than
+/// `noise` of its size, to a size above `floor`. A low is the lowest so far.
+class Rises {
+ public:
+  Rises(double noise, double floor) : noise_(noise), floor_(floor) {}
+
+  /// `size`, `noise`: of the part around.
+  void next(double t, double value, double size, double noise) {
+    if (value < low_) {
+      end();
+      low_ = top_ = value;
+      low_at_ = t;
+      size_ = size;
+      drowned_ = noise;
+    } else if (value > top_) {
+      top_ = value;
+      top_at_ = t;
+      size_ = std::max(size_, size);
+      drowned_ = std::max(drowned_, noise);
+    }
+  }
+
+  const std::vector<double>& end() {
+    constexpr double kPlain = 4;  // two series that meet are both off
+    if (top_at_ > low_at_ && top_ - low_ > noise_ * size_ + kPlain * drowned_ && size_ > floor_)
+      times_.insert(times_.end(), {low_at_, top_at_});
+    top_ = low_;
+    return times_;
+  }
+
+ private:
+  double noise_, floor_;
+  double low_ = std::numeric_limits<double>::infinity();
+  double top_ = low_;
+  double low_at_ = 0, top_at_ = 0;
+  double size_ = 0;     ///< the largest around
+  double drowned_ = 0;  ///< the largest noise around
+  std::vector<double> times_;
+};
+
+/// The ends of a stretch, and where its series turns.
+void add_points(const Stretch& stretch, Rises& rises) {
+  const double size = stretch.part.series.cwiseAbs().sum();
+  std::vector<double> times = turns_of(stretch.part);
+  times.insert(times.begin(), stretch.from);
+  times.push_back(stretch.to);
+  for (const double t : times)
+    if (stretch.from <= t && t <= stretch.to)
+      rises.next(t, stretch.part(t), size, stretch.part.noise);
+}
+
+std::vector<double> rises_of(const SamplePoints::Falling& falling, const FlowPiece& flow,
+                             RunValue& function, const RiseLimits& limits) {
+  std::vector<double> undefined;
+  Rises rises(limits.noise, limits.floor(static_cast<Eigen::Index>(falling.function)));
+  for (const Stretch& one :
+       stretches_of(flow, function, falling.after, nullptr, limits.agreement)) {
+    if (one.part.undefined)
+      undefined.push_back(*one.part.undefined);
+    else
+      add_points(one, rises);
+  }
+  std::vector<double> times = rises.end();
+  times.insert(times.end(), undefined.begin(), undefined.end());
+  return times;
+}
+
+}  // namespace
+
+Eigen::VectorXd state_at(const FlowPiece& flow, double share) {
+  if (share >= 1) return flow.end;
+  return state_at_time(flow, flow.from() + (flow.to() - flow.from()) * share);
+}
+
+std::vector<SamplePoint> points_along(const FlowPiece& flow, const SamplePoints& looks,
+                                      std::vector<RunValue>& functions, const RiseLimits& rises) {
+  const double from = flow.from();
+  const double length = flow.to() - from;
+  std::vector<SamplePoint> result;
+  for (int part = 1; part <= kParts; ++part) {
+    const double share = static_cast<double>(part) / kParts;
+    result.push_back({share, from + length * share});
+  }
+  const auto add = [&](double t, int function) {
+    if (t > from && t < flow.to()) result.push_back({(t - from) / length, t, function});
+  };
+  for (const double t : looks.times) add(t, -1);
+  for (const std::size_t function : looks.along)
+    if (!functions[function].is_smooth()) {
+      Borders borders;
+      add_places(flow, functions[function], borders,
+                 [&](double t) { add(t, static_cast<int>(function)); });
+      const bool is_bounded =
+          std::any_of(looks.peaks.begin(), looks.peaks.end(),
+                      [&](const SamplePoints::Peak& peak) { return peak.function == function; });
+      if (is_bounded)
+        for (const double t : borders.jumps) add(t, static_cast<int>(function));
+      for (const double t : borders.near) add(t, static_cast<int>(function));
+    }
+  for (const SamplePoints::Peak& peak : looks.peaks)
+    if (peak.after < flow.to())
+      add(time_of(peak, flow, functions[peak.function]), static_cast<int>(peak.function));
+  for (const SamplePoints::Falling& one : looks.falling)
+    if (one.after < flow.to()) {
+      for (const double t : rises_of(one, flow, functions[one.function], rises))
+        add(t, static_cast<int>(one.function));
+    }
+  std::stable_sort(result.begin(), result.end(),
+                   [](const SamplePoint& a, const SamplePoint& b) { return a.t < b.t; });
+  return result;
+}
+
+}  // namespace gainsmith::claims

@@ -1,0 +1,189 @@
+#include "claims/smooth_parts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "ode/chebyshev.h"
+
+namespace gainsmith::claims {
+
+namespace {
+
+namespace chebyshev = ode::chebyshev;
+using Eigen::Index;
+using Eigen::RowVectorXd;
+
+constexpr std::array<int, 3> kDegrees = {4, 8, 16};
+constexpr int kDegree = kDegrees.back();
+constexpr std::array<double, 2> kChecks = {-0.617, 0.443};
+constexpr double kRounding = 1e-13;    ///< of its size
+constexpr double kBeside = 1e-11;      ///< of half a part
+constexpr double kVariable = 0x1p-48;  ///< of a variable
+constexpr int kLookAtOne = kDegree + 1 + static_cast<int>(kChecks.size());
+/// Evaluations on one step, after which a text that no polynomial agrees with is left as it is.
+constexpr int kPatience = 1500;
+
+class Halving {
+ public:
+  Halving(RunValue& value, const hybrid::DenseStep& step, double agreement)
+      : value_(value), step_(step), agreement_(agreement), noise_(noise()) {}
+
+  /// Appends the parts of a part; what the first half leaves of the patience is the second one's.
+  void halve(SmoothPart part, int patience, std::vector<SmoothPart>& parts) {
+    const double middle = part.from + (part.to - part.from) / 2;
+    const bool is_shortest = !(part.from < middle && middle < part.to);
+    if (is_known(part) || is_shortest || evaluations_ + kLookAtOne > patience) {
+      parts.push_back(std::move(part));
+      return;
+    }
+    halve({part.from, middle, part.after_jump, false}, evaluations_ + (patience - evaluations_) / 2,
+          parts);
+    halve({middle, part.to, false, part.before_jump}, patience, parts);
+  }
+
+ private:
+  /// Makes its series; whether that is the value, or there is none.
+  bool is_known(SmoothPart& part) {
+    std::array<double, kDegree + 1> values{};
+    std::array<double, kChecks.size()> checks{};
+    for (std::size_t k = 0; k < kChecks.size(); ++k) checks[k] = at(part, kChecks[k]);
+    int before = 0;
+    for (const int degree : kDegrees) {
+      const int apart = kDegree / degree;
+      for (int k = 0; k <= degree; ++k)
+        if (before == 0 || k % 2 == 1)
+          values[static_cast<std::size_t>(apart * k)] = at(part, chebyshev::points(degree)(k));
+      if (part.undefined) return true;
+      before = degree;
+      RowVectorXd seen(degree + 1);
+      for (int k = 0; k <= degree; ++k) seen(k) = values[static_cast<std::size_t>(apart * k)];
+      part.series = chebyshev::coefficients(seen);
+      const double tolerance = agreement_ * (seen.maxCoeff() - seen.minCoeff()) +
+                               kRounding * seen.cwiseAbs().maxCoeff() + noise_;
+      part.noise = tolerance;
+      bool agrees = part.series.tail(2).cwiseAbs().sum() <= tolerance;
+      for (std::size_t k = 0; k < kChecks.size(); ++k)
+        agrees =
+            agrees && std::abs(chebyshev::first(part.series, kChecks[k]) - checks[k]) <= tolerance;
+      if (agrees) return true;
+    }
+    return false;
+  }
+
+  /// What the rounding of the variables makes of the value: at one of two places, as a place on a
+  /// border shows the jump across it.
+  double noise() {
+    return std::fmin(noise_at(chebyshev::outer(kChecks[0], step_.from, step_.to)),
+                     noise_at(chebyshev::outer(kChecks[1], step_.from, step_.to)));
+  }
+
+  /// In some directions.
+  double noise_at(double t) {
+    const Eigen::VectorXd x = value_.point(t);
+    const Eigen::VectorXd sizes = value_.sizes();
+    const double value = value_.number(x);
+    double result = 0;
+    for (const Index period : {1, 2, 4}) {
+      Eigen::VectorXd rounded = x;
+      for (Index e = 0; e < x.size(); ++e)
+        rounded(e) += (e / period % 2 == 0 ? kVariable : -kVariable) * sizes(e);
+      result = std::fmax(result, std::abs(value_.number(rounded) - value));
+    }
+    return result;
+  }
+
+  double at(SmoothPart& part, double x) {
+    ++evaluations_;
+    // At a border itself a sign may be 0, beside it never.
+    const double inside = std::clamp(x, -1 + kBeside, 1 - kBeside);
+    const double t = chebyshev::outer(inside, part.from, part.to);
+    const double value = value_.at(t);
+    if (!std::isfinite(value) && !part.undefined) part.undefined = t;
+    return value;
+  }
+
+  RunValue& value_;
+  const hybrid::DenseStep& step_;
+  double agreement_;
+  double noise_;
+  int evaluations_ = 0;
+};
+
+/// The roots of a series on [-1, 1], the points [low, high] of another: halved until it is monotone
+/// or has none.
+void add_roots(const numbers::Matrix& c, double low, double high, int halvings,
+               std::vector<double>& roots) {
+  const auto excludes = [](const numbers::Matrix& one) {
+    return std::abs(one(0)) > one.rightCols(one.cols() - 1).cwiseAbs().sum();
+  };
+  if (excludes(c)) return;
+  constexpr int kBisections = 50;
+  constexpr int kMostTurnHalvings = 10;
+  if (excludes(chebyshev::derivative(c)) || halvings >= kMostTurnHalvings) {
+    double left = -1;
+    double right = 1;
+    const bool first = chebyshev::first(c, left) > 0;
+    if (first == (chebyshev::first(c, right) > 0)) return;
+    for (int k = 0; k < kBisections; ++k) {
+      const double middle = (left + right) / 2;
+      ((chebyshev::first(c, middle) > 0) == first ? left : right) = middle;
+    }
+    roots.push_back(chebyshev::outer(left, low, high));
+    return;
+  }
+  const double middle = (low + high) / 2;
+  add_roots(chebyshev::part(c, -1, 0), low, middle, halvings + 1, roots);
+  add_roots(chebyshev::part(c, 0, 1), middle, high, halvings + 1, roots);
+}
+
+}  // namespace
+
+std::vector<double> turns_of(const SmoothPart& part) {
+  std::vector<double> times;
+  add_roots(chebyshev::derivative(part.series), -1, 1, 0, times);
+  for (double& t : times) t = chebyshev::outer(t, part.from, part.to);
+  return times;
+}
+
+double SmoothPart::time(int point) const {
+  return chebyshev::outer(-1 + 2.0 * point / (points() - 1), from, to);
+}
+
+double SmoothPart::operator()(double t) const {
+  return chebyshev::first(series, chebyshev::inner(t, from, to));
+}
+
+std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& step,
+                                     std::vector<double>* near, double agreement) {
+  value.follow(step);
+  std::vector<SmoothPart> parts;
+  Halving halving(value, step, agreement);
+  SmoothPart part{step.from, step.to};
+  for (const ode::Break& one : value.breaks(near)) {
+    part.to = one.left;
+    if (part.from < part.to || parts.empty()) halving.halve(part, kPatience, parts);
+    parts.back().before_jump = one.jumps;
+    part = {one.right, step.to, one.jumps};
+  }
+  if (part.from < part.to || parts.empty()) halving.halve(part, kPatience, parts);
+  return parts;
+}
+
+void add_tops(const SmoothPart& part, double from, double to, double sign, std::vector<Top>& tops) {
+  std::vector<double> times;
+  std::vector<double> values;
+  for (int k = 0; k < part.points(); ++k) {
+    times.push_back(std::clamp(part.time(k), from, to));
+    values.push_back(sign * part(times.back()));
+  }
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const std::size_t before = k == 0 ? k : k - 1;
+    const std::size_t after = std::min(k + 1, times.size() - 1);
+    if (values[k] < values[before] || values[k] < values[after]) continue;
+    tops.push_back({values[k], values[k] - std::min(values[before], values[after]), times[k],
+                    times[before], times[after]});
+  }
+}
+
+}  // namespace gainsmith::claims

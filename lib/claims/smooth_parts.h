@@ -1,0 +1,53 @@
+// The parts of a step on which a value is smooth and known from some of its points: those between
+// its breaks (hybrid/breaks.h), halved until a polynomial of degree 4, 8 or 16 through Chebyshev
+// points agrees with the value at two others to a part of what it changes by, or to its rounding.
+// So the parts are as short as the text needs them, whatever the step is as long as: sin(60*t)
+// along a clock. What is narrower than the points of the first polynomials lie apart may hide
+// between them.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "claims/run_values.h"
+
+namespace gainsmith::claims {
+
+struct SmoothPart {
+  double from = 0;
+  double to = 0;
+  bool after_jump = false;   ///< the value jumps just before it
+  bool before_jump = false;  ///< just after it
+  /// The value on [from, to] as a sum of Chebyshev polynomials (hybrid/chebyshev.h).
+  Eigen::RowVectorXd series{};
+  double noise = 0;  ///< how far the series may be off: to what it agrees, and rounding
+  /// A time at which the value is no number; then there is no series.
+  std::optional<double> undefined{};
+
+  /// Points as close as the series needs them, both ends among them.
+  int points() const { return 1 + 4 * static_cast<int>(series.size()); }
+  double time(int point) const;
+  /// The series at t.
+  double operator()(double t) const;
+};
+
+/// In order, at least one. `near`: takes the places at which it nearly branches.
+std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& step,
+                                     std::vector<double>* near = nullptr, double agreement = 1e-6);
+
+/// Where the series of a part turns, in rising order.
+std::vector<double> turns_of(const SmoothPart& part);
+
+/// A point of a series, times a sign, that is not below its neighbours.
+struct Top {
+  double value = 0;
+  double rise = 0;  ///< above the lower of its neighbours
+  double t = 0, before = 0, after = 0;
+};
+
+/// Appends those of a part that has a series, on [from, to] of it.
+void add_tops(const SmoothPart& part, double from, double to, double sign, std::vector<Top>& tops);
+
+}  // namespace gainsmith::claims

@@ -1,0 +1,42 @@
+// What the evaluation of a text in double rounds, and what errors of the variables make of it where
+// it branches, by running error analysis (hybrid/ball.h): two runs that are compared round alike,
+// and may both take the wrong branch.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "bounded/bounded_system.h"
+#include "claims/run_values.h"
+
+namespace gainsmith::claims {
+
+/// Constants with their errors: what is no whole number counts as rounded once, as decimals are.
+bounded::BallsOf<double> rounded_once(const numbers::Values& constants);
+
+/// Of a number as a function of all variables. All arguments must outlive it.
+class TextBall {
+ public:
+  /// `value` is the program as a function.
+  TextBall(const expr::Program& program, RunValue& value, const hybrid::StateLayout& layout,
+           const bounded::BallsOf<double>& constants);
+
+  /// How far the computed value may be from the true one at x; 0 where no bound is known.
+  double rounding(const Eigen::VectorXd& x);
+
+  /// Whether which branch it takes is not certain when the variables may be off by r. Where no
+  /// bound is known, by an estimate with a margin of ten.
+  bool is_open(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+  /// All values that it may have then; infinite where no bound is known.
+  bounded::Bounded<double> hull(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+
+ private:
+  bool is_open(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r);
+
+  RunValue* value_;
+  bounded::BallFunction<double> function_;
+  std::vector<bounded::BallFunction<double>> differences_;
+  Eigen::VectorXd exact_;
+};
+
+}  // namespace gainsmith::claims

@@ -1,0 +1,49 @@
+// The parts of a run beside those of its twin: two runs of one (seed, number) that differ in
+// accuracy and rounding.
+//
+// Where both have the same events at one instant in another order, or with a flow of hardly any
+// length between them, the twin's jumps are taken again in the order of the run, from the twin's
+// values before the first of them: events that do not touch each other are the same in any order,
+// and what they do otherwise shows in the values. So it is where a chain of jumps is longer in one.
+#pragma once
+
+#include <Eigen/Core>
+#include <variant>
+#include <vector>
+
+#include "hybrid/system.h"
+#include "hybrid/trajectory.h"
+#include "simulate/jump_maps.h"
+
+namespace gainsmith::claims {
+
+struct TwinFlow {
+  const hybrid::FlowPiece* flow = nullptr;
+  const hybrid::FlowPiece* twin = nullptr;  ///< none within an instant: it stays as it is
+  Eigen::VectorXd stays;
+
+  /// The twin's values at a share of the flow.
+  Eigen::VectorXd twin_at(double share) const;
+};
+
+struct TwinJump {
+  const hybrid::JumpPoint* jump = nullptr;
+  Eigen::VectorXd twin_before, twin_after;
+  double twin_t = 0;
+};
+
+struct TwinParts {
+  std::vector<std::variant<TwinFlow, TwinJump>> parts;
+  bool whole = false;  ///< false: from there on they have other events
+};
+
+/// Flows that add up to less than this part of a run's time lie within an instant.
+constexpr double kInstantOfRun = 1e-6;
+
+/// Of the difference of a run and its twin: the error of the better one.
+constexpr double kOfDifference = 4;
+
+TwinParts pair_twins(const hybrid::Trajectory& run, const hybrid::Trajectory& twin,
+                     const hybrid::System& system, simulate::JumpMaps& maps);
+
+}  // namespace gainsmith::claims

@@ -1,0 +1,127 @@
+#include "hybrid/event_functions.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/number.h"
+#include "hybrid/affine.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+using ConditionKind = expr::Condition::Kind;
+using Eigen::VectorXd;
+
+}  // namespace
+
+numbers::StackedFunctions stacked(std::vector<const expr::Program*> programs,
+                                  const System& system) {
+  const auto place = [&](const std::string& name) -> std::optional<Eigen::Index> {
+    const auto slot = system.slot(name);
+    if (!slot) return std::nullopt;
+    return system.layout.slots[*slot].offset;
+  };
+  return {std::move(programs), place, system.constants, system.whole};
+}
+
+SystemFunction::SystemFunction(const expr::Program& program, const System& system)
+    : function_(stacked({&program}, system)) {
+  bool flows = false;
+  for (const expr::Input& input : program.inputs) {
+    const auto slot = system.slot(input.name);
+    if (!slot) continue;
+    rests_ = rests_ && system.moves[*slot] == Moves::rests;
+    flows = flows || system.moves[*slot] == Moves::flows;
+  }
+  is_line_ = !rests_ && !flows && first_not_affine(program, [&](const std::string& name) {
+                                    return system.is_moving(name);
+                                  }) == nullptr;
+}
+
+EventFunction::EventFunction(const expr::Program& program, const System& system)
+    : size_(program.shape().size()),
+      waves_(may_wave(program)),
+      value_(program, system),
+      terms_program_(std::make_unique<const expr::Program>(absolute_terms(program))),
+      terms_(*terms_program_, system),
+      breaks_(program, system.layout, system.constants,
+              [&](const std::string& name) { return system.is_moving(name); }) {}
+
+EventCondition::EventCondition(const expr::Condition& condition, const System& system)
+    : text_(condition.text), place_(condition.place) {
+  whole_ = make(condition, system);
+}
+
+EventCondition::Part EventCondition::make(const expr::Condition& condition, const System& system) {
+  Part part;
+  part.kind = condition.kind;
+  if (condition.is_comparison()) {
+    part.comparison = comparisons_.size();
+    comparisons_.push_back(
+        {EventFunction(condition.difference, system), condition.kind, condition.text});
+  }
+  for (const expr::Condition& one : condition.parts) part.parts.push_back(make(one, system));
+  return part;
+}
+
+/// `any` and `all` look at their parts in order and stop where they are decided, so that a part may
+/// guard a later one against having no value.
+template <class Compare>
+Truth EventCondition::truth(const Part& part, const Compare& compare) {
+  if (part.kind == ConditionKind::none) {
+    const Truth inner = truth(part.parts.front(), compare);
+    if (inner == Truth::open) return inner;
+    return inner == Truth::yes ? Truth::no : Truth::yes;
+  }
+  if (part.kind != ConditionKind::all && part.kind != ConditionKind::any)
+    return compare(part.comparison);
+  const Truth decides = part.kind == ConditionKind::all ? Truth::no : Truth::yes;
+  Truth result = part.kind == ConditionKind::all ? Truth::yes : Truth::no;
+  for (const Part& one : part.parts) {
+    const Truth inner = truth(one, compare);
+    if (inner == decides) return decides;
+    if (inner == Truth::open) result = Truth::open;
+  }
+  return result;
+}
+
+bool EventCondition::holds(std::size_t comparison, const VectorXd& values) {
+  Comparison& one = comparisons_[comparison];
+  const auto difference = one.border(values).array();
+  if (one.kind == ConditionKind::positive) return (difference > 0).all();
+  if (one.kind == ConditionKind::nonnegative) return (difference >= 0).all();
+  return (difference == 0).all();
+}
+
+bool EventCondition::operator()(const VectorXd& values) {
+  return truth(whole_, [&](std::size_t comparison) {
+           return holds(comparison, values) ? Truth::yes : Truth::no;
+         }) == Truth::yes;
+}
+
+Truth EventCondition::at_rest(const VectorXd& values) {
+  return truth(whole_, [&](std::size_t comparison) {
+    if (!comparisons_[comparison].border.rests()) return Truth::open;
+    return holds(comparison, values) ? Truth::yes : Truth::no;
+  });
+}
+
+bool EventCondition::if_changed(const VectorXd& values, std::size_t comparison) {
+  return truth(whole_, [&](std::size_t one) {
+           return holds(one, values) != (one == comparison) ? Truth::yes : Truth::no;
+         }) == Truth::yes;
+}
+
+std::string EventCondition::differences(const VectorXd& values) {
+  std::string result;
+  for (Comparison& one : comparisons_) {
+    const numbers::Matrix& difference = one.border(values);
+    if (difference.size() == 0) continue;
+    if (!result.empty()) result += ", ";
+    result += one.text + ": " + brief(difference.minCoeff(), 17);
+  }
+  return result;
+}
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,109 @@
+// Internal to hybrid: texts of an System as functions of the stacked values, one point at a
+// time. The system must outlive them; names are resolved when they are made.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "expr/condition.h"
+#include "hybrid/breaks.h"
+#include "hybrid/system.h"
+#include "numbers/stacked_functions.h"
+
+namespace gainsmith::hybrid {
+
+/// Programs over the variables of a system as one function of all its values.
+numbers::StackedFunctions stacked(std::vector<const expr::Program*> programs, const System& system);
+
+class SystemFunction {
+ public:
+  SystemFunction(const expr::Program& program, const System& system);
+
+  /// The value; it stands until the next call. EvaluationError when an operation has no result.
+  const numbers::Matrix& operator()(const Eigen::VectorXd& values) { return function_(values); }
+
+  /// Whether it is the same all along a flow.
+  bool rests() const { return rests_; }
+  /// Whether it is affine in t and other variables of steady rate, and uses no other that move.
+  bool is_line() const { return is_line_; }
+
+ private:
+  bool rests_ = true;
+  bool is_line_ = false;
+  numbers::StackedFunctions function_;
+};
+
+/// A function whose sign matters, with the sizes of the terms that it is the sum of: its rounding
+/// is that of its terms.
+class EventFunction {
+ public:
+  EventFunction(const expr::Program& program, const System& system);
+
+  const numbers::Matrix& operator()(const Eigen::VectorXd& values) { return value_(values); }
+  /// The sums of the terms' absolute values, element by element.
+  const numbers::Matrix& terms(const Eigen::VectorXd& values) { return terms_(values); }
+  /// Between them it is smooth along a flow.
+  Breaks& breaks() { return breaks_; }
+  bool rests() const { return value_.rests(); }
+  bool is_line() const { return value_.is_line(); }
+  /// may_wave (breaks.h) of it.
+  bool waves() const { return waves_; }
+  Eigen::Index size() const { return size_; }
+
+ private:
+  Eigen::Index size_;
+  bool waves_;
+  SystemFunction value_;
+  std::unique_ptr<const expr::Program> terms_program_;
+  SystemFunction terms_;
+  Breaks breaks_;
+};
+
+enum class Truth { no, yes, open };
+
+class EventCondition {
+ public:
+  struct Comparison {
+    EventFunction border;
+    expr::Condition::Kind kind;
+    std::string text;
+
+    /// Which difference is on the side of the truth, alone: > 0, or >= 0.
+    bool strict() const { return kind == expr::Condition::Kind::positive; }
+  };
+
+  EventCondition(const expr::Condition& condition, const System& system);
+
+  bool operator()(const Eigen::VectorXd& values);
+  /// What a flow from these values on cannot change.
+  Truth at_rest(const Eigen::VectorXd& values);
+  /// Whether it were true if that comparison were as it is not.
+  bool if_changed(const Eigen::VectorXd& values, std::size_t comparison);
+
+  std::vector<Comparison>& comparisons() { return comparisons_; }
+  const std::string& text() const { return text_; }
+  const Place& place() const { return place_; }
+  /// "x(1) = 0.25, q = 1": the differences, for messages.
+  std::string differences(const Eigen::VectorXd& values);
+
+ private:
+  struct Part {
+    expr::Condition::Kind kind = expr::Condition::Kind::all;
+    std::size_t comparison = 0;
+    std::vector<Part> parts;
+  };
+  Part make(const expr::Condition& condition, const System& system);
+  template <class Compare>
+  static Truth truth(const Part& part, const Compare& compare);
+  bool holds(std::size_t comparison, const Eigen::VectorXd& values);
+
+  std::vector<Comparison> comparisons_;
+  Part whole_;
+  std::string text_;
+  Place place_;
+};
+
+}  // namespace gainsmith::hybrid

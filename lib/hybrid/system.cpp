@@ -1,0 +1,339 @@
+#include "hybrid/system.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+#include "base/number.h"
+#include "hybrid/affine.h"
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+using model::Dynamics;
+using Kind = Dynamics::VariableKind;
+
+constexpr std::int64_t kMostPasses = 100000000;
+
+/// Replaces calls in every text of the dynamics that a run evaluates, and sees to it that the texts
+/// use variables and constants only.
+class TextLinker {
+ public:
+  explicit TextLinker(System& system) : system_(system) {}
+
+  void link_all() {
+    Dynamics& dynamics = system_.dynamics;
+    for (Dynamics::Component& one : dynamics.components) {
+      optional(one.frozen);
+      for (Dynamics::Component::FlowSet& flow_set : one.flow_sets) condition(flow_set.where);
+    }
+    for (Dynamics::Assignment& one : dynamics.flow) formula(one.value);
+    for (Dynamics::Event& event : dynamics.events) {
+      optional(event.condition);
+      optional(event.only_if);
+      if (event.crossing) formula(*event.crossing);
+    }
+    for (Dynamics::Reaction& reaction : dynamics.reactions)
+      for (Dynamics::Pass& pass : reaction.passes) {
+        for (Dynamics::Assignment& one : pass.map) formula(one.value);
+        optional(pass.until);
+      }
+  }
+
+ private:
+  void formula(model::Formula& one) { program(one.program, one.place); }
+
+  void optional(std::optional<expr::Condition>& one) {
+    if (one) condition(*one);
+  }
+
+  void condition(expr::Condition& one) {
+    if (one.is_comparison()) program(one.difference, one.place);
+    for (expr::Condition& part : one.parts) condition(part);
+  }
+
+  void program(expr::Program& one, const Place& place) {
+    one = system_.bodies.link(one);
+    for (const expr::Input& input : one.inputs)
+      if (!system_.slot(input.name) && !system_.constants.contains(input.name))
+        throw InputError(place, "there is no value for " + input.name);
+  }
+
+  System& system_;
+};
+
+void stack_variables(System& system) {
+  for (const Dynamics::Variable& variable : system.dynamics.variables) {
+    system.layout.slots.push_back({variable.name, variable.shape, system.size});
+    system.size += variable.shape.size();
+    const bool is_clock =
+        variable.kind == Kind::time || variable.kind == Kind::since || variable.kind == Kind::left;
+    system.moves.push_back(is_clock ? Moves::steady : Moves::rests);
+  }
+  system.whole = system.size;
+}
+
+void hold_flows(System& system) {
+  for (const Dynamics::Assignment& one : system.dynamics.flow)
+    system.moves[one.variable] = Moves::flows;
+  const auto moves = [&](const std::string& name) { return system.is_moving(name); };
+  for (Dynamics::Assignment& one : system.dynamics.flow) {
+    expr::Program held = hold_branches(one.value.program, moves, system.switches);
+    const auto is_branch = [&](const expr::Input& input) {
+      return !one.value.program.uses(input.name);
+    };
+    const bool holds = std::any_of(held.inputs.begin(), held.inputs.end(), is_branch);
+    system.free_flow.push_back(holds ? std::optional(std::move(one.value.program)) : std::nullopt);
+    one.value.program = std::move(held);
+  }
+  for (const Switch& one : system.switches) {
+    system.layout.slots.push_back({one.input, one.difference.shape(), system.whole});
+    system.whole += one.difference.shape().size();
+    system.moves.push_back(Moves::rests);
+  }
+  system.layout.size = system.whole;
+}
+
+/// Tells states of steady rate from others.
+void classify_flows(System& system) {
+  std::vector<std::size_t> steady;
+  for (const Dynamics::Assignment& one : system.dynamics.flow) {
+    const auto& inputs = one.value.program.inputs;
+    if (std::none_of(inputs.begin(), inputs.end(),
+                     [&](const expr::Input& input) { return system.is_moving(input.name); }))
+      steady.push_back(one.variable);
+  }
+  for (const std::size_t variable : steady) system.moves[variable] = Moves::steady;
+  const auto moves = [&](const std::string& name) { return system.is_moving(name); };
+  system.affine = std::all_of(
+      system.dynamics.flow.begin(), system.dynamics.flow.end(),
+      [&](const auto& one) { return first_not_affine(one.value.program, moves) == nullptr; });
+}
+
+System::Clock make_clock(const Dynamics::Event& event, const System& system) {
+  System::Clock clock;
+  clock.low = system.scalar(*event.low);
+  clock.high = event.high ? system.scalar(*event.high) : clock.low;
+  if (!(0 <= clock.low && clock.low <= clock.high && 0 < clock.high && std::isfinite(clock.high)))
+    throw InputError(event.low->place,
+                     fmt::format("the event {} comes after a time in [{}, {}]: expected 0 <= low "
+                                 "<= high and high > 0",
+                                 event.name, brief(clock.low), brief(clock.high)));
+  if (!event.first_low) return clock;
+  const double low = system.scalar(*event.first_low);
+  const double high = event.first_high ? system.scalar(*event.first_high) : low;
+  if (!(0 <= low && low <= high && std::isfinite(high)))
+    throw InputError(event.first_low->place,
+                     fmt::format("the event {} comes first at a time in [{}, {}]: expected 0 <= "
+                                 "low <= high",
+                                 event.name, brief(low), brief(high)));
+  clock.first = {low, high};
+  return clock;
+}
+
+std::vector<double> times_of(const Dynamics::Event& event, const System& system) {
+  std::vector<double> times;
+  for (const model::Formula& formula : event.times) {
+    const numbers::Matrix values = system.value(formula);
+    for (Eigen::Index k = 0; k < values.size(); ++k) {
+      if (!(values(k) >= 0 && std::isfinite(values(k))))
+        throw InputError(formula.place, "the event " + event.name + " is due at " +
+                                            brief(values(k)) + ": expected a time >= 0");
+      times.push_back(values(k));
+    }
+  }
+  times.insert(times.end(), event.rows.begin(), event.rows.end());
+  std::sort(times.begin(), times.end());
+  times.erase(std::unique(times.begin(), times.end()), times.end());
+  return times;
+}
+
+void read_events(System& system) {
+  for (const Dynamics::Event& event : system.dynamics.events) {
+    const bool every = event.kind == Dynamics::EventKind::every;
+    const bool at = event.kind == Dynamics::EventKind::at;
+    system.clocks.push_back(every ? std::optional(make_clock(event, system)) : std::nullopt);
+    system.times.push_back(at ? times_of(event, system) : std::vector<double>{});
+  }
+}
+
+/// The corners of a box [low, high]: elements whose ends differ are low or high, the first turns
+/// fastest.
+std::vector<numbers::Matrix> corners_of(const numbers::Matrix& low, const numbers::Matrix& high,
+                                        const Dynamics::Noise& noise) {
+  constexpr std::size_t kMost = 16;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < low.size(); ++k)
+    if (low(k) != high(k)) free.push_back(k);
+  if (free.size() > kMost)
+    throw InputError(noise.place, fmt::format("the box of {} has 2^{} corners; at most 2^{} are "
+                                              "taken, otherwise give a list of vertices",
+                                              noise.name, free.size(), kMost));
+  std::vector<numbers::Matrix> corners;
+  for (std::size_t corner = 0; corner < std::size_t{1} << free.size(); ++corner) {
+    corners.push_back(low);
+    for (std::size_t k = 0; k < free.size(); ++k)
+      if ((corner >> k & 1U) != 0) corners.back()(free[k]) = high(free[k]);
+  }
+  return corners;
+}
+
+System::NoiseValues noise_values(const Dynamics::Noise& noise, const System& system) {
+  using NoiseKind = Dynamics::NoiseKind;
+  System::NoiseValues made;
+  for (const model::Formula& formula : noise.values) {
+    numbers::Matrix value = system.value(formula);
+    if (value.size() == 1)
+      value = numbers::Matrix::Constant(noise.shape.rows, noise.shape.cols, value(0, 0));
+    made.values.push_back(std::move(value));
+  }
+  const auto& values = made.values;
+  if (noise.kind == NoiseKind::normal && (values.front().array() < 0).any())
+    throw InputError(noise.place, "the deviation of " + noise.name + " is negative");
+  const bool box = noise.kind == NoiseKind::uniform || noise.kind == NoiseKind::corners;
+  if (box && (values.front().array() > values.back().array()).any())
+    throw InputError(noise.place, "the range of " + noise.name + " has low > high");
+  if (noise.kind == NoiseKind::corners)
+    made.values = corners_of(values.front(), values.back(), noise);
+  if (noise.every) made.every = system.scalar(*noise.every);
+  if (made.every && !(*made.every > 0))
+    throw InputError(noise.every->place, noise.name + " is drawn anew after " + brief(*made.every) +
+                                             ": expected a positive time");
+  return made;
+}
+
+void read_noise(System& system) {
+  constexpr std::uint64_t kMostTogether = 1'000'000'000'000'000;
+  std::uint64_t stride = 1;
+  for (const Dynamics::Noise& noise : system.dynamics.noise) {
+    system.noise.push_back(noise_values(noise, system));
+    System::NoiseValues& made = system.noise.back();
+    if (noise.kind != Dynamics::NoiseKind::vertices && noise.kind != Dynamics::NoiseKind::corners)
+      continue;
+    made.stride = stride;
+    if (made.values.size() > kMostTogether / stride)
+      throw InputError(noise.place, "there are more than 1e15 vertices together");
+    stride *= made.values.size();
+  }
+}
+
+/// What a run looks at has to be in the files.
+void check_measured(const System& system) {
+  for (const Dynamics::Measured& one : system.dynamics.measured) {
+    const model::Series& series = *one.series;
+    const bool at_rows = one.event && !system.dynamics.events[*one.event].rows.empty();
+    if (series.times.front() > 0 && !at_rows)
+      throw InputError(one.place, fmt::format("{} has no value at t = 0, where a run begins: the "
+                                              "first row of {} is at {}; `from` says where in "
+                                              "the file a run begins",
+                                              one.name, series.file, brief(series.times.front())));
+    if (!one.event) continue;
+    for (const double t : system.dynamics.events[*one.event].rows)
+      if (!std::binary_search(series.times.begin(), series.times.end(), t))
+        throw InputError(
+            one.place, fmt::format("{} has no row at t = {}, where the event {} is "
+                                   "due: {}",
+                                   one.name, brief(t, 17), system.dynamics.events[*one.event].name,
+                                   series.file));
+  }
+}
+
+void read_passes(System& system) {
+  for (const Dynamics::Reaction& reaction : system.dynamics.reactions) {
+    std::vector<std::int64_t>& most = system.most_passes.emplace_back();
+    for (const Dynamics::Pass& pass : reaction.passes) {
+      most.push_back(pass.repeats ? kMostPasses : 1);
+      if (!pass.repeats || !pass.at_most) continue;
+      const double number = system.scalar(*pass.at_most);
+      if (!(number >= 0 && number <= static_cast<double>(kMostPasses) &&
+            number == std::floor(number)))
+        throw InputError(pass.at_most->place,
+                         "expected a whole number of passes, found " + brief(number, 17));
+      most.back() = static_cast<std::int64_t>(number);
+    }
+  }
+}
+
+/// Whether a program has values that keep still while what it reads moves.
+bool has_levels(const expr::Program& program) {
+  return std::any_of(program.code.begin(), program.code.end(), [](const expr::Instruction& one) {
+    return one.op == expr::Op::sign || one.op == expr::Op::floor || one.op == expr::Op::where;
+  });
+}
+
+/// What moves along a flow is equal to something at single instants, between the numbers.
+void refuse_equations(const expr::Condition& condition, const System& system) {
+  if (condition.kind == expr::Condition::Kind::none) return;
+  for (const expr::Condition& part : condition.parts) refuse_equations(part, system);
+  if (condition.kind != expr::Condition::Kind::zero || has_levels(condition.difference)) return;
+  for (const expr::Input& input : condition.difference.inputs)
+    if (system.is_moving(input.name))
+      throw InputError(condition.place,
+                       fmt::format("'{}' is met in passing, as {} moves along flows: write the "
+                                   "border by <= or >=, or as an event of its own, 'crosses: ...'",
+                                   condition.text, input.name));
+}
+
+}  // namespace
+
+std::optional<std::size_t> System::slot(const std::string& name) const {
+  for (std::size_t i = 0; i < layout.slots.size(); ++i)
+    if (layout.slots[i].name == name) return i;
+  return std::nullopt;
+}
+
+bool System::is_moving(const std::string& name) const {
+  const auto found = slot(name);
+  return found && moves[*found] != Moves::rests;
+}
+
+std::string System::element_name(Eigen::Index element) const {
+  for (const Slot& slot : layout.slots) {
+    const Eigen::Index within = element - slot.offset;
+    if (within < 0 || within >= slot.shape.size()) continue;
+    if (slot.shape.is_scalar()) return slot.name;
+    const Eigen::Index row = within % slot.shape.rows + 1;
+    if (slot.shape.cols == 1) return fmt::format("{}({})", slot.name, row);
+    return fmt::format("{}({}, {})", slot.name, row, within / slot.shape.rows + 1);
+  }
+  return "?";
+}
+
+numbers::Matrix System::value(const model::Formula& formula) const {
+  const expr::Program program = bodies.link(formula.program);
+  for (const expr::Input& input : program.inputs)
+    if (!constants.contains(input.name))
+      throw InputError(formula.place, "there is no value for " + input.name);
+  return numbers::evaluate(program, constants);
+}
+
+System make_system(const model::Dynamics& dynamics, numbers::Values constants,
+                   model::Bodies bodies) {
+  System system;
+  system.dynamics = dynamics;
+  system.constants = std::move(constants);
+  system.bodies = std::move(bodies);
+  stack_variables(system);
+  TextLinker(system).link_all();
+  hold_flows(system);
+  classify_flows(system);
+  read_events(system);
+  read_noise(system);
+  read_passes(system);
+  check_measured(system);
+  for (const model::Dynamics::Event& event : system.dynamics.events)
+    if (event.condition) refuse_equations(*event.condition, system);
+  return system;
+}
+
+System make_system(const model::Instance& instance, const model::Gains& gains) {
+  const model::Design& design = *instance.design;
+  if (!design.dynamics)
+    throw InputError({design.method_file, 0, 0}, "there are no events and no components to run");
+  model::Stated stated = model::state(instance, gains);
+  return make_system(*design.dynamics, std::move(stated.values), std::move(stated.bodies));
+}
+
+}  // namespace gainsmith::hybrid

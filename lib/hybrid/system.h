@@ -1,0 +1,81 @@
+// Dynamics (model/dynamics.h) with values: what the event-driven simulator runs.
+//
+// All variables are stacked in one vector, in the order of the dynamics, columns of each below each
+// other; behind them stand the branches that the flow holds (switches.h). Inside a flow each
+// variable does one of three things:
+//
+//   rests    counts, modes, noise, branches, states without a flow
+//   steady   its rate is made of what rests: t, since, left, and states such as s' = q; its value
+//            is start + rate*(t - start time), never integrated
+//   flows    everything else
+//
+// The whole flow is affine when x' = M x + b with M and b made of what rests: then it is exact.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hybrid/state_layout.h"
+#include "hybrid/switches.h"
+#include "model/dynamics.h"
+#include "model/stated.h"
+
+namespace gainsmith::hybrid {
+
+enum class Moves { rests, steady, flows };
+
+struct System {
+  /// Of an event with `every`.
+  struct Clock {
+    double low = 0;
+    double high = 0;
+    std::optional<std::pair<double, double>> first;  ///< none: one length after the start
+  };
+
+  /// Of one noise: normal: the deviation; uniform: low and high; vertices and corners: the list, of
+  /// which run k takes element k/stride modulo their number. All of its shape.
+  struct NoiseValues {
+    std::vector<numbers::Matrix> values;
+    std::uint64_t stride = 1;
+    std::optional<double> every;
+  };
+
+  model::Dynamics dynamics;  ///< programs without calls, flows with held branches
+  numbers::Values constants;
+  model::Bodies bodies;
+  StateLayout layout;      ///< the variables, then the branches of the switches
+  Eigen::Index size = 0;   ///< of the variables
+  Eigen::Index whole = 0;  ///< of variables and branches
+  std::vector<Switch> switches;
+  /// By flow: its text as it is, where branches of it are held.
+  std::vector<std::optional<expr::Program>> free_flow;
+  std::vector<Moves> moves;                            ///< of each slot of the layout
+  bool affine = false;                                 ///< the whole flow
+  std::vector<std::optional<Clock>> clocks;            ///< by event
+  std::vector<std::vector<double>> times;              ///< by event: of `at`, rising
+  std::vector<NoiseValues> noise;                      ///< by noise
+  std::vector<std::vector<std::int64_t>> most_passes;  ///< by reaction, of each of its maps
+
+  /// The slot of a name, or none.
+  std::optional<std::size_t> slot(const std::string& name) const;
+  /// Whether a name stands for what changes within a flow.
+  bool is_moving(const std::string& name) const;
+  /// "x(2)", "P(1, 2)" or "s".
+  std::string element_name(Eigen::Index element) const;
+  /// The value of a formula of constants. InputError, at its place, when it uses anything else.
+  numbers::Matrix value(const model::Formula& formula) const;
+  double scalar(const model::Formula& formula) const { return value(formula)(0, 0); }
+};
+
+/// InputError, at its place, for a text that uses what has no value, a clock that is not 0 <= low
+/// <= high and high > 0, and numbers of passes that are not whole.
+System make_system(const model::Dynamics& dynamics, numbers::Values constants,
+                   model::Bodies bodies);
+
+/// Of an instance whose design has dynamics, for the gains of one file.
+System make_system(const model::Instance& instance, const model::Gains& gains);
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,361 @@
+#include "judge/draws.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "base/random.h"
+
+namespace gainsmith::judge {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using model::Design;
+using model::Dynamics;
+using model::LawKind;
+using V = Dynamics::VariableKind;
+
+constexpr std::uint32_t kOfStart = 1, kOfFirst = 2, kOfLength = 3, kOfLosses = 4, kOfNoise = 5;
+/// Of the value: another order of the same operations.
+constexpr double kOfValue = 1e-13;
+/// Of the time: occurrences that are one instant; of the horizon: those that are due at it.
+constexpr double kOneInstant = 2e-14;
+constexpr double kNearHorizon = 2e-12;
+/// Drawings that `if` may have spent between two parts of a run.
+constexpr int kMostSpent = 100000;
+
+class Draws {
+ public:
+  Draws(JudgedTexts& texts, const hybrid::Trajectory& run, const DrawnFrom& from, Faults& faults)
+      : texts_(texts), run_(run), from_(from), faults_(faults) {}
+
+  void check() {
+    for (std::size_t v = 0; v < texts_.dynamics.variables.size(); ++v)
+      if (texts_.is(v, V::state) || texts_.is(v, V::mode)) check_start(v);
+    for (std::size_t e = 0; e < texts_.events.size(); ++e) {
+      if (texts_.dynamics.events[e].low) check_clock(e);
+      if (texts_.dynamics.events[e].lost > 0) check_losses(e);
+    }
+    for (std::size_t v = 0; v < texts_.dynamics.variables.size(); ++v)
+      if (texts_.is(v, V::noise)) check_noise(v);
+  }
+
+ private:
+  RandomStream stream(std::uint32_t purpose, std::size_t index) const {
+    const auto word = [](std::uint64_t x, int k) {
+      return static_cast<std::uint32_t>(x >> (32 * k));
+    };
+    const auto key =
+        philox4x32({purpose, word(index, 0), 0, 0}, {word(from_.seed, 0), word(from_.seed, 1)});
+    return {std::uint64_t{key[0]} << 32U | key[1], from_.run};
+  }
+
+  // --- Starts. ---
+
+  void check_start(std::size_t v) {
+    const auto& starts = from_.campaign->starts;
+    const auto start = std::find_if(starts.begin(), starts.end(),
+                                    [&](const Design::Start& one) { return one.state == v; });
+    if (start == starts.end() || texts_.layout.slots[v].shape.size() == 0) return;
+    const VectorXd wanted = start_value(v, *start);
+    const VectorXd here = texts_.part(run_.start, v);
+    faults_.check(0, 0, "starts where it is not drawn: " + texts_.layout.slots[v].name,
+                  (here - wanted).cwiseAbs().maxCoeff(), kOfValue * wanted.cwiseAbs().maxCoeff());
+  }
+
+  VectorXd start_value(std::size_t v, const Design::Start& start) const {
+    const expr::Shape shape = texts_.layout.slots[v].shape;
+    if (start.kind == model::StartKind::list)
+      return texts_.constant(start.values[from_.run % start.values.size()]).reshaped();
+    if (start.kind == model::StartKind::expression) {
+      const model::Formula& formula = start.values.front();
+      Text text(texts_.stated.bodies.link(formula.program), formula.place, texts_.layout,
+                texts_.stated);
+      return text(run_.start).reshaped();
+    }
+    if (start.kind == model::StartKind::ellipsoid) return in_ellipsoid(v, start);
+    const numbers::Matrix low = texts_.constant(start.values[0]);
+    const numbers::Matrix high = texts_.constant(start.values[1]);
+    const auto at = [](const numbers::Matrix& end, Index i, Index j) {
+      return end.size() == 1 ? end(0, 0) : end(i, j);
+    };
+    const bool symmetric = texts_.dynamics.variables[v].structure == model::Structure::symmetric;
+    const RandomStream random = stream(kOfStart, v);
+    numbers::Matrix value(shape.rows, shape.cols);
+    std::uint64_t draw = 0;
+    for (Index j = 0; j < shape.cols; ++j)
+      for (Index i = symmetric ? j : 0; i < shape.rows; ++i) {
+        value(i, j) = at(low, i, j) + (at(high, i, j) - at(low, i, j)) * random.uniform_at(draw++);
+        if (symmetric) value(j, i) = value(i, j);
+      }
+    return value.reshaped();
+  }
+
+  /// c + sqrt(r) inv(L)' b with Q = L L', b uniform in the unit ball.
+  VectorXd in_ellipsoid(std::size_t v, const Design::Start& start) const {
+    const numbers::Matrix Q = texts_.constant(start.values[1]);
+    const double level = texts_.constant(start.values[2])(0, 0);
+    const RandomStream random = stream(kOfStart, v);
+    const Index n = Q.rows();
+    VectorXd b(n);
+    for (Index k = 0; k < n; ++k) {
+      const auto at = static_cast<std::uint64_t>(2 * k);
+      b(k) = normal(random.uniform_at(at), random.uniform_at(at + 1));
+    }
+    const double u = random.uniform_at(static_cast<std::uint64_t>(2 * n));
+    if (b.norm() > 0) b *= std::pow(u, 1.0 / static_cast<double>(n)) / b.norm();
+    const numbers::Matrix L = numbers::Matrix((Q + Q.transpose()) / 2).llt().matrixL();
+    return texts_.constant(start.values[0]).reshaped() +
+           std::sqrt(level) * L.transpose().triangularView<Eigen::Upper>().solve(b);
+  }
+
+  // --- Clocks. ---
+
+  std::vector<const Design::Law*> laws_of(std::size_t event) const {
+    std::vector<const Design::Law*> own, all;
+    for (const Design::Law& law : from_.campaign->laws) {
+      if (law.event == event) own.push_back(&law);
+      if (!law.event) all.push_back(&law);
+    }
+    return own.empty() ? all : own;
+  }
+
+  /// The kind of the law of this run, and the law where the campaign has one.
+  std::pair<LawKind, const Design::Law*> law_of(std::size_t event) const {
+    const auto laws = laws_of(event);
+    if (!laws.empty()) {
+      const Design::Law* law = laws[from_.run % laws.size()];
+      return {law->kind, law};
+    }
+    // Uniform, extremes, sinusoid, always the shortest where it is > 0, always the longest.
+    const bool has_shortest = texts_.events[event].low > 0;
+    const std::uint64_t number = from_.run % (has_shortest ? 5 : 4);
+    if (number == 0) return {LawKind::uniform, nullptr};
+    if (number == 1) return {LawKind::extremes, nullptr};
+    if (number == 2) return {LawKind::sinusoid, nullptr};
+    return {LawKind::constant, nullptr};
+  }
+
+  double length(std::size_t event, std::uint64_t k, double t) const {
+    const double low = texts_.events[event].low;
+    const double high = texts_.events[event].high;
+    const auto [kind, law] = law_of(event);
+    const auto given = [&](std::uint64_t at) {
+      return texts_.constant(law->values[at % law->values.size()])(0, 0);
+    };
+    const auto u = [&] { return stream(kOfLength, event).uniform_at(k); };
+    switch (kind) {
+      case LawKind::uniform:
+        return low + (high - low) * u();
+      case LawKind::extremes:
+        return u() < 0.5 ? low : high;
+      case LawKind::sinusoid:
+        return (high + low) / 2 + (high - low) / 2 * std::sin(t / high);
+      case LawKind::list:
+        return given(k);
+      case LawKind::constant:
+        if (law != nullptr) return given(0);
+        return low > 0 && from_.run % 5 == 3 ? low : high;
+      case LawKind::golden: {
+        const double turns = static_cast<double>(k + 1) * 0.6180339887498949;
+        return low + (high - low) * (turns - std::floor(turns));
+      }
+    }
+    return high;
+  }
+
+  /// When the event is due, up to the end of the run.
+  std::vector<double> due_times(std::size_t event) const {
+    const Dynamics::Event& one = texts_.dynamics.events[event];
+    const EventTexts& texts = texts_.events[event];
+    const bool fixed = texts.low == texts.high;
+    const double last = run_.end * (1 + kNearHorizon);
+    std::uint64_t lengths = 0;
+    double due = 0;
+    if (!fixed && from_.campaign->first) {
+      due = texts_.constant(*from_.campaign->first)(0, 0);
+    } else if (one.first_low) {
+      due = texts.first_low;
+      if (texts.first_low != texts.first_high)
+        due += (texts.first_high - texts.first_low) * stream(kOfFirst, event).uniform_at(0);
+    } else {
+      due = fixed ? texts.low : length(event, lengths++, 0);
+    }
+    const double first = due;
+    std::vector<double> times;
+    while (due <= last) {
+      times.push_back(due);
+      due = fixed ? first + static_cast<double>(times.size()) * texts.low
+                  : due + length(event, lengths++, due);
+    }
+    return times;
+  }
+
+  /// Of a sum of lengths.
+  double slack(std::size_t lengths, double t) const {
+    const double rounding = kOneInstant * t + static_cast<double>(lengths) * time_rounding(t, 0);
+    return t >= run_.horizon ? std::max(rounding, kNearHorizon * t) : rounding;
+  }
+
+  void check_clock(std::size_t event) {
+    const std::vector<double> due = due_times(event);
+    const bool conditional = texts_.dynamics.events[event].only_if.has_value();
+    const std::string what = "jumps when it is not drawn: " + texts_.dynamics.events[event].name;
+    std::size_t next = 0;
+    for (std::size_t k = 0; k < run_.parts.size(); ++k) {
+      const auto* jump = std::get_if<hybrid::JumpPoint>(&run_.parts[k]);
+      if (jump == nullptr || jump->event != event) continue;
+      const double rounding = slack(next, jump->t);
+      while (conditional && next < due.size() && due[next] < jump->t - rounding) ++next;
+      if (next == due.size()) {
+        faults_.add(k, jump->t, what);
+        return;
+      }
+      faults_.check(k, jump->t, what, std::abs(jump->t - due[next]), rounding);
+      ++next;
+    }
+    if (!conditional && next < due.size() && due[next] < run_.end - slack(next, run_.end))
+      faults_.add(run_.parts.size(), due[next],
+                  "does not jump when it is drawn: " + texts_.dynamics.events[event].name);
+  }
+
+  void check_losses(std::size_t event) {
+    const Dynamics::Event& one = texts_.dynamics.events[event];
+    const RandomStream random = stream(kOfLosses, event);
+    std::uint64_t number = 0;
+    int row = 0;
+    for (std::size_t k = 0; k < run_.parts.size(); ++k) {
+      const auto* jump = std::get_if<hybrid::JumpPoint>(&run_.parts[k]);
+      if (jump == nullptr || jump->event != event) continue;
+      const bool lost = random.uniform_at(number++) < one.lost &&
+                        !(one.lost_in_a_row && row >= *one.lost_in_a_row);
+      row = lost ? row + 1 : 0;
+      if (lost != jump->lost)
+        faults_.add(
+            k, jump->t,
+            (lost ? "is not lost as it is drawn: " : "is lost, but not drawn so: ") + one.name);
+    }
+  }
+
+  // --- Noise. ---
+
+  static bool is_taken(const Dynamics::Noise& noise) {
+    return noise.kind == Dynamics::NoiseKind::vertices ||
+           noise.kind == Dynamics::NoiseKind::corners;
+  }
+
+  numbers::Matrix filled(const model::Formula& text, expr::Shape shape) const {
+    const numbers::Matrix value = texts_.constant(text);
+    if (value.size() != 1) return value;
+    return numbers::Matrix::Constant(shape.rows, shape.cols, value(0, 0));
+  }
+
+  /// How many vertices or corners it has.
+  std::uint64_t count_of(const Dynamics::Noise& one) const {
+    if (one.kind == Dynamics::NoiseKind::vertices) return one.values.size();
+    const numbers::Matrix low = filled(one.values[0], one.shape);
+    const numbers::Matrix high = filled(one.values[1], one.shape);
+    return std::uint64_t{1} << static_cast<unsigned>((low.array() != high.array()).count());
+  }
+
+  /// The vertex or corner of this run.
+  VectorXd taken(std::size_t noise) const {
+    std::uint64_t before = 1;
+    for (std::size_t k = 0; k < noise; ++k)
+      if (is_taken(texts_.dynamics.noise[k])) before *= count_of(texts_.dynamics.noise[k]);
+    const Dynamics::Noise& one = texts_.dynamics.noise[noise];
+    std::uint64_t number = from_.run / before % count_of(one);
+    if (one.kind == Dynamics::NoiseKind::vertices)
+      return filled(one.values[number], one.shape).reshaped();
+    const VectorXd high = filled(one.values[1], one.shape).reshaped();
+    VectorXd value = filled(one.values[0], one.shape).reshaped();
+    for (Index k = 0; k < value.size(); ++k) {
+      if (value(k) == high(k)) continue;
+      if (number % 2 == 1) value(k) = high(k);
+      number /= 2;
+    }
+    return value;
+  }
+
+  static double normal(double u, double v) {
+    return std::sqrt(-2 * std::log(1 - u)) * std::cos(2 * std::numbers::pi * v);
+  }
+
+  VectorXd noise_value(std::size_t noise, std::uint64_t drawing) const {
+    const Dynamics::Noise& one = texts_.dynamics.noise[noise];
+    if (is_taken(one)) return taken(noise);
+    const RandomStream random = stream(kOfNoise, noise);
+    const auto size = static_cast<std::uint64_t>(one.shape.size());
+    const bool is_normal = one.kind == Dynamics::NoiseKind::normal;
+    const numbers::Matrix first = texts_.constant(one.values[0]);
+    const auto at = [](const numbers::Matrix& end, Index k) {
+      return end.size() == 1 ? end(0, 0) : end(k);
+    };
+    VectorXd value(one.shape.size());
+    for (std::uint64_t k = 0; k < size; ++k) {
+      const auto element = static_cast<Index>(k);
+      const std::uint64_t number = (drawing * size + k) * (is_normal ? 2 : 1);
+      const double u = random.uniform_at(number);
+      if (is_normal) {
+        value(element) = at(first, element) * normal(u, random.uniform_at(number + 1));
+      } else {
+        const double high = at(texts_.constant(one.values[1]), element);
+        value(element) = at(first, element) + (high - at(first, element)) * u;
+      }
+    }
+    return value;
+  }
+
+  bool is_drawing(std::size_t v, std::uint64_t drawing, const VectorXd& x) const {
+    const VectorXd wanted = noise_value(texts_.dynamics.variables[v].of, drawing);
+    const VectorXd here = texts_.part(x, v);
+    return wanted.size() == 0 ||
+           (here - wanted).cwiseAbs().maxCoeff() <= kOfValue * wanted.cwiseAbs().maxCoeff();
+  }
+
+  void check_noise(std::size_t v) {
+    const std::size_t noise = texts_.dynamics.variables[v].of;
+    const auto event = texts_.dynamics.noise[noise].event;
+    const bool spent = event && texts_.dynamics.events[*event].only_if;
+    const auto& every = texts_.noise[noise].every;
+    std::uint64_t drawing = 0;
+    bool wrong = false;
+    const auto look = [&](std::size_t part, double t, const VectorXd& x, bool drawn) {
+      if (wrong) return;
+      if (every) drawing = static_cast<std::uint64_t>(std::floor(t / *every * (1 + 1e-12)));
+      if (drawn) ++drawing;
+      for (int more = 0; spent && more < kMostSpent && !is_drawing(v, drawing, x); ++more)
+        ++drawing;
+      wrong = !is_drawing(v, drawing, x);
+      if (wrong) faults_.add(part, t, "noise that is not drawn so: " + texts_.layout.slots[v].name);
+    };
+    look(0, 0, run_.start, false);
+    for (std::size_t k = 0; k < run_.parts.size(); ++k) {
+      if (const auto* jump = std::get_if<hybrid::JumpPoint>(&run_.parts[k])) {
+        look(k, jump->t, jump->before, event && *event == jump->event);
+        continue;
+      }
+      const auto& piece = std::get<hybrid::FlowPiece>(run_.parts[k]);
+      look(k, piece.from(), piece.start, false);
+      for (const hybrid::DenseStep& step : piece.steps)
+        if (every || spent) look(k, step.from, step(step.from), false);
+    }
+  }
+
+  JudgedTexts& texts_;
+  const hybrid::Trajectory& run_;
+  const DrawnFrom& from_;
+  Faults& faults_;
+};
+
+}  // namespace
+
+void check_draws(JudgedTexts& texts, const hybrid::Trajectory& trajectory, const DrawnFrom& from,
+                 Faults& faults) {
+  Draws(texts, trajectory, from, faults).check();
+}
+
+}  // namespace gainsmith::judge

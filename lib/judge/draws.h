@@ -1,0 +1,28 @@
+// Internal to the judge (trajectory_judge.h): what a run draws, drawn again from the definition of
+// the streams.
+//
+//   u(p, i, k)   draw k of the stream with the key Philox4x32-10 of (p, i, 0, 0) under the seed,
+//   and
+//                the number of the run; p = 1 start, 2 first, 3 length, 4 lost, 5 noise, and i the
+//                variable, event or noise
+//   start        box: low + (high - low) u, one draw an element, of symmetric states of the lower
+//                triangle; list: element `run` modulo their number
+//   first        low + (high - low) u
+//   length k     by law `run` modulo their number; those of an event count before those of all
+//   lost k       u < probability, and not more than `in_a_row` one after the other
+//   noise k      uniform: low + (high - low) u; normal: deviation sqrt(-2 log(1 - u)) cos(2 pi v)
+//                with two draws an element
+//
+// Occurrences that `if` spends leave no jump: their lengths and drawings are passed over.
+#pragma once
+
+#include "hybrid/trajectory.h"
+#include "judge/faults.h"
+#include "judge/texts.h"
+
+namespace gainsmith::judge {
+
+void check_draws(JudgedTexts& texts, const hybrid::Trajectory& trajectory, const DrawnFrom& from,
+                 Faults& faults);
+
+}  // namespace gainsmith::judge

@@ -1,0 +1,60 @@
+// Internal to the judge (trajectory_judge.h): one recorded step of a flow, integrated again.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "hybrid/trajectory.h"
+#include "judge/texts.h"
+#include "ode/gauss.h"
+
+namespace gainsmith::judge {
+
+/// What of all elements moves in a flow.
+struct MovingElements {
+  std::vector<Eigen::Index> active;  ///< along a text
+  Eigen::VectorXd clocks;            ///< the rate of each element that is a clock, else 0
+};
+
+class StepAgain {
+ public:
+  /// The values of the active elements at the quarters of the step: one column each.
+  using Quarters = numbers::Matrix;
+
+  /// All elements are `x` at the start of the step. `allowed`: of each active element; what is
+  /// found is certain to a tenth of it. All must outlive it.
+  StepAgain(JudgedTexts& texts, const MovingElements& moving, const hybrid::DenseStep& step,
+            const Eigen::VectorXd& x, const Eigen::VectorXd& allowed);
+  StepAgain(const StepAgain&) = delete;  // its integrator points to it
+  StepAgain& operator=(const StepAgain&) = delete;
+
+  /// None where no way comes to an end.
+  std::optional<Quarters> operator()();
+
+ private:
+  /// Two half steps, and a quarter step from the start of each.
+  std::optional<Quarters> halves();
+  /// In ever more Gauss steps, until they change nothing by a tenth of what is allowed.
+  std::optional<Quarters> settled(std::optional<Quarters> coarse);
+  /// In `count` Gauss steps, four or more.
+  std::optional<Quarters> advance(int count);
+  /// Of a step so short that nothing moves by more than a tenth of what is allowed, next to a
+  /// switch of the flow, say, where no method converges.
+  std::optional<Quarters> straight();
+  std::optional<Eigen::VectorXd> gauss(double t, const Eigen::VectorXd& y, double h);
+  void rate(double t, const Eigen::VectorXd& y, Eigen::VectorXd& out);
+  Quarters recorded_quarters() const;
+  Eigen::VectorXd recorded(double t) const { return (*step_)(t)(moving_->active); }
+
+  JudgedTexts* texts_;
+  const MovingElements* moving_;
+  const hybrid::DenseStep* step_;
+  const Eigen::VectorXd* x_;
+  const Eigen::VectorXd* allowed_;
+  double h_;
+  Eigen::VectorXd all_, rates_;
+  ode::GaussIntegrator gauss_;
+};
+
+}  // namespace gainsmith::judge

@@ -1,0 +1,45 @@
+// Internal to hybrid: the exponentials of exact flows (flow.h). They depend on what is frozen, on
+// branches that are held and on values that rest alone, so all flows and runs of one simulator
+// share them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "numbers/matrix.h"
+
+namespace gainsmith::ode {
+
+/// The maps of z' = G z over the parts of the steps of one generator.
+struct ExponentialTable {
+  // Squaring multiplies the rounding of a short step; the wider type pays for it.
+  using WideMatrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
+
+  struct Level {
+    double length = 0;
+    std::vector<WideMatrix> wide;  ///< to each point of the series
+    std::vector<numbers::Matrix> maps;
+  };
+
+  numbers::Matrix generator;
+  double shortest = 0;  ///< the length of level 0
+  int top = 0;          ///< the highest level
+  std::map<int, Level> levels;
+};
+
+class ExponentialTables {
+ public:
+  /// The table of a key; fresh where it is not known. Beyond a number of tables all are forgotten,
+  /// as for noise that never comes back; who holds one keeps it.
+  std::shared_ptr<ExponentialTable>& at(const std::vector<double>& key) {
+    constexpr std::size_t kMost = 256;
+    if (tables_.size() >= kMost && !tables_.contains(key)) tables_.clear();
+    return tables_[key];
+  }
+
+ private:
+  std::map<std::vector<double>, std::shared_ptr<ExponentialTable>> tables_;
+};
+
+}  // namespace gainsmith::ode

@@ -1,0 +1,157 @@
+#include "ode/gauss.h"
+
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace gainsmith::ode {
+
+namespace {
+
+constexpr Eigen::Index kStages = 4;
+constexpr int kFixedPointSteps = 40;
+constexpr int kNewtonSteps = 30;
+
+/// P_0(z) ... P_4(z).
+std::array<double, 5> legendre(double z) {
+  std::array<double, 5> P{1, z, 0, 0, 0};
+  for (std::size_t k = 1; k < 4; ++k) {
+    const auto d = static_cast<double>(k);
+    P[k + 1] = ((2 * d + 1) * z * P[k] - d * P[k - 1]) / (d + 1);
+  }
+  return P;
+}
+
+/// The largest change in units of the tolerance.
+double weighted(const numbers::Matrix& change, const Eigen::VectorXd& tolerance) {
+  if (change.size() == 0) return 0;
+  return (change.array().colwise() / tolerance.array()).abs().maxCoeff();
+}
+
+}  // namespace
+
+GaussTableau gauss_tableau() {
+  GaussTableau tableau;
+  const double near = std::sqrt(3.0 / 7 - 2.0 / 7 * std::sqrt(1.2));
+  const double far = std::sqrt(3.0 / 7 + 2.0 / 7 * std::sqrt(1.2));
+  const Eigen::Vector4d z(-far, -near, near, far);
+  tableau.c = 0.5 * (1 + z.array());
+  const double light = (18 - std::sqrt(30.0)) / 72;
+  const double heavy = (18 + std::sqrt(30.0)) / 72;
+  tableau.b = Eigen::Vector4d(light, heavy, heavy, light);
+  // The Lagrange polynomials in those of Legendre, which are orthogonal on c too:
+  //   l_j = b_j sum_k (2k + 1) P_k(z_j) P_k,  integral of (2k + 1) P_k = (P_{k+1} - P_{k-1}) / 2
+  for (Eigen::Index i = 0; i < kStages; ++i)
+    for (Eigen::Index j = 0; j < kStages; ++j) {
+      const std::array<double, 5> to = legendre(z(i));
+      const std::array<double, 5> of = legendre(z(j));
+      double sum = tableau.c(i);
+      for (std::size_t k = 1; k < 4; ++k) sum += of[k] * (to[k + 1] - to[k - 1]) / 2;
+      tableau.A(i, j) = tableau.b(j) * sum;
+    }
+  tableau.d = tableau.A.transpose().partialPivLu().solve(tableau.b);
+  return tableau;
+}
+
+GaussIntegrator::GaussIntegrator(Eigen::Index size, Rate rate)
+    : tableau_(gauss_tableau()),
+      rate_(std::move(rate)),
+      stages_(size, kStages),
+      rates_(size, kStages),
+      residual_(size, kStages),
+      at_(size),
+      value_(size) {}
+
+std::optional<Eigen::VectorXd> GaussIntegrator::step(double t, const Eigen::VectorXd& x, double h,
+                                                     const Eigen::VectorXd& tolerance,
+                                                     const Guess& guess) {
+  for (Eigen::Index i = 0; i < kStages; ++i) stages_.col(i) = guess(t + tableau_.c(i) * h) - x;
+  if (!fixed_point(t, x, h, tolerance)) {
+    for (Eigen::Index i = 0; i < kStages; ++i) stages_.col(i) = guess(t + tableau_.c(i) * h) - x;
+    if (!newton(t, x, h, tolerance)) return std::nullopt;
+  }
+  return x + stages_ * tableau_.d;
+}
+
+bool GaussIntegrator::residual(double t, const Eigen::VectorXd& x, double h) {
+  try {
+    for (Eigen::Index i = 0; i < kStages; ++i) {
+      at_ = x + stages_.col(i);
+      rate_(t + tableau_.c(i) * h, at_, value_);
+      rates_.col(i) = value_;
+    }
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+  residual_ = h * rates_ * tableau_.A.transpose() - stages_;
+  return residual_.allFinite();
+}
+
+bool GaussIntegrator::fixed_point(double t, const Eigen::VectorXd& x, double h,
+                                  const Eigen::VectorXd& tolerance) {
+  double last = -1;
+  for (int k = 0; k < kFixedPointSteps; ++k) {
+    if (!residual(t, x, h)) return false;
+    const double change = weighted(residual_, tolerance);
+    stages_ += residual_;
+    // A change of ratio q leaves an error of q/(1 - q) times the change.
+    const double q = last > 0 ? change / last : 0.5;
+    if (change == 0 || (q < 1 && change * q / (1 - q) <= 1e-2 && k > 0)) return true;
+    if (k == 0 && change <= 2e-3) return true;
+    if (k > 1 && q > 0.5) return false;
+    last = change;
+  }
+  return false;
+}
+
+numbers::Matrix GaussIntegrator::jacobian(double t, const Eigen::VectorXd& x,
+                                          const Eigen::VectorXd& tolerance) {
+  numbers::Matrix J =
+      numbers::Matrix::Constant(x.size(), x.size(), std::numeric_limits<double>::quiet_NaN());
+  try {
+    Eigen::VectorXd base(x.size());
+    rate_(t, x, base);
+    Eigen::VectorXd moved = x;
+    for (Eigen::Index j = 0; j < x.size(); ++j) {
+      const double delta = 1.5e-8 * std::abs(x(j)) + tolerance(j);
+      moved(j) = x(j) + delta;
+      rate_(t, moved, value_);
+      J.col(j) = (value_ - base) / (moved(j) - x(j));
+      moved(j) = x(j);
+    }
+  } catch (const std::runtime_error&) {
+    return J;
+  }
+  return J;
+}
+
+bool GaussIntegrator::newton(double t, const Eigen::VectorXd& x, double h,
+                             const Eigen::VectorXd& tolerance) {
+  const Eigen::Index n = x.size();
+  const numbers::Matrix J = jacobian(t, x, tolerance);
+  if (!J.allFinite()) return false;
+  numbers::Matrix M = numbers::Matrix::Identity(kStages * n, kStages * n);
+  for (Eigen::Index i = 0; i < kStages; ++i)
+    for (Eigen::Index j = 0; j < kStages; ++j)
+      M.block(i * n, j * n, n, n) -= h * tableau_.A(i, j) * J;
+  const Eigen::PartialPivLU<numbers::Matrix> lu(M);
+  double last = -1;
+  for (int k = 0; k < kNewtonSteps; ++k) {
+    if (!residual(t, x, h)) return false;
+    const Eigen::VectorXd change = lu.solve(residual_.reshaped());
+    if (!change.allFinite()) return false;
+    const numbers::Matrix by_stage = change.reshaped(n, kStages);
+    const double size = weighted(by_stage, tolerance);
+    stages_ += by_stage;
+    const double q = last > 0 ? size / last : 0.5;
+    if (size == 0 || (q < 1 && size * q / (1 - q) <= 1e-2 && k > 0)) return true;
+    if (k > 2 && q >= 1) return false;
+    last = size;
+  }
+  return false;
+}
+
+}  // namespace gainsmith::ode

@@ -1,0 +1,72 @@
+// x' = f(t, x) by SUNDIALS CVODE: steps of its error control, the solution at any time by its dense
+// output.
+//
+// Adams of variable order with fixed-point iterations; where that takes too many steps or does not
+// converge, the flow is stiff and goes on with BDF and Newton's method.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <memory>
+#include <stdexcept>
+#include <string>
+
+namespace gainsmith::ode {
+
+namespace cvode {
+class Solver;
+}
+
+/// A flow that cannot be continued.
+struct IntegrationError : std::runtime_error {
+  IntegrationError(const std::string& message, double at, bool escaped_, bool undefined_ = false)
+      : std::runtime_error(message), t(at), escaped(escaped_), undefined(undefined_) {}
+  double t;
+  bool escaped;    ///< x has grown while the steps fell to nothing
+  bool undefined;  ///< f has no value
+};
+
+class Integrator {
+ public:
+  /// Writes x' at (t, x). What it throws shortens the step; where no step is short enough, it ends
+  /// the integration.
+  using Rate = std::function<void(double t, const Eigen::VectorXd& x, Eigen::VectorXd& rate)>;
+
+  /// Of size 0 there is nothing to integrate.
+  Integrator(Eigen::Index size, Rate rate);
+  Integrator(Integrator&&) noexcept;
+  Integrator& operator=(Integrator&&) noexcept;
+  ~Integrator();
+
+  /// Forgets that a flow was stiff.
+  void reset();
+
+  /// From x at t on. `absolute`: the error of each element that counts as `relative` of it, > 0. f
+  /// is not evaluated after `last`, and no step is longer than `longest`: what lasts less may be
+  /// stepped over.
+  void start(double t, const Eigen::VectorXd& x, double last, double relative,
+             const Eigen::VectorXd& absolute, double longest);
+
+  /// x at t, which is not before the time asked for last and not after `last`. IntegrationError
+  /// where the flow ends before.
+  void advance(double t, Eigen::VectorXd& x);
+
+  /// Over one step x is a polynomial of time.
+  struct Step {
+    double from = 0;
+    double to = 0;
+    int degree = 0;
+  };
+
+  /// Instead of advance(): the next step, of a length that the error control chooses, at most to
+  /// `last`. IntegrationError where the flow ends before.
+  Step step();
+  /// x at a time of the last step.
+  void within(double t, Eigen::VectorXd& x);
+
+ private:
+  std::unique_ptr<cvode::Solver> cvode_;
+  double t_ = 0, last_ = 0;  ///< of a flow of size 0
+};
+
+}  // namespace gainsmith::ode

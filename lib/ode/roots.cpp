@@ -1,0 +1,207 @@
+#include "ode/roots.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "ode/chebyshev.h"
+
+namespace gainsmith::ode {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+using numbers::Matrix;
+
+constexpr int kBorderDegree = 16;
+/// Where the interpolant is compared with g, besides its own last coefficients.
+constexpr std::array<double, 2> kCheckPoints = {-0.617, 0.443};
+constexpr double kAgreement = 1e-13;
+constexpr double kTurnsNear = 1e-10;
+constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
+/// Of the step: what is too short to be a time of its own at t = 0.
+constexpr double kShortestOfStep = 1e-20;
+/// Evaluations of g, beyond which the sides at the points of an interval have to do.
+constexpr int kPatience = 10000;
+constexpr int kMostHalvings = 60;
+
+/// sum_k |c_k|, k > 0.
+double swing(const Matrix& c) { return c.rightCols(c.cols() - 1).cwiseAbs().sum(); }
+
+bool excludes_roots(const Matrix& c, double slack = 0) { return std::abs(c(0)) > swing(c) + slack; }
+
+class RootSearch {
+ public:
+  RootSearch(const RootFunction& border, double from, double to)
+      : border_(border), from_(from), to_(to) {}
+
+  Found run() {
+    scale_ = 0;
+    interval(from_, to_, 0);
+    std::sort(found_.roots.begin(), found_.roots.end(),
+              [](const Root& a, const Root& b) { return a.right < b.right; });
+    return std::move(found_);
+  }
+
+ private:
+  double value(double t) {
+    ++evaluations_;
+    return border_.value(t);
+  }
+  bool side(double g) const { return border_.strict ? g > 0 : g >= 0; }
+  /// How near to 0 a turning point is looked at.
+  double near() const { return std::max(kTurnsNear * scale_, border_.near); }
+  double tolerance() const { return kAgreement * scale_ + border_.noise; }
+  double resolution(double a, double b) const {
+    return 2 * kEpsilon * std::max(std::abs(a), std::abs(b)) + kShortestOfStep * (to_ - from_);
+  }
+
+  /// Roots of g on [a, b].
+  void interval(double a, double b, int halvings) {
+    const VectorXd& points = chebyshev::points(kBorderDegree);
+    VectorXd times(points.size());
+    RowVectorXd values(points.size());
+    for (Index k = 0; k < points.size(); ++k) {
+      times(k) = chebyshev::outer(points(k), a, b);
+      values(k) = value(times(k));
+    }
+    const double largest = values.cwiseAbs().maxCoeff();
+    if (halvings == 0) scale_ = largest;
+    const bool short_enough = b - a <= 4 * resolution(a, b) || halvings >= kMostHalvings;
+    if (largest <= border_.noise || short_enough || evaluations_ > kPatience) {
+      by_sides(times);
+      return;
+    }
+    const Matrix c = chebyshev::coefficients(values);
+    if (agrees(c, a, b)) {
+      part(c, a, b, 0);
+      return;
+    }
+    if (stays_away(values)) return;
+    const double middle = times(kBorderDegree / 2);
+    interval(a, middle, halvings + 1);
+    interval(middle, b, halvings + 1);
+  }
+
+  bool agrees(const Matrix& c, double a, double b) {
+    if (c.rightCols(2).cwiseAbs().sum() > tolerance()) return false;
+    return std::all_of(kCheckPoints.begin(), kCheckPoints.end(), [&](double x) {
+      return std::abs(value(chebyshev::outer(x, a, b)) - chebyshev::first(c, x)) <= tolerance();
+    });
+  }
+
+  /// A function with corners that changes little from point to point, and lies beyond that.
+  bool stays_away(const RowVectorXd& values) const {
+    const double step =
+        (values.rightCols(kBorderDegree) - values.leftCols(kBorderDegree)).cwiseAbs().maxCoeff();
+    const double nearest = values.cwiseAbs().minCoeff();
+    return nearest > 2 * step && nearest > near() && values.minCoeff() * values.maxCoeff() > 0;
+  }
+
+  void by_sides(const VectorXd& times) {
+    for (Index k = 0; k + 1 < times.size(); ++k) between(times(k), times(k + 1));
+  }
+
+  /// Roots of g on [a, b], on which c is its interpolant.
+  void part(const Matrix& c, double a, double b, int halvings) {
+    if (excludes_roots(c, near() + border_.noise)) return;
+    const Matrix slope = chebyshev::derivative(c);
+    const double noise = border_.noise + kEpsilon * scale_;
+    if (excludes_roots(slope) || swing(c) <= noise || halvings >= kMostHalvings) {
+      between(a, b);
+      return;
+    }
+    if (excludes_roots(chebyshev::derivative(slope))) {
+      around_extremum(c, slope, a, b);
+      return;
+    }
+    const double middle = chebyshev::outer(0, a, b);
+    part(chebyshev::part(c, -1, 0), a, middle, halvings + 1);
+    part(chebyshev::part(c, 0, 1), middle, b, halvings + 1);
+  }
+
+  /// Where the slope is monotone: at most two roots.
+  void around_extremum(const Matrix& c, const Matrix& slope, double a, double b) {
+    const double left = chebyshev::first(slope, -1);
+    if ((left > 0) == (chebyshev::first(slope, 1) > 0)) {
+      between(a, b);
+      return;
+    }
+    double low = -1;
+    double high = 1;
+    while (high - low > kEpsilon) {
+      const double x = (low + high) / 2;
+      ((chebyshev::first(slope, x) > 0) == (left > 0) ? low : high) = x;
+    }
+    const double t = std::clamp(chebyshev::outer(low, a, b), a, b);
+    const bool found = between(a, t) | between(t, b);
+    const double g = value(t);
+    // A minimum of |g|: below zero the slope falls, above it rises.
+    const bool towards = (chebyshev::first(c, low) > 0) == (left < 0);
+    if ((found || towards) && std::abs(g) <= near()) found_.turns.push_back({t, g, found});
+  }
+
+  /// The root between a and b where the sides differ.
+  bool between(double a, double b) {
+    const bool first = side(value(a));
+    if (first == side(value(b))) return false;
+    while (b - a > resolution(a, b)) {
+      const double middle = a + (b - a) / 2;
+      if (middle <= a || middle >= b) break;
+      (side(value(middle)) == first ? a : b) = middle;
+    }
+    found_.roots.push_back({a, b});
+    return true;
+  }
+
+  const RootFunction& border_;
+  double from_, to_;
+  double scale_ = 0;  ///< the largest |g| on the step
+  int evaluations_ = 0;
+  Found found_;
+};
+
+}  // namespace
+
+Found find_roots(const RootFunction& border, double from, double to) {
+  return RootSearch(border, from, to).run();
+}
+
+Found find_roots(const RootFunction& border, double from, double to,
+                 const std::vector<Break>& breaks) {
+  if (breaks.empty()) return find_roots(border, from, to);
+  const auto side = [&](double t) {
+    const double g = border.value(t);
+    return border.strict ? g > 0 : g >= 0;
+  };
+  Found all;
+  const auto add = [&](double a, double b) {
+    if (!(a < b)) return;
+    const Found found = find_roots(border, a, b);
+    all.roots.insert(all.roots.end(), found.roots.begin(), found.roots.end());
+    all.turns.insert(all.turns.end(), found.turns.begin(), found.turns.end());
+  };
+  double left = from;
+  for (const Break& one : breaks) {
+    add(left, one.left);
+    if (side(one.left) != side(one.right)) all.roots.push_back(one);
+    left = one.right;
+  }
+  add(left, to);
+  return all;
+}
+
+std::vector<double> first_points(double from, double to) {
+  std::vector<double> times;
+  for (const double x : chebyshev::points(kBorderDegree))
+    times.push_back(chebyshev::outer(x, from, to));
+  for (const double x : kCheckPoints) times.push_back(chebyshev::outer(x, from, to));
+  std::sort(times.begin(), times.end());
+  return times;
+}
+
+}  // namespace gainsmith::ode

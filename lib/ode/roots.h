@@ -1,0 +1,63 @@
+// Internal to hybrid: all places on a step where a function of time comes to be positive or ceases
+// to be.
+//
+//   side(t) = g(t) > 0,  or g(t) >= 0
+//
+// g is interpolated at the Chebyshev points of an interval, which is halved until the interpolant
+// agrees with g to 1e-13 of the largest |g| on the step or to rounding; across a corner of g the
+// halves end at rounding. Of the interpolant every part is left out on which its coefficients
+// exclude a root, and the rest is halved until it is monotone or has one extremum. There the sides
+// of g itself decide, at the ends and at the extremum: so pairs of roots and touches are found down
+// to the rounding of g, and no root is made up.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace gainsmith::ode {
+
+/// side(left) != side(right), and not more than some units in the last place between them.
+struct Root {
+  double left = 0;
+  double right = 0;
+};
+
+/// A turning point of g next to 0: a minimum of |g| without a root, or an extremum between two
+/// roots.
+struct Turn {
+  double t = 0;
+  double value = 0;      ///< of g
+  bool reached = false;  ///< between two roots, or a root itself
+};
+
+struct RootFunction {
+  std::function<double(double)> value;  ///< g; deterministic
+  bool strict = false;                  ///< side: > 0; otherwise >= 0
+  double noise = 0;                     ///< how far rounding may lead g astray
+  double near =
+      0;  ///< turning points as near to 0 as that are told; 1e-10 of the largest |g| always
+};
+
+struct Found {
+  std::vector<Root> roots;  ///< in rising order
+  std::vector<Turn> turns;
+};
+
+/// What `value` throws leaves it.
+Found find_roots(const RootFunction& border, double from, double to);
+
+/// A place where g is not smooth: it lies between two numbers that are next to each other, or
+/// nearly.
+struct Break : Root {
+  bool jumps = false;  ///< otherwise a kink
+};
+
+/// The same of a g that is smooth between breaks, in rising order.
+Found find_roots(const RootFunction& border, double from, double to,
+                 const std::vector<Break>& breaks);
+
+/// The points of [from, to] at which find_roots evaluates g first, in rising order; for callers
+/// that keep values.
+std::vector<double> first_points(double from, double to);
+
+}  // namespace gainsmith::ode

@@ -1,0 +1,31 @@
+// Internal to hybrid: what a function is at the start, the middle and the end of a step.
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+
+namespace gainsmith::ode {
+
+struct StepRange {
+  double low = 0, high = 0;
+
+  template <class Function>
+  StepRange(const Function& function, const std::array<Eigen::VectorXd, 3>& points) {
+    const std::array<double, 3> values = {function(points[0]), function(points[1]),
+                                          function(points[2])};
+    low = *std::min_element(values.begin(), values.end());
+    high = *std::max_element(values.begin(), values.end());
+  }
+
+  /// One that stays away from 0 by so many times what it changes over a step has no root on it.
+  /// `sign`: which side is meant; 0: any.
+  bool is_far_from_zero(double sign = 0) const {
+    constexpr double kFar = 4;
+    const double above = sign >= 0 ? low : -high;
+    const double below = sign == 0 ? -high : above;
+    return std::max(above, below) > kFar * (high - low);
+  }
+};
+
+}  // namespace gainsmith::ode

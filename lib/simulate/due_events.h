@@ -1,0 +1,53 @@
+// Internal to hybrid: which event of an System is due (event_run.h says when).
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "hybrid/scenario.h"
+#include "simulate/event_watch.h"
+#include "simulate/vector_field.h"
+
+namespace gainsmith::simulate {
+
+class DueEvents {
+ public:
+  /// What is known of an event besides its text.
+  struct Mark {
+    bool spent = false;    ///< `when`: not due until its condition has been false
+    int sign = 0;          ///< the last of e that was not 0
+    bool crossed = false;  ///< in the direction of the event, and due
+  };
+
+  DueEvents(const hybrid::System& system, EventWatch& watch, hybrid::EventClocks clocks,
+            double horizon);
+
+  /// At the start of a run.
+  void begin(const Eigen::VectorXd& values, VectorField& field);
+  /// The first that is due. Looking moves marks: a crossing that is seen stays due.
+  std::optional<std::size_t> first(const Eigen::VectorXd& values, double t);
+  /// The occurrence at t is over.
+  void spend(std::size_t event, double t, VectorField& field);
+  /// After its jump: what its own map does to e is no crossing.
+  void jumped(std::size_t event, const Eigen::VectorXd& values);
+
+  bool has_clock(std::size_t event) const;
+  hybrid::EventClocks& clocks() { return clocks_; }
+  /// To look ahead and to come back.
+  std::vector<Mark> marks() const { return marks_; }
+  void set_marks(const std::vector<Mark>& marks) { marks_ = marks; }
+
+ private:
+  bool is_due(std::size_t event, const Eigen::VectorXd& values, double t);
+  int sign_of(std::size_t event, const Eigen::VectorXd& values);
+  void look_at_sign(std::size_t event, int sign);
+
+  const hybrid::System* system_;
+  EventWatch* watch_;
+  hybrid::EventClocks clocks_;
+  double horizon_;
+  std::vector<Mark> marks_;
+};
+
+}  // namespace gainsmith::simulate

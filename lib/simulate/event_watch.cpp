@@ -1,0 +1,157 @@
+#include "simulate/event_watch.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "simulate/crossings_on_step.h"
+
+namespace gainsmith::simulate {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// The first time after t at which the side of an affine function differs, found for its root and
+/// moved on by units in the last place.
+double line_root(const std::function<double(double)>& g, bool strict, double t, double last) {
+  const auto side = [&](double value) { return strict ? value > 0 : value >= 0; };
+  const double first = g(t);
+  const double end = g(last);
+  if (side(first) == side(end) || first == end) return last;
+  double root = std::clamp(t + (last - t) * (first / (first - end)), std::nextafter(t, last), last);
+  double unit = std::max(std::abs(root), last - t) * std::numeric_limits<double>::epsilon();
+  while (root < last && side(g(root)) == side(first)) {
+    root = std::min(root + unit, last);
+    unit *= 2;
+  }
+  return root;
+}
+
+/// Of a turning point beyond a root that of the root, where something may happen.
+double time_of(const ode::Turn& turn, const std::vector<ode::Root>& roots) {
+  double t = turn.t;
+  if (turn.reached)
+    for (const ode::Root& root : roots)
+      if (root.right <= turn.t) t = root.right;
+  return t;
+}
+
+}  // namespace
+
+EventWatch::EventWatch(const hybrid::System& system) : system_(&system) {
+  const auto bound = [&](const std::optional<expr::Condition>& text) {
+    return text ? std::optional<hybrid::EventCondition>(std::in_place, *text, system)
+                : std::nullopt;
+  };
+  for (const model::Dynamics::Event& event : system.dynamics.events) {
+    when.push_back(bound(event.condition));
+    only_if.push_back(bound(event.only_if));
+    crossing.emplace_back();
+    if (event.crossing) crossing.back().emplace(event.crossing->program, system);
+  }
+  for (const model::Dynamics::Component& one : system.dynamics.components)
+    for (const auto& flow_set : one.flow_sets)
+      flow_sets.push_back(
+          {hybrid::EventCondition(flow_set.where, system), flow_set.say, flow_set.place});
+  for (const hybrid::Switch& one : system.switches) switches.emplace_back(one.difference, system);
+}
+
+void EventWatch::comparisons_of(const Role& role, const VectorXd& values, const Visit& visit) {
+  hybrid::EventCondition& condition = *role.condition;
+  if (condition.at_rest(values) != hybrid::Truth::open) return;
+  using Kind = expr::Condition::Kind;
+  for (std::size_t k = 0; k < condition.comparisons().size(); ++k) {
+    hybrid::EventCondition::Comparison& one = condition.comparisons()[k];
+    if (one.border.rests()) continue;
+    visit(one.border, {one.kind != Kind::nonnegative, one.kind != Kind::positive},
+          {role.of, role.index, &condition, k});
+  }
+}
+
+void EventWatch::active_borders(const VectorXd& values, const Visit& visit) {
+  using Of = hybrid::NearTurn::Of;
+  for (std::size_t e = 0; e < when.size(); ++e) {
+    if (when[e]) comparisons_of({Of::when, e, &*when[e], 0}, values, visit);
+    if (crossing[e] && !crossing[e]->rests())
+      visit(*crossing[e], {true, true}, {Of::crossing, e, nullptr, 0});
+  }
+  for (std::size_t s = 0; s < flow_sets.size(); ++s)
+    comparisons_of({Of::flow_set, s, &flow_sets[s].where, 0}, values, visit);
+}
+
+/// Whether it matters on which side of 0 the border is.
+bool EventWatch::decides(const Role& role, const VectorXd& values) {
+  return role.condition == nullptr ||
+         role.condition->if_changed(values, role.comparison) != (*role.condition)(values);
+}
+
+hybrid::EventFunction& EventWatch::border_of(const hybrid::NearTurn& turn) {
+  if (turn.of == hybrid::NearTurn::Of::crossing) return *crossing[turn.index];
+  hybrid::EventCondition& condition =
+      turn.of == hybrid::NearTurn::Of::when ? *when[turn.index] : flow_sets[turn.index].where;
+  return condition.comparisons()[turn.comparison].border;
+}
+
+std::vector<double> EventWatch::crossings(
+    const StepValues& inside, const VectorXd& values, double near,
+    const std::function<void(const hybrid::NearTurn&, bool)>& turn, std::optional<double>* hidden) {
+  std::vector<double> result;
+  StepPoints points(inside);
+  active_borders(values, [&](hybrid::EventFunction& border, Sides sides, const Role& role) {
+    if (border.size() == 0) return;
+    CrossingsOnStep on_step(border, points);
+    for (Index element = 0; element < border.size(); ++element) {
+      if (hidden != nullptr)
+        if (const auto early = on_step.hidden_turn(element); early && early < hidden->value_or(1))
+          *hidden = early;
+      for (const bool strict : {true, false}) {
+        if (!(strict ? sides.above : sides.at_least)) continue;
+        const ode::Found found = on_step.roots(element, strict, near);
+        for (const ode::Root& root : found.roots) result.push_back(root.right);
+        for (const ode::Turn& one : found.turns) {
+          if (!decides(role, inside.at(one.t))) continue;
+          const std::string text = role.condition == nullptr
+                                       ? system_->dynamics.events[role.index].name
+                                       : role.condition->comparisons()[role.comparison].text;
+          turn({role.of, role.index, role.comparison, element, time_of(one, found.roots), one.value,
+                text},
+               one.reached);
+        }
+      }
+    }
+  });
+  std::sort(result.begin(), result.end());
+  return result;
+}
+
+double EventWatch::next_line(const VectorField& field, double t, double last,
+                             const VectorXd& values) {
+  double first = last;
+  VectorXd point = values;
+  const auto look = [&](hybrid::EventFunction& border, Sides sides) {
+    if (!border.is_line()) return;
+    for (Index element = 0; element < border.size(); ++element)
+      for (const bool strict : {true, false}) {
+        if (!(strict ? sides.above : sides.at_least)) continue;
+        const auto g = [&](double at) {
+          point = values;
+          if (at != t) field.fill(at, point);
+          return border(point)(element);
+        };
+        first = std::min(first, line_root(g, strict, t, first));
+      }
+  };
+  active_borders(values, [&](hybrid::EventFunction& border, Sides sides, const Role&) {
+    look(border, sides);
+  });
+  for (std::size_t k = 0; k < switches.size(); ++k) {
+    const hybrid::Switch& one = system_->switches[k];
+    if (!switches[k].rests())
+      look(switches[k], {one.strict, one.kind != hybrid::Switch::Kind::where || !one.strict});
+  }
+  return first;
+}
+
+}  // namespace gainsmith::simulate

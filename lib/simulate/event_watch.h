@@ -1,0 +1,70 @@
+// Internal to hybrid: the texts of an System that decide when something happens, and their
+// borders on a step.
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hybrid/event_functions.h"
+#include "simulate/step_values.h"
+#include "simulate/vector_field.h"
+
+namespace gainsmith::simulate {
+
+class EventWatch {
+ public:
+  struct FlowSet {
+    hybrid::EventCondition where;
+    std::string say;
+    Place place;
+  };
+
+  explicit EventWatch(const hybrid::System& system);
+
+  // By event: `when`, `if`, and e of rises, falls and crosses.
+  std::vector<std::optional<hybrid::EventCondition>> when, only_if;
+  std::vector<std::optional<hybrid::EventFunction>> crossing;
+  std::vector<FlowSet> flow_sets;
+  std::vector<hybrid::EventFunction> switches;
+
+  /// The times just after all crossings on a step, in order, of borders of events and of `while`
+  /// that may decide about something from `values` on, those at the start of the step. `turn` is
+  /// told of turning points within `near` of their terms, and of those that come nearest.
+  /// `hidden`, at the start of a flow: the first CrossingsOnStep::hidden_turn, if any.
+  std::vector<double> crossings(
+      const StepValues& inside, const Eigen::VectorXd& values, double near,
+      const std::function<void(const hybrid::NearTurn&, bool reached)>& turn,
+      std::optional<double>* hidden = nullptr);
+
+  /// The border that a turning point is of.
+  hybrid::EventFunction& border_of(const hybrid::NearTurn& turn);
+
+  /// The first time in (t, last] at which a border that is affine in what is steady is crossed;
+  /// `last` when there is none.
+  double next_line(const VectorField& field, double t, double last, const Eigen::VectorXd& values);
+
+ private:
+  struct Sides {
+    bool above = false;     ///< > 0
+    bool at_least = false;  ///< >= 0
+  };
+  /// What a border decides about; the condition is none of a crossing.
+  struct Role {
+    hybrid::NearTurn::Of of;
+    std::size_t index;
+    hybrid::EventCondition* condition;
+    std::size_t comparison;
+  };
+  using Visit = std::function<void(hybrid::EventFunction&, Sides, const Role&)>;
+
+  void active_borders(const Eigen::VectorXd& values, const Visit& visit);
+  static void comparisons_of(const Role& role, const Eigen::VectorXd& values, const Visit& visit);
+  static bool decides(const Role& role, const Eigen::VectorXd& values);
+
+  const hybrid::System* system_;
+};
+
+}  // namespace gainsmith::simulate

@@ -1,0 +1,240 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "base/number.h"
+#include "numbers/balance.h"
+#include "numbers/dense.h"
+#include "ode/chebyshev.h"
+#include "ode/integrator.h"
+#include "simulate/flow.h"
+
+namespace gainsmith::simulate {
+
+namespace {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using numbers::Matrix;
+
+using WideMatrix = ode::ExponentialTable::WideMatrix;
+using Level = ode::ExponentialTable::Level;
+
+constexpr int kExactDegree = 12;
+constexpr int kMostDoublings = 60;
+constexpr double kStepNorm = 0.5;
+/// Of the sizes that are added up at a point: what the last terms of a series may amount to.
+constexpr double kSeriesRounding = 64 * std::numeric_limits<double>::epsilon();
+/// Of the largest value in a flow: what has died down so far is followed no more.
+constexpr double kDied = 1e-20;
+
+/// expm(length G) where length ||G|| <= 1/2 in balanced units; 24 terms leave less than 1e-31.
+WideMatrix short_step(const WideMatrix& G, long double length) {
+  constexpr int kTerms = 24;
+  WideMatrix term = WideMatrix::Identity(G.rows(), G.cols());
+  WideMatrix sum = term;
+  for (int k = 1; k <= kTerms; ++k) {
+    term = (term.lazyProduct(G) * (length / k)).eval();
+    sum += term;
+  }
+  return sum;
+}
+
+class ExactFlow : public Flow {
+ public:
+  ExactFlow(VectorField& field, double longest, const hybrid::LastPlaces* moved)
+      : field_(&field), longest_(longest), moved_(moved) {}
+
+  void start(double t, const VectorXd& values, double last) override {
+    t_ = t;
+    last_ = last;
+    level_ = 0;
+    peaks_ = VectorXd::Zero(field_->size());
+    read_generator(values);
+    z_ = VectorXd::Ones(size_);
+    z_.head(field_->size()) = field_->gathered(values);
+    const auto& steady = field_->steady_inputs();
+    for (std::size_t k = 0; k < steady.size(); ++k)
+      z_(field_->size() + static_cast<Index>(k)) = values(steady[k]);
+  }
+
+  hybrid::DenseStep next() override {
+    while (true) {
+      const Level& level = level_at(std::min(level_, level_of(last_ - t_)));
+      bool agrees = false;
+      Matrix series = series_over(level, agrees);
+      if (!agrees && level_ > 0) {
+        --level_;
+        grows_ = false;
+        continue;
+      }
+      const double end = t_ + level.length;
+      if (!series.allFinite()) throw ode::IntegrationError("the flow is not finite", t_, true);
+      if (end <= t_)
+        throw ode::IntegrationError("the flow is too fast to be followed at this time", t_, false);
+      if (moved_ != nullptr) move(series);
+      return end < last_ ? whole_step(level, series, end) : last_step(series, end);
+    }
+  }
+
+ private:
+  /// z = (y, what is steady in y', 1),  z' = G z.
+  void read_generator(const VectorXd& values) {
+    const Index n = field_->size();
+    const auto& steady = field_->steady_inputs();
+    const auto m = static_cast<Index>(steady.size());
+    const VectorXd parameters = field_->parameters(values);
+    std::vector<double> key(parameters.begin(), parameters.end());
+    for (const Index element : steady) key.push_back(field_->steady_rate(element));
+    key.push_back(longest_);
+    size_ = n + m + 1;
+    std::shared_ptr<ode::ExponentialTable>& known = field_->tables().at(key);
+    if (known == nullptr)
+      known = make_table(n, m, Eigen::Map<const VectorXd>(key.data() + parameters.size(), m));
+    table_ = known;
+  }
+
+  std::shared_ptr<ode::ExponentialTable> make_table(Index n, Index m,
+                                                    const VectorXd& steady_rates) {
+    auto made = std::make_shared<ode::ExponentialTable>();
+    Matrix& generator = made->generator = Matrix::Zero(size_, size_);
+    VectorXd constant(n), rate(n);
+    field_->rate_at(VectorXd::Zero(n), VectorXd::Zero(m), constant);
+    for (Index k = 0; k < n + m; ++k) {
+      const VectorXd unit = VectorXd::Unit(n + m, k);
+      field_->rate_at(unit.head(n), unit.tail(m), rate);
+      generator.col(k).head(n) = rate - constant;
+    }
+    generator.col(n + m).head(n) = constant;
+    generator.col(n + m).segment(n, m) = steady_rates;
+    set_lengths(*made);
+    return made;
+  }
+
+  void set_lengths(ode::ExponentialTable& table) const {
+    const Index n = size_ - 1;
+    const Matrix M = table.generator.topLeftCorner(n, n);
+    if (!table.generator.allFinite())
+      throw ode::IntegrationError("the flow is not finite", t_, false);
+    double norm = 0;
+    double rate = 0;
+    if (n > 0) {
+      const auto scale = [](double x, int exponent) { return std::ldexp(x, exponent); };
+      const Matrix balanced = numbers::in_units(M, numbers::balance(M.cwiseAbs()), scale);
+      norm = balanced.cwiseAbs().colwise().sum().maxCoeff();
+      for (const auto& lambda : numbers::eigenvalues(M))
+        rate = std::max({rate, std::abs(lambda.imag()), lambda.real()});
+    }
+    const double top = rate > 0 ? std::min(longest_, 1 / rate) : longest_;
+    table.shortest = norm > 0 ? std::min(top, kStepNorm / norm) : top;
+    while (table.top < kMostDoublings && std::ldexp(table.shortest, table.top + 1) <= top)
+      ++table.top;
+  }
+
+  /// The shortest level that covers a length, below 0 where s_0 is longer than it has to be: the
+  /// rounding of a series is that of the interval that it is made for.
+  int level_of(double length) const {
+    int exponent = 0;
+    std::frexp(length / table_->shortest, &exponent);
+    return std::max(exponent, -kMostDoublings);
+  }
+
+  const Level& level_at(int number) {
+    const auto known = table_->levels.find(number);
+    if (known != table_->levels.end()) return known->second;
+    const Level* half = number > 0 ? &level_at(number - 1) : nullptr;
+    const VectorXd& points = ode::chebyshev::points(kExactDegree);
+    Level level;
+    level.length = std::ldexp(table_->shortest, number);
+    for (Index k = 0; k < points.size(); ++k) {
+      if (half != nullptr) {
+        const WideMatrix& map = half->wide[static_cast<std::size_t>(k)];
+        level.wide.push_back(map.lazyProduct(map));
+      } else {
+        const long double part = (1 + static_cast<long double>(points(k))) / 2;
+        level.wide.push_back(
+            short_step(table_->generator.cast<long double>(), part * level.length));
+      }
+      level.maps.push_back(level.wide.back().cast<double>());
+    }
+    return table_->levels.emplace(number, std::move(level)).first->second;
+  }
+
+  Matrix series_over(const Level& level, bool& agrees) {
+    const Index n = field_->size();
+    Matrix values(n, kExactDegree + 1);
+    VectorXd sizes = VectorXd::Zero(n);
+    for (std::size_t k = 0; k < level.maps.size(); ++k) {
+      const auto map = level.maps[k].topRows(n);
+      values.col(static_cast<Index>(k)) = map.lazyProduct(z_);
+      sizes = sizes.cwiseMax(map.cwiseAbs().lazyProduct(z_.cwiseAbs()));
+    }
+    Matrix series = ode::chebyshev::coefficients(values);
+    const VectorXd tail = series.rightCols(2).cwiseAbs().rowwise().sum();
+    peaks_ = peaks_.cwiseMax(sizes);
+    sizes_ = level.maps.back().topRows(n).cwiseAbs().lazyProduct(z_.cwiseAbs());
+    agrees = (tail.array() <= kSeriesRounding * sizes.array() + kDied * peaks_.array()).all();
+    return series;
+  }
+
+  /// What rests stays.
+  void move(Matrix& series) {
+    moves_ = VectorXd::Zero(series.rows());
+    for (Index k = 0; k < series.rows(); ++k) {
+      const auto row = series.row(k);
+      if ((row.tail(kExactDegree).array() == 0).all()) continue;
+      moves_(k) = moved_->of(row.sum(), sizes_(k));
+      series(k, 0) += moves_(k) / 2;
+      series(k, 1) += moves_(k) / 2;
+    }
+  }
+
+  hybrid::DenseStep whole_step(const Level& level, const Matrix& series, double end) {
+    hybrid::DenseStep step = field_->step(t_, end, series);
+    z_ = (level.maps.back() * z_).eval();
+    if (moved_ != nullptr) z_.head(moves_.size()) += moves_;
+    t_ = end;
+    if (grows_ && level_ < table_->top) ++level_;
+    grows_ = true;
+    return step;
+  }
+
+  hybrid::DenseStep last_step(const Matrix& series, double end) {
+    const double inside = ode::chebyshev::inner(last_, t_, end);
+    const Matrix part = end == last_ ? series : ode::chebyshev::part(series, -1, inside);
+    hybrid::DenseStep step = field_->step(t_, last_, part);
+    z_.head(field_->size()) = ode::chebyshev::at(part, 1);
+    t_ = last_;
+    return step;
+  }
+
+  VectorField* field_;
+  double longest_;
+  double t_ = 0, last_ = 0;
+  Index size_ = 1;
+  std::shared_ptr<ode::ExponentialTable> table_;
+  int level_ = 0;
+  bool grows_ = true;  ///< false: the last try of a longer step failed
+  VectorXd z_;
+  VectorXd peaks_;  ///< the largest sizes of this flow
+  VectorXd sizes_;  ///< of the terms at the end of the step
+  const hybrid::LastPlaces* moved_;
+  VectorXd moves_;  ///< at the end of the step
+};
+
+}  // namespace
+
+std::unique_ptr<Flow> exact_flow(VectorField& field, double longest,
+                                 const hybrid::LastPlaces* moved) {
+  return std::make_unique<ExactFlow>(field, longest, moved);
+}
+
+std::unique_ptr<Flow> make_flow(VectorField& field, const Accuracy& accuracy, double longest,
+                                const hybrid::LastPlaces* moved) {
+  return field.system().affine ? exact_flow(field, longest, moved)
+                               : integrated_flow(field, accuracy, longest);
+}
+
+}  // namespace gainsmith::simulate

@@ -1,0 +1,56 @@
+// Internal to hybrid: one flow of an System after the other, in steps with dense output.
+//
+//   exact        x' = M x + b: at the Chebyshev points of a step, E(s) x + f(s) with [E f; 0 1] =
+//                expm(s [M b; 0 0]). Steps have the lengths s_0 2^k, s_0 = 1/(2 ||M||) in units
+//                that balance M (numbers/balance.h): after a start they grow as long as the series
+//                of degree 12 agrees to rounding, up to 1/w with w the largest |Im| or Re of an
+//                eigenvalue, so that nothing is stepped over.
+//   integrated   CVODE (integrator.h); the polynomial of each of its own steps.
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+
+#include "hybrid/last_places.h"
+#include "hybrid/trajectory.h"
+#include "simulate/vector_field.h"
+
+namespace gainsmith::simulate {
+
+struct Accuracy {
+  double relative = 1e-10;
+  double absolute = 1e-10;
+  Eigen::VectorXd absolute_of{};  ///< of each element of the variables; empty: `absolute` of all
+
+  /// All of them times a factor; below 1e-13 relative nothing is gained.
+  Accuracy times(double factor) const;
+};
+
+class Flow {
+ public:
+  virtual ~Flow() = default;
+
+  /// Begins at t, after VectorField::begin there. Nothing is evaluated after `last` but by exact
+  /// flows.
+  virtual void start(double t, const Eigen::VectorXd& values, double last) = 0;
+  /// From the next start on errors count as absolute below `part` of the accuracy's: flows that
+  /// shrink lead to values that shrink with them.
+  virtual void sharpen(double part) { (void)part; }
+  /// The step from where the last one ended, at most to `last`. IntegrationError (integrator.h)
+  /// where the flow ends before.
+  virtual hybrid::DenseStep next() = 0;
+};
+
+/// The flow of the system of a field, which must outlive it; no step is longer than `longest`.
+/// `moved`: by which each step of an exact flow is moved, from nothing at its start to a move in
+/// the last places at its end, so that what has just happened does not happen again. Integrated
+/// flows to two accuracies round apart by themselves.
+std::unique_ptr<Flow> make_flow(VectorField& field, const Accuracy& accuracy, double longest,
+                                const hybrid::LastPlaces* moved = nullptr);
+
+/// The two kinds, for tests; the exact one for affine systems only.
+std::unique_ptr<Flow> exact_flow(VectorField& field, double longest,
+                                 const hybrid::LastPlaces* moved = nullptr);
+std::unique_ptr<Flow> integrated_flow(VectorField& field, const Accuracy& accuracy, double longest);
+
+}  // namespace gainsmith::simulate

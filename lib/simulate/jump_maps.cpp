@@ -1,0 +1,161 @@
+#include "simulate/jump_maps.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/number.h"
+#include "hybrid/rounding_terms.h"
+
+namespace gainsmith::simulate {
+
+using Eigen::VectorXd;
+
+namespace {
+
+/// Of the largest element before and after the jump.
+constexpr double kAsymmetryOfJump = 1e-9;
+
+bool is_mode(const hybrid::System& system, std::size_t variable) {
+  return system.dynamics.variables[variable].kind == model::Dynamics::VariableKind::mode;
+}
+
+bool is_symmetric_state(const hybrid::System& system, std::size_t variable) {
+  return system.dynamics.variables[variable].structure == model::Structure::symmetric;
+}
+
+}  // namespace
+
+JumpMaps::JumpMaps(const hybrid::System& system) : system_(&system) {
+  for (const model::Dynamics::Reaction& reaction : system.dynamics.reactions) {
+    Maps& maps = maps_.emplace_back();
+    for (const model::Dynamics::Pass& pass : reaction.passes) {
+      Map& map = maps.emplace_back();
+      for (const model::Dynamics::Assignment& one : pass.map) {
+        map.entries.push_back({one.variable,
+                               hybrid::SystemFunction(one.value.program, system),
+                               one.place,
+                               nullptr,
+                               {}});
+        MapEntry& entry = map.entries.back();
+        auto terms = hybrid::rounding_terms(one.value.program);
+        if (!terms || is_mode(system, one.variable)) continue;
+        entry.terms_program = std::make_unique<const expr::Program>(std::move(*terms));
+        entry.terms.emplace(*entry.terms_program, system);
+      }
+      if (pass.until) map.until.emplace(*pass.until, system);
+    }
+  }
+}
+
+VectorXd JumpMaps::operator()(std::size_t event, bool lost, const VectorXd& before,
+                              const hybrid::LastPlaces* moved) {
+  moved_ = moved;
+  VectorXd after = before;
+  std::int64_t passes = 0;
+  const auto& reactions = system_->dynamics.reactions;
+  for (std::size_t r = 0; r < reactions.size(); ++r) {
+    if (reactions[r].event != event) continue;
+    if (lost && system_->dynamics.components[reactions[r].component].observer) continue;
+    passes += react(r, before, after);
+  }
+  count(event, passes, after);
+  return after;
+}
+
+std::int64_t JumpMaps::react(std::size_t reaction, const VectorXd& before, VectorXd& after) {
+  const model::Dynamics::Reaction& one = system_->dynamics.reactions[reaction];
+  VectorXd own = before;
+  std::int64_t passes = 0;
+  for (std::size_t k = 0; k < one.passes.size(); ++k) {
+    Map& map = maps_[reaction][k];
+    if (one.passes[k].repeats) {
+      passes += repeat(one.passes[k], system_->most_passes[reaction][k], map, own);
+    } else {
+      apply(map, own);
+    }
+  }
+  for (const Map& map : maps_[reaction])
+    for (const MapEntry& entry : map.entries) {
+      const hybrid::Slot& slot = system_->layout.slots[entry.variable];
+      after.segment(slot.offset, slot.shape.size()) = own.segment(slot.offset, slot.shape.size());
+    }
+  return passes;
+}
+
+std::int64_t JumpMaps::repeat(const model::Dynamics::Pass& pass, std::int64_t most, Map& map,
+                              VectorXd& own) {
+  for (std::int64_t passes = 0;; ++passes) {
+    if (map.until && (*map.until)(own)) return passes;
+    if (passes < most) {
+      apply(map, own);
+      continue;
+    }
+    if (!map.until || pass.go_on) return passes;
+    throw RunEnd(hybrid::Ending::passes,
+                 fmt::format("{}: after {} passes '{}' is not true ({})", to_string(pass.place),
+                             passes, map.until->text(), map.until->differences(own)));
+  }
+}
+
+void JumpMaps::apply(Map& map, VectorXd& own) {
+  results_.resize(map.entries.size());
+  for (std::size_t i = 0; i < map.entries.size(); ++i) {
+    results_[i] = map.entries[i].value(own);
+    check(map.entries[i], own, results_[i]);
+    if (moved_ != nullptr && map.entries[i].terms) move(map.entries[i], own, results_[i]);
+  }
+  for (std::size_t i = 0; i < map.entries.size(); ++i) {
+    const hybrid::Slot& slot = system_->layout.slots[map.entries[i].variable];
+    own.segment(slot.offset, slot.shape.size()) = results_[i].reshaped();
+  }
+}
+
+void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value) const {
+  const bool symmetric = is_symmetric_state(*system_, entry.variable);
+  const Eigen::Index first = system_->layout.slots[entry.variable].offset;
+  try {
+    const numbers::Matrix& sizes = (*entry.terms)(own);
+    for (Eigen::Index column = 0; column < value.cols(); ++column)
+      for (Eigen::Index row = symmetric ? column : 0; row < value.rows(); ++row) {
+        // What a branch leaves as it was has not been computed.
+        if (value(row, column) == own(first + column * value.rows() + row)) continue;
+        value(row, column) += moved_->of(value(row, column), sizes(row, column));
+        if (symmetric) value(column, row) = value(row, column);
+      }
+  } catch (const expr::EvaluationError&) {
+    // Without sizes it stays where it is.
+  }
+}
+
+void JumpMaps::check(const MapEntry& entry, const VectorXd& own, numbers::Matrix& value) const {
+  const model::Dynamics::Variable& variable = system_->dynamics.variables[entry.variable];
+  if (variable.kind == model::Dynamics::VariableKind::mode && value(0) != std::round(value(0)))
+    throw InputError(entry.place, "the mode " + variable.name + " jumps to " + brief(value(0), 17) +
+                                      ": expected a whole number");
+  if (variable.structure != model::Structure::symmetric || value.size() == 0) return;
+  const hybrid::Slot& slot = system_->layout.slots[entry.variable];
+  const double asymmetry = (value - value.transpose()).cwiseAbs().maxCoeff();
+  const double largest = std::max(value.cwiseAbs().maxCoeff(),
+                                  own.segment(slot.offset, value.size()).cwiseAbs().maxCoeff());
+  if (asymmetry > kAsymmetryOfJump * largest)
+    throw InputError(entry.place, "the state " + variable.name +
+                                      " is symmetric and its jump is not: elements differ by " +
+                                      brief(asymmetry));
+  value = ((value + value.transpose()) / 2).eval();
+}
+
+void JumpMaps::count(std::size_t event, std::int64_t passes, VectorXd& after) const {
+  using Kind = model::Dynamics::VariableKind;
+  for (std::size_t i = 0; i < system_->dynamics.variables.size(); ++i) {
+    const model::Dynamics::Variable& variable = system_->dynamics.variables[i];
+    const Eigen::Index at = system_->layout.slots[i].offset;
+    if (variable.kind == Kind::jumps || (variable.kind == Kind::count && variable.of == event))
+      after(at) += 1;
+    if (variable.kind == Kind::passes && variable.of == event)
+      after(at) = static_cast<double>(passes);
+  }
+}
+
+}  // namespace gainsmith::simulate

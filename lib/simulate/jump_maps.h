@@ -1,0 +1,65 @@
+// Internal to hybrid: the maps of the jumps of an System.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "hybrid/event_functions.h"
+#include "hybrid/last_places.h"
+#include "hybrid/trajectory.h"
+
+namespace gainsmith::simulate {
+
+/// The run ends here. The message is without time and place of the run.
+struct RunEnd : std::runtime_error {
+  RunEnd(hybrid::Ending why, const std::string& message)
+      : std::runtime_error(message), ending(why) {}
+  hybrid::Ending ending;
+};
+
+class JumpMaps {
+ public:
+  explicit JumpMaps(const hybrid::System& system);
+
+  /// The values after the event's reactions, of the plant alone when it is lost. Each component
+  /// sees its own states as its map before left them, everything else as in `before`. Of the run's
+  /// own variables j, count(event) and passes(event) are new: passes of the loops of the jump
+  /// together. RunEnd for a loop whose `until` does not become true; EvaluationError where a map
+  /// has no value; InputError for a mode that is no whole number and a symmetric state that is not.
+  /// `moved`: by which results of arithmetic are moved, in a twin.
+  Eigen::VectorXd operator()(std::size_t event, bool lost, const Eigen::VectorXd& before,
+                             const hybrid::LastPlaces* moved = nullptr);
+
+ private:
+  struct MapEntry {
+    std::size_t variable = 0;
+    hybrid::SystemFunction value;
+    Place place;
+    std::unique_ptr<const expr::Program> terms_program;
+    std::optional<hybrid::SystemFunction> terms;  ///< rounding_terms.h; none: the value is exact
+  };
+  struct Map {
+    std::vector<MapEntry> entries;
+    std::optional<hybrid::EventCondition> until;
+  };
+  using Maps = std::vector<Map>;  ///< of one reaction
+
+  std::int64_t react(std::size_t reaction, const Eigen::VectorXd& before, Eigen::VectorXd& after);
+  std::int64_t repeat(const model::Dynamics::Pass& pass, std::int64_t most, Map& map,
+                      Eigen::VectorXd& own);
+  void apply(Map& map, Eigen::VectorXd& own);
+  void move(MapEntry& entry, const Eigen::VectorXd& own, numbers::Matrix& value) const;
+  void check(const MapEntry& entry, const Eigen::VectorXd& own, numbers::Matrix& value) const;
+  void count(std::size_t event, std::int64_t passes, Eigen::VectorXd& after) const;
+
+  const hybrid::System* system_;
+  std::vector<Maps> maps_;                ///< by reaction
+  std::vector<numbers::Matrix> results_;  ///< of one map
+  const hybrid::LastPlaces* moved_ = nullptr;
+};
+
+}  // namespace gainsmith::simulate

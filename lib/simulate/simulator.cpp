@@ -1,0 +1,406 @@
+#include "simulate/simulator.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/number.h"
+#include "base/stop.h"
+#include "hybrid/measured_rows.h"
+#include "ode/integrator.h"
+#include "simulate/branches.h"
+#include "simulate/due_events.h"
+#include "simulate/event_watch.h"
+#include "simulate/flow_sets.h"
+#include "simulate/jump_maps.h"
+#include "simulate/run_record.h"
+#include "simulate/sliding.h"
+#include "simulate/zeno.h"
+
+namespace gainsmith::simulate {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+using VariableKind = model::Dynamics::VariableKind;
+
+/// What is compiled once for all runs.
+struct Simulator::Texts {
+  explicit Texts(const hybrid::System& system) : field(system), watch(system), maps(system) {}
+  VectorField field;
+  EventWatch watch;
+  JumpMaps maps;
+};
+
+namespace {
+
+constexpr std::int64_t kLongestChain = 1000000;
+constexpr std::size_t kKeptOfChain = 1000;
+constexpr std::int64_t kMostStepsOfRun = 2000000;
+constexpr std::int64_t kMostSlowSteps = 3000;
+constexpr double kSlow = 1e-10;            ///< of the horizon
+constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
+constexpr double kOfHorizon = 1e-6;        ///< a time near 0 counts as so much of it
+/// Of the horizon: how long a flow may be outside of `while` after a jump to its border.
+constexpr double kOutside = 1e-9;
+constexpr double kEarly = 0.1;            ///< of a step
+constexpr double kShorterStep = 1.5;      ///< of the time up to an event
+constexpr double kBeyondTurn = 4;         ///< of the time up to a turn near a border
+constexpr double kShortestAgain = 1e-13;  ///< of the time
+/// Of the terms of a guard: turning points that a twin keeps, to be compared with their errors.
+constexpr double kNearOfTerms = 1e-3;
+/// At one time, before a kink counts as one that does not matter.
+constexpr int kMostTurns = 8;
+
+/// Elements of states and modes among all values.
+std::vector<Index> rows_of_states(const hybrid::System& system) {
+  std::vector<Index> rows;
+  for (std::size_t k = 0; k < system.dynamics.variables.size(); ++k) {
+    const model::Dynamics::Variable& variable = system.dynamics.variables[k];
+    if (variable.kind != VariableKind::state && variable.kind != VariableKind::mode) continue;
+    for (Index e = 0; e < variable.shape.size(); ++e)
+      rows.push_back(system.layout.slots[k].offset + e);
+  }
+  return rows;
+}
+
+class EventRun {
+ public:
+  EventRun(const hybrid::System& system, const hybrid::Scenario& scenario, VectorField& field,
+           EventWatch& watch, JumpMaps& maps, std::uint64_t seed, std::uint64_t run,
+           const Accuracy& accuracy, const RecordLimits& limits, std::optional<std::uint64_t> moved)
+      : system_(system),
+        field_(field),
+        watch_(watch),
+        maps_(maps),
+        horizon_(scenario.horizon),
+        moved_(moved ? std::optional<hybrid::LastPlaces>(std::in_place, seed, run, *moved)
+                     : std::nullopt),
+        due_(system, watch, hybrid::EventClocks(system, scenario, seed, run), scenario.horizon),
+        noise_(system, seed, run),
+        rows_(system),
+        branches_(system, watch, accuracy),
+        flow_(make_flow(field, accuracy, kLongestStep * scenario.horizon, places())),
+        zeno_(scenario.horizon),
+        state_rows_(rows_of_states(system)),
+        flow_sets_(watch),
+        sliding_(system, watch, accuracy, scenario.horizon),
+        record_(system, scenario.horizon, limits) {
+    values_ = hybrid::draw_start(system, scenario, seed, run);
+  }
+
+  hybrid::Trajectory trajectory() {
+    try {
+      begin();
+      while (true) {
+        instant();
+        if (t_ >= horizon_) break;
+        flow();
+      }
+    } catch (const RunEnd& end) {
+      record_.ends(end.ending, end.what(), t_, j_);
+    } catch (const ode::IntegrationError& error) {
+      const hybrid::Ending ending = error.escaped     ? hybrid::Ending::escaped
+                                    : error.undefined ? hybrid::Ending::undefined
+                                                      : hybrid::Ending::lost;
+      record_.ends(ending, error.what(), t_, j_);
+    } catch (const expr::EvaluationError& error) {
+      record_.ends(hybrid::Ending::undefined, error.what(), t_, j_);
+    } catch (const Stopped&) {
+      record_.ends(hybrid::Ending::interrupted, "interrupted", t_, j_);
+    }
+    return record_.take(t_);
+  }
+
+ private:
+  enum class Went { on, stopped };
+  using Turns = std::vector<std::pair<hybrid::NearTurn, bool>>;
+
+  // --- The start and the end. ---
+
+  void begin() {
+    field_.reset();
+    for (std::size_t k = 0; k < system_.noise.size(); ++k) noise_.draw(k, values_);
+    rows_.begin(values_);
+    due_.begin(values_, field_);
+    field_.fill_clocks(0, values_);
+    branches_.hold(values_);
+    record_.start(variables(values_));
+    require_range();
+  }
+
+  const hybrid::LastPlaces* places() const { return moved_ ? &*moved_ : nullptr; }
+
+  VectorXd variables(const VectorXd& values) const { return values.head(system_.size); }
+
+  void require_range() const {
+    for (Index k = 0; k < system_.size; ++k)
+      if (!(std::abs(values_(k)) <= hybrid::kLargestState))
+        throw RunEnd(hybrid::Ending::escaped,
+                     fmt::format("{} = {}", system_.element_name(k), brief(values_(k))));
+  }
+
+  // --- Instants. ---
+
+  void instant() {
+    while (const auto event = due_.first(values_, t_)) occurrence(*event);
+    flow_sets_.begin(values_);
+  }
+
+  void occurrence(std::size_t event) {
+    const auto& noise = system_.dynamics.noise;
+    for (std::size_t k = 0; k < noise.size(); ++k)
+      if (noise[k].event == event) noise_.draw(k, values_);
+    const bool goes = !watch_.only_if[event] || (*watch_.only_if[event])(values_);
+    if (goes) {
+      jump(event);
+    } else {
+      due_.spend(event, t_, field_);
+      field_.fill_clocks(t_, values_);
+    }
+    branches_.hold(values_);
+  }
+
+  void jump(std::size_t event) {
+    check_stop();
+    if (chain_ == 0) watch_zeno(event);
+    sliding_.jumped();
+    const VectorXd before = values_;
+    const bool lost = system_.dynamics.events[event].lost > 0 && due_.clocks().loses(event);
+    values_ = maps_(event, lost, before, places());
+    record_.flow_ends();
+    due_.spend(event, t_, field_);
+    field_.set_since(event, t_);
+    field_.fill_clocks(t_, values_);
+    due_.jumped(event, values_);
+    record_.add(hybrid::JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
+    ++j_;
+    require_range();
+    if (++chain_ >= kLongestChain) end_chain(event);
+  }
+
+  [[noreturn]] void end_chain(std::size_t event) {
+    const std::string names = record_.last_events();
+    record_.shorten_chain(kLongestChain, kKeptOfChain);
+    const auto next = due_.first(values_, t_);
+    const std::size_t due = next.value_or(event);
+    const model::Dynamics::Event& one = system_.dynamics.events[due];
+    std::string value;
+    if (watch_.when[due])
+      value = fmt::format(" ('{}' is true, {})", watch_.when[due]->text(),
+                          watch_.when[due]->differences(values_));
+    throw RunEnd(
+        hybrid::Ending::stuck,
+        fmt::format("{} jumps without a flow between them, of {}: then the event {} is due "
+                    "again{}; the first {} of them are kept",
+                    kLongestChain, names, one.name, value, kKeptOfChain));
+  }
+
+  void watch_zeno(std::size_t event) {
+    const hybrid::FlowPiece& flow = record_.flow();
+    if (flow.steps.empty()) return;
+    VectorXd largest = VectorXd::Zero(static_cast<Index>(state_rows_.size()));
+    for (const hybrid::DenseStep& step : flow.steps)
+      largest = largest.cwiseMax(step.coefficients.cwiseAbs().rowwise().sum()(state_rows_));
+    zeno_.push(t_, flow.to() - flow.from(), event, due_.has_clock(event), values_(state_rows_),
+               largest);
+    const double part = zeno_.shrinkage() * zeno_.shrinkage();
+    flow_->sharpen(part);
+    branches_.sharpen(part);
+    std::string names;
+    for (const std::size_t one : zeno_.events())
+      names += (names.empty() ? "" : ", ") + system_.dynamics.events[one].name;
+    if (const auto accumulation = zeno_.accumulation()) {
+      record_.accumulates(*accumulation);
+      throw RunEnd(hybrid::Ending::zeno,
+                   fmt::format("the flows between the jumps of {} shrink by a steady factor; they "
+                               "accumulate at t = {}",
+                               names, brief(*accumulation, 12)));
+    }
+    if (zeno_.chatters())
+      throw RunEnd(hybrid::Ending::chattering,
+                   "flows of hardly any length between the jumps of " + names);
+  }
+
+  // --- Flows. ---
+
+  void flow() {
+    if (rows_.leave(t_, values_)) {
+      branches_.hold(values_);
+      if (due_.first(values_, t_)) return;  // by the last of several rows at t
+    }
+    branches_.hold_kinks(values_);
+    double stop = std::min({horizon_, due_.clocks().next(), noise_.next(), rows_.next()});
+    field_.begin(t_, values_);
+    stop = watch_.next_line(field_, t_, stop, values_);
+    flow_->start(t_, values_, stop);
+    record_.flow_begins(j_, variables(values_));
+    starts_ = true;
+    Went went = Went::on;
+    while (went == Went::on && t_ < stop) {
+      check_stop();
+      if (++steps_ > kMostStepsOfRun)
+        throw RunEnd(hybrid::Ending::lost, fmt::format("more than {} steps", kMostStepsOfRun));
+      watch_progress();
+      went = take(flow_->next());
+    }
+    const bool drawn = noise_.draw_due(t_, values_);
+    if (rows_.arrive(t_, values_) || drawn) branches_.hold(values_);
+  }
+
+  /// Goes along a step up to where something happens. A kink that turns at its start again and
+  /// again does not matter.
+  Went take(const hybrid::DenseStep& whole) {
+    const auto turn = branches_.first_turn(StepValues(field_, values_, whole), values_);
+    const bool back = turn && turn->t == whole.from;
+    if (back && (!branches_.is_kink(turn->branch) || ++turned_back_ < kMostTurns)) {
+      turns_over(*turn);
+      return Went::stopped;
+    }
+    const bool turns = turn && turn->t > whole.from;
+    const Went went = along(turns && turn->t < whole.to ? field_.until(whole, turn->t) : whole);
+    if (!turns || t_ != turn->t) return went;
+    turns_over(*turn);
+    return Went::stopped;
+  }
+
+  void turns_over(const Branches::Turn& turn) {
+    values_(turn.held) = turn.to;
+    if (!branches_.is_kink(turn.branch)) sliding_.switched(turn.branch, t_, values_);
+  }
+
+  /// The same of a step on which no branch turns.
+  Went along(const hybrid::DenseStep& step) {
+    const StepValues inside(field_, values_, step);
+    flow_sets_.require_inside(inside, std::min(inside.to(), inside.from() + kOutside * horizon_));
+    Turns near;
+    std::optional<double> hidden;
+    const auto crossings = watch_.crossings(
+        inside, values_, moved_ ? kNearOfTerms : 0,
+        [&](const hybrid::NearTurn& turn, bool reached) { near.emplace_back(turn, reached); },
+        starts_ ? &hidden : nullptr);
+    if (hidden && is_coarse(step, step.from + *hidden * (step.to - step.from)))
+      return take_shorter(step.from + kBeyondTurn * *hidden * (step.to - step.from));
+    const std::vector<DueEvents::Mark> marks = due_.marks();
+    const FlowSets::Marks was_inside = flow_sets_.marks();
+    for (const double t : crossings) {
+      VectorXd values = inside.at(t);
+      const bool due = due_.first(values, t).has_value();
+      const bool left = !due && flow_sets_.leaves(values);
+      if (!due && !left) continue;
+      if (is_coarse(step, t)) {
+        due_.set_marks(marks);
+        flow_sets_.set_marks(was_inside);
+        return take_shorter(step.from + kShorterStep * (t - step.from));
+      }
+      note(near, t);
+      arrive(t < step.to ? field_.until(step, t) : step, std::move(values));
+      if (left) flow_sets_.leave_first(values_);
+      return Went::stopped;
+    }
+    note(near, step.to);
+    arrive(step, inside.at(step.to));
+    if (flow_sets_.leaves(values_)) flow_sets_.leave_first(values_);
+    return due_.first(values_, t_) ? Went::stopped : Went::on;
+  }
+
+  /// Whether something happens so early in a step that its rounding, which is that of all of it,
+  /// tells in what is short: the flights of a ball that comes to rest.
+  bool is_coarse(const hybrid::DenseStep& step, double t) const {
+    const double length = t - step.from;
+    return length < kEarly * (step.to - step.from) &&
+           length > kShortestAgain * std::max(std::abs(t), kOfHorizon * horizon_);
+  }
+
+  /// The same flow in steps up to `last` at most.
+  Went take_shorter(double last) {
+    flow_->start(t_, values_, last);
+    Went went = Went::on;
+    while (went == Went::on && t_ < last) went = take(flow_->next());
+    return Went::stopped;
+  }
+
+  void arrive(const hybrid::DenseStep& step, VectorXd values) {
+    record_.add(step, variables(values));
+    values_ = std::move(values);
+    t_ = step.to;
+    if (moved_) moved_->next();
+    chain_ = 0;
+    turned_back_ = 0;
+    starts_ = false;
+    sliding_.moved(values_);
+    require_range();
+  }
+
+  /// Borders that came near up to a time.
+  void note(const Turns& near, double until) {
+    for (const auto& [turn, reached] : near) {
+      if (turn.t > until) continue;
+      if (moved_) {
+        record_.add(turn);
+      } else if (!reached && turn.of == hybrid::NearTurn::Of::when) {
+        record_.note(fmt::format("t = {}: '{}' comes near without being reached", brief(turn.t, 12),
+                                 turn.text));
+      }
+    }
+  }
+
+  /// Steps without end that hardly advance.
+  void watch_progress() {
+    if (t_ - slow_since_ > kSlow * horizon_) {
+      slow_since_ = t_;
+      slow_steps_ = 0;
+    }
+    if (++slow_steps_ > kMostSlowSteps)
+      throw RunEnd(hybrid::Ending::lost,
+                   fmt::format("the steps have become too short: {} of them for {} "
+                               "of the horizon",
+                               kMostSlowSteps, brief(kSlow)));
+  }
+
+  const hybrid::System& system_;
+  VectorField& field_;
+  EventWatch& watch_;
+  JumpMaps& maps_;
+  double horizon_;
+  std::optional<hybrid::LastPlaces> moved_;
+  DueEvents due_;
+  hybrid::NoiseDraws noise_;
+  hybrid::MeasuredRows rows_;
+  Branches branches_;
+  std::unique_ptr<Flow> flow_;
+  ZenoDetector zeno_;
+  std::vector<Index> state_rows_;
+  FlowSets flow_sets_;
+  SlidingDetector sliding_;
+  VectorXd values_;  ///< variables and branches
+  double t_ = 0;
+  std::int64_t j_ = 0;
+  std::int64_t chain_ = 0;  ///< jumps without a flow between them
+  std::int64_t steps_ = 0;
+  double slow_since_ = 0;
+  std::int64_t slow_steps_ = 0;  ///< since then
+  bool starts_ = true;           ///< no step of the flow has been taken
+  int turned_back_ = 0;          ///< turns of kinks at this time
+  RunRecord record_;
+};
+
+}  // namespace
+
+Simulator::Simulator(const hybrid::System& system, const hybrid::Scenario& scenario)
+    : system_(&system), scenario_(&scenario), texts_(std::make_unique<Texts>(system)) {}
+Simulator::Simulator(Simulator&&) noexcept = default;
+Simulator& Simulator::operator=(Simulator&&) noexcept = default;
+Simulator::~Simulator() = default;
+
+hybrid::Trajectory Simulator::run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy,
+                                  const RecordLimits& limits, std::optional<std::uint64_t> moved) {
+  return EventRun(*system_, *scenario_, texts_->field, texts_->watch, texts_->maps, seed, run,
+                  accuracy, limits, moved)
+      .trajectory();
+}
+
+}  // namespace gainsmith::simulate

@@ -1,0 +1,59 @@
+// The event-driven simulator: runs of an System, each a function of (seed, run) alone.
+//
+//   At an instant the events are looked at in their order; the first that is due jumps, alone, and
+//   all are looked at again. When none is due the flow goes on, to the first time at which one is:
+//   clocks and borders that are affine in time are stepped to, all other borders are searched along
+//   the dense output (borders.h). At each root in turn all events are looked at just after it. The
+//   start is an instant like any other, and so is the horizon.
+//
+//   when      due while its condition is true
+//   rises, falls, crosses
+//             due once when the sign of e has changed in that direction, by flow or by a jump of
+//             another event; the last sign counts that was not 0
+//   every, at due at their times; times of several clocks that differ by rounding alone are one
+//             instant
+//
+// Noise of an event is drawn anew when it is due, before `if` and the maps; all noise is drawn once
+// at the start. An occurrence that `if` rejects is spent: the clock goes on, a crossing is over,
+// and `when` is due again once its condition has been false. `lost` is asked for each jump.
+//
+// Between borders `where`, `sign`, `abs`, `max` and `min` in a flow hold their branch (switches.h,
+// branches.h); where one turns the flow starts again with the new branch.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "hybrid/scenario.h"
+#include "hybrid/system.h"
+#include "hybrid/trajectory.h"
+#include "simulate/flow.h"
+#include "simulate/run_record.h"
+
+namespace gainsmith::simulate {
+
+/// Simulates run after run; one for each thread. System and scenario must outlive it.
+class Simulator {
+ public:
+  /// A stop (base/stop.h) ends the run as interrupted, at its next step or jump.
+  Simulator(const hybrid::System& system, const hybrid::Scenario& scenario);
+  Simulator(Simulator&&) noexcept;
+  Simulator& operator=(Simulator&&) noexcept;
+  ~Simulator();
+
+  /// The solution on [0, horizon], or to where it ends before, with the reason. InputError for what
+  /// is wrong in the text whatever the run: a symmetric state that jumps or flows out of symmetry,
+  /// a mode that is no whole number.
+  /// `moved`: which of its twins it is, moved in the last places (last_places.h); none: the run.
+  hybrid::Trajectory run(std::uint64_t seed, std::uint64_t run, const Accuracy& accuracy = {},
+                         const RecordLimits& limits = {}, std::optional<std::uint64_t> moved = {});
+
+ private:
+  struct Texts;
+  const hybrid::System* system_;
+  const hybrid::Scenario* scenario_;
+  std::unique_ptr<Texts> texts_;
+};
+
+}  // namespace gainsmith::simulate

@@ -1,0 +1,46 @@
+// Internal to hybrid: whether a flow goes on along the border of a switch, to which both branches
+// lead back.
+//
+//   at once       8 switches within 1e-10 of the horizon
+//   within noise  100 switches of one branch in a row, without a jump between them, between which
+//                 what it branches on never leaves the error of the integration: of x' = -sign(x)
+//                 sqrt(abs(x)) after it has come to 0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <vector>
+
+#include "simulate/event_watch.h"
+#include "simulate/flow.h"
+
+namespace gainsmith::simulate {
+
+class SlidingDetector {
+ public:
+  /// The system and the watch must outlive it.
+  SlidingDetector(const hybrid::System& system, EventWatch& watch, const Accuracy& accuracy,
+                  double horizon);
+
+  /// A jump begins another row.
+  void jumped() { row_ = 0; }
+  /// A step has led to these values.
+  void moved(const Eigen::VectorXd& values);
+  /// RunEnd where that slides.
+  void switched(std::size_t branch, double t, const Eigen::VectorXd& values);
+
+ private:
+  bool is_noise(const Eigen::VectorXd& values);
+  [[noreturn]] void end(std::size_t branch) const;
+
+  const hybrid::System* system_;
+  EventWatch* watch_;
+  Accuracy accuracy_;
+  double horizon_;
+  std::vector<double> times_;  ///< of the last switches
+  std::size_t branch_ = 0;     ///< of the row
+  int row_ = 0;                ///< switches in it
+  Eigen::VectorXd swing_;      ///< since the last of them: |D| at its largest
+};
+
+}  // namespace gainsmith::simulate

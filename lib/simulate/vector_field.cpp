@@ -1,0 +1,284 @@
+#include "simulate/vector_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/error.h"
+#include "base/number.h"
+
+namespace gainsmith::simulate {
+
+using Eigen::Index;
+using Eigen::VectorXd;
+
+namespace {
+
+/// Of the largest rate in a run: what counts as rounding in the flow of a symmetric state.
+constexpr double kAsymmetryOfRate = 1e-9;
+
+/// The programs of what flows and is not steady.
+std::vector<const expr::Program*> flowing(const hybrid::System& system) {
+  std::vector<const expr::Program*> programs;
+  for (const model::Dynamics::Assignment& one : system.dynamics.flow)
+    if (system.moves[one.variable] != hybrid::Moves::steady) programs.push_back(&one.value.program);
+  return programs;
+}
+
+bool is_symmetric(const model::Dynamics::Variable& variable) {
+  return variable.structure == model::Structure::symmetric;
+}
+
+}  // namespace
+
+VectorField::VectorField(const hybrid::System& system)
+    : system_(&system),
+      together_(hybrid::stacked(flowing(system), system)),
+      largest_rate_(system.dynamics.variables.size(), 0) {
+  using Kind = model::Dynamics::VariableKind;
+  const auto& variables = system.dynamics.variables;
+  for (std::size_t i = 0; i < variables.size(); ++i) {
+    const Kind kind = variables[i].kind;
+    if (kind != Kind::time && kind != Kind::since && kind != Kind::left) continue;
+    clocks_.push_back(i);
+    lines_.push_back(
+        {system.layout.slots[i].offset, 0, 0, kind == Kind::left ? -1.0 : 1.0, kind == Kind::left});
+  }
+  for (std::size_t k = 0; k < system.dynamics.flow.size(); ++k) add_flow(k);
+  for (const model::Dynamics::Component& one : system.dynamics.components)
+    frozen_.push_back(
+        one.frozen ? std::optional<hybrid::EventCondition>(std::in_place, *one.frozen, system)
+                   : std::nullopt);
+  is_frozen_.assign(frozen_.size(), false);
+}
+
+void VectorField::add_flow(std::size_t flow) {
+  const model::Dynamics::Assignment& one = system_->dynamics.flow[flow];
+  const hybrid::Slot& slot = system_->layout.slots[one.variable];
+  const bool symmetric = is_symmetric(system_->dynamics.variables[one.variable]);
+  hybrid::SystemFunction value(one.value.program, *system_);
+  if (system_->moves[one.variable] == hybrid::Moves::steady) {
+    steady_.push_back({one.variable, std::move(value), static_cast<Index>(lines_.size()), {}});
+    for (Index k = 0; k < slot.shape.size(); ++k) lines_.push_back({slot.offset + k});
+    return;
+  }
+  note_inputs(one.value.program);
+  flows_.push_back({one.variable, std::move(value), size(), {}});
+  if (const auto& free = system_->free_flow[flow]) flows_.back().free.emplace(*free, *system_);
+  const Index rows = slot.shape.rows;
+  for (Index column = 0; column < slot.shape.cols; ++column)
+    for (Index row = symmetric ? column : 0; row < rows; ++row) {
+      elements_.push_back(slot.offset + column * rows + row);
+      mirrors_.push_back(symmetric ? slot.offset + row * rows + column : elements_.back());
+      rate_of_.push_back({flows_.size() - 1,
+                          static_cast<std::size_t>(elements_.back() - slot.offset),
+                          static_cast<std::size_t>(mirrors_.back() - slot.offset)});
+    }
+}
+
+void VectorField::note_inputs(const expr::Program& program) {
+  for (const expr::Input& input : program.inputs) {
+    const auto at = system_->slot(input.name);
+    if (!at || system_->moves[*at] == hybrid::Moves::flows) continue;
+    std::vector<Index>& list =
+        system_->moves[*at] == hybrid::Moves::steady ? steady_inputs_ : resting_inputs_;
+    const hybrid::Slot& slot = system_->layout.slots[*at];
+    if (std::find(list.begin(), list.end(), slot.offset) != list.end()) continue;
+    for (Index k = 0; k < slot.shape.size(); ++k) list.push_back(slot.offset + k);
+  }
+}
+
+void VectorField::reset() {
+  for (Line& line : lines_) line.base = line.time = 0;
+  for (std::size_t k = clocks_.size(); k < lines_.size(); ++k) lines_[k].rate = 0;
+  std::fill(largest_rate_.begin(), largest_rate_.end(), 0);
+}
+
+void VectorField::set_since(std::size_t event, double t) {
+  for (std::size_t k = 0; k < clocks_.size(); ++k) {
+    const auto& variable = system_->dynamics.variables[clocks_[k]];
+    if (variable.kind == model::Dynamics::VariableKind::since && variable.of == event)
+      lines_[k].time = t;
+  }
+}
+
+void VectorField::set_due(std::size_t event, double due) {
+  for (std::size_t k = 0; k < clocks_.size(); ++k) {
+    const auto& variable = system_->dynamics.variables[clocks_[k]];
+    if (variable.kind == model::Dynamics::VariableKind::left && variable.of == event)
+      lines_[k].time = due;
+  }
+}
+
+void VectorField::begin(double t, const VectorXd& values) {
+  values_ = values;
+  for (std::size_t c = 0; c < frozen_.size(); ++c)
+    is_frozen_[c] = frozen_[c] && (*frozen_[c])(values);
+  for (Entry& entry : steady_) set_steady(entry, t);
+  const auto symmetric = [&](const Entry& entry) {
+    return is_symmetric(system_->dynamics.variables[entry.variable]);
+  };
+  if (std::none_of(flows_.begin(), flows_.end(), symmetric)) return;
+  const bool known = together_.run(values_);
+  for (std::size_t k = 0; k < flows_.size(); ++k)
+    if (symmetric(flows_[k]))
+      require_symmetric(flows_[k], known ? together_.value(k) : text_of(flows_[k], values_));
+}
+
+/// A line goes on as it was where nothing has changed it.
+void VectorField::set_steady(Entry& entry, double t) {
+  const numbers::Matrix& rate = value_of(entry, values_);
+  for (Index k = 0; k < rate.size(); ++k) {
+    Line& line = lines_[static_cast<std::size_t>(entry.first + k)];
+    const double now = values_(line.element);
+    if (line.rate == rate(k) && line.at(t) == now) continue;
+    line.base = now;
+    line.time = t;
+    line.rate = rate(k);
+  }
+}
+
+void VectorField::require_symmetric(Entry& entry, const numbers::Matrix& rate) {
+  double& largest = largest_rate_[entry.variable];
+  if (rate.size() > 0) largest = std::max(largest, rate.cwiseAbs().maxCoeff());
+  const double asymmetry = rate.size() > 0 ? (rate - rate.transpose()).cwiseAbs().maxCoeff() : 0;
+  if (!(asymmetry > kAsymmetryOfRate * largest)) return;
+  const auto& flow = system_->dynamics.flow;
+  const auto found = std::find_if(flow.begin(), flow.end(),
+                                  [&](const auto& one) { return one.variable == entry.variable; });
+  throw InputError(found->place, "the state " + system_->layout.slots[entry.variable].name +
+                                     " is symmetric and its flow is not: elements differ by " +
+                                     brief(asymmetry));
+}
+
+const numbers::Matrix& VectorField::text_of(Entry& entry, const VectorXd& values) {
+  if (!entry.free) return entry.value(values);
+  try {
+    const numbers::Matrix& value = entry.value(values);
+    if (value.allFinite()) return value;
+  } catch (const expr::EvaluationError&) {
+  }
+  return (*entry.free)(values);
+}
+
+bool VectorField::is_frozen(const Entry& entry) const {
+  const auto& variable = system_->dynamics.variables[entry.variable];
+  return variable.kind == model::Dynamics::VariableKind::state && is_frozen_[variable.component];
+}
+
+/// The rate of a variable: 0 in a frozen component, of a symmetric one its symmetric part.
+const numbers::Matrix& VectorField::value_of(Entry& entry, const VectorXd& values) {
+  const auto& variable = system_->dynamics.variables[entry.variable];
+  if (is_frozen(entry)) {
+    symmetric_ = numbers::Matrix::Zero(variable.shape.rows, variable.shape.cols);
+    return symmetric_;
+  }
+  const numbers::Matrix& value = text_of(entry, values);
+  if (!is_symmetric(variable)) return value;
+  symmetric_ = (value + value.transpose()) / 2;
+  return symmetric_;
+}
+
+void VectorField::fill(double t, VectorXd& values) const {
+  for (const Line& line : lines_) values(line.element) = line.at(t);
+}
+
+void VectorField::fill_clocks(double t, VectorXd& values) const {
+  for (std::size_t k = 0; k < clocks_.size(); ++k) values(lines_[k].element) = lines_[k].at(t);
+}
+
+VectorXd VectorField::gathered(const VectorXd& values) const {
+  VectorXd y(size());
+  for (std::size_t k = 0; k < elements_.size(); ++k)
+    y(static_cast<Index>(k)) = values(elements_[k]);
+  return y;
+}
+
+void VectorField::spread(const VectorXd& y, VectorXd& values) const {
+  for (std::size_t k = 0; k < elements_.size(); ++k)
+    values(elements_[k]) = values(mirrors_[k]) = y(static_cast<Index>(k));
+}
+
+void VectorField::rates(VectorXd& rate) {
+  if (together_.run(values_)) {
+    for (std::size_t k = 0; k < rate_of_.size(); ++k) {
+      const Element& one = rate_of_[k];
+      const double value = together_.element(one.flow, one.at);
+      rate(static_cast<Index>(k)) = is_frozen(flows_[one.flow]) ? 0
+                                    : one.at == one.mirror
+                                        ? value
+                                        : (value + together_.element(one.flow, one.mirror)) / 2;
+    }
+    return;
+  }
+  for (Entry& entry : flows_) {
+    const numbers::Matrix& value = value_of(entry, values_);
+    const hybrid::Slot& slot = system_->layout.slots[entry.variable];
+    for (Index k = entry.first; k < size(); ++k) {
+      const Index within = elements_[static_cast<std::size_t>(k)] - slot.offset;
+      if (within < 0 || within >= slot.shape.size()) break;
+      rate(k) = value(within);
+    }
+  }
+}
+
+void VectorField::rate(double t, const VectorXd& y, VectorXd& rate) {
+  spread(y, values_);
+  fill(t, values_);
+  rates(rate);
+}
+
+void VectorField::rate_at(const VectorXd& y, const VectorXd& steady, VectorXd& rate) {
+  const VectorXd before = values_;
+  spread(y, values_);
+  for (std::size_t k = 0; k < steady_inputs_.size(); ++k)
+    values_(steady_inputs_[k]) = steady(static_cast<Index>(k));
+  rates(rate);
+  values_ = before;
+}
+
+double VectorField::steady_rate(Index element) const {
+  const auto found = std::find_if(lines_.begin(), lines_.end(),
+                                  [&](const Line& line) { return line.element == element; });
+  return found == lines_.end() ? 0 : found->rate;
+}
+
+VectorXd VectorField::parameters(const VectorXd& values) const {
+  VectorXd result(static_cast<Index>(resting_inputs_.size() + is_frozen_.size()));
+  Index k = 0;
+  for (const Index element : resting_inputs_) result(k++) = values(element);
+  for (const bool frozen : is_frozen_) result(k++) = frozen ? 1 : 0;
+  return result;
+}
+
+hybrid::DenseStep VectorField::step(double from, double to, const numbers::Matrix& series) const {
+  const Index terms = std::max<Index>(series.cols(), lines_.empty() ? 1 : 2);
+  hybrid::DenseStep made{from, to, numbers::Matrix::Zero(system_->size, terms)};
+  numbers::Matrix& c = made.coefficients;
+  c.col(0) = values_.head(system_->size);
+  for (std::size_t k = 0; k < elements_.size(); ++k) {
+    const auto row = series.row(static_cast<Index>(k));
+    c.row(elements_[k]).head(series.cols()) = row;
+    c.row(mirrors_[k]).head(series.cols()) = row;
+  }
+  set_lines(made);
+  return made;
+}
+
+void VectorField::set_lines(hybrid::DenseStep& step) const {
+  for (const Line& line : lines_) {
+    step.coefficients(line.element, 0) = (line.at(step.from) + line.at(step.to)) / 2;
+    step.coefficients(line.element, 1) = (line.at(step.to) - line.at(step.from)) / 2;
+  }
+}
+
+hybrid::DenseStep VectorField::until(const hybrid::DenseStep& step, double t) const {
+  hybrid::DenseStep made = step.until(t);
+  const Index terms = step.coefficients.cols() - 1;
+  for (Index k = 0; k < step.coefficients.rows(); ++k)
+    if ((step.coefficients.row(k).tail(terms).array() == 0).all())
+      made.coefficients.row(k) = step.coefficients.row(k);
+  set_lines(made);
+  return made;
+}
+
+}  // namespace gainsmith::simulate

@@ -1,0 +1,47 @@
+// What the runs of a campaign share when the dynamics have events (model/dynamics.h).
+//
+// A claim is judged by its own values along a run: they are the coordinates of the judgement. The
+// integral of a flow cost is a state beside those of the plant and the observers.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "bounded/bounded_system.h"
+#include "claims/claim_check.h"
+#include "claims/claims.h"
+#include "claims/run_values.h"
+#include "claims/sample_points.h"
+#include "simulate/simulator.h"
+
+namespace gainsmith::verify {
+
+struct EventSetup {
+  hybrid::System system;
+  hybrid::StateLayout layout;  ///< of the variables: without branches that flows hold
+  hybrid::Scenario scenario;
+  std::vector<model::Dynamics::Assignment> flow;  ///< as written, before branches are held
+  std::vector<claims::LinkedClaim> claims;
+  std::vector<expr::Program> functions;  ///< of the claims that are stated: the coordinates
+  std::vector<int> first_of_claim;       ///< of each function: the value of its claim
+  bounded::BallsOf<double> constants;    ///< of the functions, with their errors
+  bounded::Coordinates coordinates;
+  std::vector<claims::JudgedClaim> judged;  ///< the claims that are stated, in order
+  claims::SamplePoints looks;               ///< that the claims ask for
+  std::unique_ptr<bounded::BoundedSystem<double>> narrow;
+  std::optional<model::Design::RunAccuracy> asked;  ///< of the campaign
+
+  /// To what a run is integrated: as the campaign asks, otherwise to `usual`; times a factor.
+  simulate::Accuracy accuracy(double usual, double factor = 1) const;
+};
+
+/// Of a run that is looked at; those of a campaign, which are made twice, are coarser.
+constexpr double kUsualOfOne = 1e-10;
+constexpr double kUsualOfMany = 1e-8;
+
+/// At an address of its own: its parts point to each other.
+std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instance,
+                                                   const model::Gains& gains);
+
+}  // namespace gainsmith::verify

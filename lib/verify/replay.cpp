@@ -1,0 +1,197 @@
+#include "verify/replay.h"
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+#include <utility>
+
+#include "claims/run_values.h"
+#include "verify/judge.h"
+
+namespace gainsmith::verify {
+
+namespace {
+
+using Eigen::Index;
+using VariableKind = model::Dynamics::VariableKind;
+
+Column::Kind kind_of(VariableKind kind) {
+  if (kind == VariableKind::state) return Column::Kind::state;
+  return kind == VariableKind::mode ? Column::Kind::mode : Column::Kind::other;
+}
+
+/// "xh1", "P2_1"; a number has no indices.
+std::string element(const std::string& name, expr::Shape shape, int at) {
+  std::string label = name;
+  if (!shape.is_scalar()) label += std::to_string(at % shape.rows + 1);
+  if (shape.cols > 1) label += "_" + std::to_string(at / shape.rows + 1);
+  return label;
+}
+
+/// t and j have columns of their own, what a log says is an output.
+bool is_shown_otherwise(const model::Dynamics& dynamics, const model::Dynamics::Variable& one) {
+  return one.kind == VariableKind::time || one.kind == VariableKind::jumps ||
+         one.kind == VariableKind::measured_rate ||
+         (one.kind == VariableKind::measured && dynamics.measured[one.of].output);
+}
+
+/// What makes the columns of one name.
+struct Source {
+  Column column;
+  expr::Shape shape;
+  std::optional<Index> offset;            ///< of a variable
+  std::optional<claims::RunValue> value;  ///< of a signal or claim
+  std::optional<std::size_t> at;          ///< the event at which alone it exists
+};
+
+class EventTable {
+ public:
+  EventTable(const model::Design& design, const EventSetup& setup)
+      : design_(design), setup_(setup) {
+    const model::Dynamics& dynamics = *design.dynamics;
+    for (const model::Dynamics::Component& one : dynamics.components)
+      if (one.observer) observers_.push_back(one.name);
+    for (std::size_t k = 0; k < dynamics.variables.size(); ++k) {
+      const model::Dynamics::Variable& variable = dynamics.variables[k];
+      if (is_shown_otherwise(dynamics, variable)) continue;
+      const hybrid::Slot& slot = setup.system.layout.slots[k];
+      sources_.push_back({column(variable.name, kind_of(variable.kind)), slot.shape, slot.offset,
+                          std::nullopt, std::nullopt});
+    }
+    for (const model::Dynamics::Signal& signal : dynamics.signals)
+      add(signal.name, signal.value.program, Column::Kind::signal, signal.at);
+    for (const claims::LinkedClaim& claim : setup.claims)
+      if (claim.stated() && add(claim.name, claim.value, Column::Kind::claim, std::nullopt))
+        sources_.back().column.scope = scope(claim);
+  }
+
+  void fill(double step, Replay& replay) {
+    replay.columns = {{"t", "t", "", Column::Kind::time}, {"j", "j", "", Column::Kind::jumps}};
+    for (const Source& source : sources_)
+      for (int e = 0; e < source.shape.size(); ++e) {
+        replay.columns.push_back(source.column);
+        replay.columns.back().name = element(source.column.name, source.shape, e);
+      }
+    std::vector<double> values;
+    claims::visit(replay.run, step, [&](const claims::Moment& moment) {
+      values.push_back(moment.t);
+      values.push_back(static_cast<double>(moment.j));
+      replay.events.push_back(moment.jump == nullptr ? "" : event_of(*moment.jump));
+      for (Source& source : sources_) add_values(source, moment, values);
+    });
+    const auto columns = static_cast<Index>(replay.columns.size());
+    replay.table =
+        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
+            values.data(), static_cast<Index>(replay.events.size()), columns);
+  }
+
+ private:
+  ClaimScope scope(const claims::LinkedClaim& claim) const {
+    ClaimScope scope{claim.after,
+                     claim.over ? design_.dynamics->events[*claim.over].name : std::string(),
+                     std::nullopt};
+    if (claim.bound)
+      scope.bound = claims::RunValue(*claim.bound, setup_.layout, setup_.system.constants)
+                        .number(Eigen::VectorXd::Zero(setup_.layout.size));
+    return scope;
+  }
+
+  /// Whether it has a value.
+  bool add(const std::string& name, const expr::Program& program, Column::Kind kind,
+           std::optional<std::size_t> at) {
+    expr::Program linked = setup_.system.bodies.link(program);
+    for (const expr::Input& input : linked.inputs)
+      if (!setup_.system.slot(input.name) && !setup_.system.constants.contains(input.name))
+        return false;
+    programs_.push_back(std::make_unique<expr::Program>(std::move(linked)));
+    const expr::Program& own = *programs_.back();
+    sources_.push_back({column(name, kind), own.shape(), std::nullopt,
+                        claims::RunValue(own, setup_.layout, setup_.system.constants), at});
+    return true;
+  }
+
+  std::string event_of(const hybrid::JumpPoint& jump) const {
+    const std::string& name = design_.dynamics->events[jump.event].name;
+    return jump.lost ? name + " (lost)" : name;
+  }
+
+  /// Of the only observer a name needs no prefix.
+  Column column(const std::string& name, Column::Kind kind) const {
+    for (const std::string& observer : observers_)
+      if (name.starts_with(observer + ".")) {
+        const std::string own = name.substr(observer.size() + 1);
+        return {observers_.size() == 1 ? own : name, own, observer, kind};
+      }
+    return {name, name, "", kind};
+  }
+
+  static void add_values(Source& source, const claims::Moment& moment,
+                         std::vector<double>& values) {
+    const int size = source.shape.size();
+    if (source.offset) {
+      for (int e = 0; e < size; ++e) values.push_back(moment.x(*source.offset + e));
+      return;
+    }
+    const bool exists = !source.at || (moment.jump != nullptr && moment.jump->event == *source.at);
+    if (!exists) {
+      values.insert(values.end(), static_cast<std::size_t>(size),
+                    std::numeric_limits<double>::quiet_NaN());
+      return;
+    }
+    const numbers::Matrix& value = (*source.value)(source.at ? moment.jump->before : moment.x);
+    values.insert(values.end(), value.data(), value.data() + value.size());
+  }
+
+  const model::Design& design_;
+  const EventSetup& setup_;
+  std::vector<std::string> observers_;
+  std::vector<std::unique_ptr<expr::Program>> programs_;
+  std::vector<Source> sources_;
+};
+
+/// Starts that the campaign gives are asked about with what is drawn.
+std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const model::Instance& instance,
+                                    const model::Gains& gains, const EventSetup& setup,
+                                    std::uint64_t seed, std::uint64_t number) {
+  const simulate::Accuracy accuracy = setup.accuracy(kUsualOfOne);
+  judge::JudgeQuestion question{accuracy.relative,
+                                accuracy.absolute,
+                                accuracy.absolute_of,
+                                {},
+                                judge::DrawnFrom{seed, number, &instance.design->campaign}};
+  for (const model::Design::Start& start : instance.design->campaign.starts) {
+    const hybrid::Slot& slot = setup.system.layout.slots[start.state];
+    const numbers::Matrix value = run.start.segment(slot.offset, slot.shape.size())
+                                      .reshaped(slot.shape.rows, slot.shape.cols);
+    question.starts.push_back({start.state, value, value});
+  }
+  model::Dynamics dynamics = setup.system.dynamics;
+  dynamics.flow = setup.flow;
+  return judge::check_trajectory(run, dynamics, model::state(instance, gains), question);
+}
+
+}  // namespace
+
+Replay replay_run(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
+                  std::uint64_t run, double step, bool judged) {
+  const std::unique_ptr<const Setup> setup = make_setup(instance, gains);
+  const EventSetup& events = *setup->events;
+  Replay result;
+  result.run = simulate::Simulator(events.system, events.scenario)
+                   .run(seed, run, events.accuracy(kUsualOfOne));
+  if (result.run.ending == hybrid::Ending::interrupted) {
+    const Concluding concluding;
+    EventTable(*instance.design, events).fill(step, result);
+    return result;
+  }
+  EventTable(*instance.design, events).fill(step, result);
+  if (judged) result.faults = faults_of(result.run, instance, gains, events, seed, run);
+  if (events.judged.empty()) return result;
+  Judge judge(*setup);
+  const std::vector<claims::Finding> findings = judge(seed, run).findings;
+  for (std::size_t k = 0; k < findings.size(); ++k)
+    result.claims.push_back({events.judged[k].name, findings[k]});
+  return result;
+}
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,53 @@
+// One run of dynamics with events, with everything that a person wants to see of it.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "claims/claim_check.h"
+#include "judge/judge.h"
+#include "model/gains.h"
+#include "model/instance.h"
+
+namespace gainsmith::verify {
+
+/// A claim in this run.
+struct ReplayedClaim {
+  std::string name;
+  claims::Finding finding;
+};
+
+/// Where a claim is made, and what its value must not exceed or fall below.
+struct ClaimScope {
+  double after = 0;             ///< the time from which on
+  std::string over;             ///< the event just after whose jumps alone; empty: everywhere
+  std::optional<double> bound;  ///< of `below` and `above`
+};
+
+/// A quantity along a run: an element of a variable or of a signal, or the value of a claim.
+struct Column {
+  std::string name;  ///< as it is shown, "xh1"; of several observers with the name, "nominal.xh1"
+  std::string stem;  ///< without observer and element: "xh"
+  std::string observer;  ///< empty: of the plant, of all
+  enum class Kind { time, jumps, state, mode, other, signal, claim } kind = Kind::other;
+  ClaimScope scope{};  ///< of a claim
+};
+
+/// Rows: the start, points of each flow and its end, the values after each jump.
+struct Replay {
+  hybrid::Trajectory run;
+  std::vector<Column> columns;
+  numbers::Matrix table;              ///< not a number where there is none
+  std::vector<std::string> events;    ///< of each row: the jump that it comes after, or empty
+  std::vector<ReplayedClaim> claims;  ///< exactly what the campaign found in this run
+  std::vector<judge::Fault> faults;   ///< that the judge of runs found
+};
+
+/// `step`: of the points of flows; 0: as the integration went. `judged`: whether the run is checked
+/// against the texts. After a stop (base/stop.h) the run as far as it came, without claims.
+Replay replay_run(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
+                  std::uint64_t run, double step, bool judged = false);
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,303 @@
+#include "verify/tracks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+namespace gainsmith::verify {
+
+using bounded::Termination;
+using Eigen::Index;
+using Eigen::VectorXd;
+using hybrid::Ending;
+
+namespace {
+
+constexpr int kAround = 5;  ///< samples from which the bound of one is taken
+/// The samples around the k-th of all.
+Index first_around(Index k, Index all) {
+  return std::max<Index>(std::min<Index>(k - kAround / 2, all - kAround), 0);
+}
+Index last_around(Index k, Index all) {
+  return std::min<Index>(first_around(k, all) + kAround, all);
+}
+
+bool is_whole(model::Dynamics::VariableKind kind) {
+  using Kind = model::Dynamics::VariableKind;
+  return kind == Kind::mode || kind == Kind::jumps || kind == Kind::count || kind == Kind::passes;
+}
+
+}  // namespace
+
+EventTracks::EventTracks(const EventSetup& setup)
+    : setup_(&setup),
+      simulator_(setup.system, setup.scenario),
+      doubts_(setup.system),
+      rounds_(static_cast<std::size_t>(setup.system.whole), false) {
+  const auto& variables = setup.system.dynamics.variables;
+  for (std::size_t k = 0; k < variables.size(); ++k) {
+    const hybrid::Slot& slot = setup.system.layout.slots[k];
+    const auto first = rounds_.begin() + slot.offset;
+    std::fill(first, first + slot.shape.size(), !is_whole(variables[k].kind));
+  }
+  functions_.reserve(setup.functions.size());  // the balls point into it
+  for (const expr::Program& function : setup.functions) {
+    functions_.emplace_back(function, setup.layout, setup.system.constants);
+    balls_.emplace_back(function, functions_.back(), setup.layout, setup.constants);
+  }
+}
+
+/// Whether a function is of a claim that a look is for.
+bool EventTracks::counts(const claims::SamplePoint& look, std::size_t function) const {
+  return look.function == bounded::Track<double>::kForAll ||
+         look.function == setup_->first_of_claim[function];
+}
+
+VectorXd EventTracks::values(const claims::SamplePoint& look, const VectorXd& x) {
+  VectorXd result = VectorXd::Zero(static_cast<Index>(functions_.size()));
+  for (std::size_t k = 0; k < functions_.size(); ++k)
+    if (counts(look, k)) result(static_cast<Index>(k)) = functions_[k].number(x);
+  return result;
+}
+
+/// x as rounding may have left it: exact flows and jumps round in both runs alike. Elements whose
+/// numbers differ in the bit are rounded apart, so that a difference of two shows it.
+VectorXd EventTracks::with_rounding(const VectorXd& x, int bit) const {
+  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+  VectorXd result = x;
+  for (Index e = 0; e < x.size(); ++e) {
+    if (!rounds_[static_cast<std::size_t>(e)]) continue;
+    const bool up = ((e >> bit) & 1) == 0;
+    result(e) += (up ? 1 : -1) * (4 + rounded_) * kUnit * std::abs(x(e));
+  }
+  return result;
+}
+
+/// What the variables may be off by, where the two runs differ by so much at samples around.
+VectorXd EventTracks::errors(const VectorXd& fine, const VectorXd& around) const {
+  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+  VectorXd result = claims::kOfDifference * around;
+  for (Index e = 0; e < fine.size(); ++e)
+    if (rounds_[static_cast<std::size_t>(e)])
+      result(e) += (4 + rounded_) * kUnit * std::abs(fine(e));
+  return result;
+}
+
+/// The bits `pattern`, `pattern` + `stride`, ... of the numbers of elements are rounded apart.
+void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const VectorXd& coarse,
+                         const VectorXd& fine, const VectorXd& around, int pattern, int stride,
+                         bool within_instant) {
+  VectorXd value = values(look, fine);
+  VectorXd difference = (values(look, coarse) - value).cwiseAbs();
+  for (int bit = pattern; bit == 0 || (fine.size() - 1) >> bit > 0; bit += stride)
+    difference = difference.cwiseMax((values(look, with_rounding(fine, bit)) - value).cwiseAbs());
+  const VectorXd error = errors(fine, around);
+  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < functions_.size(); ++k) {
+    const auto row = static_cast<Index>(k);
+    if (!counts(look, k)) {
+      track_.is_fixed.push_back(0);
+      rounding_.push_back(0);
+      continue;
+    }
+    const bool is_open = !functions_[k].is_smooth() && balls_[k].is_open(fine, error);
+    track_.is_fixed.push_back(!is_open && difference(row) == 0 ? 1 : 0);
+    if (!is_open) {
+      rounding_.push_back(balls_[k].rounding(fine));
+      if (parts(k, value(row), difference(row), rounding_.back())) difference(row) = kUnknown;
+      continue;
+    }
+    const bounded::Bounded<double> hull = balls_[k].hull(fine, error);
+    if (!std::isnan(hull.value)) value(row) = hull.value;
+    difference(row) = parts(k, value(row), 0, 0) ? kUnknown : 0;
+    rounding_.push_back(hull.bound);
+  }
+  track_.t.push_back(look.t);
+  track_.sampled_for.push_back(look.function);
+  track_.within_instant.push_back(within_instant ? 1 : 0);
+  track_.j.push_back(j);
+  track_.timer.push_back(0);
+  track_.timer_bound.push_back(0);
+  track_.stacked.insert(track_.stacked.end(), value.data(), value.data() + value.size());
+  track_.bounds.insert(track_.bounds.end(), difference.data(),
+                       difference.data() + difference.size());
+}
+
+bool EventTracks::parts(std::size_t function, double value, double difference, double rounding) {
+  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+  constexpr double kOfRange = 1e-3;
+  constexpr double kOfAccuracy = 1e3;
+  const auto claim = static_cast<std::size_t>(setup_->first_of_claim[function]);
+  Range& range = ranges_[function];
+  range.low = range.seen ? std::fmin(range.low, value) : value;
+  range.high = range.seen ? std::fmax(range.high, value) : value;
+  range.seen = true;
+  sizes_[claim] = std::fmax(sizes_[claim], std::fmax(std::abs(value), rounding / kUnit));
+  // A value that is nothing but errors of its terms goes on to be known to them.
+  if (difference > kOfRange * (range.high - range.low) &&
+      difference > kOfAccuracy * track_.accuracy * sizes_[claim])
+    parted_[claim] = 1;
+  return parted_[claim] != 0;
+}
+
+void EventTracks::add_flow(const claims::TwinFlow& flow, const hybrid::Trajectory& run) {
+  const hybrid::FlowPiece& fine = *flow.flow;
+  double certain = std::numeric_limits<double>::infinity();
+  for (; next_turn_ < run.turns.size() && run.turns[next_turn_].t <= fine.to(); ++next_turn_) {
+    const hybrid::NearTurn& turn = run.turns[next_turn_];
+    if (turn.t < fine.from() || !doubt_.empty()) continue;
+    if (auto doubt = doubts_.of_turn(turn, flow)) {
+      doubt_ = *doubt;
+      certain = turn.t;
+    }
+  }
+  rounded_ += static_cast<double>(fine.steps.size());
+  const std::vector<claims::SamplePoint> looks =
+      claims::points_along(fine, setup_->looks, functions_, rises_);
+  std::vector<VectorXd> coarse_x;
+  std::vector<VectorXd> fine_x;
+  for (const claims::SamplePoint& look : looks) {
+    coarse_x.push_back(flow.twin_at(look.share));
+    fine_x.push_back(claims::state_at(fine, look.share));
+  }
+  const auto count = static_cast<Index>(looks.size());
+  double before = fine.from();
+  const bool within_instant = fine.to() - fine.from() <= claims::kInstantOfRun * run.end;
+  for (Index k = 0; k < count; ++k) {
+    const claims::SamplePoint& look = looks[static_cast<std::size_t>(k)];
+    if (look.t >= certain) break;
+    VectorXd difference = VectorXd::Zero(fine.start.size());
+    for (Index other = first_around(k, count); other < last_around(k, count); ++other) {
+      const auto at = static_cast<std::size_t>(other);
+      difference = difference.cwiseMax((coarse_x[at] - fine_x[at]).cwiseAbs());
+    }
+    track_.moves.push_back({false, {bounded::FlowStep::kRest, look.t - before}});
+    const auto at = static_cast<std::size_t>(k);
+    append(look, fine.j, coarse_x[at], fine_x[at], difference, static_cast<int>((k + 1) % kAround),
+           kAround, within_instant);
+    before = look.t;
+  }
+}
+
+void EventTracks::add_jump(const claims::TwinParts& twins, std::size_t at) {
+  const auto& [jump, before, after, t] = std::get<claims::TwinJump>(twins.parts[at]);
+  if (auto doubt = doubts_.of_jump(twins, at)) {
+    doubt_ = *doubt;
+    return;
+  }
+  rounded_ += 1;
+  track_.moves.push_back({true, {}, jump->event});
+  append({1, jump->t}, jump->j + 1, after, jump->after, (after - jump->after).cwiseAbs(), 0, 1);
+}
+
+/// A rise within the noise of a run is never certain.
+claims::RiseLimits EventTracks::limits_of_rises(const VectorXd& start, double accuracy) {
+  claims::RiseLimits limits;
+  constexpr double kRounding = 1e-13;
+  constexpr double kOfAccuracy = 1e-3;
+  constexpr double kExactAgreement = 1e-10;
+  constexpr double kAgreement = 10;  // times the accuracy
+  const bool exact = setup_->system.affine;
+  limits.noise = exact ? kRounding : kOfAccuracy * accuracy;
+  limits.agreement = exact ? kExactAgreement : kAgreement * accuracy;
+  limits.floor = VectorXd::Zero(static_cast<Index>(functions_.size()));
+  for (const claims::SamplePoints::Falling& one : setup_->looks.falling)
+    if (one.after == 0)
+      limits.floor(static_cast<Index>(one.function)) =
+          claims::kFloorOfAccuracy * accuracy * std::abs(functions_[one.function].number(start));
+  return limits;
+}
+
+bool EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine) {
+  append({0, 0}, 0, coarse.start, fine.start, (coarse.start - fine.start).cwiseAbs(), 0, 1);
+  const claims::TwinParts twins = claims::pair_twins(fine, coarse, setup_->system, doubts_.maps());
+  std::size_t first = 0;
+  for (std::size_t k = 0; k < twins.parts.size() && doubt_.empty(); ++k) {
+    if (const auto* flow = std::get_if<claims::TwinFlow>(&twins.parts[k])) {
+      add_flow(*flow, fine);
+      continue;
+    }
+    widen(first);
+    first = track_.samples();
+    add_jump(twins, k);
+  }
+  widen(first);
+  return twins.whole && doubt_.empty();
+}
+
+/// Of the samples of one flow, once all are there.
+void EventTracks::widen(std::size_t first) {
+  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+  const auto size = track_.size;
+  const auto count = static_cast<Index>(track_.samples() - first);
+  const Index skipped = static_cast<Index>(first) * size;
+  Eigen::Map<numbers::Matrix> bounds(track_.bounds.data() + skipped, size, count);
+  const Eigen::Map<const numbers::Matrix> rounding(rounding_.data() + skipped, size, count);
+  const numbers::Matrix own = bounds;
+  std::vector<Index> seen;  // the samples that count for a function
+  for (Index f = 0; f < size; ++f) {
+    seen.clear();
+    for (Index k = 0; k < count; ++k) {
+      const claims::SamplePoint look{0, 0, track_.sampled_for[first + static_cast<std::size_t>(k)]};
+      if (counts(look, static_cast<std::size_t>(f))) seen.push_back(k);
+    }
+    const auto all = static_cast<Index>(seen.size());
+    for (Index i = 0; i < all; ++i) {
+      const Index k = seen[static_cast<std::size_t>(i)];
+      double around = 0;
+      for (Index other = first_around(i, all); other < last_around(i, all); ++other)
+        around = std::fmax(around, own(f, seen[static_cast<std::size_t>(other)]));
+      const double value = track_.state(first + static_cast<std::size_t>(k))(f);
+      bounds(f, k) = claims::kOfDifference * around + 8 * kUnit * std::abs(value) + rounding(f, k);
+    }
+  }
+}
+
+void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine,
+                      bool certain) {
+  constexpr double kSame = 1e-6;
+  track_.message = fine.message;
+  const bool same = certain && coarse.ending == fine.ending &&
+                    std::abs(coarse.end - fine.end) <= kSame * fine.end;
+  const bool complete = is_complete(fine.ending);
+  const bool breaks = fine.ending == Ending::escaped || fine.ending == Ending::undefined ||
+                      fine.ending == Ending::stuck;
+  if (same && complete) {
+    track_.termination = Termination::horizon;
+  } else if (same && breaks) {
+    track_.termination = Termination::broken_off;
+  } else {
+    track_.termination = Termination::lost;
+    if (!doubt_.empty())
+      track_.message = doubt_;
+    else if (!same)
+      track_.message = "which events happen, and when, hangs on the accuracy" +
+                       (fine.message.empty() ? "" : "; " + fine.message);
+  }
+}
+
+const bounded::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t run,
+                                               double factor) {
+  constexpr double kSharper = 1e-2;
+  track_.clear();
+  track_.size = setup_->coordinates.layout.size;
+  const simulate::Accuracy accuracy = setup_->accuracy(kUsualOfMany, factor);
+  track_.accuracy = accuracy.relative;
+  rounded_ = 0;
+  rounding_.clear();
+  const hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
+  const hybrid::Trajectory fine =
+      simulator_.run(seed, run, accuracy.times(kSharper), {}, factor < 1 ? 1 : 0);
+  rises_ = limits_of_rises(fine.start, accuracy.relative);
+  ranges_.assign(functions_.size(), {});
+  sizes_.assign(functions_.size(), 0);
+  parted_.assign(functions_.size(), 0);
+  next_turn_ = 0;
+  doubt_.clear();
+  const bool certain = add_parts(coarse, fine);
+  end(coarse, fine, certain);
+  return track_;
+}
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,80 @@
+// Runs of dynamics with events as the samples that claims are judged by.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "claims/text_ball.h"
+#include "claims/twin_parts.h"
+#include "verify/careful_runs.h"
+#include "verify/doubts.h"
+
+namespace gainsmith::verify {
+
+/// The runs of one (seed, number) as the samples of the functions: one to an accuracy, and its twin
+/// to a hundredth of it, of which every exact flow and every jump is moved by random units in the
+/// last place (hybrid/last_places.h). One for each thread. The setup must outlive it.
+///
+///   samples   the looks along each flow (flow_looks.h), and the values after each jump; of a look
+///             for the sake of one claim only its values, 0 for the others
+///   bound     four times the largest difference between the two runs at five samples around it, or
+///             what a rounding for each step and jump so far makes of the value, up for some
+///             elements and down for the others, + 8 u |value| and what its evaluation rounds
+///             (text_ball.h): an estimate that leaves a margin, and no proof. Where such an error
+///             of the variables makes a branch uncertain, all values that are possible
+///
+/// Once the two runs differ by more than a thousandth of the range of a value so far, they are two
+/// runs that have nothing to do with each other: from there on bounds of the claim are infinite.
+///
+/// Where it is not certain which events happen, because the two runs take others or because they
+/// lie within their errors (event_doubts.h), the run is lost: the samples end there. Events at one
+/// instant may come in another order (twin_parts.h). A run that ends by accumulating jumps is
+/// complete.
+class EventTracks {
+ public:
+  explicit EventTracks(const EventSetup& setup);
+
+  /// `factor`: of the accuracy of a campaign.
+  const bounded::Track<double>& run(std::uint64_t seed, std::uint64_t run, double factor);
+
+ private:
+  void append(const claims::SamplePoint& look, std::int64_t j, const Eigen::VectorXd& coarse,
+              const Eigen::VectorXd& fine, const Eigen::VectorXd& around, int pattern, int stride,
+              bool within_instant = false);
+  void add_flow(const claims::TwinFlow& flow, const hybrid::Trajectory& fine);
+  void add_jump(const claims::TwinParts& twins, std::size_t at);
+  /// The part of both runs that is certain; whether that is all.
+  bool add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
+  /// Whether the two runs have parted in a value.
+  bool parts(std::size_t function, double value, double difference, double rounding);
+  claims::RiseLimits limits_of_rises(const Eigen::VectorXd& start, double accuracy);
+  void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine, bool certain);
+  void widen(std::size_t first);
+  bool counts(const claims::SamplePoint& look, std::size_t function) const;
+  Eigen::VectorXd values(const claims::SamplePoint& look, const Eigen::VectorXd& x);
+  Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
+  Eigen::VectorXd errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& around) const;
+
+  const EventSetup* setup_;
+  simulate::Simulator simulator_;
+  std::vector<claims::RunValue> functions_;
+  std::vector<claims::TextBall> balls_;  ///< of the functions
+  EventDoubts doubts_;
+  std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
+  bounded::Track<double> track_;
+  std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track
+  claims::RiseLimits rises_;
+  /// What a function has been so far.
+  struct Range {
+    double low = 0, high = 0;
+    bool seen = false;
+  };
+  std::vector<Range> ranges_;  ///< by function
+  std::vector<double> sizes_;  ///< by claim, at its first function: of values and their terms
+  std::vector<char> parted_;   ///< the same: whether the two runs have
+  std::size_t next_turn_ = 0;  ///< of the turning points of the twin
+  std::string doubt_;          ///< why the run is lost
+  double rounded_ = 0;         ///< steps and jumps so far
+};
+
+}  // namespace gainsmith::verify

@@ -1,0 +1,50 @@
+// A TextProblem as sampled dynamics, for the tests of hybrid.
+#pragma once
+
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "bounded/bounded_run.h"
+#include "bounded/sampled_system.h"
+#include "hybrid/exact_values.h"
+#include "support/text_problem.h"
+
+namespace gainsmith::bounded {
+
+/// What the runs of a problem share. At an address of its own.
+struct SampledProblem {
+  explicit SampledProblem(const tests::TextProblem& problem)
+      : instance(problem.instance()),
+        dynamics(hybrid::make_system(instance, problem.gains)),
+        made(make_sampled_system(dynamics)),
+        scenario(hybrid::make_scenario(instance.design->campaign, dynamics)),
+        values(hybrid::exact_values(instance, dynamics.constants, problem.gains)) {
+    if (!made) throw std::logic_error("not sampled");
+    if (made->flow) steps.emplace(*made->flow, made->longest, made->flow_place);
+  }
+  SampledProblem(const SampledProblem&) = delete;
+  SampledProblem& operator=(const SampledProblem&) = delete;
+
+  const SampledSystem& system() const { return *made; }
+
+  /// The states themselves as coordinates.
+  Coordinates states() const {
+    std::vector<expr::Program> functions;
+    for (const hybrid::Slot& slot : made->layout.slots) {
+      expr::Composer compose({});
+      functions.push_back(compose.take(compose.input(slot.name, slot.shape)));
+    }
+    return make_coordinates(*made, values, functions);
+  }
+
+  model::Instance instance;
+  hybrid::System dynamics;
+  std::unique_ptr<const SampledSystem> made;
+  hybrid::Scenario scenario;
+  numbers::ValuesOf<Decimal100> values;
+  std::optional<FlowSteps> steps;  ///< of an affine flow
+};
+
+}  // namespace gainsmith::bounded

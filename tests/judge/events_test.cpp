@@ -1,0 +1,219 @@
+// The judge on conditions, borders, frozen components and loops of maps.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "judge/judge.h"
+#include "support/dynamics_text.h"
+#include "support/reference_run.h"
+
+namespace gainsmith::judge {
+namespace {
+
+using Eigen::VectorXd;
+using tests::DynamicsText;
+using tests::has_fault;
+using tests::ReferenceRun;
+using tests::to_text;
+
+VectorXd column(std::initializer_list<double> values) {
+  VectorXd result(static_cast<Eigen::Index>(values.size()));
+  std::copy(values.begin(), values.end(), result.begin());
+  return result;
+}
+
+/// T' = 30 q - T with hysteresis, a counter of T rising through 21, and a component that is frozen
+/// while the heater is on. Variables: T, q, c, z.
+struct Thermostat {
+  DynamicsText text;
+  model::Dynamics dynamics;
+
+  Thermostat() {
+    text.state("T", 1, "30*q - T", "20")
+        .mode("q", "1")
+        .when("off", "q == 1 and T >= 22")
+        .when("on", "q == 0 and T <= 18")
+        .rises("hot", "T - 21")
+        .reacts("off", {{"q", "0"}})
+        .reacts("on", {{"q", "1"}})
+        .observer("counter")
+        .state("c", 1, "", "0")
+        .reacts("hot", {{"c", "c + 1"}})
+        .observer("sleeper")
+        .state("z", 1, "1", "0")
+        .frozen("q == 1");
+    dynamics = text.dynamics();
+  }
+  static constexpr std::size_t kOff = 0, kOn = 1, kHot = 2;
+
+  /// Flows until T is `to`.
+  static void flow(ReferenceRun& run, double to) {
+    const VectorXd x = run.x();
+    const double from = run.t();
+    const double rest = 30 * x(1);
+    const double until = from + std::log((x(0) - rest) / (to - rest));
+    run.flow(until, [=](double t) {
+      VectorXd y = x;
+      y(0) = t == until ? to : rest + (x(0) - rest) * std::exp(from - t);
+      y(3) += (1 - x(1)) * (t - from);
+      return y;
+    });
+  }
+  static void jump(ReferenceRun& run, std::size_t event) {
+    VectorXd x = run.x();
+    if (event == kHot) x(2) += 1;
+    if (event != kHot) x(1) = event == kOn ? 1 : 0;
+    run.jump(event, x);
+  }
+  struct Leg {
+    double to;
+    std::vector<std::size_t> events;
+  };
+  std::vector<Fault> judged(const std::vector<Leg>& legs) const {
+    ReferenceRun run(column({20, 1, 0, 0}), 0);
+    for (const Leg& leg : legs) {
+      flow(run, leg.to);
+      for (const std::size_t event : leg.events) jump(run, event);
+    }
+    hybrid::Trajectory trajectory = run.end();
+    trajectory.horizon = trajectory.end;
+    return check_trajectory(trajectory, dynamics, text.stated());
+  }
+};
+
+TEST(JudgedThermostat, IsAccepted) {
+  const auto faults =
+      Thermostat().judged({{21, {2}}, {22, {0}}, {18, {1}}, {21, {2}}, {22, {0}}, {19, {}}});
+  EXPECT_TRUE(faults.empty()) << to_text(faults);
+}
+
+TEST(JudgedThermostat, FindsABorderThatIsMissed) {
+  const auto faults = Thermostat().judged({{22, {0}}, {19, {}}});
+  EXPECT_TRUE(has_fault(faults, 0, "crosses its border inside a flow: hot")) << to_text(faults);
+}
+
+TEST(JudgedThermostat, FindsAnEventInTheWrongDirection) {
+  const auto faults = Thermostat().judged({{21, {2}}, {22, {0}}, {21, {2}}, {19, {}}});
+  EXPECT_TRUE(has_fault(faults, 5, "jumps, but is not due: hot")) << to_text(faults);
+  EXPECT_EQ(faults.size(), 1u) << to_text(faults);
+}
+
+TEST(JudgedThermostat, FindsASwitchThatIsTooLateOrMissing) {
+  const Thermostat thermostat;
+  EXPECT_TRUE(has_fault(thermostat.judged({{21, {2}}, {22 + 1e-7, {0}}, {19, {}}}), 2,
+                        "becomes due inside a flow: off"));
+  EXPECT_TRUE(has_fault(thermostat.judged({{21, {2}}, {21.9, {0}}, {19, {}}}), 3,
+                        "jumps, but is not due: off"));
+  EXPECT_TRUE(has_fault(thermostat.judged({{21, {2}}, {22, {0}}, {18, {}}}), 5,
+                        "is due, but does not jump: on"));
+  // Twice through 21 at once, and jumps in the wrong mode.
+  EXPECT_TRUE(has_fault(thermostat.judged({{21, {2, 2}}, {21.5, {}}}), 2, "is not due: hot"));
+  EXPECT_TRUE(
+      has_fault(thermostat.judged({{21, {2}}, {22, {1}}, {22.1, {}}}), 3, "is not due: on"));
+}
+
+TEST(JudgedThermostat, FindsAFrozenComponentThatFlows) {
+  const Thermostat thermostat;
+  ReferenceRun run(column({20, 1, 0, 0}), 0.05);
+  run.flow(0.05, [](double t) { return column({30 - 10 * std::exp(-t), 1, 0, t}); });
+  EXPECT_TRUE(has_fault(check_trajectory(run.end(), thermostat.dynamics, thermostat.text.stated()),
+                        0, "flows, but rests: z"));
+}
+
+/// A jump of one event leads across the border of another.
+TEST(JudgedBorders, AreCrossedByJumpsOfOthersToo) {
+  DynamicsText text;
+  text.state("x", 1, "1", "-1").at("kick", {"0.5"}).rises("up", "x");
+  text.state("n", 1, "", "0").reacts("kick", {{"x", "x + 2"}}).reacts("up", {{"n", "n + 1"}});
+  const model::Dynamics dynamics = text.dynamics();
+  const auto judged = [&](int times) {
+    ReferenceRun run(column({-1, 0}), 1);
+    run.flow(0.5, [](double t) { return column({t - 1, 0}); }).jump(0, column({1.5, 0}));
+    for (int k = 1; k <= times; ++k) run.jump(1, column({1.5, static_cast<double>(k)}));
+    const double n = times;
+    run.flow(1, [n](double t) { return column({t + 1, n}); });
+    return check_trajectory(run.end(), dynamics, text.stated());
+  };
+  EXPECT_TRUE(judged(1).empty()) << to_text(judged(1));
+  EXPECT_TRUE(has_fault(judged(0), 2, "is due, but does not jump: up"));
+  EXPECT_TRUE(has_fault(judged(2), 3, "jumps, but is not due: up"));
+}
+
+/// A pair of crossings between two of the points at which conditions are looked at.
+TEST(JudgedBorders, PairsInsideOneStepAreFound) {
+  DynamicsText text;
+  text.state("x", 1, "1", "0")
+      .when("spike", "cos(10*x) >= 0.99999")
+      .rises("blip", "cos(7*x) - 0.99999");
+  text.falls("dip", "cos(7*x) + 0.99999").crosses("touch", "cos(3*x) + 1");
+  const model::Dynamics dynamics = text.dynamics();
+  ReferenceRun run(column({0.1}), 1.2);
+  run.flow(
+      1.2, [](double t) { return column({0.1 + t}); }, 2);
+  JudgeQuestion question;
+  question.starts.push_back({0, numbers::Matrix{{0}}, numbers::Matrix{{1}}});
+  const auto faults = check_trajectory(run.end(), dynamics, text.stated(), question);
+  EXPECT_TRUE(has_fault(faults, 0, "becomes due inside a flow: spike")) << to_text(faults);
+  EXPECT_TRUE(has_fault(faults, 0, "inside a flow: blip")) << to_text(faults);
+  EXPECT_TRUE(has_fault(faults, 0, "inside a flow: dip")) << to_text(faults);
+  // It is reached and not crossed.
+  EXPECT_FALSE(has_fault(faults, 0, "inside a flow: touch")) << to_text(faults);
+}
+
+/// A loop of maps; passes(outside) is a variable. Variables: x, passes(outside).
+TEST(JudgedLoops, AreRepeatedUntilTheirCondition) {
+  DynamicsText text;
+  text.state("x", 1, "1", "0").when("outside", "x >= 1");
+  text.repeats("outside", {{"x", "0.5*x"}}, "x <= 0.1", "10");
+  text.signal("p", "passes(outside)");
+  const model::Dynamics dynamics = text.dynamics();
+  const auto judged = [&](double after, double passes) {
+    ReferenceRun run(column({0, 0}), 1.2);
+    run.flow(
+           1,
+           [](double t) {
+             return column({t, 0});
+           },
+           2)
+        .jump(0, column({after, passes}));
+    run.flow(
+        1.2,
+        [=](double t) {
+          return column({after + t - 1, passes});
+        },
+        2);
+    return check_trajectory(run.end(), dynamics, text.stated());
+  };
+  EXPECT_TRUE(judged(0.0625, 4).empty()) << to_text(judged(0.0625, 4));
+  EXPECT_TRUE(has_fault(judged(0.125, 3), 1, "the jump outside gives another value: x"));
+  EXPECT_TRUE(has_fault(judged(0.03125, 5), 1, "the jump outside gives another value: x"));
+  EXPECT_TRUE(has_fault(judged(0.0625, 3), 1, "wrong after the jump outside: passes(outside)"));
+}
+
+/// Maps of one jump see their own component as the map before left it, others as before.
+TEST(JudgedLoops, MapsSeeTheirOwnComponentChanged) {
+  DynamicsText text;
+  text.state("x", 1, "1", "0").at("step", {"1"}).reacts("step", {{"x", "x + 10"}});
+  text.observer("a").state("a1", 1, "", "1").state("a2", 1, "", "2");
+  text.reacts("step", {{"a1", "a2"}, {"a2", "a1"}}).reacts("step", {{"a1", "a1 + x"}});
+  text.observer("b").state("b1", 1, "", "0").reacts("step", {{"b1", "a1 + 100*x"}});
+  const model::Dynamics dynamics = text.dynamics();
+  const auto judged = [&](const VectorXd& after) {
+    ReferenceRun run(column({0, 1, 2, 0}), 1);
+    run.flow(
+           1,
+           [](double t) {
+             return column({t, 1, 2, 0});
+           },
+           2)
+        .jump(0, after);
+    return check_trajectory(run.end(), dynamics, text.stated());
+  };
+  EXPECT_TRUE(judged(column({11, 3, 1, 101})).empty());
+  EXPECT_TRUE(has_fault(judged(column({11, 13, 1, 101})), 1, "another value: a1"));
+  EXPECT_TRUE(has_fault(judged(column({11, 2, 1, 101})), 1, "another value: a1"));
+  EXPECT_TRUE(has_fault(judged(column({11, 3, 1, 103})), 1, "another value: b1"));
+}
+
+}  // namespace
+}  // namespace gainsmith::judge

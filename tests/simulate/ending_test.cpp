@@ -1,0 +1,248 @@
+// How runs with events end, and branches of flows.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "base/number.h"
+#include "support/event_problem.h"
+#include "support/input_error.h"
+#include "support/stop.h"
+
+namespace gainsmith::simulate {
+namespace {
+
+using tests::EventProblem;
+using tests::input_error;
+using tests::jumps_of;
+using tests::part_of;
+using tests::value_at;
+
+hybrid::Trajectory simulate(const hybrid::System& system, double horizon) {
+  const hybrid::Scenario scenario = hybrid::make_scenario(horizon, system);
+  return Simulator(system, scenario).run(1, 0);
+}
+
+void expect_says(const hybrid::Trajectory& run, const std::string& text) {
+  EXPECT_NE(run.message.find(text), std::string::npos) << run.message;
+}
+
+TEST(EventEnding, AChainOfJumpsWithoutFlowNamesTheEventAndItsValue) {
+  EventProblem problem;
+  problem.state("x", {}, "0").flow("x", "1").when("over", "x >= 1").jump("over", {{"x", "x + 1"}});
+  const hybrid::Trajectory run = simulate(problem.system(), 5);
+  EXPECT_EQ(run.ending, hybrid::Ending::stuck);
+  EXPECT_NEAR(run.end, 1, 1e-15);
+  expect_says(run, "the event over is due again");
+  expect_says(run, "x >= 1");
+  EXPECT_LT(jumps_of(run).size(), 2000U);
+
+  EventProblem two;
+  two.state("x", {}, "1").flow("x", "1");
+  two.when("up", "x >= 2").jump("up", {{"x", "0"}});
+  two.when("down", "x <= 0").jump("down", {{"x", "2"}});
+  const hybrid::Trajectory both = simulate(two.system(), 5);
+  EXPECT_EQ(both.ending, hybrid::Ending::stuck);
+  expect_says(both, "of up, down");
+}
+
+TEST(EventEnding, EscapesNameTheirTime) {
+  EventProblem problem;
+  problem.state("x", {}, "1").flow("x", "x^2");
+  const hybrid::Trajectory run = simulate(problem.system(), 5);
+  EXPECT_EQ(run.ending, hybrid::Ending::escaped) << run.message;
+  EXPECT_NEAR(run.end, 1, 1e-3);
+  EventProblem linear;
+  linear.state("x", {}, "1").flow("x", "1000*x");
+  const hybrid::Trajectory far = simulate(linear.system(), 5);
+  EXPECT_EQ(far.ending, hybrid::Ending::escaped);
+  EXPECT_NEAR(far.end, 0.345, 0.01);
+  expect_says(far, "x = ");
+}
+
+TEST(EventEnding, TextsWithoutAValueNameTheirPlace) {
+  EventProblem flow;
+  flow.state("x", {}, "1").flow("x", "-sqrt(x)/x");
+  const hybrid::Trajectory run = simulate(flow.system(), 5);
+  EXPECT_EQ(run.ending, hybrid::Ending::undefined) << run.message;
+  EXPECT_NEAR(run.end, 2.0 / 3, 1e-3);
+  expect_says(run, "sqrt");
+  EventProblem jump;
+  jump.state("x", {}, "1").at("go", {"1"}).jump("go", {{"x", "log(x - 2)"}});
+  const hybrid::Trajectory at = simulate(jump.system(), 5);
+  EXPECT_EQ(at.ending, hybrid::Ending::undefined);
+  EXPECT_EQ(at.end, 1);
+  expect_says(at, "test:1:1");
+}
+
+TEST(EventEnding, LeavingTheFlowSetSaysWhy) {
+  EventProblem problem;
+  problem.state("x", {}, "0").flow("x", "cos(t)").stay("x <= 0.5", "too far");
+  const hybrid::Trajectory run = simulate(problem.system(), 5);
+  EXPECT_EQ(run.ending, hybrid::Ending::left);
+  EXPECT_NEAR(run.end, std::asin(0.5), 1e-8);
+  expect_says(run, "too far");
+  EventProblem ball;
+  ball.state("x", {2, 1}, "[1; 0]").flow("x", "[x(2); -10]").stay("x(1) >= 0", "below ground");
+  ball.when("impact", "x(1) <= 0 and x(2) < 0").jump("impact", {{"x", "[x(1); -x(2)]"}});
+  const hybrid::Trajectory bounces = simulate(ball.system(), 5);
+  EXPECT_EQ(bounces.ending, hybrid::Ending::horizon) << bounces.message;
+  EXPECT_EQ(jumps_of(bounces).size(), 6U);
+  EventProblem out;
+  out.state("x", {}, "0").stay("x <= 1", "out").at("go", {"1"}).jump("go", {{"x", "2"}});
+  EXPECT_EQ(simulate(out.system(), 5).end, 1);
+}
+
+TEST(EventEnding, ARelayWithoutHysteresisChatters) {
+  EventProblem problem;
+  problem.state("x", {}, "1").flow("x", "-q").mode("q", "1");
+  problem.when("plus", "x > 0 and q == -1").jump("plus", {{"q", "1"}});
+  problem.when("minus", "x < 0 and q == 1").jump("minus", {{"q", "-1"}});
+  const hybrid::Trajectory run = simulate(problem.system(), 5);
+  EXPECT_EQ(run.ending, hybrid::Ending::chattering) << run.message;
+  EXPECT_NEAR(run.end, 1, 1e-9);
+  expect_says(run, "plus");
+  expect_says(run, "minus");
+}
+
+TEST(EventEnding, ACounterThatEndsShrinkingIsNoZeno) {
+  EventProblem problem;
+  problem.state("s", {}, "0").flow("s", "1").state("k", {}, "1");
+  problem.when("g", "s >= 0.5^k").jump("g", {{"s", "0"}, {"k", "where(k > 20, -3, k + 1)"}});
+  const hybrid::Trajectory run = simulate(problem.system(), 20);
+  EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
+}
+
+// Seven flights of a ball that keeps a tenth of its speed are all that numbers can tell apart.
+TEST(EventEnding, AFewFlightsThatShrinkFastAccumulate) {
+  for (const double r : {0.001, 0.05, 0.1, 0.24, 0.99}) {
+    EventProblem problem;
+    problem.state("x", {}, "0").state("v", {}, "4").flow("x", "v").flow("v", "-9.81");
+    problem.when("hit", "x <= 0 and v < 0").jump("hit", {{"v", "-" + brief(r, 17) + "*v"}});
+    const hybrid::Trajectory run = simulate(problem.system(), 100);
+    EXPECT_EQ(run.ending, hybrid::Ending::zeno) << r << " " << run.message;
+    const double time = 8 / 9.81 / (1 - r);
+    EXPECT_NEAR(run.accumulation, time, 1e-9 * time) << r;
+  }
+}
+
+TEST(EventEnding, StoppedFromOutside) {
+  EventProblem problem;
+  problem.state("x", {}, "1").flow("x", "-x").every("tick", "1", "1");
+  const hybrid::System system = problem.system();
+  const hybrid::Scenario scenario = hybrid::make_scenario(1e6, system);
+  Simulator simulator(system, scenario);
+  const tests::StopInTest stop(true);
+  const hybrid::Trajectory run = simulator.run(1, 0);
+  EXPECT_EQ(run.ending, hybrid::Ending::interrupted);
+  EXPECT_LT(run.end, 1e6);
+}
+
+TEST(EventEnding, StatesThatAreNoneOfTheirKindAreErrors) {
+  EventProblem mode;
+  mode.mode("q", "0").at("go", {"1"}).jump("go", {{"q", "0.5"}});
+  const hybrid::System halves = mode.system();
+  EXPECT_NE(input_error([&] { simulate(halves, 2); }).message().find("whole number"),
+            std::string::npos);
+  EventProblem matrix;
+  matrix.symmetric("P", 2, "[1, 0; 0, 1]").flow("P", "[1, 2; 3, 4]*P");
+  const hybrid::System skew = matrix.system();
+  EXPECT_NE(input_error([&] { simulate(skew, 2); }).message().find("P is symmetric"),
+            std::string::npos);
+  EventProblem jump;
+  jump.symmetric("P", 2, "[1, 0; 0, 1]").at("go", {"1"});
+  jump.jump("go", {{"P", "[1, 1e-6; 0, 1]*P"}});
+  const hybrid::System other = jump.system();
+  EXPECT_NE(input_error([&] { simulate(other, 2); }).message().find("P is symmetric"),
+            std::string::npos);
+}
+
+TEST(EventSwitch, BranchesAreHeldAndChangeAtTheirBorder) {
+  for (const bool exact : {true, false}) {
+    EventProblem problem;
+    problem.state("x", {}, "1")
+        .flow("x", exact ? "where(x > 0.5, -1, -x)" : "where(x > 0.5, -1, -sin(x))");
+    problem.state("z", {}, "-1").flow("z", "sign(z + 0.5) + 1.5");
+    const hybrid::System system = problem.system();
+    EXPECT_EQ(system.affine, exact);
+    EXPECT_EQ(system.switches.size(), 2U);
+    const hybrid::Trajectory run = simulate(system, 3);
+    EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
+    EXPECT_TRUE(jumps_of(run).empty());
+    ASSERT_EQ(run.parts.size(), 1U);
+    const double x = exact ? 0.5 * std::exp(-1.5) : 2 * std::atan(std::tan(0.25) * std::exp(-1.5));
+    EXPECT_NEAR(value_at(system, run, "x", 2)(0), x, exact ? 1e-14 : 1e-9);
+    // 0.5 up to t = 1, where z = -0.5, then 2.5.
+    EXPECT_NEAR(value_at(system, run, "z", 2)(0), 2, 1e-14);
+  }
+}
+
+TEST(EventSwitch, BranchesThatBothLeadBackSlide) {
+  EventProblem problem;
+  problem.state("x", {2, 1}, "[1; 0]").flow("x", "[-sign(x(1)) + 0.25; 1]");
+  const hybrid::Trajectory run = simulate(problem.system(), 5);
+  EXPECT_EQ(run.ending, hybrid::Ending::sliding) << run.message;
+  EXPECT_NEAR(run.end, 4.0 / 3, 1e-9);
+  EventProblem relay;
+  relay.state("x", {}, "1").flow("x", "where(x >= 0.3, -1 - x^2, 1)");
+  EXPECT_EQ(simulate(relay.system(), 5).ending, hybrid::Ending::sliding);
+}
+
+// x = (1 - t)^2 comes to rest on the border; what is left is noise of the integration.
+TEST(EventSwitch, ARateThatFallsToNothingOnTheBorderSlides) {
+  EventProblem problem;
+  problem.state("x", {}, "1").flow("x", "-2*sign(x)*abs(x)^0.5");
+  const hybrid::System system = problem.system();
+  const hybrid::Trajectory run = simulate(system, 5);
+  EXPECT_EQ(run.ending, hybrid::Ending::sliding) << run.message;
+  EXPECT_NEAR(run.end, 1, 0.01);
+  EXPECT_NEAR(value_at(system, run, "x", run.end)(0), 0, 1e-10);
+  EventProblem small;  // 1e-4 is no noise
+  small.state("x", {2, 1}, "[1e-4; 0]").flow("x", "[x(2); -sign(x(1))*(1e-4 + x(1)^2)]");
+  EXPECT_EQ(simulate(small.system(), 1000).ending, hybrid::Ending::horizon);
+}
+
+// Two tanks with equal levels: the difference starts in its rounding and is only crossed.
+TEST(EventSwitch, ACrossingInTheRoundingIsNoSliding) {
+  EventProblem problem;
+  problem.state("a", {}, "1").state("b", {}, "1");
+  problem.flow("a", "0.8 - 0.5*sign(a - b)*sqrt(abs(a - b))");
+  problem.flow("b", "0.5*sign(a - b)*sqrt(abs(a - b)) - 0.4*sign(b)*sqrt(abs(b))");
+  const hybrid::System system = problem.system();
+  const hybrid::Trajectory run = simulate(system, 1);
+  ASSERT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
+  // Euler's rule, whose steps halve the error of each other.
+  const auto euler = [](int steps) {
+    double a = 1;
+    double b = 1;
+    for (int k = 0; k < steps; ++k) {
+      const double over = 0.5 * std::sqrt(std::abs(a - b));
+      const double out = 0.4 * std::sqrt(b);
+      a += (0.8 - over) / steps;
+      b += (over - out) / steps;
+    }
+    return a;
+  };
+  EXPECT_NEAR(value_at(system, run, "a", 1)(0), 2 * euler(2000000) - euler(1000000), 1e-6);
+}
+
+TEST(EventSwitch, BranchesOfTimeAreSteppedTo) {
+  EventProblem problem;
+  problem.state("x", {}, "0").flow("x", "where(t >= 1, where(t < 2, 3, 0), sin(x))");
+  const hybrid::System system = problem.system();
+  const hybrid::Trajectory run = simulate(system, 3);
+  EXPECT_NEAR(value_at(system, run, "x", 3)(0), 3, 1e-13);
+}
+
+TEST(EventFlow, StiffFlowsAreFollowed) {
+  EventProblem problem;
+  problem.state("x", {2, 1}, "[2; 0]").flow("x", "[x(2); 1000*((1 - x(1)^2)*x(2)) - x(1)]");
+  problem.crossing(model::Dynamics::EventKind::falls, "fall", "x(1)");
+  const hybrid::System system = problem.system();
+  const hybrid::Trajectory run = simulate(system, 2000);
+  EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
+  ASSERT_EQ(jumps_of(run).size(), 1U);
+  EXPECT_NEAR(jumps_of(run)[0].t, 807.0, 1.0);
+}
+
+}  // namespace
+}  // namespace gainsmith::simulate

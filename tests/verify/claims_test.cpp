@@ -1,0 +1,263 @@
+// Claims along runs of methods with events, whose truth is known by hand.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "io/problem_text.h"
+#include "model/bind.h"
+#include "verify/campaign.h"
+#include "verify/careful_runs.h"
+#include "verify/replay.h"
+
+namespace gainsmith::verify {
+namespace {
+
+using model::CampaignVerdict;
+
+/// A problem with these parts of its method and of itself.
+model::Instance instance_of(const std::string& method, const std::string& claims,
+                            const std::string& campaign, const std::string& more = "") {
+  return model::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + "  claims: " +
+                                      claims + "\ncampaign: " + campaign + "\n" + more));
+}
+
+Report report_of(const model::Instance& instance) {
+  CampaignOptions options;
+  options.threads = 1;
+  return run_campaign(instance, model::Gains{}, options);
+}
+
+/// x = exp(-t); y = sin(50 t); z' = 1, z+ = 0.9 z when it comes to 1; q counts.
+const std::string kMethod = R"(  data: {a: {shape: scalar, default: 1}}
+  events: {tick: {every: 1}, full: {when: plant.z >= 1}}
+  plant:
+    state:
+      x: {shape: scalar, start: 1}
+      y: {shape: 2, start: "[0; 1]"}
+      z: {shape: scalar, start: 0}
+      q: {shape: scalar, start: 0}
+    flow: {x: -a*x, y: "50*[y(2); -y(1)]", z: 1}
+    at: {tick: {q: q + 1}, full: {z: 0.87*z}}
+)";
+
+struct Case {
+  std::string claim;
+  CampaignVerdict verdict;
+};
+void PrintTo(const Case& one, std::ostream* out) { *out << one.claim; }
+
+class ClaimsAlongRuns : public testing::TestWithParam<Case> {};
+
+TEST_P(ClaimsAlongRuns, AreJudgedAsTheyAre) {
+  const Report report =
+      report_of(instance_of(kMethod, "{c: {" + GetParam().claim + "}}", "{runs: 1, horizon: 4.5}"));
+  EXPECT_EQ(report.verdict, GetParam().verdict)
+      << report.checks[0].worst.value << " against " << report.checks[0].worst.bound;
+}
+
+// exp(-1) = 0.36787944, exp(-4.5) = 0.011108997.
+INSTANTIATE_TEST_SUITE_P(
+    Bounds, ClaimsAlongRuns,
+    testing::Values(Case{"below: x, bound: 1.00001", CampaignVerdict::held},
+                    Case{"below: x, bound: 0.99999", CampaignVerdict::violated},
+                    Case{"below: x, bound: exp(-1) + 1e-6, after: a", CampaignVerdict::held},
+                    Case{"below: x, bound: exp(-1) - 1e-6, after: 1", CampaignVerdict::violated},
+                    // The peaks lie between the parts at which flows are cut.
+                    Case{"below: y(1), bound: 1 + 1e-6", CampaignVerdict::held},
+                    Case{"below: y(1), bound: 1 - 1e-6", CampaignVerdict::violated},
+                    Case{"above: y(1), bound: -1 - 1e-6", CampaignVerdict::held},
+                    Case{"above: y(1), bound: -1 + 1e-6", CampaignVerdict::violated},
+                    Case{"above: x, bound: exp(-4.5) - 1e-6", CampaignVerdict::held},
+                    Case{"above: x, bound: exp(-4.5) + 1e-6", CampaignVerdict::violated},
+                    Case{"above: z, bound: 0.87 - 1e-9, after: 1", CampaignVerdict::held}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Rates, ClaimsAlongRuns,
+    testing::Values(Case{"below: rate(x^2) + 1.99*x^2, bound: 0", CampaignVerdict::held},
+                    Case{"below: rate(x^2) + 2.01*x^2, bound: 0", CampaignVerdict::violated},
+                    Case{"below: rate(x) + 0.5*a*x, bound: 0", CampaignVerdict::held},
+                    Case{"above: rate(z), bound: 0.999", CampaignVerdict::held},
+                    Case{"above: rate(z), bound: 1.001", CampaignVerdict::violated},
+                    Case{"below: rate(since(tick)*tick.left), bound: 1.001", CampaignVerdict::held},
+                    Case{"below: rate(since(tick)*tick.left), bound: 0.999",
+                         CampaignVerdict::violated}));
+
+// An equation is neither.
+INSTANTIATE_TEST_SUITE_P(Equations, ClaimsAlongRuns,
+                         testing::Values(Case{"nonincreasing: y'*y", CampaignVerdict::undecided},
+                                         Case{"below: norm(y), bound: 1",
+                                              CampaignVerdict::undecided}));
+
+/// r' = -r^2, r = 1/(1 + t), integrated.
+TEST(ClaimsAlongRuns, AnEquationWithAClosedFormIsUndecided) {
+  const std::string method = "  plant: {state: {r: {shape: scalar, start: 1}}, flow: {r: -r^2}}\n";
+  for (const char* claim :
+       {"below: rate(r) + 1/(1 + t)^2, bound: 0", "above: rate(r) + 1/(1 + t)^2, bound: 0",
+        "below: r*(1 + t), bound: 1, after: 0.1", "above: r*(1 + t), bound: 1, after: 0.1"}) {
+    const Report report = report_of(
+        instance_of(method, "{c: {" + std::string(claim) + "}}", "{runs: 1, horizon: 4}"));
+    EXPECT_EQ(report.verdict, CampaignVerdict::undecided) << claim;
+    EXPECT_EQ(report.violations, 0U) << claim;
+  }
+}
+
+/// x = exp(-t), an exact flow: both runs round alike.
+TEST(ClaimsAlongRuns, AnEquationOfAnExactFlowIsNotViolated) {
+  const std::string method = "  plant: {state: {x: {shape: scalar, start: 1}}, flow: {x: -x}}\n";
+  for (const char* claim :
+       {"below: rate(x) + exp(-t), bound: 0", "above: rate(x) + exp(-t), bound: 0",
+        "below: x*exp(t), bound: 1", "above: x*exp(t), bound: 1", "below: rate(x) + x, bound: 0"}) {
+    const Report report = report_of(
+        instance_of(method, "{c: {" + std::string(claim) + "}}", "{runs: 1, horizon: 5}"));
+    EXPECT_EQ(report.violations, 0U) << claim;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    OverEvents, ClaimsAlongRuns,
+    testing::Values(Case{"nonincreasing: z, over: full", CampaignVerdict::undecided},
+                    Case{"nonincreasing: z - 1e-6*t, over: full", CampaignVerdict::held},
+                    Case{"nonincreasing: z + 1e-6*t, over: full", CampaignVerdict::violated},
+                    Case{"nonincreasing: z, after: 1", CampaignVerdict::violated},
+                    Case{"nonincreasing: -x, over: tick", CampaignVerdict::violated},
+                    Case{"nonincreasing: x - q, over: tick", CampaignVerdict::held},
+                    Case{"below: q, bound: 3.5, after: 1.5", CampaignVerdict::violated},
+                    Case{"above: q, bound: 0.5, over: tick", CampaignVerdict::held},
+                    Case{"above: q, bound: 1.5, over: tick", CampaignVerdict::violated},
+                    Case{"above: q, bound: 0.5", CampaignVerdict::violated},
+                    Case{"above: q, bound: 1.5, over: tick, after: 1.5", CampaignVerdict::held}));
+
+TEST(ClaimsAlongRuns, WhatFallsToItsBoundIsHeldAndSaysHowFar) {
+  // V = x^2: rate(V) + V <= -V -> 0, down to 1e-35 of what it was, far below what is integrated.
+  const std::string method =
+      "  plant: {state: {x: {shape: scalar, start: 1}}, flow: {x: -x - x^3}}\n";
+  const Report report = report_of(
+      instance_of(method, "{c: {below: \"rate(x^2) + x^2\", bound: 0}}", "{runs: 1, horizon: 40}"));
+  EXPECT_EQ(report.verdict, CampaignVerdict::held);
+  EXPECT_GT(report.checks[0].floor, 0);
+  EXPECT_LT(report.checks[0].floor, 1e-8);
+}
+
+TEST(ClaimsAlongRuns, AViolationIsFoundWhereItIs) {
+  const Report report = report_of(
+      instance_of(kMethod, "{c: {below: x, bound: 0.3, after: 1}}", "{runs: 1, horizon: 4.5}"));
+  const claims::Finding& worst = report.checks[0].worst;
+  EXPECT_EQ(worst.t, 1);
+  EXPECT_NEAR(worst.value, std::exp(-1), 1e-8);
+  EXPECT_EQ(worst.bound, 0.3);
+}
+
+TEST(ClaimsAlongRuns, AnEventThatNeverHappensLeavesNothingToCompare) {
+  const std::string method = R"(  events: {never: {when: plant.x > 2}}
+  plant: {state: {x: {shape: scalar, start: 1}}, flow: {x: -x}, at: {never: {x: 0}}}
+)";
+  const Report report = report_of(
+      instance_of(method, "{c: {above: x, bound: 5, over: never}}", "{runs: 1, horizon: 1}"));
+  EXPECT_EQ(report.verdict, CampaignVerdict::held);
+}
+
+TEST(ClaimsAlongRuns, AClaimOverAnEventOfAnObserverIsOneOfThoseThatHaveIt) {
+  const std::string method =
+      R"(  plant: {state: {x: {shape: scalar, start: 1}}, output: {y: x}, flow: {x: -x}}
+  observers:
+    plain:    {state: {xh: {shape: scalar, start: 3}}, flow: {xh: -xh + y - xh}}
+    clipping: {like: plain, events: {far: {when: xh >= 2}}, at: {far: {xh: 2 - 1e-3}}}
+)";
+  const Report report = report_of(
+      instance_of(method, "{c: {below: xh, bound: 2, over: far}}", "{runs: 1, horizon: 1}"));
+  ASSERT_EQ(report.checks.size(), 1U);
+  EXPECT_EQ(report.checks[0].name, "clipping.c");
+  EXPECT_EQ(report.verdict, CampaignVerdict::held);
+}
+
+TEST(ClaimsAlongRuns, AClaimThatBeginsAfterTheRunsIsRefused) {
+  try {
+    report_of(
+        instance_of(kMethod, "{c: {below: x, bound: 2, after: 9}}", "{runs: 1, horizon: 4.5}"));
+    FAIL();
+  } catch (const InputError& error) {
+    EXPECT_NE(std::string(error.what()).find("the runs end at 4.5"), std::string::npos);
+  }
+}
+
+/// The columns of a replay, by name.
+Eigen::VectorXd column(const Replay& replay, const std::string& name) {
+  for (std::size_t k = 0; k < replay.columns.size(); ++k)
+    if (replay.columns[k].name == name) return replay.table.col(static_cast<Eigen::Index>(k));
+  ADD_FAILURE() << "no column " << name;
+  return {};
+}
+
+/// rate(v) against the difference quotient of v, along random runs with clocks, a frozen component,
+/// a switch, a sinusoid and matrices.
+TEST(Rate, IsTheLimitOfDifferenceQuotients) {
+  const std::string method = R"(  data: {A: {shape: 2 x 2, default: "[0, 1; -2, -0.3]"}}
+  events: {sample: {every: [0.3, 0.9]}}
+  noise: {w: {sinusoid: {amplitude: [0.5, 1], frequency: [1, 3], phase: [0, 6]}}}
+  plant:
+    state: {x: {shape: 2}, P: {shape: symmetric 2, start: "[2, 0.3; 0.3, 1]"}}
+    output: {y: x(1)}
+    flow: {x: "A*x + [0; 0.2]*sin(x(1)) + [w; 0]", P: He(A*P) + I}
+  observer:
+    state: {z: {shape: 2}, s: {shape: scalar, start: 0}}
+    mode: {q: 0}
+    frozen: q == 1
+    flow: {z: "A*z + [y; where(z(1) > 0, 1, -2)]", s: 1}
+    at: {sample: {q: 1 - q}}
+  signals:
+    v:  "x'*P*x + exp(-z(1)^2)*s + sin(w)*since(sample) + sample.left*t"
+    dv: rate(v)
+    u:  "[z; trace(P)]"
+    du: rate(u)
+)";
+  const auto instance =
+      instance_of(method, "{c: {below: v, bound: 1e9}}",
+                  "{runs: 3, horizon: 2, initial: {x: {box: [-2, 2]}, z: {box: [-2, 2]}}}");
+  constexpr double kStep = 1e-4;
+  for (std::uint64_t run = 0; run < 3; ++run) {
+    const Replay replay = replay_run(instance, {}, 1, run, kStep);
+    const Eigen::VectorXd t = column(replay, "t");
+    const Eigen::VectorXd j = column(replay, "j");
+    const Eigen::VectorXd z = column(replay, "z1");
+    int compared = 0;
+    for (const auto& [value, rate] : {std::pair("v", "dv"), std::pair("u1", "du1"),
+                                      std::pair("u2", "du2"), std::pair("u3", "du3")}) {
+      const Eigen::VectorXd of = column(replay, value);
+      const Eigen::VectorXd by = column(replay, rate);
+      for (Eigen::Index k = 1; k + 1 < t.size(); ++k) {
+        const bool inside = j(k - 1) == j(k + 1) && std::abs(t(k + 1) - t(k) - kStep) < 1e-9 &&
+                            std::abs(t(k) - t(k - 1) - kStep) < 1e-9 && z(k - 1) * z(k + 1) > 0;
+        if (!inside) continue;
+        ++compared;
+        const double quotient = (of(k + 1) - of(k - 1)) / (2 * kStep);
+        ASSERT_NEAR(by(k), quotient, 1e-5 * (1 + std::abs(quotient))) << value << " at " << t(k);
+      }
+    }
+    EXPECT_GT(compared, 50000);
+  }
+}
+
+TEST(Rate, OfAFrozenStateIsZero) {
+  const std::string method = R"(  events: {stop: {at: [1]}}
+  plant:
+    state: {x: {shape: scalar, start: 1}}
+    mode: {q: 0}
+    frozen: q == 1
+    flow: {x: 2 - x}
+    at: {stop: {q: 1}}
+  signals: {r: rate(x)}
+)";
+  const auto instance = instance_of(method, "{c: {below: r, bound: 9}}", "{runs: 1, horizon: 2}");
+  const Replay replay = replay_run(instance, {}, 1, 0, 0.25);
+  const Eigen::VectorXd t = column(replay, "t");
+  const Eigen::VectorXd j = column(replay, "j");
+  const Eigen::VectorXd r = column(replay, "r");
+  for (Eigen::Index k = 0; k < t.size(); ++k)
+    EXPECT_NEAR(r(k), j(k) == 1 ? 0 : std::exp(-t(k)), 1e-8) << t(k);
+}
+
+}  // namespace
+}  // namespace gainsmith::verify

@@ -1,0 +1,210 @@
+// What campaigns draw for methods with events: starts, sinusoids, vertices; and that runs replay.
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "io/problem_text.h"
+#include "model/bind.h"
+#include "verify/careful_runs.h"
+#include "verify/expected_run.h"
+
+namespace gainsmith::verify {
+namespace {
+
+using Eigen::VectorXd;
+
+model::Instance instance_of(const std::string& method, const std::string& problem) {
+  return model::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + problem));
+}
+
+const std::string kPlant =
+    R"(  data: {Q: {shape: 3 x 3, default: "[4, 1, 0; 1, 2, 0.5; 0, 0.5, 1]"}}
+  plant: {state: {x: {shape: 3}}}
+  observers:
+    a: {state: {z: {shape: 2}}}
+    b: {state: {z: {shape: 2}}}
+  claims: {c: {below: norm(x), bound: 1e9}}
+)";
+
+VectorXd part(const EventSetup& setup, const VectorXd& values, const std::string& name) {
+  const hybrid::Slot& slot = setup.system.layout.slots[setup.system.slot(name).value()];
+  return values.segment(slot.offset, slot.shape.size());
+}
+
+VectorXd start(const EventSetup& setup, std::uint64_t seed, std::uint64_t run) {
+  return hybrid::draw_start(setup.system, setup.scenario, seed, run);
+}
+
+TEST(EventDraws, AnEllipsoidIsFilledEvenly) {
+  const auto setup = make_event_setup(
+      instance_of(kPlant,
+                  "campaign: {horizon: 1, initial: {x: {ellipsoid: {center: [1, 2, 3], matrix: Q, "
+                  "level: 2}}, z: 0}}\n"),
+      {});
+  const Eigen::Matrix3d Q{{4, 1, 0}, {1, 2, 0.5}, {0, 0.5, 1}};
+  const Eigen::Vector3d center(1, 2, 3);
+  constexpr int kRuns = 20000;
+  std::vector<double> shares;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  for (std::uint64_t run = 0; run < kRuns; ++run) {
+    const Eigen::Vector3d d = part(*setup, start(*setup, 7, run), "x") - center;
+    const double level = d.dot(Q * d) / 2;
+    ASSERT_LE(level, 1 + 1e-12);
+    shares.push_back(std::pow(level, 1.5));  // of the volume within: uniform in [0, 1]
+    mean += d / kRuns;
+    covariance += d * d.transpose() / kRuns;
+  }
+  std::sort(shares.begin(), shares.end());
+  double farthest = 0;
+  for (std::size_t k = 0; k < shares.size(); ++k)
+    farthest = std::max(farthest, std::abs(shares[k] - (static_cast<double>(k) + 0.5) / kRuns));
+  EXPECT_LT(farthest, 1.63 / std::sqrt(kRuns));  // Kolmogorov-Smirnov, 1 %
+  EXPECT_LT(mean.norm(), 0.02);
+  // Of the uniform distribution in {d: d'Q d <= r} in n dimensions: r inv(Q)/(n + 2).
+  const Eigen::Matrix3d expected = 2 * Q.inverse() / 5;
+  EXPECT_LT((covariance - expected).cwiseAbs().maxCoeff(), 0.02 * expected.norm());
+}
+
+TEST(EventDraws, StatesOfAllComponentsTakeListsBoxesAndEllipsoids) {
+  const auto setup = make_event_setup(
+      instance_of(kPlant,
+                  "campaign: {horizon: 1, initial: {x: {list: [[1, 2, 3], [4, 5, 6]]}, a.z: {box: "
+                  "[2, 3]}, b.z: {ellipsoid: {matrix: 4*I}}}}\n"),
+      {});
+  for (std::uint64_t run = 0; run < 20; ++run) {
+    const VectorXd values = start(*setup, 3, run);
+    EXPECT_EQ(part(*setup, values, "x")(0), run % 2 == 0 ? 1 : 4);
+    EXPECT_GE(part(*setup, values, "a.z").minCoeff(), 2);
+    EXPECT_LE(part(*setup, values, "a.z").maxCoeff(), 3);
+    EXPECT_LE(part(*setup, values, "b.z").norm(), 0.5 * (1 + 1e-12));
+    EXPECT_EQ(values, start(*setup, 3, run)) << "a run replays";
+  }
+  EXPECT_NE(part(*setup, start(*setup, 3, 0), "b.z"), part(*setup, start(*setup, 4, 0), "b.z"));
+}
+
+TEST(EventDraws, ABadEllipsoidIsRefused) {
+  for (const auto& [ellipsoid, message] :
+       {std::pair("{matrix: -Q}", "positive definite"),
+        std::pair("{matrix: \"[1, 1, 0; 0, 1, 0; 0, 0, 1]\"}", "not symmetric"),
+        std::pair("{matrix: Q, level: -1}", "level"),
+        std::pair("{matrix: eye(2)}", "wrong shape")}) {
+    SCOPED_TRACE(ellipsoid);
+    try {
+      make_event_setup(
+          instance_of(kPlant, "campaign: {horizon: 1, initial: {z: 0, x: {ellipsoid: " +
+                                  std::string(ellipsoid) + "}}}\n"),
+          {});
+      ADD_FAILURE();
+    } catch (const InputError& error) {
+      EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("p.yaml:"), std::string::npos) << error.what();
+    }
+  }
+}
+
+/// Every combination once in as many runs as there are.
+TEST(EventDraws, VerticesTakeEachCombinationInTurn) {
+  const std::string data =
+      "data: {A: [[1, 2], [3, 4]], As: [[[1, 0], [0, 1]], [[2, 0], [0, 2]], [[3, 0], [0, 3]]]}\n";
+  const std::string method =
+      "  data: {A: 2 x 2, c: {shape: scalar, default: 5}, As: {shape: 2 x 2, for: i in 1..3}}\n"
+      "  plant: {state: {x: {shape: 2, start: \"[1; 1]\"}}, flow: {x: c*A*x}}\n"
+      "  claims: {k: {below: norm(x), bound: 1e9}}\n";
+  for (const char* uncertain :
+       {"uncertain: {A: {vertices: As}, c: {box: [1, 2], sampling: vertices}}\n",
+        "uncertain: {A: {vertices: [As(1), 2*As(1), [[3, 0], [0, 3]]]}, c: {vertices: [1, "
+        "2]}}\n"}) {
+    SCOPED_TRACE(uncertain);
+    const auto setup =
+        make_event_setup(instance_of(method, data + uncertain + "campaign: {horizon: 1}\n"), {});
+    std::set<std::pair<double, double>> seen;
+    for (std::uint64_t run = 0; run < 12; ++run) {
+      VectorXd values = start(*setup, 1, run);
+      hybrid::NoiseDraws noise(setup->system, 1, run);
+      for (std::size_t k = 0; k < setup->system.noise.size(); ++k) noise.draw(k, values);
+      const VectorXd A = part(*setup, values, "plant.A");
+      const double c = part(*setup, values, "plant.c")(0);
+      EXPECT_EQ(A(0), 1 + static_cast<double>(run % 3));
+      EXPECT_EQ(A(1), 0);
+      EXPECT_EQ(c, 1 + static_cast<double>(run / 3 % 2));
+      seen.insert({A(0), c});
+    }
+    EXPECT_EQ(seen.size(), 6U);
+  }
+}
+
+TEST(EventDraws, CornersOfABoxOfAMatrix) {
+  const std::string method =
+      "  data: {A: 2 x 2}\n"
+      "  plant: {state: {x: {shape: 2, start: \"[1; 1]\"}}, flow: {x: A*x}}\n"
+      "  claims: {k: {below: norm(x), bound: 1e9}}\n";
+  const auto setup = make_event_setup(
+      instance_of(
+          method,
+          "data: {A: [[1, 2], [3, 4]]}\n"
+          "uncertain: {A: {box: [\"[0, 2; 1, 3]\", \"[1, 2; 5, 4]\"], sampling: vertices}}\n"
+          "campaign: {horizon: 1}\n"),
+      {});
+  ASSERT_EQ(setup->system.noise[0].values.size(), 8U);
+  std::set<std::vector<double>> seen;
+  for (const numbers::Matrix& corner : setup->system.noise[0].values) {
+    EXPECT_EQ(corner(0, 1), 2);
+    EXPECT_TRUE(corner(0, 0) == 0 || corner(0, 0) == 1);
+    EXPECT_TRUE(corner(1, 0) == 1 || corner(1, 0) == 5);
+    EXPECT_TRUE(corner(1, 1) == 3 || corner(1, 1) == 4);
+    seen.insert({corner.data(), corner.data() + 4});
+  }
+  EXPECT_EQ(seen.size(), 8U);
+}
+
+TEST(EventDraws, ASinusoidIsWhatItSays) {
+  // x' = w: x(T) = (a/f)(cos(p) - cos(f T + p)).
+  const std::string method =
+      "  noise: {w: {sinusoid: {amplitude: \"[2; 3]\", frequency: [1, 4], phase: [0, 2*pi]}}}\n"
+      "  plant: {state: {x: {shape: 2, start: 0}}, flow: {x: w}}\n"
+      "  claims: {k: {below: norm(x), bound: 1e9}}\n";
+  const auto setup = make_event_setup(instance_of(method, "campaign: {horizon: 3}\n"), {});
+  simulate::Simulator simulator(setup->system, setup->scenario);
+  std::set<double> frequencies;
+  for (std::uint64_t run = 0; run < 5; ++run) {
+    const hybrid::Trajectory made = simulator.run(11, run, {1e-11, 1e-11});
+    ASSERT_EQ(made.ending, hybrid::Ending::horizon);
+    const VectorXd end = std::get<hybrid::FlowPiece>(made.parts.back()).end;
+    const double f = part(*setup, end, "w.frequency")(0);
+    const double p = part(*setup, end, "w.phase")(0);
+    EXPECT_TRUE(1 <= f && f < 4 && 0 <= p && p < 6.2832);
+    frequencies.insert(f);
+    EXPECT_EQ(made.parts.size(), 1U) << "a sinusoid is no switch";
+    const double integral = (std::cos(p) - std::cos(f * 3 + p)) / f;
+    EXPECT_NEAR(part(*setup, end, "x")(0), 2 * integral, 1e-8);
+    EXPECT_NEAR(part(*setup, end, "x")(1), 3 * integral, 1e-8);
+  }
+  EXPECT_EQ(frequencies.size(), 5U);
+}
+
+TEST(EventDraws, LostJumpsAreCounted) {
+  const std::string method =
+      R"(  events: {sample: {every: 0.1, lost: {probability: 0.5, in_a_row: 2}}}
+  plant: {state: {x: {shape: scalar, start: 1}, n: {shape: scalar, start: 0}}, output: {y: x}, flow: {x: -x}, at: {sample: {n: n + 1}}}
+  observer: {state: {k: {shape: scalar, start: 0}}, at: {sample: {k: k + 1}}}
+)";
+  const auto instance = instance_of(method, R"(campaign: {horizon: 5.05, runs: 1}
+compare: [{count: sample}, {lost: sample}, {at: {t: 5.02}, value: n}, {at: {t: 5.02}, value: k}]
+)");
+  const auto found = compared_figures(instance, {}, 1, 0).figures;
+  ASSERT_EQ(found.size(), 4U);
+  EXPECT_EQ(found[0].value, 50);
+  EXPECT_EQ(found[2].value, 50);
+  EXPECT_GT(*found[1].value, 10);
+  EXPECT_LT(*found[1].value, 40);
+  EXPECT_EQ(*found[1].value + *found[3].value, 50) << "what is lost no observer saw";
+}
+
+}  // namespace
+}  // namespace gainsmith::verify
