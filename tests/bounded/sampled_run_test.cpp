@@ -15,7 +15,7 @@ namespace gainsmith::bounded {
 namespace {
 
 using numbers::Matrix;
-using hybrid::Law = model::LawKind;
+using Law = model::LawKind;
 using Start = model::StartKind;
 using tests::column;
 using tests::sampled_data;
@@ -46,7 +46,7 @@ TextProblem clock() {
 
 TEST(SampledRun, TimerIsSteppedToExactly) {
   TextProblem problem = clock();
-  problem.first("0.3").horizon("50").law(hybrid::Law::list, {"0.5", "0.7", "1.1"});
+  problem.first("0.3").horizon("50").law(Law::list, {"0.5", "0.7", "1.1"});
   const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.termination, Termination::horizon);
   double expected = 0.3;  // the time of the next jump
@@ -74,7 +74,7 @@ TEST(SampledRun, TimerIsSteppedToExactly) {
 
 TEST(SampledRun, FirstValueZeroIsAJumpAtTheStart) {
   TextProblem problem = clock();
-  problem.first("0").horizon("0.25").law(hybrid::Law::constant, {"0.5"});
+  problem.first("0").horizon("0.25").law(Law::constant, {"0.5"});
   const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.t[0], 0);
   EXPECT_EQ(arc.t[1], 0);
@@ -88,7 +88,7 @@ TEST(SampledRun, FirstValueZeroIsAJumpAtTheStart) {
 
 TEST(SampledRun, JumpAtTheHorizonBelongsToTheRun) {
   TextProblem problem = clock();
-  problem.first("0.5").horizon("1").law(hybrid::Law::constant, {"0.5"});
+  problem.first("0.5").horizon("1").law(Law::constant, {"0.5"});
   const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.t.back(), 1);
   EXPECT_EQ(arc.j.back(), 2);
@@ -96,7 +96,7 @@ TEST(SampledRun, JumpAtTheHorizonBelongsToTheRun) {
 
 TEST(SampledRun, EachRunIsAFunctionOfSeedAndRun) {
   TextProblem problem = clock();
-  problem.law(hybrid::Law::uniform);
+  problem.law(Law::uniform);
   const Track<double> a = simulate(problem, 7, 11);
   const Track<double> b = simulate(problem, 7, 11);
   EXPECT_EQ(a.stacked, b.stacked);
@@ -107,7 +107,7 @@ TEST(SampledRun, EachRunIsAFunctionOfSeedAndRun) {
 
 TEST(SampledRun, DrawsAreThoseOfTheirPurposes) {
   TextProblem problem;
-  problem.state("z", "2").state("x", "scalar").timer("1", "2", "0", "3").law(hybrid::Law::uniform);
+  problem.state("z", "2").state("x", "scalar").timer("1", "2", "0", "3").law(Law::uniform);
   problem.start("x", Start::box, {"10", "20"});
   const Track<double> arc = simulate(problem, 5, 9);
   RandomStream z = hybrid::draw_stream(5, 9, hybrid::Purpose::start, 0);
@@ -164,7 +164,7 @@ TEST(SampledData, SamplesClearTheOutputErrorAndObeyTheSampleMap) {
   const Matrix F = column({0.104, -0.948});
   const double H = -25.93;
   TextProblem problem = sampled_data("1.1", L, F, scalar(H));
-  problem.law(hybrid::Law::uniform).horizon("20");
+  problem.law(Law::uniform).horizon("20");
   const Track<double> arc = simulate(problem, 2, 3);
   const double scale = largest(arc);
   std::size_t checked = 0;
@@ -201,7 +201,7 @@ TEST(SampledData, ErrorFollowsEquationEightBetweenSamples) {
 
 /// The growth of the error per sample, from the last samples of a long run.
 double growth(TextProblem problem) {
-  problem.law(hybrid::Law::constant, {"T2"}).first("T2").horizon("60*T2");
+  problem.law(Law::constant, {"T2"}).first("T2").horizon("60*T2");
   const Track<double> arc = simulate(problem);
   std::vector<double> norms;
   for (std::size_t k = 0; k + 1 < arc.samples(); ++k)
@@ -220,7 +220,7 @@ TEST(SampledData, RowThreeDivergesAtTheSpectralRadius) {
 TEST(SampledData, RowTwoContractsInItsNorm) {
   TextProblem problem =
       sampled_data("1.1", column({3.68, -24.47}), column({0.104, -0.948}), scalar(-25.93));
-  problem.law(hybrid::Law::uniform).law(hybrid::Law::extremes).horizon("15");
+  problem.law(Law::uniform).law(Law::extremes).horizon("15");
   const Matrix Q{{5.697, -1.308}, {-1.308, 1.364}};
   for (std::uint64_t run = 0; run < 40; ++run) {
     const Track<double> arc = simulate(problem, 1, run);
@@ -265,7 +265,7 @@ TEST(SampledRun, NonlinearJumpIsEvaluated) {
 
 TEST(SampledRun, IntervalsThatShrinkToNothingHitTheJumpLimit) {
   TextProblem problem;
-  problem.state("x", "scalar").timer("0", "1", "0", "0").law(hybrid::Law::constant, {"0"});
+  problem.state("x", "scalar").timer("0", "1", "0", "0").law(Law::constant, {"0"});
   const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.termination, Termination::jump_limit);
   EXPECT_EQ(arc.j.back(), BoundedSimulator<double>::kMostJumps);

@@ -35,7 +35,7 @@ constexpr const char* kCause = "the end is not that of its cause: ";
 
 TEST(JudgedEnds, LeftMeansOutside) {
   DynamicsText text;
-  text.state("x", 1, "1", "0").stays("x <= 2", "x is large");
+  text.state("x", 1, "1", "0").flow_set("x <= 2", "x is large");
   const auto flow = [](double t) { return column({t}); };
   EXPECT_TRUE(judged(text, flow, 2, hybrid::Ending::left).empty());
   EXPECT_TRUE(has_fault(judged(text, flow, 1.5, hybrid::Ending::left), 1, kCause));

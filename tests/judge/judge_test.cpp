@@ -21,12 +21,12 @@ using tests::to_text;
 constexpr double kGravity = 9.81;
 
 /// A bouncing ball, a component that counts impacts, and one that does not look at them.
-struct bounded::Ball {
+struct Ball {
   DynamicsText text;
   model::Dynamics dynamics;
   double horizon = 2;
 
-  bounded::Ball() {
+  Ball() {
     text.state("x", 2, "[x(2); -9.81]", "[1; 0]")
         .when("impact", "x(1) <= 0 and x(2) < 0")
         .reacts("impact", {{"x", "[0; -0.8*x(2)]"}})
@@ -122,7 +122,7 @@ hybrid::JumpPoint& jump_part(hybrid::Trajectory& trajectory, std::size_t part) {
 }
 
 TEST(Judge, AcceptsABouncingBall) {
-  const bounded::Ball ball;
+  const Ball ball;
   const auto faults = ball.judged(ball.right());
   EXPECT_TRUE(faults.empty()) << to_text(faults);
   const auto strict = ball.judged(ball.right(), 1e-14);
@@ -130,7 +130,7 @@ TEST(Judge, AcceptsABouncingBall) {
 }
 
 TEST(Judge, FindsASkippedJump) {
-  const bounded::Ball ball;
+  const Ball ball;
   ReferenceRun run = ball.begin();
   ball.bounce(run);
   ball.finish(run);
@@ -140,7 +140,7 @@ TEST(Judge, FindsASkippedJump) {
 }
 
 TEST(Judge, FindsALateJump) {
-  const bounded::Ball ball;
+  const Ball ball;
   for (const double late : {1e-3, 1e-6, 1e-10}) {
     ReferenceRun run = ball.begin();
     ball.bounce(run, late);
@@ -155,7 +155,7 @@ TEST(Judge, FindsALateJump) {
 }
 
 TEST(Judge, FindsAnEarlyJump) {
-  const bounded::Ball ball;
+  const Ball ball;
   ReferenceRun run = ball.begin();
   ball.bounce(run, -1e-9);
   const auto faults = ball.judged(run.end());
@@ -163,7 +163,7 @@ TEST(Judge, FindsAnEarlyJump) {
 }
 
 TEST(Judge, FindsADoubledJump) {
-  const bounded::Ball ball;
+  const Ball ball;
   ReferenceRun run = ball.begin();
   ball.bounce(run);
   run.jump(0, ball.impact(run.x()));
@@ -171,14 +171,14 @@ TEST(Judge, FindsADoubledJump) {
 }
 
 TEST(Judge, FindsAWrongMap) {
-  const bounded::Ball ball;
+  const Ball ball;
   hybrid::Trajectory trajectory = ball.right();
   jump_part(trajectory, 1).after(1) *= 1 + 1e-12;
   EXPECT_TRUE(has_fault(ball.judged(trajectory), 1, "the jump impact gives another value: x"));
 }
 
 TEST(Judge, FindsAStateThatJumpsWithoutAReaction) {
-  const bounded::Ball ball;
+  const Ball ball;
   hybrid::Trajectory trajectory = ball.right();
   double& z = jump_part(trajectory, 3).after(place_of(ball.dynamics, "z"));
   z = std::nextafter(z, 1);  // its bits count
@@ -187,7 +187,7 @@ TEST(Judge, FindsAStateThatJumpsWithoutAReaction) {
 }
 
 TEST(Judge, FindsWrongNumbersOfTheRun) {
-  const bounded::Ball ball;
+  const Ball ball;
   for (const std::string name : {"j", "count(impact)", "since(impact)", "t"}) {
     hybrid::Trajectory trajectory = ball.right();
     jump_part(trajectory, 5).after(place_of(ball.dynamics, name)) += 1;
@@ -201,7 +201,7 @@ TEST(Judge, FindsWrongNumbersOfTheRun) {
 }
 
 TEST(Judge, FindsAMatrixThatIsNotSymmetric) {
-  const bounded::Ball ball;
+  const Ball ball;
   hybrid::Trajectory trajectory = ball.right();
   double& element = jump_part(trajectory, 1).after(place_of(ball.dynamics, "P") + 1);
   element = std::nextafter(element, 2);
@@ -209,7 +209,7 @@ TEST(Judge, FindsAMatrixThatIsNotSymmetric) {
 }
 
 TEST(Judge, FindsAFlowThatIsOff) {
-  const bounded::Ball ball;
+  const Ball ball;
   for (const double slope : {1e-6, -1e-6}) {
     ReferenceRun run = ball.begin();
     for (int k = 0; k < 3; ++k) ball.bounce(run);
@@ -227,7 +227,7 @@ TEST(Judge, FindsAFlowThatIsOff) {
 }
 
 TEST(Judge, FindsABumpBetweenTheEndsOfAStep) {
-  const bounded::Ball ball;
+  const Ball ball;
   hybrid::Trajectory trajectory = ball.right();
   hybrid::DenseStep& step = flow_part(trajectory, 2).steps[1];
   const Eigen::Index z = place_of(ball.dynamics, "z");
@@ -243,7 +243,7 @@ TEST(Judge, FindsABumpBetweenTheEndsOfAStep) {
 
 TEST(Judge, FindsADriftThatNoStepShows) {
   // Each of 400 steps is off by 20 times the accuracy: allowed to each of them, not to all.
-  const bounded::Ball ball;
+  const Ball ball;
   ReferenceRun run = ball.begin();
   for (int k = 0; k < 3; ++k) ball.bounce(run);
   const auto right = ball.flow(run.x(), run.t());
@@ -266,7 +266,7 @@ TEST(Judge, FindsADriftThatNoStepShows) {
 }
 
 TEST(Judge, FindsADiscontinuity) {
-  const bounded::Ball ball;
+  const Ball ball;
   hybrid::Trajectory trajectory = ball.right();
   flow_part(trajectory, 2).start(1) += 1e-9;
   const auto faults = ball.judged(trajectory);
@@ -287,7 +287,7 @@ TEST(Judge, FindsADiscontinuity) {
 }
 
 TEST(Judge, FindsWhatMovesButRests) {
-  const bounded::Ball ball;
+  const Ball ball;
   for (const std::string name : {"q", "n", "count(impact)"}) {
     hybrid::Trajectory trajectory = ball.right();
     hybrid::DenseStep& step = flow_part(trajectory, 2).steps[1];
@@ -303,7 +303,7 @@ TEST(Judge, FindsWhatMovesButRests) {
 }
 
 TEST(Judge, FindsAWrongStart) {
-  const bounded::Ball ball;
+  const Ball ball;
   hybrid::Trajectory trajectory = ball.right();
   trajectory.start(0) = 1.5;
   EXPECT_TRUE(has_fault(ball.judged(trajectory), 0, "starts with another value: x"));
@@ -317,7 +317,7 @@ TEST(Judge, FindsAWrongStart) {
 }
 
 TEST(Judge, FindsAnEndBeforeTheHorizon) {
-  const bounded::Ball ball;
+  const Ball ball;
   ReferenceRun run = ball.begin();
   ball.bounce(run);
   run.flow(1, ball.flow(run.x(), run.t()));
@@ -328,7 +328,7 @@ TEST(Judge, FindsAnEndBeforeTheHorizon) {
 }
 
 TEST(Judge, RefusesWhatIsNotWellFormed) {
-  const bounded::Ball ball;
+  const Ball ball;
   hybrid::Trajectory trajectory = ball.right();
   flow_part(trajectory, 4).steps.clear();
   EXPECT_TRUE(has_fault(ball.judged(trajectory), 4, "not well formed"));

@@ -156,7 +156,7 @@ TEST(JudgedSimulation, SwitchesOfAFlow) {
 
 TEST(JudgedSimulation, ARunThatIsLeft) {
   DynamicsText text;
-  text.state("x", 1, "x + sin(t)", "1").stays("x <= 5", "x is large");
+  text.state("x", 1, "x + sin(t)", "1").flow_set("x <= 5", "x is large");
   expect_accepted(Simulated(text, 10), 0, hybrid::Ending::left);
 }
 

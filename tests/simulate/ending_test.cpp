@@ -76,19 +76,19 @@ TEST(EventEnding, TextsWithoutAValueNameTheirPlace) {
 
 TEST(EventEnding, LeavingTheFlowSetSaysWhy) {
   EventProblem problem;
-  problem.state("x", {}, "0").flow("x", "cos(t)").stay("x <= 0.5", "too far");
+  problem.state("x", {}, "0").flow("x", "cos(t)").flow_set("x <= 0.5", "too far");
   const hybrid::Trajectory run = simulate(problem.system(), 5);
   EXPECT_EQ(run.ending, hybrid::Ending::left);
   EXPECT_NEAR(run.end, std::asin(0.5), 1e-8);
   expect_says(run, "too far");
   EventProblem ball;
-  ball.state("x", {2, 1}, "[1; 0]").flow("x", "[x(2); -10]").stay("x(1) >= 0", "below ground");
+  ball.state("x", {2, 1}, "[1; 0]").flow("x", "[x(2); -10]").flow_set("x(1) >= 0", "below ground");
   ball.when("impact", "x(1) <= 0 and x(2) < 0").jump("impact", {{"x", "[x(1); -x(2)]"}});
   const hybrid::Trajectory bounces = simulate(ball.system(), 5);
   EXPECT_EQ(bounces.ending, hybrid::Ending::horizon) << bounces.message;
   EXPECT_EQ(jumps_of(bounces).size(), 6U);
   EventProblem out;
-  out.state("x", {}, "0").stay("x <= 1", "out").at("go", {"1"}).jump("go", {{"x", "2"}});
+  out.state("x", {}, "0").flow_set("x <= 1", "out").at("go", {"1"}).jump("go", {{"x", "2"}});
   EXPECT_EQ(simulate(out.system(), 5).end, 1);
 }
 

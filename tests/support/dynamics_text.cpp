@@ -197,7 +197,7 @@ DynamicsText& DynamicsText::frozen(const std::string& condition) {
   return *this;
 }
 
-DynamicsText& DynamicsText::flow_sets(const std::string& condition, const std::string& say) {
+DynamicsText& DynamicsText::flow_set(const std::string& condition, const std::string& say) {
   unbound_.components.back().flow_sets.push_back({unbound_condition(condition), say, kPlace});
   return *this;
 }

@@ -6,7 +6,7 @@
 //       .reacts("impact", {{"x", "[0; -0.8*x(2)]"}});
 //   const model::Dynamics dynamics = text.dynamics();
 //
-// It begins with the component "plant"; states, modes, `frozen`, `stays` and reactions belong to
+// It begins with the component "plant"; states, modes, `frozen`, `flow_set` and reactions belong to
 // the last component, what qualifies an event to the last event. Texts may use data, states, modes,
 // noise, and of the run t, j, count(event), since(event), passes(event), event.left, of which those
 // that are used become variables. What is named must be declared before it is named.
@@ -39,7 +39,7 @@ class DynamicsText {
                           const std::string& start = "");
   DynamicsText& mode(const std::string& name, const std::string& start);
   DynamicsText& frozen(const std::string& condition);
-  DynamicsText& stays(const std::string& condition, const std::string& say);
+  DynamicsText& flow_set(const std::string& condition, const std::string& say);
 
   DynamicsText& when(const std::string& name, const std::string& condition);
   DynamicsText& rises(const std::string& name, const std::string& value);

@@ -71,8 +71,8 @@ class EventCompiler {
     component.name = part.name;
     component.observer = part.name != "plant";
     if (!part.frozen.empty()) component.frozen = condition(part.frozen);
-    for (const auto& stay : part.stays)
-      component.stays.push_back({condition(stay.condition), stay.say, {}});
+    for (const auto& flow_set : part.flow_sets)
+      component.flow_sets.push_back({condition(flow_set.condition), flow_set.say, {}});
     made_.components.push_back(std::move(component));
   }
 
@@ -182,8 +182,8 @@ EventProblem& EventProblem::frozen(const std::string& condition) {
   return *this;
 }
 
-EventProblem& EventProblem::stay(const std::string& condition, const std::string& say) {
-  components_.back().stays.push_back({condition, say});
+EventProblem& EventProblem::flow_set(const std::string& condition, const std::string& say) {
+  components_.back().flow_sets.push_back({condition, say});
   return *this;
 }
 

@@ -26,7 +26,7 @@ class EventProblem {
   /// An observer; what follows belongs to it. The plant is there from the start.
   EventProblem& observer(const std::string& name);
   EventProblem& frozen(const std::string& condition);
-  EventProblem& stay(const std::string& condition, const std::string& say);
+  EventProblem& flow_set(const std::string& condition, const std::string& say);
 
   EventProblem& state(const std::string& name, expr::Shape shape, const std::string& start);
   EventProblem& symmetric(const std::string& name, int size, const std::string& start);
@@ -86,7 +86,7 @@ class EventProblem {
   struct Part {
     std::string name;
     std::string frozen;
-    std::vector<Text> stays;
+    std::vector<Text> flow_sets;
   };
   friend class EventCompiler;
 
