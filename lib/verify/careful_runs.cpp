@@ -29,13 +29,13 @@ expr::Program zero() {
   return program;
 }
 
-/// A state whose rate is the flow cost of a claim.
+/// A variable for the integral of the flow cost of a claim. Runs leave it as it is
+/// (claims/cost_integrals.h).
 void add_integral(const model::Design::Claim& claim, model::Dynamics& dynamics) {
   model::Dynamics::Variable variable;
   variable.name = integral_name(claim.name);
   variable.start = {zero(), claim.place, "0"};
   variable.place = claim.place;
-  dynamics.flow.push_back({dynamics.variables.size(), *claim.flow_cost, claim.place});
   dynamics.variables.push_back(std::move(variable));
 }
 
@@ -130,10 +130,17 @@ class Functions {
 
   std::size_t add_integral_of(const claims::LinkedClaim& claim) {
     const std::string name = integral_name(claim.name);
-    return add(input_of(name));
+    const hybrid::Slot& slot = setup_.layout.slots[*setup_.system.slot(name)];
+    setup_.costs.push_back({slot.offset, *claim.flow_cost});
+    return add(input_of(name), false);
   }
 
   std::size_t add(const expr::Program& program) {
+    return add(program, is_still(program, setup_.system));
+  }
+
+  /// `still`: whether it keeps its bits along flows.
+  std::size_t add(const expr::Program& program, bool still) {
     const std::size_t at = setup_.functions.size();
     const std::string name = "value_" + std::to_string(at);
     setup_.functions.push_back(program);
@@ -142,7 +149,6 @@ class Functions {
     coordinates.layout.slots.push_back({name, {}, static_cast<Index>(at)});
     coordinates.layout.size = static_cast<Index>(at) + 1;
     const expr::Program own = input_of(name);
-    const bool still = is_still(program, setup_.system);
     coordinates.list.push_back({own, still ? std::nullopt : std::optional(own), own, false});
     return at;
   }

@@ -1,7 +1,7 @@
 // What the runs of a campaign share when the dynamics have events (model/dynamics.h).
 //
 // A claim is judged by its own values along a run: they are the coordinates of the judgement. The
-// integral of a flow cost is a state beside those of the plant and the observers.
+// integral of a flow cost is a variable beside those of the plant and the observers.
 #pragma once
 
 #include <memory>
@@ -11,6 +11,7 @@
 #include "bounded/bounded_system.h"
 #include "claims/claim_check.h"
 #include "claims/claims.h"
+#include "claims/cost_integrals.h"
 #include "claims/run_values.h"
 #include "claims/sample_points.h"
 #include "simulate/simulator.h"
@@ -25,6 +26,7 @@ struct EventSetup {
   std::vector<claims::LinkedClaim> claims;
   std::vector<expr::Program> functions;  ///< of the claims that are stated: the coordinates
   std::vector<int> first_of_claim;       ///< of each function: the value of its claim
+  std::vector<claims::FlowCost> costs;   ///< of the claims that are stated
   bounded::BallsOf<double> constants;    ///< of the functions, with their errors
   bounded::Coordinates coordinates;
   std::vector<claims::JudgedClaim> judged;  ///< the claims that are stated, in order

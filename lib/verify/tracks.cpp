@@ -33,6 +33,7 @@ bool is_whole(model::Dynamics::VariableKind kind) {
 EventTracks::EventTracks(const EventSetup& setup)
     : setup_(&setup),
       simulator_(setup.system, setup.scenario),
+      costs_(setup.costs, setup.layout, setup.system.constants),
       doubts_(setup.system),
       rounds_(static_cast<std::size_t>(setup.system.whole), false) {
   const auto& variables = setup.system.dynamics.variables;
@@ -286,9 +287,11 @@ const bounded::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t
   track_.accuracy = accuracy.relative;
   rounded_ = 0;
   rounding_.clear();
-  const hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
-  const hybrid::Trajectory fine =
+  hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
+  hybrid::Trajectory fine =
       simulator_.run(seed, run, accuracy.times(kSharper), {}, factor < 1 ? 1 : 0);
+  costs_.add_to(coarse, true);
+  costs_.add_to(fine, false);
   rises_ = limits_of_rises(fine.start, accuracy.relative);
   ranges_.assign(functions_.size(), {});
   sizes_.assign(functions_.size(), 0);

@@ -1,0 +1,48 @@
+// Integrals of flow costs along a run that has been made.
+//
+//   c(t) = int_0^t q(x(s)) ds,  kept by jumps
+//
+// They are quadratures over the dense output: on the smooth parts of a step (smooth_parts.h) q is a
+// sum of Chebyshev polynomials, and its integral one of a degree more. So a cost changes neither
+// the steps of a flow nor whether it is exact.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "claims/run_values.h"
+#include "hybrid/trajectory.h"
+
+namespace gainsmith::claims {
+
+/// A cost of a run: the program of q, and the element of the variables that holds c.
+struct FlowCost {
+  Eigen::Index element = 0;
+  expr::Program program;
+};
+
+/// One for each thread. Costs, layout and constants must outlive it.
+class CostIntegrals {
+ public:
+  CostIntegrals(const std::vector<FlowCost>& costs, const hybrid::StateLayout& layout,
+                const numbers::Values& constants);
+
+  /// Writes c to its element, in all flows and jumps of a run. Where q has no value c is not a
+  /// number from there on. `moved`: c is moved by what the quadrature may be off, so that the
+  /// difference of a run and its twin shows it.
+  void add_to(hybrid::Trajectory& run, bool moved);
+
+ private:
+  struct Integral {
+    Eigen::Index element;
+    RunValue rate;
+    double total = 0;
+  };
+
+  void add_to(hybrid::FlowPiece& flow, bool moved);
+  static void add_to(std::vector<hybrid::DenseStep>& steps, Integral& integral, bool moved);
+
+  std::vector<Integral> integrals_;
+};
+
+}  // namespace gainsmith::claims
