@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bounded/dependence.h"
+#include "bounded/differences.h"
 #include "bounded/polynomial.h"
 #include "expr/rewrite.h"
 #include "numbers/degree.h"
@@ -22,10 +23,6 @@ using expr::Program;
 using expr::Shape;
 using Wide = numbers::MatrixOf<Decimal100>;
 
-struct Pair {
-  std::string name, plus, minus;
-};
-
 Program zero_program(Shape shape) {
   expr::Composer compose({});
   return compose.take(compose.apply(Op::zeros, {}, shape));
@@ -39,50 +36,15 @@ Program product(const Program& a, const Program& b) {
       compose.apply(Op::multiply, {first, second}, {a.shape().rows, b.shape().cols}));
 }
 
-/// The differences of states of one shape that stand in the functions, none of which uses what
-/// another one replaces.
-std::vector<Pair> find_differences(const std::vector<Program>& functions,
-                                   const hybrid::StateLayout& layout) {
-  std::vector<Pair> pairs;
-  std::set<std::string> kept;
-  std::set<std::string> replaced;
-  const auto is_state = [&](const std::string& name) {
-    return name != layout.timer && layout.moves(name);
-  };
-  for (const Program& program : functions)
-    for (const expr::Instruction& instruction : program.code) {
-      if (instruction.op != Op::subtract) continue;
-      const auto& a = program.code[static_cast<std::size_t>(instruction.operands[0])];
-      const auto& b = program.code[static_cast<std::size_t>(instruction.operands[1])];
-      if (a.op != Op::input || b.op != Op::input) continue;
-      const std::string& plus = program.inputs[static_cast<std::size_t>(a.attributes[0])].name;
-      const std::string& minus = program.inputs[static_cast<std::size_t>(b.attributes[0])].name;
-      if (plus == minus || !is_state(plus) || !is_state(minus)) continue;
-      if (replaced.contains(plus) || replaced.contains(minus) || kept.contains(minus)) continue;
-      kept.insert(plus);
-      replaced.insert(minus);
-      pairs.push_back({plus + " - " + minus, plus, minus});
-    }
-  return pairs;
-}
-
-/// How many of the layout's names a program uses.
-std::size_t count_moving(const Program& program, const std::set<std::string>& names) {
-  return static_cast<std::size_t>(
-      std::count_if(program.inputs.begin(), program.inputs.end(),
-                    [&](const expr::Input& input) { return names.contains(input.name); }));
-}
-
 class Builder {
  public:
   Builder(const SampledSystem& system, numbers::ValuesOf<Decimal100> constants,
           const std::vector<Program>& functions)
-      : system_(system), functions_(functions) {
+      : system_(system),
+        functions_(functions),
+        pairs_(find_differences(functions, system.layout)),
+        in_errors_(pairs_, system.layout) {
     result_.constants = std::move(constants);
-    pairs_ = find_differences(functions, system.layout);
-    for (const Pair& pair : pairs_)
-      by_[pair.minus] = difference(input_program(pair.plus, shape_of(pair.plus)),
-                                   input_program(pair.name, shape_of(pair.minus)));
     for (const MapEntry& entry : system.flow_entries)
       flows_.emplace(system.layout.slots[entry.slot].name, entry.program);
     for (const MapEntry& entry : system.jump)
@@ -91,7 +53,7 @@ class Builder {
 
   Coordinates build() {
     add_coordinates();
-    for (Program& function : functions_) function = simplified(expr_in_coordinates(function));
+    for (Program& function : functions_) function = in_errors_(function);
     result_.affine = system_.flow.has_value();
     if (result_.affine) {
       find_flow();
@@ -104,24 +66,6 @@ class Builder {
   }
 
  private:
-  Shape shape_of(const std::string& name) const {
-    for (const hybrid::Slot& slot : system_.layout.slots)
-      if (slot.name == name) return slot.shape;
-    throw std::logic_error("no state " + name);
-  }
-
-  Program expr_in_coordinates(const Program& program) const { return replace_inputs(program, by_); }
-
-  /// As a polynomial, when that uses less of the state.
-  Program simplified(const Program& program) {
-    try {
-      Program other = polynomials_.program(polynomials_.of(program));
-      if (count_moving(other, names_) < count_moving(program, names_)) return other;
-    } catch (const std::length_error&) {
-    }
-    return program;
-  }
-
   void add(const std::string& name, Coordinate coordinate) {
     const Shape shape = coordinate.start.shape();
     result_.layout.slots.push_back({name, shape, result_.layout.size});
@@ -133,20 +77,20 @@ class Builder {
   void add_coordinates() {
     result_.layout.timer = system_.layout.timer;
     for (const hybrid::Slot& slot : system_.layout.slots)
-      if (!by_.contains(slot.name))
+      if (!in_errors_.replaces(slot.name))
         add(slot.name, {input_program(slot.name, slot.shape), {}, {}, false});
-    for (const Pair& pair : pairs_)
-      add(pair.name, {difference(input_program(pair.plus, shape_of(pair.plus)),
-                                 input_program(pair.minus, shape_of(pair.minus))),
-                      {},
-                      {},
-                      false});
-    std::map<std::string, const Pair*> pair_of;
-    for (const Pair& pair : pairs_) pair_of[pair.name] = &pair;
+    for (const StateDifference& pair : pairs_)
+      add(pair.name,
+          {difference(input_program(pair.plus, pair.shape), input_program(pair.minus, pair.shape)),
+           {},
+           {},
+           false});
+    std::map<std::string, const StateDifference*> pair_of;
+    for (const StateDifference& pair : pairs_) pair_of[pair.name] = &pair;
     for (std::size_t i = 0; i < result_.list.size(); ++i) {
       const hybrid::Slot& slot = result_.layout.slots[i];
       const auto found = pair_of.find(slot.name);
-      const Pair* pair = found == pair_of.end() ? nullptr : found->second;
+      const StateDifference* pair = found == pair_of.end() ? nullptr : found->second;
       result_.list[i].flow = map_of(slot, pair, flows_, false);
       result_.list[i].jump = map_of(slot, pair, jumps_, true);
       if (const auto& jump = result_.list[i].jump)
@@ -156,7 +100,7 @@ class Builder {
   }
 
   /// A coordinate's entry of the flow or the jump.
-  std::optional<Program> map_of(const hybrid::Slot& slot, const Pair* pair,
+  std::optional<Program> map_of(const hybrid::Slot& slot, const StateDifference* pair,
                                 const std::map<std::string, Program>& entries, bool keeps) {
     const auto entry = [&](const std::string& name) -> Program {
       const auto found = entries.find(name);
@@ -165,10 +109,10 @@ class Builder {
     };
     if (pair == nullptr) {
       if (!entries.contains(slot.name)) return std::nullopt;
-      return simplified(expr_in_coordinates(entry(slot.name)));
+      return in_errors_(entry(slot.name));
     }
     if (!entries.contains(pair->plus) && !entries.contains(pair->minus)) return std::nullopt;
-    return simplified(expr_in_coordinates(difference(entry(pair->plus), entry(pair->minus))));
+    return in_errors_(difference(entry(pair->plus), entry(pair->minus)));
   }
 
   void find_flow() {
@@ -318,8 +262,8 @@ class Builder {
 
   const SampledSystem& system_;
   std::vector<Program> functions_;
-  std::vector<Pair> pairs_;
-  std::map<std::string, Program> by_;
+  std::vector<StateDifference> pairs_;
+  ErrorRewriting in_errors_;
   std::map<std::string, Program> flows_;
   std::map<std::string, Program> jumps_;
   std::set<std::string> names_;

@@ -235,6 +235,11 @@ VectorXd draw_start(const System& system, const Scenario& scenario, std::uint64_
     check_start(variable, rule.place, value);
     values.segment(system.layout.slots[i].offset, value.size()) = value.reshaped();
   }
+  for (const auto& [b, a] : scenario.differences) {
+    const Slot& slot = system.layout.slots[b];
+    auto d = values.segment(slot.offset, slot.shape.size());
+    d = values.segment(system.layout.slots[a].offset, slot.shape.size()) - d;
+  }
   return values;
 }
 

@@ -21,6 +21,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "base/random.h"
@@ -37,6 +38,8 @@ struct Scenario {
   /// By event; run i uses law i modulo their number. Without one: uniform.
   std::vector<std::vector<Law>> laws;
   std::vector<std::optional<double>> first;  ///< by event: the first time, in place of a draw
+  /// Variables b that hold a difference a - b, with a: drawn as b, then taken from a.
+  std::vector<std::pair<std::size_t, std::size_t>> differences;
 };
 
 /// Laws and horizon of a campaign; `starts` of the campaign name variables of the dynamics. Every

@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "hybrid/affine.h"
+#include "model/dynamics_programs.h"
 
 namespace gainsmith::hybrid {
 
@@ -19,50 +20,14 @@ constexpr std::int64_t kMostPasses = 100000000;
 
 /// Replaces calls in every text of the dynamics that a run evaluates, and sees to it that the texts
 /// use variables and constants only.
-class TextLinker {
- public:
-  explicit TextLinker(System& system) : system_(system) {}
-
-  void link_all() {
-    Dynamics& dynamics = system_.dynamics;
-    for (Dynamics::Component& one : dynamics.components) {
-      optional(one.frozen);
-      for (Dynamics::Component::FlowSet& flow_set : one.flow_sets) condition(flow_set.where);
-    }
-    for (Dynamics::Assignment& one : dynamics.flow) formula(one.value);
-    for (Dynamics::Event& event : dynamics.events) {
-      optional(event.condition);
-      optional(event.only_if);
-      if (event.crossing) formula(*event.crossing);
-    }
-    for (Dynamics::Reaction& reaction : dynamics.reactions)
-      for (Dynamics::Pass& pass : reaction.passes) {
-        for (Dynamics::Assignment& one : pass.map) formula(one.value);
-        optional(pass.until);
-      }
-  }
-
- private:
-  void formula(model::Formula& one) { program(one.program, one.place); }
-
-  void optional(std::optional<expr::Condition>& one) {
-    if (one) condition(*one);
-  }
-
-  void condition(expr::Condition& one) {
-    if (one.is_comparison()) program(one.difference, one.place);
-    for (expr::Condition& part : one.parts) condition(part);
-  }
-
-  void program(expr::Program& one, const Place& place) {
-    one = system_.bodies.link(one);
+void link_texts(System& system) {
+  model::for_each_run_program(system.dynamics, [&](expr::Program& one, const Place& place) {
+    one = system.bodies.link(one);
     for (const expr::Input& input : one.inputs)
-      if (!system_.slot(input.name) && !system_.constants.contains(input.name))
+      if (!system.slot(input.name) && !system.constants.contains(input.name))
         throw InputError(place, "there is no value for " + input.name);
-  }
-
-  System& system_;
-};
+  });
+}
 
 void stack_variables(System& system) {
   for (const Dynamics::Variable& variable : system.dynamics.variables) {
@@ -316,7 +281,7 @@ System make_system(const model::Dynamics& dynamics, numbers::Values constants,
   system.constants = std::move(constants);
   system.bodies = std::move(bodies);
   stack_variables(system);
-  TextLinker(system).link_all();
+  link_texts(system);
   hold_flows(system);
   classify_flows(system);
   read_events(system);

@@ -6,37 +6,46 @@ namespace gainsmith::model {
 
 namespace {
 
-using Visit = std::function<void(const expr::Program&)>;
-
-void visit_condition(const expr::Condition& condition, const Visit& visit) {
-  if (condition.is_comparison()) visit(condition.difference);
-  for (const expr::Condition& part : condition.parts) visit_condition(part, visit);
+template <class Condition, class Visit>
+void visit_condition(Condition& condition, const Visit& visit) {
+  if (condition.is_comparison()) visit(condition.difference, condition.place);
+  for (auto& part : condition.parts) visit_condition(part, visit);
 }
 
-void visit_condition(const std::optional<expr::Condition>& condition, const Visit& visit) {
-  if (condition) visit_condition(*condition, visit);
+/// Of dynamics, constant or not.
+template <class Dynamics, class Visit>
+void visit_run_programs(Dynamics& dynamics, const Visit& visit) {
+  const auto optional = [&](auto& condition) {
+    if (condition) visit_condition(*condition, visit);
+  };
+  for (auto& component : dynamics.components) {
+    optional(component.frozen);
+    for (auto& flow_set : component.flow_sets) visit_condition(flow_set.where, visit);
+  }
+  for (auto& entry : dynamics.flow) visit(entry.value.program, entry.value.place);
+  for (auto& event : dynamics.events) {
+    optional(event.condition);
+    optional(event.only_if);
+    if (event.crossing) visit(event.crossing->program, event.crossing->place);
+  }
+  for (auto& reaction : dynamics.reactions)
+    for (auto& pass : reaction.passes) {
+      for (auto& entry : pass.map) visit(entry.value.program, entry.value.place);
+      optional(pass.until);
+    }
 }
 
 }  // namespace
 
-void for_each_program(const Dynamics& dynamics, const Visit& visit) {
-  for (const Dynamics::Component& component : dynamics.components) {
-    visit_condition(component.frozen, visit);
-    for (const Dynamics::Component::FlowSet& flow_set : component.flow_sets)
-      visit_condition(flow_set.where, visit);
-  }
-  for (const Dynamics::Assignment& entry : dynamics.flow) visit(entry.value.program);
-  for (const Dynamics::Event& event : dynamics.events) {
-    visit_condition(event.condition, visit);
-    visit_condition(event.only_if, visit);
-    if (event.crossing) visit(event.crossing->program);
-  }
-  for (const Dynamics::Reaction& reaction : dynamics.reactions)
-    for (const Dynamics::Pass& pass : reaction.passes) {
-      for (const Dynamics::Assignment& entry : pass.map) visit(entry.value.program);
-      visit_condition(pass.until, visit);
-    }
+void for_each_program(const Dynamics& dynamics,
+                      const std::function<void(const expr::Program&)>& visit) {
+  visit_run_programs(dynamics, [&](const expr::Program& one, const Place&) { visit(one); });
   for (const Dynamics::Signal& signal : dynamics.signals) visit(signal.value.program);
+}
+
+void for_each_run_program(Dynamics& dynamics,
+                          const std::function<void(expr::Program&, const Place&)>& visit) {
+  visit_run_programs(dynamics, visit);
 }
 
 }  // namespace gainsmith::model

@@ -10,6 +10,7 @@
 #include "base/number.h"
 #include "claims/text_ball.h"
 #include "model/stated.h"
+#include "verify/error_states.h"
 
 namespace gainsmith::verify {
 
@@ -162,10 +163,18 @@ class Functions {
   int first_ = 0;  ///< function of the claim at hand
 };
 
-}  // namespace
+std::vector<expr::Program> programs_of(const std::vector<claims::LinkedClaim>& claims) {
+  std::vector<expr::Program> programs;
+  for (const claims::LinkedClaim& claim : claims) {
+    if (!claim.stated()) continue;
+    programs.push_back(claim.value);
+    if (claim.flow_cost) programs.push_back(*claim.flow_cost);
+  }
+  return programs;
+}
 
-std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instance,
-                                                   const model::Gains& gains) {
+/// The system, with its claims and where its runs start.
+std::unique_ptr<EventSetup> begin(const model::Instance& instance, const model::Gains& gains) {
   const model::Design& design = *instance.design;
   model::Dynamics dynamics = *design.dynamics;
   for (const model::Design::Claim& claim : design.claims)
@@ -174,19 +183,52 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
   auto setup = std::make_unique<EventSetup>();
   setup->flow = dynamics.flow;
   setup->system = hybrid::make_system(dynamics, std::move(stated.values), std::move(stated.bodies));
-  setup->layout = setup->system.layout;
-  setup->layout.slots.resize(dynamics.variables.size());
-  setup->layout.size = setup->system.size;
   setup->asked = design.campaign.accuracy;
   setup->scenario = hybrid::make_scenario(design.campaign, setup->system);
   setup->claims = claims::link_claims(design, setup->system);
   claims::check_times(design, setup->claims, setup->scenario.horizon);
+  return setup;
+}
+
+/// Whether there are errors that are states now.
+bool take_errors(EventSetup& setup) {
+  auto errors = ErrorStates::of(setup.system, programs_of(setup.claims));
+  if (!errors) return false;
+  setup.flow = errors->dynamics().flow;
+  setup.system = hybrid::make_system(errors->dynamics(), std::move(setup.system.constants),
+                                     std::move(setup.system.bodies));
+  errors->rewrite(setup.scenario);
+  for (claims::LinkedClaim& claim : setup.claims) {
+    claim.value = (*errors)(claim.value);
+    for (auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor, &claim.bound})
+      if (*part) *part = (*errors)(**part);
+  }
+  return true;
+}
+
+std::unique_ptr<const EventSetup> end(std::unique_ptr<EventSetup> setup) {
+  setup->layout = setup->system.layout;
+  setup->layout.slots.resize(setup->system.dynamics.variables.size());
+  setup->layout.size = setup->system.size;
   setup->constants = claims::rounded_once(setup->system.constants);
   setup->coordinates.affine = false;
   Functions(*setup).add_all();
   setup->narrow =
       std::make_unique<bounded::BoundedSystem<double>>(setup->coordinates, std::nullopt);
   return setup;
+}
+
+}  // namespace
+
+std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instance,
+                                                   const model::Gains& gains) {
+  return end(begin(instance, gains));
+}
+
+std::unique_ptr<const EventSetup> make_error_setup(const model::Instance& instance,
+                                                   const model::Gains& gains) {
+  auto setup = begin(instance, gains);
+  return take_errors(*setup) ? end(std::move(setup)) : nullptr;
 }
 
 simulate::Accuracy EventSetup::accuracy(double usual, double factor) const {

@@ -46,4 +46,8 @@ constexpr double kUsualOfMany = 1e-8;
 std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instance,
                                                    const model::Gains& gains);
 
+/// The same with errors as states (error_states.h); none where no claim asks for one.
+std::unique_ptr<const EventSetup> make_error_setup(const model::Instance& instance,
+                                                   const model::Gains& gains);
+
 }  // namespace gainsmith::verify

@@ -84,18 +84,18 @@ RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
 
 Judge::Judge(const Setup& setup) {
   if (!setup.sampled) {
-    events_.emplace(*setup.events);
-    checks_ = make_checks(setup.events->judged, *setup.events->narrow);
+    events_.emplace(setup.judged());
+    checks_ = make_checks(setup.judged().judged, *setup.judged().narrow);
     return;
   }
   const SampledSetup& sampled = *setup.sampled;
   checks_ = make_checks(sampled.judged, *sampled.narrow);
   if (!sampled.steps) {
-    clocked_.emplace(*sampled.system, sampled.scenario, sampled.coordinates, *sampled.flows);
+    clocked_.emplace(*sampled.system, setup.events->scenario, sampled.coordinates, *sampled.flows);
     return;
   }
-  narrow_.emplace(*sampled.system, sampled.scenario, *sampled.steps, *sampled.narrow);
-  wide_.emplace(*sampled.system, sampled.scenario, *sampled.steps, *sampled.wide);
+  narrow_.emplace(*sampled.system, setup.events->scenario, *sampled.steps, *sampled.narrow);
+  wide_.emplace(*sampled.system, setup.events->scenario, *sampled.steps, *sampled.wide);
   wide_checks_ = make_checks(sampled.judged, *sampled.wide);
 }
 

@@ -83,35 +83,33 @@ void add_judged_claims(const StatedClaims& claims, SampledSetup& setup, std::vec
 
 /// Costs must be quadratic: their integrals are a part of the flow. Whether the flow is of the
 /// kind.
-bool add_clocked_flows(SampledSetup& setup) {
+bool add_clocked_flows(SampledSetup& setup, const hybrid::Scenario& scenario) {
   std::vector<Eigen::Index> integrals;
   for (const claims::JudgedClaim& claim : setup.judged) {
     if (!claim.accumulated) continue;
     if (!claim.flow_cost->quadratic) return false;
     integrals.push_back(*claim.accumulated);
   }
-  setup.flows = std::make_unique<bounded::ClockedFlows>(*setup.system, setup.scenario,
-                                                        setup.coordinates, integrals);
+  setup.flows = std::make_unique<bounded::ClockedFlows>(*setup.system, scenario, setup.coordinates,
+                                                        integrals);
   return setup.flows->to(kUsualOfMany) != nullptr;
 }
 
 /// None when the dynamics are of another kind.
-std::unique_ptr<const SampledSetup> make_sampled_setup(
-    const model::Instance& instance, const model::Gains& gains,
-    const std::vector<claims::LinkedClaim>& claims) {
+std::unique_ptr<const SampledSetup> make_sampled_setup(const model::Instance& instance,
+                                                       const model::Gains& gains,
+                                                       const EventSetup& events) {
   auto setup = std::make_unique<SampledSetup>();
-  setup->dynamics = hybrid::make_system(instance, gains);
-  setup->system = bounded::make_sampled_system(setup->dynamics);
+  setup->system = bounded::make_sampled_system(events.system);
   if (!setup->system) return nullptr;
   const bounded::SampledSystem& system = *setup->system;
-  setup->scenario = hybrid::make_scenario(instance.design->campaign, setup->dynamics);
   if (system.flow) setup->steps.emplace(*system.flow, system.longest, system.flow_place);
-  const StatedClaims stated = stated_claims(claims);
+  const StatedClaims stated = stated_claims(events.claims);
   setup->coordinates = bounded::make_coordinates(
       system, hybrid::exact_values(instance, system.constants(), gains), functions_of(stated));
   std::vector<Wide> forms;
   add_judged_claims(stated, *setup, forms);
-  if (!setup->steps && !add_clocked_flows(*setup)) return nullptr;
+  if (!setup->steps && !add_clocked_flows(*setup, events.scenario)) return nullptr;
   std::optional<bounded::ExactSteps> exact;
   if (setup->steps) exact = bounded::exact_steps(setup->coordinates, *setup->steps, forms);
   setup->narrow = std::make_unique<bounded::BoundedSystem<double>>(setup->coordinates, exact);
@@ -133,7 +131,9 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
   auto setup = std::make_unique<Setup>();
   setup->events = make_event_setup(instance, gains);
   if (!instance.design->campaign.accuracy && is_of_samples(*instance.design))
-    setup->sampled = make_sampled_setup(instance, gains, setup->claims());
+    setup->sampled = make_sampled_setup(instance, gains, *setup->events);
+  if (setup->sampled) return setup;
+  setup->errors = make_error_setup(instance, gains);
   return setup;
 }
 

@@ -17,8 +17,6 @@ namespace gainsmith::verify {
 /// How the runs of sampled dynamics (hybrid/sampled_system.h) are made and judged: with bounds
 /// where the flow is affine, otherwise by flows that all runs share.
 struct SampledSetup {
-  hybrid::System dynamics;
-  hybrid::Scenario scenario;
   std::unique_ptr<const bounded::SampledSystem> system;
   std::optional<bounded::FlowSteps> steps;  ///< of an affine flow
   bounded::Coordinates coordinates;         ///< those of the claims that are stated
@@ -30,9 +28,12 @@ struct SampledSetup {
 
 struct Setup {
   std::unique_ptr<const EventSetup> events;     ///< the careful run
+  std::unique_ptr<const EventSetup> errors;     ///< with errors as states; none: there are none
   std::unique_ptr<const SampledSetup> sampled;  ///< none: all runs are careful
 
   const std::vector<claims::LinkedClaim>& claims() const { return events->claims; }
+  /// By which the careful run judges.
+  const EventSetup& judged() const { return errors ? *errors : *events; }
   double horizon() const { return events->scenario.horizon; }
   /// Whether the errors of runs are estimates.
   bool integrated() const { return !sampled || !sampled->steps; }
