@@ -162,6 +162,46 @@ Polynomial Polynomials::multiply(const Polynomial& a, const Polynomial& b, Shape
   return result;
 }
 
+/// The value of a linear function of a matrix: of each word's chain, its 1 x 1 factors aside.
+Polynomial Polynomials::word_by_word(const Polynomial& value,
+                                     const std::function<Program(const Program&)>& linear) {
+  Polynomial result;
+  for (const auto& [word, coefficient] : value.terms) {
+    Polynomial chain{value.shape, {{Word{{}, {}, word.chain}, 1}}};
+    Polynomial factor{{1, 1}, {{Word{word.scalars, word.inner, {}}, coefficient}}};
+    if (value.shape.is_scalar()) {
+      chain.terms = {{word, 1}};
+      factor.terms = {{Word{}, coefficient}};
+    }
+    const Polynomial image = of_atom(atom_of(linear(program(chain))));
+    result.shape = image.shape;
+    add_to(result, multiply(factor, image, image.shape), 1);
+  }
+  return result;
+}
+
+/// The sum of the blocks, each with zeros around it.
+Polynomial Polynomials::of_blocks(const Instruction& instruction,
+                                  const std::vector<Polynomial>& values) {
+  Polynomial result{instruction.shape, {}};
+  for (std::size_t k = 0; k < instruction.operands.size(); ++k) {
+    const auto alone = [&](const Program& block) {
+      expr::Composer compose({});
+      std::vector<int> operands;
+      for (std::size_t i = 0; i < instruction.operands.size(); ++i) {
+        const Polynomial& other = values[static_cast<std::size_t>(instruction.operands[i])];
+        operands.push_back(i == k ? compose.program(block)
+                                  : compose.apply(Op::zeros, {}, other.shape));
+      }
+      return compose.take(
+          compose.apply(Op::blocks, operands, instruction.shape, instruction.attributes));
+    };
+    add_to(result, word_by_word(values[static_cast<std::size_t>(instruction.operands[k])], alone),
+           1);
+  }
+  return result;
+}
+
 Polynomial Polynomials::of_instruction(const Program& program, std::size_t at,
                                        const std::vector<Polynomial>& values) {
   const Instruction& instruction = program.code[at];
@@ -215,6 +255,17 @@ Polynomial Polynomials::of_instruction(const Program& program, std::size_t at,
     }
     case Op::transpose:
       return transpose(value(0));
+    case Op::index: {
+      result = word_by_word(value(0), [&](const Program& matrix) {
+        expr::Composer compose({});
+        return compose.take(compose.apply(Op::index, {compose.program(matrix)}, instruction.shape,
+                                          instruction.attributes));
+      });
+      result.shape = instruction.shape;
+      return result;
+    }
+    case Op::blocks:
+      return of_blocks(instruction, values);
     default:
       return as_atom();
   }

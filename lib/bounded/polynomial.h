@@ -5,13 +5,15 @@
 // because L C z - L C z is nothing here, while A - fl(L C) - fl(A - L C) is not 0 in any arithmetic
 // and would multiply a large z. A polynomial is a sum of words with whole coefficients; a word is a
 // product of atoms: inputs, decimals, and the values of functions that are no sums or products
-// (exp, inv, expm, where, ...). Products of matrices keep their order, 1 x 1 factors commute.
-// Nothing else is used, no numbers of the data: what cancels, cancels for all of them.
+// (exp, inv, expm, where, ...). Products of matrices keep their order, 1 x 1 factors commute. A
+// part of a sum is the sum of the parts, and so are blocks. Nothing else is used, no numbers of the
+// data: what cancels, cancels for all of them.
 #pragma once
 
 #include <compare>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -71,6 +73,9 @@ class Polynomials {
   static Polynomial transpose(const Polynomial& a);
   Polynomial of_instruction(const expr::Program& program, std::size_t at,
                             const std::vector<Polynomial>& values);
+  Polynomial of_blocks(const expr::Instruction& instruction, const std::vector<Polynomial>& values);
+  Polynomial word_by_word(const Polynomial& value,
+                          const std::function<expr::Program(const expr::Program&)>& linear);
 
   std::vector<expr::Program> atoms_;
   std::map<std::string, int> known_;

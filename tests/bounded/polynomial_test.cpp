@@ -40,7 +40,8 @@ TEST_F(PolynomialTest, IsTheFunctionOfItsText) {
   for (const char* text :
        {"(z - zh)'*(A - L*C)'*(z - zh) + k^3*th", "(A - L*C)*z - (A*z - L*C*z)",
         "He(z*zh')*(z + L*th)*k", "-2*(k - 1)*(k + 1)*(A*A')'*z",
-        "(z'*zh)*(C*z)*exp(k)*L - zh*(zh'*z)*(C*z)*exp(k)", "[z, zh]*[k; th] + A^2*zh"}) {
+        "(z'*zh)*(C*z)*exp(k)*L - zh*(zh'*z)*(C*z)*exp(k)", "[z, zh]*[k; th] + A^2*zh",
+        "[(z - k*zh)(2); th*(A*z - zh)(1)]", "[z*zh' - 2*A, L + k*z; z' - zh', th]"}) {
     const expr::Program program = problem_.program(text);
     Polynomials polynomials;
     const expr::Program again = polynomials.program(polynomials.of(program));
@@ -60,7 +61,9 @@ TEST_F(PolynomialTest, WhatIsEqualForAllNumbersCancels) {
                                          {"L*(C*A)*z*th", "(C*A*z)*(th*L)"},
                                          {"z'*A*zh", "zh'*A'*z"},
                                          {"(L*z')*(zh*C)", "(zh'*z)*L*C"},
-                                         {"z*(zh'*A*z)*z'", "(z*z'*A')*(zh*z')"}}) {
+                                         {"z*(zh'*A*z)*z'", "(z*z'*A')*(zh*z')"},
+                                         {"(z - k*zh)(2)", "z(2) - k*zh(2)"},
+                                         {"[z - zh; k*th]", "[z; zeros(1, 1)] - [zh; -k*th]"}}) {
     Polynomials polynomials;
     const Polynomial left = polynomials.of(problem_.program(a));
     const Polynomial right = polynomials.of(problem_.program(b));

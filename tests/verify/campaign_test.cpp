@@ -181,10 +181,20 @@ TEST(Campaign, NothingMayBeLeftToIntegrate) {
 }
 
 /// An error that decays below the rounding of what it is the difference of is not certain.
-TEST(Campaign, IntegratedErrorsOfWhatGrowsAreUndecided) {
+TEST(Campaign, IntegratedErrorsThatMoveByThemselvesAreJudged) {
   TextProblem problem;
   problem.state("z", "scalar").state("zh", "scalar").timer("1", "1", "1", "1");
   problem.flow({{"z", "3*z + tau"}, {"zh", "3*zh + tau - (4 + tau)*(zh - z)"}});
+  problem.runs(5).horizon("8").nonincreasing("error", "(z - zh)^2");
+  const Report report = run(problem);
+  EXPECT_EQ(report.verdict, CampaignVerdict::held);
+  EXPECT_TRUE(report.integrated);
+}
+
+TEST(Campaign, IntegratedErrorsOfWhatGrowsAreUndecided) {
+  TextProblem problem;
+  problem.state("z", "scalar").state("zh", "scalar").timer("1", "1", "1", "1");
+  problem.flow({{"z", "3*z + cos(z)"}, {"zh", "3*zh + cos(zh) - (4 + tau)*(zh - z)"}});
   problem.runs(5).horizon("8").nonincreasing("error", "(z - zh)^2");
   const Report report = run(problem);
   EXPECT_EQ(report.verdict, CampaignVerdict::undecided);
