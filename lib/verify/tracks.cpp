@@ -14,6 +14,7 @@ using hybrid::Ending;
 
 namespace {
 
+constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
 constexpr int kAround = 5;  ///< samples from which the bound of one is taken
 /// The samples around the k-th of all.
 Index first_around(Index k, Index all) {
@@ -65,7 +66,6 @@ VectorXd EventTracks::values(const claims::SamplePoint& look, const VectorXd& x)
 /// x as rounding may have left it: exact flows and jumps round in both runs alike. Elements whose
 /// numbers differ in the bit are rounded apart, so that a difference of two shows it.
 VectorXd EventTracks::with_rounding(const VectorXd& x, int bit) const {
-  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
   VectorXd result = x;
   for (Index e = 0; e < x.size(); ++e) {
     if (!rounds_[static_cast<std::size_t>(e)]) continue;
@@ -77,7 +77,6 @@ VectorXd EventTracks::with_rounding(const VectorXd& x, int bit) const {
 
 /// What the variables may be off by, where the two runs differ by so much at samples around.
 VectorXd EventTracks::errors(const VectorXd& fine, const VectorXd& around) const {
-  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
   VectorXd result = claims::kOfDifference * around;
   for (Index e = 0; e < fine.size(); ++e)
     if (rounds_[static_cast<std::size_t>(e)])
@@ -90,9 +89,11 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
                          const VectorXd& fine, const VectorXd& around, int pattern, int stride,
                          bool within_instant) {
   VectorXd value = values(look, fine);
-  VectorXd difference = (values(look, coarse) - value).cwiseAbs();
+  VectorXd rounded = VectorXd::Zero(value.size());
   for (int bit = pattern; bit == 0 || (fine.size() - 1) >> bit > 0; bit += stride)
-    difference = difference.cwiseMax((values(look, with_rounding(fine, bit)) - value).cwiseAbs());
+    rounded = rounded.cwiseMax((values(look, with_rounding(fine, bit)) - value).cwiseAbs());
+  VectorXd difference = (values(look, coarse) - value).cwiseAbs().cwiseMax(rounded);
+  rounded /= (4 + rounded_) * kUnit;
   const VectorXd error = errors(fine, around);
   constexpr double kUnknown = std::numeric_limits<double>::infinity();
   for (std::size_t k = 0; k < functions_.size(); ++k) {
@@ -106,7 +107,8 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
     track_.is_fixed.push_back(!is_open && difference(row) == 0 ? 1 : 0);
     if (!is_open) {
       rounding_.push_back(balls_[k].rounding(fine));
-      if (parts(k, value(row), difference(row), rounding_.back())) difference(row) = kUnknown;
+      const double size = std::fmax(rounded(row), rounding_.back() / kUnit);
+      if (parts(k, value(row), difference(row), size)) difference(row) = kUnknown;
       continue;
     }
     const bounded::Bounded<double> hull = balls_[k].hull(fine, error);
@@ -125,8 +127,7 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
                        difference.data() + difference.size());
 }
 
-bool EventTracks::parts(std::size_t function, double value, double difference, double rounding) {
-  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
+bool EventTracks::parts(std::size_t function, double value, double difference, double size) {
   constexpr double kOfRange = 1e-3;
   constexpr double kOfAccuracy = 1e3;
   const auto claim = static_cast<std::size_t>(setup_->first_of_claim[function]);
@@ -134,7 +135,7 @@ bool EventTracks::parts(std::size_t function, double value, double difference, d
   range.low = range.seen ? std::fmin(range.low, value) : value;
   range.high = range.seen ? std::fmax(range.high, value) : value;
   range.seen = true;
-  sizes_[claim] = std::fmax(sizes_[claim], std::fmax(std::abs(value), rounding / kUnit));
+  sizes_[claim] = std::fmax(sizes_[claim], std::fmax(std::abs(value), size));
   // A value that is nothing but errors of its terms goes on to be known to them.
   if (difference > kOfRange * (range.high - range.low) &&
       difference > kOfAccuracy * track_.accuracy * sizes_[claim])
@@ -229,7 +230,6 @@ bool EventTracks::add_parts(const hybrid::Trajectory& coarse, const hybrid::Traj
 
 /// Of the samples of one flow, once all are there.
 void EventTracks::widen(std::size_t first) {
-  constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
   const auto size = track_.size;
   const auto count = static_cast<Index>(track_.samples() - first);
   const Index skipped = static_cast<Index>(first) * size;

@@ -45,8 +45,8 @@ class EventTracks {
   void add_jump(const claims::TwinParts& twins, std::size_t at);
   /// The part of both runs that is certain; whether that is all.
   bool add_parts(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine);
-  /// Whether the two runs have parted in a value.
-  bool parts(std::size_t function, double value, double difference, double rounding);
+  /// Whether the two runs have parted in a value; `size`: of the terms that it is the sum of.
+  bool parts(std::size_t function, double value, double difference, double size);
   claims::RiseLimits limits_of_rises(const Eigen::VectorXd& start, double accuracy);
   void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine, bool certain);
   void widen(std::size_t first);
