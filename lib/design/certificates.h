@@ -16,12 +16,12 @@ namespace gainsmith::design {
 
 /// The first certificate that excludes every solution, or the best found (its omega).
 /// OutOfAllowance passes through.
-lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
+verdict::Refutation find_certificate(const Posed& posed, const Effort& effort,
                                  const lmi::Formulation& formulation, const sdp::Solution& solution,
                                  const Solve& solve);
 
 /// The first of them alone.
-lmi::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
+verdict::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
                                        const sdp::Solution& solution);
 
 }  // namespace gainsmith::design

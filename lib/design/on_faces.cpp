@@ -6,16 +6,16 @@
 
 #include "base/rational.h"
 #include "design/gain_values.h"
-#include "lmi/face_multipliers.h"
-#include "lmi/faces.h"
-#include "lmi/printable.h"
+#include "verdict/face_multipliers.h"
+#include "verdict/faces.h"
+#include "verdict/printable.h"
 
 namespace gainsmith::design {
 
 namespace {
 
-using lmi::Faces;
-using lmi::RationalBlock;
+using verdict::Faces;
+using verdict::RationalBlock;
 
 /// Beyond these sizes fractions take too long.
 constexpr int kMostUnknowns = 60;
@@ -79,7 +79,7 @@ class OnFaces {
   OnFaces(const Posed& posed, const Solve& solve)
       : posed_(posed),
         solve_(solve),
-        stated_(lmi::rational_blocks(posed.inequalities, posed.lmi.blocks)),
+        stated_(verdict::rational_blocks(posed.inequalities, posed.lmi.blocks)),
         faces_(stated_, names_of(posed.lmi), posed.lmi.unknowns) {
     result_.question = {lmi::Goal::interior, {}, {"quad", 1e-22}, 0};
     result_.formulation = lmi::pose_interior(posed.lmi, {});
@@ -120,7 +120,7 @@ class OnFaces {
   Attempt finished() {
     if (faces_.excluded()) {
       result_.point = false;
-      result_.refutation = lmi::Refutation{true, 0, kWideDigits};
+      result_.refutation = verdict::Refutation{true, 0, kWideDigits};
       result_.chain = faces_.why();
     }
     result_.on_face = true;
@@ -149,7 +149,7 @@ class OnFaces {
     if (faces_.excluded()) return finish();
     faces_.drop_dependent();
     if (faces_.unknowns() == 0) {
-      if (!lmi::satisfies(faces_.blocks(), {}))
+      if (!verdict::satisfies(faces_.blocks(), {}))
         faces_.exclude("what is left has no unknowns and does not hold");
       else
         try_point({});
@@ -219,7 +219,7 @@ class OnFaces {
   /// Decimals near a point of the face that the exact blocks take, and their margins.
   struct Decimals {
     std::vector<double> x;
-    lmi::Margins margins;
+    verdict::Margins margins;
   };
 
   std::optional<Decimals> decimals(const std::vector<double>& y, int digits) const {
@@ -227,13 +227,13 @@ class OnFaces {
     for (int i = 1; i <= posed_.lmi.unknowns; ++i)
       units.push_back(result_.formulation.balance.unit(i));
     const std::vector<Rational> exact(y.begin(), y.end());
-    const auto x = lmi::printable_point(faces_, exact, units, digits);
+    const auto x = verdict::printable_point(faces_, exact, units, digits);
     if (!x) return std::nullopt;
     std::vector<Rational> printed;
-    for (const double value : *x) printed.push_back(lmi::printed_fraction(value));
-    if (!lmi::satisfies(stated_, printed)) return std::nullopt;
+    for (const double value : *x) printed.push_back(verdict::printed_fraction(value));
+    if (!verdict::satisfies(stated_, printed)) return std::nullopt;
     return Decimals{
-        *x, lmi::compute_margins(posed_.inequalities, posed_.lmi, result_.formulation.balance,
+        *x, verdict::compute_margins(posed_.inequalities, posed_.lmi, result_.formulation.balance,
                                  posed_.choices().margin, *x)};
   }
 
@@ -242,7 +242,7 @@ class OnFaces {
     for (const int digits : {3, 6, 9, 12, 15, 16}) {
       auto found = decimals(y, digits);
       if (!found) continue;
-      const bool holds = lmi::all_hold(found->margins);
+      const bool holds = verdict::all_hold(found->margins);
       if (!holds && result_.point) continue;
       result_.point = true;
       result_.x = std::move(found->x);
@@ -291,7 +291,7 @@ class OnFaces {
       if (!std::all_of(y.begin(), y.end(), [](double value) { return std::isfinite(value); }))
         return;
       auto found = decimals(y, 16);
-      if (!found || !lmi::all_hold(found->margins) || !has_small_gains(found->x)) continue;
+      if (!found || !verdict::all_hold(found->margins) || !has_small_gains(found->x)) continue;
       result_.x = std::move(found->x);
       result_.margins = std::move(found->margins);
       solved_ = std::move(minimum.solution);
@@ -300,13 +300,13 @@ class OnFaces {
   }
 
   void take_multipliers(const Left& left, const lmi::Formulation& formulation) {
-    lmi::FoundMultipliers found;
+    verdict::FoundMultipliers found;
     for (const RationalBlock& block : faces_.blocks()) {
       found.Y.push_back(
           numbers::MatrixOf<DoubleDouble>::Constant(block.size, block.size, DoubleDouble(0)));
       found.rows.emplace_back(static_cast<std::size_t>(block.size), 0);
     }
-    const lmi::Multipliers Y = lmi::multipliers_of(formulation, left.blocks.size(), solved_);
+    const verdict::Multipliers Y = verdict::multipliers_of(formulation, left.blocks.size(), solved_);
     for (std::size_t k = 0; k < Y.size(); ++k) {
       const std::size_t at = left.blocks[k];
       const auto& kept = formulation.releases.kept[k];
@@ -317,12 +317,12 @@ class OnFaces {
               Y[k](static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
     }
     if (formulation.homogenised) found.v = solved_.Y.values[Y.size()][0];
-    const lmi::ExactMultipliers exact = lmi::exact_multipliers(faces_, found);
-    if (exact.say == lmi::ExactMultipliers::Say::nothing) return;
+    const verdict::ExactMultipliers exact = verdict::exact_multipliers(faces_, found);
+    if (exact.say == verdict::ExactMultipliers::Say::nothing) return;
     std::string on;
-    for (const lmi::FaceOfBlock& face : exact.faces)
+    for (const verdict::FaceOfBlock& face : exact.faces)
       on += (on.empty() ? "" : ", ") + faces_.names()[face.block];
-    if (exact.say == lmi::ExactMultipliers::Say::excludes) {
+    if (exact.say == verdict::ExactMultipliers::Say::excludes) {
       if (faces_.steps() == 0) keep_multipliers(exact);
       faces_.exclude("exact multipliers of " + on + " exclude every solution");
       return finish();
@@ -332,11 +332,11 @@ class OnFaces {
   }
 
   /// Those of the blocks themselves, in the units of the data.
-  void keep_multipliers(const lmi::ExactMultipliers& exact) {
+  void keep_multipliers(const verdict::ExactMultipliers& exact) {
     for (const RationalBlock& block : stated_)
       result_.multipliers.push_back(numbers::Matrix::Zero(block.size, block.size));
     for (std::size_t k = 0; k < exact.faces.size(); ++k) {
-      const lmi::FaceOfBlock& face = exact.faces[k];
+      const verdict::FaceOfBlock& face = exact.faces[k];
       const numbers::RationalMatrix half = face.V.lazyProduct(exact.S[k]);
       const numbers::RationalMatrix Y = half.lazyProduct(face.V.transpose());
       result_.multipliers[face.block] =

@@ -94,9 +94,9 @@ void note_stop(const std::string& doing, int iterations, model::Gains& gains) {
                                          : "stopped while looking for " + doing);
 }
 
-lmi::Look look_of(Depth depth) {
+verdict::Look look_of(Depth depth) {
   constexpr std::size_t kQuickPieces = 1000;
-  lmi::Look look;
+  verdict::Look look;
   look.describe = depth != Depth::verdict;
   if (depth == Depth::quick) look.most_pieces = kQuickPieces;
   return look;

@@ -5,7 +5,7 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "lmi/refutation.h"
+#include "verdict/refutation.h"
 #include "support/input_error.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
@@ -21,7 +21,7 @@ model::Gains solve(const std::string& text) {
 /// A certificate that no solution exists, exactly or up to the rounding of 100 digits.
 bool is_certain(const model::CertificateRecord& certificate) {
   return certificate.is_about_problem() &&
-         (certificate.exact || certificate.omega <= lmi::kNothing);
+         (certificate.exact || certificate.omega <= verdict::kNothing);
 }
 
 std::string lyapunov(const numbers::Matrix& A) {
