@@ -6,7 +6,7 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "numbers/balance.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::numbers {
 

@@ -7,7 +7,7 @@
 #include <functional>
 #include <vector>
 
-#include "numbers/balance.h"
+#include "numerics/balance.h"
 #include "numbers/enclosed.h"
 #include "numbers/real_rules.h"
 

@@ -8,7 +8,7 @@
 
 #include "base/number.h"
 #include "expr/evaluate.h"
-#include "numbers/box_search.h"
+#include "numerics/box_search.h"
 #include "numbers/extremum.h"
 #include "numbers/real_rules.h"
 
@@ -94,7 +94,7 @@ MatrixOf<Scalar> extremum(const expr::Instruction& instruction,
                           expr::Operands<MatrixOf<Scalar>> operands) {
   const double sign = instruction.attributes[0] != 0 ? 1 : -1;
   OverBox<Scalar> exact(instruction, operands);
-  BoxPoint found;
+  numerics::BoxPoint found;
   if constexpr (std::is_same_v<Scalar, double>) {
     found = largest_over_box([&](const Vector& x) { return sign * exact.at(x); }, exact.low,
                              exact.high);

@@ -17,7 +17,7 @@
 #include "numbers/extremum.h"
 #include "numbers/flow_map.h"
 #include "numbers/householder.h"
-#include "numbers/projection.h"
+#include "numerics/projection.h"
 #include "numbers/real.h"
 #include "numbers/scalar_functions.h"
 #include "numbers/shared_rules.h"
@@ -270,7 +270,7 @@ struct RealRules {
       if (!operand->allFinite()) expr::fault::not_finite(at.instruction.op);
     try {
       out = nearest().point;
-    } catch (const NoProjection& why) {
+    } catch (const numerics::NoProjection& why) {
       expr::fault::without_result(at.instruction.op, why.what());
     }
   }

@@ -11,7 +11,7 @@
 
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
-#include "numbers/balance.h"
+#include "numerics/balance.h"
 #include "numbers/ball.h"
 #include "numbers/real_rules.h"
 #include "numbers/wide_dense.h"
@@ -56,7 +56,7 @@ MatrixOf<Scalar> wide_exponential(const MatrixOf<Scalar>& M) {
 template <class Scalar>
 struct WideFoundation {
   using Wide = MatrixOf<Scalar>;
-  using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using numerics::Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
   static std::optional<Scalar> parse(const std::string& decimal) {
     return parse_as<Scalar>(decimal);
@@ -69,9 +69,9 @@ struct WideFoundation {
   }
   static WideInverse<Scalar> inverse(const Wide& M) { return wide_inverse<Scalar>(M); }
   /// Largest first.
-  static Column singular_values(const Wide& M) {
-    if (M.size() == 0) return Column::Zero(0);
-    Column values = wide_svd<Scalar>(M).s;
+  static numerics::Column singular_values(const Wide& M) {
+    if (M.size() == 0) return numerics::Column::Zero(0);
+    numerics::Column values = wide_svd<Scalar>(M).s;
     std::sort(values.begin(), values.end(), std::greater<>());
     return values;
   }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/number.h"
-#include "numbers/lattice.h"
+#include "numerics/lattice.h"
 
 namespace gainsmith::verdict {
 
@@ -98,7 +98,7 @@ std::optional<std::vector<double>> printable_point(const Faces& faces,
       for (Eigen::Index r = 0; r < A.rows(); ++r) A(r, c) *= power_of_ten(-decimals[i]);
       near.push_back(Rational(x[i] * power_of_ten(decimals[i])));
     }
-    const auto X = numbers::whole_solution(A, equations.b, near);
+    const auto X = numerics::whole_solution(A, equations.b, near);
     if (!X) return std::nullopt;
     for (std::size_t c = 0; c < X->size(); ++c) {
       const auto i = static_cast<std::size_t>(equations.unknowns[c]);

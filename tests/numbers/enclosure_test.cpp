@@ -12,7 +12,7 @@
 #include "base/number.h"
 #include "expr/compile.h"
 #include "expr/parser.h"
-#include "numbers/balance.h"
+#include "numerics/balance.h"
 #include "numbers/dense.h"
 #include "numbers/real.h"
 

@@ -1,4 +1,4 @@
-#include "numbers/box_search.h"
+#include "numerics/box_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 #include "base/stop.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 namespace {
 
@@ -248,4 +248,4 @@ BoxPoint largest_over_box(const std::function<double(const Vector&)>& f, const V
   return BoxSearch(f, low, high).run();
 }
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

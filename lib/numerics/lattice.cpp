@@ -1,13 +1,13 @@
-#include "numbers/lattice.h"
+#include "numerics/lattice.h"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "base/stop.h"
-#include "numbers/matrix.h"
+#include "numerics/matrix.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 namespace {
 
@@ -358,4 +358,4 @@ std::optional<IntegerVector> whole_solution(const RationalMatrix& A, const Ratio
   return solutions.point();
 }
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

@@ -1,4 +1,4 @@
-// Internal to numbers: what the projections share, over the arithmetic W that they work in.
+// Internal to numerics: what the projections share, over the arithmetic W that they work in.
 //
 //   metric   P = L L', T = L^-1     z = x + T'd,  |d|^2 = (z - x)' P (z - x)
 //   row      a'(z - x) = (T a)'d    n = T a / |T a|
@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "base/eigen_scalars.h"
-#include "numbers/ball.h"
-#include "numbers/projection.h"
+#include "base/scalars.h"
+#include "numerics/projection.h"
 
-namespace gainsmith::numbers::projections {
+namespace gainsmith::numerics::projections {
 
 /// The arithmetic that a scalar is computed in. The 50 digits that Decimal100 has beyond 100 are
 /// enough for itself.
@@ -263,4 +263,4 @@ Projection<S> unmoved(const MatrixOf<S>& x, Eigen::Index multipliers) {
   return {x, MatrixOf<S>::Constant(multipliers, 1, S(0))};
 }
 
-}  // namespace gainsmith::numbers::projections
+}  // namespace gainsmith::numerics::projections

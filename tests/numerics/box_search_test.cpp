@@ -1,5 +1,5 @@
 // largest_over_box against maxima that are known: smooth, on borders, on ridges, one of many.
-#include "numbers/box_search.h"
+#include "numerics/box_search.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 namespace {
 
 Vector ends(int n, double value) { return Vector::Constant(n, value); }
@@ -153,4 +153,4 @@ TEST(BoxSearch, AsksWithinTheBoxAlone) {
 }
 
 }  // namespace
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

@@ -3,9 +3,9 @@
 
 #include <vector>
 
-#include "numbers/matrix.h"
+#include "numerics/matrix.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 /// Exponents e with B = D^-1 A D, D = diag(2^e), from the sizes |A|. Inside a strongly connected
 /// part of its graph the rows and columns of B weigh alike (Osborne 1960; Parlett & Reinsch 1969),
@@ -28,4 +28,4 @@ MatrixOf<S> in_units(const MatrixOf<S>& A, const std::vector<int>& exponents, co
   return result;
 }
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

@@ -14,9 +14,9 @@
 #include <optional>
 #include <vector>
 
-#include "numbers/rational.h"
+#include "numerics/rational_matrix.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 using IntegerVector = std::vector<Integer>;
 
@@ -27,4 +27,4 @@ std::vector<IntegerVector> reduced_basis(std::vector<IntegerVector> basis);
 std::optional<IntegerVector> whole_solution(const RationalMatrix& A, const RationalMatrix& b,
                                             const std::vector<Rational>& near);
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

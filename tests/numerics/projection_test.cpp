@@ -1,5 +1,5 @@
 // The projections satisfy what makes them projections, recomputed from the raw sets.
-#include "numbers/projection.h"
+#include "numerics/projection.h"
 
 #include <gtest/gtest.h>
 
@@ -7,9 +7,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "numbers/random_sets.h"
+#include "numerics/random_sets.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 namespace {
 
 constexpr int kSets = 10000;
@@ -153,4 +153,4 @@ TEST(ProjectAffine, ProjectsOnceAndExpandsNothing) {
 }
 
 }  // namespace
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

@@ -1,11 +1,11 @@
-#include "numbers/balance.h"
+#include "numerics/balance.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <numeric>
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 namespace {
 
@@ -170,4 +170,4 @@ std::vector<int> balance(const Matrix& sizes) {
   return *most - *least <= 2 * kMostExponent ? exponents : none;
 }
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

@@ -8,10 +8,10 @@
 
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
-#include "numbers/projection.h"
-#include "numbers/random_sets.h"
+#include "numerics/projection.h"
+#include "numerics/random_sets.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 namespace {
 
 /// Of the coordinates one after the other: the box and the diagonal metric are known by hand.
@@ -162,4 +162,4 @@ TEST(Projections, OnlyTheSymmetricPartOfTheMetricCounts) {
 }
 
 }  // namespace
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

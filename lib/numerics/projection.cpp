@@ -1,8 +1,8 @@
-#include "numbers/projection.h"
+#include "numerics/projection.h"
 
-#include "numbers/projection_sets.h"
+#include "numerics/projection_sets.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 template Projection<double> project_polytope(const Matrix&, const Matrix&, const Matrix&,
                                              const Matrix&);
@@ -11,4 +11,4 @@ template Projection<double> project_ellipsoid(const Matrix&, const Matrix&, cons
 template Projection<double> project_affine(const Matrix&, const Matrix&, const Matrix&,
                                            const Matrix&);
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

@@ -20,9 +20,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "numbers/matrix.h"
+#include "numerics/matrix.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 template <class Scalar>
 struct Projection {
@@ -66,4 +66,4 @@ template <class Scalar>
 Projection<Scalar> project_affine(const MatrixOf<Scalar>& x, const MatrixOf<Scalar>& P,
                                   const MatrixOf<Scalar>& A, const MatrixOf<Scalar>& b);
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

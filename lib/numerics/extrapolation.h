@@ -1,4 +1,4 @@
-// Internal to numbers: y' = f(q, y) from q = 0 to 1 by extrapolation of the midpoint rule (Gragg
+// y' = f(q, y) from q = 0 to 1 by extrapolation of the midpoint rule (Gragg
 // 1965; Bulirsch and Stoer 1966), over any real scalar.
 //
 //   z_1 = y + h f(y),   z_{i+1} = z_{i-1} + 2 h f(z_i),   h = H/n,   n = 2 k
@@ -21,10 +21,10 @@
 #include <utility>
 #include <vector>
 
-#include "expr/number_type.h"
-#include "numbers/matrix.h"
+#include "base/error.h"
+#include "numerics/matrix.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 /// Why an integration ended before 1.
 struct Unreached {
@@ -36,7 +36,7 @@ template <class Scalar>
 class Extrapolation {
  public:
   using M = MatrixOf<Scalar>;
-  /// EvaluationError where there is no rate; such a step is shortened.
+  /// InputError, such as the language throws, where there is no rate; such a step is shortened.
   using Rate = std::function<void(const Scalar& q, const M& y, M& rate)>;
 
   /// What f branches on.
@@ -117,7 +117,7 @@ class Extrapolation {
       }
       start_known_ = true;
       return columns(q, step, y);
-    } catch (const expr::EvaluationError& error) {
+    } catch (const InputError& error) {
       fault_ = error.message();
       return kFailed;
     }
@@ -143,7 +143,7 @@ class Extrapolation {
     if (++evaluations_ > kMost)
       throw Unreached{static_cast<double>(q), "it takes too many steps: the rate is stiff there"};
     rate_(q, y, rate);
-    if (!rate.allFinite()) throw expr::EvaluationError("the rate is not a finite number");
+    if (!rate.allFinite()) throw InputError({}, "the rate is not a finite number");
   }
 
   /// D of n parts to difference_.
@@ -252,4 +252,4 @@ class Extrapolation {
   std::string fault_;  ///< since the last step
 };
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

@@ -3,9 +3,9 @@
 
 #include <optional>
 
-#include "numbers/projection_rules.h"
+#include "numerics/projection_rules.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 namespace projections {
 
@@ -255,4 +255,4 @@ Projection<S> project_affine(const MatrixOf<S>& x, const MatrixOf<S>& P, const M
   return moved<S>(z, rows, basis, step.u);
 }
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

@@ -1,7 +1,7 @@
 // Both scalars are computed in Decimal100.
-#include "numbers/projection_sets.h"
+#include "numerics/projection_sets.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 using Quad = MatrixOf<DoubleDouble>;
 template Projection<DoubleDouble> project_polytope(const Quad&, const Quad&, const Quad&,
@@ -18,4 +18,4 @@ template Projection<Decimal100> project_ellipsoid(const Wide&, const Wide&, cons
                                                   const Wide&, const Wide&);
 template Projection<Decimal100> project_affine(const Wide&, const Wide&, const Wide&, const Wide&);
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

@@ -4,7 +4,7 @@
 #include <numbers>
 #include <utility>
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 /// Where a function is largest in [low, high], if it has one peak there: by golden section.
 template <class Function>
@@ -26,4 +26,4 @@ double peak_between(const Function& at, double low, double high, int sections = 
   return at_a >= at_b ? a : b;
 }
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

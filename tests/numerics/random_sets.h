@@ -7,9 +7,9 @@
 #include <limits>
 #include <random>
 
-#include "numbers/matrix.h"
+#include "numerics/matrix.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
 
@@ -135,4 +135,4 @@ inline RandomFlat flat(Draw& draw) {
   return set;
 }
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics

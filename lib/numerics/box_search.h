@@ -14,9 +14,9 @@
 
 #include <functional>
 
-#include "numbers/matrix.h"
+#include "numerics/matrix.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 
 struct BoxPoint {
   Vector point;
@@ -27,4 +27,4 @@ struct BoxPoint {
 BoxPoint largest_over_box(const std::function<double(const Vector&)>& f, const Vector& low,
                           const Vector& high);
 
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics
