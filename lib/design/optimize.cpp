@@ -10,6 +10,7 @@
 #include "base/number.h"
 #include "base/progress.h"
 #include "base/stop.h"
+#include "bind/instance.h"
 #include "design/elastic.h"
 #include "design/hautus.h"
 #include "design/polish.h"
@@ -103,7 +104,7 @@ class OuterSearch {
         const double found = request_.largest ? -*result.found.yes : *result.found.yes;
         return keep(std::move(result.gains), found);
       }
-      const model::Instance instance = model::evaluate(own_.design, values);
+      const model::Instance instance = bind::evaluate(own_.design, values);
       model::Gains gains = synthesize(instance, solver_, Depth::quick);
       if (gains.verdict == model::Verdict::undecided) check_stop();
       if (gains.verdict != model::Verdict::yes) return std::nullopt;
@@ -125,7 +126,7 @@ class OuterSearch {
   /// What the slacks of all points are measured in; none where the values of the point are refused.
   std::optional<ByInequality> scales_at(const search::Point& point) const {
     try {
-      return scales_of(without_gains(model::evaluate(own_.design, at_easy_end(point))));
+      return scales_of(without_gains(bind::evaluate(own_.design, at_easy_end(point))));
     } catch (const InputError&) {
       return std::nullopt;
     }
@@ -136,7 +137,7 @@ class OuterSearch {
   double violation(const ByInequality& scales, const search::Point& point) const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     try {
-      const auto plain = without_gains(model::evaluate(own_.design, at_easy_end(point)));
+      const auto plain = without_gains(bind::evaluate(own_.design, at_easy_end(point)));
       return estimated_violation(plain, scales, solver_).value_or(kInfinity);
     } catch (const InputError&) {
       return kInfinity;
@@ -169,7 +170,7 @@ class OuterSearch {
       check_stop();
       return {std::move(result.gains), result.found.yes};
     }
-    const model::Instance instance = model::evaluate(own_.design, values);
+    const model::Instance instance = bind::evaluate(own_.design, values);
     model::Gains gains = synthesize(instance, solver_);
     check_stop();
     // A measure was taken in the search.

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "bind/instance.h"
 #include "design/polish_blocks.h"
 #include "numbers/dense.h"
 
@@ -56,7 +57,7 @@ class SmoothDesign {
       scalars_.push_back(*request.extreme);
     }
     Vector start;
-    const model::Instance instance = model::evaluate(design_, gains.searched);
+    const model::Instance instance = bind::evaluate(design_, gains.searched);
     for (const SearchedScalar& scalar : scalars_)
       start.push_back(scalar.axis.fraction(instance.values.at(scalar.name)(0, 0)));
     const SmoothBlocks& blocks = at(start);
@@ -100,7 +101,7 @@ class SmoothDesign {
 
   /// The design at values of its scalars, with the request's own figure as its objective.
   model::Instance instance_at(const model::Overrides& values) const {
-    model::Instance instance = model::evaluate(design_, values);
+    model::Instance instance = bind::evaluate(design_, values);
     if (instance.design != design_) throw NotSmooth{"a dimension changes with the scalars"};
     if (!figure_) return instance;
     return with_design(std::move(instance),

@@ -10,6 +10,7 @@
 #include "base/number.h"
 #include "base/stop.h"
 #include "base/version.h"
+#include "bind/instance.h"
 #include "design/exchange.h"
 #include "design/gain_values.h"
 #include "design/hautus.h"
@@ -336,7 +337,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
 
 model::Gains synthesize_at(const model::DesignPtr& design, const model::Overrides& overrides,
                            const sdp::Options& options, Depth depth) {
-  return synthesize(model::evaluate(design, overrides), options, depth);
+  return synthesize(bind::evaluate(design, overrides), options, depth);
 }
 
 }  // namespace gainsmith::design

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/number.h"
+#include "bind/stated.h"
 #include "hybrid/affine.h"
 
 namespace gainsmith::hybrid {
@@ -332,7 +333,7 @@ EventSystem make_event_system(const model::Instance& instance, const model::Gain
   const model::Design& design = *instance.design;
   if (!design.dynamics)
     throw InputError({design.method_file, 0, 0}, "there are no events and no components to run");
-  model::Stated stated = model::state(instance, gains);
+  model::Stated stated = bind::state(instance, gains);
   return make_event_system(*design.dynamics, std::move(stated.values), std::move(stated.bodies));
 }
 

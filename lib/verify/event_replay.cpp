@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "bind/stated.h"
 #include "verify/judge.h"
 #include "verify/run_values.h"
 
@@ -166,7 +167,7 @@ std::vector<hybrid::Fault> faults_of(const hybrid::Trajectory& run, const model:
   }
   model::Dynamics dynamics = setup.system.dynamics;
   dynamics.flow = setup.flow;
-  return hybrid::judge(run, dynamics, model::state(instance, gains), question);
+  return hybrid::judge(run, dynamics, bind::state(instance, gains), question);
 }
 
 }  // namespace

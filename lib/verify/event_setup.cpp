@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/number.h"
+#include "bind/stated.h"
 #include "model/stated.h"
 #include "verify/text_ball.h"
 
@@ -164,7 +165,7 @@ std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instan
   model::Dynamics dynamics = *design.dynamics;
   for (const model::Design::Claim& claim : design.claims)
     if (claim.flow_cost) add_integral(claim, dynamics);
-  model::Stated stated = model::state(instance, gains);
+  model::Stated stated = bind::state(instance, gains);
   auto setup = std::make_unique<EventSetup>();
   setup->flow = dynamics.flow;
   setup->system =

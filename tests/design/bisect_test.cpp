@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bind/instance.h"
 #include "design/optimize.h"
 #include "design/search_problems.h"
 #include "support/input_error.h"
@@ -87,7 +88,7 @@ TEST(Bisect, TheProblemsOwnValueIsTried) {
 TEST(Bisect, WhatAnInstanceOverridesIsHeld) {
   const YamlProblem problem(testing::kRidge + "data: {a: 1, c: 0}\n");
   const BisectChoices choices{{"c", search::axis(-5, 9)}, true, {1e-3}, {}};
-  const model::Instance moved = model::evaluate(problem.instance.design, {{"a", 2}});
+  const model::Instance moved = bind::evaluate(problem.instance.design, {{"a", 2}});
   EXPECT_NEAR(bisect(moved, {}, choices, {}).found.yes.value(), 3, 2e-3);
   EXPECT_NEAR(bisect(moved, {{"a", 3}}, choices, {}).found.yes.value(), 0, 2e-3);
 }

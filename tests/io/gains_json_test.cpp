@@ -10,7 +10,7 @@
 #include <string>
 
 #include "io/problem_text.h"
-#include "model/bind.h"
+#include "bind/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using tests::input_error;
 
 const model::Statement& statement() {
-  static const model::Statement kStatement = model::bind(read_problem(kProblem)).design->statement;
+  static const model::Statement kStatement = bind::bind(read_problem(kProblem)).design->statement;
   return kStatement;
 }
 

@@ -11,8 +11,8 @@
 
 #include "expr/compile.h"
 #include "expr/parser.h"
-#include "model/binding.h"
-#include "model/small_problem.h"
+#include "bind/binding.h"
+#include "bind/small_problem.h"
 #include "support/input_error.h"
 
 namespace gainsmith::model {

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "base/scalars.h"
+#include "bind/instance.h"
 #include "model/gains.h"
 #include "support/yaml_problem.h"
 
@@ -130,7 +131,7 @@ TEST(PrintedCheckTest, ASearchedScalarReplacesTheOneOfTheFile) {
       "{all: x > a}\ndata: {a: 1}\n");
   const std::vector<double> x = {2};
   for (const double a : {1.5, 2.0, 2.5}) {
-    const lmi::Inequalities of(model::evaluate(yaml.instance.design, {{"a", a}}));
+    const lmi::Inequalities of(bind::evaluate(yaml.instance.design, {{"a", a}}));
     EXPECT_EQ(PrintedCheck(of, x).check(0, 0).status == Status::holds, a < 2) << a;
   }
 }

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "io/problem_text.h"
-#include "model/bind.h"
+#include "bind/bind.h"
 #include "verify/campaign.h"
 #include "verify/event_replay.h"
 #include "verify/event_setup.h"
@@ -20,7 +20,7 @@ using model::CampaignVerdict;
 /// A problem with these parts of its method and of itself.
 model::Instance instance_of(const std::string& method, const std::string& claims,
                             const std::string& campaign, const std::string& more = "") {
-  return model::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + "  claims: " +
+  return bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + "  claims: " +
                                       claims + "\ncampaign: " + campaign + "\n" + more));
 }
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/problem_text.h"
-#include "model/bind.h"
+#include "bind/bind.h"
 #include "verify/event_setup.h"
 #include "verify/expected_run.h"
 
@@ -19,7 +19,7 @@ namespace {
 using Eigen::VectorXd;
 
 model::Instance instance_of(const std::string& method, const std::string& problem) {
-  return model::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + problem));
+  return bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + problem));
 }
 
 const std::string kPlant =
