@@ -7,11 +7,11 @@
 #include "base/file.h"
 #include "base/nearest.h"
 #include "base/number.h"
+#include "bind/bind.h"
 #include "bind/stated.h"
 #include "design/synthesize.h"
 #include "io/gains_json.h"
 #include "methods/methods.h"
-#include "bind/bind.h"
 #include "model/stated.h"
 
 namespace gainsmith::app {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "expr/work.h"
 #include "bind/binding.h"
+#include "expr/work.h"
 #include "model/gains.h"
 
 namespace gainsmith::bind {
@@ -35,7 +35,8 @@ expr::Expression oriented(const model::Value& value, bool column) {
   return {value.value.text, turned};
 }
 
-Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overrides, Checks checks)
+Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overrides,
+                 Checks checks)
     : source_(std::move(problem)),
       overrides_(overrides),
       checks_(checks),
@@ -78,20 +79,21 @@ model::Formula Binding::scalar(const expr::Expression& expression, const expr::S
 }
 
 model::Formula Binding::formula(const expr::Expression& expression, const expr::Scope& scope,
-                         std::optional<expr::Shape> expected) const {
+                                std::optional<expr::Shape> expected) const {
   return {expr::compile(expression, scope, expected), expression.place(*expression.root),
           expression.text->str()};
 }
 
 model::Formula Binding::value(const model::Value& value, const expr::Scope& scope,
-                       std::optional<expr::Shape> expected) const {
+                              std::optional<expr::Shape> expected) const {
   model::Formula result =
       formula(oriented(value, expected && is_proper_column(*expected)), scope, expected);
   result.place = value.place;
   return result;
 }
 
-model::Instance bind(std::shared_ptr<const model::Problem> problem, const model::Overrides& overrides) {
+model::Instance bind(std::shared_ptr<const model::Problem> problem,
+                     const model::Overrides& overrides) {
   return Binding(std::move(problem), overrides, Checks::all).run();
 }
 

@@ -14,7 +14,8 @@ namespace gainsmith::bind {
 /// shapes that do not fit, values of the campaign outside of their ranges. A scalar that is
 /// searched and has neither value nor default stands at the end of its range from which the search
 /// goes: the high one of `smallest`, otherwise the low one.
-model::Instance bind(std::shared_ptr<const model::Problem> problem, const model::Overrides& overrides = {});
+model::Instance bind(std::shared_ptr<const model::Problem> problem,
+                     const model::Overrides& overrides = {});
 model::Instance bind(const model::Problem& problem, const model::Overrides& overrides = {});
 
 /// InputError, with its place, for an unknown that no inequality reads: any value would do. Binding

@@ -7,12 +7,12 @@
 #include <string>
 #include <vector>
 
-#include "expr/compile.h"
-#include "expr/scope.h"
 #include "bind/bind.h"
 #include "bind/convex.h"
 #include "bind/dynamics_names.h"
 #include "bind/families.h"
+#include "expr/compile.h"
+#include "expr/scope.h"
 
 namespace gainsmith::bind {
 
@@ -44,7 +44,8 @@ enum class Checks { all, none };
 
 class Binding {
  public:
-  Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overrides, Checks checks);
+  Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overrides,
+          Checks checks);
   model::Instance run();
 
  private:
@@ -82,9 +83,9 @@ class Binding {
   model::Design::Variable variable(const model::Forall& forall, const Member& member) const;
   std::vector<expr::Expression> points_of(const model::Forall& forall, const Member& member) const;
 
-  void add_comparisons(const std::vector<expr::Expression>& comparisons, model::Design::Inequality& bound,
-                       const std::string& stem, const std::string& member,
-                       const expr::Scope& scope) const;
+  void add_comparisons(const std::vector<expr::Expression>& comparisons,
+                       model::Design::Inequality& bound, const std::string& stem,
+                       const std::string& member, const expr::Scope& scope) const;
 
   // bind_convex.cpp
   bool reads_unknowns(const expr::Expression& part, const expr::Scope& scope) const;
@@ -117,11 +118,13 @@ class Binding {
   void bind_gains();
   void bind_gain_bounds();
   void add_gain(const model::Gain& gain);
-  void add_products(const model::Gain& gain, const expr::Scope& scope, model::Design::Gain& bound) const;
+  void add_products(const model::Gain& gain, const expr::Scope& scope,
+                    model::Design::Gain& bound) const;
 
   // bind_simulation.cpp
   void bind_components();
-  std::vector<model::NamedFormula> named(const std::vector<model::Named>& list, const expr::Scope& scope) const;
+  std::vector<model::NamedFormula> named(const std::vector<model::Named>& list,
+                                         const expr::Scope& scope) const;
   void bind_dynamics();
   void add_rates();
   std::set<std::string> varied() const;
@@ -132,7 +135,8 @@ class Binding {
   model::Claim instantiated(model::Claim claim, const Member& member) const;
   std::vector<std::pair<std::string, model::Claim>> readings(model::Claim claim) const;
   model::Formula constant_of_claim(const expr::Expression& text, const std::string& key) const;
-  void add_claim(const model::Claim& claim, const std::string& title, std::optional<std::size_t> over);
+  void add_claim(const model::Claim& claim, const std::string& title,
+                 std::optional<std::size_t> over);
 
   // bind_campaign.cpp
   void bind_campaign();
@@ -141,12 +145,13 @@ class Binding {
   const model::Dynamics::Event* timer_event() const;
   std::size_t clock_of(const model::SamplingLaw& law) const;
   model::Design::Start start(const model::InitialValue& initial) const;
-  std::vector<model::Formula> ellipsoid(const model::InitialValue& initial, expr::Shape state) const;
+  std::vector<model::Formula> ellipsoid(const model::InitialValue& initial,
+                                        expr::Shape state) const;
   InputError no_state(const std::string& name, const Place& place) const;
   void bind_accuracy(const model::RunAccuracy& accuracy);
   void check_box(const model::Design::Start& start, const model::InitialValue& initial) const;
-  void check_within(const model::Formula& formula, const model::Formula& low, const model::Formula& high,
-                    const std::string& what) const;
+  void check_within(const model::Formula& formula, const model::Formula& low,
+                    const model::Formula& high, const std::string& what) const;
   std::optional<numbers::Matrix> known_value(const model::Formula& formula) const;
   std::optional<double> known_scalar(const model::Formula& formula) const;
   std::size_t state_of(const std::string& name) const;
@@ -163,10 +168,10 @@ class Binding {
 
   model::Formula scalar(const expr::Expression& expression, const expr::Scope& scope) const;
   model::Formula formula(const expr::Expression& expression, const expr::Scope& scope,
-                  std::optional<expr::Shape> expected = std::nullopt) const;
+                         std::optional<expr::Shape> expected = std::nullopt) const;
   /// A value that may be a flat list, which is a column where a column is expected.
   model::Formula value(const model::Value& value, const expr::Scope& scope,
-                std::optional<expr::Shape> expected) const;
+                       std::optional<expr::Shape> expected) const;
 
   std::shared_ptr<const model::Problem> source_;
   model::Overrides overrides_;
@@ -184,7 +189,8 @@ model::Instance bind_again(const model::Design& design, const model::Overrides& 
 /// The formula of a gain that a gain file brings, over the names of its design and the file's
 /// coefficients.
 expr::Program bind_gain_formula(const model::Instance& instance,
-                                const std::vector<model::UnknownMatrix>& unknowns, const std::string& text,
-                                const std::string& variable, const Place& place);
+                                const std::vector<model::UnknownMatrix>& unknowns,
+                                const std::string& text, const std::string& variable,
+                                const Place& place);
 
 }  // namespace gainsmith::bind

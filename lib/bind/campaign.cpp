@@ -12,7 +12,7 @@ namespace gainsmith::bind {
 /// uses gains.
 std::optional<numbers::Matrix> Binding::known_value(const model::Formula& formula) const {
   const bool known =
-      formula.program.functions.empty() && has_values(formula.program, recorder_->values);
+      formula.program.functions.empty() && model::has_values(formula.program, recorder_->values);
   if (!known || checks_ == Checks::none) return std::nullopt;
   return numbers::evaluate(formula.program, recorder_->values);
 }
@@ -24,8 +24,8 @@ std::optional<double> Binding::known_scalar(const model::Formula& formula) const
 
 /// InputError when the value is known and outside [low, high] by more than the rounding that the
 /// simulation forgives, 1e-12 of high.
-void Binding::check_within(const model::Formula& formula, const model::Formula& low, const model::Formula& high,
-                           const std::string& what) const {
+void Binding::check_within(const model::Formula& formula, const model::Formula& low,
+                           const model::Formula& high, const std::string& what) const {
   const auto value = known_scalar(formula);
   const auto least = known_scalar(low);
   const auto most = known_scalar(high);
@@ -36,7 +36,8 @@ void Binding::check_within(const model::Formula& formula, const model::Formula& 
                                       ", " + brief(*most) + "]");
 }
 
-void Binding::check_box(const model::Design::Start& start, const model::InitialValue& initial) const {
+void Binding::check_box(const model::Design::Start& start,
+                        const model::InitialValue& initial) const {
   const auto low = known_value(start.values[0]);
   const auto high = known_value(start.values[1]);
   if (!low || !high || numbers::shape_of(*low) != numbers::shape_of(*high)) return;
@@ -76,7 +77,7 @@ model::Design::Start Binding::start(const model::InitialValue& initial) const {
   }
   const bool enough = initial.kind == model::StartKind::list  ? !bound.values.empty()
                       : initial.kind == model::StartKind::box ? bound.values.size() == 2
-                                                       : bound.values.size() == 1;
+                                                              : bound.values.size() == 1;
   if (!enough)
     throw InputError(initial.place, "the initial value of " + initial.state + " is incomplete");
   if (initial.kind == model::StartKind::box) check_box(bound, initial);
@@ -84,7 +85,8 @@ model::Design::Start Binding::start(const model::InitialValue& initial) const {
 }
 
 /// Center, matrix and level.
-std::vector<model::Formula> Binding::ellipsoid(const model::InitialValue& initial, expr::Shape state) const {
+std::vector<model::Formula> Binding::ellipsoid(const model::InitialValue& initial,
+                                               expr::Shape state) const {
   const expr::Scope& scope = names_->running;
   if (initial.values.size() != 3)
     throw InputError(initial.place, "the initial value of " + initial.state + " is incomplete");

@@ -59,7 +59,8 @@ std::vector<std::pair<std::string, model::Claim>> Binding::readings(model::Claim
 }
 
 /// A number that no run changes.
-model::Formula Binding::constant_of_claim(const expr::Expression& text, const std::string& key) const {
+model::Formula Binding::constant_of_claim(const expr::Expression& text,
+                                          const std::string& key) const {
   model::Formula bound = scalar(text, names_->running);
   const auto changes = [&](const std::string& name) {
     if (state_of(name) < design_->states.size()) return true;
@@ -82,12 +83,12 @@ void Binding::add_claim(const model::Claim& claim, const std::string& title,
     return part ? std::optional(scalar(*part, scope)) : std::nullopt;
   };
   model::Design::Claim bound{title,
-                      claim.kind,
-                      scalar(claim.value, scope),
-                      optional(claim.flow_cost),
-                      optional(claim.jump_cost),
-                      optional(claim.factor),
-                      claim.place};
+                             claim.kind,
+                             scalar(claim.value, scope),
+                             optional(claim.flow_cost),
+                             optional(claim.jump_cost),
+                             optional(claim.factor),
+                             claim.place};
   if (claim.bound) bound.bound = constant_of_claim(*claim.bound, "bound");
   if (claim.after) bound.after = constant_of_claim(*claim.after, "after");
   bound.over = over;

@@ -3,10 +3,10 @@
 #include <memory>
 #include <span>
 
-#include "expr/functions.h"
 #include "bind/binding.h"
 #include "bind/convex.h"
 #include "bind/dynamics_names.h"
+#include "expr/functions.h"
 
 namespace gainsmith::bind {
 

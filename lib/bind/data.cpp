@@ -4,8 +4,8 @@
 
 #include "base/nearest.h"
 #include "base/number.h"
-#include "expr/functions.h"
 #include "bind/binding.h"
+#include "expr/functions.h"
 
 namespace gainsmith::bind {
 
@@ -88,19 +88,19 @@ void Binding::bind_data() {
 void Binding::refuse_unknown_names() const {
   const auto data = names_of(method().data);
   const auto parameters = names_of(method().parameters);
-  const auto refuse = [&](const std::vector<model::Value>& values, const std::vector<std::string>& known,
-                          const std::vector<std::string>& elsewhere, const char* what,
-                          const char* other) {
-    for (const model::Value& value : values) {
-      if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
-      const bool misplaced =
-          std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
-      throw InputError(value.place, "the method " + method().name + " has no " + what + " '" +
-                                        value.name + "'" +
-                                        (misplaced ? "; it is one of its " + std::string(other)
-                                                   : suggestion(value.name, known)));
-    }
-  };
+  const auto refuse =
+      [&](const std::vector<model::Value>& values, const std::vector<std::string>& known,
+          const std::vector<std::string>& elsewhere, const char* what, const char* other) {
+        for (const model::Value& value : values) {
+          if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
+          const bool misplaced =
+              std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
+          throw InputError(value.place, "the method " + method().name + " has no " + what + " '" +
+                                            value.name + "'" +
+                                            (misplaced ? "; it is one of its " + std::string(other)
+                                                       : suggestion(value.name, known)));
+        }
+      };
   refuse(problem().data, data, parameters, "datum", "parameters");
   refuse(problem().parameters, parameters, data, "parameter", "data");
 }
@@ -154,7 +154,8 @@ std::vector<Binding::Given> Binding::given(const model::Declaration& datum) {
                                            "method " +
                                            method().name + " is missing under 'data'" +
                                            kFamilyTakes);
-  const std::vector<model::Value> elements = value ? elements_of(*value) : std::vector<model::Value>{};
+  const std::vector<model::Value> elements =
+      value ? elements_of(*value) : std::vector<model::Value>{};
   for (const model::Value& element : elements)
     if (!element.matrices.empty())
       throw InputError(element.place, "the family " + datum.name +
@@ -284,7 +285,8 @@ void Binding::add_assumption(const model::Named& assumption) {
   design_->assumptions.push_back(std::move(bound));
 }
 
-int Binding::degree_of(const model::UnknownDeclaration& unknown, model::Design::Unknown& bound) const {
+int Binding::degree_of(const model::UnknownDeclaration& unknown,
+                       model::Design::Unknown& bound) const {
   constexpr int kLargest = 30;
   if (!unknown.degree) return 0;
   bound.degree_formula = scalar(*unknown.degree, names_->known);
@@ -336,7 +338,8 @@ void Binding::add_unknown(const model::UnknownDeclaration& unknown) {
     scope.symbols[unknown.name] = {bound.shape};
   } else {
     for (int k = 0; k <= bound.degree; ++k)
-      scope.symbols[coefficient_name(unknown.name, static_cast<std::size_t>(k))] = {bound.shape};
+      scope.symbols[model::coefficient_name(unknown.name, static_cast<std::size_t>(k))] = {
+          bound.shape};
     scope.functions[unknown.name] = bound.shape;
     scope.functions[expr::derivative_name(unknown.name)] = bound.shape;
   }

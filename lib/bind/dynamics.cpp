@@ -4,10 +4,10 @@
 #include <utility>
 
 #include "base/nearest.h"
-#include "expr/compile.h"
-#include "expr/rewrite.h"
 #include "bind/binding.h"
 #include "bind/dynamics_binding.h"
+#include "expr/compile.h"
+#include "expr/rewrite.h"
 
 namespace gainsmith::bind {
 
@@ -26,7 +26,8 @@ std::vector<std::string> state_names(const model::Component& component) {
 
 DynamicsBinding::DynamicsBinding(const model::Method& method, const model::Dimensions& dimensions,
                                  const DynamicsNames& names,
-                                 const std::vector<model::UncertainText>& uncertain, expr::Scope& scope)
+                                 const std::vector<model::UncertainText>& uncertain,
+                                 expr::Scope& scope)
     : method_(&method),
       dimensions_(&dimensions),
       names_(&names),
@@ -34,13 +35,14 @@ DynamicsBinding::DynamicsBinding(const model::Method& method, const model::Dimen
       scope_(&scope) {}
 
 model::Formula DynamicsBinding::formula(const expr::Expression& text, const expr::Scope& scope,
-                                 std::optional<expr::Shape> shape) const {
+                                        std::optional<expr::Shape> shape) const {
   return {expr::compile(text, scope, shape), text.place(*text.root), text.text->str()};
 }
 
 bool DynamicsBinding::is_moving(const std::string& name) const {
-  return std::any_of(result_.variables.begin(), result_.variables.end(),
-                     [&](const model::Dynamics::Variable& variable) { return variable.name == name; });
+  return std::any_of(
+      result_.variables.begin(), result_.variables.end(),
+      [&](const model::Dynamics::Variable& variable) { return variable.name == name; });
 }
 
 bool DynamicsBinding::is_free(const std::string& name) const {
@@ -115,7 +117,8 @@ std::vector<expr::Expression> DynamicsBinding::vertices_of(const model::Uncertai
 }
 
 /// How the plant's value of uncertain data is chosen.
-model::Dynamics::Noise DynamicsBinding::varied_noise(const model::UncertainText& text, expr::Shape shape) const {
+model::Dynamics::Noise DynamicsBinding::varied_noise(const model::UncertainText& text,
+                                                     expr::Shape shape) const {
   model::Dynamics::Noise noise;
   noise.name = "plant." + text.name;
   noise.kind = model::Dynamics::NoiseKind::uniform;
@@ -223,8 +226,8 @@ void DynamicsBinding::bind_starts() {
   for (const model::Component& observer : method_->observers) bind(observer);
 }
 
-std::size_t DynamicsBinding::state(const model::Component& component, std::size_t at, const model::Named& entry,
-                                   const char* what) const {
+std::size_t DynamicsBinding::state(const model::Component& component, std::size_t at,
+                                   const model::Named& entry, const char* what) const {
   const std::string name = names_->full(component, entry.name);
   for (std::size_t k = 0; k < result_.variables.size(); ++k) {
     const model::Dynamics::Variable& variable = result_.variables[k];
@@ -276,7 +279,8 @@ model::Dynamics DynamicsBinding::run() {
   }
   for (std::size_t at = 0; at < parts.size(); ++at) {
     set_reader(parts[at]);
-    for (const model::ReactionText& reaction : parts[at]->at) bind_reaction(reaction, *parts[at], at);
+    for (const model::ReactionText& reaction : parts[at]->at)
+      bind_reaction(reaction, *parts[at], at);
   }
   set_reader(nullptr);
   return result_;

@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "bind/dynamics_names.h"
 #include "expr/scope.h"
 #include "model/dynamics.h"
-#include "bind/dynamics_names.h"
 #include "model/problem.h"
 
 namespace gainsmith::bind {
@@ -18,8 +18,9 @@ class DynamicsBinding {
  public:
   /// `scope` has data, parameters, definitions, unknowns and gains; the names of plant, observers
   /// and events are added to it.
-  DynamicsBinding(const model::Method& method, const model::Dimensions& dimensions, const DynamicsNames& names,
-                  const std::vector<model::UncertainText>& uncertain, expr::Scope& scope);
+  DynamicsBinding(const model::Method& method, const model::Dimensions& dimensions,
+                  const DynamicsNames& names, const std::vector<model::UncertainText>& uncertain,
+                  expr::Scope& scope);
 
   model::Dynamics run();
   /// The event at which alone an output exists, by its full name.
@@ -36,7 +37,8 @@ class DynamicsBinding {
   void add_varied();
   std::string no_datum(const std::string& name) const;
   model::Dynamics::Noise varied_noise(const model::UncertainText& text, expr::Shape shape) const;
-  std::vector<expr::Expression> vertices_of(const model::UncertainText& text, expr::Shape shape) const;
+  std::vector<expr::Expression> vertices_of(const model::UncertainText& text,
+                                            expr::Shape shape) const;
   void bind_starts();
   void bind_flow(const model::Component& component, std::size_t at);
   std::size_t state(const model::Component& component, std::size_t at, const model::Named& entry,
@@ -49,16 +51,19 @@ class DynamicsBinding {
   void sort_events();
   void add_moments();
   void bind_event(const model::EventText& text, const model::Component* component, std::size_t at);
-  void bind_reaction(const model::ReactionText& text, const model::Component& component, std::size_t at);
-  model::Dynamics::Pass pass(const model::PassText& text, const model::Component& component, std::size_t at,
-                      const expr::Scope& scope, std::size_t event) const;
+  void bind_reaction(const model::ReactionText& text, const model::Component& component,
+                     std::size_t at);
+  model::Dynamics::Pass pass(const model::PassText& text, const model::Component& component,
+                             std::size_t at, const expr::Scope& scope, std::size_t event) const;
   void bind_stays(const model::Component& component, std::size_t at);
   void bind_noise(const model::NoiseText& text);
   void bind_sinusoid(const model::NoiseText& text);
   std::string time_of(const std::string& noise);
   void add_noise(model::Dynamics::Noise noise);
-  std::size_t event(const model::Component* component, const std::string& name, const Place& place) const;
-  void check_ends(const std::string& event, const model::Formula& low, const model::Formula& high) const;
+  std::size_t event(const model::Component* component, const std::string& name,
+                    const Place& place) const;
+  void check_ends(const std::string& event, const model::Formula& low,
+                  const model::Formula& high) const;
   model::Formula constant(const expr::Expression& text, std::optional<expr::Shape> shape) const;
   expr::Condition condition(const expr::Expression& text, const model::Component* reader,
                             std::optional<std::size_t> event, const expr::Scope& scope) const;
@@ -66,7 +71,7 @@ class DynamicsBinding {
   // dynamics_reads.cpp: who may read what.
   struct Reader {
     const model::Component* component = nullptr;  ///< none: outside
-    std::optional<std::size_t> event;      ///< at which it reads
+    std::optional<std::size_t> event;             ///< at which it reads
   };
   /// `text` has full names. InputError for an observer that reads states of the plant or another
   /// observer, and for an output where it does not exist.
@@ -79,7 +84,7 @@ class DynamicsBinding {
                   std::set<std::string>& seen) const;
 
   model::Formula formula(const expr::Expression& text, const expr::Scope& scope,
-                  std::optional<expr::Shape> shape) const;
+                         std::optional<expr::Shape> shape) const;
   bool is_moving(const std::string& name) const;
 
   const model::Method* method_;

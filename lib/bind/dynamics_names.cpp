@@ -49,7 +49,8 @@ DynamicsNames::DynamicsNames(const model::Method& method, std::set<std::string> 
   const std::set<std::string> of_method = names_of_method(method);
   for (const std::string& name : names_of(method.plant))
     if (of_method.contains(name)) shared_.insert(name);
-  for (const model::Component& observer : method.observers) own_[observer.name] = names_of(observer);
+  for (const model::Component& observer : method.observers)
+    own_[observer.name] = names_of(observer);
   anywhere_ = names_of(method.plant);
   for (const model::Named& input : method.inputs) anywhere_.insert(input.name);
   for (const model::MeasuredText& input : method.measured) anywhere_.insert(input.name);
@@ -107,7 +108,8 @@ std::vector<std::string> DynamicsNames::event_names(const model::Component* comp
   return names;
 }
 
-expr::Expression DynamicsNames::within(const model::Component& component, const expr::Expression& text,
+expr::Expression DynamicsNames::within(const model::Component& component,
+                                       const expr::Expression& text,
                                        const std::vector<std::string>& parameters) const {
   const std::set<std::string> own = names_of(component);
   return expr::renamed(text, [&](const std::string& name) -> std::optional<std::string> {

@@ -59,7 +59,8 @@ class DynamicsNames {
   std::vector<std::string> states(const std::string& name) const;
   /// The full name of the event that a component, or a text outside (nullptr), means; none when
   /// there is none.
-  std::optional<std::string> event(const model::Component* component, const std::string& name) const;
+  std::optional<std::string> event(const model::Component* component,
+                                   const std::string& name) const;
   /// All of them as they may be written there, for messages.
   std::vector<std::string> event_names(const model::Component* component) const;
   /// "e of nominal" of several observers; the name alone of the only one.

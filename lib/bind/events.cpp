@@ -6,9 +6,9 @@
 
 #include "base/nearest.h"
 #include "base/number.h"
+#include "bind/dynamics_binding.h"
 #include "expr/compile.h"
 #include "expr/condition.h"
-#include "bind/dynamics_binding.h"
 
 namespace gainsmith::bind {
 
@@ -20,8 +20,8 @@ using Kind = model::Dynamics::VariableKind;
 }  // namespace
 
 void DynamicsBinding::add_events() {
-  const auto add = [&](const std::vector<model::EventText>& texts, const model::Component* component,
-                       std::optional<std::size_t> at) {
+  const auto add = [&](const std::vector<model::EventText>& texts,
+                       const model::Component* component, std::optional<std::size_t> at) {
     for (const model::EventText& text : texts) {
       model::Dynamics::Event event;
       event.own = text.name;
@@ -106,7 +106,7 @@ std::size_t DynamicsBinding::event(const model::Component* component, const std:
 
 /// A value that does not change along a run.
 model::Formula DynamicsBinding::constant(const expr::Expression& text,
-                                  std::optional<expr::Shape> shape) const {
+                                         std::optional<expr::Shape> shape) const {
   model::Formula bound = formula(text, *scope_, shape);
   for (const expr::Input& input : bound.program.inputs)
     if (is_moving(input.name))
@@ -116,7 +116,8 @@ model::Formula DynamicsBinding::constant(const expr::Expression& text,
   return bound;
 }
 
-expr::Condition DynamicsBinding::condition(const expr::Expression& text, const model::Component* reader,
+expr::Condition DynamicsBinding::condition(const expr::Expression& text,
+                                           const model::Component* reader,
                                            std::optional<std::size_t> event,
                                            const expr::Scope& scope) const {
   check_reads({reader, event}, text, scope);
@@ -201,9 +202,9 @@ void DynamicsBinding::bind_event(const model::EventText& text, const model::Comp
   if (text.only_if) event.only_if = condition(read(*text.only_if), component, at, *scope_);
 }
 
-model::Dynamics::Pass DynamicsBinding::pass(const model::PassText& text, const model::Component& component,
-                                     std::size_t at, const expr::Scope& scope,
-                                     std::size_t event) const {
+model::Dynamics::Pass DynamicsBinding::pass(const model::PassText& text,
+                                            const model::Component& component, std::size_t at,
+                                            const expr::Scope& scope, std::size_t event) const {
   model::Dynamics::Pass bound;
   bound.repeats = text.repeats;
   bound.go_on = text.go_on;
@@ -221,8 +222,8 @@ model::Dynamics::Pass DynamicsBinding::pass(const model::PassText& text, const m
   return bound;
 }
 
-void DynamicsBinding::bind_reaction(const model::ReactionText& text, const model::Component& component,
-                                    std::size_t at) {
+void DynamicsBinding::bind_reaction(const model::ReactionText& text,
+                                    const model::Component& component, std::size_t at) {
   model::Dynamics::Reaction bound;
   bound.event = event(&component, text.event, text.place);
   bound.component = at;

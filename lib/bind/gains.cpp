@@ -4,8 +4,8 @@
 #include <memory>
 
 #include "base/nearest.h"
-#include "expr/parser.h"
 #include "bind/binding.h"
+#include "expr/parser.h"
 
 namespace gainsmith::bind {
 
@@ -89,7 +89,8 @@ class Products {
     const Node& argument = *node.children.front();
     for (const model::Design::Unknown& unknown : design_.unknowns) {
       const bool symmetric = unknown.structure == model::Structure::symmetric ||
-                             unknown.structure == model::Structure::diagonal || unknown.shape.is_scalar();
+                             unknown.structure == model::Structure::diagonal ||
+                             unknown.shape.is_scalar();
       const NodeKind kind = unknown.variable.empty() ? NodeKind::name : NodeKind::call;
       if (unknown.name == argument.text && argument.kind == kind && symmetric)
         return node.children.front();
@@ -98,7 +99,7 @@ class Products {
   }
 
   model::Design::Product product(const NodePtr& inverted, const std::vector<NodePtr>& factors,
-                          bool left) const {
+                                 bool left) const {
     return {written(*inverted), factor({inverted}), left, factor(factors),
             factor({left ? factors.front() : factors.back()})};
   }
@@ -185,10 +186,12 @@ void Binding::bind_gain_bounds() {
 }
 
 expr::Program bind_gain_formula(const model::Instance& instance,
-                                const std::vector<model::UnknownMatrix>& unknowns, const std::string& text,
-                                const std::string& variable, const Place& place) {
+                                const std::vector<model::UnknownMatrix>& unknowns,
+                                const std::string& text, const std::string& variable,
+                                const Place& place) {
   expr::Scope scope = gain_scope(instance.design->names->running, variable);
-  for (const model::UnknownMatrix& unknown : unknowns) scope.symbols[unknown.name] = {unknown.shape};
+  for (const model::UnknownMatrix& unknown : unknowns)
+    scope.symbols[unknown.name] = {unknown.shape};
   scope.known = std::make_shared<numbers::KnownDoubles>(instance.values);
   return expr::compile(expr::parse(expr::Text::generated(text, place)), scope);
 }

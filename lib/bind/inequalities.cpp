@@ -15,7 +15,8 @@ bool uses(const expr::Program& program, const model::Design::Unknown& unknown) {
     if (unknown.variable.empty()) return false;
     if (input.name == expr::derivative_name(unknown.name)) return true;
     for (int k = 0; k <= unknown.degree; ++k)
-      if (input.name == coefficient_name(unknown.name, static_cast<std::size_t>(k))) return true;
+      if (input.name == model::coefficient_name(unknown.name, static_cast<std::size_t>(k)))
+        return true;
     return false;
   };
   return std::any_of(program.inputs.begin(), program.inputs.end(), is_named) ||
@@ -25,7 +26,8 @@ bool uses(const expr::Program& program, const model::Design::Unknown& unknown) {
 }  // namespace
 
 /// The ends, elements or vertices as they are written, or the elements of a vector.
-std::vector<expr::Expression> Binding::points_of(const model::Forall& forall, const Member& member) const {
+std::vector<expr::Expression> Binding::points_of(const model::Forall& forall,
+                                                 const Member& member) const {
   std::vector<expr::Expression> points;
   for (const expr::Expression& point : forall.points)
     points.push_back(instantiate(point, member, names_->known));
@@ -168,9 +170,9 @@ void refuse_free_unknowns(const model::Design& design) {
   };
   for (const model::Design::Unknown& unknown : design.unknowns) {
     if (is_bound(unknown)) continue;
-    const auto user =
-        std::find_if(design.gains.begin(), design.gains.end(),
-                     [&](const model::Design::Gain& gain) { return uses(gain.formula.program, unknown); });
+    const auto user = std::find_if(
+        design.gains.begin(), design.gains.end(),
+        [&](const model::Design::Gain& gain) { return uses(gain.formula.program, unknown); });
     throw InputError(
         unknown.place,
         "the unknown " + unknown.name +

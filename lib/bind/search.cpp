@@ -47,7 +47,8 @@ void Binding::bind_search() {
     if (checks_ == Checks::all) ends_of(bound, recorder_->values);
     return bound;
   };
-  for (const model::ScalarRange& text : problem().negotiable) design_->negotiable.push_back(checked(text));
+  for (const model::ScalarRange& text : problem().negotiable)
+    design_->negotiable.push_back(checked(text));
   const auto is_given = [&](const std::string& name) {
     return std::any_of(problem().parameters.begin(), problem().parameters.end(),
                        [&](const model::Value& value) { return value.name == name; });
@@ -90,8 +91,8 @@ void Binding::bind_expectation() {
         {each.name, std::move(what), std::move(wanted), each.relative, each.absolute, each.place});
   }
   for (const model::ExpectedFigureText& text : expect.run) {
-    model::ExpectedFigure figure{only(figures(text.figure)), std::nullopt, text.ending, text.relative,
-                          text.absolute};
+    model::ExpectedFigure figure{only(figures(text.figure)), std::nullopt, text.ending,
+                                 text.relative, text.absolute};
     if (text.is) figure.is = scalar(*text.is, names_->known);
     bound.run.push_back(std::move(figure));
   }

@@ -61,7 +61,7 @@ std::size_t Binding::state_of(const std::string& name) const {
 }
 
 std::vector<model::NamedFormula> Binding::named(const std::vector<model::Named>& list,
-                                         const expr::Scope& scope) const {
+                                                const expr::Scope& scope) const {
   std::vector<model::NamedFormula> bound;
   for (const model::Named& entry : list)
     bound.push_back({entry.name, formula(entry.value, scope), entry.place});
@@ -72,7 +72,8 @@ void Binding::bind_components() {
   dynamics_names_ = std::make_unique<DynamicsNames>(method(), varied());
   if (method().has_dynamics) return bind_dynamics();
   design_->report = named(method().report, names_->running);
-  for (const model::NamedFormula& shown : design_->report) note_estimate(shown.name, shown.value.program);
+  for (const model::NamedFormula& shown : design_->report)
+    note_estimate(shown.name, shown.value.program);
 }
 
 /// Plant, observers and events; outputs and signals by the names under which they are shown.
@@ -107,7 +108,8 @@ void Binding::bind_dynamics() {
       dynamics.signals.push_back({name, formula(reading.texts.front(), scope), std::nullopt});
     }
   design_->report = named(method().report, scope);
-  for (const model::NamedFormula& shown : design_->report) note_estimate(shown.name, shown.value.program);
+  for (const model::NamedFormula& shown : design_->report)
+    note_estimate(shown.name, shown.value.program);
   names_->results = scope;
   names_->results.symbols["objective"] = {};
 }

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "bind/binding.h"
 #include "expr/compile.h"
 #include "expr/parser.h"
-#include "bind/binding.h"
 
 namespace gainsmith::bind {
 
@@ -14,18 +14,18 @@ namespace {
 /// The number of matrices name_0, name_1, ... that the file gives.
 std::size_t count_coefficients(const std::string& name, const model::Gains& gains) {
   std::size_t count = 0;
-  while (gains.find(coefficient_name(name, count)) != nullptr) ++count;
+  while (gains.find(model::coefficient_name(name, count)) != nullptr) ++count;
   return count;
 }
 
 /// The polynomial of `count` coefficients.
 model::Function polynomial(const std::string& name, const std::string& variable, expr::Shape shape,
-                    std::size_t count, const Place& place) {
+                           std::size_t count, const Place& place) {
   return {name,
           variable,
           shape,
           model::Structure::full,
-          monomials(variable, static_cast<int>(count) - 1, place),
+          model::monomials(variable, static_cast<int>(count) - 1, place),
           place};
 }
 
@@ -50,17 +50,18 @@ class Builder {
 
  private:
   bool is_parameter(const std::string& name) const {
-    return std::any_of(design_.parameters.begin(), design_.parameters.end(),
-                       [&](const model::Design::Datum& parameter) { return parameter.name == name; });
+    return std::any_of(
+        design_.parameters.begin(), design_.parameters.end(),
+        [&](const model::Design::Datum& parameter) { return parameter.name == name; });
   }
 
   /// The bases that the gains are in, and the data that follow from them.
   void add_bases() {
     numbers::Values bases;
     for (const auto& [name, basis] : gains_.bases) {
-      const auto datum =
-          std::find_if(design_.data.begin(), design_.data.end(), [&](const model::Design::Datum& known) {
-            return known.name == name && known.value && chooses_basis(known.value->program);
+      const auto datum = std::find_if(
+          design_.data.begin(), design_.data.end(), [&](const model::Design::Datum& known) {
+            return known.name == name && known.value && model::chooses_basis(known.value->program);
           });
       if (datum == design_.data.end())
         throw InputError({gains_.file}, "the gain file has a basis " + name +
@@ -76,9 +77,10 @@ class Builder {
     std::vector<model::Function> functions = polynomials(design_);
     stated_.bodies = model::Bodies(functions);
     for (const model::StatedFunction& stated : gains_.functions) {
-      const auto known = std::find_if(
-          functions.begin(), functions.end(),
-          [&](const model::Function& function) { return function.signature() == stated.signature; });
+      const auto known =
+          std::find_if(functions.begin(), functions.end(), [&](const model::Function& function) {
+            return function.signature() == stated.signature;
+          });
       if (known == functions.end())
         throw InputError({gains_.file}, "the gain file defines " + stated.signature +
                                             ", which is no unknown function of the method");
@@ -86,7 +88,7 @@ class Builder {
       if (count == 0 && gains_.unknowns.empty()) continue;  // there is no point
       if (count == 0)
         throw InputError({gains_.file}, "the gain file lacks the coefficients " +
-                                            coefficient_name(known->name, 0) + ", ... of " +
+                                            model::coefficient_name(known->name, 0) + ", ... of " +
                                             stated.signature);
       known->basis = basis_of(unknown(known->name), count);
       if (!stated.body && stated.text == known->text())
@@ -103,7 +105,8 @@ class Builder {
   }
 
   /// `polynomial` has as many coefficients as the file.
-  expr::Program body_of(const model::Function& polynomial, const model::StatedFunction& stated) const {
+  expr::Program body_of(const model::Function& polynomial,
+                        const model::StatedFunction& stated) const {
     if (stated.body) return *stated.body;
     const Place place{gains_.file};
     expr::Scope scope = design_.names->known;
@@ -165,7 +168,7 @@ class Builder {
         polynomial(gain.name, variable, gain.shape, coefficients.size(), {gains_.file});
     stated_.bodies.set(gain.name, function.body());
     for (std::size_t k = 0; k < coefficients.size(); ++k)
-      take(coefficient_name(gain.name, k), gain.shape, coefficients[k]);
+      take(model::coefficient_name(gain.name, k), gain.shape, coefficients[k]);
   }
 
   const model::Instance& instance_;

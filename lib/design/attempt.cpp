@@ -27,9 +27,10 @@ bool is_positive(const Posed& posed, const std::vector<double>& x) {
                                      });
 }
 
-verdict::Margins margins_at(const Posed& posed, const Attempt& attempt, const std::vector<double>& x) {
+verdict::Margins margins_at(const Posed& posed, const Attempt& attempt,
+                            const std::vector<double>& x) {
   return verdict::compute_margins(posed.inequalities, posed.lmi, attempt.formulation.balance,
-                              posed.choices().margin, x, posed.look);
+                                  posed.choices().margin, x, posed.look);
 }
 
 /// Whether the gains at x are as small as was asked for.
@@ -263,8 +264,8 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
   if (!first) first = {result.formulation, result.solution};
   if (first->solution.x.empty()) return result;
   if (!result.point)
-    result.relaxed_omega =
-        verdict::relaxed_omega(posed.lmi, result.question.bounds, first->formulation, first->solution);
+    result.relaxed_omega = verdict::relaxed_omega(posed.lmi, result.question.bounds,
+                                                  first->formulation, first->solution);
   if (!result.question.bounds.list.empty()) return result;
   try {
     refute(posed, solve, interior, std::move(*first), result);

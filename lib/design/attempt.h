@@ -32,7 +32,7 @@ struct Posed {
   const forall::Plan& plan;
   const lmi::Lmi& lmi;
   bool wide = true;   ///< whether 31 and 100 digits may be tried where double does not decide
-  verdict::Look look;     ///< without `describe` nothing but the verdict is asked for
+  verdict::Look look;  ///< without `describe` nothing but the verdict is asked for
   bool thin = false;  ///< an exchange may be given more points before more digits are tried
 
   const model::SynthesisOptions& choices() const { return inequalities.design().synthesis; }
@@ -58,7 +58,7 @@ struct Attempt {
   /// Every block is positive definite at x, as evaluated in double, and the bounds asked are kept.
   bool point = false;
   std::vector<double> x;  ///< the unknowns
-  verdict::Margins margins;   ///< at x, of a point
+  verdict::Margins margins;  ///< at x, of a point
   /// Of an interior question without bounds and without a point.
   std::optional<verdict::Refutation> refutation;
   /// Of an interior question without a point: what its multipliers leave for the blocks as they

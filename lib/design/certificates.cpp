@@ -9,7 +9,9 @@ namespace gainsmith::design {
 
 namespace {
 
-bool excludes(const verdict::Refutation& found) { return found.exact || found.omega <= verdict::kNothing; }
+bool excludes(const verdict::Refutation& found) {
+  return found.exact || found.omega <= verdict::kNothing;
+}
 
 class Certificates {
  public:
@@ -24,7 +26,8 @@ class Certificates {
         verdict::refute<DoubleDouble>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
     // 31 digits have the range of double: what underflows there stands in the file all the same.
     if (found.exact && posed_.wide)
-      found = verdict::refute<Decimal100>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
+      found =
+          verdict::refute<Decimal100>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
     return found;
   }
 
@@ -49,13 +52,14 @@ class Certificates {
     const lmi::Formulation violation = lmi::formulate_violation(lmi::scaled(posed_.lmi, *scale));
     const sdp::Solution solution = solve(violation.problem, {"double", 1e-10});
     if (solution.x.empty() || !(lmi::interior_margin(solution) < 0)) return {};
-    return verdict::refute_by_violation(posed_.inequalities, posed_.lmi, *scale, violation, solution);
+    return verdict::refute_by_violation(posed_.inequalities, posed_.lmi, *scale, violation,
+                                        solution);
   }
 
   /// However small its eigenvalues are: the steps are in double.
   verdict::Refutation inside(const sdp::Solution& solution) const {
     return verdict::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
-                                multipliers(solution), verdict::Steps::in_double);
+                                    multipliers(solution), verdict::Steps::in_double);
   }
 
   /// Of small programs polishing is cheaper than a solution in more digits: from double it has a
@@ -65,7 +69,7 @@ class Certificates {
     const Allowance allowance(in_double() ? kWorth : std::numeric_limits<double>::infinity());
     try {
       return verdict::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
-                                  multipliers(solution), verdict::Steps::in_wide);
+                                      multipliers(solution), verdict::Steps::in_wide);
     } catch (const OutOfAllowance&) {
       if (!in_double()) throw;
       return {};
@@ -94,8 +98,8 @@ class Certificates {
 }  // namespace
 
 verdict::Refutation find_certificate(const Posed& posed, const Effort& effort,
-                                 const lmi::Formulation& formulation, const sdp::Solution& solution,
-                                 const Solve& solve) {
+                                     const lmi::Formulation& formulation,
+                                     const sdp::Solution& solution, const Solve& solve) {
   // With more of a margin than this no certificate is near.
   constexpr double kNear = 1e-6;
   const Certificates certificates(posed, effort, formulation);
@@ -117,7 +121,7 @@ verdict::Refutation find_certificate(const Posed& posed, const Effort& effort,
 }
 
 verdict::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
-                                       const sdp::Solution& solution) {
+                                           const sdp::Solution& solution) {
   return Certificates(posed, {}, formulation).exact(solution, verdict::Exactness::in_double);
 }
 

@@ -17,11 +17,11 @@ namespace gainsmith::design {
 /// The first certificate that excludes every solution, or the best found (its omega).
 /// OutOfAllowance passes through.
 verdict::Refutation find_certificate(const Posed& posed, const Effort& effort,
-                                 const lmi::Formulation& formulation, const sdp::Solution& solution,
-                                 const Solve& solve);
+                                     const lmi::Formulation& formulation,
+                                     const sdp::Solution& solution, const Solve& solve);
 
 /// The first of them alone.
 verdict::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
-                                       const sdp::Solution& solution);
+                                           const sdp::Solution& solution);
 
 }  // namespace gainsmith::design

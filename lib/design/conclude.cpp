@@ -188,7 +188,7 @@ void note_undecided(const Climb& climb, model::Gains& gains) {
 /// A no without multipliers (lmi/refutation.h).
 bool refute_by_zero_diagonal(const Climb& climb, model::Gains& gains) {
   const auto found = verdict::find_zero_diagonal(climb.posed().inequalities, climb.posed().lmi,
-                                             climb.last().formulation.balance);
+                                                 climb.last().formulation.balance);
   if (!found) return false;
   gains.verdict = model::Verdict::no;
   gains.solver.status = "infeasible";

@@ -234,7 +234,7 @@ class OnFaces {
     if (!verdict::satisfies(stated_, printed)) return std::nullopt;
     return Decimals{
         *x, verdict::compute_margins(posed_.inequalities, posed_.lmi, result_.formulation.balance,
-                                 posed_.choices().margin, *x)};
+                                     posed_.choices().margin, *x)};
   }
 
   /// A point is one where everything holds, or where it is to be seen what does not.
@@ -306,7 +306,8 @@ class OnFaces {
           numbers::MatrixOf<DoubleDouble>::Constant(block.size, block.size, DoubleDouble(0)));
       found.rows.emplace_back(static_cast<std::size_t>(block.size), 0);
     }
-    const verdict::Multipliers Y = verdict::multipliers_of(formulation, left.blocks.size(), solved_);
+    const verdict::Multipliers Y =
+        verdict::multipliers_of(formulation, left.blocks.size(), solved_);
     for (std::size_t k = 0; k < Y.size(); ++k) {
       const std::size_t at = left.blocks[k];
       const auto& kept = formulation.releases.kept[k];

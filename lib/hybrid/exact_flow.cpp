@@ -8,8 +8,8 @@
 #include "hybrid/chebyshev.h"
 #include "hybrid/flow.h"
 #include "hybrid/integrator.h"
-#include "numerics/balance.h"
 #include "numbers/dense.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::hybrid {
 

@@ -11,10 +11,10 @@
 
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
-#include "numerics/balance.h"
 #include "numbers/ball.h"
 #include "numbers/real_rules.h"
 #include "numbers/wide_dense.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::numbers {
 
@@ -46,17 +46,17 @@ MatrixOf<Scalar> balanced_exponential(const MatrixOf<Scalar>& M) {
 template <class Scalar>
 MatrixOf<Scalar> wide_exponential(const MatrixOf<Scalar>& M) {
   const auto scale = [](const Scalar& x, int exponent) { return times_power_of_two(x, exponent); };
-  std::vector<int> units =
-      balance(M.unaryExpr([](const Scalar& x) { return std::abs(static_cast<double>(x)); }));
-  const MatrixOf<Scalar> result = balanced_exponential<Scalar>(in_units(M, units, scale));
+  std::vector<int> units = numerics::balance(
+      M.unaryExpr([](const Scalar& x) { return std::abs(static_cast<double>(x)); }));
+  const MatrixOf<Scalar> result = balanced_exponential<Scalar>(numerics::in_units(M, units, scale));
   for (int& unit : units) unit = -unit;
-  return in_units(result, units, scale);
+  return numerics::in_units(result, units, scale);
 }
 
 template <class Scalar>
 struct WideFoundation {
   using Wide = MatrixOf<Scalar>;
-  using numerics::Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
+  using Column = Eigen::Matrix<Scalar, Eigen::Dynamic, 1>;
 
   static std::optional<Scalar> parse(const std::string& decimal) {
     return parse_as<Scalar>(decimal);
@@ -69,9 +69,9 @@ struct WideFoundation {
   }
   static WideInverse<Scalar> inverse(const Wide& M) { return wide_inverse<Scalar>(M); }
   /// Largest first.
-  static numerics::Column singular_values(const Wide& M) {
-    if (M.size() == 0) return numerics::Column::Zero(0);
-    numerics::Column values = wide_svd<Scalar>(M).s;
+  static Column singular_values(const Wide& M) {
+    if (M.size() == 0) return Column::Zero(0);
+    Column values = wide_svd<Scalar>(M).s;
     std::sort(values.begin(), values.end(), std::greater<>());
     return values;
   }

@@ -8,9 +8,9 @@
 
 #include "base/eigen_scalars.h"
 #include "base/stop.h"
+#include "numbers/dense.h"
 #include "verdict/polished_multipliers.h"
 #include "verdict/wide_algebra.h"
-#include "numbers/dense.h"
 
 namespace gainsmith::verdict {
 

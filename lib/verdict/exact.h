@@ -8,9 +8,9 @@
 
 #include "lmi/assembler.h"
 #include "lmi/balance.h"
-#include "verdict/exact_form.h"
 #include "lmi/inequalities.h"
 #include "numbers/enclosure.h"
+#include "verdict/exact_form.h"
 
 namespace gainsmith::verdict {
 

@@ -4,8 +4,8 @@
 #include <map>
 #include <tuple>
 
-#include "verdict/wide_algebra.h"
 #include "numbers/enclosure.h"
+#include "verdict/wide_algebra.h"
 
 namespace gainsmith::verdict {
 

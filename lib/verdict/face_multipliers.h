@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "base/eigen_scalars.h"
-#include "verdict/faces.h"
 #include "numbers/matrix.h"
+#include "verdict/faces.h"
 
 namespace gainsmith::verdict {
 

@@ -8,8 +8,8 @@
 
 #include "forall/worst.h"
 #include "lmi/correlation.h"
-#include "verdict/printed_check.h"
 #include "numbers/dense.h"
+#include "verdict/printed_check.h"
 
 namespace gainsmith::verdict {
 
@@ -30,7 +30,8 @@ struct Worst {
 };
 
 /// Rounding of B(x), relative to its diagonal (margins.h).
-double rounding_of(const lmi::Block& block, const numbers::Matrix& value, const std::vector<double>& x) {
+double rounding_of(const lmi::Block& block, const numbers::Matrix& value,
+                   const std::vector<double>& x) {
   numbers::Matrix terms = numbers::Matrix::Zero(block.size, block.size);
   for (const auto& [i, matrix] : block.terms) {
     const double factor = i == 0 ? 1.0 : std::abs(x[static_cast<std::size_t>(i) - 1]);
@@ -97,7 +98,7 @@ class Checker {
     double rounding = 0;
     const numbers::Vector rows = rows_of_next();
     const auto meet = [&](const numbers::Matrix& value, const std::string& label) {
-      const double reached = correlation_margin(value);
+      const double reached = lmi::correlation_margin(value);
       if (worst.meet(reached, label))
         margin.smallest_eigenvalue = numbers::smallest_eigenvalue(value);
       return reached >= -rounding;
@@ -152,7 +153,7 @@ class Checker {
     if (proof.status == Status::fails) {
       // Points at which it fails by less than double tells would be added without end.
       constexpr double kTells = 1e-13;
-      const bool tells = !proof.point || correlation_margin(forall::matrix_at(
+      const bool tells = !proof.point || lmi::correlation_margin(forall::matrix_at(
                                              of_.statements[inequality].differences[comparison],
                                              *proof.point, values_)) < -kTells;
       if (tells && !of_.statements[inequality].domain.empty())
@@ -184,8 +185,9 @@ class Checker {
 
 }  // namespace
 
-Margins compute_margins(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi::Balance& balance,
-                        double wished, const std::vector<double>& x, const Look& look) {
+Margins compute_margins(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                        const lmi::Balance& balance, double wished, const std::vector<double>& x,
+                        const Look& look) {
   return Checker(of, lmi, balance, x, look).run(wished);
 }
 

@@ -43,8 +43,9 @@ struct Look {
 /// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where none of
 /// these is certainly negative, the inequality is checked at the printed decimals of x
 /// (printed_check.h): it holds when that shows it.
-Margins compute_margins(const lmi::Inequalities& inequalities, const lmi::Lmi& lmi, const lmi::Balance& balance,
-                        double wished, const std::vector<double>& x, const Look& look = {});
+Margins compute_margins(const lmi::Inequalities& inequalities, const lmi::Lmi& lmi,
+                        const lmi::Balance& balance, double wished, const std::vector<double>& x,
+                        const Look& look = {});
 
 /// Whether all of them hold, and nothing is open.
 bool all_hold(const Margins& margins);

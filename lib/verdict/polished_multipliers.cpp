@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "base/eigen_scalars.h"
-#include "verdict/wide_algebra.h"
 #include "numbers/dense.h"
+#include "verdict/wide_algebra.h"
 
 namespace gainsmith::verdict {
 

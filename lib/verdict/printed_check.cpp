@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "base/scalars.h"
-#include "verdict/rational_blocks.h"
 #include "model/gains.h"
 #include "numbers/degree.h"
 #include "numbers/rational_algebra.h"
+#include "verdict/rational_blocks.h"
 
 namespace gainsmith::verdict {
 

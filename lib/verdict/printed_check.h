@@ -35,7 +35,8 @@ class PrintedCheck {
  private:
   /// Whether B > 0 (B >= 0) at each element, vertex and end of the domain, in fractions; none where
   /// it has none, or where they do not decide.
-  std::optional<bool> check_in_fractions(const lmi::Statement& statement, std::size_t comparison) const;
+  std::optional<bool> check_in_fractions(const lmi::Statement& statement,
+                                         std::size_t comparison) const;
   template <class S>
   forall::DomainProof check_in(const lmi::Statement& statement, std::size_t comparison,
                                std::optional<numbers::EnclosedValues<S>>& known);

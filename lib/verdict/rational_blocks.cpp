@@ -4,9 +4,9 @@
 
 #include "base/stop.h"
 #include "expr/evaluate.h"
-#include "verdict/stated_point.h"
 #include "model/gains.h"
 #include "numbers/rational_algebra.h"
+#include "verdict/stated_point.h"
 
 namespace gainsmith::verdict {
 
@@ -40,11 +40,13 @@ void add_term(int i, RationalMatrix matrix, RationalBlock& result) {
 }
 
 /// EvaluationError where something has no fraction.
-RationalBlock evaluated(const lmi::Inequalities& of, const lmi::Block& block, RationalValues values) {
+RationalBlock evaluated(const lmi::Inequalities& of, const lmi::Block& block,
+                        RationalValues values) {
   const lmi::Statement& statement = of.statements[block.inequality];
   const expr::Program& program = statement.differences[block.comparison];
   add_point(statement, block, values);
-  for (const lmi::Unknown& unknown : of.unknowns.list()) values[unknown.name] = zeros(unknown.shape);
+  for (const lmi::Unknown& unknown : of.unknowns.list())
+    values[unknown.name] = zeros(unknown.shape);
   expr::Evaluator<numbers::RationalNumbers> evaluator(program);
   for (const expr::Input& input : program.inputs) {
     const auto found = values.find(input.name);

@@ -8,9 +8,9 @@
 
 #include "base/eigen_scalars.h"
 #include "base/stop.h"
+#include "numbers/dense.h"
 #include "verdict/exactness.h"
 #include "verdict/wide_algebra.h"
-#include "numbers/dense.h"
 
 namespace gainsmith::verdict {
 
@@ -280,8 +280,8 @@ Refutation refute(const lmi::Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
 }
 
 template <class S>
-Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi::Formulation& formulation,
-                  const Multipliers& Y, Exactness exactness) {
+Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                  const lmi::Formulation& formulation, const Multipliers& Y, Exactness exactness) {
   if (!lmi.stands_for_points()) return {};
   return refute<S>(lmi, exact_blocks<S>(of, lmi, formulation), converted<S>(Y), exactness);
 }
@@ -291,9 +291,9 @@ template std::vector<ExactBlock<Decimal100>> exact_blocks<Decimal100>(const lmi:
                                                                       const lmi::Formulation&);
 template Refutation refute<Decimal100>(const lmi::Lmi&, const std::vector<ExactBlock<Decimal100>>&,
                                        std::vector<MatrixOf<Decimal100>>, Exactness);
-template Refutation refute<DoubleDouble>(const lmi::Inequalities&, const lmi::Lmi&, const lmi::Formulation&,
-                                         const Multipliers&, Exactness);
-template Refutation refute<Decimal100>(const lmi::Inequalities&, const lmi::Lmi&, const lmi::Formulation&,
-                                       const Multipliers&, Exactness);
+template Refutation refute<DoubleDouble>(const lmi::Inequalities&, const lmi::Lmi&,
+                                         const lmi::Formulation&, const Multipliers&, Exactness);
+template Refutation refute<Decimal100>(const lmi::Inequalities&, const lmi::Lmi&,
+                                       const lmi::Formulation&, const Multipliers&, Exactness);
 
 }  // namespace gainsmith::verdict

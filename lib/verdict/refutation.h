@@ -19,10 +19,10 @@
 #include <vector>
 
 #include "lmi/compile.h"
-#include "verdict/exact.h"
 #include "lmi/formulation.h"
 #include "lmi/scale.h"
 #include "sdp/solution.h"
+#include "verdict/exact.h"
 
 namespace gainsmith::verdict {
 
@@ -52,8 +52,9 @@ enum class Exactness { in_double, in_wide };
 /// stands for no point of its domain, when the Y_k are not positive semidefinite, or when only
 /// blocks with >= have multipliers and v is 0.
 template <class S>
-Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi::Formulation& formulation,
-                  const Multipliers& Y, Exactness exactness = Exactness::in_wide);
+Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                  const lmi::Formulation& formulation, const Multipliers& Y,
+                  Exactness exactness = Exactness::in_wide);
 
 /// The blocks of the Lmi in the balance of a formulation, on the rows that were solved.
 template <class S>
@@ -81,8 +82,9 @@ Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                                const lmi::Formulation& formulation, const sdp::Solution& solution);
 
 /// The same of homogeneous inequalities, by the formulation and solution of scaled(lmi, scale).
-Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi::Scale& scale,
-                               const lmi::Formulation& formulation, const sdp::Solution& solution);
+Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                               const lmi::Scale& scale, const lmi::Formulation& formulation,
+                               const sdp::Solution& solution);
 
 /// In which arithmetic the steps of a polish are computed.
 enum class Steps { in_double, in_wide };
@@ -90,13 +92,13 @@ enum class Steps { in_double, in_wide };
 /// The same of multipliers alone (polished_multipliers.h): certificates inside of the cone however
 /// small their eigenvalues are, and with steps of 31 and 100 digits those on its boundary where a
 /// solution beside them has no gap to it.
-Refutation refute_polished(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi::Formulation& formulation,
-                           const Multipliers& Y, Steps steps);
+Refutation refute_polished(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                           const lmi::Formulation& formulation, const Multipliers& Y, Steps steps);
 
 /// omega of an interior solution for the blocks as they were solved, gain bounds and corners of
 /// boxes included, in double: what it excludes is only sufficient for the inequalities.
-double relaxed_omega(const lmi::Lmi& lmi, const lmi::GainBounds& bounds, const lmi::Formulation& formulation,
-                     const sdp::Solution& solution);
+double relaxed_omega(const lmi::Lmi& lmi, const lmi::GainBounds& bounds,
+                     const lmi::Formulation& formulation, const sdp::Solution& solution);
 
 /// A block with >= has a diagonal element that is 0 for every x and in its row a constant that is
 /// not: its name and the row, from 1. No multiplier shows this (the inequalities are only weakly

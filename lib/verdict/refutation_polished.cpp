@@ -159,8 +159,9 @@ Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
   return Y ? refute<Decimal100>(lmi, blocks, std::move(*Y), Exactness::in_double) : Refutation{};
 }
 
-Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi::Scale& scale,
-                               const lmi::Formulation& formulation, const sdp::Solution& solution) {
+Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                               const lmi::Scale& scale, const lmi::Formulation& formulation,
+                               const sdp::Solution& solution) {
   if (!lmi.stands_for_points()) return {};
   lmi::Formulation stated;
   stated.balance = formulation.balance;
@@ -180,8 +181,8 @@ Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
   return refute<Decimal100>(lmi, blocks, std::move(*Y), Exactness::in_double);
 }
 
-Refutation refute_polished(const lmi::Inequalities& of, const lmi::Lmi& lmi, const lmi::Formulation& formulation,
-                           const Multipliers& Y, Steps steps) {
+Refutation refute_polished(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                           const lmi::Formulation& formulation, const Multipliers& Y, Steps steps) {
   // A block that a certificate does not need may keep the others from being one.
   constexpr double kShares[] = {0, 1e-8, 1e-4};
   // What is left beside the range of a singular certificate.

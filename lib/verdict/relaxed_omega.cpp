@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "verdict/refutation.h"
 #include "numbers/dense.h"
+#include "verdict/refutation.h"
 
 namespace gainsmith::verdict {
 
@@ -16,8 +16,8 @@ double solution_trace(const sdp::Solution& solution, std::size_t k) {
 
 }  // namespace
 
-double relaxed_omega(const lmi::Lmi& lmi, const lmi::GainBounds& bounds, const lmi::Formulation& formulation,
-                     const sdp::Solution& solution) {
+double relaxed_omega(const lmi::Lmi& lmi, const lmi::GainBounds& bounds,
+                     const lmi::Formulation& formulation, const sdp::Solution& solution) {
   // As in refute(), multipliers that only tend to 0 are left out.
   constexpr double kShares[] = {0, 1e-10, 1e-8, 1e-6, 1e-4};
   std::vector<numbers::Matrix> Y = multipliers(lmi, bounds, formulation, solution);

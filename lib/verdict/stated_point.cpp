@@ -2,7 +2,8 @@
 
 namespace gainsmith::verdict {
 
-const expr::Program* stated_at(const lmi::Statement& statement, std::size_t v, const lmi::Block& block,
+const expr::Program* stated_at(const lmi::Statement& statement, std::size_t v,
+                               const lmi::Block& block,
                                const std::function<bool(const expr::Program&, End)>& reaches) {
   const forall::Variable& variable = statement.domain[v];
   const auto& stated = statement.stated->domain[v].points;

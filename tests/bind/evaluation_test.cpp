@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "expr/work.h"
 #include "bind/small_problem.h"
+#include "expr/work.h"
 #include "model/stated.h"
 #include "support/input_error.h"
 
@@ -181,7 +181,8 @@ TEST(Evaluation, ParsesAndBindsNothing) {
   const expr::Work before = expr::work_done();
   const model::Instance other = evaluate(small.instance.design, {{"T1", 0.75}, {"delta", 2}});
   EXPECT_EQ(other.design, small.instance.design);
-  const model::Instance changed = with_design(other, [](model::Design& design) { design.objective.reset(); });
+  const model::Instance changed =
+      with_design(other, [](model::Design& design) { design.objective.reset(); });
   for (const model::Gains& gains : {some_gains(), weighted}) {
     const model::Stated stated = state(changed, gains);
     EXPECT_TRUE(stated.value(changed.design->claims[2].factor->program));

@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
 #include "bind/binding.h"
 #include "bind/small_problem.h"
+#include "expr/compile.h"
+#include "expr/parser.h"
 #include "support/input_error.h"
 
 namespace gainsmith::bind {
@@ -79,8 +79,8 @@ TEST(model::Instance, KnowsTheShapesOfUnknownsStatesAndGains) {
   const Small small;
   EXPECT_EQ(unknown_matrices(small.design(), polynomials(small.design())),
             (std::vector<model::UnknownMatrix>{{"P", {2, 2}, model::Structure::symmetric},
-                                        {"X", {2, 1}, model::Structure::full},
-                                        {"g", {1, 1}, model::Structure::scalar}}));
+                                               {"X", {2, 1}, model::Structure::full},
+                                               {"g", {1, 1}, model::Structure::scalar}}));
   EXPECT_EQ(shapes_of(small.design().states),
             (Shapes{{"z", {2, 1}}, {"observer.zh", {2, 1}}, {"observer.th", {1, 1}}}));
   EXPECT_EQ(shapes_of(small.design().gains), (Shapes{{"K", {1, 2}}, {"A", {2, 2}}}));

@@ -6,8 +6,8 @@
 #include <memory>
 #include <string>
 
-#include "io/problem_yaml.h"
 #include "bind/bind.h"
+#include "io/problem_yaml.h"
 
 namespace gainsmith::bind {
 
@@ -64,7 +64,7 @@ inline std::string changed(std::string text, const std::string& from, const std:
 }
 
 inline model::Problem small_problem(const std::string& text = kSmallProblem,
-                             const std::string& method = kSmallMethod) {
+                                    const std::string& method = kSmallMethod) {
   return io::parse_problem(text, "p.yaml", {[&](const std::string&) { return method; }, {"small"}});
 }
 

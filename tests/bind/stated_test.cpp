@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
 #include "bind/binding.h"
 #include "bind/small_problem.h"
+#include "expr/compile.h"
+#include "expr/parser.h"
 #include "support/input_error.h"
 
 namespace gainsmith::bind {
@@ -109,10 +109,10 @@ TEST(model::Stated, MoreCoefficientsThanTheDegreeAskFor) {
   const Small small(kSmallProblem, kMethod);
   EXPECT_EQ(state(small.instance, gains).unknowns,
             (std::vector<model::UnknownMatrix>{{"P", {2, 2}, model::Structure::symmetric},
-                                        {"X_0", {2, 1}},
-                                        {"X_1", {2, 1}},
-                                        {"X_2", {2, 1}},
-                                        {"g", {1, 1}, model::Structure::scalar}}));
+                                               {"X_0", {2, 1}},
+                                               {"X_1", {2, 1}},
+                                               {"X_2", {2, 1}},
+                                               {"g", {1, 1}, model::Structure::scalar}}));
   EXPECT_TRUE(value(gains, "X(0.5)").isApprox(1.5 * kFirst + 0.5 * kSecond, 1e-15));
 }
 

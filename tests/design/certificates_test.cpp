@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "design/synthesize.h"
-#include "verdict/refutation.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
+#include "verdict/refutation.h"
 
 namespace gainsmith::design {
 namespace {

@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "verdict/refutation.h"
 #include "support/input_error.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
+#include "verdict/refutation.h"
 
 namespace gainsmith::design {
 namespace {

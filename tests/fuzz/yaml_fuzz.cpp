@@ -9,10 +9,10 @@
 #include <string>
 #include <string_view>
 
+#include "bind/bind.h"
 #include "fuzz/places.h"
 #include "io/problem_yaml.h"
 #include "methods/methods.h"
-#include "bind/bind.h"
 
 namespace gainsmith::io {
 namespace {

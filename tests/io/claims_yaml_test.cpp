@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "io/problem_text.h"
 #include "bind/bind.h"
+#include "io/problem_text.h"
 
 namespace gainsmith::io {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "bind/bind.h"
 #include "expr/text.h"
 #include "io/problem_text.h"
-#include "bind/bind.h"
 #include "model/dynamics_programs.h"
 
 namespace gainsmith::io {

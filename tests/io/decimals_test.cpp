@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/number.h"
+#include "bind/bind.h"
 #include "io/gains_json.h"
 #include "io/problem_text.h"
-#include "bind/bind.h"
 
 namespace gainsmith::io {
 namespace {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "io/problem_text.h"
 #include "bind/bind.h"
+#include "io/problem_text.h"
 #include "numbers/real.h"
 
 namespace gainsmith::io {

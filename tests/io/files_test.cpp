@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/file.h"
+#include "bind/bind.h"
 #include "io/method_yaml.h"
 #include "io/problem_text.h"
-#include "bind/bind.h"
 
 namespace gainsmith::io {
 namespace {

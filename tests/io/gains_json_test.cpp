@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
-#include "io/problem_text.h"
 #include "bind/bind.h"
+#include "io/problem_text.h"
 
 namespace gainsmith::io {
 namespace {

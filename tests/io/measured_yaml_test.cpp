@@ -5,8 +5,8 @@
 #include <fstream>
 #include <string>
 
-#include "io/problem_text.h"
 #include "bind/bind.h"
+#include "io/problem_text.h"
 
 namespace gainsmith::io {
 namespace {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "bind/bind.h"
 #include "io/method_yaml.h"
 #include "io/problem_text.h"
-#include "bind/bind.h"
 
 namespace gainsmith::io {
 namespace {

@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "bind/bind.h"
 #include "io/method_yaml.h"
 #include "io/problem_text.h"
-#include "bind/bind.h"
 
 namespace gainsmith::io {
 namespace {

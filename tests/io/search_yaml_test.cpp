@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "io/problem_text.h"
 #include "bind/bind.h"
+#include "io/problem_text.h"
 
 namespace gainsmith::io {
 namespace {

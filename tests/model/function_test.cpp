@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "expr/compile.h"
-#include "expr/parser.h"
 #include "bind/binding.h"
 #include "bind/small_problem.h"
+#include "expr/compile.h"
+#include "expr/parser.h"
 #include "support/input_error.h"
 
 namespace gainsmith::model {

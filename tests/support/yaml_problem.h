@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "bind/bind.h"
 #include "io/problem_yaml.h"
 #include "methods/methods.h"
-#include "bind/bind.h"
 #include "model/gains.h"
 
 namespace gainsmith::tests {

@@ -8,12 +8,12 @@
 
 #include "base/eigen_scalars.h"
 #include "base/stop.h"
-#include "verdict/boundary_pair.h"
-#include "verdict/refutation.h"
 #include "model/gains.h"
 #include "sdp/solver.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
+#include "verdict/boundary_pair.h"
+#include "verdict/refutation.h"
 
 namespace gainsmith::verdict {
 namespace {

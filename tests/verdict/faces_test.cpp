@@ -7,10 +7,10 @@
 #include <random>
 
 #include "lmi/compile.h"
-#include "verdict/face_multipliers.h"
-#include "verdict/printable.h"
 #include "numbers/rational_algebra.h"
 #include "support/yaml_problem.h"
+#include "verdict/face_multipliers.h"
+#include "verdict/printable.h"
 
 namespace gainsmith::verdict {
 namespace {

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "io/problem_text.h"
 #include "bind/bind.h"
+#include "io/problem_text.h"
 #include "verify/campaign.h"
 #include "verify/event_replay.h"
 #include "verify/event_setup.h"
@@ -21,7 +21,7 @@ using model::CampaignVerdict;
 model::Instance instance_of(const std::string& method, const std::string& claims,
                             const std::string& campaign, const std::string& more = "") {
   return bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + "  claims: " +
-                                      claims + "\ncampaign: " + campaign + "\n" + more));
+                                     claims + "\ncampaign: " + campaign + "\n" + more));
 }
 
 Report report_of(const model::Instance& instance) {

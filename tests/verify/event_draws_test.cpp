@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "io/problem_text.h"
 #include "bind/bind.h"
+#include "io/problem_text.h"
 #include "verify/event_setup.h"
 #include "verify/expected_run.h"
 

@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "base/number.h"
-#include "io/problem_text.h"
 #include "bind/bind.h"
+#include "io/problem_text.h"
 #include "verify/campaign.h"
 #include "verify/expected_run.h"
 
@@ -33,8 +33,8 @@ model::Instance instance_of(const std::string& claims, bool integrated,
     flow: {x: "1", y: -y}
 )";
   return bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + more + "  plant:\n" +
-                                      plant + "  claims: " + claims +
-                                      "\ncampaign: {runs: 1, horizon: 3}\n"));
+                                     plant + "  claims: " + claims +
+                                     "\ncampaign: {runs: 1, horizon: 3}\n"));
 }
 
 CampaignVerdict verdict_of(const std::string& claim, bool integrated) {
@@ -256,13 +256,13 @@ TEST(NarrowFigures, SettlesAfterTheLastTop) {
 TEST(NarrowFigures, APeakIsFound) {
   model::Instance instance =
       bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n"
-                                   "  plant: {state: {x: {shape: scalar, start: 0}}, flow: {x: "
-                                   "\"1\"}}\ncampaign: {horizon: 3}\nexpect:\n  run:\n"
-                                   "    - {peak: \"" +
-                                   kTent +
-                                   "\", is: 1, absolute: 1e-9}\n"
-                                   "    - {settles: \"" +
-                                   kTent + "\", below: 0.5, is: 1.235, absolute: 1e-9}\n"));
+                                  "  plant: {state: {x: {shape: scalar, start: 0}}, flow: {x: "
+                                  "\"1\"}}\ncampaign: {horizon: 3}\nexpect:\n  run:\n"
+                                  "    - {peak: \"" +
+                                  kTent +
+                                  "\", is: 1, absolute: 1e-9}\n"
+                                  "    - {settles: \"" +
+                                  kTent + "\", below: 0.5, is: 1.235, absolute: 1e-9}\n"));
   const RunDifferences found = run_differences(instance, model::Gains{});
   EXPECT_EQ(found.figures, 2U);
   EXPECT_TRUE(found.different.empty()) << found.different.front();
