@@ -9,6 +9,7 @@
 #include "design/certificates.h"
 #include "design/in_matrices.h"
 #include "lmi/correlation.h"
+#include "verdict/relaxed_backward_error.h"
 
 namespace gainsmith::design {
 
@@ -202,7 +203,8 @@ void refute(const Posed& posed, const Solve& solve, Interior& interior, Interior
   for (int k = 0;; ++k) {
     const verdict::Refutation found =
         find_certificate(posed, result.question.effort, solved.formulation, solved.solution, solve);
-    const bool better = !result.refutation || found.exact || found.omega < result.refutation->omega;
+    const bool better = !result.refutation || found.exact ||
+                        found.backward_error < result.refutation->backward_error;
     if (better) result.refutation = found;
     if (result.refuted() && !result.refutation->exact && k == 0)
       if (const auto few = lmi::rows_of_multipliers(solved.formulation, solved.solution);
@@ -236,13 +238,13 @@ bool Attempt::is_near_optimal() const {
 }
 
 bool Attempt::refuted() const {
-  return refutation && (refutation->exact || refutation->omega <= verdict::kNothing);
+  return refutation && (refutation->exact || refutation->backward_error <= verdict::kNothing);
 }
 
 bool Attempt::relaxation_refuted() const {
   // What the solver leaves at its own tolerance; a message rests on it, no verdict.
   constexpr double kRounding = 1e-7;
-  return !point && relaxed_omega <= kRounding;
+  return !point && relaxed_backward_error <= kRounding;
 }
 
 Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
@@ -264,8 +266,8 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
   if (!first) first = {result.formulation, result.solution};
   if (first->solution.x.empty()) return result;
   if (!result.point)
-    result.relaxed_omega = verdict::relaxed_omega(posed.lmi, result.question.bounds,
-                                                  first->formulation, first->solution);
+    result.relaxed_backward_error = verdict::relaxed_backward_error(
+        posed.lmi, result.question.bounds, first->formulation, first->solution);
   if (!result.question.bounds.list.empty()) return result;
   try {
     refute(posed, solve, interior, std::move(*first), result);

@@ -62,13 +62,13 @@ struct Attempt {
   /// Of an interior question without bounds and without a point.
   std::optional<verdict::Refutation> refutation;
   /// Of an interior question without a point: what its multipliers leave for the blocks as they
-  /// were solved, gain bounds and corners of boxes included (lmi::relaxed_omega).
-  double relaxed_omega = 1;
+  /// were solved, gain bounds and corners of boxes included (lmi::relaxed_backward_error).
+  double relaxed_backward_error = 1;
   /// Whether its multipliers would have led further with more work (base/stop.h).
   bool out_of_allowance = false;
-  /// Made on faces (on_faces.h): the solution says nothing of margins there.
+  /// Made by facial reduction (facial_reduction.h): the solution says nothing of margins there.
   bool on_face = false;
-  /// Of attempts on faces that exclude every solution: the exact steps, as text, and
+  /// Of a facial reduction that excludes every solution: the exact steps, as text, and
   /// the multipliers of the blocks where one step was enough.
   std::string chain;
   /// Of those that lead to a face, but to no point on it: what is known.

@@ -4,13 +4,15 @@
 #include <utility>
 
 #include "base/stop.h"
+#include "verdict/refined_refutation.h"
+#include "verdict/solved_multipliers.h"
 
 namespace gainsmith::design {
 
 namespace {
 
 bool excludes(const verdict::Refutation& found) {
-  return found.exact || found.omega <= verdict::kNothing;
+  return found.exact || found.backward_error <= verdict::kNothing;
 }
 
 class Certificates {
@@ -58,18 +60,18 @@ class Certificates {
 
   /// However small its eigenvalues are: the steps are in double.
   verdict::Refutation inside(const sdp::Solution& solution) const {
-    return verdict::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
-                                    multipliers(solution), verdict::Steps::in_double);
+    return verdict::refute_refined(posed_.inequalities, posed_.lmi, formulation_,
+                                   multipliers(solution), verdict::Steps::in_double);
   }
 
-  /// Of small programs polishing is cheaper than a solution in more digits: from double it has a
+  /// Of small programs refining them is cheaper than a solution in more digits: from double it has a
   /// small allowance.
-  verdict::Refutation polished(const sdp::Solution& solution) const {
+  verdict::Refutation refined(const sdp::Solution& solution) const {
     constexpr double kWorth = 0.1;
     const Allowance allowance(in_double() ? kWorth : std::numeric_limits<double>::infinity());
     try {
-      return verdict::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
-                                      multipliers(solution), verdict::Steps::in_wide);
+      return verdict::refute_refined(posed_.inequalities, posed_.lmi, formulation_,
+                                     multipliers(solution), verdict::Steps::in_wide);
     } catch (const OutOfAllowance&) {
       if (!in_double()) throw;
       return {};
@@ -116,7 +118,7 @@ verdict::Refutation find_certificate(const Posed& posed, const Effort& effort,
   }
   found = certificates.exact(solution, verdict::Exactness::in_wide);
   if (found.exact || !posed.wide || !near) return found;
-  if (const auto polished = certificates.polished(solution); excludes(polished)) return polished;
+  if (const auto refined = certificates.refined(solution); excludes(refined)) return refined;
   return certificates.in_double() ? found : certificates.in_100_digits(solution);
 }
 

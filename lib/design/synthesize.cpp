@@ -11,10 +11,10 @@
 #include "base/stop.h"
 #include "base/version.h"
 #include "bind/instance.h"
+#include "design/attempts.h"
 #include "design/exchange.h"
 #include "design/gain_values.h"
 #include "design/hautus.h"
-#include "design/ladder.h"
 #include "design/quotient.h"
 
 namespace gainsmith::design {
@@ -53,11 +53,11 @@ model::Gains stated(const model::Instance& instance) {
 }
 
 /// A certificate of the very inequalities that is not sharp enough to say no.
-std::string blunt_text(double omega, bool to_the_end) {
+std::string blunt_text(double backward_error, bool to_the_end) {
   return std::string("a certificate in double speaks against any solution, ") +
          (to_the_end ? "but more digits do not confirm it"
                      : "and whether more digits confirm it is open") +
-         ": solutions, if any, do not survive a relative change of " + brief(omega, 2) +
+         ": solutions, if any, do not survive a relative change of " + brief(backward_error, 2) +
          " of the coefficients";
 }
 
@@ -73,7 +73,8 @@ void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
   const bool exact = std::all_of(plan.inequalities.begin(), plan.inequalities.end(),
                                  [](const forall::Imposed& imposed) { return imposed.exact; });
   if (exact) {
-    gains.solver.add_message(blunt_text(gains.certificate->omega, !gains.solver.out_of_allowance));
+    gains.solver.add_message(
+        blunt_text(gains.certificate->backward_error, !gains.solver.out_of_allowance));
     gains.certificate.reset();
     return;
   }

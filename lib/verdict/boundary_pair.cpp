@@ -9,7 +9,7 @@
 #include "base/eigen_scalars.h"
 #include "base/stop.h"
 #include "numbers/dense.h"
-#include "verdict/polished_multipliers.h"
+#include "verdict/refined_multipliers.h"
 #include "verdict/wide_algebra.h"
 
 namespace gainsmith::verdict {
@@ -352,7 +352,7 @@ void cut(Wide& Y) {
 
 }  // namespace
 
-bool polish(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
+bool refine(const std::vector<const WideBlock*>& blocks, BoundaryPair& pair) {
   constexpr double kFails = 0.5;   // a step that leaves as much of the residual is none
   constexpr double kFalls = 1e-3;  // one that leaves more wants another system
   constexpr double kMost = 1e-3, kAboveResidual = 1e3;  // of the damping

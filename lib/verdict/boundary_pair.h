@@ -39,6 +39,6 @@ struct BoundaryPair {
 
 /// Makes (1) hold to some 90 digits, and Y_k a product V S V' of few columns. False, and `pair` of
 /// no use, where complementarity is not strict or the steps do not settle.
-bool polish(const std::vector<const ExactBlock<Decimal100>*>& blocks, BoundaryPair& pair);
+bool refine(const std::vector<const ExactBlock<Decimal100>*>& blocks, BoundaryPair& pair);
 
 }  // namespace gainsmith::verdict

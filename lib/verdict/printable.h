@@ -1,7 +1,7 @@
 // Points whose printed decimals satisfy linear equations exactly.
 //
 // With x_i = X_i / 10^q_i, X_i whole numbers of so many digits, the equations of an affine space
-// x = x_0 + N y are equations in whole numbers (numbers/lattice.h).
+// x = x_0 + N y are equations in whole numbers (numerics/lattice.h).
 #pragma once
 
 #include <optional>

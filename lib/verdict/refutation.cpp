@@ -220,18 +220,19 @@ Refutation refute_by(const std::vector<Weighed<S>>& blocks, double least, Eigen:
   result.exact = is_exact(kept, sums, m, exactness);
   if (!(sums.strict >= kCounts * sums.whole || v >= kCounts * sums.whole) || sums.whole == 0)
     return result;
-  double omega = 0;
+  double backward_error = 0;
   for (Eigen::Index i = 0; i < m; ++i) {
     const double residual = i == 0 ? -v : upper(sums.r[i]);
     const double missing = residual + sums.error[i] - sums.noise[i];
     if (missing <= 0) continue;
     const double share = missing / sums.W[i] * (1 + 1e-12);
-    omega = share < 1 ? std::max(omega, share) : 1;
+    backward_error = share < 1 ? std::max(backward_error, share) : 1;
   }
   // What is of the size of an element of the data, or of the rounding, is not nothing.
   constexpr double kBeside = 1e-40;
   const double room = sums.smallest < kBeside ? 1 / sums.smallest : 1;
-  result.omega = std::min(1.0, std::max(omega, numbers::unit_roundoff<S>()) * room);
+  result.backward_error =
+      std::min(1.0, std::max(backward_error, numbers::unit_roundoff<S>()) * room);
   return result;
 }
 
@@ -243,7 +244,7 @@ std::vector<ExactBlock<S>> exact_blocks(const lmi::Inequalities& of, const lmi::
   const ExactBlocks<S> exact(of, formulation.balance);
   std::vector<ExactBlock<S>> blocks;
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
-    blocks.push_back(exact.block(lmi.blocks[k], k, formulation.releases.kept[k]));
+    blocks.push_back(exact.block(lmi.blocks[k], k, formulation.free_variables.kept[k]));
   return blocks;
 }
 
@@ -273,7 +274,7 @@ Refutation refute(const lmi::Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
     const auto m = static_cast<Eigen::Index>(lmi.unknowns) + 1;
     const Refutation found = refute_by(weighed, share * whole, m, exactness);
     best.exact |= found.exact;
-    best.omega = std::min(best.omega, found.omega);
+    best.backward_error = std::min(best.backward_error, found.backward_error);
     if (best.exact) break;
   }
   return best;

@@ -6,49 +6,35 @@
 //   exact   r' H^-1 r < 1 with H_ij = sum_k <B_ki, Y_k B_kj Y_k> (+ v^2 for i = j = 0): a
 //           certificate without any residual is near (exactness.h), so no x satisfies the
 //           inequalities. It does not depend on units or coordinates.
-//   omega   max over i >= 1 of |r_i| / W_i, W_i = sum_k <|B_ki|, |Y_k|>: no x satisfies the
-//           inequalities when their coefficients change by more than omega, relatively; and within
+//   backward error, relative
+//           max over i >= 1 of |r_i| / W_i, W_i = sum_k <|B_ki|, |Y_k|>: no x satisfies the
+//           inequalities when their coefficients change by more than that, relatively; and within
 //           such changes Y is exact for some coefficients (Oettli & Prager).
-//           Where an element of the data is smaller than 1e-40 beside its block, omega counts
+//           Where an element of the data is smaller than 1e-40 beside its block, the error counts
 //           in its size. An element of B_ki that is 0 up to rounding, 48 decades below its block,
 //           is none.
 #pragma once
 
-#include <optional>
-#include <string>
 #include <vector>
 
 #include "lmi/compile.h"
 #include "lmi/formulation.h"
-#include "lmi/scale.h"
-#include "sdp/solution.h"
 #include "verdict/exact.h"
+#include "verdict/solved_multipliers.h"
 
 namespace gainsmith::verdict {
 
 struct Refutation {
   bool exact = false;  ///< no solution, shown
-  double omega = 1;    ///< rounded upward
+  double backward_error = 1;  ///< rounded upward
   int digits = 0;      ///< of the arithmetic that found it
 };
-
-/// The multipliers of the rows that were solved, in 31 digits and balanced units, one a block of
-/// the Lmi.
-using Multipliers = std::vector<numbers::MatrixOf<DoubleDouble>>;
-
-/// Of an interior solution.
-Multipliers multipliers_of(const lmi::Formulation& formulation, std::size_t blocks,
-                           const sdp::Solution& solution);
-/// The same with all digits that the solution has.
-std::vector<numbers::MatrixOf<Decimal100>> wide_multipliers_of(const lmi::Formulation& formulation,
-                                                               std::size_t blocks,
-                                                               const sdp::Solution& solution);
 
 /// In which arithmetic an exact certificate is looked for beside the multipliers.
 enum class Exactness { in_double, in_wide };
 
 /// What Y says over S, or those of its Y_k that are not small: those of blocks that a certificate
-/// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (omega = 1) when a block
+/// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (an error of 1) when a block
 /// stands for no point of its domain, when the Y_k are not positive semidefinite, or when only
 /// blocks with >= have multipliers and v is 0.
 template <class S>
@@ -66,49 +52,10 @@ template <class S>
 Refutation refute(const lmi::Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
                   std::vector<numbers::MatrixOf<S>> Y, Exactness exactness = Exactness::in_wide);
 
-/// omega of a certificate of which nothing is missing, in 100 digits. A feasible problem has
+/// The backward error of a certificate of which nothing is missing, in 100 digits. A feasible problem has
 /// certificates that miss by the square of what it is feasible by, 1e-33 where only the last of 16
 /// digits makes it feasible, and along chains and Jordan blocks by higher powers: no such limit is
 /// a proof, and only `exact` is one. It is far below what data of 16 digits were seen to leave.
 constexpr double kNothing = 1e-70;
-
-/// What multipliers near those of an interior solution say in 100 digits, made with the solution
-/// beside them so that they have no residual (boundary_pair.h). The solution may be one in double.
-Refutation refute_on_boundary(const lmi::Inequalities& of, const lmi::Lmi& lmi,
-                              const lmi::Formulation& formulation, const sdp::Solution& solution);
-
-/// The same of the least violation: a formulation and its solution by formulate_violation().
-Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
-                               const lmi::Formulation& formulation, const sdp::Solution& solution);
-
-/// The same of homogeneous inequalities, by the formulation and solution of scaled(lmi, scale).
-Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
-                               const lmi::Scale& scale, const lmi::Formulation& formulation,
-                               const sdp::Solution& solution);
-
-/// In which arithmetic the steps of a polish are computed.
-enum class Steps { in_double, in_wide };
-
-/// The same of multipliers alone (polished_multipliers.h): certificates inside of the cone however
-/// small their eigenvalues are, and with steps of 31 and 100 digits those on its boundary where a
-/// solution beside them has no gap to it.
-Refutation refute_polished(const lmi::Inequalities& of, const lmi::Lmi& lmi,
-                           const lmi::Formulation& formulation, const Multipliers& Y, Steps steps);
-
-/// omega of an interior solution for the blocks as they were solved, gain bounds and corners of
-/// boxes included, in double: what it excludes is only sufficient for the inequalities.
-double relaxed_omega(const lmi::Lmi& lmi, const lmi::GainBounds& bounds,
-                     const lmi::Formulation& formulation, const sdp::Solution& solution);
-
-/// A block with >= has a diagonal element that is 0 for every x and in its row a constant that is
-/// not: its name and the row, from 1. No multiplier shows this (the inequalities are only weakly
-/// infeasible).
-struct ZeroDiagonal {
-  std::string inequality;
-  int row = 0;
-  int column = 0;
-};
-std::optional<ZeroDiagonal> find_zero_diagonal(const lmi::Inequalities& of, const lmi::Lmi& lmi,
-                                               const lmi::Balance& balance);
 
 }  // namespace gainsmith::verdict

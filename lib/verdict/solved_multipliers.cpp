@@ -1,8 +1,6 @@
-// Multipliers as a solver left them, in all their digits.
-#include <Eigen/Core>
+#include "verdict/solved_multipliers.h"
 
 #include "base/eigen_scalars.h"
-#include "verdict/refutation.h"
 
 namespace gainsmith::verdict {
 

@@ -1,7 +1,9 @@
+#include "verdict/zero_diagonal.h"
+
 #include <algorithm>
 #include <cmath>
 
-#include "verdict/refutation.h"
+#include "verdict/exact.h"
 
 namespace gainsmith::verdict {
 

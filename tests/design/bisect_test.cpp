@@ -54,7 +54,7 @@ TEST(Bisect, FindsTheLimitOfQuadraticStabilityWithProofsOnBothSides) {
   EXPECT_GE(*record.beyond, limit);
   EXPECT_LE(*record.beyond - *record.value, 1e-4);
   ASSERT_TRUE(record.certificate);
-  EXPECT_TRUE(record.certificate->exact || record.certificate->omega <= 1e-30);
+  EXPECT_TRUE(record.certificate->exact || record.certificate->backward_error <= 1e-30);
   EXPECT_TRUE(record.breaks.empty());
   for (const model::Margin& margin : result.gains.margins) EXPECT_TRUE(margin.holds);
   EXPECT_EQ(result.gains.searched, (model::Overrides{{"kmax", *record.value}}));

@@ -21,7 +21,7 @@ model::Gains solve(const std::string& text) {
 /// A certificate that no solution exists, exactly or up to the rounding of 100 digits.
 bool is_certain(const model::CertificateRecord& certificate) {
   return certificate.is_about_problem() &&
-         (certificate.exact || certificate.omega <= verdict::kNothing);
+         (certificate.exact || certificate.backward_error <= verdict::kNothing);
 }
 
 std::string lyapunov(const numbers::Matrix& A) {

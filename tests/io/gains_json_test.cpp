@@ -74,7 +74,7 @@ class RandomGains {
       record.certificate =
           model::CertificateRecord{random_() % 2 == 0, number(), 100, {}, "vertices"};
     }
-    record.polish = {number(), number(), true, "converged"};
+    record.joint_refinement = {number(), number(), true, "converged"};
     record.open = {number(), number()};
     record.over = {"delta", "eta"};
     record.at_end = {"eta"};

@@ -13,6 +13,7 @@
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
 #include "verdict/boundary_pair.h"
+#include "verdict/refined_refutation.h"
 #include "verdict/refutation.h"
 
 namespace gainsmith::verdict {
@@ -116,7 +117,7 @@ TEST(BoundaryPair, UnstablePlantsAreExcluded) {
   for (const int n : {2, 3, 5, 8, 12}) {
     const Posed posed(lyapunov(with_abscissa(random_matrix(n, n, generator), 0.1)));
     const Refutation found = posed.on_boundary();
-    EXPECT_LE(found.omega, kNothing) << n;
+    EXPECT_LE(found.backward_error, kNothing) << n;
   }
 }
 
@@ -126,7 +127,7 @@ TEST(BoundaryPair, HiddenModesAreExcluded) {
   for (const int n : {4, 7, 10}) {
     const Matrix A = Matrix::Identity(n, n);
     const Posed posed(observer(A, random_matrix(2, n, generator)));
-    EXPECT_LE(posed.on_boundary().omega, kNothing) << n;
+    EXPECT_LE(posed.on_boundary().backward_error, kNothing) << n;
   }
 }
 
@@ -137,7 +138,7 @@ TEST(BoundaryPair, FeasibleProblemsAreNot) {
     const Posed posed(lyapunov(with_abscissa(random_matrix(3, 3, generator), -depth)));
     const Refutation found = posed.on_boundary();
     EXPECT_FALSE(found.exact) << depth;
-    EXPECT_GT(found.omega, 1e-30) << depth;
+    EXPECT_GT(found.backward_error, 1e-30) << depth;
   }
 }
 
@@ -147,12 +148,12 @@ TEST(BoundaryPair, WhatIsBesideDoesNotHinder) {
       "  data: {A: n x n}\n  unknowns: {x: scalar, P: symmetric n}\n  require: {high: x < 1, "
       "positive: P > 0, stable: He(P*A) < 0, size: P > I}\ndata: {A: [[-1, 5, 0], [-2, -3, 1], "
       "[0, 0, 0.2]]}\n");
-  EXPECT_LE(posed.on_boundary().omega, kNothing);
+  EXPECT_LE(posed.on_boundary().backward_error, kNothing);
 }
 
 /// A bounded real lemma below the norm, which is 1: the multipliers have eigenvalues like those of
 /// a Gramian, and rank far above what double tells.
-TEST(PolishedInDouble, BelowANormThereIsACertificate) {
+TEST(RefinedInDouble, BelowANormThereIsACertificate) {
   for (const int n : {3, 6, 10}) {
     const Matrix chain = Matrix::NullaryExpr(n, n, [](Eigen::Index r, Eigen::Index c) {
       return r == c ? -1.0 : r == c + 1 ? 1.0 : 0.0;
@@ -167,8 +168,9 @@ TEST(PolishedInDouble, BelowANormThereIsACertificate) {
     const sdp::Solution solution = sdp::solve(posed.formulation.problem);
     const auto Y = multipliers_of(posed.formulation, 2, solution);
     const Refutation found =
-        refute_polished(posed.of, posed.lmi, posed.formulation, Y, Steps::in_double);
-    EXPECT_TRUE(found.exact || found.omega <= kNothing) << n << ": " << found.omega;
+        refute_refined(posed.of, posed.lmi, posed.formulation, Y, Steps::in_double);
+    EXPECT_TRUE(found.exact || found.backward_error <= kNothing)
+        << n << ": " << found.backward_error;
   }
 }
 
@@ -188,9 +190,9 @@ TEST(Violation, BelowANormThereIsACertificateOfSmallRank) {
         ", g: " + model::printed(gain * gain) + "}\n");
   };
   const Posed below = posed(0.7 * at_rest);
-  EXPECT_GT(below.on_boundary().omega, kNothing);
-  EXPECT_LE(below.by_violation().omega, kNothing);
-  EXPECT_GT(posed(1e3 * (at_rest + 1)).by_violation().omega, kNothing);
+  EXPECT_GT(below.on_boundary().backward_error, kNothing);
+  EXPECT_LE(below.by_violation().backward_error, kNothing);
+  EXPECT_GT(posed(1e3 * (at_rest + 1)).by_violation().backward_error, kNothing);
 }
 
 TEST(Certificates, EndWithTheirAllowance) {

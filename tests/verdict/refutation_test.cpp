@@ -15,6 +15,9 @@
 #include "sdp/solver.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
+#include "verdict/refined_refutation.h"
+#include "verdict/relaxed_backward_error.h"
+#include "verdict/zero_diagonal.h"
 
 namespace gainsmith::verdict {
 namespace {
@@ -56,11 +59,11 @@ struct Posed {
   }
 
   /// What those near the solver's show.
-  Refutation polished() const {
+  Refutation refined() const {
     const lmi::Formulation asked = formulation();
     const sdp::Solution solution = sdp::solve(asked.problem, {});
-    return refute_polished(of, lmi, asked, multipliers_of(asked, lmi.blocks.size(), solution),
-                           Steps::in_wide);
+    return refute_refined(of, lmi, asked, multipliers_of(asked, lmi.blocks.size(), solution),
+                          Steps::in_wide);
   }
 };
 
@@ -120,7 +123,7 @@ TEST(RefutationTest, AnAWithoutStableModesIsRefutedExactly) {
     const Matrix A = -with_abscissa(random_matrix(n, generator), -0.2);
     const Refutation found = Posed(lyapunov(A)).refuted("double", 1e-9);
     EXPECT_TRUE(found.exact) << A;
-    EXPECT_LT(found.omega, 1e-6);
+    EXPECT_LT(found.backward_error, 1e-6);
   }
 }
 
@@ -129,8 +132,9 @@ TEST(RefutationTest, AnUnstableAIsRefuted) {
   std::mt19937 generator(2);
   for (int trial = 0; trial < 6; ++trial) {
     const Matrix A = with_abscissa(random_matrix(2 + trial % 3, generator), 0.2);
-    const Refutation found = Posed(lyapunov(A)).polished();
-    EXPECT_TRUE(found.exact || found.omega <= kNothing) << A << "\nomega " << found.omega;
+    const Refutation found = Posed(lyapunov(A)).refined();
+    EXPECT_TRUE(found.exact || found.backward_error <= kNothing)
+        << A << "\nbackward error " << found.backward_error;
   }
 }
 
@@ -145,7 +149,7 @@ TEST(RefutationTest, AFeasibleProblemIsNeverRefuted) {
     for (const char* precision : {"double", "quad"}) {
       const Refutation found = feasible.refuted(precision, 1e-12);
       EXPECT_FALSE(found.exact) << A;
-      EXPECT_GT(found.omega, 1e-30) << A;
+      EXPECT_GT(found.backward_error, 1e-30) << A;
     }
     // Those of A + 2 depth I, which is unstable.
     const Matrix near = A + 2 * depth * Matrix::Identity(n, n);
@@ -165,7 +169,7 @@ TEST(RefutationTest, AFeasibleProblemIsNeverRefuted) {
         refute<DoubleDouble>(feasible.of, feasible.lmi, own, in_units(own, units));
     EXPECT_FALSE(found.exact) << A;
     // The data are a relative change of about depth away from infeasible ones.
-    EXPECT_GT(found.omega, 1e-4 * depth) << A;
+    EXPECT_GT(found.backward_error, 1e-4 * depth) << A;
   }
 }
 
@@ -185,7 +189,7 @@ TEST(RefutationTest, RandomMultipliersRefuteNoFeasibleProblem) {
 }
 
 /// A certificate with an error of relative size d is exact as long as its residual is small in the
-/// measure of its own interior, and its omega is about d.
+/// measure of its own interior, and its backward error is about d.
 TEST(RefutationTest, APerturbedCertificateIsJudgedByItsResidual) {
   std::mt19937 generator(5);
   for (int trial = 0; trial < 10; ++trial) {
@@ -207,19 +211,20 @@ TEST(RefutationTest, APerturbedCertificateIsJudgedByItsResidual) {
       Y[0] += tests::widened<DoubleDouble>(error);
       const Refutation found = refute<DoubleDouble>(posed.of, posed.lmi, asked, in_units(asked, Y));
       EXPECT_TRUE(found.exact) << size << "\n" << A;
-      EXPECT_LT(found.omega, 100 * size + 1e-27);
-      EXPECT_GE(found.omega, 1e-4 * size);
+      EXPECT_LT(found.backward_error, 100 * size + 1e-27);
+      EXPECT_GE(found.backward_error, 1e-4 * size);
     }
     // As large as the certificate: nothing is shown.
     std::vector<Wide> Y = lyapunov_certificate(A, tests::widened<DoubleDouble>(Y2));
     Y[0] *= DoubleDouble(3);
     const Refutation wrong = refute<DoubleDouble>(posed.of, posed.lmi, asked, in_units(asked, Y));
     EXPECT_FALSE(wrong.exact);
-    EXPECT_GT(wrong.omega, 0.01);
+    EXPECT_GT(wrong.backward_error, 0.01);
     // Not positive semidefinite: no certificate at all.
     Y = lyapunov_certificate(A, tests::widened<DoubleDouble>(Y2));
     Y[1](0, 0) = DoubleDouble(-1);
-    EXPECT_EQ((refute<DoubleDouble>(posed.of, posed.lmi, asked, in_units(asked, Y)).omega), 1);
+    EXPECT_EQ((refute<DoubleDouble>(posed.of, posed.lmi, asked, in_units(asked, Y)).backward_error),
+              1);
   }
 }
 
@@ -254,7 +259,7 @@ TEST(RefutationTest, CoordinatesDoNotMatter) {
     const auto Y = lyapunov_certificate(A, root.lazyProduct(root.transpose()));
     const Refutation found = refute<Decimal100>(posed.of, posed.lmi, asked, in_units(asked, Y));
     EXPECT_TRUE(found.exact) << trial;
-    EXPECT_LT(found.omega, 1e-25) << trial;
+    EXPECT_LT(found.backward_error, 1e-25) << trial;
   }
 }
 
@@ -265,7 +270,7 @@ TEST(RefutationTest, WhatIsNotNeededDoesNotHinder) {
       "x "
       "< 1, positive: P > 0, stable: He(P*A) < 0, size: P > I}\ndata: {A: [[-1, 5], [-2, -3]]}\n");
   const Refutation found = posed.refuted("quad", 1e-22);
-  EXPECT_TRUE(found.exact || found.omega <= kNothing) << found.omega;
+  EXPECT_TRUE(found.exact || found.backward_error <= kNothing) << found.backward_error;
 }
 
 TEST(RefutationTest, WithConstantsTheValueCounts) {
@@ -273,12 +278,13 @@ TEST(RefutationTest, WithConstantsTheValueCounts) {
   for (const char* require :
        {"{low: x > 2, high: x < 1}", "{low: x >= 2, high: x <= 1}", "{low: x > 1, high: x < 1}"}) {
     const Refutation found = Posed(unknown + require + "\n").refuted("100", 1e-40);
-    EXPECT_TRUE(found.exact || found.omega <= kNothing) << require << " " << found.omega;
+    EXPECT_TRUE(found.exact || found.backward_error <= kNothing)
+        << require << " " << found.backward_error;
   }
   const Refutation touching =
       Posed(unknown + "{low: x >= 1, high: x <= 1}\n").refuted("100", 1e-40);
   EXPECT_FALSE(touching.exact);
-  EXPECT_EQ(touching.omega, 1);  // only blocks with >= have multipliers, and v = 0
+  EXPECT_EQ(touching.backward_error, 1);  // only blocks with >= have multipliers, and v = 0
 }
 
 /// exp(t) over an interval, by the corners of a box that t does not reach.
@@ -292,12 +298,12 @@ TEST(RefutationTest, ABlockThatStandsForNoPointRefutesNothing) {
   const auto Y = multipliers_of(asked, posed.lmi.blocks.size(), solution);
   const Refutation found = refute<DoubleDouble>(posed.of, posed.lmi, asked, Y);
   EXPECT_FALSE(found.exact);
-  EXPECT_EQ(found.omega, 1);
-  EXPECT_LT(relaxed_omega(posed.lmi, {}, asked, solution), 1e-6);
+  EXPECT_EQ(found.backward_error, 1);
+  EXPECT_LT(relaxed_backward_error(posed.lmi, {}, asked, solution), 1e-6);
 }
 
 /// What only the bound on a gain excludes is excluded with it.
-TEST(RefutationTest, AGainBoundHasItsOwnOmega) {
+TEST(RefutationTest, AGainBoundHasItsOwnBackwardError) {
   for (const double bound : {1., 100.}) {
     const Posed posed(
         "  unknowns: {x: scalar}\n  require: {floor: x > 5}\n  gains: {K: x}\n"
@@ -305,8 +311,8 @@ TEST(RefutationTest, AGainBoundHasItsOwnOmega) {
         model::printed(bound) + "}\n");
     const lmi::Formulation asked = formulate_interior(posed.lmi, posed.bounds, {});
     const sdp::Solution solution = sdp::solve(asked.problem);
-    const double omega = relaxed_omega(posed.lmi, posed.bounds, asked, solution);
-    EXPECT_EQ(omega < 1e-6, bound == 1) << omega;
+    const double backward_error = relaxed_backward_error(posed.lmi, posed.bounds, asked, solution);
+    EXPECT_EQ(backward_error < 1e-6, bound == 1) << backward_error;
   }
 }
 

@@ -1,5 +1,5 @@
 // Designs that hold with equality: objectives are minimised on the face that the solutions share.
-#include "design/on_faces.h"
+#include "design/facial_reduction.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ namespace gainsmith::design {
 namespace {
 
 /// min <C, P> over P >= 0 of trace 1 is the smallest eigenvalue of C.
-TEST(OnFaces, TheLeastObjectiveUnderATraceIsAnEigenvalue) {
+TEST(FacialReduction, TheLeastObjectiveUnderATraceIsAnEigenvalue) {
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     RandomStream random(0xFACE, seed);
     const int n = 2 + static_cast<int>(seed % 3);
@@ -34,7 +34,7 @@ TEST(OnFaces, TheLeastObjectiveUnderATraceIsAnEigenvalue) {
   }
 }
 
-TEST(OnFaces, AnObjectiveThatTheFaceDeterminesIsOptimal) {
+TEST(FacialReduction, AnObjectiveThatTheFaceDeterminesIsOptimal) {
   const model::Gains all = solve(
       "  unknowns: {P: symmetric 2}\n"
       "  require: {shape: P > 0, above: trace(P) >= 4, below: trace(P) <= 4}\n"
@@ -53,7 +53,7 @@ TEST(OnFaces, AnObjectiveThatTheFaceDeterminesIsOptimal) {
   EXPECT_EQ(*one.objective_lower_bound, 3);
 }
 
-TEST(OnFaces, WithoutAMinimumThePointIsOnlyFeasible) {
+TEST(FacialReduction, WithoutAMinimumThePointIsOnlyFeasible) {
   const model::Gains gains = solve(
       "  unknowns: {x: scalar, y: scalar}\n"
       "  require: {above: x + y >= 1, below: x + y <= 1, right: y > 0}\n  minimize: x\n");

@@ -1,4 +1,4 @@
-#include "design/polish_blocks.h"
+#include "design/refinement_blocks.h"
 
 #include <algorithm>
 

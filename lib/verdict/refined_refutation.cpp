@@ -1,4 +1,5 @@
-// Certificates on the boundary of the cone, from multipliers that are only nearly one.
+#include "verdict/refined_refutation.h"
+
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -6,8 +7,7 @@
 #include <utility>
 
 #include "verdict/boundary_pair.h"
-#include "verdict/polished_multipliers.h"
-#include "verdict/refutation.h"
+#include "verdict/refined_multipliers.h"
 #include "verdict/wide_algebra.h"
 
 namespace gainsmith::verdict {
@@ -39,12 +39,12 @@ Kept kept_of(const std::vector<ExactBlock<Decimal100>>& blocks, const Multiplier
 
 Refutation refute_kept(const lmi::Lmi& lmi, const std::vector<ExactBlock<Decimal100>>& blocks,
                        const Multipliers& Y, const Kept& kept, Steps steps) {
-  std::vector<Wide> polished;
-  for (const auto& y : Y) polished.push_back(Wide::Zero(y.rows(), y.cols()));
+  std::vector<Wide> refined;
+  for (const auto& y : Y) refined.push_back(Wide::Zero(y.rows(), y.cols()));
   for (std::size_t a = 0; a < kept.which.size(); ++a)
-    polished[kept.which[a]] = kept.multipliers[a].value();
+    refined[kept.which[a]] = kept.multipliers[a].value();
   // They have next to no residual: whether an exact one is near may take longer than all the rest.
-  return refute<Decimal100>(lmi, blocks, polished,
+  return refute<Decimal100>(lmi, blocks, refined,
                             steps == Steps::in_double ? Exactness::in_double : Exactness::in_wide);
 }
 
@@ -107,7 +107,7 @@ Refutation refute_on_boundary(const lmi::Inequalities& of, const lmi::Lmi& lmi,
   for (const auto& block : blocks) all.push_back(&block);
   if (formulation.homogenised) all.push_back(&constant);
   BoundaryPair pair = pair_of(lmi, formulation, solution);
-  if (!polish(all, pair)) return {};
+  if (!refine(all, pair)) return {};
   pair.Y.resize(blocks.size());
   return refute<Decimal100>(lmi, blocks, std::move(pair.Y), Exactness::in_double);
 }
@@ -123,7 +123,7 @@ std::optional<std::vector<Wide>> violation_of(std::vector<ExactBlock<Decimal100>
     add_identity(unknowns + 1, block);
     all.push_back(&block);
   }
-  if (!polish(all, pair)) return std::nullopt;
+  if (!refine(all, pair)) return std::nullopt;
   return std::move(pair.Y);
 }
 
@@ -166,7 +166,7 @@ Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
   lmi::Formulation stated;
   stated.balance = formulation.balance;
   stated.balance.unknowns.insert(stated.balance.unknowns.begin() + scale.unknown - 1, 0);
-  stated.releases = formulation.releases;
+  stated.free_variables = formulation.free_variables;
   const auto blocks = exact_blocks<Decimal100>(of, lmi, stated);
   auto with_constants = blocks;
   for (auto& block : with_constants)
@@ -177,12 +177,12 @@ Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
     }
   auto Y = violation_of(std::move(with_constants), lmi.unknowns - 1,
                         violated_pair_of(lmi, formulation, solution));
-  if (!Y || !close(blocks, scale, formulation.releases.kept[scale.block], *Y)) return {};
+  if (!Y || !close(blocks, scale, formulation.free_variables.kept[scale.block], *Y)) return {};
   return refute<Decimal100>(lmi, blocks, std::move(*Y), Exactness::in_double);
 }
 
-Refutation refute_polished(const lmi::Inequalities& of, const lmi::Lmi& lmi,
-                           const lmi::Formulation& formulation, const Multipliers& Y, Steps steps) {
+Refutation refute_refined(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                          const lmi::Formulation& formulation, const Multipliers& Y, Steps steps) {
   // A block that a certificate does not need may keep the others from being one.
   constexpr double kShares[] = {0, 1e-8, 1e-4};
   // What is left beside the range of a singular certificate.
@@ -194,8 +194,8 @@ Refutation refute_polished(const lmi::Inequalities& of, const lmi::Lmi& lmi,
   for (const auto& y : Y) whole += trace_of(y);
   const auto excludes = [&](const Kept& kept) {
     const Refutation found = refute_kept(lmi, blocks, Y, kept, steps);
-    if (found.exact || found.omega < best.omega) best = found;
-    return best.exact || best.omega <= kNothing;
+    if (found.exact || found.backward_error < best.backward_error) best = found;
+    return best.exact || best.backward_error <= kNothing;
   };
   std::size_t looked_at = 0;
   for (const double share : kShares) {
@@ -203,8 +203,8 @@ Refutation refute_polished(const lmi::Inequalities& of, const lmi::Lmi& lmi,
     if (kept.which.size() == looked_at) continue;
     looked_at = kept.which.size();
     const bool settled = steps == Steps::in_double
-                             ? polish_in_double(kept.multipliers, lmi.unknowns)
-                             : polish(kept.multipliers, lmi.unknowns);
+                             ? refine_in_double(kept.multipliers, lmi.unknowns)
+                             : refine(kept.multipliers, lmi.unknowns);
     if (settled && excludes(kept)) return best;
   }
   if (steps == Steps::in_double) return best;
@@ -215,7 +215,7 @@ Refutation refute_polished(const lmi::Inequalities& of, const lmi::Lmi& lmi,
     for (std::size_t a = 0; a < kept.which.size(); ++a)
       ranks[kept.which[a]] = kept.multipliers[a].L.cols();
     if (!tried.insert(std::move(ranks)).second) continue;
-    if (polish_on_range(kept.multipliers, lmi.unknowns) && excludes(kept)) return best;
+    if (refine_on_range(kept.multipliers, lmi.unknowns) && excludes(kept)) return best;
   }
   return best;
 }

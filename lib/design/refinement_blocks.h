@@ -1,4 +1,4 @@
-// The inequalities of a design at one value of its scalars, as the smooth program of polish.h has
+// The inequalities of a design at one value of its scalars, as the smooth program of joint_refinement.h has
 // them.
 #pragma once
 

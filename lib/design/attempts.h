@@ -1,29 +1,33 @@
 // The attempts of a synthesis, in their order.
 //
-//   rung            asks                                    is tried after
-//   minimum         the objective, within the gain bounds   -  (where it can have a minimum)
-//   free inside     the largest margin, gains of any size   -  (where it cannot), or nothing that
-//   holds:
-//                                                           bounds on gains depend on units
-//   inside          the largest margin, within the bounds   nothing that holds within them
-//   blended         a point between minimum and inside      both, the minimum found but not holding
-//   free minimum    the objective, gains of any size        nothing that holds within the bounds
-//   on equations    a point that satisfies stated equations nothing that holds, nothing refuted
-//                   exactly, or a no (on_faces.h)
-//   100 digits      a certificate alone, in these digits    the same, of large programs whose
-//                                                           multipliers in double exclude them
-//   31 digits       the largest margin in these digits      nothing that holds, nothing refuted
-//   on faces        a point or a no on the face that all    the same
-//                   solutions share (on_faces.h)
-//   100 digits      the largest margin in these digits      the same, of programs that are not
-//   large tighter         bounds ten times smaller                a yes with gains near their
-//   bounds: those
-//                                                           that shrink are limited by them alone
+//   attempt           asks                                     is made after
+//   minimum           the objective, within the gain bounds    -  (where it can have a minimum)
+//   free inside       the largest margin, gains of any size    -  (where it cannot), or nothing that
+//                                                              holds: bounds depend on units
+//   inside            the largest margin, within the bounds    nothing that holds within them
+//   large minimum     the minimum, unknowns of any size        a point inside, where only unknowns of
+//                                                              ordinary size were excluded
+//   blended           a point between minimum and inside       both, the minimum found but not
+//                                                              holding
+//   free minimum      the objective, gains of any size         nothing that holds within the bounds
+//   on equations      a point that satisfies stated            nothing that holds, nothing refuted
+//                     equations exactly, or a no
+//                     (facial_reduction.h)
+//   100 digits        a certificate alone, in these digits     the same, of large programs whose
+//                                                              multipliers in double exclude them
+//   31 digits         the largest margin in these digits       nothing that holds, nothing refuted
+//   facial reduction  a point or a no on the face that all     the same
+//                     solutions share (facial_reduction.h)
+//   100 digits        the largest margin in these digits       the same, of programs that are not
+//                                                              large
+//   tighter           bounds ten times smaller                 a yes with gains near their bounds:
+//                                                              those that shrink are limited by
+//                                                              them alone
 //
 // (An exchange grows by the points at which a solution fails, and begins again; so it does once, by
-// points between its own, before large programs are tried in more digits.) Each rung is tried once
-// at most and its record stays; what they mean together is conclude(). A no comes from a rung
-// without bounds.
+// points between its own, before large programs are tried in more digits.) Each attempt is made
+// once at most and its record stays; what they mean together is conclude(). A no comes from an
+// attempt without bounds.
 #pragma once
 
 #include <map>
@@ -35,7 +39,7 @@
 
 namespace gainsmith::design {
 
-enum class Rung {
+enum class AttemptKind {
   minimum,
   free_inside,
   inside,
@@ -44,7 +48,7 @@ enum class Rung {
   free_minimum,
   on_equations,
   in_31_digits,
-  on_faces,
+  facial_reduction,
   in_100_digits,
   tighter
 };
@@ -55,16 +59,16 @@ class Climb {
   /// `bounds` are those of the problem.
   Climb(const Posed& posed, lmi::GainBounds bounds, Solve solve);
 
-  /// The rungs up to the first point, or the refutation.
+  /// The attempts up to the first point, or the refutation.
   void to_point();
   /// All the others that are due.
   void to_end();
 
   bool has_begun() const { return !tried_.empty(); }
-  /// The rung that was tried last, in words: the one that a stop ended.
+  /// The kind that was tried last, in words: the one that a stop ended.
   const std::string& doing() const { return doing_; }
   /// nullptr: not tried.
-  const Attempt* find(Rung rung) const;
+  const Attempt* find(AttemptKind kind) const;
   /// The attempt whose point counts: the first that is a yes, otherwise the first that
   /// holds, or has one;
   /// nullptr without one.
@@ -89,7 +93,7 @@ class Climb {
   bool is_out_of_allowance() const { return out_of_allowance_; }
 
  private:
-  friend struct Rungs;
+  friend struct Attempts;
 
   void climb(bool to_end);
   double allowance() const;
@@ -97,8 +101,8 @@ class Climb {
   const Posed posed_;
   lmi::GainBounds bounds_;
   Solve solve_;
-  std::map<Rung, Attempt> tried_;
-  std::set<Rung> done_;  ///< those that came to nothing included
+  std::map<AttemptKind, Attempt> tried_;
+  std::set<AttemptKind> done_;  ///< those that came to nothing included
   std::string doing_;
   double seconds_ = 0;
   double spent_ = 0;

@@ -1,4 +1,4 @@
-// When the ladder asks for more digits of large programs, and what waits for more points.
+// When attempts ask for more digits of large programs, and what waits for more points.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "design/ladder.h"
+#include "design/attempts.h"
 #include "design/scripted.h"
 
 namespace gainsmith::design {
@@ -17,7 +17,7 @@ using testing::Case;
 using testing::refuting;
 using testing::Scripted;
 
-using Rungs = std::vector<Rung>;
+using AttemptKinds = std::vector<AttemptKind>;
 
 /// low < x < high.
 std::string window(const std::string& low, const std::string& high) {
@@ -37,16 +37,17 @@ std::string large_window(const std::string& high) {
 
 /// Of large programs 100 digits are asked for the certificate alone, where multipliers in double
 /// speak for one.
-TEST(Ladder, LargeProgramsAreTriedIn100DigitsWhereMultipliersExcludeThem) {
+TEST(Attempts, LargeProgramsAreTriedIn100DigitsWhereMultipliersExcludeThem) {
   const std::vector<double> nearly(122, 1.0);
   const Case near(large_window("1.00000001*sqrt(1)"));
   const Scripted run(refuting(near, nearly), near);
-  EXPECT_EQ(run.tried, (Rungs{Rung::inside, Rung::in_31_digits, Rung::in_100_digits}));
+  EXPECT_EQ(run.tried, (AttemptKinds{AttemptKind::inside, AttemptKind::in_31_digits,
+                                     AttemptKind::in_100_digits}));
   EXPECT_EQ(run.gains.verdict, Verdict::undecided);
   ASSERT_GE(run.efforts.size(), 3U);
   EXPECT_EQ(run.efforts[1].precision, "double") << "the least violation";
   EXPECT_EQ(run.efforts[2].precision, "100") << "before 31 digits";
-  EXPECT_TRUE(run.at(Rung::in_100_digits).question.single);
+  EXPECT_TRUE(run.at(AttemptKind::in_100_digits).question.single);
   EXPECT_EQ(std::count_if(run.efforts.begin(), run.efforts.end(),
                           [](const Effort& effort) { return effort.precision == "100"; }),
             1)
@@ -54,17 +55,18 @@ TEST(Ladder, LargeProgramsAreTriedIn100DigitsWhereMultipliersExcludeThem) {
   // Multipliers that exclude nothing.
   const Case far(large_window("2*sqrt(1)"));
   const Scripted none(refuting(far, nearly), far);
-  EXPECT_EQ(none.tried, (Rungs{Rung::inside, Rung::in_31_digits}));
+  EXPECT_EQ(none.tried, (AttemptKinds{AttemptKind::inside, AttemptKind::in_31_digits}));
   // Small programs have the largest margin in 100 digits, after 31.
   const Case small(window("sqrt(1)", "1.00000001*sqrt(1)"));
   const Scripted last(refuting(small, {1, 1}), small);
-  EXPECT_EQ(last.tried, (Rungs{Rung::inside, Rung::in_31_digits, Rung::in_100_digits}));
+  EXPECT_EQ(last.tried, (AttemptKinds{AttemptKind::inside, AttemptKind::in_31_digits,
+                                      AttemptKind::in_100_digits}));
   EXPECT_EQ(last.efforts[2].precision, "quad");
-  EXPECT_FALSE(last.at(Rung::in_100_digits).question.single);
+  EXPECT_FALSE(last.at(AttemptKind::in_100_digits).question.single);
 }
 
 /// More digits wait while points may be added, but for nothing else.
-TEST(Ladder, DigitsWaitForPoints) {
+TEST(Attempts, DigitsWaitForPoints) {
   const Case near(large_window("1.00000001*sqrt(1)"));
   const Case far(large_window("2*sqrt(1)"));
   const Case small(window("sqrt(1)", "1.00000001*sqrt(1)"));
@@ -76,7 +78,8 @@ TEST(Ladder, DigitsWaitForPoints) {
       return refuting(of, Y)(problem);
     });
     climb.to_end();
-    return std::make_pair(climb.waits_for_points(), climb.find(Rung::in_31_digits) != nullptr);
+    return std::make_pair(climb.waits_for_points(),
+                          climb.find(AttemptKind::in_31_digits) != nullptr);
   };
   EXPECT_EQ(tried(near, true), std::make_pair(true, false));
   EXPECT_EQ(tried(near, false), std::make_pair(false, true));

@@ -1,4 +1,4 @@
-#include "design/ladder.h"
+#include "design/attempts.h"
 
 #include <algorithm>
 #include <array>
@@ -9,13 +9,13 @@
 
 #include "base/progress.h"
 #include "base/stop.h"
+#include "design/facial_reduction.h"
 #include "design/gain_values.h"
-#include "design/on_faces.h"
 
 namespace gainsmith::design {
 
-/// When each rung is due, and what it asks.
-struct Rungs {
+/// When each kind is due, and what it asks.
+struct Attempts {
   static constexpr double kTighter = 0.1;  ///< times the bound on gains
   static constexpr double kNear = 0.01;  ///< of the bound; a gain far below it is not limited by it
 
@@ -38,25 +38,25 @@ struct Rungs {
     return is_bounded(climb) && !has_minimum(climb);
   }
   static bool bounds_leave_nothing(const Climb& climb) {
-    return is_bounded(climb) && climb.find(Rung::free_inside) == nullptr &&
+    return is_bounded(climb) && climb.find(AttemptKind::free_inside) == nullptr &&
            nothing_holds_at_all(climb);
   }
   static bool minimum_is_due(const Climb& climb) { return has_minimum(climb); }
   /// The last attempt at the minimum within the bounds.
   static const Attempt* last_minimum(const Climb& climb) {
-    const Attempt* large = climb.find(Rung::large_minimum);
-    return large != nullptr ? large : climb.find(Rung::minimum);
+    const Attempt* large = climb.find(AttemptKind::large_minimum);
+    return large != nullptr ? large : climb.find(AttemptKind::minimum);
   }
   static bool blended_is_due(const Climb& climb) {
     const Attempt* minimum = last_minimum(climb);
-    const Attempt* inside = climb.find(Rung::inside);
+    const Attempt* inside = climb.find(AttemptKind::inside);
     return minimum != nullptr && minimum->is_near_optimal() && !minimum->holds() &&
            inside != nullptr && inside->holds();
   }
   /// That no x of ordinary size has the margin says nothing where a point holds.
   static bool large_minimum_is_due(const Climb& climb) {
-    const Attempt* minimum = climb.find(Rung::minimum);
-    const Attempt* inside = climb.find(Rung::inside);
+    const Attempt* minimum = climb.find(AttemptKind::minimum);
+    const Attempt* inside = climb.find(AttemptKind::inside);
     return minimum != nullptr && inside != nullptr && inside->holds() &&
            minimum->solution.status == sdp::Status::primal_infeasible &&
            std::isfinite(minimum->solution.certificate.excluded_radius);
@@ -81,7 +81,7 @@ struct Rungs {
            climb.posed_.lmi.multiplications() <= kMost;
   }
   /// 100 digits of large programs take minutes, and say more only where 31 and exact multipliers
-  /// (lmi/polished_multipliers.h) do not.
+  /// (verdict/refined_multipliers.h) do not.
   static bool most_digits_are_due(const Climb& climb) {
     return digits_are_due(climb) && !is_large(climb);
   }
@@ -145,13 +145,13 @@ struct Rungs {
     return ask(climb, std::move(question));
   }
   static std::optional<Attempt> blended(const Climb& climb) {
-    return design::blended(climb.posed_, *last_minimum(climb), *climb.find(Rung::inside));
+    return design::blended(climb.posed_, *last_minimum(climb), *climb.find(AttemptKind::inside));
   }
   static std::optional<Attempt> free_minimum(const Climb& climb) {
     return ask(climb, objective(climb, {}));
   }
   static std::optional<Attempt> free_inside(const Climb& climb) { return ask(climb, interior({})); }
-  /// As near as it takes for the steps of lmi/polished_multipliers.h to lead to a certificate.
+  /// As near as it takes for the steps of verdict/refined_multipliers.h to lead to a certificate.
   static std::optional<Attempt> certificate_in_100_digits(const Climb& climb) {
     Question question = interior({}, {"100", 1e-40});
     question.single = true;
@@ -163,8 +163,8 @@ struct Rungs {
   static std::optional<Attempt> on_equations(const Climb& climb) {
     return measured(climb, attempt_on_equations(climb.posed_, climb.solve_));
   }
-  static std::optional<Attempt> on_faces(const Climb& climb) {
-    return measured(climb, attempt_on_faces(climb.posed_, climb.solve_));
+  static std::optional<Attempt> facial_reduction(const Climb& climb) {
+    return measured(climb, attempt_facial_reduction(climb.posed_, climb.solve_));
   }
   static std::optional<Attempt> measured(const Climb& climb, std::optional<Attempt> found) {
     if (found) found = measured(climb, std::move(*found));
@@ -183,34 +183,35 @@ struct Rungs {
 namespace {
 
 struct Row {
-  Rung rung;
+  AttemptKind kind;
   bool (*is_due)(const Climb&);
   std::optional<Attempt> (*tries)(const Climb&);
   const char* doing;
 };
 
-constexpr std::array<Row, 13> kLadder = {{
-    {Rung::minimum, Rungs::minimum_is_due, Rungs::minimum, "the minimum"},
-    {Rung::free_inside, Rungs::free_inside_is_due, Rungs::free_inside,
+constexpr std::array<Row, 13> kAttempts = {{
+    {AttemptKind::minimum, Attempts::minimum_is_due, Attempts::minimum, "the minimum"},
+    {AttemptKind::free_inside, Attempts::free_inside_is_due, Attempts::free_inside,
      "the largest margin, gains of any size"},
-    {Rung::inside, Rungs::nothing_holds, Rungs::inside, "the largest margin"},
-    {Rung::large_minimum, Rungs::large_minimum_is_due, Rungs::large_minimum,
+    {AttemptKind::inside, Attempts::nothing_holds, Attempts::inside, "the largest margin"},
+    {AttemptKind::large_minimum, Attempts::large_minimum_is_due, Attempts::large_minimum,
      "the minimum, unknowns of any size"},
-    {Rung::blended, Rungs::blended_is_due, Rungs::blended, "a point near the minimum"},
-    {Rung::free_minimum, Rungs::free_minimum_is_due, Rungs::free_minimum,
+    {AttemptKind::blended, Attempts::blended_is_due, Attempts::blended, "a point near the minimum"},
+    {AttemptKind::free_minimum, Attempts::free_minimum_is_due, Attempts::free_minimum,
      "the minimum, gains of any size"},
-    {Rung::free_inside, Rungs::bounds_leave_nothing, Rungs::free_inside,
+    {AttemptKind::free_inside, Attempts::bounds_leave_nothing, Attempts::free_inside,
      "the largest margin, gains of any size"},
-    {Rung::on_equations, Rungs::equations_are_due, Rungs::on_equations,
+    {AttemptKind::on_equations, Attempts::equations_are_due, Attempts::on_equations,
      "a point that satisfies the equations"},
-    {Rung::in_100_digits, Rungs::certificate_is_due, Rungs::certificate_in_100_digits,
+    {AttemptKind::in_100_digits, Attempts::certificate_is_due, Attempts::certificate_in_100_digits,
      "a certificate in 100 digits"},
-    {Rung::in_31_digits, Rungs::digits_are_due, Rungs::in_31_digits,
+    {AttemptKind::in_31_digits, Attempts::digits_are_due, Attempts::in_31_digits,
      "the largest margin in 31 digits"},
-    {Rung::on_faces, Rungs::faces_are_due, Rungs::on_faces, "a face that all solutions share"},
-    {Rung::in_100_digits, Rungs::most_digits_are_due, Rungs::in_100_digits,
+    {AttemptKind::facial_reduction, Attempts::faces_are_due, Attempts::facial_reduction,
+     "a face that all solutions share"},
+    {AttemptKind::in_100_digits, Attempts::most_digits_are_due, Attempts::in_100_digits,
      "the largest margin in 100 digits"},
-    {Rung::tighter, Rungs::tighter_is_due, Rungs::tighter, "smaller gains"},
+    {AttemptKind::tighter, Attempts::tighter_is_due, Attempts::tighter, "smaller gains"},
 }};
 
 }  // namespace
@@ -224,10 +225,10 @@ void Climb::to_end() { climb(true); }
 
 void Climb::climb(bool to_end) {
   using Clock = std::chrono::steady_clock;
-  for (const Row& row : kLadder) {
+  for (const Row& row : kAttempts) {
     if (!to_end && (point() != nullptr || refutation() != nullptr)) return;
     if (out_of_allowance_) return;
-    if (done_.contains(row.rung) || !row.is_due(*this)) continue;
+    if (done_.contains(row.kind) || !row.is_due(*this)) continue;
     check_stop();
     doing_ = row.doing;
     const Doing doing(row.doing);
@@ -236,9 +237,9 @@ void Climb::climb(bool to_end) {
     try {
       if (auto found = row.tries(*this)) {
         out_of_allowance_ = found->out_of_allowance;
-        tried_.emplace(row.rung, std::move(*found));
+        tried_.emplace(row.kind, std::move(*found));
       }
-      done_.insert(row.rung);
+      done_.insert(row.kind);
     } catch (const OutOfAllowance&) {
       out_of_allowance_ = true;
     }
@@ -256,21 +257,22 @@ double Climb::allowance() const {
   return std::max(2 * solver, std::clamp(kTimes * solver, kLeast, kMost));
 }
 
-const Attempt* Climb::find(Rung rung) const {
-  const auto found = tried_.find(rung);
+const Attempt* Climb::find(AttemptKind kind) const {
+  const auto found = tried_.find(kind);
   return found == tried_.end() ? nullptr : &found->second;
 }
 
 const Attempt* Climb::point() const {
   // A minimum is worth more than a point inside; within the bounds more than without.
-  constexpr Rung kWorth[] = {Rung::minimum,      Rung::large_minimum, Rung::blended,
-                             Rung::inside,       Rung::free_minimum,  Rung::free_inside,
-                             Rung::on_equations, Rung::in_31_digits,  Rung::on_faces,
-                             Rung::in_100_digits};
+  constexpr AttemptKind kWorth[] = {AttemptKind::minimum,          AttemptKind::large_minimum,
+                                    AttemptKind::blended,          AttemptKind::inside,
+                                    AttemptKind::free_minimum,     AttemptKind::free_inside,
+                                    AttemptKind::on_equations,     AttemptKind::in_31_digits,
+                                    AttemptKind::facial_reduction, AttemptKind::in_100_digits};
   const Attempt* holding = nullptr;
   const Attempt* first = nullptr;
-  for (const Rung rung : kWorth) {
-    const Attempt* attempt = find(rung);
+  for (const AttemptKind kind : kWorth) {
+    const Attempt* attempt = find(kind);
     if (attempt == nullptr || !attempt->point) continue;
     if (is_yes(*attempt)) return attempt;
     if (holding == nullptr && attempt->holds()) holding = attempt;
@@ -280,19 +282,20 @@ const Attempt* Climb::point() const {
 }
 
 const Attempt* Climb::refutation() const {
-  for (const auto& [rung, attempt] : tried_)
+  for (const auto& [kind, attempt] : tried_)
     if (attempt.refuted()) return &attempt;
   return nullptr;
 }
 
 const Attempt& Climb::last() const {
-  for (const Rung rung : {Rung::in_100_digits, Rung::in_31_digits, Rung::free_inside, Rung::inside})
-    if (const Attempt* attempt = find(rung)) return *attempt;
+  for (const AttemptKind kind : {AttemptKind::in_100_digits, AttemptKind::in_31_digits,
+                                 AttemptKind::free_inside, AttemptKind::inside})
+    if (const Attempt* attempt = find(kind)) return *attempt;
   return tried_.begin()->second;
 }
 
 bool Climb::waits_for_points() const {
-  return posed_.thin && Rungs::may_want_digits(*this) && Rungs::is_large(*this) &&
+  return posed_.thin && Attempts::may_want_digits(*this) && Attempts::is_large(*this) &&
          last().relaxation_refuted();
 }
 

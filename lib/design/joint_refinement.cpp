@@ -1,4 +1,4 @@
-#include "design/polish.h"
+#include "design/joint_refinement.h"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "bind/instance.h"
-#include "design/polish_blocks.h"
+#include "design/refinement_blocks.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::design {
@@ -337,8 +337,8 @@ class SmoothDesign {
 
 }  // namespace
 
-Proposal polish(const model::Instance& own, const SearchRequest& request, const model::Gains& gains,
-                const search::SmoothSolver& solver) {
+Proposal refine_jointly(const model::Instance& own, const SearchRequest& request,
+                        const model::Gains& gains, const search::SmoothSolver& solver) {
   constexpr double kTolerance = 1e-9;
   constexpr int kIterations = 500;
   try {

@@ -1,5 +1,5 @@
 // Multipliers that are nearly a certificate become one, whatever their rank.
-#include "verdict/polished_multipliers.h"
+#include "verdict/refined_multipliers.h"
 
 #include <gtest/gtest.h>
 
@@ -94,14 +94,14 @@ struct Planted {
   }
 };
 
-TEST(PolishedMultipliers, LoseTheirResidualAndKeepTheirRank) {
+TEST(RefinedMultipliers, LoseTheirResidualAndKeepTheirRank) {
   for (int rank = 1; rank <= 4; ++rank)
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
       RandomStream random(0x901, seed);
       const Planted planted(random, 4, rank, 4);
       auto multipliers = planted.near(random, 1e-6);
       ASSERT_GT(planted.residual(multipliers), 1e-9);
-      ASSERT_TRUE(polish(multipliers, 4)) << rank << ' ' << seed;
+      ASSERT_TRUE(refine(multipliers, 4)) << rank << ' ' << seed;
       EXPECT_LT(planted.residual(multipliers), 1e-57) << rank << ' ' << seed;
       for (std::size_t k = 0; k < 2; ++k) {
         const Wide moved = multipliers[k].value() - gram_of(planted.L[k]);
@@ -124,7 +124,7 @@ TEST(PolishedMultipliers, LoseTheirResidualAndKeepTheirRank) {
 
 /// A block w w' of an unknown of its own leaves only certificates with w' Y w = 0: multipliers of
 /// full rank, which are off by so much in the direction w, lose it.
-TEST(PolishedMultipliers, OfFullRankLoseADirectionThatNoCertificateHas) {
+TEST(RefinedMultipliers, OfFullRankLoseADirectionThatNoCertificateHas) {
   constexpr int kSize = 4, kUnknowns = 3;
   for (const double off : {1e-10, 1e-13, 1e-16})
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
@@ -140,20 +140,20 @@ TEST(PolishedMultipliers, OfFullRankLoseADirectionThatNoCertificateHas) {
         return std::abs(static_cast<double>(inner(gram_of(w), multipliers[0].value())));
       };
       ASSERT_GT(along_w(), 0.9 * off * off);
-      EXPECT_TRUE(polish(multipliers, kUnknowns + 1)) << off << ' ' << seed;
+      EXPECT_TRUE(refine(multipliers, kUnknowns + 1)) << off << ' ' << seed;
       EXPECT_LT(along_w(), 1e-70) << off << ' ' << seed;
       EXPECT_LT(planted.residual(multipliers), 1e-57) << off << ' ' << seed;
     }
 }
 
 /// Where no certificate is near, none is made.
-TEST(PolishedMultipliers, FarFromACertificateThereIsNone) {
+TEST(RefinedMultipliers, FarFromACertificateThereIsNone) {
   // <I, Y> = 0 asks for Y = 0.
   ExactBlock<Decimal100> block;
   block.size = 2;
   block.terms.emplace_back(1, elements_of(Wide::Identity(2, 2)));
   std::vector<FactoredMultiplier> multipliers = {{&block, Wide::Identity(2, 2)}};
-  EXPECT_FALSE(polish(multipliers, 1));
+  EXPECT_FALSE(refine(multipliers, 1));
 }
 
 }  // namespace

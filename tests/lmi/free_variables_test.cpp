@@ -1,4 +1,4 @@
-#include "lmi/release.h"
+#include "lmi/free_variables.h"
 
 #include <gtest/gtest.h>
 
@@ -20,20 +20,20 @@ std::string problem_with(const std::string& minimize, const std::string& extra =
 TEST(ReleaseTest, ScalarsWithoutAPriceAreReleasedWithTheirRows) {
   const tests::YamlProblem yaml(problem_with("trace(P)"));
   const Lmi lmi = compile(Inequalities(yaml.instance));
-  const Releases releases = find_releases(lmi, {}, true);
-  ASSERT_EQ(releases.list.size(), 2U);
-  EXPECT_TRUE(releases.released(4));
-  EXPECT_EQ(releases.list[0].sign, 1);
-  EXPECT_EQ(releases.list[1].sign, -1);
-  EXPECT_EQ(releases.kept[0], (std::vector<int>{0, 1}));
-  EXPECT_EQ(releases.kept[1], (std::vector<int>{0, 1}));
+  const FreeVariables free_variables = find_free_variables(lmi, {}, true);
+  ASSERT_EQ(free_variables.list.size(), 2U);
+  EXPECT_TRUE(free_variables.contains(4));
+  EXPECT_EQ(free_variables.list[0].sign, 1);
+  EXPECT_EQ(free_variables.list[1].sign, -1);
+  EXPECT_EQ(free_variables.kept[0], (std::vector<int>{0, 1}));
+  EXPECT_EQ(free_variables.kept[1], (std::vector<int>{0, 1}));
 }
 
 TEST(ReleaseTest, APriceOrAnotherUseKeepsThem) {
   const tests::YamlProblem priced(problem_with("trace(P) + g - h"));
-  EXPECT_TRUE(find_releases(compile(Inequalities(priced.instance)), {}, true).list.empty());
+  EXPECT_TRUE(find_free_variables(compile(Inequalities(priced.instance)), {}, true).list.empty());
   const tests::YamlProblem capped(problem_with("trace(P) - h", "    cap: g <= 100\n"));
-  EXPECT_TRUE(find_releases(compile(Inequalities(capped.instance)), {}, true).list.empty());
+  EXPECT_TRUE(find_free_variables(compile(Inequalities(capped.instance)), {}, true).list.empty());
 }
 
 /// g1 and g2 have no price and would take both rows of one block.
@@ -41,34 +41,35 @@ TEST(ReleaseTest, NoBlockLosesAllItsRowsToSeveralScalars) {
   const tests::YamlProblem yaml(
       "problem: p\nmethod:\n  method: m\n  unknowns: {g1: scalar, g2: scalar, t: scalar}\n"
       "  require:\n    both: \"[g1, 1; *, g2] > 0\"\n    price: t > 1\n  minimize: t\n");
-  const Releases releases = find_releases(compile(Inequalities(yaml.instance)), {}, true);
-  EXPECT_EQ(releases.list.size(), 1U);
-  for (const std::vector<int>& rows : releases.kept) EXPECT_EQ(rows.size(), 1U);
+  const FreeVariables free_variables =
+      find_free_variables(compile(Inequalities(yaml.instance)), {}, true);
+  EXPECT_EQ(free_variables.list.size(), 1U);
+  for (const std::vector<int>& rows : free_variables.kept) EXPECT_EQ(rows.size(), 1U);
 }
 
 /// A price is none where the objective does not count.
 TEST(ReleaseTest, WithoutTheObjectiveAPricedScalarIsFreeToo) {
   const tests::YamlProblem priced(problem_with("trace(P) + g - h"));
   const Lmi lmi = compile(Inequalities(priced.instance));
-  const Releases releases = find_releases(lmi, {}, false);
-  EXPECT_TRUE(releases.released(4));
-  EXPECT_TRUE(releases.released(5));
+  const FreeVariables free_variables = find_free_variables(lmi, {}, false);
+  EXPECT_TRUE(free_variables.contains(4));
+  EXPECT_TRUE(free_variables.contains(5));
   // Another block that needs the scalar finite keeps it.
   const std::vector<Block> others = {lmi.blocks[1]};
-  EXPECT_FALSE(find_releases(lmi, others, false).released(4));
-  EXPECT_TRUE(find_releases(lmi, others, false).released(5));
+  EXPECT_FALSE(find_free_variables(lmi, others, false).contains(4));
+  EXPECT_TRUE(find_free_variables(lmi, others, false).contains(5));
 }
 
 TEST(ReleaseTest, RestoredScalarsSatisfyTheWholeBlocks) {
   const tests::YamlProblem yaml(problem_with("trace(P)"));
   const Lmi lmi = compile(Inequalities(yaml.instance));
-  const Releases releases = find_releases(lmi, {}, true);
+  const FreeVariables free_variables = find_free_variables(lmi, {}, true);
   std::vector<const Block*> blocks;
   for (const Block& block : lmi.blocks) blocks.push_back(&block);
   const Balance units = balance(blocks, lmi.unknowns, lmi.objective);
   std::vector<double> x = {2, 0.5, 3, 0, 0};
   const numbers::Matrix P = (numbers::Matrix(2, 2) << 2, 0.5, 0.5, 3).finished();
-  restore(lmi, releases, units, x);
+  restore(lmi, free_variables, units, x);
   EXPECT_GT(x[3], 0);
   EXPECT_LT(x[4], 0);
   // At least half of what the rows without g and h have.
@@ -87,7 +88,8 @@ TEST(ReleaseTest, RestoringDoesNotDependOnUnits) {
     std::vector<const Block*> blocks;
     for (const Block& block : lmi.blocks) blocks.push_back(&block);
     std::vector<double> x = {2, 0.5, 3, 0};
-    restore(lmi, find_releases(lmi, {}, true), balance(blocks, lmi.unknowns, lmi.objective), x);
+    restore(lmi, find_free_variables(lmi, {}, true), balance(blocks, lmi.unknowns, lmi.objective),
+            x);
     return x[3];
   };
   EXPECT_EQ(restored("1"), 1048576 * restored("1048576"));

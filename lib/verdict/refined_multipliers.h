@@ -40,13 +40,13 @@ numbers::MatrixOf<Decimal100> factor_above(const numbers::MatrixOf<Decimal100>& 
 
 /// Makes r_i = 0 for 1 <= i <= unknowns, and r_0 = 0 where it is not clearly below 0. False, and
 /// `multipliers` of no use, when the steps are not small or do not settle.
-bool polish(std::vector<FactoredMultiplier>& multipliers, int unknowns);
+bool refine(std::vector<FactoredMultiplier>& multipliers, int unknowns);
 
 /// The same with the equations of a step in double, where they determine it to a few digits at
 /// least; only the residuals have 100 (Carson & Higham 2018).
-bool polish_in_double(std::vector<FactoredMultiplier>& multipliers, int unknowns);
+bool refine_in_double(std::vector<FactoredMultiplier>& multipliers, int unknowns);
 
 /// The same where the factors have as many columns as a certificate has ranks, and no more.
-bool polish_on_range(std::vector<FactoredMultiplier>& multipliers, int unknowns);
+bool refine_on_range(std::vector<FactoredMultiplier>& multipliers, int unknowns);
 
 }  // namespace gainsmith::verdict

@@ -1,4 +1,4 @@
-// What facial reduction (lmi/faces.h) makes of inequalities that none satisfies with room to spare:
+// What facial reduction (verdict/faces.h) makes of inequalities that none satisfies with room to spare:
 // a point on their common face whose decimals hold, a chain of exact multipliers that excludes
 // every solution, or nothing.
 //
@@ -22,6 +22,6 @@ bool states_equations(const lmi::Lmi& lmi);
 std::optional<Attempt> attempt_on_equations(const Posed& posed, const Solve& solve);
 
 /// None when nothing came of it; without a point and a no what it found is in left_open.
-std::optional<Attempt> attempt_on_faces(const Posed& posed, const Solve& solve);
+std::optional<Attempt> attempt_facial_reduction(const Posed& posed, const Solve& solve);
 
 }  // namespace gainsmith::design

@@ -1,8 +1,9 @@
+#include "verdict/relaxed_backward_error.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "numbers/dense.h"
-#include "verdict/refutation.h"
 
 namespace gainsmith::verdict {
 
@@ -16,8 +17,8 @@ double solution_trace(const sdp::Solution& solution, std::size_t k) {
 
 }  // namespace
 
-double relaxed_omega(const lmi::Lmi& lmi, const lmi::GainBounds& bounds,
-                     const lmi::Formulation& formulation, const sdp::Solution& solution) {
+double relaxed_backward_error(const lmi::Lmi& lmi, const lmi::GainBounds& bounds,
+                              const lmi::Formulation& formulation, const sdp::Solution& solution) {
   // As in refute(), multipliers that only tend to 0 are left out.
   constexpr double kShares[] = {0, 1e-10, 1e-8, 1e-6, 1e-4};
   std::vector<numbers::Matrix> Y = multipliers(lmi, bounds, formulation, solution);
@@ -46,10 +47,11 @@ double relaxed_omega(const lmi::Lmi& lmi, const lmi::GainBounds& bounds,
             W[static_cast<std::size_t>(i)] += std::abs(term);
           }
     }
-    double omega = kept > 0 ? 0 : 1;
+    double backward_error = kept > 0 ? 0 : 1;
     for (std::size_t i = 0; i < r.size(); ++i)
-      if (W[i] > 0 && !(i == 0 && r[0] <= 0)) omega = std::max(omega, std::abs(r[i]) / W[i]);
-    best = std::min(best, omega + 1e-14);
+      if (W[i] > 0 && !(i == 0 && r[0] <= 0))
+        backward_error = std::max(backward_error, std::abs(r[i]) / W[i]);
+    best = std::min(best, backward_error + 1e-14);
   }
   return best;
 }

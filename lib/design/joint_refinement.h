@@ -1,4 +1,4 @@
-// The last step of an outer search: scalars and unknowns are moved together.
+// Joint refinement, the last step of an outer search: scalars and unknowns are moved together.
 //
 // Over v = (s, x, L_1, L_2, ...) with s the scalars (as fractions of their ranges), x the unknowns
 // and L_k lower triangular:
@@ -28,7 +28,7 @@ struct Proposal {
 /// From the gains of the request's best point to a nearby point that the smooth program prefers:
 /// values of request.over and request.extreme. None when the figure is the margin, is not affine in
 /// the unknowns, or when the inequalities change their number or sizes near the point.
-Proposal polish(const model::Instance& own, const SearchRequest& request, const model::Gains& gains,
-                const search::SmoothSolver& solver);
+Proposal refine_jointly(const model::Instance& own, const SearchRequest& request,
+                        const model::Gains& gains, const search::SmoothSolver& solver);
 
 }  // namespace gainsmith::design

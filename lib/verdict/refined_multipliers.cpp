@@ -1,4 +1,4 @@
-#include "verdict/polished_multipliers.h"
+#include "verdict/refined_multipliers.h"
 
 #include <Eigen/Core>
 #include <algorithm>
@@ -327,7 +327,7 @@ numbers::MatrixOf<Decimal100> factor_above(const numbers::MatrixOf<Decimal100>& 
   return L.leftCols(rank);
 }
 
-bool polish_in_double(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
+bool refine_in_double(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
   constexpr int kMostSteps = 40;
   constexpr double kFails = 0.5, kSlow = 1e-3;
   double last = std::numeric_limits<double>::infinity();
@@ -346,11 +346,11 @@ bool polish_in_double(std::vector<FactoredMultiplier>& multipliers, int unknowns
   return false;
 }
 
-bool polish(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
+bool refine(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
   return follow(multipliers, unknowns, {80, 3, false});
 }
 
-bool polish_on_range(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
+bool refine_on_range(std::vector<FactoredMultiplier>& multipliers, int unknowns) {
   return follow(multipliers, unknowns, {150, 10, true});
 }
 

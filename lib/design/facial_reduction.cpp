@@ -1,4 +1,4 @@
-#include "design/on_faces.h"
+#include "design/facial_reduction.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,6 +9,7 @@
 #include "verdict/face_multipliers.h"
 #include "verdict/faces.h"
 #include "verdict/printable.h"
+#include "verdict/solved_multipliers.h"
 
 namespace gainsmith::design {
 
@@ -74,9 +75,9 @@ Left left_of(const Faces& faces, const lmi::Lmi& stated) {
   return left;
 }
 
-class OnFaces {
+class FacialReduction {
  public:
-  OnFaces(const Posed& posed, const Solve& solve)
+  FacialReduction(const Posed& posed, const Solve& solve)
       : posed_(posed),
         solve_(solve),
         stated_(verdict::rational_blocks(posed.inequalities, posed.lmi.blocks)),
@@ -135,7 +136,7 @@ class OnFaces {
     solution.rest = {};
     solution.x.assign(static_cast<std::size_t>(formulation.variables), 0);
     solution.Y.values.clear();
-    for (const auto& rows : formulation.releases.kept)
+    for (const auto& rows : formulation.free_variables.kept)
       solution.Y.values.emplace_back(rows.size() * rows.size(), 0);
     if (result_.holds()) {
       solution.status = sdp::Status::optimal;
@@ -204,7 +205,7 @@ class OnFaces {
         solved_ = std::move(solution);
         first = std::move(formulation);
       }
-      // Points of the whole space are those of the other rungs.
+      // Points of the whole space are those of the other attempts.
       if (faces_.steps() == 0 || !next || next->margin <= round.margin * kRises) break;
       round = *next;
     }
@@ -310,7 +311,7 @@ class OnFaces {
         verdict::multipliers_of(formulation, left.blocks.size(), solved_);
     for (std::size_t k = 0; k < Y.size(); ++k) {
       const std::size_t at = left.blocks[k];
-      const auto& kept = formulation.releases.kept[k];
+      const auto& kept = formulation.free_variables.kept[k];
       found.rows[at] = formulation.balance.rows[k];
       for (std::size_t i = 0; i < kept.size(); ++i)
         for (std::size_t j = 0; j < kept.size(); ++j)
@@ -368,12 +369,12 @@ bool states_equations(const lmi::Lmi& lmi) {
 }
 
 std::optional<Attempt> attempt_on_equations(const Posed& posed, const Solve& solve) {
-  return OnFaces(posed, solve).run_plain();
+  return FacialReduction(posed, solve).run_plain();
 }
 
-std::optional<Attempt> attempt_on_faces(const Posed& posed, const Solve& solve) {
+std::optional<Attempt> attempt_facial_reduction(const Posed& posed, const Solve& solve) {
   if (posed.lmi.unknowns > kMostUnknowns || posed.lmi.rows() > kMostRows) return std::nullopt;
-  return OnFaces(posed, solve).run();
+  return FacialReduction(posed, solve).run();
 }
 
 }  // namespace gainsmith::design

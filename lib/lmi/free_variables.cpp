@@ -1,4 +1,4 @@
-#include "lmi/release.h"
+#include "lmi/free_variables.h"
 
 #include <algorithm>
 #include <cmath>
@@ -46,7 +46,7 @@ double release_sign(const Lmi& lmi, int i) {
   return sign;
 }
 
-/// The rows of a block that stay when scalar i is released.
+/// The rows of a block that stay when scalar i is free.
 std::vector<int> without_rows(const Block& block, int i, std::vector<int> rows) {
   if (const Sparse* matrix = coefficient(block, i))
     std::erase_if(rows, [&](int row) { return matrix->coeff(row, row) != 0; });
@@ -91,13 +91,14 @@ bool is_large_enough(const Lmi& lmi, int i, const Rows& rows, const std::vector<
 
 }  // namespace
 
-bool Releases::released(int unknown) const {
+bool FreeVariables::contains(int unknown) const {
   return std::any_of(list.begin(), list.end(),
-                     [&](const Release& release) { return release.unknown == unknown; });
+                     [&](const FreeVariable& free) { return free.unknown == unknown; });
 }
 
-Releases find_releases(const Lmi& lmi, const std::vector<Block>& others, bool objective) {
-  Releases result;
+FreeVariables find_free_variables(const Lmi& lmi, const std::vector<Block>& others,
+                                  bool objective) {
+  FreeVariables result;
   result.kept = all_rows(lmi);
   for (int i = 1; i <= lmi.unknowns; ++i) {
     const bool elsewhere = std::any_of(others.begin(), others.end(), [&](const Block& block) {
@@ -123,20 +124,20 @@ Releases find_releases(const Lmi& lmi, const std::vector<Block>& others, bool ob
   return result;
 }
 
-void restore(const Lmi& lmi, const Releases& releases, const Balance& balance,
+void restore(const Lmi& lmi, const FreeVariables& free_variables, const Balance& balance,
              std::vector<double>& x) {
   constexpr int kSmallest = -40;
   constexpr int kLargest = 80;
-  Rows rows = releases.kept;
-  for (const Release& release : releases.list) {
+  Rows rows = free_variables.kept;
+  for (const FreeVariable& free : free_variables.list) {
     std::vector<double> wanted;
     for (std::size_t k = 0; k < lmi.blocks.size(); ++k)
       wanted.push_back(margin_of_rows(lmi.blocks[k].value(x), rows[k]));
-    add_rows(release.rows, rows);
-    double& value = x[static_cast<std::size_t>(release.unknown) - 1];
+    add_rows(free.rows, rows);
+    double& value = x[static_cast<std::size_t>(free.unknown) - 1];
     for (int k = kSmallest; k <= kLargest; ++k) {
-      value = release.sign * std::ldexp(balance.unit(release.unknown), k);
-      if (is_large_enough(lmi, release.unknown, rows, wanted, x)) break;
+      value = free.sign * std::ldexp(balance.unit(free.unknown), k);
+      if (is_large_enough(lmi, free.unknown, rows, wanted, x)) break;
     }
   }
 }

@@ -1,5 +1,5 @@
-// The ladder with a scripted solver: which rungs are tried, what they ask and what they mean.
-#include "design/ladder.h"
+// Attempts with a scripted solver: which are made, what they ask and what they mean.
+#include "design/attempts.h"
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ using testing::Scripted;
 using testing::unbounded;
 using testing::undecided;
 
-using Rungs = std::vector<Rung>;
+using AttemptKinds = std::vector<AttemptKind>;
 
 /// The smallest x above 1.
 const std::string kFloor = "  unknowns: {x: scalar}\n  require: {floor: x > 1}\n  minimize: x\n";
@@ -53,7 +53,7 @@ std::vector<std::string> names(const model::NamedMatrices& matrices) {
   return result;
 }
 
-TEST(Ladder, AMinimumThatHoldsIsTheAnswer) {
+TEST(Attempts, AMinimumThatHoldsIsTheAnswer) {
   const Case of(kFloor);
   const Scripted run(of, {[&](const sdp::Problem& problem) {
                        sdp::Solution solution = minimum(of, {1.5})(problem);
@@ -61,7 +61,7 @@ TEST(Ladder, AMinimumThatHoldsIsTheAnswer) {
                        solution.iterations = 7;
                        return solution;
                      }});
-  EXPECT_EQ(run.tried, Rungs{Rung::minimum});
+  EXPECT_EQ(run.tried, AttemptKinds{AttemptKind::minimum});
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_EQ(run.gains.solver.status, "optimal");
   EXPECT_EQ(run.gains.solver.cause, "converged");
@@ -79,13 +79,15 @@ TEST(Ladder, AMinimumThatHoldsIsTheAnswer) {
 }
 
 /// The smallest step from the minimum towards a point inside that holds.
-TEST(Ladder, AMinimumThatDoesNotHoldIsBlendedWithAPointInside) {
+TEST(Attempts, AMinimumThatDoesNotHoldIsBlendedWithAPointInside) {
   const Case of(kFloor);
   for (const double x : {1., 1 - 1e-10, 1 - 1e-4}) {
     const Scripted run(of, {minimum(of, {x}), inside(of, {3})});
-    EXPECT_EQ(run.tried, (Rungs{Rung::minimum, Rung::inside, Rung::blended})) << x;
+    EXPECT_EQ(run.tried,
+              (AttemptKinds{AttemptKind::minimum, AttemptKind::inside, AttemptKind::blended}))
+        << x;
     EXPECT_EQ(run.gains.verdict, Verdict::yes) << run.message();
-    EXPECT_EQ(run.climb.point(), &run.at(Rung::blended));
+    EXPECT_EQ(run.climb.point(), &run.at(AttemptKind::blended));
     EXPECT_GT(run.unknown("x"), 1);
     EXPECT_LT(run.unknown("x") - x, std::max(4e-12, 20 * (1 - x)));
     EXPECT_EQ(run.gains.objective, run.unknown("x"));
@@ -94,7 +96,7 @@ TEST(Ladder, AMinimumThatDoesNotHoldIsBlendedWithAPointInside) {
 }
 
 /// What is no minimum has no lower bound, and nothing is blended with it.
-TEST(Ladder, WithoutAMinimumAPointInsideIsTheAnswer) {
+TEST(Attempts, WithoutAMinimumAPointInsideIsTheAnswer) {
   const Case of(kFloor);
   const auto far = [](const Answer& first) {
     return [first](const sdp::Problem& problem) {
@@ -104,7 +106,8 @@ TEST(Ladder, WithoutAMinimumAPointInsideIsTheAnswer) {
       return solution;
     };
   };
-  const auto expect_inside = [](const Scripted& run, const Rungs& tried, const char* message) {
+  const auto expect_inside = [](const Scripted& run, const AttemptKinds& tried,
+                                const char* message) {
     EXPECT_EQ(run.tried, tried);
     EXPECT_EQ(run.gains.verdict, Verdict::yes);
     EXPECT_EQ(run.unknown("x"), 3);
@@ -112,30 +115,33 @@ TEST(Ladder, WithoutAMinimumAPointInsideIsTheAnswer) {
     EXPECT_FALSE(run.gains.objective_lower_bound);
     EXPECT_TRUE(run.says(message)) << run.message();
   };
-  expect_inside({of, {far(undecided()), inside(of, {3})}}, {Rung::minimum, Rung::inside},
-                "not its minimum");
-  expect_inside({of, {far(unbounded()), inside(of, {3})}}, {Rung::minimum, Rung::inside},
+  expect_inside({of, {far(undecided()), inside(of, {3})}},
+                {AttemptKind::minimum, AttemptKind::inside}, "not its minimum");
+  expect_inside({of, {far(unbounded()), inside(of, {3})}},
+                {AttemptKind::minimum, AttemptKind::inside},
                 "that of a point inside: the solver finds it unbounded below");
   expect_inside({of, {far(infeasible()), inside(of, {3}), far(undecided())}},
-                {Rung::minimum, Rung::inside, Rung::large_minimum}, "not its minimum");
+                {AttemptKind::minimum, AttemptKind::inside, AttemptKind::large_minimum},
+                "not its minimum");
 }
 
 /// A certificate against x below 1e8 does not end the second question.
-TEST(Ladder, WhereAPointHoldsTheMinimumIsSoughtAmongLargeOnes) {
+TEST(Attempts, WhereAPointHoldsTheMinimumIsSoughtAmongLargeOnes) {
   const Case of(kFloor);
   const Scripted run(of, {infeasible(), inside(of, {3}), minimum(of, {1.5})});
-  EXPECT_EQ(run.tried, (Rungs{Rung::minimum, Rung::inside, Rung::large_minimum}));
-  EXPECT_LT(run.at(Rung::large_minimum).question.effort.certificate_tolerance, 1e-15);
+  EXPECT_EQ(run.tried,
+            (AttemptKinds{AttemptKind::minimum, AttemptKind::inside, AttemptKind::large_minimum}));
+  EXPECT_LT(run.at(AttemptKind::large_minimum).question.effort.certificate_tolerance, 1e-15);
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_EQ(run.unknown("x"), 1.5);
   EXPECT_FALSE(run.says("not its minimum")) << run.message();
 }
 
-TEST(Ladder, APointInsideIsTheAnswerWithoutAnObjective) {
+TEST(Attempts, APointInsideIsTheAnswerWithoutAnObjective) {
   const Case of(window("1", "2"));
   const Scripted run(of, {inside(of, {1.5})});
-  EXPECT_EQ(run.tried, Rungs{Rung::inside});
-  EXPECT_EQ(run.at(Rung::inside).question.goal, Goal::interior);
+  EXPECT_EQ(run.tried, AttemptKinds{AttemptKind::inside});
+  EXPECT_EQ(run.at(AttemptKind::inside).question.goal, Goal::interior);
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_EQ(run.unknown("x"), 1.5);
   EXPECT_EQ(run.message(), "");
@@ -144,11 +150,11 @@ TEST(Ladder, APointInsideIsTheAnswerWithoutAnObjective) {
 }
 
 /// Without constants every solution may be scaled.
-TEST(Ladder, AnObjectiveWithoutConstantsHasNoMinimum) {
+TEST(Attempts, AnObjectiveWithoutConstantsHasNoMinimum) {
   const Case of(
       "  unknowns: {x: scalar, y: scalar}\n  require: {a: x > 0, b: y > x}\n  minimize: x + y\n");
   const Scripted run(of, {inside(of, {1, 2})});
-  EXPECT_EQ(run.tried, Rungs{Rung::inside});
+  EXPECT_EQ(run.tried, AttemptKinds{AttemptKind::inside});
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_FALSE(run.gains.objective);
   EXPECT_FALSE(run.gains.objective_lower_bound);
@@ -156,13 +162,13 @@ TEST(Ladder, AnObjectiveWithoutConstantsHasNoMinimum) {
 }
 
 /// x > 2 and x < 1: their sum is 0 x - 1 > 0.
-TEST(Ladder, MultipliersThatExcludeEverythingAreANo) {
+TEST(Attempts, MultipliersThatExcludeEverythingAreANo) {
   for (const std::string minimize : {"", "  minimize: x\n"}) {
     const Case of(window("2", "1") + minimize);
     std::vector<Answer> script = {refuting(of, {3, 3})};
     if (!minimize.empty()) script.insert(script.begin(), infeasible());
     const Scripted run(of, script);
-    EXPECT_EQ(run.tried.back(), Rung::inside);
+    EXPECT_EQ(run.tried.back(), AttemptKind::inside);
     EXPECT_EQ(run.gains.verdict, Verdict::no) << run.message();
     EXPECT_EQ(run.gains.solver.status, "infeasible");
     EXPECT_EQ(run.message(), "");
@@ -171,7 +177,7 @@ TEST(Ladder, MultipliersThatExcludeEverythingAreANo) {
     ASSERT_TRUE(run.gains.certificate);
     EXPECT_TRUE(run.gains.certificate->exact);
     EXPECT_TRUE(run.gains.certificate->is_about_problem());
-    EXPECT_LT(run.gains.certificate->omega, 1e-28);
+    EXPECT_LT(run.gains.certificate->backward_error, 1e-28);
     EXPECT_EQ(run.gains.certificate->digits, 100);
     EXPECT_EQ(names(run.gains.certificate->multipliers), (std::vector<std::string>{"low", "high"}));
     for (const auto& [name, Y] : run.gains.certificate->multipliers)
@@ -180,20 +186,21 @@ TEST(Ladder, MultipliersThatExcludeEverythingAreANo) {
 }
 
 /// Multipliers that do not add up and are near none that do.
-TEST(Ladder, WhatIsNoCertificateIsNoNo) {
+TEST(Attempts, WhatIsNoCertificateIsNoNo) {
   // Roots have no fractions: nothing but the multipliers can decide.
   const Case of(window("sqrt(4)", "sqrt(1)"));
   const Case feasible(window("sqrt(1)", "sqrt(4)"));
   // No step leads from the multiplier 0 to another.
   const Scripted stuck(refuting(of, {0, 3}), of);
-  EXPECT_EQ(stuck.tried, (Rungs{Rung::inside, Rung::in_31_digits, Rung::in_100_digits}));
+  EXPECT_EQ(stuck.tried, (AttemptKinds{AttemptKind::inside, AttemptKind::in_31_digits,
+                                       AttemptKind::in_100_digits}));
   EXPECT_EQ(stuck.gains.verdict, Verdict::undecided);
   EXPECT_FALSE(stuck.gains.certificate);
   EXPECT_TRUE(stuck.says("the largest margin found is 0")) << stuck.message();
   // From others Newton's method finds the certificate.
   for (const double y : {0.9, 1.1}) {
     const Scripted near(refuting(of, {1, y}), of);
-    EXPECT_EQ(near.tried, (Rungs{Rung::inside})) << y;
+    EXPECT_EQ(near.tried, (AttemptKinds{AttemptKind::inside})) << y;
     EXPECT_EQ(near.gains.verdict, Verdict::no) << y;
   }
   for (const double y : {1e-6, 0.99, 1., 2., 1e6}) {
@@ -204,7 +211,7 @@ TEST(Ladder, WhatIsNoCertificateIsNoNo) {
 }
 
 /// What stands in the blocks themselves needs no solver, and nothing is solved where only one x is.
-TEST(Ladder, PlainStepsOnFacesDecideWhateverTheSolverSays) {
+TEST(Attempts, PlainStepsOnFacesDecideWhateverTheSolverSays) {
   const Case none(window("2", "1"));
   const Scripted no(refuting(none, {0, 3}), none);
   EXPECT_EQ(no.gains.verdict, Verdict::no);
@@ -220,11 +227,11 @@ TEST(Ladder, PlainStepsOnFacesDecideWhateverTheSolverSays) {
   EXPECT_EQ(yes.unknown("y"), 0.1);
 }
 
-TEST(Ladder, MoreDigitsAreAskedForWithoutBoundsWhereNothingIsDecided) {
+TEST(Attempts, MoreDigitsAreAskedForWithoutBoundsWhereNothingIsDecided) {
   const Case of(window("sqrt(1)", "sqrt(4)", true));
   const Scripted run(of, {undecided(), undecided(), undecided(), undecided(), inside(of, {1.5})});
-  EXPECT_EQ(run.tried,
-            (Rungs{Rung::inside, Rung::free_inside, Rung::in_31_digits, Rung::in_100_digits}));
+  EXPECT_EQ(run.tried, (AttemptKinds{AttemptKind::inside, AttemptKind::free_inside,
+                                     AttemptKind::in_31_digits, AttemptKind::in_100_digits}));
   EXPECT_EQ(run.asked[0].blocks.size(), 4U);
   EXPECT_EQ(run.asked[1].blocks.size(), 2U) << "the least violation";
   EXPECT_EQ(run.efforts[1].precision, "double");
@@ -236,24 +243,25 @@ TEST(Ladder, MoreDigitsAreAskedForWithoutBoundsWhereNothingIsDecided) {
 }
 
 /// Corners of a box that no value of the variable reaches: nothing is gained by more digits.
-TEST(Ladder, BlocksThatStandForNoPointAreNotSolvedInMoreDigits) {
+TEST(Attempts, BlocksThatStandForNoPointAreNotSolvedInMoreDigits) {
   const Case of(
       "  unknowns: {x: scalar}\n  require:\n    a: {forall: \"t in [0, 1]\", that: \"x*(3 - "
       "exp(t)) "
       "> t + exp(-t)\"}\n    b: x < 0\nsynthesis: {forall: hull}\n");
   ASSERT_FALSE(of.lmi.stands_for_points());
   const Scripted run(of, {undecided()});
-  EXPECT_EQ(run.tried, Rungs{Rung::inside});
+  EXPECT_EQ(run.tried, AttemptKinds{AttemptKind::inside});
   EXPECT_EQ(run.gains.verdict, Verdict::undecided);
 }
 
 /// Gains beyond their bound are no answer, but they are told of.
-TEST(Ladder, BoundsOnGainsMustNotDecide) {
+TEST(Attempts, BoundsOnGainsMustNotDecide) {
   const Case of(
       "  unknowns: {x: scalar}\n  require: {floor: x > 15}\n  minimize: x\n  gains: {K: x}\n"
       "synthesis: {gain_bound: 10}\n");
   const Scripted beyond(of, {infeasible(), undecided(), minimum(of, {16})});
-  EXPECT_EQ(beyond.tried, (Rungs{Rung::minimum, Rung::inside, Rung::free_minimum}));
+  EXPECT_EQ(beyond.tried,
+            (AttemptKinds{AttemptKind::minimum, AttemptKind::inside, AttemptKind::free_minimum}));
   EXPECT_EQ(beyond.asked[0].blocks.size(), 2U);
   EXPECT_EQ(beyond.asked[2].blocks.size(), 1U);
   EXPECT_EQ(beyond.gains.verdict, Verdict::undecided);
@@ -269,17 +277,17 @@ TEST(Ladder, BoundsOnGainsMustNotDecide) {
 }
 
 /// Only a certificate without the bounds is one of the problem.
-TEST(Ladder, ANoNeedsNoBounds) {
+TEST(Attempts, ANoNeedsNoBounds) {
   const Case of(window("2", "1", true));
   const Scripted run(of, {refuting(of, {1, 1})});
-  EXPECT_EQ(run.tried, Rungs{Rung::free_inside});
-  EXPECT_TRUE(run.at(Rung::free_inside).question.bounds.list.empty());
+  EXPECT_EQ(run.tried, AttemptKinds{AttemptKind::free_inside});
+  EXPECT_TRUE(run.at(AttemptKind::free_inside).question.bounds.list.empty());
   EXPECT_EQ(run.gains.verdict, Verdict::no);
   EXPECT_EQ(names(run.gains.certificate.value().multipliers),
             (std::vector<std::string>{"low", "high"}));
 }
 
-TEST(Ladder, WithoutAnAnswerTheCauseIsKept) {
+TEST(Attempts, WithoutAnAnswerTheCauseIsKept) {
   const Answer late = [](const sdp::Problem& problem) {
     sdp::Solution solution = ended(sdp::Status::undecided, problem);
     solution.cause = sdp::Cause::iteration_limit;
@@ -288,7 +296,7 @@ TEST(Ladder, WithoutAnAnswerTheCauseIsKept) {
   for (const std::string& method : {kFloor, kFreeGain, window("1", "2"), window("1", "2", true)}) {
     const Case of(method);
     const Scripted run(late, of);
-    EXPECT_EQ(run.tried.back(), Rung::in_100_digits);
+    EXPECT_EQ(run.tried.back(), AttemptKind::in_100_digits);
     EXPECT_EQ(run.gains.verdict, Verdict::undecided);
     EXPECT_EQ(run.gains.solver.status, "undecided");
     EXPECT_EQ(run.gains.solver.cause, "iteration-limit");
@@ -296,11 +304,11 @@ TEST(Ladder, WithoutAnAnswerTheCauseIsKept) {
   }
 }
 
-TEST(Ladder, AFreeGainIsMarkedByATighterBound) {
+TEST(Attempts, AFreeGainIsMarkedByATighterBound) {
   const Case of(kFreeGain);
   const Scripted run(of, {minimum(of, {1.5, 5}), minimum(of, {1.5, 0.5})});
-  EXPECT_EQ(run.tried, (Rungs{Rung::minimum, Rung::tighter}));
-  EXPECT_EQ(run.at(Rung::tighter).question.bounds.beta, 1);
+  EXPECT_EQ(run.tried, (AttemptKinds{AttemptKind::minimum, AttemptKind::tighter}));
+  EXPECT_EQ(run.at(AttemptKind::tighter).question.bounds.beta, 1);
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   ASSERT_EQ(run.gains.bounds.size(), 1U);
   EXPECT_EQ(run.gains.bounds[0].what, "y");
@@ -312,34 +320,35 @@ TEST(Ladder, AFreeGainIsMarkedByATighterBound) {
   for (const Answer& second :
        {minimum(of, {1.6, 0.5}), undecided(), infeasible(), minimum(of, {1.5, 4})}) {
     const Scripted asked(of, {minimum(of, {1.5, 5}), second});
-    EXPECT_EQ(asked.tried, (Rungs{Rung::minimum, Rung::tighter}));
+    EXPECT_EQ(asked.tried, (AttemptKinds{AttemptKind::minimum, AttemptKind::tighter}));
     EXPECT_EQ(asked.gains.verdict, Verdict::yes);
     EXPECT_FALSE(asked.gains.bounds[0].active);
   }
 }
 
-TEST(Ladder, NoTighterBoundWhereItTellsNothing) {
+TEST(Attempts, NoTighterBoundWhereItTellsNothing) {
   const Case of(kFreeGain);
   const std::vector<std::pair<double, bool>> gains = {{0.09, false}, {9.95, true}, {-9.95, true}};
   for (const auto& [y, active] : gains) {
     const Scripted run(of, {minimum(of, {1.5, y})});
-    EXPECT_EQ(run.tried, Rungs{Rung::minimum}) << y;
+    EXPECT_EQ(run.tried, AttemptKinds{AttemptKind::minimum}) << y;
     EXPECT_EQ(run.gains.bounds.at(0).active, active);
   }
   const Case plain(window("1", "2", true));  // no objective
-  EXPECT_EQ(Scripted(plain, {inside(plain, {1.5})}).tried, Rungs{Rung::free_inside});
+  EXPECT_EQ(Scripted(plain, {inside(plain, {1.5})}).tried, AttemptKinds{AttemptKind::free_inside});
 }
 
-TEST(Ladder, ABlendedPointHasItsTighterBound) {
+TEST(Attempts, ABlendedPointHasItsTighterBound) {
   const Case of(kFreeGain);
   const Scripted run(of, {minimum(of, {1, 5}), inside(of, {2, 5}), minimum(of, {1, 0.1})});
-  EXPECT_EQ(run.tried, (Rungs{Rung::minimum, Rung::inside, Rung::blended, Rung::tighter}));
+  EXPECT_EQ(run.tried, (AttemptKinds{AttemptKind::minimum, AttemptKind::inside,
+                                     AttemptKind::blended, AttemptKind::tighter}));
   EXPECT_EQ(run.gains.verdict, Verdict::yes);
   EXPECT_NEAR(run.gains.objective.value(), 1, 1e-11);
 }
 
 /// A yes does not depend on the margin asked for; what is missing is said.
-TEST(Ladder, LessThanTheMarginAskedForIsAYesThatSaysSo) {
+TEST(Attempts, LessThanTheMarginAskedForIsAYesThatSaysSo) {
   const Case of(
       "  unknowns: {x: scalar}\n  require: {a: \"[x, 1; 1, 1] > 0\"}\n  minimize: x\nsynthesis: "
       "{margin: 0.1}\n");
@@ -350,7 +359,7 @@ TEST(Ladder, LessThanTheMarginAskedForIsAYesThatSaysSo) {
   EXPECT_EQ(Scripted(of, {minimum(of, {1.3})}).message(), "");
 }
 
-TEST(Ladder, WhatIsOpenBetweenThePointsIsNoYes) {
+TEST(Attempts, WhatIsOpenBetweenThePointsIsNoYes) {
   const Case of(
       "  unknowns: {x: scalar}\n  require:\n    wave: {forall: \"t in [0, 1]\", that: \"sqrt(1)*x "
       "+ "
@@ -365,7 +374,7 @@ TEST(Ladder, WhatIsOpenBetweenThePointsIsNoYes) {
 
 /// A solver that calls everything optimal: yes is said exactly where the matrices satisfy the
 /// inequalities, looked at here.
-TEST(Ladder, TheSolversWordAloneIsNoYes) {
+TEST(Attempts, TheSolversWordAloneIsNoYes) {
   const Case of(
       "  unknowns: {P: symmetric 2, g: scalar}\n  require:\n    floor: P > sqrt(1)*I\n    cap: P < "
       "sqrt(9)*I\n"
@@ -395,7 +404,7 @@ TEST(Ladder, TheSolversWordAloneIsNoYes) {
   EXPECT_LT(kept, 290);
 }
 
-TEST(Ladder, WhatIsNoNumberIsNoYes) {
+TEST(Attempts, WhatIsNoNumberIsNoYes) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const std::string& method : {kFloor, window("1", "2")})
     for (const double x : {nan, std::numeric_limits<double>::infinity()}) {
