@@ -2,11 +2,11 @@
 //
 //   attempt           asks                                     is made after
 //   minimum           the objective, within the gain bounds    -  (where it can have a minimum)
-//   free inside       the largest margin, gains of any size    -  (where it cannot), or nothing that
-//                                                              holds: bounds depend on units
+//   free inside       the largest margin, gains of any size    -  (where it cannot), or nothing
+//                                                              that holds: bounds depend on units
 //   inside            the largest margin, within the bounds    nothing that holds within them
-//   large minimum     the minimum, unknowns of any size        a point inside, where only unknowns of
-//                                                              ordinary size were excluded
+//   large minimum     the minimum, unknowns of any size        a point inside, where only unknowns
+//                                                              of ordinary size were excluded
 //   blended           a point between minimum and inside       both, the minimum found but not
 //                                                              holding
 //   free minimum      the objective, gains of any size         nothing that holds within the bounds
@@ -65,13 +65,12 @@ class Climb {
   void to_end();
 
   bool has_begun() const { return !tried_.empty(); }
-  /// The kind that was tried last, in words: the one that a stop ended.
+  /// The attempt that was made last, in words: the one that a stop ended.
   const std::string& doing() const { return doing_; }
   /// nullptr: not tried.
   const Attempt* find(AttemptKind kind) const;
-  /// The attempt whose point counts: the first that is a yes, otherwise the first that
-  /// holds, or has one;
-  /// nullptr without one.
+  /// The attempt whose point counts: the first that is a yes, otherwise the first that holds, or
+  /// has one; nullptr without one.
   const Attempt* point() const;
   /// The attempt that refutes the inequalities; nullptr without one.
   const Attempt* refutation() const;

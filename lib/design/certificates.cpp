@@ -64,8 +64,8 @@ class Certificates {
                                    multipliers(solution), verdict::Steps::in_double);
   }
 
-  /// Of small programs refining them is cheaper than a solution in more digits: from double it has a
-  /// small allowance.
+  /// Of small programs refining them is cheaper than a solution in more digits: from double it has
+  /// a small allowance.
   verdict::Refutation refined(const sdp::Solution& solution) const {
     constexpr double kWorth = 0.1;
     const Allowance allowance(in_double() ? kWorth : std::numeric_limits<double>::infinity());

@@ -1,6 +1,6 @@
-// What facial reduction (verdict/faces.h) makes of inequalities that none satisfies with room to spare:
-// a point on their common face whose decimals hold, a chain of exact multipliers that excludes
-// every solution, or nothing.
+// What facial reduction (verdict/faces.h) makes of inequalities that none satisfies with room to
+// spare: a point on their common face whose decimals hold, a chain of exact multipliers that
+// excludes every solution, or nothing.
 //
 //   plain steps; nothing left to choose: the point, or a no
 //   the largest margin on the face, in 31 digits: its point, rounded to decimals on the face;

@@ -1,5 +1,5 @@
-// The inequalities of a design at one value of its scalars, as the smooth program of joint_refinement.h has
-// them.
+// The inequalities of a design at one value of its scalars, as the smooth program of
+// joint_refinement.h has them.
 #pragma once
 
 #include <string>

@@ -8,8 +8,8 @@
 
 namespace gainsmith::design {
 
-/// Poses the inequalities of the instance, makes the attempts that are due (attempts.h) and reads the
-/// gains back.
+/// Poses the inequalities of the instance, makes the attempts that are due (attempts.h) and reads
+/// the gains back.
 ///
 /// verdict yes: every inequality holds at the matrices as written, for all values of its variables.
 /// verdict no: a certificate that was checked on the decimals of the file excludes every solution

@@ -64,8 +64,8 @@ bool has_minimum(const Lmi& lmi, const GainBounds& bounds);
 
 /// Without the program, which not every solver wants (matrix_program.h).
 Formulation pose_objective(const Lmi& lmi, const GainBounds& bounds, double shift);
-/// `rows`, unless empty: the rows of each block of the Lmi that stay, of those that free_variables leave.
-/// With fewer rows less is asked, so what refutes it refutes the whole.
+/// `rows`, unless empty: the rows of each block of the Lmi that stay, of those that free_variables
+/// leave. With fewer rows less is asked, so what refutes it refutes the whole.
 Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
                           const std::vector<std::vector<int>>& rows = {});
 

@@ -27,9 +27,9 @@ struct FreeVariables {
   bool contains(int unknown) const;
 };
 
-/// The scalars that are free; what would, with those before it, leave a block
-/// without rows is not. Scalars that stand in one of the `others` (bounds on gains) stay, and those
-/// that have a price when the `objective` counts.
+/// The scalars that are free; what would, with those before it, leave a block without rows is not.
+/// Scalars that stand in one of the `others` (bounds on gains) are not, nor those that have a price
+/// when the `objective` counts.
 FreeVariables find_free_variables(const Lmi& lmi, const std::vector<Block>& others, bool objective);
 
 /// Gives the free scalars of x a size, one after the other: in each block that holds one, the

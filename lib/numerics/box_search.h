@@ -6,8 +6,8 @@
 //   1. the corners (of at most 12 coordinates that vary), the middle, the middles of the faces and
 //      1024 evenly spread points for each coordinate, at most 16384 in all;
 //   2. from the best of these that lie apart, on a line from the tops of up to 64 of them, the
-//      simplex of Nelder and Mead within the box and steps along rotated axes, first coarsely; then from the best three over lines of 65 points
-//      along the axes, and to rounding.
+//      simplex of Nelder and Mead within the box and steps along rotated axes, first coarsely; then
+//      from the best three over lines of 65 points along the axes, and to rounding.
 // A peak that is narrower than the points of 1. lie apart may be missed. The same function and box
 // give the same bits.
 #pragma once

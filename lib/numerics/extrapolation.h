@@ -1,5 +1,5 @@
-// y' = f(q, y) from q = 0 to 1 by extrapolation of the midpoint rule (Gragg
-// 1965; Bulirsch and Stoer 1966), over any real scalar.
+// y' = f(q, y) from q = 0 to 1 by extrapolation of the midpoint rule (Gragg 1965; Bulirsch
+// and Stoer 1966), over any real scalar.
 //
 //   z_1 = y + h f(y),   z_{i+1} = z_{i-1} + 2 h f(z_i),   h = H/n,   n = 2 k
 //   D_k = (z_{n-1} + z_n + h f(z_n))/2 - y

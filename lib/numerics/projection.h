@@ -2,9 +2,10 @@
 //
 //   minimise (z - x)' P (z - x)   over z in the set,      P n x n, symmetric part > 0; x, z n x 1
 //
-//   polytope    { z : A z <= b }                   P (z - x) + A' y = 0, y >= 0, y_i (b - A z)_i =
-//   0 ellipsoid   { z : (z - x0)' Q (z - x0) <= r }  P (z - x) + y Q (z - x0) = 0, y >= 0 affine
-//   set  { z : A z = b }                    P (z - x) + A' y = 0
+//   polytope    { z : A z <= b }                    P (z - x) + A' y = 0, y >= 0,
+//                                                   y_i (b - A z)_i = 0
+//   ellipsoid   { z : (z - x0)' Q (z - x0) <= r }   P (z - x) + y Q (z - x0) = 0, y >= 0
+//   affine set  { z : A z = b }                     P (z - x) + A' y = 0
 //
 // On the right what makes z the nearest point (Karush, Kuhn and Tucker), with the multipliers y.
 // The nearest point is unique, and z is no farther from any point of the set than x is, in the

@@ -1,4 +1,4 @@
-// Internal to numbers: the projections, instantiated by one source an arithmetic.
+// Internal to numerics: the projections, instantiated by one source an arithmetic.
 #pragma once
 
 #include <optional>

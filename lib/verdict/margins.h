@@ -38,8 +38,7 @@ struct Look {
 /// How far every inequality holds at x, as its unit-free margin (correlation.h), taken over
 ///  - the vertices and points that were imposed, from the affine blocks, and
 ///  - the local minima over the whole domain of `forall`, from the text itself evaluated over
-///  double
-///    (forall/worst.h, in the rows' units of `balance`),
+///    double (forall/worst.h, in the rows' units of `balance`),
 /// so that a mistake in compiling the blocks shows up as a margin that does not hold. Where none of
 /// these is certainly negative, the inequality is checked at the printed decimals of x
 /// (printed_check.h): it holds when that shows it.

@@ -34,9 +34,9 @@ struct Refutation {
 enum class Exactness { in_double, in_wide };
 
 /// What Y says over S, or those of its Y_k that are not small: those of blocks that a certificate
-/// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (an error of 1) when a block
-/// stands for no point of its domain, when the Y_k are not positive semidefinite, or when only
-/// blocks with >= have multipliers and v is 0.
+/// does not need are only nearly 0, and any Y >= 0 may be tried. Nothing (an error of 1) when a
+/// block stands for no point of its domain, when the Y_k are not positive semidefinite, or when
+/// only blocks with >= have multipliers and v is 0.
 template <class S>
 Refutation refute(const lmi::Inequalities& of, const lmi::Lmi& lmi,
                   const lmi::Formulation& formulation, const Multipliers& Y,
@@ -52,10 +52,11 @@ template <class S>
 Refutation refute(const lmi::Lmi& lmi, const std::vector<ExactBlock<S>>& blocks,
                   std::vector<numbers::MatrixOf<S>> Y, Exactness exactness = Exactness::in_wide);
 
-/// The backward error of a certificate of which nothing is missing, in 100 digits. A feasible problem has
-/// certificates that miss by the square of what it is feasible by, 1e-33 where only the last of 16
-/// digits makes it feasible, and along chains and Jordan blocks by higher powers: no such limit is
-/// a proof, and only `exact` is one. It is far below what data of 16 digits were seen to leave.
+/// The backward error of a certificate of which nothing is missing, in 100 digits. A feasible
+/// problem has certificates that miss by the square of what it is feasible by, 1e-33 where only the
+/// last of 16 digits makes it feasible, and along chains and Jordan blocks by higher powers: no
+/// such limit is a proof, and only `exact` is one. It is far below what data of 16 digits were seen
+/// to leave.
 constexpr double kNothing = 1e-70;
 
 }  // namespace gainsmith::verdict

@@ -6,8 +6,8 @@
 
 namespace gainsmith::verdict {
 
-/// The backward error of an interior solution for the blocks as they were solved, gain bounds and corners of
-/// boxes included, in double: what it excludes is only sufficient for the inequalities.
+/// The backward error of an interior solution for the blocks as they were solved, gain bounds and
+/// corners of boxes included, in double: what it excludes is only sufficient for the inequalities.
 double relaxed_backward_error(const lmi::Lmi& lmi, const lmi::GainBounds& bounds,
                               const lmi::Formulation& formulation, const sdp::Solution& solution);
 
