@@ -4,6 +4,13 @@
 #include <utility>
 
 #include "bind/binding.h"
+#include "bind/campaign.h"
+#include "bind/claims.h"
+#include "bind/data.h"
+#include "bind/gains.h"
+#include "bind/inequalities.h"
+#include "bind/search.h"
+#include "bind/simulation.h"
 #include "expr/work.h"
 #include "model/gains.h"
 
@@ -23,78 +30,51 @@ int Recorder::rank(const expr::Program& matrix, const expr::Program* tolerance) 
   return found;
 }
 
-bool is_proper_column(expr::Shape shape) { return shape.cols == 1 && shape.rows > 1; }
-
-expr::Expression oriented(const model::Value& value, bool column) {
-  if (!value.flat || !column) return value.value;
-  auto turned = std::make_shared<expr::Node>();
-  turned->kind = expr::NodeKind::transpose;
-  turned->begin = value.value.root->begin;
-  turned->end = value.value.root->end;
-  turned->children = {value.value.root};
-  return {value.value.text, turned};
+Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overriding,
+                 Checks checking)
+    : source(std::move(problem)),
+      overrides(overriding),
+      checks(checking),
+      design(std::make_shared<model::Design>()),
+      names(std::make_shared<Names>()),
+      recorder(std::make_shared<Recorder>()) {
+  design->name = source->name;
+  design->file = source->file;
+  design->method = method().name;
+  design->method_file = method().file;
+  design->method_place = source->method_place;
+  design->synthesis = source->synthesis;
+  design->source = source;
+  design->statement = {method().name, method().text,
+                       std::filesystem::path(source->file).filename().string(), source->text, ""};
+  design->statement.hash = statement_hash(design->statement);
+  names->known.known = recorder;
 }
 
-Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overrides,
-                 Checks checks)
-    : source_(std::move(problem)),
-      overrides_(overrides),
-      checks_(checks),
-      design_(std::make_shared<model::Design>()),
-      names_(std::make_shared<Names>()),
-      recorder_(std::make_shared<Recorder>()) {
-  design_->name = source_->name;
-  design_->file = source_->file;
-  design_->method = method().name;
-  design_->method_file = method().file;
-  design_->method_place = source_->method_place;
-  design_->synthesis = source_->synthesis;
-  design_->source = source_;
-  design_->statement = {method().name, method().text,
-                        std::filesystem::path(source_->file).filename().string(), source_->text,
-                        ""};
-  design_->statement.hash = statement_hash(design_->statement);
-  names_->known.known = recorder_;
-}
+namespace {
 
-model::Instance Binding::run() {
+model::Instance bound(Binding binding) {
   expr::count_design();
-  bind_data();
-  bind_inequalities();
-  bind_gains();
-  bind_components();
-  bind_search();
-  bind_claims();
-  bind_campaign();
-  bind_expectation();
-  bind_comparison();
-  finish_dynamics();
-  design_->ranks = recorder_->ranks;
-  design_->names = names_;
-  return {design_, overrides_, recorder_->values};
+  bind_data(binding);
+  bind_inequalities(binding);
+  bind_gains(binding);
+  bind_components(binding);
+  bind_search(binding);
+  bind_claims(binding);
+  bind_campaign(binding);
+  bind_expectation(binding);
+  bind_comparison(binding);
+  finish_dynamics(binding);
+  binding.design->ranks = binding.recorder->ranks;
+  binding.design->names = binding.names;
+  return {binding.design, binding.overrides, binding.recorder->values};
 }
 
-model::Formula Binding::scalar(const expr::Expression& expression, const expr::Scope& scope) const {
-  return formula(expression, scope, expr::Shape{});
-}
-
-model::Formula Binding::formula(const expr::Expression& expression, const expr::Scope& scope,
-                                std::optional<expr::Shape> expected) const {
-  return {expr::compile(expression, scope, expected), expression.place(*expression.root),
-          expression.text->str()};
-}
-
-model::Formula Binding::value(const model::Value& value, const expr::Scope& scope,
-                              std::optional<expr::Shape> expected) const {
-  model::Formula result =
-      formula(oriented(value, expected && is_proper_column(*expected)), scope, expected);
-  result.place = value.place;
-  return result;
-}
+}  // namespace
 
 model::Instance bind(std::shared_ptr<const model::Problem> problem,
                      const model::Overrides& overrides) {
-  return Binding(std::move(problem), overrides, Checks::all).run();
+  return bound({std::move(problem), overrides, Checks::all});
 }
 
 model::Instance bind(const model::Problem& problem, const model::Overrides& overrides) {
@@ -102,7 +82,7 @@ model::Instance bind(const model::Problem& problem, const model::Overrides& over
 }
 
 model::Instance bind_again(const model::Design& design, const model::Overrides& overrides) {
-  return Binding(design.source, overrides, Checks::none).run();
+  return bound({design.source, overrides, Checks::none});
 }
 
 }  // namespace gainsmith::bind

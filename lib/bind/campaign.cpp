@@ -1,34 +1,38 @@
-// How to simulate.
+#include "bind/campaign.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "base/nearest.h"
 #include "base/number.h"
-#include "bind/binding.h"
+#include "bind/formulas.h"
+#include "bind/simulation.h"
 
 namespace gainsmith::bind {
 
+namespace {
+
 /// The value of a formula that is to be checked and uses data and parameters alone; none when it
 /// uses gains.
-std::optional<numbers::Matrix> Binding::known_value(const model::Formula& formula) const {
-  const bool known =
-      formula.program.functions.empty() && model::has_values(formula.program, recorder_->values);
-  if (!known || checks_ == Checks::none) return std::nullopt;
-  return numbers::evaluate(formula.program, recorder_->values);
+std::optional<numbers::Matrix> known_value(const Binding& binding, const model::Formula& formula) {
+  const bool known = formula.program.functions.empty() &&
+                     model::has_values(formula.program, binding.recorder->values);
+  if (!known || binding.checks == Checks::none) return std::nullopt;
+  return numbers::evaluate(formula.program, binding.recorder->values);
 }
 
-std::optional<double> Binding::known_scalar(const model::Formula& formula) const {
-  const auto value = known_value(formula);
+std::optional<double> known_scalar(const Binding& binding, const model::Formula& formula) {
+  const auto value = known_value(binding, formula);
   return value ? std::optional((*value)(0, 0)) : std::nullopt;
 }
 
 /// InputError when the value is known and outside [low, high] by more than the rounding that the
 /// simulation forgives, 1e-12 of high.
-void Binding::check_within(const model::Formula& formula, const model::Formula& low,
-                           const model::Formula& high, const std::string& what) const {
-  const auto value = known_scalar(formula);
-  const auto least = known_scalar(low);
-  const auto most = known_scalar(high);
+void check_within(const Binding& binding, const model::Formula& formula, const model::Formula& low,
+                  const model::Formula& high, const std::string& what) {
+  const auto value = known_scalar(binding, formula);
+  const auto least = known_scalar(binding, low);
+  const auto most = known_scalar(binding, high);
   if (!value || !least || !most) return;
   const double slack = 1e-12 * std::abs(*most);
   if (*value >= *least - slack && *value <= *most + slack) return;
@@ -36,29 +40,45 @@ void Binding::check_within(const model::Formula& formula, const model::Formula& 
                                       ", " + brief(*most) + "]");
 }
 
-void Binding::check_box(const model::Design::Start& start,
-                        const model::InitialValue& initial) const {
-  const auto low = known_value(start.values[0]);
-  const auto high = known_value(start.values[1]);
+void check_box(const Binding& binding, const model::Design::Start& start,
+               const model::InitialValue& initial) {
+  const auto low = known_value(binding, start.values[0]);
+  const auto high = known_value(binding, start.values[1]);
   if (!low || !high || numbers::shape_of(*low) != numbers::shape_of(*high)) return;
   if ((low->array() > high->array()).any())
     throw InputError(initial.values[1].place,
                      "the box of " + initial.state + " has its low end above its high end");
 }
 
-InputError Binding::no_state(const std::string& name, const Place& place) const {
+InputError no_state(const Binding& binding, const std::string& name, const Place& place) {
   std::vector<std::string> names;
-  for (const model::Design::State& state : design_->states) names.push_back(state.name);
+  for (const model::Design::State& state : binding.design->states) names.push_back(state.name);
   return {place, "there is no state '" + name + "'" + suggestion(name, names)};
 }
 
-model::Design::Start Binding::start(const model::InitialValue& initial) const {
-  const expr::Scope& scope = names_->running;
-  model::Design::Start bound{state_of(initial.state), initial.kind, {}, initial.place};
-  if (bound.state == design_->states.size()) throw no_state(initial.state, initial.place);
-  const expr::Shape state = design_->states[bound.state].shape;
+/// Center, matrix and level.
+std::vector<model::Formula> ellipsoid(const Binding& binding, const model::InitialValue& initial,
+                                      expr::Shape state) {
+  const expr::Scope& scope = binding.names->running;
+  if (initial.values.size() != 3)
+    throw InputError(initial.place, "the initial value of " + initial.state + " is incomplete");
+  if (state.cols != 1)
+    throw InputError(initial.place, "an ellipsoid is of a column or a number; the state " +
+                                        initial.state + " is " + to_string(state));
+  return {value(initial.values[0], scope, state),
+          value(initial.values[1], scope, expr::Shape{state.rows, state.rows}),
+          value(initial.values[2], scope, expr::Shape{})};
+}
+
+model::Design::Start start(const Binding& binding, const model::InitialValue& initial) {
+  const expr::Scope& scope = binding.names->running;
+  model::Design::Start bound{
+      state_of(*binding.design, initial.state), initial.kind, {}, initial.place};
+  if (bound.state == binding.design->states.size())
+    throw no_state(binding, initial.state, initial.place);
+  const expr::Shape state = binding.design->states[bound.state].shape;
   if (initial.kind == model::StartKind::ellipsoid) {
-    bound.values = ellipsoid(initial, state);
+    bound.values = ellipsoid(binding, initial, state);
     return bound;
   }
   for (const model::Value& given : initial.values) {
@@ -80,64 +100,14 @@ model::Design::Start Binding::start(const model::InitialValue& initial) const {
                                                               : bound.values.size() == 1;
   if (!enough)
     throw InputError(initial.place, "the initial value of " + initial.state + " is incomplete");
-  if (initial.kind == model::StartKind::box) check_box(bound, initial);
+  if (initial.kind == model::StartKind::box) check_box(binding, bound, initial);
   return bound;
 }
 
-/// Center, matrix and level.
-std::vector<model::Formula> Binding::ellipsoid(const model::InitialValue& initial,
-                                               expr::Shape state) const {
-  const expr::Scope& scope = names_->running;
-  if (initial.values.size() != 3)
-    throw InputError(initial.place, "the initial value of " + initial.state + " is incomplete");
-  if (state.cols != 1)
-    throw InputError(initial.place, "an ellipsoid is of a column or a number; the state " +
-                                        initial.state + " is " + to_string(state));
-  return {value(initial.values[0], scope, state),
-          value(initial.values[1], scope, expr::Shape{state.rows, state.rows}),
-          value(initial.values[2], scope, expr::Shape{})};
-}
-
-void Binding::bind_campaign() {
-  const model::Campaign& campaign = problem().campaign;
-  const expr::Scope& scope = names_->running;
-  model::Design::Campaign& bound = design_->campaign;
-  bound.runs = campaign.runs;
-  bound.seed = campaign.seed;
-  bound.place = campaign.place;
-  design_->no_campaign =
-      problem().no_campaign.empty() ? method().no_campaign : problem().no_campaign;
-  if (campaign.horizon) {
-    bound.horizon = scalar(*campaign.horizon, scope);
-    const auto horizon = known_scalar(*bound.horizon);
-    if (horizon && !(*horizon > 0))
-      throw InputError(bound.horizon->place,
-                       "the horizon must be positive, not " + brief(*horizon));
-  }
-  if (campaign.first) {
-    bound.first = scalar(*campaign.first, scope);
-    if (const model::Dynamics::Event* timer = timer_event(); timer != nullptr)
-      check_within(*bound.first, *timer->first_low, *timer->first_high, "the first timer value");
-  }
-  for (const model::SamplingLaw& law : campaign.sampling) {
-    model::Design::Law& into = bound.laws.emplace_back();
-    into.kind = law.kind;
-    into.place = law.place;
-    if (!law.event.empty()) into.event = clock_of(law);
-    for (const expr::Expression& each : law.values) {
-      into.values.push_back(scalar(each, scope));
-      if (const model::Dynamics::Event* timer = timer_event(); timer != nullptr && !into.event)
-        check_within(into.values.back(), *timer->low, *timer->high, "the sampling interval");
-    }
-  }
-  if (campaign.accuracy) bind_accuracy(*campaign.accuracy);
-  bind_starts();
-}
-
 /// The event of a timer that is the only clock; nullptr: there is none.
-const model::Dynamics::Event* Binding::timer_event() const {
-  if (!design_->dynamics || timer_name(method()).empty()) return nullptr;
-  const auto& events = design_->dynamics->events;
+const model::Dynamics::Event* timer_event(const Binding& binding) {
+  if (!binding.design->dynamics || timer_name(binding.method()).empty()) return nullptr;
+  const auto& events = binding.design->dynamics->events;
   const model::Dynamics::Event* timer = nullptr;
   for (const model::Dynamics::Event& event : events) {
     if (event.low && timer != nullptr) return nullptr;
@@ -146,25 +116,26 @@ const model::Dynamics::Event* Binding::timer_event() const {
   return timer;
 }
 
-void Binding::bind_accuracy(const model::RunAccuracy& accuracy) {
+void bind_accuracy(Binding& binding, const model::RunAccuracy& accuracy) {
   model::Design::RunAccuracy bound{accuracy.relative, accuracy.absolute, {}};
   for (const model::RunAccuracy::OfState& one : accuracy.states) {
-    std::vector<std::string> names = dynamics_names_->states(one.state);
+    std::vector<std::string> names = binding.dynamics_names->states(one.state);
     if (names.empty()) names.push_back(one.state);
     for (const std::string& name : names) {
-      const std::size_t state = state_of(name);
-      if (state == design_->states.size()) throw no_state(name, one.place);
+      const std::size_t state = state_of(*binding.design, name);
+      if (state == binding.design->states.size()) throw no_state(binding, name, one.place);
       bound.states.emplace_back(state, one.absolute);
     }
   }
-  design_->campaign.accuracy = std::move(bound);
+  binding.design->campaign.accuracy = std::move(bound);
 }
 
 /// The event whose clock a law is for.
-std::size_t Binding::clock_of(const model::SamplingLaw& law) const {
-  const auto name = dynamics_names_->event(nullptr, law.event);
-  const std::vector<model::Dynamics::Event> events =
-      design_->dynamics ? design_->dynamics->events : std::vector<model::Dynamics::Event>{};
+std::size_t clock_of(const Binding& binding, const model::SamplingLaw& law) {
+  const auto name = binding.dynamics_names->event(nullptr, law.event);
+  const std::vector<model::Dynamics::Event> events = binding.design->dynamics
+                                                         ? binding.design->dynamics->events
+                                                         : std::vector<model::Dynamics::Event>{};
   for (std::size_t k = 0; name && k < events.size(); ++k)
     if (events[k].name == *name && events[k].low) return k;
   std::vector<std::string> clocks;
@@ -175,46 +146,89 @@ std::size_t Binding::clock_of(const model::SamplingLaw& law) const {
 }
 
 /// Whether runs are wanted: of a design that has inequalities the gains may be all that is.
-bool Binding::is_run() const {
-  const bool wanted = !method().claims.empty() || !problem().compare.empty() ||
-                      (problem().expect && !problem().expect->run.empty());
-  const bool gains_alone = problem().campaign.place.line == 0 && !method().require.empty();
-  return wanted && !gains_alone && design_->no_campaign.empty();
+bool is_run(const Binding& binding) {
+  const bool wanted = !binding.method().claims.empty() || !binding.problem().compare.empty() ||
+                      (binding.problem().expect && !binding.problem().expect->run.empty());
+  const bool gains_alone =
+      binding.problem().campaign.place.line == 0 && !binding.method().require.empty();
+  return wanted && !gains_alone && binding.design->no_campaign.empty();
 }
 
 /// A name stands for the state of each observer that has it. A state that starts nowhere is an
 /// error; beside a timer it starts in the box [-1, 1], unless it is symmetric or a mode.
-void Binding::bind_starts() {
-  auto& starts = design_->campaign.starts;
-  for (const model::InitialValue& initial : problem().campaign.initial) {
-    const auto names = dynamics_names_->states(initial.state);
-    if (names.empty()) starts.push_back(start(initial));
+void bind_starts(Binding& binding) {
+  auto& starts = binding.design->campaign.starts;
+  for (const model::InitialValue& initial : binding.problem().campaign.initial) {
+    const auto names = binding.dynamics_names->states(initial.state);
+    if (names.empty()) starts.push_back(start(binding, initial));
     for (const std::string& name : names) {
       model::InitialValue one = initial;
       one.state = name;
-      starts.push_back(start(one));
+      starts.push_back(start(binding, one));
     }
   }
-  if (!design_->dynamics) return;
-  if (is_run() && !ends(*design_))
-    throw InputError(
-        problem().campaign.place.line > 0 ? problem().campaign.place : Place{problem().file},
-        "the campaign needs 'horizon: ...': how long a run is");
-  for (std::size_t k = 0; k < design_->states.size(); ++k) {
+  if (!binding.design->dynamics) return;
+  if (is_run(binding) && !ends(*binding.design))
+    throw InputError(binding.problem().campaign.place.line > 0 ? binding.problem().campaign.place
+                                                               : Place{binding.problem().file},
+                     "the campaign needs 'horizon: ...': how long a run is");
+  for (std::size_t k = 0; k < binding.design->states.size(); ++k) {
     const bool drawn = std::any_of(starts.begin(), starts.end(),
                                    [&](const model::Design::Start& one) { return one.state == k; });
-    const model::Design::State& state = design_->states[k];
-    const bool rests = design_->campaign.place.line == 0 && !is_run();
-    const model::Dynamics::Variable& variable = design_->dynamics->variables[k];
-    const bool in_a_box = design_->dynamics->has_timer &&
+    const model::Design::State& state = binding.design->states[k];
+    const bool rests = binding.design->campaign.place.line == 0 && !is_run(binding);
+    const model::Dynamics::Variable& variable = binding.design->dynamics->variables[k];
+    const bool in_a_box = binding.design->dynamics->has_timer &&
                           variable.kind == model::Dynamics::VariableKind::state &&
                           variable.structure != model::Structure::symmetric;
     if (!drawn && !state.start && state.shape.size() > 0 && !rests && !in_a_box)
-      throw InputError(design_->dynamics->variables[k].place,
+      throw InputError(binding.design->dynamics->variables[k].place,
                        "the state '" + state.name +
                            "' has no start: {shape: ..., start: ...}, or under campaign.initial of "
                            "the problem");
   }
+}
+
+}  // namespace
+
+void bind_campaign(Binding& binding) {
+  const model::Campaign& campaign = binding.problem().campaign;
+  const expr::Scope& scope = binding.names->running;
+  model::Design::Campaign& bound = binding.design->campaign;
+  bound.runs = campaign.runs;
+  bound.seed = campaign.seed;
+  bound.place = campaign.place;
+  binding.design->no_campaign = binding.problem().no_campaign.empty()
+                                    ? binding.method().no_campaign
+                                    : binding.problem().no_campaign;
+  if (campaign.horizon) {
+    bound.horizon = scalar(*campaign.horizon, scope);
+    const auto horizon = known_scalar(binding, *bound.horizon);
+    if (horizon && !(*horizon > 0))
+      throw InputError(bound.horizon->place,
+                       "the horizon must be positive, not " + brief(*horizon));
+  }
+  if (campaign.first) {
+    bound.first = scalar(*campaign.first, scope);
+    if (const model::Dynamics::Event* timer = timer_event(binding); timer != nullptr)
+      check_within(binding, *bound.first, *timer->first_low, *timer->first_high,
+                   "the first timer value");
+  }
+  for (const model::SamplingLaw& law : campaign.sampling) {
+    model::Design::Law& into = bound.laws.emplace_back();
+    into.kind = law.kind;
+    into.place = law.place;
+    if (!law.event.empty()) into.event = clock_of(binding, law);
+    for (const expr::Expression& each : law.values) {
+      into.values.push_back(scalar(each, scope));
+      if (const model::Dynamics::Event* timer = timer_event(binding);
+          timer != nullptr && !into.event)
+        check_within(binding, into.values.back(), *timer->low, *timer->high,
+                     "the sampling interval");
+    }
+  }
+  if (campaign.accuracy) bind_accuracy(binding, *campaign.accuracy);
+  bind_starts(binding);
 }
 
 }  // namespace gainsmith::bind

@@ -1,9 +1,14 @@
-// Claims: of each member of a family, and of each observer that has their names.
+#include "bind/claims.h"
+
 #include <algorithm>
 #include <utility>
 
 #include "base/nearest.h"
-#include "bind/binding.h"
+#include "bind/estimates.h"
+#include "bind/families.h"
+#include "bind/formulas.h"
+#include "bind/search.h"
+#include "bind/simulation.h"
 
 namespace gainsmith::bind {
 
@@ -17,40 +22,19 @@ std::vector<expr::Expression*> texts_of(model::Claim& claim) {
   return texts;
 }
 
-}  // namespace
-
-void Binding::bind_claims() {
-  for (const model::Claim& claim : method().claims) {
-    bool bound = false;
-    bool missing = false;
-    for (const Member& member : members(claim.indices, {}, names_->running))
-      for (const auto& [observer, one] : readings(instantiated(claim, member))) {
-        std::optional<std::size_t> over;
-        if (!one.over.empty()) over = find_event(one.over, observer);
-        missing = missing || (!one.over.empty() && !over);
-        if (!one.over.empty() && !over) continue;
-        bound = true;
-        add_claim(one, member.title_of(dynamics_names_->title(claim.name, observer)), over);
-      }
-    if (!bound && missing)
-      throw InputError(claim.over_place,
-                       "there is no event '" + claim.over + "'" +
-                           suggestion(claim.over, dynamics_names_->event_names(nullptr)));
-  }
-}
-
-model::Claim Binding::instantiated(model::Claim claim, const Member& member) const {
+model::Claim instantiated(const Binding& binding, model::Claim claim, const Member& member) {
   for (expr::Expression* text : texts_of(claim))
-    *text = instantiate(*text, member, names_->running);
+    *text = instantiate(*text, member, binding.names->running);
   return claim;
 }
 
 /// A claim of an observer is one of each that has its names.
-std::vector<std::pair<std::string, model::Claim>> Binding::readings(model::Claim claim) const {
+std::vector<std::pair<std::string, model::Claim>> readings(const Binding& binding,
+                                                           model::Claim claim) {
   std::vector<expr::Expression> texts;
   for (const expr::Expression* text : texts_of(claim)) texts.push_back(*text);
   std::vector<std::pair<std::string, model::Claim>> result;
-  for (const Reading& reading : dynamics_names_->outside(texts)) {
+  for (const Reading& reading : binding.dynamics_names->outside(texts)) {
     const auto into = texts_of(claim);
     for (std::size_t k = 0; k < into.size(); ++k) *into[k] = reading.texts[k];
     result.emplace_back(reading.observer, claim);
@@ -59,12 +43,12 @@ std::vector<std::pair<std::string, model::Claim>> Binding::readings(model::Claim
 }
 
 /// A number that no run changes.
-model::Formula Binding::constant_of_claim(const expr::Expression& text,
-                                          const std::string& key) const {
-  model::Formula bound = scalar(text, names_->running);
+model::Formula constant_of_claim(const Binding& binding, const expr::Expression& text,
+                                 const std::string& key) {
+  model::Formula bound = scalar(text, binding.names->running);
   const auto changes = [&](const std::string& name) {
-    if (state_of(name) < design_->states.size()) return true;
-    const auto& dynamics = design_->dynamics;
+    if (state_of(*binding.design, name) < binding.design->states.size()) return true;
+    const auto& dynamics = binding.design->dynamics;
     return dynamics && std::any_of(dynamics->variables.begin(), dynamics->variables.end(),
                                    [&](const auto& one) { return one.name == name; });
   };
@@ -76,9 +60,9 @@ model::Formula Binding::constant_of_claim(const expr::Expression& text,
   return bound;
 }
 
-void Binding::add_claim(const model::Claim& claim, const std::string& title,
-                        std::optional<std::size_t> over) {
-  const expr::Scope& scope = names_->running;
+void add_claim(Binding& binding, const model::Claim& claim, const std::string& title,
+               std::optional<std::size_t> over) {
+  const expr::Scope& scope = binding.names->running;
   const auto optional = [&](const std::optional<expr::Expression>& part) {
     return part ? std::optional(scalar(*part, scope)) : std::nullopt;
   };
@@ -89,15 +73,39 @@ void Binding::add_claim(const model::Claim& claim, const std::string& title,
                              optional(claim.jump_cost),
                              optional(claim.factor),
                              claim.place};
-  if (claim.bound) bound.bound = constant_of_claim(*claim.bound, "bound");
-  if (claim.after) bound.after = constant_of_claim(*claim.after, "after");
+  if (claim.bound) bound.bound = constant_of_claim(binding, *claim.bound, "bound");
+  if (claim.after) bound.after = constant_of_claim(binding, *claim.after, "after");
   bound.over = over;
-  bool estimated = estimate(bound.value.program) != expr::Estimate::none;
+  bool estimated = estimate(*binding.design, bound.value.program) != expr::Estimate::none;
   for (const auto* part :
        {&bound.flow_cost, &bound.jump_cost, &bound.factor, &bound.bound, &bound.after})
-    if (*part && estimate((*part)->program) != expr::Estimate::none) estimated = true;
+    if (*part && estimate(*binding.design, (*part)->program) != expr::Estimate::none)
+      estimated = true;
   if (estimated) bound.name += " (from estimates)";
-  design_->claims.push_back(std::move(bound));
+  binding.design->claims.push_back(std::move(bound));
+}
+
+}  // namespace
+
+void bind_claims(Binding& binding) {
+  for (const model::Claim& claim : binding.method().claims) {
+    bool bound = false;
+    bool missing = false;
+    for (const Member& member : members(claim.indices, {}, binding.names->running))
+      for (const auto& [observer, one] : readings(binding, instantiated(binding, claim, member))) {
+        std::optional<std::size_t> over;
+        if (!one.over.empty()) over = find_event(binding, one.over, observer);
+        missing = missing || (!one.over.empty() && !over);
+        if (!one.over.empty() && !over) continue;
+        bound = true;
+        add_claim(binding, one,
+                  member.title_of(binding.dynamics_names->title(claim.name, observer)), over);
+      }
+    if (!bound && missing)
+      throw InputError(claim.over_place,
+                       "there is no event '" + claim.over + "'" +
+                           suggestion(claim.over, binding.dynamics_names->event_names(nullptr)));
+  }
 }
 
 }  // namespace gainsmith::bind

@@ -1,11 +1,14 @@
-// Requirements and objectives with convex functions of unknowns (convex.h).
+#include "bind/convex_terms.h"
+
 #include <algorithm>
 #include <memory>
 #include <span>
 
-#include "bind/binding.h"
 #include "bind/convex.h"
 #include "bind/dynamics_names.h"
+#include "bind/families.h"
+#include "bind/inequalities.h"
+#include "expr/compile.h"
 #include "expr/functions.h"
 
 namespace gainsmith::bind {
@@ -73,33 +76,32 @@ bool is_positive_number(const Node& node) {
   return node.kind == NodeKind::number && node.text.find_first_of("123456789") != std::string::npos;
 }
 
-}  // namespace
-
 /// Whether the value depends on unknowns.
-bool Binding::reads_unknowns(const expr::Expression& part, const expr::Scope& scope) const {
+bool reads_unknowns(const Binding& binding, const expr::Expression& part,
+                    const expr::Scope& scope) {
   const auto names = names_in(part);
   const bool may = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
     return scope.definitions.contains(name) || scope.functions.contains(name) ||
-           scope.families.contains(name) || !names_->known.symbols.contains(name);
+           scope.families.contains(name) || !binding.names->known.symbols.contains(name);
   });
   if (!may || part.root->kind == NodeKind::number) return false;
   const expr::Program program = expr::compile(part, scope);
   const auto is_unknown = [&](const expr::Input& input) {
-    return !names_->known.symbols.contains(input.name) &&
-           names_->design.symbols.contains(input.name);
+    return !binding.names->known.symbols.contains(input.name) &&
+           binding.names->design.symbols.contains(input.name);
   };
   return !program.functions.empty() ||
          std::any_of(program.inputs.begin(), program.inputs.end(), is_unknown);
 }
 
 /// The function of unknowns at a node, convex or concave, if it is one.
-std::optional<Curvature> Binding::curvature_at(const expr::Expression& text, const Node& node,
-                                               const expr::Scope& scope) const {
+std::optional<Curvature> curvature_at(const Binding& binding, const expr::Expression& text,
+                                      const Node& node, const expr::Scope& scope) {
   const auto curvature = curvature_of(node);
   if (!curvature || node.children.empty()) return std::nullopt;
   const bool reads =
       std::any_of(node.children.begin(), node.children.end(), [&](const NodePtr& child) {
-        return reads_unknowns({text.text, child}, scope);
+        return reads_unknowns(binding, {text.text, child}, scope);
       });
   if (!reads) return std::nullopt;
   const expr::Function& function = *expr::find_function(node.text);
@@ -114,24 +116,25 @@ std::optional<Curvature> Binding::curvature_at(const expr::Expression& text, con
   return curvature;
 }
 
-bool Binding::has_curvature(const expr::Expression& text, const Node& node,
-                            const expr::Scope& scope) const {
-  return curvature_at(text, node, scope) ||
-         std::any_of(node.children.begin(), node.children.end(),
-                     [&](const NodePtr& child) { return has_curvature(text, *child, scope); });
+bool has_curvature(const Binding& binding, const expr::Expression& text, const Node& node,
+                   const expr::Scope& scope) {
+  return curvature_at(binding, text, node, scope) ||
+         std::any_of(node.children.begin(), node.children.end(), [&](const NodePtr& child) {
+           return has_curvature(binding, text, *child, scope);
+         });
 }
 
-void Binding::refuse_nested(const expr::Expression& text, const Node& call,
-                            const expr::Scope& scope) const {
+void refuse_nested(const Binding& binding, const expr::Expression& text, const Node& call,
+                   const expr::Scope& scope) {
   for (const NodePtr& child : call.children)
-    if (has_curvature(text, *child, scope))
+    if (has_curvature(binding, text, *child, scope))
       throw InputError(text.place(*child),
                        "'" + text.quote(*child) + "' stands inside of another such function");
 }
 
 /// Of the arguments of a call. InputError when the function does not take them.
-std::vector<expr::Shape> Binding::shapes_of(const expr::Expression& text, const Node& call,
-                                            const expr::Scope& scope) const {
+std::vector<expr::Shape> shapes_of(const expr::Expression& text, const Node& call,
+                                   const expr::Scope& scope) {
   std::vector<expr::Shape> shapes;
   for (const NodePtr& child : call.children)
     shapes.push_back(expr::compile({text.text, child}, scope).shape());
@@ -152,9 +155,9 @@ std::vector<expr::Shape> Binding::shapes_of(const expr::Expression& text, const 
   return shapes;
 }
 
-std::vector<expr::Expression> Binding::bounds_of(const expr::Expression& text, const Node& call,
-                                                 const NodePtr& bound, expr::Scope& scope,
-                                                 bool strict) const {
+std::vector<expr::Expression> bounds_of(const expr::Expression& text,
+                                        const Node& call, const NodePtr& bound, expr::Scope& scope,
+                                        bool strict) {
   const std::vector<expr::Shape> arguments = shapes_of(text, call, scope);
   const expr::Shape of = largest(arguments);
   const expr::Shape limit = expr::compile({text.text, bound}, scope).shape();
@@ -171,15 +174,16 @@ std::vector<expr::Expression> Binding::bounds_of(const expr::Expression& text, c
 }
 
 /// Sums over indices with such functions in them as the terms that they have.
-NodePtr Binding::with_terms(const expr::Expression& text, const NodePtr& node,
-                            const expr::Scope& scope) const {
+NodePtr with_terms(const Binding& binding, const expr::Expression& text, const NodePtr& node,
+                   const expr::Scope& scope) {
   constexpr std::size_t kMostTerms = 1000;
   if (!names_curved(*node)) return node;
   const bool indexed = node->kind == NodeKind::call && node->text == "sum" &&
                        node->children.front()->kind == NodeKind::each;
   if (!indexed) {
     std::vector<NodePtr> children;
-    for (const NodePtr& child : node->children) children.push_back(with_terms(text, child, scope));
+    for (const NodePtr& child : node->children)
+      children.push_back(with_terms(binding, text, child, scope));
     return with_children(*node, std::move(children));
   }
   std::vector<expr::Index> indices;
@@ -201,17 +205,17 @@ NodePtr Binding::with_terms(const expr::Expression& text, const NodePtr& node,
                                               std::to_string(kMostTerms) + " terms");
     const expr::Expression one =
         expr::instantiate({text.text, node->children.back()}, member.indices, scope.families);
-    terms.push_back(placed(*with_terms(one, one.root, scope), *node));
+    terms.push_back(placed(*with_terms(binding, one, one.root, scope), *node));
   }
   return sum_of(terms, *node);
 }
 
 /// An unknown that bounds the function at `call`, as a node that stands for it.
-NodePtr Binding::bounding_unknown(const expr::Expression& text, const Node& call,
-                                  Curvature curvature) {
-  expr::Scope& scope = names_->design;
+NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const Node& call,
+                         Curvature curvature) {
+  expr::Scope& scope = binding.names->design;
   constexpr std::size_t kMost = 10'000;
-  if (design_->unknowns.size() >= kMost)
+  if (binding.design->unknowns.size() >= kMost)
     throw InputError(text.place(call),
                      "there are more than " + std::to_string(kMost) + " unknowns");
   model::Design::Unknown unknown;
@@ -221,12 +225,12 @@ NodePtr Binding::bounding_unknown(const expr::Expression& text, const Node& call
   unknown.place = text.place(call);
   const auto is_taken = [&](const std::string& name) {
     return scope.symbols.contains(name) || scope.definitions.contains(name) ||
-           scope.dimensions.contains(name) || name == timer_name(method()) ||
-           std::any_of(method().gains.begin(), method().gains.end(),
+           scope.dimensions.contains(name) || name == timer_name(binding.method()) ||
+           std::any_of(binding.method().gains.begin(), binding.method().gains.end(),
                        [&](const model::Gain& gain) { return gain.name == name; }) ||
-           std::any_of(method().observers.begin(), method().observers.end(),
+           std::any_of(binding.method().observers.begin(), binding.method().observers.end(),
                        [&](const model::Component& one) { return names_of(one).contains(name); }) ||
-           names_of(method().plant).contains(name);
+           names_of(binding.method().plant).contains(name);
   };
   for (int k = 1; unknown.name.empty() || is_taken(unknown.name); ++k)
     unknown.name = call.text + "_" + std::to_string(k);
@@ -242,21 +246,21 @@ NodePtr Binding::bounding_unknown(const expr::Expression& text, const Node& call
   bound.name = unknown.name + (curvature == Curvature::convex ? " >= " : " <= ") +
                (own ? quoted : call.text + " in " + quoted);
   bound.place = bound.that_place = unknown.place;
-  design_->unknowns.push_back(std::move(unknown));
+  binding.design->unknowns.push_back(std::move(unknown));
   add_comparisons(bounds_of(text, call, name, scope, false), bound, bound.name, "", scope);
-  design_->inequalities.push_back(std::move(bound));
+  binding.design->inequalities.push_back(std::move(bound));
   return name;
 }
 
 /// The text with bounding unknowns for convex functions where it may be large (sign 1), for concave
 /// ones where it may be small (sign -1).
-NodePtr Binding::bounded(const expr::Expression& text, const NodePtr& node, int sign,
-                         bool quantified, const expr::Scope& scope) {
-  if (!has_curvature(text, *node, scope)) return node;
+NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& node, int sign,
+                bool quantified, const expr::Scope& scope) {
+  if (!has_curvature(binding, text, *node, scope)) return node;
   const auto inner = [&](const NodePtr& child, int s) {
-    return bounded(text, child, s, quantified, scope);
+    return bounded(binding, text, child, s, quantified, scope);
   };
-  if (const auto curvature = curvature_at(text, *node, scope)) {
+  if (const auto curvature = curvature_at(binding, text, *node, scope)) {
     if ((*curvature == Curvature::convex) != (sign > 0))
       throw InputError(text.place(*node),
                        "'" + text.quote(*node) + "' is " +
@@ -269,8 +273,8 @@ NodePtr Binding::bounded(const expr::Expression& text, const NodePtr& node, int 
       throw InputError(text.place(*node), "under 'forall' with an interval or a set, '" +
                                               text.quote(*node) +
                                               "' stands alone on its side of the comparison");
-    refuse_nested(text, *node, scope);
-    return bounding_unknown(text, *node, *curvature);
+    refuse_nested(binding, text, *node, scope);
+    return bounding_unknown(binding, text, *node, *curvature);
   }
   const auto& children = node->children;
   switch (node->kind) {
@@ -305,12 +309,13 @@ NodePtr Binding::bounded(const expr::Expression& text, const NodePtr& node, int 
                        text.quote(*node) + "'; a weight w >= 0 goes inside, as in norm(w*X)");
 }
 
-/// A comparison chain without convex functions of unknowns: the chain itself where there are none.
-std::vector<expr::Expression> Binding::affine_comparisons(const expr::Expression& stated,
-                                                          expr::Scope& scope, bool quantified) {
-  const expr::Expression that{stated.text, with_terms(stated, stated.root, scope)};
+}  // namespace
+
+std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::Expression& stated,
+                                                 expr::Scope& scope, bool quantified) {
+  const expr::Expression that{stated.text, with_terms(binding, stated, stated.root, scope)};
   const Node& chain = *that.root;
-  if (chain.kind != NodeKind::compare || !has_curvature(that, chain, scope)) return {that};
+  if (chain.kind != NodeKind::compare || !has_curvature(binding, that, chain, scope)) return {that};
   std::vector<expr::Expression> comparisons;
   for (std::size_t k = 0; k < chain.relations.size(); ++k) {
     const Relation relation = chain.relations[k];
@@ -321,22 +326,30 @@ std::vector<expr::Expression> Binding::affine_comparisons(const expr::Expression
     const NodePtr& small = chain.children[ascending ? k : k + 1];
     const NodePtr& large = chain.children[ascending ? k + 1 : k];
     const auto alone = [&](const NodePtr& side, const NodePtr& other, Curvature wanted) {
-      if (curvature_at(that, *side, scope) != wanted || has_curvature(that, *other, scope))
+      if (curvature_at(binding, that, *side, scope) != wanted ||
+          has_curvature(binding, that, *other, scope))
         return false;
-      refuse_nested(that, *side, scope);
+      refuse_nested(binding, that, *side, scope);
       for (expr::Expression& bound : bounds_of(that, *side, other, scope, strict))
         comparisons.push_back(std::move(bound));
       return true;
     };
     if (alone(small, large, Curvature::convex) || alone(large, small, Curvature::concave)) continue;
     auto pair = std::make_shared<Node>(chain);
-    pair->children = {bounded(that, small, 1, quantified, scope),
-                      bounded(that, large, -1, quantified, scope)};
+    pair->children = {bounded(binding, that, small, 1, quantified, scope),
+                      bounded(binding, that, large, -1, quantified, scope)};
     pair->relations = {strict ? Relation::less : Relation::less_equal};
     comparisons.push_back({that.text, pair});
-    scope.symbols.insert(names_->design.symbols.begin(), names_->design.symbols.end());
+    scope.symbols.insert(binding.names->design.symbols.begin(),
+                         binding.names->design.symbols.end());
   }
   return comparisons;
+}
+
+expr::Expression affine_objective(Binding& binding, const expr::Expression& text) {
+  const expr::Scope& scope = binding.names->design;
+  return {text.text,
+          bounded(binding, text, with_terms(binding, text, text.root, scope), 1, false, scope)};
 }
 
 }  // namespace gainsmith::bind

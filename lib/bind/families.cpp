@@ -104,4 +104,10 @@ bool learn_count(const std::vector<expr::Index>& indices, std::size_t count,
   return true;
 }
 
+expr::Expression instantiate(const expr::Expression& expression, const Member& member,
+                             const expr::Scope& scope) {
+  if (member.indices.empty()) return expression;
+  return expr::instantiate(expression, member.indices, scope.families);
+}
+
 }  // namespace gainsmith::bind

@@ -38,6 +38,10 @@ std::vector<Member> members(const std::vector<expr::Index>& indices,
 /// The ranges of the indices of a name, none of which may be empty or begin below 0.
 expr::Ranges ranges(const std::vector<expr::Index>& indices, const expr::Scope& scope);
 
+/// The text for one member.
+expr::Expression instantiate(const expr::Expression& expression, const Member& member,
+                             const expr::Scope& scope);
+
 /// The members that a value gives: the elements of a list; none when it is one value for all.
 std::vector<model::Value> elements_of(const model::Value& value);
 

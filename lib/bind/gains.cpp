@@ -1,10 +1,13 @@
-// The gains, and the products in their formulas that bounds are put on.
+#include "bind/gains.h"
+
 #include <algorithm>
 #include <map>
 #include <memory>
 
 #include "base/nearest.h"
-#include "bind/binding.h"
+#include "bind/estimates.h"
+#include "bind/families.h"
+#include "bind/formulas.h"
 #include "expr/parser.h"
 
 namespace gainsmith::bind {
@@ -126,35 +129,55 @@ expr::Scope gain_scope(expr::Scope scope, const std::string& variable) {
   return scope;
 }
 
-}  // namespace
-
-void Binding::add_gain(const model::Gain& gain) {
-  const expr::Scope scope = gain_scope(names_->design, gain.variable);
+void add_gain(Binding& binding, const model::Gain& gain) {
+  const expr::Scope scope = gain_scope(binding.names->design, gain.variable);
   model::Design::Gain bound;
   bound.name = gain.name;
   bound.variable = gain.variable;
   bound.formula = formula(gain.value, scope);
   bound.shape = bound.formula.program.shape();
-  note_estimate(gain.name, bound.formula.program);
-  const Products products(*design_, gain, scope);
+  note_estimate(*binding.design, gain.name, bound.formula.program);
+  const Products products(*binding.design, gain, scope);
   products.find(gain.value.root, bound.products);
   bound.whole = products.factor({gain.value.root});
-  design_->gains.push_back(std::move(bound));
+  binding.design->gains.push_back(std::move(bound));
 }
 
-void Binding::bind_gains() {
+/// The bound of a family is that of each of its members.
+void bind_gain_bounds(Binding& binding) {
+  std::vector<model::BoundOfGain> bounds;
+  std::vector<std::string> names;
+  for (const model::Gain& gain : binding.method().gains) names.push_back(gain.name);
+  for (const model::BoundOfGain& stated : binding.source->synthesis.gain_bounds) {
+    const std::size_t before = bounds.size();
+    for (const model::Gain& gain : binding.method().gains)
+      for (const Member& member : members(gain.indices, {}, binding.names->design))
+        if (const std::string name = member.name_of(gain.name);
+            stated.gain == gain.name || stated.gain == name)
+          bounds.push_back({name, stated.bound, stated.place});
+    if (bounds.size() == before)
+      throw InputError(stated.place, "the method " + binding.method().name + " has no gain '" +
+                                         stated.gain + "'" + suggestion(stated.gain, names));
+  }
+  binding.design->synthesis.gain_bounds = std::move(bounds);
+}
+
+}  // namespace
+
+void bind_gains(Binding& binding) {
   std::map<std::string, expr::Ranges> families;
-  for (const model::Gain& gain : method().gains) {
-    if (!gain.indices.empty()) families[gain.name] = ranges(gain.indices, names_->design);
-    for (const Member& member : members(gain.indices, {}, names_->design))
-      add_gain({member.name_of(gain.name), instantiate(gain.value, member, names_->design),
+  for (const model::Gain& gain : binding.method().gains) {
+    if (!gain.indices.empty()) families[gain.name] = ranges(gain.indices, binding.names->design);
+    for (const Member& member : members(gain.indices, {}, binding.names->design))
+      add_gain(binding,
+               {member.name_of(gain.name), instantiate(gain.value, member, binding.names->design),
                 gain.place, gain.variable});
   }
-  bind_gain_bounds();
-  names_->running = names_->design;
-  expr::Scope& scope = names_->running;
+  bind_gain_bounds(binding);
+  binding.names->running = binding.names->design;
+  expr::Scope& scope = binding.names->running;
   for (auto& [name, range] : families) scope.families[name] = std::move(range);
-  for (const model::Design::Gain& gain : design_->gains) {
+  for (const model::Design::Gain& gain : binding.design->gains) {
     if (!gain.variable.empty()) {
       scope.symbols.erase(gain.name);
       scope.functions[gain.name] = gain.shape;
@@ -162,27 +185,8 @@ void Binding::bind_gains() {
       scope.symbols[gain.name] = {gain.shape};
     }
   }
-  names_->results = scope;
-  names_->results.symbols["objective"] = {};
-}
-
-/// The bound of a family is that of each of its members.
-void Binding::bind_gain_bounds() {
-  std::vector<model::BoundOfGain> bounds;
-  std::vector<std::string> names;
-  for (const model::Gain& gain : method().gains) names.push_back(gain.name);
-  for (const model::BoundOfGain& stated : source_->synthesis.gain_bounds) {
-    const std::size_t before = bounds.size();
-    for (const model::Gain& gain : method().gains)
-      for (const Member& member : members(gain.indices, {}, names_->design))
-        if (const std::string name = member.name_of(gain.name);
-            stated.gain == gain.name || stated.gain == name)
-          bounds.push_back({name, stated.bound, stated.place});
-    if (bounds.size() == before)
-      throw InputError(stated.place, "the method " + method().name + " has no gain '" +
-                                         stated.gain + "'" + suggestion(stated.gain, names));
-  }
-  design_->synthesis.gain_bounds = std::move(bounds);
+  binding.names->results = scope;
+  binding.names->results.symbols["objective"] = {};
 }
 
 expr::Program bind_gain_formula(const model::Instance& instance,

@@ -1,8 +1,13 @@
-// The inequalities and the objective.
+#include "bind/inequalities.h"
+
 #include <algorithm>
 #include <memory>
 
-#include "bind/binding.h"
+#include "bind/bind.h"
+#include "bind/convex_terms.h"
+#include "bind/estimates.h"
+#include "bind/families.h"
+#include "bind/formulas.h"
 
 namespace gainsmith::bind {
 
@@ -23,17 +28,15 @@ bool uses(const expr::Program& program, const model::Design::Unknown& unknown) {
          std::any_of(program.functions.begin(), program.functions.end(), is_named);
 }
 
-}  // namespace
-
 /// The ends, elements or vertices as they are written, or the elements of a vector.
-std::vector<expr::Expression> Binding::points_of(const model::Forall& forall,
-                                                 const Member& member) const {
+std::vector<expr::Expression> points_of(const Binding& binding, const model::Forall& forall,
+                                        const Member& member) {
   std::vector<expr::Expression> points;
   for (const expr::Expression& point : forall.points)
-    points.push_back(instantiate(point, member, names_->known));
+    points.push_back(instantiate(point, member, binding.names->known));
   if (!forall.of_vector) return points;
   const expr::Expression& vector = points.front();
-  const expr::Shape shape = expr::compile(vector, names_->known).shape();
+  const expr::Shape shape = expr::compile(vector, binding.names->known).shape();
   if (shape.rows != 1 && shape.cols != 1)
     throw InputError(vector.place(*vector.root),
                      "'" + vector.quote(*vector.root) + "' is " + to_string(shape) + ": " +
@@ -54,10 +57,11 @@ std::vector<expr::Expression> Binding::points_of(const model::Forall& forall,
   return elements;
 }
 
-model::Design::Variable Binding::variable(const model::Forall& forall, const Member& member) const {
+model::Design::Variable variable(const Binding& binding, const model::Forall& forall,
+                                 const Member& member) {
   model::Design::Variable bound{forall.variable, forall.over, {}, {}, forall.place};
-  const expr::Scope& scope = names_->known;
-  const std::vector<expr::Expression> points = points_of(forall, member);
+  const expr::Scope& scope = binding.names->known;
+  const std::vector<expr::Expression> points = points_of(binding, forall, member);
   if (forall.over == model::Over::interval) {
     for (const expr::Expression& end : points) bound.points.push_back(scalar(end, scope));
     return bound;
@@ -77,34 +81,20 @@ model::Design::Variable Binding::variable(const model::Forall& forall, const Mem
   return bound;
 }
 
-void Binding::bind_inequalities() {
-  for (const model::Requirement& requirement : method().require)
-    for (const Member& member :
-         members(requirement.indices, requirement.conditions, names_->design))
-      add_inequality(requirement, member);
-  if (method().minimize) bind_objective(*method().minimize);
-  if (method().minimize && design_->inequalities.empty() && !design_->quotient)
-    throw InputError({method().file},
-                     "the method '" + method().name + "' has no inequality under 'require'");
-}
-
-void Binding::bind_objective(const expr::Expression& text) {
+void bind_objective(Binding& binding, const expr::Expression& text) {
   const expr::Node& root = *text.root;
   const bool quotient =
       root.kind == expr::NodeKind::call && root.text == "lambda_max" && root.children.size() == 2;
   if (!quotient) {
-    const expr::Expression affine{
-        text.text,
-        bounded(text, with_terms(text, text.root, names_->design), 1, false, names_->design)};
-    design_->objective = scalar(affine, names_->design);
-    refuse_estimate(design_->objective->program, "a minimum");
+    binding.design->objective = scalar(affine_objective(binding, text), binding.names->design);
+    refuse_estimate(*binding.design, binding.design->objective->program, "a minimum");
     return;
   }
   const expr::Expression first{text.text, root.children[0]};
   const expr::Expression second{text.text, root.children[1]};
   // The smaller one may be a multiple of I.
   const auto square = [&](const expr::Expression& part, std::optional<expr::Shape> expected) {
-    expr::Program program = expr::compile(part, names_->design, expected);
+    expr::Program program = expr::compile(part, binding.names->design, expected);
     if (!program.shape().is_square())
       throw InputError(part.place(*part.root),
                        "lambda_max takes symmetric matrices; found " + to_string(program.shape()));
@@ -114,17 +104,39 @@ void Binding::bind_objective(const expr::Expression& text) {
   bound.numerator = square(first, std::nullopt);
   bound.denominator = square(second, bound.numerator.shape());
   for (const expr::Program* side : {&bound.numerator, &bound.denominator})
-    refuse_estimate(*side, "a minimum");
+    refuse_estimate(*binding.design, *side, "a minimum");
   bound.text = text.quote(root);
   bound.denominator_text = text.quote(*second.root);
   bound.place = text.place(root);
-  design_->quotient = std::move(bound);
+  binding.design->quotient = std::move(bound);
 }
 
-/// "flow", or "flow.1", "flow.2" of several; of a family "flow.1 at i = 2".
-void Binding::add_comparisons(const std::vector<expr::Expression>& comparisons,
-                              model::Design::Inequality& bound, const std::string& stem,
-                              const std::string& member, const expr::Scope& scope) const {
+void add_inequality(Binding& binding, const model::Requirement& requirement, const Member& member) {
+  model::Design::Inequality bound;
+  bound.name = member.title_of(requirement.name);
+  bound.place = requirement.place;
+  expr::Scope scope = binding.names->design;
+  const expr::Expression that = instantiate(requirement.that, member, scope);
+  bound.that_place = that.place(*that.root);
+  for (const model::Forall& forall : requirement.forall) {
+    bound.domain.push_back(variable(binding, forall, member));
+    scope.symbols[forall.variable] = {bound.domain.back().shape};
+  }
+  add_comparisons(affine_comparisons(binding, that, scope, !requirement.forall.empty()), bound,
+                  requirement.name, member.label, scope);
+  for (const auto& comparison : bound.comparisons)
+    refuse_estimate(*binding.design, comparison.difference, "'" + requirement.name + "'");
+  for (const model::Design::Variable& one : bound.domain)
+    for (const model::Formula& point : one.points)
+      refuse_estimate(*binding.design, point.program, "'" + requirement.name + "'");
+  binding.design->inequalities.push_back(std::move(bound));
+}
+
+}  // namespace
+
+void add_comparisons(const std::vector<expr::Expression>& comparisons,
+                     model::Design::Inequality& bound, const std::string& stem,
+                     const std::string& member, const expr::Scope& scope) {
   std::vector<expr::CompiledRelation> relations;
   for (const expr::Expression& comparison : comparisons)
     for (expr::CompiledRelation& relation : expr::compile_relations(comparison, scope))
@@ -137,25 +149,16 @@ void Binding::add_comparisons(const std::vector<expr::Expression>& comparisons,
   }
 }
 
-void Binding::add_inequality(const model::Requirement& requirement, const Member& member) {
-  model::Design::Inequality bound;
-  bound.name = member.title_of(requirement.name);
-  bound.place = requirement.place;
-  expr::Scope scope = names_->design;
-  const expr::Expression that = instantiate(requirement.that, member, scope);
-  bound.that_place = that.place(*that.root);
-  for (const model::Forall& forall : requirement.forall) {
-    bound.domain.push_back(variable(forall, member));
-    scope.symbols[forall.variable] = {bound.domain.back().shape};
-  }
-  add_comparisons(affine_comparisons(that, scope, !requirement.forall.empty()), bound,
-                  requirement.name, member.label, scope);
-  for (const auto& comparison : bound.comparisons)
-    refuse_estimate(comparison.difference, "'" + requirement.name + "'");
-  for (const model::Design::Variable& one : bound.domain)
-    for (const model::Formula& point : one.points)
-      refuse_estimate(point.program, "'" + requirement.name + "'");
-  design_->inequalities.push_back(std::move(bound));
+void bind_inequalities(Binding& binding) {
+  for (const model::Requirement& requirement : binding.method().require)
+    for (const Member& member :
+         members(requirement.indices, requirement.conditions, binding.names->design))
+      add_inequality(binding, requirement, member);
+  if (binding.method().minimize) bind_objective(binding, *binding.method().minimize);
+  if (binding.method().minimize && binding.design->inequalities.empty() &&
+      !binding.design->quotient)
+    throw InputError({binding.method().file}, "the method '" + binding.method().name +
+                                                  "' has no inequality under 'require'");
 }
 
 void refuse_free_unknowns(const model::Design& design) {

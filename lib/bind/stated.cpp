@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "bind/binding.h"
+#include "bind/gains.h"
 #include "expr/compile.h"
 #include "expr/parser.h"
 
