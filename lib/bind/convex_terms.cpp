@@ -155,9 +155,8 @@ std::vector<expr::Shape> shapes_of(const expr::Expression& text, const Node& cal
   return shapes;
 }
 
-std::vector<expr::Expression> bounds_of(const expr::Expression& text,
-                                        const Node& call, const NodePtr& bound, expr::Scope& scope,
-                                        bool strict) {
+std::vector<expr::Expression> bounds_of(const expr::Expression& text, const Node& call,
+                                        const NodePtr& bound, expr::Scope& scope, bool strict) {
   const std::vector<expr::Shape> arguments = shapes_of(text, call, scope);
   const expr::Shape of = largest(arguments);
   const expr::Shape limit = expr::compile({text.text, bound}, scope).shape();

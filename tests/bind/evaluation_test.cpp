@@ -6,7 +6,9 @@
 #include <string>
 #include <vector>
 
+#include "bind/instance.h"
 #include "bind/small_problem.h"
+#include "bind/stated.h"
 #include "expr/work.h"
 #include "model/stated.h"
 #include "support/input_error.h"

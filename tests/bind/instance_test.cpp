@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "bind/binding.h"
+#include "bind/instance.h"
 #include "bind/small_problem.h"
 #include "expr/compile.h"
 #include "expr/parser.h"
@@ -26,15 +27,15 @@ Shapes shapes_of(const std::vector<Item>& items) {
   return shapes;
 }
 
-using Names = std::set<std::string>;
+using Inputs = std::set<std::string>;
 
-Names inputs_of(const expr::Program& program) {
-  Names names;
+Inputs inputs_of(const expr::Program& program) {
+  Inputs names;
   for (const expr::Input& input : program.inputs) names.insert(input.name);
   return names;
 }
 
-TEST(model::Instance, FindsDimensionsDataAndParameters) {
+TEST(Instance, FindsDimensionsDataAndParameters) {
   const Small small;
   const model::Instance& instance = small.instance;
   EXPECT_EQ(small.design().dimensions, (model::Dimensions{{"n", 2}, {"m", 1}}));
@@ -49,7 +50,7 @@ TEST(model::Instance, FindsDimensionsDataAndParameters) {
   EXPECT_EQ(instance.values.size(), small.design().data.size() + 2);
 }
 
-TEST(model::Instance, AnOverrideReplacesAScalarAndWhatFollowsFromIt) {
+TEST(Instance, AnOverrideReplacesAScalarAndWhatFollowsFromIt) {
   const Small small;
   const model::Instance instance = bind(small.problem, {{"T1", 2.0}, {"rate", 7.0}});
   EXPECT_EQ(instance.values.at("T1")(0, 0), 2.0);
@@ -60,7 +61,7 @@ TEST(model::Instance, AnOverrideReplacesAScalarAndWhatFollowsFromIt) {
   EXPECT_EQ(instance.overrides, (model::Overrides{{"T1", 2.0}, {"rate", 7.0}}));
 }
 
-TEST(model::Instance, AnOverrideMayGiveADatumThatTheProblemLeavesOut) {
+TEST(Instance, AnOverrideMayGiveADatumThatTheProblemLeavesOut) {
   const model::Problem problem = small_problem(changed(kSmallProblem, "  T1: 0.5\n", ""));
   const InputError missing = tests::input_error([&] { bind(problem); });
   const model::Instance instance = bind(problem, {{"T1", 0.25}});
@@ -69,13 +70,13 @@ TEST(model::Instance, AnOverrideMayGiveADatumThatTheProblemLeavesOut) {
   EXPECT_STREQ(again.what(), missing.what());
 }
 
-TEST(model::Instance, AFlatListIsAColumnWhereAColumnIsDeclared) {
+TEST(Instance, AFlatListIsAColumnWhereAColumnIsDeclared) {
   EXPECT_EQ(Small().instance.values.at("b"), (numbers::Matrix{{5}, {6}}));
   const Small upright(changed(kSmallProblem, "b: [5, 6]", "b: [[5], [6]]"));
   EXPECT_EQ(upright.instance.values.at("b"), (numbers::Matrix{{5}, {6}}));
 }
 
-TEST(model::Instance, KnowsTheShapesOfUnknownsStatesAndGains) {
+TEST(Instance, KnowsTheShapesOfUnknownsStatesAndGains) {
   const Small small;
   EXPECT_EQ(unknown_matrices(small.design(), polynomials(small.design())),
             (std::vector<model::UnknownMatrix>{{"P", {2, 2}, model::Structure::symmetric},
@@ -86,7 +87,7 @@ TEST(model::Instance, KnowsTheShapesOfUnknownsStatesAndGains) {
   EXPECT_EQ(shapes_of(small.design().gains), (Shapes{{"K", {1, 2}}, {"A", {2, 2}}}));
 }
 
-TEST(model::Instance, AMatrixSymmetricToRoundingIsMadeExactlySo) {
+TEST(Instance, AMatrixSymmetricToRoundingIsMadeExactlySo) {
   const Small small(
       changed(kSmallProblem, "  T1:", "  Q: [[1, 0.30000000000000004], [0.3, 1]]\n  T1:"));
   const numbers::Matrix& Q = small.instance.values.at("Q");
@@ -94,7 +95,7 @@ TEST(model::Instance, AMatrixSymmetricToRoundingIsMadeExactlySo) {
   EXPECT_NEAR(Q(0, 1), 0.3, 1e-15);
 }
 
-TEST(model::Instance, IdentityAndZeroTakeTheDeclaredSize) {
+TEST(Instance, IdentityAndZeroTakeTheDeclaredSize) {
   const Small small(changed(kSmallProblem, "  T1:", "  Q: 0\n  D: -3*I\n  T1:"));
   EXPECT_EQ(small.instance.values.at("Q"), numbers::Matrix::Zero(2, 2));
   EXPECT_EQ(small.instance.values.at("D"), -3 * numbers::Matrix::Identity(2, 2));
@@ -102,28 +103,28 @@ TEST(model::Instance, IdentityAndZeroTakeTheDeclaredSize) {
 
 /// What stands behind definitions and outputs is an input: data, unknowns, gains, states, the
 /// timer.
-TEST(model::Instance, ProgramsTakeWhatTheyUseAsInputs) {
+TEST(Instance, ProgramsTakeWhatTheyUseAsInputs) {
   const Small small;
   const model::Design& design = small.design();
   ASSERT_EQ(design.inequalities.size(), 1U);
   EXPECT_EQ(inputs_of(design.inequalities[0].comparisons.at(0).difference),
-            (Names{"P", "A", "Q", "g", "delta", "tau"}));
-  EXPECT_EQ(inputs_of(design.objective->program), Names{"g"});
-  EXPECT_EQ(inputs_of(design.gains[0].formula.program), (Names{"b", "P"}));
+            (Inputs{"P", "A", "Q", "g", "delta", "tau"}));
+  EXPECT_EQ(inputs_of(design.objective->program), Inputs{"g"});
+  EXPECT_EQ(inputs_of(design.gains[0].formula.program), (Inputs{"b", "P"}));
   const model::Dynamics& dynamics = *design.dynamics;
   ASSERT_EQ(dynamics.flow.size(), 2U);
-  EXPECT_EQ(inputs_of(dynamics.flow[1].value.program), (Names{"K", "observer.zh"}));
+  EXPECT_EQ(inputs_of(dynamics.flow[1].value.program), (Inputs{"K", "observer.zh"}));
   EXPECT_EQ(dynamics.variables[dynamics.flow[1].variable].name, "observer.th");
-  EXPECT_EQ(inputs_of(design.claims[0].value.program), (Names{"P", "z", "observer.zh", "s"}));
-  EXPECT_EQ(inputs_of(design.claims[1].flow_cost->program), (Names{"b", "z"}));
-  EXPECT_EQ(inputs_of(design.campaign.horizon->program), Names{"T2"});
-  EXPECT_EQ(inputs_of(design.expect->values[0].what.program), Names{"objective"});
-  EXPECT_EQ(inputs_of(design.data[5].value->program), Names{"T1"}) << "T2: 2*T1";
+  EXPECT_EQ(inputs_of(design.claims[0].value.program), (Inputs{"P", "z", "observer.zh", "s"}));
+  EXPECT_EQ(inputs_of(design.claims[1].flow_cost->program), (Inputs{"b", "z"}));
+  EXPECT_EQ(inputs_of(design.campaign.horizon->program), Inputs{"T2"});
+  EXPECT_EQ(inputs_of(design.expect->values[0].what.program), Inputs{"objective"});
+  EXPECT_EQ(inputs_of(design.data[5].value->program), Inputs{"T1"}) << "T2: 2*T1";
 }
 
-TEST(model::Instance, EachPartMayUseWhatItsScopeHolds) {
+TEST(Instance, EachPartMayUseWhatItsScopeHolds) {
   const Small small;
-  const Names& names = *small.design().names;
+  const bind::Names& names = *small.design().names;
   const std::vector<std::pair<std::string, int>> first = {
       {"A", 0}, {"delta", 0},       {"P", 1}, {"g", 1},        {"K", 2},
       {"z", 2}, {"observer.th", 2}, {"s", 2}, {"objective", 3}};
@@ -135,7 +136,7 @@ TEST(model::Instance, EachPartMayUseWhatItsScopeHolds) {
   EXPECT_FALSE(names.design.symbols.at("P").known);
 }
 
-TEST(model::Instance, DefinitionsOutputsAndSignalsEvaluate) {
+TEST(Instance, DefinitionsOutputsAndSignalsEvaluate) {
   const Small small;
   numbers::Values values = small.instance.values;
   values["z"] = numbers::Matrix{{1}, {2}};

@@ -8,7 +8,9 @@
 #include <vector>
 
 #include "bind/binding.h"
+#include "bind/instance.h"
 #include "bind/small_problem.h"
+#include "bind/stated.h"
 #include "expr/compile.h"
 #include "expr/parser.h"
 #include "support/input_error.h"
@@ -49,11 +51,11 @@ std::string refusal(const model::Gains& gains) {
   return error.message();
 }
 
-TEST(model::Stated, AGainIsTheMatrixOfTheFile) {
+TEST(Stated, AGainIsTheMatrixOfTheFile) {
   EXPECT_EQ(value(file(), "K"), (numbers::Matrix{{9, 8}}));
 }
 
-TEST(model::Stated, ABasisOfTheFileTakesTheProblemsPlaceAndDataFollowIt) {
+TEST(Stated, ABasisOfTheFileTakesTheProblemsPlaceAndDataFollowIt) {
   const std::string method = changed(kMethod, "  T1: scalar",
                                      "  N: {shape: n x k, default: \"null([3, 4])\"}\n  W: {shape: "
                                      "n x k, default: \"2*N\"}\n  T1: scalar");
@@ -78,7 +80,7 @@ TEST(model::Stated, ABasisOfTheFileTakesTheProblemsPlaceAndDataFollowIt) {
             std::string::npos);
 }
 
-TEST(model::Stated, AFormulaIsEvaluatedOverTheFilesTexts) {
+TEST(Stated, AFormulaIsEvaluatedOverTheFilesTexts) {
   model::Gains gains = file();
   gains.gain_functions = {{"G", "t", Kind::formula, "inv(P)*X(t)", {}}};
   EXPECT_TRUE(value(gains, "G(3)").isApprox((kFirst + 3 * kSecond) / 2, 1e-15));
@@ -90,19 +92,19 @@ TEST(model::Stated, AFormulaIsEvaluatedOverTheFilesTexts) {
   EXPECT_TRUE(value(gains, "G(3)").isApprox(-(kFirst + 6 * kSecond), 1e-15));
 }
 
-TEST(model::Stated, APolynomialIsItsCoefficients) {
+TEST(Stated, APolynomialIsItsCoefficients) {
   model::Gains gains = file();
   gains.gain_functions = {{"G", "t", Kind::polynomial, "anything", {kSecond, kFirst, kFirst}}};
   EXPECT_TRUE(value(gains, "G(2)").isApprox(kSecond + 6 * kFirst, 1e-15));
 }
 
-TEST(model::Stated, AConstantMayBeCalled) {
+TEST(Stated, AConstantMayBeCalled) {
   model::Gains gains = file();
   gains.gains.emplace_back("G", kSecond);
   EXPECT_EQ(value(gains, "G(0.7)"), kSecond);
 }
 
-TEST(model::Stated, MoreCoefficientsThanTheDegreeAskFor) {
+TEST(Stated, MoreCoefficientsThanTheDegreeAskFor) {
   model::Gains gains = file();
   gains.unknowns.emplace_back("X_2", kFirst);
   gains.functions = {{"X(tau)", "X_0*tau + X_1*(1 - tau) + X_2", {}}};
@@ -117,7 +119,7 @@ TEST(model::Stated, MoreCoefficientsThanTheDegreeAskFor) {
 }
 
 /// The file's formula may use all coefficients of the file, and the data as they are now.
-TEST(model::Stated, AFormulaUsesTheCoefficientsAndDataOfTheFile) {
+TEST(Stated, AFormulaUsesTheCoefficientsAndDataOfTheFile) {
   model::Gains gains = file();
   gains.unknowns.emplace_back("X_2", kFirst);
   gains.functions = {{"X(tau)", "X_0*tau + X_1*(1 - tau) + X_2", {}}};
@@ -136,7 +138,7 @@ TEST(model::Stated, AFormulaUsesTheCoefficientsAndDataOfTheFile) {
   EXPECT_DOUBLE_EQ(state(later, gains).value(program).value()(0, 0), 1);
 }
 
-TEST(model::Stated, WhatDoesNotFitIsRefused) {
+TEST(Stated, WhatDoesNotFitIsRefused) {
   model::Gains gains = file();
   gains.functions = {{"Y(tau)", "X_0", {}}};
   EXPECT_NE(refusal(gains).find("defines Y(tau), which is no unknown function"), std::string::npos);
@@ -165,7 +167,7 @@ TEST(model::Stated, WhatDoesNotFitIsRefused) {
   EXPECT_NE(refusal(gains).find("unknown name 'u'"), std::string::npos);
 }
 
-TEST(model::Stated, WithoutAPointNothingOfItHasAValue) {
+TEST(Stated, WithoutAPointNothingOfItHasAValue) {
   model::Gains gains;
   gains.functions = {{"X(tau)", "X_0 + X_1*tau", {}}};
   const Small small(kSmallProblem, kMethod);

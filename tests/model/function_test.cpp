@@ -18,6 +18,10 @@
 namespace gainsmith::model {
 namespace {
 
+using bind::changed;
+using bind::kSmallMethod;
+using bind::kSmallProblem;
+using bind::Small;
 using tests::input_error;
 
 std::string with_function(const std::string& declaration) {
