@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "base/eigen_scalars.h"
-#include "numbers/projection.h"
+#include "numerics/projection.h"
 #include "sdp/solver.h"
 
 namespace gainsmith::numbers {

@@ -65,7 +65,7 @@ std::string conflict_statement(const design::Conflict& conflict) {
 
 std::string certificate_brief(const model::CertificateRecord& certificate) {
   if (certificate.exact) return "exact";
-  return "no solution survives a relative change of " + brief(certificate.omega, 2);
+  return "no solution survives a relative change of " + brief(certificate.backward_error, 2);
 }
 
 std::string conflict_text(const design::Conflict& conflict) {
@@ -130,11 +130,13 @@ io::Json explanation_json(const design::Explanation& explanation) {
                        {"relaxations", io::Json::array()},
                        {"negotiable", io::Json::array()}};
   if (const auto& conflict = explanation.conflict)
-    document["conflict"] = {
-        {"requirements", conflict->names},      {"undecided", conflict->undecided},
-        {"gain_bound", conflict->gain_bound},   {"within_gain_bound", conflict->within_gain_bound},
-        {"exact", conflict->certificate.exact}, {"about", conflict->certificate.about},
-        {"omega", conflict->certificate.omega}};
+    document["conflict"] = {{"requirements", conflict->names},
+                            {"undecided", conflict->undecided},
+                            {"gain_bound", conflict->gain_bound},
+                            {"within_gain_bound", conflict->within_gain_bound},
+                            {"exact", conflict->certificate.exact},
+                            {"about", conflict->certificate.about},
+                            {"backward_error", conflict->certificate.backward_error}};
   for (const auto& relaxation : explanation.relaxations)
     document["relaxations"].push_back({{"requirement", relaxation.name},
                                        {"scale", relaxation.scale},

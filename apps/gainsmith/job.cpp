@@ -7,6 +7,7 @@
 
 #include "base/file.h"
 #include "base/stop.h"
+#include "bind/instance.h"
 #include "design/expectations.h"
 #include "design/optimize.h"
 #include "gainsmith/campaign_text.h"
@@ -62,7 +63,7 @@ class Job {
     const model::Gains gains =
         design::synthesize_searched(instance_, request, options_.threads, {});
     if (is_stopping()) throw Interrupted("interrupted while gains were searched");
-    instance_ = model::evaluate(instance_.design, gains.searched);
+    instance_ = bind::evaluate(instance_.design, gains.searched);
     const auto campaign = verify_and_write(gains);
     result.differences = design::differences(
         instance_, gains, campaign ? std::optional(campaign->verdict) : std::nullopt);

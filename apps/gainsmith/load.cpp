@@ -7,10 +7,11 @@
 #include "base/file.h"
 #include "base/nearest.h"
 #include "base/number.h"
+#include "bind/bind.h"
+#include "bind/stated.h"
 #include "design/synthesize.h"
 #include "io/gains_json.h"
 #include "methods/methods.h"
-#include "model/bind.h"
 #include "model/stated.h"
 
 namespace gainsmith::app {
@@ -42,7 +43,7 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
       throw InputError({file},
                        name + " is " + to_string(actual) + "; expected " + to_string(shape));
   };
-  const model::Stated stated = model::state(instance, gains);
+  const model::Stated stated = bind::state(instance, gains);
   std::vector<std::string> known;
   for (const auto& wanted : instance.design->gains) known.push_back(wanted.name);
   refuse_unknown(gains.gains, known, "gains", file);
@@ -151,8 +152,8 @@ model::Instance load_problem(const std::filesystem::path& path,
                      "'gainsmith simulate' read gain files");
   model::Problem problem = io::parse_problem(text, path.string(), built_in_methods());
   if (add) add(problem);
-  model::Instance instance = model::bind(problem);
-  model::refuse_free_unknowns(*instance.design);
+  model::Instance instance = bind::bind(problem);
+  bind::refuse_free_unknowns(*instance.design);
   return instance;
 }
 
@@ -164,7 +165,7 @@ LoadedGains load_gains(const std::filesystem::path& path) {
                      "this is no gain file; expected the JSON that 'gainsmith synth -o' writes");
   model::Gains gains = io::parse_gains(text, path.string());
   check_searched(gains, path.string());
-  model::Instance stated = model::bind(io::stated_problem(gains, path.string()), gains.searched);
+  model::Instance stated = bind::bind(io::stated_problem(gains, path.string()), gains.searched);
   check_complete(gains, stated, path.string());
   refuse_without_gains(gains, *stated.design, path.string());
   return {std::move(gains), std::move(stated)};

@@ -27,7 +27,7 @@ struct OptimizeOptions {
   std::optional<double> tolerance;
   std::optional<int> evaluations;
   unsigned threads = 0;
-  bool polish = false;
+  bool refine = false;
   std::string output;
   bool json = false;
 };
@@ -72,7 +72,7 @@ ExitCode optimize(const OptimizeOptions& options) {
   const model::Instance instance =
       load_problem(options.problem, [&](model::Problem& problem) { add_search(options, problem); });
   design::SearchRequest request = wanted_search(instance);
-  request.polish = options.polish;
+  request.refine = options.refine;
   if (request.over.empty())
     throw InputError({options.problem},
                      "nothing to optimise over: give --over NAME=LOW:HIGH, or write search: {over: "
@@ -102,7 +102,7 @@ Command optimize_command() {
        Option("--minimize", options->minimize, "an expression (default: the method's objective)")
            .excludes({"--largest", "--smallest"}),
        Option("--tolerance", options->tolerance, "width of the bracket of --largest or --smallest"),
-       Option("--polish", options->polish,
+       Option("--refine", options->refine,
               "at the end move scalars and unknowns together (Ipopt); kept when it is better"),
        Option("--evaluations", options->evaluations, "of the figure, at most").within(1, 1000000),
        Option("--threads", options->threads,
@@ -114,7 +114,7 @@ Command optimize_command() {
       "Examples:\n"
       "  gainsmith optimize problem.yaml --over delta=1e-3:10 --over eta=1e-6:1 -o gains.json\n"
       "  gainsmith optimize problem.yaml --over delta=1e-3:10 --largest T2=0.5:1.1\n"
-      "  gainsmith optimize problem.yaml --over delta=1e-3:10 --minimize 'trace(P1)' --polish",
+      "  gainsmith optimize problem.yaml --over delta=1e-3:10 --minimize 'trace(P1)' --refine",
       [options] { return optimize(*options); }};
 }
 

@@ -53,13 +53,14 @@ std::string ends_text(const model::SearchRecord& search) {
   return text;
 }
 
-std::string polish_text(const model::SearchRecord& search) {
-  if (!search.polish) return "";
-  const model::PolishRecord& polish = *search.polish;
-  const std::string after = polish.after ? brief(*polish.after, kDigits) : std::string("no value");
-  return fmt::format("            polish: {} before, {} after: {} ({})\n",
-                     brief(polish.before, kDigits), after, polish.kept ? "kept" : "not kept",
-                     polish.cause);
+std::string refinement_text(const model::SearchRecord& search) {
+  if (!search.joint_refinement) return "";
+  const model::RefinementRecord& refinement = *search.joint_refinement;
+  const std::string after =
+      refinement.after ? brief(*refinement.after, kDigits) : std::string("no value");
+  return fmt::format("            joint refinement: {} before, {} after: {} ({})\n",
+                     brief(refinement.before, kDigits), after,
+                     refinement.kept ? "kept" : "not kept", refinement.cause);
 }
 
 }  // namespace
@@ -77,7 +78,7 @@ std::string search_text(const model::Gains& gains) {
     text = fmt::format("search      {}: nothing feasible was found\n", search.figure);
   if (bracket && search.value && !search.beyond && search.open.empty())
     text += "            that is the end of the range: the border lies beyond it\n";
-  text += beyond_text(gains) + breaks_text(search) + ends_text(search) + polish_text(search);
+  text += beyond_text(gains) + breaks_text(search) + ends_text(search) + refinement_text(search);
   return text + fmt::format("            {} evaluations, {} feasible{}\n", search.evaluations,
                             search.feasible, search.finished ? "" : "; STOPPED EARLY");
 }

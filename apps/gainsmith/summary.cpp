@@ -114,7 +114,7 @@ std::string certificate_text(const model::Gains& gains) {
       "certificate multipliers Y >= 0, checked in {} digits on {}: no solution survives a "
       "relative\n"
       "            change of {} of the coefficients\n",
-      c.digits, of, brief(c.omega, 2));
+      c.digits, of, brief(c.backward_error, 2));
 }
 
 /// Limits that somebody set are named; how else an iteration ended says nothing.

@@ -8,6 +8,7 @@
 
 #include "base/file.h"
 #include "base/stop.h"
+#include "bind/instance.h"
 #include "design/optimize.h"
 #include "design/semidefinite_program.h"
 #include "design/synthesize.h"
@@ -83,7 +84,7 @@ ExitCode synth(const SynthOptions& options) {
   {
     const Telling telling;
     if (!options.sdpa.empty() && !write_first)
-      write_program(options.sdpa, model::evaluate(instance.design, gains.searched));
+      write_program(options.sdpa, bind::evaluate(instance.design, gains.searched));
     write_result(
         gains, options.output,
         options.json ? io::to_text(json_without_statement(gains)) : synthesis_summary(gains),

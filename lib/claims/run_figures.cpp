@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "claims/smooth_parts.h"
-#include "numbers/golden_section.h"
+#include "numerics/golden_section.h"
 
 namespace gainsmith::claims {
 
@@ -111,7 +111,7 @@ double FigureOf::extreme(const DenseStep& step, double sign, double most) {
   }
   for (const Top& top : tops) {
     if (top.value + top.rise <= most) continue;
-    most = std::max({most, at(top.t), at(numbers::peak_between(at, top.before, top.after))});
+    most = std::max({most, at(top.t), at(numerics::peak_between(at, top.before, top.after))});
   }
   return most;
 }
@@ -160,7 +160,7 @@ double FigureOf::last_above(const DenseStep& step, double level) {
       const bool is_top = here >= looks[static_cast<std::size_t>(before)] &&
                           here >= looks[static_cast<std::size_t>(after)];
       if (!is_top || here + (here - beside) < level) continue;
-      const double top = numbers::peak_between(at, look(part, before), look(part, after));
+      const double top = numerics::peak_between(at, look(part, before), look(part, after));
       if (above(top)) return last_between(top, look(part, top > look(part, k) ? after : k));
     }
   }

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "claims/smooth_parts.h"
-#include "numbers/golden_section.h"
+#include "numerics/golden_section.h"
 
 namespace gainsmith::claims {
 
@@ -90,7 +90,7 @@ double time_of(const SamplePoints::Peak& peak, const FlowPiece& flow, RunValue& 
   double most = -std::numeric_limits<double>::infinity();
   for (const Top& top : tops) {
     if (top.value + top.rise <= most) continue;
-    const double refined = numbers::peak_between(at, top.before, top.after, kSections);
+    const double refined = numerics::peak_between(at, top.before, top.after, kSections);
     for (const double t : {top.t, refined})
       if (const double value = at(t); value > most) {
         most = value;

@@ -9,6 +9,7 @@
 #include "design/certificates.h"
 #include "design/in_matrices.h"
 #include "lmi/correlation.h"
+#include "verdict/relaxed_backward_error.h"
 
 namespace gainsmith::design {
 
@@ -27,9 +28,10 @@ bool is_positive(const Posed& posed, const std::vector<double>& x) {
                                      });
 }
 
-lmi::Margins margins_at(const Posed& posed, const Attempt& attempt, const std::vector<double>& x) {
-  return lmi::compute_margins(posed.inequalities, posed.lmi, attempt.formulation.balance,
-                              posed.choices().margin, x, posed.look);
+verdict::Margins margins_at(const Posed& posed, const Attempt& attempt,
+                            const std::vector<double>& x) {
+  return verdict::compute_margins(posed.inequalities, posed.lmi, attempt.formulation.balance,
+                                  posed.choices().margin, x, posed.look);
 }
 
 /// Whether the gains at x are as small as was asked for.
@@ -51,8 +53,8 @@ void take_point(const Posed& posed, const std::vector<double>& x, Attempt& resul
 void take_point_beyond_double(const Posed& posed, const std::vector<double>& x, Attempt& result) {
   if (!(lmi::interior_margin(result.solution) > 0)) return;
   if (!is_finite(x) || !is_within(result.question.bounds, x)) return;
-  lmi::Margins margins = margins_at(posed, result, x);
-  if (!lmi::all_hold(margins)) return;
+  verdict::Margins margins = margins_at(posed, result, x);
+  if (!verdict::all_hold(margins)) return;
   result.point = true;
   result.x = x;
   result.margins = std::move(margins);
@@ -130,7 +132,7 @@ class Interior {
     const lmi::Exactly exactly = [this](std::size_t k, const lmi::Balance& balance,
                                         const std::vector<int>& kept) {
       if (!exact_) exact_.emplace(posed_.inequalities, balance);
-      return lmi::rounded(exact_->block(posed_.lmi.blocks[k], k, kept));
+      return verdict::rounded(exact_->block(posed_.lmi.blocks[k], k, kept));
     };
     Solved result;
     result.formulation =
@@ -164,7 +166,7 @@ class Interior {
   const Question& asked_;
   const Solve& solve_;
   std::optional<lmi::Formulation> of_all_rows_;
-  std::optional<lmi::ExactBlocks<Decimal100>> exact_;
+  std::optional<verdict::ExactBlocks<Decimal100>> exact_;
 };
 
 /// The first round, whose multipliers are a certificate where there is no point; none when it is
@@ -199,16 +201,17 @@ void refute(const Posed& posed, const Solve& solve, Interior& interior, Interior
             Attempt& result) {
   const int most_restrictions = result.question.single ? 0 : 3;
   for (int k = 0;; ++k) {
-    const lmi::Refutation found =
+    const verdict::Refutation found =
         find_certificate(posed, result.question.effort, solved.formulation, solved.solution, solve);
-    const bool better = !result.refutation || found.exact || found.omega < result.refutation->omega;
+    const bool better = !result.refutation || found.exact ||
+                        found.backward_error < result.refutation->backward_error;
     if (better) result.refutation = found;
     if (result.refuted() && !result.refutation->exact && k == 0)
       if (const auto few = lmi::rows_of_multipliers(solved.formulation, solved.solution);
           !few.empty()) {
         // On the coordinates that they live on certificates are exact, as a rule.
         Interior::Solved inner = interior({}, few);
-        const lmi::Refutation exact =
+        const verdict::Refutation exact =
             find_exact_certificate(posed, inner.formulation, inner.solution);
         if (exact.exact) {
           result.refutation = exact;
@@ -235,13 +238,13 @@ bool Attempt::is_near_optimal() const {
 }
 
 bool Attempt::refuted() const {
-  return refutation && (refutation->exact || refutation->omega <= lmi::kNothing);
+  return refutation && (refutation->exact || refutation->backward_error <= verdict::kNothing);
 }
 
 bool Attempt::relaxation_refuted() const {
   // What the solver leaves at its own tolerance; a message rests on it, no verdict.
   constexpr double kRounding = 1e-7;
-  return !point && relaxed_omega <= kRounding;
+  return !point && relaxed_backward_error <= kRounding;
 }
 
 Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
@@ -263,8 +266,8 @@ Attempt attempt(const Posed& posed, Question question, const Solve& solve) {
   if (!first) first = {result.formulation, result.solution};
   if (first->solution.x.empty()) return result;
   if (!result.point)
-    result.relaxed_omega =
-        lmi::relaxed_omega(posed.lmi, result.question.bounds, first->formulation, first->solution);
+    result.relaxed_backward_error = verdict::relaxed_backward_error(
+        posed.lmi, result.question.bounds, first->formulation, first->solution);
   if (!result.question.bounds.list.empty()) return result;
   try {
     refute(posed, solve, interior, std::move(*first), result);
@@ -283,8 +286,8 @@ std::optional<Attempt> blended(const Posed& posed, const Attempt& minimum, const
     std::vector<double> x = least;
     for (std::size_t i = 0; i < x.size(); ++i) x[i] += fraction * (inside.x[i] - least[i]);
     if (!is_positive(posed, x) || !is_within(minimum.question.bounds, x)) return false;
-    lmi::Margins margins = margins_at(posed, minimum, x);
-    if (!lmi::all_hold(margins)) return false;
+    verdict::Margins margins = margins_at(posed, minimum, x);
+    if (!verdict::all_hold(margins)) return false;
     result = minimum;
     result->point = true;
     result->x = std::move(x);

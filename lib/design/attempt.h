@@ -8,8 +8,8 @@
 
 #include "forall/plan.h"
 #include "lmi/formulation.h"
-#include "lmi/margins.h"
-#include "lmi/refutation.h"
+#include "verdict/margins.h"
+#include "verdict/refutation.h"
 
 namespace gainsmith::design {
 
@@ -32,7 +32,7 @@ struct Posed {
   const forall::Plan& plan;
   const lmi::Lmi& lmi;
   bool wide = true;   ///< whether 31 and 100 digits may be tried where double does not decide
-  lmi::Look look;     ///< without `describe` nothing but the verdict is asked for
+  verdict::Look look;  ///< without `describe` nothing but the verdict is asked for
   bool thin = false;  ///< an exchange may be given more points before more digits are tried
 
   const model::SynthesisOptions& choices() const { return inequalities.design().synthesis; }
@@ -58,17 +58,17 @@ struct Attempt {
   /// Every block is positive definite at x, as evaluated in double, and the bounds asked are kept.
   bool point = false;
   std::vector<double> x;  ///< the unknowns
-  lmi::Margins margins;   ///< at x, of a point
+  verdict::Margins margins;  ///< at x, of a point
   /// Of an interior question without bounds and without a point.
-  std::optional<lmi::Refutation> refutation;
+  std::optional<verdict::Refutation> refutation;
   /// Of an interior question without a point: what its multipliers leave for the blocks as they
-  /// were solved, gain bounds and corners of boxes included (lmi::relaxed_omega).
-  double relaxed_omega = 1;
+  /// were solved, gain bounds and corners of boxes included (lmi::relaxed_backward_error).
+  double relaxed_backward_error = 1;
   /// Whether its multipliers would have led further with more work (base/stop.h).
   bool out_of_allowance = false;
-  /// Made on faces (on_faces.h): the solution says nothing of margins there.
+  /// Made by facial reduction (facial_reduction.h): the solution says nothing of margins there.
   bool on_face = false;
-  /// Of attempts on faces that exclude every solution: the exact steps, as text, and
+  /// Of a facial reduction that excludes every solution: the exact steps, as text, and
   /// the multipliers of the blocks where one step was enough.
   std::string chain;
   /// Of those that lead to a face, but to no point on it: what is known.
@@ -84,7 +84,7 @@ struct Attempt {
   /// Optimal, or with objectives that nearly agree.
   bool is_near_optimal() const;
   /// Every inequality holds at the decimals of x: a yes.
-  bool holds() const { return point && lmi::all_hold(margins); }
+  bool holds() const { return point && verdict::all_hold(margins); }
   /// No x satisfies the inequalities.
   bool refuted() const;
   /// No x satisfies the blocks as they were solved, up to rounding.

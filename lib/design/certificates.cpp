@@ -4,12 +4,16 @@
 #include <utility>
 
 #include "base/stop.h"
+#include "verdict/refined_refutation.h"
+#include "verdict/solved_multipliers.h"
 
 namespace gainsmith::design {
 
 namespace {
 
-bool excludes(const lmi::Refutation& found) { return found.exact || found.omega <= lmi::kNothing; }
+bool excludes(const verdict::Refutation& found) {
+  return found.exact || found.backward_error <= verdict::kNothing;
+}
 
 class Certificates {
  public:
@@ -18,54 +22,56 @@ class Certificates {
 
   bool in_double() const { return effort_.precision == "auto"; }
 
-  lmi::Refutation exact(const sdp::Solution& solution, lmi::Exactness exactness) const {
+  verdict::Refutation exact(const sdp::Solution& solution, verdict::Exactness exactness) const {
     const auto Y = multipliers(solution);
     auto found =
-        lmi::refute<DoubleDouble>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
+        verdict::refute<DoubleDouble>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
     // 31 digits have the range of double: what underflows there stands in the file all the same.
     if (found.exact && posed_.wide)
-      found = lmi::refute<Decimal100>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
+      found =
+          verdict::refute<Decimal100>(posed_.inequalities, posed_.lmi, formulation_, Y, exactness);
     return found;
   }
 
-  lmi::Refutation on_boundary(const sdp::Solution& solution) const {
-    return lmi::refute_on_boundary(posed_.inequalities, posed_.lmi, formulation_, solution);
+  verdict::Refutation on_boundary(const sdp::Solution& solution) const {
+    return verdict::refute_on_boundary(posed_.inequalities, posed_.lmi, formulation_, solution);
   }
 
   /// One program in double, of the inequalities as they stand.
-  lmi::Refutation by_violation(const Solve& solve) const {
+  verdict::Refutation by_violation(const Solve& solve) const {
     if (!in_double() || !formulation_.homogenised || !posed_.lmi.stands_for_points()) return {};
     const lmi::Formulation violation = lmi::formulate_violation(posed_.lmi);
     const sdp::Solution solution = solve(violation.problem, {"double", 1e-10});
     if (solution.x.empty() || !(lmi::interior_margin(solution) < 0)) return {};
-    return lmi::refute_by_violation(posed_.inequalities, posed_.lmi, violation, solution);
+    return verdict::refute_by_violation(posed_.inequalities, posed_.lmi, violation, solution);
   }
 
   /// The same of homogeneous inequalities, one unknown of which is a scale.
-  lmi::Refutation by_violation_in_scale(const Solve& solve) const {
+  verdict::Refutation by_violation_in_scale(const Solve& solve) const {
     if (!in_double() || formulation_.homogenised || !posed_.lmi.stands_for_points()) return {};
     const auto scale = lmi::find_scale(posed_.lmi, posed_.inequalities.unknowns);
     if (!scale) return {};
     const lmi::Formulation violation = lmi::formulate_violation(lmi::scaled(posed_.lmi, *scale));
     const sdp::Solution solution = solve(violation.problem, {"double", 1e-10});
     if (solution.x.empty() || !(lmi::interior_margin(solution) < 0)) return {};
-    return lmi::refute_by_violation(posed_.inequalities, posed_.lmi, *scale, violation, solution);
+    return verdict::refute_by_violation(posed_.inequalities, posed_.lmi, *scale, violation,
+                                        solution);
   }
 
   /// However small its eigenvalues are: the steps are in double.
-  lmi::Refutation inside(const sdp::Solution& solution) const {
-    return lmi::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
-                                multipliers(solution), lmi::Steps::in_double);
+  verdict::Refutation inside(const sdp::Solution& solution) const {
+    return verdict::refute_refined(posed_.inequalities, posed_.lmi, formulation_,
+                                   multipliers(solution), verdict::Steps::in_double);
   }
 
-  /// Of small programs polishing is cheaper than a solution in more digits: from double it has a
-  /// small allowance.
-  lmi::Refutation polished(const sdp::Solution& solution) const {
+  /// Of small programs refining them is cheaper than a solution in more digits: from double it has
+  /// a small allowance.
+  verdict::Refutation refined(const sdp::Solution& solution) const {
     constexpr double kWorth = 0.1;
     const Allowance allowance(in_double() ? kWorth : std::numeric_limits<double>::infinity());
     try {
-      return lmi::refute_polished(posed_.inequalities, posed_.lmi, formulation_,
-                                  multipliers(solution), lmi::Steps::in_wide);
+      return verdict::refute_refined(posed_.inequalities, posed_.lmi, formulation_,
+                                     multipliers(solution), verdict::Steps::in_wide);
     } catch (const OutOfAllowance&) {
       if (!in_double()) throw;
       return {};
@@ -73,17 +79,17 @@ class Certificates {
   }
 
   /// What 31 digits see is not of the data's making when 100 are asked for.
-  lmi::Refutation in_100_digits(const sdp::Solution& solution) const {
+  verdict::Refutation in_100_digits(const sdp::Solution& solution) const {
     const auto blocks =
-        lmi::exact_blocks<Decimal100>(posed_.inequalities, posed_.lmi, formulation_);
-    return lmi::refute<Decimal100>(
+        verdict::exact_blocks<Decimal100>(posed_.inequalities, posed_.lmi, formulation_);
+    return verdict::refute<Decimal100>(
         posed_.lmi, blocks,
-        lmi::wide_multipliers_of(formulation_, posed_.lmi.blocks.size(), solution));
+        verdict::wide_multipliers_of(formulation_, posed_.lmi.blocks.size(), solution));
   }
 
  private:
-  lmi::Multipliers multipliers(const sdp::Solution& solution) const {
-    return lmi::multipliers_of(formulation_, posed_.lmi.blocks.size(), solution);
+  verdict::Multipliers multipliers(const sdp::Solution& solution) const {
+    return verdict::multipliers_of(formulation_, posed_.lmi.blocks.size(), solution);
   }
 
   const Posed& posed_;
@@ -93,14 +99,14 @@ class Certificates {
 
 }  // namespace
 
-lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
-                                 const lmi::Formulation& formulation, const sdp::Solution& solution,
-                                 const Solve& solve) {
+verdict::Refutation find_certificate(const Posed& posed, const Effort& effort,
+                                     const lmi::Formulation& formulation,
+                                     const sdp::Solution& solution, const Solve& solve) {
   // With more of a margin than this no certificate is near.
   constexpr double kNear = 1e-6;
   const Certificates certificates(posed, effort, formulation);
   const bool near = lmi::interior_margin(solution) <= kNear;
-  lmi::Refutation found = certificates.exact(solution, lmi::Exactness::in_double);
+  verdict::Refutation found = certificates.exact(solution, verdict::Exactness::in_double);
   if (found.exact) return found;
   if (posed.wide && near) {
     if (const auto boundary = certificates.on_boundary(solution); excludes(boundary))
@@ -110,15 +116,15 @@ lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
     if (const auto violated = certificates.by_violation_in_scale(solve); excludes(violated))
       return violated;
   }
-  found = certificates.exact(solution, lmi::Exactness::in_wide);
+  found = certificates.exact(solution, verdict::Exactness::in_wide);
   if (found.exact || !posed.wide || !near) return found;
-  if (const auto polished = certificates.polished(solution); excludes(polished)) return polished;
+  if (const auto refined = certificates.refined(solution); excludes(refined)) return refined;
   return certificates.in_double() ? found : certificates.in_100_digits(solution);
 }
 
-lmi::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
-                                       const sdp::Solution& solution) {
-  return Certificates(posed, {}, formulation).exact(solution, lmi::Exactness::in_double);
+verdict::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
+                                           const sdp::Solution& solution) {
+  return Certificates(posed, {}, formulation).exact(solution, verdict::Exactness::in_double);
 }
 
 }  // namespace gainsmith::design

@@ -3,10 +3,10 @@
 //   1. the solver's multipliers, exact in double            robustly infeasible
 //   2. on the boundary of the cone, with x beside them      strict complementarity
 //   3. the same of the least violation, one more program    constant parts, nearly singular in 1
-//   4. multipliers alone, polished with steps in double     where those of 1 are nearly singular
+//   4. multipliers alone, refined with steps in double      where those of 1 are nearly singular
 //   5. the least violation again, by a scale              homogeneous, one scalar > 0 by itself
 //   6. the solver's multipliers, exact in 31 digits         small programs
-//   7. multipliers alone, polished with wide steps          whatever is left
+//   7. multipliers alone, refined with wide steps           whatever is left
 // Steps 1 and 6 are all for a search that does not want more digits.
 #pragma once
 
@@ -14,14 +14,14 @@
 
 namespace gainsmith::design {
 
-/// The first certificate that excludes every solution, or the best found (its omega).
+/// The first certificate that excludes every solution, or the best found (its backward error).
 /// OutOfAllowance passes through.
-lmi::Refutation find_certificate(const Posed& posed, const Effort& effort,
-                                 const lmi::Formulation& formulation, const sdp::Solution& solution,
-                                 const Solve& solve);
+verdict::Refutation find_certificate(const Posed& posed, const Effort& effort,
+                                     const lmi::Formulation& formulation,
+                                     const sdp::Solution& solution, const Solve& solve);
 
 /// The first of them alone.
-lmi::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
-                                       const sdp::Solution& solution);
+verdict::Refutation find_exact_certificate(const Posed& posed, const lmi::Formulation& formulation,
+                                           const sdp::Solution& solution);
 
 }  // namespace gainsmith::design

@@ -4,7 +4,8 @@
 
 #include "base/number.h"
 #include "base/scalars.h"
-#include "design/ladder.h"
+#include "design/attempts.h"
+#include "verdict/zero_diagonal.h"
 
 namespace gainsmith::design {
 
@@ -91,7 +92,7 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
     gains.objective_lower_bound = std::min(*gains.objective, least);
     return;
   }
-  const Attempt* minimum = climb.find(Rung::minimum);
+  const Attempt* minimum = climb.find(AttemptKind::minimum);
   if (minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible)
     gains.solver.add_message(
         "the objective is that of a point inside: the solver finds it unbounded below");
@@ -134,7 +135,8 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
           " in balanced units were found; synthesis.gain_bound states what is acceptable");
   }
   note_wishes(point, gains);
-  if (const Attempt* tighter = climb.find(Rung::tighter)) mark_free_gains(*tighter, lmi, gains);
+  if (const Attempt* tighter = climb.find(AttemptKind::tighter))
+    mark_free_gains(*tighter, lmi, gains);
 }
 
 std::string name_of(const lmi::Block& block) {
@@ -167,7 +169,7 @@ void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains&
     return;
   }
   gains.certificate =
-      model::CertificateRecord{refuted.refutation->exact, refuted.refutation->omega,
+      model::CertificateRecord{refuted.refutation->exact, refuted.refutation->backward_error,
                                refuted.refutation->digits, named_multipliers(climb, refuted)};
 }
 
@@ -180,15 +182,15 @@ void note_undecided(const Climb& climb, model::Gains& gains) {
       last.solution.cause != sdp::Cause::certificate)
     if (const double margin = lmi::interior_margin(last.solution); margin >= 0 && margin <= 1)
       gains.solver.add_message("the largest margin found is " + brief(margin, 2));
-  if (refutation && refutation->omega < 0.1)
+  if (refutation && refutation->backward_error < 0.1)
     gains.solver.add_message("solutions, if any, do not survive a relative change of " +
-                             brief(refutation->omega, 2) + " of the coefficients");
+                             brief(refutation->backward_error, 2) + " of the coefficients");
 }
 
-/// A no without multipliers (lmi/refutation.h).
+/// A no without multipliers (verdict/refutation.h).
 bool refute_by_zero_diagonal(const Climb& climb, model::Gains& gains) {
-  const auto found = lmi::find_zero_diagonal(climb.posed().inequalities, climb.posed().lmi,
-                                             climb.last().formulation.balance);
+  const auto found = verdict::find_zero_diagonal(climb.posed().inequalities, climb.posed().lmi,
+                                                 climb.last().formulation.balance);
   if (!found) return false;
   gains.verdict = model::Verdict::no;
   gains.solver.status = "infeasible";
@@ -226,14 +228,15 @@ void conclude(const Climb& climb, model::Gains& gains) {
         "the search for a point or a certificate in more digits was ended after its allowance of "
         "work; `--effort full`, or `effort: full` under `synthesis`, lets it go on");
   }
-  if (const Attempt* faces = climb.find(Rung::on_faces)) {
+  if (const Attempt* faces = climb.find(AttemptKind::facial_reduction)) {
     gains.solver.add_message(faces->left_open);
     return;
   }
   if (climb.last().relaxation_refuted()) {
     // What it is about is said by the plan (synthesize.cpp).
-    gains.certificate = model::CertificateRecord{false, climb.last().relaxed_omega, kDoubleDigits,
-                                                 named_multipliers(climb, climb.last()), ""};
+    gains.certificate =
+        model::CertificateRecord{false, climb.last().relaxed_backward_error, kDoubleDigits,
+                                 named_multipliers(climb, climb.last()), ""};
     return;
   }
   note_undecided(climb, gains);

@@ -18,12 +18,12 @@ bool grow(forall::Plan& plan, const lmi::Inequalities& inequalities, const lmi::
           const Attempt& attempt) {
   constexpr std::size_t kMostAtOnce = 24;  // the worst come first
   std::map<std::size_t, std::vector<forall::Point>> fresh;
-  for (const lmi::Violation& violation : attempt.margins.violations)
+  for (const verdict::Violation& violation : attempt.margins.violations)
     if (plan.inequalities[violation.inequality].way == model::Way::exchange &&
         fresh[violation.inequality].size() < kMostAtOnce)
       fresh[violation.inequality].push_back(violation.point);
   bool grown = false;
-  for (const lmi::Violation& violation : attempt.margins.violations)
+  for (const verdict::Violation& violation : attempt.margins.violations)
     if (violation.certain && plan.inequalities[violation.inequality].way == model::Way::exchange)
       grown |= forall::add_point(plan.inequalities[violation.inequality],
                                  inequalities.statements[violation.inequality].domain,

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bind/stated.h"
 #include "lmi/affine.h"
 #include "model/stated.h"
 #include "numbers/dense.h"
@@ -122,7 +123,7 @@ void add_report(const model::Instance& instance, model::Gains& gains) {
   for (const auto& [name, estimate] : instance.design->estimates)
     gains.estimates[name] = to_string(estimate);
   if (instance.design->report.empty()) return;
-  const model::Stated stated = model::state(instance, gains);
+  const model::Stated stated = bind::state(instance, gains);
   for (const model::NamedFormula& shown : instance.design->report)
     if (const auto value = stated.value(shown.value.program))
       gains.report.emplace_back(shown.name, *value);

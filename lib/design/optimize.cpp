@@ -10,9 +10,10 @@
 #include "base/number.h"
 #include "base/progress.h"
 #include "base/stop.h"
+#include "bind/instance.h"
 #include "design/elastic.h"
 #include "design/hautus.h"
-#include "design/polish.h"
+#include "design/joint_refinement.h"
 #include "design/results.h"
 #include "design/synthesize.h"
 #include "search/ipopt.h"
@@ -103,7 +104,7 @@ class OuterSearch {
         const double found = request_.largest ? -*result.found.yes : *result.found.yes;
         return keep(std::move(result.gains), found);
       }
-      const model::Instance instance = model::evaluate(own_.design, values);
+      const model::Instance instance = bind::evaluate(own_.design, values);
       model::Gains gains = synthesize(instance, solver_, Depth::quick);
       if (gains.verdict == model::Verdict::undecided) check_stop();
       if (gains.verdict != model::Verdict::yes) return std::nullopt;
@@ -125,7 +126,7 @@ class OuterSearch {
   /// What the slacks of all points are measured in; none where the values of the point are refused.
   std::optional<ByInequality> scales_at(const search::Point& point) const {
     try {
-      return scales_of(without_gains(model::evaluate(own_.design, at_easy_end(point))));
+      return scales_of(without_gains(bind::evaluate(own_.design, at_easy_end(point))));
     } catch (const InputError&) {
       return std::nullopt;
     }
@@ -136,7 +137,7 @@ class OuterSearch {
   double violation(const ByInequality& scales, const search::Point& point) const {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     try {
-      const auto plain = without_gains(model::evaluate(own_.design, at_easy_end(point)));
+      const auto plain = without_gains(bind::evaluate(own_.design, at_easy_end(point)));
       return estimated_violation(plain, scales, solver_).value_or(kInfinity);
     } catch (const InputError&) {
       return kInfinity;
@@ -169,7 +170,7 @@ class OuterSearch {
       check_stop();
       return {std::move(result.gains), result.found.yes};
     }
-    const model::Instance instance = model::evaluate(own_.design, values);
+    const model::Instance instance = bind::evaluate(own_.design, values);
     model::Gains gains = synthesize(instance, solver_);
     check_stop();
     // A measure was taken in the search.
@@ -184,18 +185,18 @@ class OuterSearch {
     return request_.extreme && request_.largest ? a > b : a < b;
   }
 
-  /// Replaces a design by what polishing proposes, if that is better.
-  model::PolishRecord polish_design(model::Gains& gains, std::optional<double>& figure) const {
-    const Proposal proposal = polish(own_, request_, gains, smooth_);
-    model::PolishRecord record{*figure, std::nullopt, false, proposal.cause};
+  /// Replaces a design by what joint refinement proposes, if that is better.
+  model::RefinementRecord refine_design(model::Gains& gains, std::optional<double>& figure) const {
+    const Proposal proposal = refine_jointly(own_, request_, gains, smooth_);
+    model::RefinementRecord record{*figure, std::nullopt, false, proposal.cause};
     if (!proposal.scalars) return record;
     model::Overrides values = *proposal.scalars;
     if (request_.extreme) values.erase(request_.extreme->name);
-    auto [polished, after] = design_at(values);
+    auto [refined, after] = design_at(values);
     record.after = after;
     record.kept = after && is_better(*after, *figure);
     if (record.kept) {
-      gains = std::move(polished);
+      gains = std::move(refined);
       figure = after;
     }
     return record;
@@ -219,7 +220,7 @@ class OuterSearch {
   model::Gains result(const search::Minimum& minimum) const {
     model::Gains gains;
     std::optional<double> best;
-    std::optional<model::PolishRecord> polished;
+    std::optional<model::RefinementRecord> refined;
     bool finished = minimum.finished;
     if (minimum.point) {
       // Unless the search comes to its end, those that it met.
@@ -228,7 +229,7 @@ class OuterSearch {
       try {
         std::tie(gains, best) = design_at(overrides(*minimum.point), extreme_of(minimum));
         if (request_.measure && gains.verdict == model::Verdict::yes) best = minimum.value;
-        if (request_.polish && best && finished) polished = polish_design(gains, best);
+        if (request_.refine && best && finished) refined = refine_design(gains, best);
       } catch (const Stopped&) {
         finished = false;
       }
@@ -242,7 +243,7 @@ class OuterSearch {
     const bool stated = request_.extreme || request_.minimize || request_.measure;
     if (best && !stated && !gains.objective) record.figure = "margin";
     record.value = record.figure == "margin" && best ? std::optional(-*best) : best;
-    record.polish = std::move(polished);
+    record.joint_refinement = std::move(refined);
     for (const SearchedScalar& scalar : request_.over) {
       record.over.push_back(scalar.name);
       if (best && is_at_end(scalar.axis, gains.searched.at(scalar.name)))

@@ -6,6 +6,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/stop.h"
+#include "bind/instance.h"
 #include "design/results.h"
 #include "design/synthesize.h"
 
@@ -25,7 +26,7 @@ std::vector<ScanRow> scan(const model::DesignPtr& design, const std::vector<std:
     std::optional<model::Instance> instance;
     model::Gains gains;
     try {
-      instance = model::evaluate(design, overrides);
+      instance = bind::evaluate(design, overrides);
       gains = synthesize(*instance, solver, Depth::verdict);
       if (gains.verdict == model::Verdict::undecided) check_stop();
     } catch (const InputError& error) {

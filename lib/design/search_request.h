@@ -34,7 +34,7 @@ struct SearchRequest {
   Measure measure;           ///< called from several threads at once; the caller knows how to run
   std::string measure_name;  ///< in messages and in the record
   int evaluations = 200;
-  bool polish = false;  ///< move scalars and unknowns together at the end (polish.h)
+  bool refine = false;  ///< move scalars and unknowns together at the end (joint_refinement.h)
 
   bool empty() const { return !extreme && over.empty(); }
 };

@@ -38,7 +38,7 @@ std::vector<std::string> remarks(const lmi::Inequalities& inequalities, const lm
   const std::string one = formulation.homogenised ? "/" + variable(formulation.variables - 1) : "";
   for (int i = 1; i <= lmi.unknowns; ++i) {
     const std::string name = inequalities.unknowns.scalar_name(i);
-    result.push_back(formulation.releases.released(i)
+    result.push_back(formulation.free_variables.contains(i)
                          ? name + " is left out: nothing keeps it from what suits its rows."
                          : name + " = " + brief(formulation.balance.unit(i), 17) + "*" +
                                variable(i) + one);

@@ -10,10 +10,11 @@
 #include "base/number.h"
 #include "base/stop.h"
 #include "base/version.h"
+#include "bind/instance.h"
+#include "design/attempts.h"
 #include "design/exchange.h"
 #include "design/gain_values.h"
 #include "design/hautus.h"
-#include "design/ladder.h"
 #include "design/quotient.h"
 
 namespace gainsmith::design {
@@ -52,11 +53,11 @@ model::Gains stated(const model::Instance& instance) {
 }
 
 /// A certificate of the very inequalities that is not sharp enough to say no.
-std::string blunt_text(double omega, bool to_the_end) {
+std::string blunt_text(double backward_error, bool to_the_end) {
   return std::string("a certificate in double speaks against any solution, ") +
          (to_the_end ? "but more digits do not confirm it"
                      : "and whether more digits confirm it is open") +
-         ": solutions, if any, do not survive a relative change of " + brief(omega, 2) +
+         ": solutions, if any, do not survive a relative change of " + brief(backward_error, 2) +
          " of the coefficients";
 }
 
@@ -72,7 +73,8 @@ void report_ways(const forall::Plan& plan, int rounds, model::Gains& gains) {
   const bool exact = std::all_of(plan.inequalities.begin(), plan.inequalities.end(),
                                  [](const forall::Imposed& imposed) { return imposed.exact; });
   if (exact) {
-    gains.solver.add_message(blunt_text(gains.certificate->omega, !gains.solver.out_of_allowance));
+    gains.solver.add_message(
+        blunt_text(gains.certificate->backward_error, !gains.solver.out_of_allowance));
     gains.certificate.reset();
     return;
   }
@@ -94,9 +96,9 @@ void note_stop(const std::string& doing, int iterations, model::Gains& gains) {
                                          : "stopped while looking for " + doing);
 }
 
-lmi::Look look_of(Depth depth) {
+verdict::Look look_of(Depth depth) {
   constexpr std::size_t kQuickPieces = 1000;
-  lmi::Look look;
+  verdict::Look look;
   look.describe = depth != Depth::verdict;
   if (depth == Depth::quick) look.most_pieces = kQuickPieces;
   return look;
@@ -336,7 +338,7 @@ model::Gains synthesize(const model::Instance& instance, const sdp::Options& opt
 
 model::Gains synthesize_at(const model::DesignPtr& design, const model::Overrides& overrides,
                            const sdp::Options& options, Depth depth) {
-  return synthesize(model::evaluate(design, overrides), options, depth);
+  return synthesize(bind::evaluate(design, overrides), options, depth);
 }
 
 }  // namespace gainsmith::design

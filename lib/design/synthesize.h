@@ -8,12 +8,12 @@
 
 namespace gainsmith::design {
 
-/// Poses the inequalities of the instance, climbs the ladder of attempts (ladder.h) and reads the
-/// gains back.
+/// Poses the inequalities of the instance, makes the attempts that are due (attempts.h) and reads
+/// the gains back.
 ///
 /// verdict yes: every inequality holds at the matrices as written, for all values of its variables.
 /// verdict no: a certificate that was checked on the decimals of the file excludes every solution
-/// of the inequalities, of any size, without margins or bounds (lmi/refutation.h); it is stored
+/// of the inequalities, of any size, without margins or bounds (verdict/refutation.h); it is stored
 /// with its multipliers. verdict undecided: neither, with what is known. Then only the gains whose
 /// formulas use nothing but data are given.
 ///

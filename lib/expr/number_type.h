@@ -29,10 +29,9 @@
 //  3. An operation without a result throws EvaluationError with the texts of `fault`. The evaluator
 //     adds the place. No other exception stands for a fault of the values.
 //  4. A value moves when it stands for many at once: the points of a pack, the unknowns of an
-//  affine
-//     form, the degree above 0. An operation that a type does not have for moving operands throws
-//     EvaluationError too, and the type lists it. In a pack a point without a result is not a
-//     number and the other points go on.
+//     affine form, the degree above 0. An operation that a type does not have for moving operands
+//     throws EvaluationError too, and the type lists it. In a pack a point without a result is not
+//     a number and the other points go on.
 //  5. Empty matrices are values like others.
 //  6. Projections (project_...) and flow_map are computed by Real and what goes back to it. A type
 //     that bounds errors may lack them: it throws fault::no_error_bound, whatever moves. So does

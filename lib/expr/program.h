@@ -23,8 +23,8 @@ struct Instruction {
                      ///< extremum: the names that run over the box
   std::shared_ptr<const Text> origin;
   std::size_t offset = 0;  ///< where in the origin it was written
-  /// jacobian: what is differentiated; its inputs are the operands. flow_map: the rate. extremum: what
-  /// is maximised.
+  /// jacobian: what is differentiated; its inputs are the operands. flow_map: the rate. extremum:
+  /// what is maximised.
   std::shared_ptr<const Program> body = nullptr;
 
   Place place() const { return origin ? origin->place(offset) : Place{}; }

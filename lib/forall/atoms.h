@@ -43,8 +43,8 @@ struct Range {
 /// wave) otherwise.
 Range range(const Atom& atom, double begin, double end);
 
-/// A t in [begin, end] with theta(t) = value, one of the ends or an extremum between them; none when
-/// none of these has it, up to 1e-9 of the largest value there.
+/// A t in [begin, end] with theta(t) = value, one of the ends or an extremum between them; none
+/// when none of these has it, up to 1e-9 of the largest value there.
 std::optional<double> place_of(const Atom& atom, double value, double begin, double end);
 
 /// d theta/dt as a combination of atoms.

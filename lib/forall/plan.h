@@ -33,8 +33,8 @@ Plan make_plan(const model::Design& design);
 /// box of the intervals. InputError for more than ten intervals.
 std::vector<Point> first_points(const Domain& domain);
 
-/// Adds a point to an exchange. False when one is there already, up to `same` of each interval: points
-/// that a search found draw together without end.
+/// Adds a point to an exchange. False when one is there already, up to `same` of each interval:
+/// points that a search found draw together without end.
 bool add_point(Imposed& imposed, const Domain& domain, const Point& point, double same = 1e-9);
 
 }  // namespace gainsmith::forall

@@ -21,10 +21,10 @@ struct Minima {
 };
 
 /// The local minima over the domain of the smallest eigenvalue of a symmetric matrix given as text.
-/// The text is evaluated over double, so any dependence on the variables is
-/// taken. Over a polytope the vertices are enough: the eigenvalue is concave in its variable. Over
-/// one interval see local_minima; `known` gives data, parameters and unknowns. `rows`: units s of the
-/// rows, the eigenvalue is that of diag(s) B diag(s); empty: of B.
+/// The text is evaluated over double, so any dependence on the variables is taken. Over a polytope
+/// the vertices are enough: the eigenvalue is concave in its variable. Over one interval see
+/// local_minima; `known` gives data, parameters and unknowns. `rows`: units s of the rows, the
+/// eigenvalue is that of diag(s) B diag(s); empty: of B.
 Minima local_minima(const expr::Program& difference, const Domain& domain,
                     const numbers::Values& known, const numbers::Vector& rows = {});
 

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include "expr/branches.h"
-#include "numbers/golden_section.h"
+#include "numerics/golden_section.h"
 #include "ode/step_range.h"
 
 namespace gainsmith::hybrid {
@@ -125,7 +125,7 @@ void add_near(const std::function<double(double)>& g, double from, double to,
   const auto k = static_cast<std::size_t>(least - sizes.begin());
   const double low = times[k == 0 ? 0 : k - 1];
   const double high = times[std::min(k + 1, times.size() - 1)];
-  near.push_back(numbers::peak_between([&](double t) { return -std::abs(g(t)); }, low, high));
+  near.push_back(numerics::peak_between([&](double t) { return -std::abs(g(t)); }, low, high));
 }
 
 /// Makes one of breaks with next to nothing between them.

@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "base/number.h"
+#include "bind/stated.h"
 #include "hybrid/affine.h"
 #include "model/dynamics_programs.h"
 
@@ -297,7 +298,7 @@ System make_system(const model::Instance& instance, const model::Gains& gains) {
   const model::Design& design = *instance.design;
   if (!design.dynamics)
     throw InputError({design.method_file, 0, 0}, "there are no events and no components to run");
-  model::Stated stated = model::state(instance, gains);
+  model::Stated stated = bind::state(instance, gains);
   return make_system(*design.dynamics, std::move(stated.values), std::move(stated.bodies));
 }
 

@@ -89,7 +89,7 @@ Json certificate_json(const model::Gains& gains, const std::string& key,
                       const model::CertificateRecord& certificate) {
   return {{"exact", certificate.exact},
           {"about", certificate.about},
-          {"omega", certificate.omega},
+          {"backward_error", certificate.backward_error},
           {"digits", certificate.digits},
           {"multipliers", matrices_json(gains, key + ".multipliers", certificate.multipliers)}};
 }
@@ -103,11 +103,11 @@ Json search_json(const model::Gains& gains, const model::SearchRecord& search) {
                  {"breaks", search.breaks},         {"over", search.over},
                  {"at_end", search.at_end},         {"evaluations", search.evaluations},
                  {"feasible", search.feasible},     {"finished", search.finished}};
-  if (const auto& polish = search.polish)
-    result["polish"] = {{"before", polish->before},
-                        {"after", number(polish->after)},
-                        {"kept", polish->kept},
-                        {"cause", polish->cause}};
+  if (const auto& refinement = search.joint_refinement)
+    result["joint_refinement"] = {{"before", refinement->before},
+                                  {"after", number(refinement->after)},
+                                  {"kept", refinement->kept},
+                                  {"cause", refinement->cause}};
   if (search.certificate)
     result["certificate"] = certificate_json(gains, "search.certificate", *search.certificate);
   return result;
@@ -208,8 +208,8 @@ model::Margin margin_of(const JsonReader& reader) {
 }
 
 model::CertificateRecord certificate_of(const JsonReader& reader, model::Gains& gains) {
-  return {reader.at("exact").truth(), reader.at("omega").number(), reader.at("digits").whole(),
-          matrices_of(reader.at("multipliers"), gains),
+  return {reader.at("exact").truth(), reader.at("backward_error").number(),
+          reader.at("digits").whole(), matrices_of(reader.at("multipliers"), gains),
           reader.has("about") ? reader.at("about").text() : "problem"};
 }
 
@@ -234,10 +234,10 @@ model::SearchRecord search_of(const JsonReader& reader, model::Gains& gains) {
   search.evaluations = reader.at("evaluations").whole();
   search.feasible = reader.at("feasible").whole();
   search.finished = reader.at("finished").truth();
-  if (reader.has("polish")) {
-    const JsonReader polish = reader.at("polish");
-    search.polish = {polish.at("before").number(), number(polish.at("after")),
-                     polish.at("kept").truth(), polish.at("cause").text()};
+  if (reader.has("joint_refinement")) {
+    const JsonReader refinement = reader.at("joint_refinement");
+    search.joint_refinement = {refinement.at("before").number(), number(refinement.at("after")),
+                               refinement.at("kept").truth(), refinement.at("cause").text()};
   }
   if (reader.has("certificate"))
     search.certificate = certificate_of(reader.at("certificate"), gains);

@@ -25,8 +25,9 @@ bool is_homogeneous(const Lmi& lmi, const GainBounds& bounds) {
 }
 
 /// The rows that stay, of the blocks and then of the bounds.
-std::vector<std::vector<int>> rows_of(const Releases& releases, const GainBounds& bounds) {
-  std::vector<std::vector<int>> rows = releases.kept;
+std::vector<std::vector<int>> rows_of(const FreeVariables& free_variables,
+                                      const GainBounds& bounds) {
+  std::vector<std::vector<int>> rows = free_variables.kept;
   for (const Block& block : bounds.blocks) rows.push_back(all_rows(block));
   return rows;
 }
@@ -42,9 +43,9 @@ numbers::Matrix in_units(const numbers::Matrix& whole, const Balance& balance, s
   return value;
 }
 
-std::vector<int> sizes_of(const Releases& releases, const GainBounds& bounds) {
+std::vector<int> sizes_of(const FreeVariables& free_variables, const GainBounds& bounds) {
   std::vector<int> sizes;
-  for (const auto& kept : releases.kept) sizes.push_back(static_cast<int>(kept.size()));
+  for (const auto& kept : free_variables.kept) sizes.push_back(static_cast<int>(kept.size()));
   for (const Block& block : bounds.blocks) sizes.push_back(block.size);
   return sizes;
 }
@@ -84,8 +85,8 @@ Formulation pose_objective(const Lmi& lmi, const GainBounds& bounds, double shif
   result.shift = shift;
   result.variables = lmi.unknowns + bounds.scalars;
   result.balance = balance(all_blocks(lmi, bounds), result.variables, lmi.objective);
-  result.releases = find_releases(lmi, bounds.blocks, true);
-  result.sizes = sizes_of(result.releases, bounds);
+  result.free_variables = find_free_variables(lmi, bounds.blocks, true);
+  result.sizes = sizes_of(result.free_variables, bounds);
   result.cost_unit = cost_unit_of(lmi, result.balance);
   return result;
 }
@@ -98,9 +99,9 @@ Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
   const int own = lmi.unknowns + bounds.scalars;
   result.variables = own + (result.homogenised ? 2 : 1);
   result.balance = balance(all_blocks(lmi, bounds), own, {});
-  result.releases = find_releases(lmi, bounds.blocks, false);
-  if (!rows.empty()) result.releases.kept = rows;
-  result.sizes = sizes_of(result.releases, bounds);
+  result.free_variables = find_free_variables(lmi, bounds.blocks, false);
+  if (!rows.empty()) result.free_variables.kept = rows;
+  result.sizes = sizes_of(result.free_variables, bounds);
   result.rows =
       std::accumulate(result.sizes.begin(), result.sizes.end(), 0) + (result.homogenised ? 1 : 0);
   return result;
@@ -155,7 +156,7 @@ void assemble_interior(const std::vector<const Block*>& blocks,
 void assemble(const Lmi& lmi, const GainBounds& bounds, const Round& round,
               Formulation& formulation, const Exactly& exactly) {
   const auto blocks = all_blocks(lmi, bounds);
-  const auto rows = rows_of(formulation.releases, bounds);
+  const auto rows = rows_of(formulation.free_variables, bounds);
   formulation.blocks.clear();
   if (formulation.goal == Goal::objective)
     assemble_objective(lmi, blocks, rows, formulation);
@@ -185,7 +186,7 @@ Formulation formulate_violation(const Lmi& lmi) {
   result.rows = std::accumulate(result.sizes.begin(), result.sizes.end(), 0);
   Assembler assembler(margin);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
-    result.blocks.push_back(balanced(*blocks[k], result.balance, k, result.releases.kept[k]));
+    result.blocks.push_back(balanced(*blocks[k], result.balance, k, result.free_variables.kept[k]));
     // A block without rows keeps its place.
     const int added = result.blocks[k].size == 0 ? assembler.add_block(1, true)
                                                  : assembler.add(result.blocks[k], 0, 1);
@@ -200,7 +201,7 @@ Formulation formulate_violation(const Lmi& lmi) {
 std::vector<std::vector<int>> rows_of_multipliers(const Formulation& formulation,
                                                   const sdp::Solution& solution) {
   constexpr double kGap = 1e6;
-  const auto& kept = formulation.releases.kept;
+  const auto& kept = formulation.free_variables.kept;
   const auto diagonal = [&](std::size_t k, std::size_t i) {
     return solution.Y.values[k][i * (kept[k].size() + 1)];
   };
@@ -237,7 +238,7 @@ std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
     double& value = x[static_cast<std::size_t>(i) - 1];
     value = value / one * formulation.balance.unit(i);
   }
-  restore(lmi, formulation.releases, formulation.balance, x);
+  restore(lmi, formulation.free_variables, formulation.balance, x);
   return x;
 }
 
@@ -248,7 +249,7 @@ std::optional<Round> next_round(const Lmi& lmi, const GainBounds& bounds,
   round.constant = formulation.homogenised ? x[x.size() - 2] : 1;
   if (!(round.constant > 0)) return std::nullopt;
   const auto blocks = all_blocks(lmi, bounds);
-  const auto rows = rows_of(formulation.releases, bounds);
+  const auto rows = rows_of(formulation.free_variables, bounds);
   std::vector<double> in_given_units = x;
   for (std::size_t i = 0; i < formulation.balance.unknowns.size(); ++i)
     in_given_units[i] *= formulation.balance.unit(static_cast<int>(i) + 1);
@@ -280,7 +281,7 @@ double objective_lower_bound(const Lmi& lmi, const GainBounds& bounds,
     add(i, lmi.objective[static_cast<std::size_t>(i) - 1] * formulation.balance.unit(i) *
                formulation.cost_unit);
   const auto blocks = all_blocks(lmi, bounds);
-  const auto rows = rows_of(formulation.releases, bounds);
+  const auto rows = rows_of(formulation.free_variables, bounds);
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     const std::size_t n = rows[k].size();
     const auto& Y = solution.Y.values[k];
@@ -305,7 +306,7 @@ std::vector<numbers::Matrix> multipliers(const Lmi& lmi, const GainBounds& bound
   for (std::size_t k = 0; k < blocks.size(); ++k) {
     // The multiplier of a row that was left out is zero.
     const bool own = k < lmi.blocks.size();
-    const std::vector<int> kept = own ? formulation.releases.kept[k] : all_rows(*blocks[k]);
+    const std::vector<int> kept = own ? formulation.free_variables.kept[k] : all_rows(*blocks[k]);
     const auto n = static_cast<Eigen::Index>(kept.size());
     const Eigen::Map<const numbers::Matrix> y(solution.Y.values[k].data(), n, n);
     numbers::Matrix whole = numbers::Matrix::Zero(blocks[k]->size, blocks[k]->size);
@@ -327,7 +328,7 @@ std::vector<double> multiplier_sizes(const Lmi& lmi, const Formulation& formulat
   for (std::size_t k = 0; k < lmi.blocks.size(); ++k) {
     const Block& block = lmi.blocks[k];
     if (!model::is_comparison_of(block.name, inequality)) continue;
-    const std::size_t n = formulation.releases.kept[k].size();
+    const std::size_t n = formulation.free_variables.kept[k].size();
     for (std::size_t i = 0; i < n; ++i) sizes.at(block.at) += solution.Y.values[k][i * n + i];
   }
   return sizes;

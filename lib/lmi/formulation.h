@@ -22,8 +22,8 @@
 #include "lmi/assembler.h"
 #include "lmi/balance.h"
 #include "lmi/compile.h"
+#include "lmi/free_variables.h"
 #include "lmi/gain_bounds.h"
-#include "lmi/release.h"
 #include "sdp/problem.h"
 #include "sdp/solution.h"
 
@@ -46,7 +46,7 @@ struct Formulation {
   bool homogenised = false;  ///< interior: x_0 stands before s, which is the last variable
   int rows = 0;              ///< interior: N
   int variables = 0;         ///< of the program
-  Releases releases;         ///< scalars left out, and the rows of each block that stay
+  FreeVariables free_variables;  ///< scalars left out, and the rows of each block that stay
   std::vector<int> sizes;    ///< rows that stay in each block, those of the bounds last
 
   // Of what is assembled:
@@ -64,8 +64,8 @@ bool has_minimum(const Lmi& lmi, const GainBounds& bounds);
 
 /// Without the program, which not every solver wants (matrix_program.h).
 Formulation pose_objective(const Lmi& lmi, const GainBounds& bounds, double shift);
-/// `rows`, unless empty: the rows of each block of the Lmi that stay, of those that releases leave.
-/// With fewer rows less is asked, so what refutes it refutes the whole.
+/// `rows`, unless empty: the rows of each block of the Lmi that stay, of those that free_variables
+/// leave. With fewer rows less is asked, so what refutes it refutes the whole.
 Formulation pose_interior(const Lmi& lmi, const GainBounds& bounds,
                           const std::vector<std::vector<int>>& rows = {});
 
@@ -97,7 +97,7 @@ std::vector<std::vector<int>> rows_of_multipliers(const Formulation& formulation
 /// s of an interior solution.
 double interior_margin(const sdp::Solution& solution);
 
-/// The scalars x of the Lmi from the solution (the program has more variables), released ones
+/// The scalars x of the Lmi from the solution (the program has more variables), free ones
 /// restored; of an interior solution x / x_0.
 std::vector<double> read_back(const Lmi& lmi, const Formulation& formulation,
                               const sdp::Solution& solution);

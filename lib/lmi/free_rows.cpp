@@ -42,11 +42,11 @@ Sum::iterator find(Sum& sum, int row) {
 }
 
 /// Up to four rows with factors between -2 and 2, in an order like that of Sum: 0 is no row.
-using Key = std::array<std::uint32_t, 4>;
+using RowKey = std::array<std::uint32_t, 4>;
 constexpr std::uint32_t kFactorBits = 4;
 constexpr int kFactorZero = 3;
 
-Sum sum_of(const Key& key) {
+Sum sum_of(const RowKey& key) {
   Sum sum;
   for (const std::uint32_t part : key)
     if (part != 0)
@@ -63,8 +63,8 @@ class Equation {
     if (first != nullptr) add_element(*first, -1, objective);
   }
 
-  Key key() const {
-    Key key{};
+  RowKey key() const {
+    RowKey key{};
     for (std::size_t k = 0, out = 0; k < size_; ++k)
       if (terms_[k].second != 0)
         key[out++] = (static_cast<std::uint32_t>(terms_[k].first + 1) << kFactorBits) |
@@ -150,7 +150,7 @@ class Solved {
   bool follows(const Element& e, const Element* first, int objective) const {
     return value(e, objective) == (first == nullptr ? 0 : value(*first, objective));
   }
-  bool follows(const Key& key) const {
+  bool follows(const RowKey& key) const {
     std::uint64_t sum = 0;
     for (const auto& [row, factor] : sum_of(key))
       sum += static_cast<std::uint64_t>(factor) * values_[static_cast<std::size_t>(row)];
@@ -197,18 +197,18 @@ class Solved {
 };
 
 /// The equations whose first row is in [low, high) and that do not follow, in their order.
-std::vector<Key> equations_from(const BalanceElements& elements, const Solved& solved, int low,
-                                int high) {
+std::vector<RowKey> equations_from(const BalanceElements& elements, const Solved& solved, int low,
+                                   int high) {
   const auto limit = static_cast<std::uint32_t>(high + 1) << kFactorBits;
   const auto least = static_cast<std::uint32_t>(low + 1) << kFactorBits;
-  std::vector<Key> keys;
+  std::vector<RowKey> keys;
   const int objective = elements.objective();
   for_each_equation(elements, 0, [&](const Element& e, const Element* first, int) {
     const int lowest = first == nullptr
                            ? std::min(e.first, e.second)
                            : std::min({e.first, e.second, first->first, first->second});
     if (lowest >= high || solved.follows(e, first, objective)) return true;
-    const Key key = Equation(e, first, objective).key();
+    const RowKey key = Equation(e, first, objective).key();
     if (least <= key[0] && key[0] < limit) keys.push_back(key);
     return true;
   });
@@ -222,7 +222,7 @@ std::optional<std::vector<int>> free_rows_early(const BalanceElements& elements)
   Solved solved(elements.rows());
   int open = 0;  // the first unknown of which not every equation follows
   for (int low = 0, high = 1; low < elements.rows(); low = std::exchange(high, 2 * high + 1)) {
-    for (const Key& key : equations_from(elements, solved, low, high))
+    for (const RowKey& key : equations_from(elements, solved, low, high))
       if (!solved.follows(key) && !solved.solve(sum_of(key), true)) return std::nullopt;
     bool all = true;
     for_each_equation(elements, open, [&](const Element& e, const Element* first, int i) {

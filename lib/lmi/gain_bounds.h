@@ -7,8 +7,8 @@
 //   s <= lambda_min(S).
 // With G = inv(S) E that is G' S G <= beta^2 lambda_min(S), so the largest singular value of G is
 // at most beta. It does not change when the unknowns are scaled together. A gain that is affine in
-// the unknowns
-// is bounded by its largest singular value: [ I , K/beta ; * , I ] >= 0, which has a constant part.
+// the unknowns is bounded by its largest singular value: [ I , K/beta ; * , I ] >= 0, which has a
+// constant part.
 //
 // A gain that is a function of a scalar is bounded coefficient by coefficient: inv(S)*Y_k for
 // inv(S)*Y(tau), and the matrix that each function theta(tau) in it multiplies. That bounds a gain

@@ -62,8 +62,8 @@ class Maker {
 
  private:
   bool has_structure() const {
-    if (round_.margin != 0 || !formulation_.releases.list.empty()) return false;
-    const auto& kept = formulation_.releases.kept;
+    if (round_.margin != 0 || !formulation_.free_variables.list.empty()) return false;
+    const auto& kept = formulation_.free_variables.kept;
     bool some = false;
     for (std::size_t k = 0; k < blocks_.size(); ++k) {
       if (!blocks_[k]->products) return false;

@@ -31,10 +31,13 @@
 #include "model/formula.h"
 #include "model/words.h"
 
+namespace gainsmith::bind {
+struct Names;  // the scopes that texts are bound in, for formulas that a gain file brings
+}
+
 namespace gainsmith::model {
 
 struct Problem;  // problem.h: the texts, kept to bind again when a dimension changes
-struct Names;    // binding.h: the scopes, for formulas that a gain file brings
 
 /// What was solved, so that a gain file stands alone.
 struct Statement {
@@ -280,7 +283,7 @@ struct Design {
 
   std::vector<Rank> ranks;
   std::shared_ptr<const Problem> source;
-  std::shared_ptr<const Names> names;
+  std::shared_ptr<const bind::Names> names;
 };
 
 using DesignPtr = std::shared_ptr<const Design>;

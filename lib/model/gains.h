@@ -36,11 +36,12 @@ struct GainBound {
   bool active = false;
 };
 
-/// The certificate of a no, as it was checked on the decimals of the file (lmi/refutation.h), or of
-/// what is only sufficient for the inequalities.
+/// The certificate of a no, as it was checked on the decimals of the file (verdict/refutation.h),
+/// or of what is only sufficient for the inequalities.
 struct CertificateRecord {
-  bool exact = false;  ///< no solution, shown; otherwise none survives a relative change omega
-  double omega = 1;    ///< rounded upward
+  bool exact =
+      false;  ///< no solution, shown; otherwise none survives a relative change of that size
+  double backward_error = 1;  ///< rounded upward
   int digits = 0;      ///< of the arithmetic that it was checked in
   /// One multiplier matrix for each inequality and point, and for the bounds on gains that it
   /// needs: its name and the matrix.
@@ -69,8 +70,9 @@ struct SolverRecord {
   void add_message(const std::string& text) { message += (message.empty() ? "" : "; ") + text; }
 };
 
-/// What moving scalars and unknowns together at the end of a search did (design/polish.h).
-struct PolishRecord {
+/// What moving scalars and unknowns together at the end of a search did
+/// (design/joint_refinement.h).
+struct RefinementRecord {
   double before = 0;            ///< the figure
   std::optional<double> after;  ///< none when there was nothing to compare
   bool kept = false;            ///< the figure improved and every inequality holds with its margin
@@ -91,7 +93,7 @@ struct SearchRecord {
   int evaluations = 0;
   int feasible = 0;       ///< of the evaluations
   bool finished = false;  ///< neither interrupted nor out of evaluations
-  std::optional<PolishRecord> polish;
+  std::optional<RefinementRecord> joint_refinement;
 };
 
 /// sha256 of the method's text, a zero byte and the problem's text.
@@ -123,8 +125,7 @@ struct StatedFunction {
 
 /// The decimal that is printed for a double: 15 or 16 digits where they are read back as the same
 /// double (0.3, not 0.29999999999999999), otherwise 17. Zero keeps its sign as "-0.0", since JSON
-/// reads
-/// "-0" as a whole number, which has none.
+/// reads "-0" as a whole number, which has none.
 std::string printed(double value);
 
 /// A matrix as a gain file prints it. What the file states are these decimals; doubles are their

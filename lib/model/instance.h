@@ -27,13 +27,10 @@ struct Instance {
   numbers::Values values;  ///< of data and parameters
 };
 
-/// Values for the data and parameters of a design. An overridden scalar has that value whatever the
-/// problem gives; defaults that use it follow. The design of the instance is the one given, or one
-/// bound anew when an override changes a dimension (the degree of an unknown function, a rank).
-/// InputError for a datum without a value, one that is not symmetric or diagonal where it must be,
-/// for an assumption that fails (at the place of the datum), and for an override that names no
-/// scalar datum or parameter or is not finite.
-Instance evaluate(const DesignPtr& design, const Overrides& overrides = {});
+/// The value of a datum or parameter from those declared before it. InputError where it has none,
+/// its range has no ends in order, or it has not the structure that it must have.
+numbers::Matrix value_of(const Design& design, const Design::Datum& datum,
+                         const Overrides& overrides, const numbers::Values& values);
 
 /// Whether the text takes a basis by `orth` or `null`.
 bool chooses_basis(const expr::Program& program);

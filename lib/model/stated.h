@@ -28,8 +28,4 @@ struct Stated {
   std::optional<numbers::Matrix> value(const expr::Program& program) const;
 };
 
-/// InputError for a matrix of another shape or not finite, when the file defines what is no unknown
-/// function, lacks its coefficients, or holds a text that does not fit.
-Stated state(const Instance& instance, const Gains& gains);
-
 }  // namespace gainsmith::model

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "numbers/balance.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::numbers {
 
@@ -33,11 +33,11 @@ Matrix Cholesky::solve(const Matrix& B) const {
 Matrix exponential(const Matrix& M) {
   if (M.size() == 0) return M;
   const auto scale = [](double x, int exponent) { return std::ldexp(x, exponent); };
-  std::vector<int> units = balance(M.cwiseAbs());
-  const Matrix B = in_units(M, units, scale);
+  std::vector<int> units = numerics::balance(M.cwiseAbs());
+  const Matrix B = numerics::in_units(M, units, scale);
   const Matrix result = B.exp();
   for (int& unit : units) unit = -unit;
-  return in_units(result, units, scale);
+  return numerics::in_units(result, units, scale);
 }
 
 Vector singular_values(const Matrix& M) {

@@ -7,9 +7,9 @@
 #include <functional>
 #include <vector>
 
-#include "numbers/balance.h"
 #include "numbers/enclosed.h"
 #include "numbers/real_rules.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::numbers::enclosed {
 
@@ -228,7 +228,7 @@ Enclosed<S> exponential(const Enclosed<S>& A) {
   constexpr int kMostSquarings = 80;
   if (A.mid.size() == 0) return A;
   if (A.is_zero()) return exact_identity<S>(A.rows());
-  std::vector<int> units = balance(magnitudes<S>(A));
+  std::vector<int> units = numerics::balance(magnitudes<S>(A));
   const Enclosed<S> B = enclosed_in_units(A, units);
   const double norm = up(magnitudes<S>(B).rowwise().sum().maxCoeff(), 100);
   int squarings = 0;

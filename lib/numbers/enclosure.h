@@ -24,9 +24,7 @@ namespace gainsmith::numbers {
 /// - sqrt: of the part >= 0 of its argument. log, division, inv and powers know nothing where their
 ///   argument may be singular, and fail where it certainly is.
 /// - pinv needs full rank. orth and null: some exact orthonormal basis, of as many directions of
-/// the
-///   range as the binder found, and of a kernel of the dimension that it found.
-///
+///   the range as the binder found, and of a kernel of the dimension that it found.
 /// - The projections have no bound and are refused by name.
 ///
 /// EvaluationError for what certainly has no value, and for a middle that is not finite. Elements

@@ -8,9 +8,9 @@
 
 #include "base/number.h"
 #include "expr/evaluate.h"
-#include "numbers/box_search.h"
 #include "numbers/extremum.h"
 #include "numbers/real_rules.h"
+#include "numerics/box_search.h"
 
 namespace gainsmith::numbers {
 
@@ -94,10 +94,10 @@ MatrixOf<Scalar> extremum(const expr::Instruction& instruction,
                           expr::Operands<MatrixOf<Scalar>> operands) {
   const double sign = instruction.attributes[0] != 0 ? 1 : -1;
   OverBox<Scalar> exact(instruction, operands);
-  BoxPoint found;
+  numerics::BoxPoint found;
   if constexpr (std::is_same_v<Scalar, double>) {
-    found = largest_over_box([&](const Vector& x) { return sign * exact.at(x); }, exact.low,
-                             exact.high);
+    found = numerics::largest_over_box([&](const Vector& x) { return sign * exact.at(x); },
+                                       exact.low, exact.high);
     return Matrix::Constant(1, 1, sign * found.value);
   } else {
     std::vector<Matrix> rounded;
@@ -106,8 +106,8 @@ MatrixOf<Scalar> extremum(const expr::Instruction& instruction,
     std::vector<const Matrix*> pointers;
     for (const Matrix& matrix : rounded) pointers.push_back(&matrix);
     OverBox<double> plain(instruction, pointers);
-    found = largest_over_box([&](const Vector& x) { return sign * plain.at(x); }, plain.low,
-                             plain.high);
+    found = numerics::largest_over_box([&](const Vector& x) { return sign * plain.at(x); },
+                                       plain.low, plain.high);
     Eigen::Matrix<Scalar, Eigen::Dynamic, 1> x = exact.low;
     for (Eigen::Index i = 0; i < x.size(); ++i) {
       const double at = found.point(i);

@@ -8,9 +8,9 @@
 #include "base/number.h"
 #include "expr/branches.h"
 #include "expr/evaluate.h"
-#include "numbers/extrapolation.h"
 #include "numbers/flow_map.h"
 #include "numbers/real.h"
+#include "numerics/extrapolation.h"
 
 namespace gainsmith::numbers {
 
@@ -60,11 +60,11 @@ class BodyPoint {
 
 /// The place stays that of the call.
 template <class Scalar>
-MatrixOf<Scalar> moved(Extrapolation<Scalar> integration, const MatrixOf<Scalar>& start,
+MatrixOf<Scalar> moved(numerics::Extrapolation<Scalar> integration, const MatrixOf<Scalar>& start,
                        double length) {
   try {
     return integration(start);
-  } catch (const Unreached& end) {
+  } catch (const numerics::Unreached& end) {
     expr::fault::without_result(expr::Op::flow_map, "moved for the time " + brief(length) +
                                                         " it comes to " + brief(end.at * length) +
                                                         ": " + end.why);
@@ -74,9 +74,10 @@ MatrixOf<Scalar> moved(Extrapolation<Scalar> integration, const MatrixOf<Scalar>
 /// What the extrapolation watches: the differences of a body, one number an element. `go_to` sets
 /// where the body is.
 template <class Scalar, class GoTo>
-typename Extrapolation<Scalar>::Watch watch_of(const std::vector<expr::Branch>& branches,
-                                               BodyPoint<Real<Scalar>>& body, GoTo go_to) {
-  typename Extrapolation<Scalar>::Watch watch;
+typename numerics::Extrapolation<Scalar>::Watch watch_of(const std::vector<expr::Branch>& branches,
+                                                         BodyPoint<Real<Scalar>>& body,
+                                                         GoTo go_to) {
+  typename numerics::Extrapolation<Scalar>::Watch watch;
   for (const expr::Branch& one : branches)
     watch.jumps.insert(watch.jumps.end(), static_cast<std::size_t>(one.difference.shape().size()),
                        one.jumps);
@@ -117,8 +118,8 @@ MatrixOf<Scalar> flow_map(const expr::Instruction& instruction,
   };
   const auto watch = watch_of<Scalar>(branches, body, go_to);
   M end = *operands[0];
-  end.reshaped() =
-      moved<Scalar>(Extrapolation<Scalar>(rate, watch), M(end.reshaped()), static_cast<double>(d));
+  end.reshaped() = moved<Scalar>(numerics::Extrapolation<Scalar>(rate, watch), M(end.reshaped()),
+                                 static_cast<double>(d));
   return end;
 }
 
@@ -180,8 +181,9 @@ void flow_map_slope(const expr::Instruction& instruction, expr::Operands<Dual<Sc
   start.col(0) = body.x.value.reshaped();
   start.rightCols(directions) = x_slope;
   try {
-    out.slope = moved<Scalar>(Extrapolation<Scalar>(rate, watch), start, static_cast<double>(d))
-                    .rightCols(directions);
+    out.slope =
+        moved<Scalar>(numerics::Extrapolation<Scalar>(rate, watch), start, static_cast<double>(d))
+            .rightCols(directions);
   } catch (const NoSlope&) {
     out.slope.setConstant(std::numeric_limits<Scalar>::quiet_NaN());
   }

@@ -99,8 +99,8 @@ std::optional<Matrix> growth(const Matrix& Y) {
   const auto scale = [](double x, int exponent) {
     return x == 0 ? 0 : std::ldexp(x, exponent) + kTiny;
   };
-  std::vector<int> units = balance(Y);
-  Matrix X = in_units(Y, units, scale);
+  std::vector<int> units = numerics::balance(Y);
+  Matrix X = numerics::in_units(Y, units, scale);
   const double norm = up(X.rowwise().sum().maxCoeff(), 100);
   if (!(norm < kMost)) return std::nullopt;
   const int squarings = norm > 0.5 ? std::ilogb(norm) + 2 : 0;
@@ -114,7 +114,7 @@ std::optional<Matrix> growth(const Matrix& Y) {
     if (paths(i)) H(i) = up(H(i) + rest);
   for (int k = 0; k < squarings; ++k) H = (2 * H + product_upward(H, H)) * up(1);
   for (int& unit : units) unit = -unit;
-  return in_units(H, units, scale);
+  return numerics::in_units(H, units, scale);
 }
 
 /// e^(f M) = e^(m M) e^((f - m) M), where the second factor is within e^(r |M|) - I of I.

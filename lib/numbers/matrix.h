@@ -1,21 +1,13 @@
-// Dense matrices of a scalar type.
+// Dense matrices of a scalar type, under the names that the number types give them.
 #pragma once
 
-#include <Eigen/Core>
+#include "numerics/matrix.h"
 
 namespace gainsmith::numbers {
 
-template <class Scalar>
-using MatrixOf = Eigen::Matrix<Scalar, Eigen::Dynamic, Eigen::Dynamic>;
-
-using Matrix = MatrixOf<double>;
-using Vector = Eigen::VectorXd;
-
-/// A B without the blocking of large matrices: for small ones, and for scalars beyond double, for
-/// which that takes long to compile.
-template <class Scalar>
-MatrixOf<Scalar> times(const MatrixOf<Scalar>& A, const MatrixOf<Scalar>& B) {
-  return A.lazyProduct(B);
-}
+using numerics::Matrix;
+using numerics::MatrixOf;
+using numerics::times;
+using numerics::Vector;
 
 }  // namespace gainsmith::numbers

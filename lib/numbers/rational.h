@@ -5,31 +5,17 @@
 // throws as in every number type.
 #pragma once
 
-#include <Eigen/Core>
 #include <map>
 #include <string>
 
-#include "base/rational.h"
 #include "expr/number_type.h"
 #include "expr/program.h"
 #include "numbers/matrix.h"
-
-template <>
-struct Eigen::NumTraits<gainsmith::Rational> : Eigen::GenericNumTraits<gainsmith::Rational> {
-  enum {
-    IsComplex = 0,
-    IsInteger = 0,
-    IsSigned = 1,
-    RequireInitialization = 1,
-    ReadCost = 10,
-    AddCost = 100,
-    MulCost = 200
-  };
-};
+#include "numerics/rational_matrix.h"
 
 namespace gainsmith::numbers {
 
-using RationalMatrix = Eigen::Matrix<Rational, Eigen::Dynamic, Eigen::Dynamic>;
+using numerics::RationalMatrix;
 
 struct RationalNumbers {
   using Value = RationalMatrix;

@@ -17,10 +17,10 @@
 #include "numbers/extremum.h"
 #include "numbers/flow_map.h"
 #include "numbers/householder.h"
-#include "numbers/projection.h"
 #include "numbers/real.h"
 #include "numbers/scalar_functions.h"
 #include "numbers/shared_rules.h"
+#include "numerics/projection.h"
 
 namespace gainsmith::numbers {
 
@@ -221,13 +221,15 @@ struct RealRules {
     out = canonical_basis(canonical::Of::kernel, P, count, at[0].transpose());
   }
   void operator()(Is<Op::project_polytope>, const At& at, Value& out) const {
-    project(at, out, [&] { return project_polytope<Scalar>(at[0], at[1], at[2], at[3]); });
+    project(at, out,
+            [&] { return numerics::project_polytope<Scalar>(at[0], at[1], at[2], at[3]); });
   }
   void operator()(Is<Op::project_ellipsoid>, const At& at, Value& out) const {
-    project(at, out, [&] { return project_ellipsoid<Scalar>(at[0], at[1], at[2], at[3], at[4]); });
+    project(at, out,
+            [&] { return numerics::project_ellipsoid<Scalar>(at[0], at[1], at[2], at[3], at[4]); });
   }
   void operator()(Is<Op::project_affine>, const At& at, Value& out) const {
-    project(at, out, [&] { return project_affine<Scalar>(at[0], at[1], at[2], at[3]); });
+    project(at, out, [&] { return numerics::project_affine<Scalar>(at[0], at[1], at[2], at[3]); });
   }
   void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
     const Value& a = at[0];
@@ -270,7 +272,7 @@ struct RealRules {
       if (!operand->allFinite()) expr::fault::not_finite(at.instruction.op);
     try {
       out = nearest().point;
-    } catch (const NoProjection& why) {
+    } catch (const numerics::NoProjection& why) {
       expr::fault::without_result(at.instruction.op, why.what());
     }
   }

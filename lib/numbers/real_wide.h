@@ -11,10 +11,10 @@
 
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
-#include "numbers/balance.h"
 #include "numbers/ball.h"
 #include "numbers/real_rules.h"
 #include "numbers/wide_dense.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::numbers {
 
@@ -46,11 +46,11 @@ MatrixOf<Scalar> balanced_exponential(const MatrixOf<Scalar>& M) {
 template <class Scalar>
 MatrixOf<Scalar> wide_exponential(const MatrixOf<Scalar>& M) {
   const auto scale = [](const Scalar& x, int exponent) { return times_power_of_two(x, exponent); };
-  std::vector<int> units =
-      balance(M.unaryExpr([](const Scalar& x) { return std::abs(static_cast<double>(x)); }));
-  const MatrixOf<Scalar> result = balanced_exponential<Scalar>(in_units(M, units, scale));
+  std::vector<int> units = numerics::balance(
+      M.unaryExpr([](const Scalar& x) { return std::abs(static_cast<double>(x)); }));
+  const MatrixOf<Scalar> result = balanced_exponential<Scalar>(numerics::in_units(M, units, scale));
   for (int& unit : units) unit = -unit;
-  return in_units(result, units, scale);
+  return numerics::in_units(result, units, scale);
 }
 
 template <class Scalar>

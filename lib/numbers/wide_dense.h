@@ -83,8 +83,8 @@ MatrixOf<S> orthogonal(MatrixOf<S> X) {
 }
 
 /// Rotations of the columns of B, which V takes as well, until they are orthogonal (one-sided
-/// Jacobi: Golub & Van Loan 8.6.3). Columns below `rounding` are left alone,
-/// and those below `least` among themselves.
+/// Jacobi: Golub & Van Loan 8.6.3). Columns below `rounding` are left alone, and those below
+/// `least` among themselves.
 template <class S>
 void rotate_columns(MatrixOf<S>& B, MatrixOf<S>& V, const S& least, const S& rounding) {
   using std::abs;

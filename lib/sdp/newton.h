@@ -11,8 +11,8 @@ namespace gainsmith::sdp {
 ///   R  = sum x_i F_i - tau F_0 - X      (primal)
 ///   r  = tau c - A(Y),  A(Y)_i = F_i.Y  (dual)
 ///   g  = F_0.Y - c'x - kappa            (gap)
-/// A direction reduces R, r, g by the factor 1 - eta and aims at X Y = sigma mu I, tau kappa =
-/// sigma mu:
+/// A direction reduces R, r, g by the factor 1 - eta and aims at X Y = sigma mu I and
+/// tau kappa = sigma mu:
 ///   dX = A*(dx) - dtau F_0 + eta R,
 ///   dY = K - H(X^-1 (A*(dx) - dtau F_0) Y),  H(M) = (M + M')/2,
 ///   K  = sigma mu X^-1 - Y - H(X^-1 (eta R Y + C)),   C = the second-order term dX_a dY_a,

@@ -17,8 +17,7 @@ namespace gainsmith::sdp {
 ///
 /// Within a dense block of n rows each F_i, in falling order of its nonzeros, takes the cheaper of
 ///   dense: U = X^-1 (F_i Y) by one matrix product for eight F_i at a time, then F_j . U for the
-///   F_j
-///          that follow, eight at a time from an interleaved panel;
+///          F_j that follow, eight at a time from an interleaved panel;
 ///   rank:  the same, with F_i = sum_{s in S} (e_s g_s' + g_s e_s'), S a few rows that cover its
 ///          entries (as in A'P + PA): U = sum X^-1 e_s (Y g_s)' + X^-1 g_s (Y e_s)', a product of
 ///          inner length 2 |S|;

@@ -41,11 +41,10 @@ struct BlockMatrix {
 /// A Farkas certificate as it was checked, from the raw data in the arithmetic of the point. A
 /// matrix counts as >= -e I when M + e I has a Cholesky factor there, e = 0 or a power of two.
 /// Primal infeasible: Y >= 0 with F_0.Y = 1 (normalised) and r_i = F_i.Y nearly 0. Any feasible x
-/// has
-///   sum_i r_i x_i = X.Y + F_0.Y >= 1, so every x with max|x_i| < 1 / sum|r_i| is excluded.
+/// has sum_i r_i x_i = X.Y + F_0.Y >= 1, so every x with max|x_i| < 1 / sum|r_i| is excluded.
 /// Dual infeasible: x with c'x = -1 (normalised) and sum_i x_i F_i >= -e I nearly >= 0. Any
-/// feasible
-///   Y has -1 = sum_i x_i F_i . Y >= -e trace(Y), so every Y with trace(Y) < 1/e is excluded.
+/// feasible Y has -1 = sum_i x_i F_i . Y >= -e trace(Y), so every Y with trace(Y) < 1/e is
+/// excluded.
 struct Certificate {
   double value = 0;            ///< F_0.Y, or -c'x, after normalisation: 1
   double residual = 0;         ///< sum_i |F_i.Y|, or e

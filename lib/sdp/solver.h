@@ -44,8 +44,8 @@ struct Options {
 /// range, entries below the diagonal, values that are not finite) or `options.precision` is none of
 /// the above; InputError when the memory that there is does not do (forecast.h). When everything is
 /// to stop (base/stop.h) it ends within a second, in any arithmetic, with the best point so far and
-/// the cause `interrupted`. Its work counts for the allowances of the caller, to whom OutOfAllowance
-/// passes. Every other outcome is a Solution.
+/// the cause `interrupted`. Its work counts for the allowances of the caller, to whom
+/// OutOfAllowance passes. Every other outcome is a Solution.
 Solution solve(const Problem& problem, const Options& options = {});
 
 }  // namespace gainsmith::sdp

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/number.h"
-#include "numbers/balance.h"
+#include "numerics/balance.h"
 #include "numbers/dense.h"
 #include "ode/chebyshev.h"
 #include "ode/integrator.h"
@@ -122,7 +122,7 @@ class ExactFlow : public Flow {
     double rate = 0;
     if (n > 0) {
       const auto scale = [](double x, int exponent) { return std::ldexp(x, exponent); };
-      const Matrix balanced = numbers::in_units(M, numbers::balance(M.cwiseAbs()), scale);
+      const Matrix balanced = numerics::in_units(M, numerics::balance(M.cwiseAbs()), scale);
       norm = balanced.cwiseAbs().colwise().sum().maxCoeff();
       for (const auto& lambda : numbers::eigenvalues(M))
         rate = std::max({rate, std::abs(lambda.imag()), lambda.real()});

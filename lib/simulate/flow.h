@@ -2,7 +2,7 @@
 //
 //   exact        x' = M x + b: at the Chebyshev points of a step, E(s) x + f(s) with [E f; 0 1] =
 //                expm(s [M b; 0 0]). Steps have the lengths s_0 2^k, s_0 = 1/(2 ||M||) in units
-//                that balance M (numbers/balance.h): after a start they grow as long as the series
+//                that balance M (numerics/balance.h): after a start they grow as long as the series
 //                of degree 12 agrees to rounding, up to 1/w with w the largest |Im| or Re of an
 //                eigenvalue, so that nothing is stepped over.
 //   integrated   CVODE (integrator.h); the polynomial of each of its own steps.

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/number.h"
+#include "bind/stated.h"
 #include "claims/text_ball.h"
 #include "model/stated.h"
 #include "verify/error_states.h"
@@ -179,7 +180,7 @@ std::unique_ptr<EventSetup> begin(const model::Instance& instance, const model::
   model::Dynamics dynamics = *design.dynamics;
   for (const model::Design::Claim& claim : design.claims)
     if (claim.flow_cost) add_integral(claim, dynamics);
-  model::Stated stated = model::state(instance, gains);
+  model::Stated stated = bind::state(instance, gains);
   auto setup = std::make_unique<EventSetup>();
   setup->flow = dynamics.flow;
   setup->system = hybrid::make_system(dynamics, std::move(stated.values), std::move(stated.bodies));

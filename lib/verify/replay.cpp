@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include "bind/stated.h"
 #include "claims/run_values.h"
 #include "verify/judge.h"
 
@@ -167,7 +168,7 @@ std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const model::
   }
   model::Dynamics dynamics = setup.system.dynamics;
   dynamics.flow = setup.flow;
-  return judge::check_trajectory(run, dynamics, model::state(instance, gains), question);
+  return judge::check_trajectory(run, dynamics, bind::state(instance, gains), question);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "bind/instance.h"
 #include "design/optimize.h"
 #include "design/search_problems.h"
 #include "support/input_error.h"
@@ -53,7 +54,7 @@ TEST(Bisect, FindsTheLimitOfQuadraticStabilityWithProofsOnBothSides) {
   EXPECT_GE(*record.beyond, limit);
   EXPECT_LE(*record.beyond - *record.value, 1e-4);
   ASSERT_TRUE(record.certificate);
-  EXPECT_TRUE(record.certificate->exact || record.certificate->omega <= 1e-30);
+  EXPECT_TRUE(record.certificate->exact || record.certificate->backward_error <= 1e-30);
   EXPECT_TRUE(record.breaks.empty());
   for (const model::Margin& margin : result.gains.margins) EXPECT_TRUE(margin.holds);
   EXPECT_EQ(result.gains.searched, (model::Overrides{{"kmax", *record.value}}));
@@ -87,7 +88,7 @@ TEST(Bisect, TheProblemsOwnValueIsTried) {
 TEST(Bisect, WhatAnInstanceOverridesIsHeld) {
   const YamlProblem problem(testing::kRidge + "data: {a: 1, c: 0}\n");
   const BisectChoices choices{{"c", search::axis(-5, 9)}, true, {1e-3}, {}};
-  const model::Instance moved = model::evaluate(problem.instance.design, {{"a", 2}});
+  const model::Instance moved = bind::evaluate(problem.instance.design, {{"a", 2}});
   EXPECT_NEAR(bisect(moved, {}, choices, {}).found.yes.value(), 3, 2e-3);
   EXPECT_NEAR(bisect(moved, {{"a", 3}}, choices, {}).found.yes.value(), 0, 2e-3);
 }

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "design/synthesize.h"
-#include "lmi/refutation.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
+#include "verdict/refutation.h"
 
 namespace gainsmith::design {
 namespace {
@@ -172,7 +172,8 @@ TEST(CertificatesTest, SingularCertificatesAreFound) {
     const model::Gains gains = lyapunov(A);
     EXPECT_EQ(gains.verdict, model::Verdict::no) << A << ' ' << gains.solver.message;
     ASSERT_TRUE(gains.certificate.has_value()) << A;
-    EXPECT_TRUE(gains.certificate->exact || gains.certificate->omega <= lmi::kNothing) << A;
+    EXPECT_TRUE(gains.certificate->exact || gains.certificate->backward_error <= verdict::kNothing)
+        << A;
   }
 }
 
@@ -189,7 +190,7 @@ TEST(CertificatesTest, HighDegreesAreRefutedAtMorePoints) {
   const model::Gains gains = at("2.7");
   EXPECT_EQ(gains.verdict, model::Verdict::no) << gains.solver.message;
   ASSERT_TRUE(gains.certificate);
-  EXPECT_LE(gains.certificate->omega, lmi::kNothing);
+  EXPECT_LE(gains.certificate->backward_error, verdict::kNothing);
   EXPECT_EQ(gains.certificate->digits, 100);
   EXPECT_EQ(at("2.5").verdict, model::Verdict::yes);
 }

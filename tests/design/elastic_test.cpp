@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bind/instance.h"
 #include "support/stop.h"
 #include "support/yaml_problem.h"
 
@@ -56,7 +57,7 @@ TEST(Elastic, TheSmallestSlacksCloseTheGap) {
 
 TEST(Elastic, AFeasibleProblemNeedsNoSlack) {
   const YamlProblem problem(kInterval);
-  const model::Instance wider = model::evaluate(problem.instance.design, {{"b", 5}});
+  const model::Instance wider = bind::evaluate(problem.instance.design, {{"b", 5}});
   const auto slacks = smallest_slacks(wider, scales_of(wider), {});
   ASSERT_EQ(slacks.verdict, model::Verdict::yes);
   for (const auto& [inequality, slack] : slacks.by_inequality) EXPECT_EQ(slack, 0) << inequality;

@@ -36,7 +36,8 @@ TEST(Explain, NamesTheConflictWhatItTakesAndHowFar) {
   ASSERT_TRUE(found.conflict);
   EXPECT_EQ(found.conflict->names, (std::vector<std::string>{"floor", "ceiling"}));
   EXPECT_TRUE(found.conflict->undecided.empty());
-  EXPECT_TRUE(found.conflict->certificate.exact || found.conflict->certificate.omega <= 1e-30);
+  EXPECT_TRUE(found.conflict->certificate.exact ||
+              found.conflict->certificate.backward_error <= 1e-30);
   EXPECT_FALSE(found.conflict->gain_bound);
   ASSERT_EQ(found.relaxations.size(), 4U);
   for (const Relaxation& relaxation : found.relaxations) {
@@ -68,7 +69,7 @@ TEST(Explain, AGuessedConflictIsCheckedOrSaysWhatIsOpen) {
   ASSERT_TRUE(found && guessed);
   EXPECT_EQ(guessed->names, found->names);
   EXPECT_TRUE(guessed->undecided.empty());
-  EXPECT_TRUE(guessed->certificate.exact || guessed->certificate.omega <= 1e-30);
+  EXPECT_TRUE(guessed->certificate.exact || guessed->certificate.backward_error <= 1e-30);
   const auto none = guess_conflict(problem.instance, gains, {}, 0);
   ASSERT_TRUE(none);
   EXPECT_EQ(none->names.size(), 4U);

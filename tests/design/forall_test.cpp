@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
+#include "bind/stated.h"
 #include "design/synthesize.h"
 #include "expr/compile.h"
 #include "expr/evaluate.h"
@@ -130,7 +131,7 @@ TEST(ForallTest, GainsAtTheVerticesOfTheBox) {
   EXPECT_EQ(found.gain_functions[0].kind, model::GainFunction::Kind::vertices);
 
   // As an observer evaluates them: the norm of A(tau) in the metric Q is below rho everywhere.
-  const model::Stated stated = model::state(yaml.instance, found);
+  const model::Stated stated = bind::state(yaml.instance, found);
   expr::Scope scope;
   scope.symbols["s"] = {};
   scope.functions["Ldno"] = {2, 1};

@@ -25,7 +25,7 @@ TEST(Scan, GivesEveryPointInOrderForAnyThreads) {
   model::Problem problem = *YamlProblem(kBowl).problem;
   problem.questions.figures = {expr::parse(expr::Text("2*K", "--show"))};
   const auto points = search::grid({{1, 2, 9}, {3, 4}});
-  const auto rows = scan(model::bind(problem).design, {"a", "b"}, points, 4, {});
+  const auto rows = scan(bind::bind(problem).design, {"a", "b"}, points, 4, {});
   ASSERT_EQ(rows.size(), 6U);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     EXPECT_EQ(rows[i].at, points[i]);

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "design/ladder.h"
+#include "design/attempts.h"
 #include "support/yaml_problem.h"
 
 namespace gainsmith::design::testing {
@@ -115,11 +115,12 @@ inline Answer refuting(const Case& of, const std::vector<double>& Y) {
   };
 }
 
-inline constexpr Rung kRungs[] = {Rung::minimum,      Rung::inside,        Rung::large_minimum,
-                                  Rung::blended,      Rung::free_minimum,  Rung::free_inside,
-                                  Rung::in_31_digits, Rung::in_100_digits, Rung::tighter};
+inline constexpr AttemptKind kKinds[] = {
+    AttemptKind::minimum,      AttemptKind::inside,        AttemptKind::large_minimum,
+    AttemptKind::blended,      AttemptKind::free_minimum,  AttemptKind::free_inside,
+    AttemptKind::in_31_digits, AttemptKind::in_100_digits, AttemptKind::tighter};
 
-/// One climb over a script, with what holds for every climb: each rung is tried once, in their
+/// One climb over a script, with what holds for every climb: each kind is tried once, in their
 /// order, and a record stays as it was.
 class Scripted {
  public:
@@ -153,41 +154,41 @@ class Scripted {
     climb.to_point();
     climb.to_end();
     EXPECT_TRUE(records() == after);
-    EXPECT_EQ(asked.size(), programs) << "a rung was tried twice";
-    for (const Rung rung : tried) {
-      const sdp::Problem& posed = climb.find(rung)->formulation.problem;
+    EXPECT_EQ(asked.size(), programs) << "a kind was tried twice";
+    for (const AttemptKind kind : tried) {
+      const sdp::Problem& posed = climb.find(kind)->formulation.problem;
       EXPECT_TRUE(std::any_of(asked.begin(), asked.end(), [&](const sdp::Problem& problem) {
         return posed.blocks == problem.blocks && posed.c == problem.c && posed.f == problem.f;
       }));
     }
   }
 
-  const Attempt& at(Rung rung) const { return *climb.find(rung); }
+  const Attempt& at(AttemptKind kind) const { return *climb.find(kind); }
   const std::string& message() const { return gains.solver.message; }
   bool says(const std::string& text) const { return message().find(text) != std::string::npos; }
   double unknown(const std::string& name) const { return (*gains.find(name))(0, 0); }
 
   std::vector<sdp::Problem> asked;
   std::vector<Effort> efforts;
-  std::vector<Rung> tried;
+  std::vector<AttemptKind> tried;
   model::Gains gains;
   Climb climb;
 
  private:
-  using Record = std::tuple<Rung, lmi::Goal, double, sdp::Status, bool, std::vector<double>,
+  using Record = std::tuple<AttemptKind, lmi::Goal, double, sdp::Status, bool, std::vector<double>,
                             std::vector<double>, std::vector<double>>;
 
   std::vector<Record> records() {
     std::vector<Record> list;
     tried.clear();
-    for (const Rung rung : kRungs) {
-      const Attempt* attempt = climb.find(rung);
+    for (const AttemptKind kind : kKinds) {
+      const Attempt* attempt = climb.find(kind);
       if (attempt == nullptr) continue;
-      tried.push_back(rung);
+      tried.push_back(kind);
       std::vector<double> reached;
       for (const model::Margin& margin : attempt->margins.margins)
         reached.push_back(margin.reached);
-      list.emplace_back(rung, attempt->question.goal, attempt->question.bounds.beta,
+      list.emplace_back(kind, attempt->question.goal, attempt->question.bounds.beta,
                         attempt->solution.status, attempt->point, attempt->solution.x, attempt->x,
                         reached);
     }

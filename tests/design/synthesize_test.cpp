@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 #include <random>
 
-#include "lmi/refutation.h"
 #include "support/input_error.h"
 #include "support/linear_algebra.h"
 #include "support/yaml_problem.h"
+#include "verdict/refutation.h"
 
 namespace gainsmith::design {
 namespace {
@@ -21,7 +21,7 @@ model::Gains solve(const std::string& text) {
 /// A certificate that no solution exists, exactly or up to the rounding of 100 digits.
 bool is_certain(const model::CertificateRecord& certificate) {
   return certificate.is_about_problem() &&
-         (certificate.exact || certificate.omega <= lmi::kNothing);
+         (certificate.exact || certificate.backward_error <= verdict::kNothing);
 }
 
 std::string lyapunov(const numbers::Matrix& A) {

@@ -63,7 +63,7 @@ TEST(SynthTest, AnInfeasibleProblemExitsWithOneAndItsCertificate) {
   EXPECT_NE(again.err.find("this is a gain file; expected a problem"), std::string::npos)
       << again.err;
   EXPECT_EQ(gains["certificate"]["about"], "problem");
-  EXPECT_TRUE(gains["certificate"]["exact"] || gains["certificate"]["omega"] <= 1e-30);
+  EXPECT_TRUE(gains["certificate"]["exact"] || gains["certificate"]["backward_error"] <= 1e-30);
   EXPECT_TRUE(gains["gains"].empty());
   EXPECT_FALSE(gains["certificate"]["multipliers"].empty());
 }

@@ -9,10 +9,10 @@
 #include <string>
 #include <string_view>
 
+#include "bind/bind.h"
 #include "fuzz/places.h"
 #include "io/problem_yaml.h"
 #include "methods/methods.h"
-#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -21,7 +21,7 @@ const std::string kFile = "fuzz.yaml";
 constexpr std::string_view kBetween = "\n---\n";
 
 /// Everything that is done with a problem before it is solved.
-void bind(const model::Problem& problem) { model::bind(problem); }
+void bind(const model::Problem& problem) { bind::bind(problem); }
 
 struct Texts {
   std::string problem;

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "bind/bind.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -35,7 +35,7 @@ campaign: {horizon: 10, initial: {x: {ellipsoid: {center: [1, 0], matrix: Q}}}}
 uncertain: {m: {vertices: [1, 2, 3]}}
 )";
 
-model::DesignPtr bound(const std::string& text) { return model::bind(read_problem(text)).design; }
+model::DesignPtr bound(const std::string& text) { return bind::bind(read_problem(text)).design; }
 
 TEST(Claims, BoundsTimesAndEventsAreBound) {
   const model::DesignPtr design = bound(kBall);

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "bind/bind.h"
 #include "expr/text.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 #include "model/dynamics_programs.h"
 
 namespace gainsmith::io {
@@ -34,7 +34,7 @@ method:
 campaign: {horizon: 1, initial: {A: 7}}
 )";
 
-model::DesignPtr bound(const std::string& text) { return model::bind(read_problem(text)).design; }
+model::DesignPtr bound(const std::string& text) { return bind::bind(read_problem(text)).design; }
 
 std::vector<std::string> inputs_of(const expr::Program& program) {
   std::vector<std::string> names;

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "base/number.h"
+#include "bind/bind.h"
 #include "io/gains_json.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -35,7 +35,7 @@ model::Gains plain_gains() {
   gains.searched = {{"T2", 1.1}, {"delta", 0.03}};
   gains.certificate = model::CertificateRecord{
       true, 0.5, 31, {{"flow", numbers::Matrix{{1, 0}, {0, 1}}}}, "problem"};
-  gains.statement = model::bind(read_problem(kProblem)).design->statement;
+  gains.statement = bind::bind(read_problem(kProblem)).design->statement;
   return gains;
 }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
+#include "bind/bind.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 #include "numbers/real.h"
 
 namespace gainsmith::io {
@@ -41,7 +41,7 @@ method:
 campaign: {horizon: 10, sampling: {sample: golden}}
 )";
 
-model::DesignPtr bound(const std::string& text) { return model::bind(read_problem(text)).design; }
+model::DesignPtr bound(const std::string& text) { return bind::bind(read_problem(text)).design; }
 
 TEST(Dynamics, ComponentsEventsAndSignalsAreBound) {
   const model::DesignPtr design = bound(kPendulum);

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "base/file.h"
+#include "bind/bind.h"
 #include "io/method_yaml.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -38,7 +38,7 @@ TEST(Problems, OfTheRepositoryParseAndCheck) {
   for (const fs::path& path : files) {
     SCOPED_TRACE(path.filename().string());
     const model::Problem problem = parse_problem(read_text(path), path.string(), library());
-    EXPECT_NO_THROW(model::bind(problem));
+    EXPECT_NO_THROW(bind::bind(problem));
     const fs::path named = problem.name + ".yaml";
     EXPECT_EQ(named, fs::relative(path, GAINSMITH_PROBLEMS)) << "the name is the path";
     EXPECT_TRUE(problem.expect) << "a problem of the repository says what is expected";
@@ -67,7 +67,7 @@ TEST(Problems, EveryBuiltInMethodIsUsableWithItsDefaults) {
     std::size_t unknowns = 0;
     for (const model::UnknownDeclaration& unknown : method.unknowns)
       unknowns += unknown.indices.empty() ? 1 : 2;
-    EXPECT_EQ(model::bind(problem).design->unknowns.size(), unknowns);
+    EXPECT_EQ(bind::bind(problem).design->unknowns.size(), unknowns);
   }
 }
 

@@ -9,8 +9,8 @@
 #include <random>
 #include <string>
 
+#include "bind/bind.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -18,7 +18,7 @@ namespace {
 using tests::input_error;
 
 const model::Statement& statement() {
-  static const model::Statement kStatement = model::bind(read_problem(kProblem)).design->statement;
+  static const model::Statement kStatement = bind::bind(read_problem(kProblem)).design->statement;
   return kStatement;
 }
 
@@ -74,7 +74,7 @@ class RandomGains {
       record.certificate =
           model::CertificateRecord{random_() % 2 == 0, number(), 100, {}, "vertices"};
     }
-    record.polish = {number(), number(), true, "converged"};
+    record.joint_refinement = {number(), number(), true, "converged"};
     record.open = {number(), number()};
     record.over = {"delta", "eta"};
     record.at_end = {"eta"};

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <string>
 
+#include "bind/bind.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -86,7 +86,7 @@ TEST_F(Measured, ALogIsAPlant) {
   EXPECT_EQ(measured[0].between, Between::line);
   EXPECT_EQ(measured[1].at, "sample");
   EXPECT_EQ(problem.method->events.front().rows, (std::vector<double>{0.5, 1.5}));
-  const auto design = model::bind(problem).design;
+  const auto design = bind::bind(problem).design;
   EXPECT_EQ(design->dynamics->signals[0].name, "angle");
   EXPECT_EQ(design->dynamics->signals[1].at, 0U);
   EXPECT_EQ(design->dynamics->events[0].rows.size(), 2U);
@@ -140,12 +140,12 @@ TEST_F(Measured, ItsPastIsNotKeptForFlowMaps) {
         (folder_ / "p.yaml").string(), library());
   };
   const auto message = [&](const std::string& flow) {
-    return input_error([&] { model::bind(bound(flow)); }).message();
+    return input_error([&] { bind::bind(bound(flow)); }).message();
   };
   EXPECT_NE(message("flow_map(-z + y, z, -1)").find("e has 'y.log', whose past is not kept"),
             std::string::npos);
   EXPECT_NE(message("flow_map(-z + u, z, -1)").find("e has 'u'"), std::string::npos);
-  model::bind(bound("y + flow_map(-k*z + w, z, -1)"));
+  bind::bind(bound("y + flow_map(-k*z + w, z, -1)"));
 }
 
 TEST_F(Measured, OutputsOfThePlantHaveNoPast) {
@@ -157,15 +157,15 @@ TEST_F(Measured, OutputsOfThePlantHaveNoPast) {
             flow + "\"}}\n",
         "p.yaml", library());
   };
-  EXPECT_NE(input_error([&] { model::bind(bound("flow_map(y - z, z, -1)")); })
+  EXPECT_NE(input_error([&] { bind::bind(bound("flow_map(y - z, z, -1)")); })
                 .message()
                 .find("e has what the observer measures of 'x'"),
             std::string::npos);
-  EXPECT_NE(input_error([&] { model::bind(bound("jacobian(flow_map(y - z, z, -1), z)")); })
+  EXPECT_NE(input_error([&] { bind::bind(bound("jacobian(flow_map(y - z, z, -1), z)")); })
                 .message()
                 .find("e has what the observer measures of 'x'"),
             std::string::npos);
-  model::bind(bound("flow_map(-z, z, -y)"));
+  bind::bind(bound("flow_map(-z, z, -y)"));
 }
 
 }  // namespace

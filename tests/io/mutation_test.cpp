@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "bind/bind.h"
 #include "io/method_yaml.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -73,7 +73,7 @@ TEST(Mutations, OfAProblemAreReadOrRefused) {
   unsigned read = 0;
   for (unsigned seed = 0; seed < kMutations; ++seed)
     read += reads(Mutator(seed)(kProblem),
-                  [](const std::string& text) { model::bind(read_problem(text)); });
+                  [](const std::string& text) { bind::bind(read_problem(text)); });
   EXPECT_GT(read, 0U) << "every mutation was refused: the test does not reach far";
   EXPECT_LT(read, kMutations);
 }
@@ -83,7 +83,7 @@ TEST(Mutations, OfAMethodAreReadOrRefused) {
   for (unsigned seed = 0; seed < kMutations; ++seed)
     read += reads(Mutator(seed)(kMethod), [](const std::string& text) {
       const MethodLibrary own{[&](const std::string&) { return text; }, {"own"}};
-      model::bind(
+      bind::bind(
           parse_problem("problem: a\nmethod: own\ndata: {A: [[1, 2], [3, 4]]}\n", "p.yaml", own));
     });
   EXPECT_GT(read, 0U);

@@ -3,9 +3,9 @@
 
 #include <string>
 
+#include "bind/bind.h"
 #include "io/method_yaml.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -23,11 +23,11 @@ data: {A: 2}
 )";
 
 std::string reason_of(const std::string& text) {
-  return model::bind(read_problem(text)).design->no_campaign;
+  return bind::bind(read_problem(text)).design->no_campaign;
 }
 
 std::string message_of(const std::string& text) {
-  return input_error([&] { model::bind(read_problem(text)); }).message();
+  return input_error([&] { bind::bind(read_problem(text)); }).message();
 }
 
 TEST(NoCampaign, TheReasonOfTheProblemComesFirst) {
@@ -71,7 +71,7 @@ method:
   claims: {c: {nonincreasing: x'*P*x}}
 data: {A: 2}
 )";
-  EXPECT_FALSE(model::bind(read_problem(design)).design->campaign.horizon);
+  EXPECT_FALSE(bind::bind(read_problem(design)).design->campaign.horizon);
   EXPECT_NE(message_of(design + "campaign: {runs: 3}\n").find("horizon"), std::string::npos);
   EXPECT_NE(message_of(design + "campaign: {horizon: 3}\n").find("has no start"),
             std::string::npos);

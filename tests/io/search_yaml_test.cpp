@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
+#include "bind/bind.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 
 namespace gainsmith::io {
 namespace {
@@ -26,7 +26,7 @@ TEST(Search, IsReadWithItsRanges) {
   EXPECT_EQ(problem.search->over[1].name, "eta");
   EXPECT_EQ(problem.search->evaluations, 50);
   ASSERT_EQ(problem.negotiable.size(), 1U);
-  const model::Instance instance = model::bind(problem);
+  const model::Instance instance = bind::bind(problem);
   EXPECT_EQ(ends_of(*instance.design->search->extreme, instance.values), (std::pair(0.5, 1.0)));
 }
 
@@ -36,7 +36,7 @@ TEST(Search, AFigureMayBeStatedForOver) {
   EXPECT_FALSE(problem.search->extreme);
   EXPECT_TRUE(problem.search->minimize);
   EXPECT_EQ(problem.search->evaluations, 200);
-  EXPECT_NO_THROW(model::bind(problem));
+  EXPECT_NO_THROW(bind::bind(problem));
 }
 
 TEST(Search, AFigureMayBeOneOfRuns) {
@@ -48,7 +48,7 @@ TEST(Search, AFigureMayBeOneOfRuns) {
   EXPECT_EQ(problem.search->runs, 7U);
   EXPECT_EQ(problem.search->run_figure->kind, model::FigureKind::rms);
   EXPECT_EQ(problem.search->run_figure->observer, "ekf");
-  const InputError error = input_error([&] { model::bind(problem); });
+  const InputError error = input_error([&] { bind::bind(problem); });
   EXPECT_NE(error.message().find("there is no observer 'ekf'"), std::string::npos) << error.what();
 }
 
@@ -87,7 +87,7 @@ TEST(Search, RangesAreCheckedWithTheProblem) {
   for (const char* block : {"search: {largest: {T2: [2, 1]}}", "search: {over: {delta: [1, 1]}}",
                             "negotiable: {T2: [1, T1]}"}) {
     const model::Problem problem = read_problem(with(block));
-    const InputError error = input_error([&] { model::bind(problem); });
+    const InputError error = input_error([&] { bind::bind(problem); });
     EXPECT_NE(error.message().find("low < high"), std::string::npos) << error.what();
   }
 }
@@ -99,7 +99,7 @@ TEST(Search, FiguresAndRepetitionsAreCheckedWithTheProblem) {
       {"search: {largest: {T2: [1, 2]}, over: {T2: [1, 2]}}", "'T2' is searched already"}};
   for (const auto& [block, message] : mistakes) {
     const model::Problem problem = read_problem(with(block));
-    const InputError error = input_error([&] { model::bind(problem); });
+    const InputError error = input_error([&] { bind::bind(problem); });
     EXPECT_NE(error.message().find(message), std::string::npos) << error.what();
     EXPECT_EQ(error.place().line, 11) << block;
   }
@@ -110,7 +110,7 @@ TEST(Search, ASearchedScalarNeedsNoValue) {
   const auto started = [](const std::string& block) {
     const model::Problem problem = read_problem(
         replaced(replaced(kProblem, "  T2: 0.7\n", ""), "campaign:", block + "\ncampaign:"));
-    return model::bind(problem).values.at("T2")(0, 0);
+    return bind::bind(problem).values.at("T2")(0, 0);
   };
   EXPECT_EQ(started("search: {largest: {T2: [0.6, 1.1]}}"), 0.6);
   EXPECT_EQ(started("search: {smallest: {T2: [T1, 1.1]}}"), 1.1);
@@ -121,7 +121,7 @@ TEST(Search, ParametersThatTheProblemLeavesOpen) {
   const model::Problem problem = read_problem(
       "problem: open\nmethod:\n  method: m\n  parameters: {a: {default: 1, search: [0, 2]}, "
       "b: {search: [3, 4]}, c: 5}\n  unknowns: {x: scalar}\n  require: {r: x > a + b + c}\n");
-  const model::Instance instance = model::bind(problem);
+  const model::Instance instance = bind::bind(problem);
   const auto& open = instance.design->open;
   ASSERT_EQ(open.size(), 2U);
   EXPECT_EQ(open[0].name, "a");

@@ -42,6 +42,23 @@ class Planted(unittest.TestCase):
         self.assert_found("lib/verify/a.cpp", '\n#include "design/synthesize.h"\n', "lib/verify/a.cpp:2",
                           "verify may not include design")
 
+    def test_what_poses_does_not_judge(self):
+        self.assert_found("lib/lmi/a.cpp", '#include "verdict/refutation.h"\n', "lib/lmi/a.cpp:1",
+                          "lmi may not include verdict")
+
+    def test_runs_are_judged_without_the_verdict(self):
+        self.assert_found("lib/verify/a.cpp", '#include "verdict/margins.h"\n', "lib/verify/a.cpp:1",
+                          "verify may not include verdict")
+
+    def test_algorithms_know_no_program(self):
+        self.assert_found("lib/numerics/a.h", '#include "expr/program.h"\n', "lib/numerics/a.h:1",
+                          "numerics may not include expr")
+
+    def test_binding_stays_behind_its_room(self):
+        self.assert_found("lib/verify/a.cpp", '#include "bind/binding.h"\n', "lib/verify/a.cpp:1",
+                          "verify works on what is bound")
+        self.assertEqual(check({**CLEAN, "lib/verify/a.cpp": '#include "bind/stated.h"\n'}), (0, []))
+
     def test_room_above(self):
         self.assert_found("lib/expr/a.h", '#pragma once\n#include "model/method.h"\n', "lib/expr/a.h:2",
                           "expr may not include model")

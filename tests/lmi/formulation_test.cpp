@@ -234,7 +234,7 @@ TEST(FormulationTest, MultiplierSizesAddComparisonsAndVertices) {
   sdp::Solution solution;
   std::vector<double> expected(points, 0.0);
   for (const Block& block : lmi.blocks) {
-    formulation.releases.kept.push_back({0, 1});
+    formulation.free_variables.kept.push_back({0, 1});
     const double size = static_cast<double>(solution.Y.values.size());
     solution.Y.values.push_back({size, 9, 9, 1});
     for (std::size_t k = 0; k < points; ++k)

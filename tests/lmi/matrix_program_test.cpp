@@ -145,7 +145,7 @@ class MatrixProgramTest : public ::testing::TestWithParam<Named> {
   /// Compares the programs at random points.
   void expect_same(const Posed& posed, const Formulation& formulation, const Round& round) {
     const auto program = matrix_program(posed.lmi, posed.bounds, formulation, round);
-    ASSERT_EQ(program.has_value(), formulation.releases.list.empty());
+    ASSERT_EQ(program.has_value(), formulation.free_variables.list.empty());
     if (!program) return;
     const sdp::Problem& problem = formulation.problem;
     ASSERT_EQ(program->c.size(), problem.c.size());
@@ -308,12 +308,12 @@ TEST(MatrixProgram, TermsAndProductsAreSymmetricTogether) {
   EXPECT_LT((posed.lmi.blocks[0].value(x) - other.lmi.blocks[0].value(x)).norm(), 1e-14);
 }
 
-TEST(MatrixProgram, NoneWhereScalarsAreReleased) {
+TEST(MatrixProgram, NoneWhereScalarsAreFree) {
   const Posed posed(problem_with("  unknowns: {P: symmetric n, Y: n x p, g: scalar}\n  require:\n"
                                  "    it: \"[P, P*B; *, g*eye(2)] > 0\"\n"),
                     1);
   const Formulation formulation = formulate_interior(posed.lmi, {}, {});
-  ASSERT_FALSE(formulation.releases.list.empty());
+  ASSERT_FALSE(formulation.free_variables.list.empty());
   EXPECT_FALSE(matrix_program(posed.lmi, {}, formulation, {}));
 }
 

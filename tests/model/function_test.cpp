@@ -9,15 +9,19 @@
 #include <string>
 #include <vector>
 
+#include "bind/binding.h"
+#include "bind/small_problem.h"
 #include "expr/compile.h"
 #include "expr/parser.h"
-#include "model/binding.h"
-#include "model/small_problem.h"
 #include "support/input_error.h"
 
 namespace gainsmith::model {
 namespace {
 
+using bind::changed;
+using bind::kSmallMethod;
+using bind::kSmallProblem;
+using bind::Small;
 using tests::input_error;
 
 std::string with_function(const std::string& declaration) {

@@ -12,9 +12,9 @@
 #include "base/number.h"
 #include "expr/compile.h"
 #include "expr/parser.h"
-#include "numbers/balance.h"
 #include "numbers/dense.h"
 #include "numbers/real.h"
+#include "numerics/balance.h"
 
 namespace gainsmith::numbers {
 namespace {

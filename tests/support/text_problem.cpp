@@ -162,7 +162,7 @@ TextProblem& TextProblem::runs(std::uint64_t count) {
 model::Instance TextProblem::instance() const {
   model::Problem problem = problem_;
   problem.method = std::make_shared<const model::Method>(method_);
-  return model::bind(problem);
+  return bind::bind(problem);
 }
 
 expr::Program TextProblem::program(const std::string& text) const {

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "model/bind.h"
+#include "bind/bind.h"
 #include "model/gains.h"
 
 namespace gainsmith::tests {

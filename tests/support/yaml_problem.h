@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "bind/bind.h"
 #include "io/problem_yaml.h"
 #include "methods/methods.h"
-#include "model/bind.h"
 #include "model/gains.h"
 
 namespace gainsmith::tests {
@@ -31,7 +31,7 @@ struct YamlProblem {
     const io::MethodLibrary library{[](const std::string& name) { return methods::find(name); },
                                     methods::names()};
     problem = std::make_shared<const model::Problem>(io::parse_problem(text, "test.yaml", library));
-    instance = model::bind(problem);
+    instance = bind::bind(problem);
   }
 };
 

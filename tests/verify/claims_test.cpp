@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
+#include "bind/bind.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 #include "verify/campaign.h"
 #include "verify/careful_runs.h"
 #include "verify/replay.h"
@@ -20,8 +20,8 @@ using model::CampaignVerdict;
 /// A problem with these parts of its method and of itself.
 model::Instance instance_of(const std::string& method, const std::string& claims,
                             const std::string& campaign, const std::string& more = "") {
-  return model::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + "  claims: " +
-                                      claims + "\ncampaign: " + campaign + "\n" + more));
+  return bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + "  claims: " +
+                                     claims + "\ncampaign: " + campaign + "\n" + more));
 }
 
 Report report_of(const model::Instance& instance) {

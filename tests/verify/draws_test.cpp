@@ -8,8 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "bind/bind.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
+#include "bind/bind.h"
 #include "verify/careful_runs.h"
 #include "verify/expected_run.h"
 
@@ -19,7 +20,7 @@ namespace {
 using Eigen::VectorXd;
 
 model::Instance instance_of(const std::string& method, const std::string& problem) {
-  return model::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + problem));
+  return bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + problem));
 }
 
 const std::string kPlant =

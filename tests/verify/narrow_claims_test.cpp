@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "base/number.h"
+#include "bind/bind.h"
 #include "io/problem_text.h"
-#include "model/bind.h"
 #include "verify/campaign.h"
 #include "verify/expected_run.h"
 
@@ -32,9 +32,9 @@ model::Instance instance_of(const std::string& claims, bool integrated,
       y: {shape: scalar, start: 1}
     flow: {x: "1", y: -y}
 )";
-  return model::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + more + "  plant:\n" +
-                                      plant + "  claims: " + claims +
-                                      "\ncampaign: {runs: 1, horizon: 3}\n"));
+  return bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + more + "  plant:\n" +
+                                     plant + "  claims: " + claims +
+                                     "\ncampaign: {runs: 1, horizon: 3}\n"));
 }
 
 CampaignVerdict verdict_of(const std::string& claim, bool integrated) {
@@ -132,7 +132,7 @@ CampaignVerdict verdict_on_circle(const std::string& claim, const std::string& h
   CampaignOptions options;
   options.threads = 1;
   return run_campaign(
-             model::bind(io::read_problem(
+             bind::bind(io::read_problem(
                  "problem: p\nmethod:\n  method: m\n  plant:\n    state: {x: {shape: 2, start: "
                  "\"[1; 0]\"}" +
                  z + "}\n    flow: {x: \"[x(2); -x(1)]\"" + (integrated ? ", z: -z^3" : "") +
@@ -207,7 +207,7 @@ TEST(NarrowClaims, BranchesWithoutAnErrorBoundAreDecidedWhereTheyAreFar) {
 TEST(NarrowClaims, ALostRunDoesNotHideAViolatedOne) {
   CampaignOptions options;
   options.threads = 1;
-  const model::Instance instance = model::bind(io::read_problem(R"yaml(problem: p
+  const model::Instance instance = bind::bind(io::read_problem(R"yaml(problem: p
 method:
   method: m
   plant:
@@ -238,7 +238,7 @@ TEST(NarrowClaims, WhatIsNeverLookedAtSaysSo) {
 
 TEST(NarrowFigures, SettlesAfterTheLastTop) {
   const auto found = [](const std::string& text, const std::string& level, const std::string& is) {
-    model::Instance instance = model::bind(io::read_problem(
+    model::Instance instance = bind::bind(io::read_problem(
         "problem: p\nmethod:\n  method: m\n  plant: {state: {x: {shape: 2, start: \"[1; 0]\"}}, "
         "flow: {x: \"[x(2); -x(1)]\"}}\ncampaign: {horizon: 7}\nexpect:\n  run:\n    - {settles: "
         "\"" +
@@ -255,14 +255,14 @@ TEST(NarrowFigures, SettlesAfterTheLastTop) {
 
 TEST(NarrowFigures, APeakIsFound) {
   model::Instance instance =
-      model::bind(io::read_problem("problem: p\nmethod:\n  method: m\n"
-                                   "  plant: {state: {x: {shape: scalar, start: 0}}, flow: {x: "
-                                   "\"1\"}}\ncampaign: {horizon: 3}\nexpect:\n  run:\n"
-                                   "    - {peak: \"" +
-                                   kTent +
-                                   "\", is: 1, absolute: 1e-9}\n"
-                                   "    - {settles: \"" +
-                                   kTent + "\", below: 0.5, is: 1.235, absolute: 1e-9}\n"));
+      bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n"
+                                  "  plant: {state: {x: {shape: scalar, start: 0}}, flow: {x: "
+                                  "\"1\"}}\ncampaign: {horizon: 3}\nexpect:\n  run:\n"
+                                  "    - {peak: \"" +
+                                  kTent +
+                                  "\", is: 1, absolute: 1e-9}\n"
+                                  "    - {settles: \"" +
+                                  kTent + "\", below: 0.5, is: 1.235, absolute: 1e-9}\n"));
   const RunDifferences found = run_differences(instance, model::Gains{});
   EXPECT_EQ(found.figures, 2U);
   EXPECT_TRUE(found.different.empty()) << found.different.front();

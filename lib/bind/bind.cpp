@@ -1,0 +1,88 @@
+#include "bind/bind.h"
+
+#include <filesystem>
+#include <utility>
+
+#include "bind/binding.h"
+#include "bind/campaign.h"
+#include "bind/claims.h"
+#include "bind/data.h"
+#include "bind/gains.h"
+#include "bind/inequalities.h"
+#include "bind/search.h"
+#include "bind/simulation.h"
+#include "expr/work.h"
+#include "model/gains.h"
+
+namespace gainsmith::bind {
+
+double Recorder::number(const expr::Program& program) const {
+  return numbers::evaluate(program, values)(0, 0);
+}
+
+int Recorder::rank(const expr::Program& matrix, const expr::Program* tolerance) const {
+  for (const model::Design::Rank& known : ranks)
+    if (is_same(known.matrix, matrix) && known.tolerance.has_value() == (tolerance != nullptr) &&
+        (tolerance == nullptr || is_same(*known.tolerance, *tolerance)))
+      return known.rank;
+  const int found = numbers::KnownDoubles(values).rank(matrix, tolerance);
+  ranks.push_back({matrix, tolerance ? std::optional(*tolerance) : std::nullopt, found});
+  return found;
+}
+
+Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overriding,
+                 Checks checking)
+    : source(std::move(problem)),
+      overrides(overriding),
+      checks(checking),
+      design(std::make_shared<model::Design>()),
+      names(std::make_shared<Names>()),
+      recorder(std::make_shared<Recorder>()) {
+  design->name = source->name;
+  design->file = source->file;
+  design->method = method().name;
+  design->method_file = method().file;
+  design->method_place = source->method_place;
+  design->synthesis = source->synthesis;
+  design->source = source;
+  design->statement = {method().name, method().text,
+                       std::filesystem::path(source->file).filename().string(), source->text, ""};
+  design->statement.hash = statement_hash(design->statement);
+  names->known.known = recorder;
+}
+
+namespace {
+
+model::Instance bound(Binding binding) {
+  expr::count_design();
+  bind_data(binding);
+  bind_inequalities(binding);
+  bind_gains(binding);
+  bind_components(binding);
+  bind_search(binding);
+  bind_claims(binding);
+  bind_campaign(binding);
+  bind_expectation(binding);
+  bind_comparison(binding);
+  finish_dynamics(binding);
+  binding.design->ranks = binding.recorder->ranks;
+  binding.design->names = binding.names;
+  return {binding.design, binding.overrides, binding.recorder->values};
+}
+
+}  // namespace
+
+model::Instance bind(std::shared_ptr<const model::Problem> problem,
+                     const model::Overrides& overrides) {
+  return bound({std::move(problem), overrides, Checks::all});
+}
+
+model::Instance bind(const model::Problem& problem, const model::Overrides& overrides) {
+  return bind(std::make_shared<const model::Problem>(problem), overrides);
+}
+
+model::Instance bind_again(const model::Design& design, const model::Overrides& overrides) {
+  return bound({design.source, overrides, Checks::none});
+}
+
+}  // namespace gainsmith::bind

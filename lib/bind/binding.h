@@ -1,0 +1,57 @@
+// Internal to bind: one binding, and what is made of it so far.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "bind/bind.h"
+#include "bind/dynamics_names.h"
+#include "expr/scope.h"
+
+namespace gainsmith::bind {
+
+/// What each part of a design may use (design.h).
+struct Names {
+  expr::Scope known;    ///< data, parameters, definitions
+  expr::Scope design;   ///< and unknowns
+  expr::Scope running;  ///< and gains, states
+  expr::Scope results;  ///< and the objective
+};
+
+/// The values of data and parameters so far. Notes the ranks that were asked for.
+struct Recorder : expr::KnownValues {
+  numbers::Values values;
+  mutable std::vector<model::Design::Rank> ranks;
+
+  double number(const expr::Program& program) const override;
+  int rank(const expr::Program& matrix, const expr::Program* tolerance) const override;
+};
+
+/// What is asked of values besides data and assumptions: that ranges have ends in order, and that
+/// the campaign lies within its ranges.
+enum class Checks { all, none };
+
+/// One binding: of what, and what is made of it so far. The parts (data.h, inequalities.h, gains.h,
+/// simulation.h, search.h, claims.h, campaign.h) are bound in this order; each reads what those
+/// before it made.
+struct Binding {
+  Binding(std::shared_ptr<const model::Problem> problem, const model::Overrides& overrides,
+          Checks checks);
+
+  const model::Problem& problem() const { return *source; }
+  const model::Method& method() const { return *source->method; }
+
+  std::shared_ptr<const model::Problem> source;
+  model::Overrides overrides;
+  Checks checks;
+  std::shared_ptr<model::Design> design;
+  std::shared_ptr<Names> names;
+  std::shared_ptr<Recorder> recorder;
+  std::unique_ptr<DynamicsNames> dynamics_names;  ///< from bind_components() on
+};
+
+/// Binds the texts of a design anew for values that change its shapes. Ranges and the campaign were
+/// checked with the values of the problem; a scan goes beyond them.
+model::Instance bind_again(const model::Design& design, const model::Overrides& overrides);
+
+}  // namespace gainsmith::bind

@@ -1,0 +1,98 @@
+#include "bind/convex.h"
+
+#include <memory>
+#include <utility>
+
+namespace gainsmith::bind {
+
+namespace {
+
+using expr::Node;
+using expr::NodeKind;
+using expr::NodePtr;
+using expr::Relation;
+
+/// Builds trees that stand where the call stands.
+class Trees {
+ public:
+  explicit Trees(const Node& at) : at_(at) {}
+
+  NodePtr make(NodeKind kind, std::vector<NodePtr> children, std::string text = "") const {
+    auto node = std::make_shared<Node>();
+    node->kind = kind;
+    node->begin = at_.begin;
+    node->end = at_.end;
+    node->children = std::move(children);
+    node->text = std::move(text);
+    return node;
+  }
+  NodePtr number(int value) const { return make(NodeKind::number, {}, std::to_string(value)); }
+  NodePtr call(const std::string& function, NodePtr argument) const {
+    return make(NodeKind::call, {std::move(argument)}, function);
+  }
+  NodePtr identity() const { return make(NodeKind::name, {}, "I"); }
+  NodePtr times(NodePtr a, NodePtr b) const {
+    return make(NodeKind::multiply, {std::move(a), std::move(b)});
+  }
+  NodePtr at_most(NodePtr a, NodePtr b, bool strict) const {
+    auto node = std::make_shared<Node>(*make(NodeKind::compare, {std::move(a), std::move(b)}));
+    node->relations = {strict ? Relation::less : Relation::less_equal};
+    return node;
+  }
+  NodePtr block(std::vector<NodePtr> entries) const {
+    auto node = std::make_shared<Node>(*make(NodeKind::block, std::move(entries)));
+    node->columns = 2;
+    return node;
+  }
+
+ private:
+  const Node& at_;
+};
+
+}  // namespace
+
+std::optional<Curvature> curvature_of(const Node& node) {
+  if (node.kind != NodeKind::call || node.children.empty()) return std::nullopt;
+  const std::string& name = node.text;
+  if (name == "norm" || name == "abs" || name == "max" || name == "lambda_max")
+    return Curvature::convex;
+  if (name == "min" || name == "lambda_min") return Curvature::concave;
+  return std::nullopt;
+}
+
+std::vector<NodePtr> comparisons_of(const Node& call, const NodePtr& bound,
+                                    const std::vector<expr::Shape>& arguments, bool bound_is_number,
+                                    bool strict) {
+  const Trees trees(call);
+  const NodePtr& argument = call.children.front();
+  const NodePtr multiple = trees.times(bound, trees.identity());
+  if (call.text == "norm") {
+    const auto corner = [&](int size) {
+      return trees.times(bound, trees.call("eye", trees.number(size)));
+    };
+    const NodePtr block =
+        trees.block({corner(arguments.front().rows), argument, trees.make(NodeKind::mirror, {}),
+                     corner(arguments.front().cols)});
+    return {trees.at_most(trees.number(0), block, strict)};
+  }
+  if (call.text == "lambda_max") return {trees.at_most(argument, multiple, strict)};
+  if (call.text == "lambda_min") return {trees.at_most(multiple, argument, strict)};
+  // Vectors are compared as diagonal matrices, numbers with them as multiples of I.
+  const NodePtr limit = bound_is_number ? multiple : trees.call("diag", bound);
+  std::vector<NodePtr> comparisons;
+  for (std::size_t k = 0; k < arguments.size(); ++k) {
+    const NodePtr& child = call.children[k];
+    const bool number = arguments[k].is_scalar();
+    const NodePtr value = !number           ? trees.call("diag", child)
+                          : bound_is_number ? child
+                                            : trees.times(child, trees.identity());
+    const NodePtr& other = number && bound_is_number ? bound : limit;
+    if (call.text == "abs")
+      comparisons.push_back(trees.at_most(trees.make(NodeKind::negate, {other}), value, strict));
+    comparisons.push_back(call.text == "min" ? trees.at_most(other, value, strict)
+                                             : trees.at_most(value, other, strict));
+  }
+  return comparisons;
+}
+
+}  // namespace gainsmith::bind

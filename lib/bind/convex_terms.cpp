@@ -1,0 +1,354 @@
+#include "bind/convex_terms.h"
+
+#include <algorithm>
+#include <memory>
+#include <span>
+
+#include "bind/convex.h"
+#include "bind/dynamics_names.h"
+#include "bind/families.h"
+#include "bind/inequalities.h"
+#include "expr/compile.h"
+#include "expr/functions.h"
+
+namespace gainsmith::bind {
+
+namespace {
+
+using expr::Node;
+using expr::NodeKind;
+using expr::NodePtr;
+using expr::Relation;
+
+NodePtr with_children(const Node& node, std::vector<NodePtr> children) {
+  auto changed = std::make_shared<Node>(node);
+  changed->children = std::move(children);
+  return changed;
+}
+
+bool is_of_matrices(const Node& call) {
+  return call.text == "norm" || call.text.starts_with("lambda");
+}
+
+/// max(v) and min(v) of one vector.
+bool is_of_one_vector(const Node& call) {
+  return call.text.starts_with("m") && call.children.size() == 1;
+}
+
+expr::Shape largest(const std::vector<expr::Shape>& shapes) {
+  return *std::max_element(shapes.begin(), shapes.end(),
+                           [](expr::Shape a, expr::Shape b) { return a.size() < b.size(); });
+}
+
+bool names_curved(const Node& node) {
+  return curvature_of(node) ||
+         std::any_of(node.children.begin(), node.children.end(),
+                     [](const NodePtr& child) { return names_curved(*child); });
+}
+
+/// The tree at another place of the text.
+NodePtr placed(const Node& node, const Node& at) {
+  auto moved = std::make_shared<Node>(node);
+  moved->begin = at.begin;
+  moved->end = at.end;
+  for (NodePtr& child : moved->children) child = placed(*child, at);
+  return moved;
+}
+
+/// The sum of terms as a tree that is not deep, at the place of `at`; 0 without terms.
+NodePtr sum_of(std::span<const NodePtr> terms, const Node& at) {
+  if (terms.size() == 1) return terms.front();
+  auto sum = std::make_shared<Node>();
+  sum->begin = at.begin;
+  sum->end = at.end;
+  if (terms.empty()) {
+    sum->kind = NodeKind::number;
+    sum->text = "0";
+    return sum;
+  }
+  const std::size_t half = terms.size() / 2;
+  sum->kind = NodeKind::add;
+  sum->children = {sum_of(terms.first(half), at), sum_of(terms.subspan(half), at)};
+  return sum;
+}
+
+bool is_positive_number(const Node& node) {
+  return node.kind == NodeKind::number && node.text.find_first_of("123456789") != std::string::npos;
+}
+
+/// Whether the value depends on unknowns.
+bool reads_unknowns(const Binding& binding, const expr::Expression& part,
+                    const expr::Scope& scope) {
+  const auto names = names_in(part);
+  const bool may = std::any_of(names.begin(), names.end(), [&](const std::string& name) {
+    return scope.definitions.contains(name) || scope.functions.contains(name) ||
+           scope.families.contains(name) || !binding.names->known.symbols.contains(name);
+  });
+  if (!may || part.root->kind == NodeKind::number) return false;
+  const expr::Program program = expr::compile(part, scope);
+  const auto is_unknown = [&](const expr::Input& input) {
+    return !binding.names->known.symbols.contains(input.name) &&
+           binding.names->design.symbols.contains(input.name);
+  };
+  return !program.functions.empty() ||
+         std::any_of(program.inputs.begin(), program.inputs.end(), is_unknown);
+}
+
+/// The function of unknowns at a node, convex or concave, if it is one.
+std::optional<Curvature> curvature_at(const Binding& binding, const expr::Expression& text,
+                                      const Node& node, const expr::Scope& scope) {
+  const auto curvature = curvature_of(node);
+  if (!curvature || node.children.empty()) return std::nullopt;
+  const bool reads =
+      std::any_of(node.children.begin(), node.children.end(), [&](const NodePtr& child) {
+        return reads_unknowns(binding, {text.text, child}, scope);
+      });
+  if (!reads) return std::nullopt;
+  const expr::Function& function = *expr::find_function(node.text);
+  const int count = static_cast<int>(node.children.size());
+  if (count < function.fewest || (function.most >= 0 && count > function.most))
+    throw InputError(text.place(node),
+                     node.text == "lambda_max" && count == 2
+                         ? "lambda_max(M, N) of two matrices stands alone in minimize; elsewhere "
+                           "write M <= l*N with a number l"
+                         : "'" + node.text + "' is written " + std::string(function.usage) +
+                               "; found " + std::to_string(count) + " arguments");
+  return curvature;
+}
+
+bool has_curvature(const Binding& binding, const expr::Expression& text, const Node& node,
+                   const expr::Scope& scope) {
+  return curvature_at(binding, text, node, scope) ||
+         std::any_of(node.children.begin(), node.children.end(), [&](const NodePtr& child) {
+           return has_curvature(binding, text, *child, scope);
+         });
+}
+
+void refuse_nested(const Binding& binding, const expr::Expression& text, const Node& call,
+                   const expr::Scope& scope) {
+  for (const NodePtr& child : call.children)
+    if (has_curvature(binding, text, *child, scope))
+      throw InputError(text.place(*child),
+                       "'" + text.quote(*child) + "' stands inside of another such function");
+}
+
+/// Of the arguments of a call. InputError when the function does not take them.
+std::vector<expr::Shape> shapes_of(const expr::Expression& text, const Node& call,
+                                   const expr::Scope& scope) {
+  std::vector<expr::Shape> shapes;
+  for (const NodePtr& child : call.children)
+    shapes.push_back(expr::compile({text.text, child}, scope).shape());
+  const expr::Shape of = largest(shapes);
+  if (call.text.starts_with("lambda") && !of.is_square())
+    throw InputError(text.place(call),
+                     call.text + " takes a symmetric matrix; found " + to_string(of));
+  if (!is_of_matrices(call) && of.rows != 1 && of.cols != 1)
+    throw InputError(text.place(call), call.text +
+                                           " of unknowns is taken of numbers and vectors; "
+                                           "found " +
+                                           to_string(of));
+  for (std::size_t k = 0; k < shapes.size(); ++k)
+    if (!shapes[k].is_scalar() && shapes[k].size() != of.size())
+      throw InputError(text.place(*call.children[k]), "'" + text.quote(*call.children[k]) +
+                                                          "' is " + to_string(shapes[k]) +
+                                                          ", another one " + to_string(of));
+  return shapes;
+}
+
+std::vector<expr::Expression> bounds_of(const expr::Expression& text, const Node& call,
+                                        const NodePtr& bound, expr::Scope& scope, bool strict) {
+  const std::vector<expr::Shape> arguments = shapes_of(text, call, scope);
+  const expr::Shape of = largest(arguments);
+  const expr::Shape limit = expr::compile({text.text, bound}, scope).shape();
+  const bool matrix = is_of_matrices(call) || is_of_one_vector(call);
+  if (!limit.is_scalar() && (matrix || limit.size() != of.size()))
+    throw InputError(text.place(*bound),
+                     "'" + text.quote(call) + "' is compared with " +
+                         (matrix ? "a number" : "a number or a vector like it") + "; found " +
+                         to_string(limit));
+  std::vector<expr::Expression> comparisons;
+  for (NodePtr& comparison : comparisons_of(call, bound, arguments, limit.is_scalar(), strict))
+    comparisons.push_back({text.text, std::move(comparison)});
+  return comparisons;
+}
+
+/// Sums over indices with such functions in them as the terms that they have.
+NodePtr with_terms(const Binding& binding, const expr::Expression& text, const NodePtr& node,
+                   const expr::Scope& scope) {
+  constexpr std::size_t kMostTerms = 1000;
+  if (!names_curved(*node)) return node;
+  const bool indexed = node->kind == NodeKind::call && node->text == "sum" &&
+                       node->children.front()->kind == NodeKind::each;
+  if (!indexed) {
+    std::vector<NodePtr> children;
+    for (const NodePtr& child : node->children)
+      children.push_back(with_terms(binding, text, child, scope));
+    return with_children(*node, std::move(children));
+  }
+  std::vector<expr::Index> indices;
+  std::vector<expr::Expression> conditions;
+  for (std::size_t k = 0; k + 1 < node->children.size(); ++k) {
+    const Node& child = *node->children[k];
+    if (child.kind == NodeKind::each)
+      indices.push_back({child.text,
+                         {text.text, child.children[0]},
+                         {text.text, child.children[1]},
+                         text.place(child)});
+    else
+      conditions.push_back({text.text, node->children[k]});
+  }
+  std::vector<NodePtr> terms;
+  for (const Member& member : members(indices, conditions, scope)) {
+    if (terms.size() == kMostTerms)
+      throw InputError(text.place(*node), "a sum of norms, moduli or eigenvalues has at most " +
+                                              std::to_string(kMostTerms) + " terms");
+    const expr::Expression one =
+        expr::instantiate({text.text, node->children.back()}, member.indices, scope.families);
+    terms.push_back(placed(*with_terms(binding, one, one.root, scope), *node));
+  }
+  return sum_of(terms, *node);
+}
+
+/// An unknown that bounds the function at `call`, as a node that stands for it.
+NodePtr bounding_unknown(Binding& binding, const expr::Expression& text, const Node& call,
+                         Curvature curvature) {
+  expr::Scope& scope = binding.names->design;
+  constexpr std::size_t kMost = 10'000;
+  if (binding.design->unknowns.size() >= kMost)
+    throw InputError(text.place(call),
+                     "there are more than " + std::to_string(kMost) + " unknowns");
+  model::Design::Unknown unknown;
+  if (!is_of_matrices(call) && !is_of_one_vector(call))
+    unknown.shape = largest(shapes_of(text, call, scope));
+  unknown.structure = unknown.shape.is_scalar() ? model::Structure::scalar : model::Structure::full;
+  unknown.place = text.place(call);
+  const auto is_taken = [&](const std::string& name) {
+    return scope.symbols.contains(name) || scope.definitions.contains(name) ||
+           scope.dimensions.contains(name) || name == timer_name(binding.method()) ||
+           std::any_of(binding.method().gains.begin(), binding.method().gains.end(),
+                       [&](const model::Gain& gain) { return gain.name == name; }) ||
+           std::any_of(binding.method().observers.begin(), binding.method().observers.end(),
+                       [&](const model::Component& one) { return names_of(one).contains(name); }) ||
+           names_of(binding.method().plant).contains(name);
+  };
+  for (int k = 1; unknown.name.empty() || is_taken(unknown.name); ++k)
+    unknown.name = call.text + "_" + std::to_string(k);
+  scope.symbols[unknown.name] = {unknown.shape};
+  auto name = std::make_shared<Node>(call);
+  name->kind = NodeKind::name;
+  name->text = unknown.name;
+  name->children.clear();
+  model::Design::Inequality bound;
+  const std::string quoted = text.quote(call);
+  // A term of a sum over an index stands where the sum stands.
+  const bool own = quoted.starts_with(call.text);
+  bound.name = unknown.name + (curvature == Curvature::convex ? " >= " : " <= ") +
+               (own ? quoted : call.text + " in " + quoted);
+  bound.place = bound.that_place = unknown.place;
+  binding.design->unknowns.push_back(std::move(unknown));
+  add_comparisons(bounds_of(text, call, name, scope, false), bound, bound.name, "", scope);
+  binding.design->inequalities.push_back(std::move(bound));
+  return name;
+}
+
+/// The text with bounding unknowns for convex functions where it may be large (sign 1), for concave
+/// ones where it may be small (sign -1).
+NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& node, int sign,
+                bool quantified, const expr::Scope& scope) {
+  if (!has_curvature(binding, text, *node, scope)) return node;
+  const auto inner = [&](const NodePtr& child, int s) {
+    return bounded(binding, text, child, s, quantified, scope);
+  };
+  if (const auto curvature = curvature_at(binding, text, *node, scope)) {
+    if ((*curvature == Curvature::convex) != (sign > 0))
+      throw InputError(text.place(*node),
+                       "'" + text.quote(*node) + "' is " +
+                           (*curvature == Curvature::convex
+                                ? "convex: it can only be asked to be small, on the smaller side "
+                                  "of a comparison or in minimize"
+                                : "concave: it can only be asked to be large, on the larger side "
+                                  "of a comparison"));
+    if (quantified)
+      throw InputError(text.place(*node), "under 'forall' with an interval or a set, '" +
+                                              text.quote(*node) +
+                                              "' stands alone on its side of the comparison");
+    refuse_nested(binding, text, *node, scope);
+    return bounding_unknown(binding, text, *node, *curvature);
+  }
+  const auto& children = node->children;
+  switch (node->kind) {
+    case NodeKind::add:
+      return with_children(*node, {inner(children[0], sign), inner(children[1], sign)});
+    case NodeKind::subtract:
+      return with_children(*node, {inner(children[0], sign), inner(children[1], -sign)});
+    case NodeKind::negate:
+      return with_children(*node, {inner(children[0], -sign)});
+    case NodeKind::multiply:
+      for (const std::size_t k : {0U, 1U})
+        if (is_positive_number(*children[k])) {
+          auto changed = children;
+          changed[1 - k] = inner(children[1 - k], sign);
+          return with_children(*node, std::move(changed));
+        }
+      break;
+    case NodeKind::divide:
+      if (is_positive_number(*children[1]))
+        return with_children(*node, {inner(children[0], sign), children[1]});
+      break;
+    case NodeKind::call:
+      if (node->text == "sum" && children.size() == 1)
+        return with_children(*node, {inner(children[0], sign)});
+      break;
+    default:
+      break;
+  }
+  throw InputError(text.place(*node),
+                   "norm, abs, max, min and eigenvalues of unknowns may stand in sums, in sum(...) "
+                   "and times a number that is written out, not inside of '" +
+                       text.quote(*node) + "'; a weight w >= 0 goes inside, as in norm(w*X)");
+}
+
+}  // namespace
+
+std::vector<expr::Expression> affine_comparisons(Binding& binding, const expr::Expression& stated,
+                                                 expr::Scope& scope, bool quantified) {
+  const expr::Expression that{stated.text, with_terms(binding, stated, stated.root, scope)};
+  const Node& chain = *that.root;
+  if (chain.kind != NodeKind::compare || !has_curvature(binding, that, chain, scope)) return {that};
+  std::vector<expr::Expression> comparisons;
+  for (std::size_t k = 0; k < chain.relations.size(); ++k) {
+    const Relation relation = chain.relations[k];
+    if (relation == Relation::equal || relation == Relation::not_equal)
+      throw InputError(that.place(chain), "'" + to_string(relation) + "' takes affine sides");
+    const bool ascending = relation == Relation::less || relation == Relation::less_equal;
+    const bool strict = relation == Relation::less || relation == Relation::greater;
+    const NodePtr& small = chain.children[ascending ? k : k + 1];
+    const NodePtr& large = chain.children[ascending ? k + 1 : k];
+    const auto alone = [&](const NodePtr& side, const NodePtr& other, Curvature wanted) {
+      if (curvature_at(binding, that, *side, scope) != wanted ||
+          has_curvature(binding, that, *other, scope))
+        return false;
+      refuse_nested(binding, that, *side, scope);
+      for (expr::Expression& bound : bounds_of(that, *side, other, scope, strict))
+        comparisons.push_back(std::move(bound));
+      return true;
+    };
+    if (alone(small, large, Curvature::convex) || alone(large, small, Curvature::concave)) continue;
+    auto pair = std::make_shared<Node>(chain);
+    pair->children = {bounded(binding, that, small, 1, quantified, scope),
+                      bounded(binding, that, large, -1, quantified, scope)};
+    pair->relations = {strict ? Relation::less : Relation::less_equal};
+    comparisons.push_back({that.text, pair});
+    scope.symbols.insert(binding.names->design.symbols.begin(),
+                         binding.names->design.symbols.end());
+  }
+  return comparisons;
+}
+
+expr::Expression affine_objective(Binding& binding, const expr::Expression& text) {
+  const expr::Scope& scope = binding.names->design;
+  return {text.text,
+          bounded(binding, text, with_terms(binding, text, text.root, scope), 1, false, scope)};
+}
+
+}  // namespace gainsmith::bind

@@ -1,0 +1,369 @@
+#include "bind/data.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/nearest.h"
+#include "base/number.h"
+#include "bind/estimates.h"
+#include "bind/families.h"
+#include "bind/formulas.h"
+#include "expr/functions.h"
+
+namespace gainsmith::bind {
+
+namespace {
+
+template <class Item>
+const Item* find_named(const std::vector<Item>& items, const std::string& name) {
+  const auto found =
+      std::find_if(items.begin(), items.end(), [&](const Item& item) { return item.name == name; });
+  return found == items.end() ? nullptr : &*found;
+}
+
+template <class Item>
+std::vector<std::string> names_of(const std::vector<Item>& items) {
+  std::vector<std::string> names;
+  names.reserve(items.size());
+  for (const Item& item : items) names.push_back(item.name);
+  return names;
+}
+
+std::string declared(const model::Declaration& declaration, const model::Dimensions& dimensions) {
+  std::string text = declaration.shape.text;
+  std::string known;
+  for (const auto& part : {declaration.shape.rows, declaration.shape.cols}) {
+    if (!part) continue;
+    for (const std::string& name : names_in(*part)) {
+      const auto found = dimensions.find(name);
+      const std::string fact =
+          found == dimensions.end() ? "" : name + " = " + std::to_string(found->second);
+      if (!fact.empty() && known.find(fact) == std::string::npos)
+        known += (known.empty() ? "" : ", ") + fact;
+    }
+  }
+  return text + (known.empty() ? "" : " (" + known + ")");
+}
+
+constexpr const char* kFamilyTakes =
+    "; a family takes a list with a matrix for each member, or one expression for all";
+
+/// Whether the expression may take its size from its place: a bare number or a multiple of I.
+bool has_free_size(const model::Value& value) {
+  const auto names = names_in(value.value);
+  return names.contains("I") || value.value.root->kind == expr::NodeKind::number;
+}
+
+/// Where each element stands, row by row, when the matrix is written element by element.
+std::vector<Place> element_places(const model::Value& value, expr::Shape shape) {
+  const expr::Node& root = *value.value.root;
+  std::vector<Place> places;
+  if (root.kind != expr::NodeKind::block || root.columns != shape.cols ||
+      std::ssize(root.children) != shape.size())
+    return places;
+  for (const expr::NodePtr& element : root.children) places.push_back(value.value.place(*element));
+  return places;
+}
+
+void refuse_unknown_names(const Binding& binding) {
+  const auto data = names_of(binding.method().data);
+  const auto parameters = names_of(binding.method().parameters);
+  const auto refuse =
+      [&](const std::vector<model::Value>& values, const std::vector<std::string>& known,
+          const std::vector<std::string>& elsewhere, const char* what, const char* other) {
+        for (const model::Value& value : values) {
+          if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
+          const bool misplaced =
+              std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
+          throw InputError(value.place, "the method " + binding.method().name + " has no " + what +
+                                            " '" + value.name + "'" +
+                                            (misplaced ? "; it is one of its " + std::string(other)
+                                                       : suggestion(value.name, known)));
+        }
+      };
+  refuse(binding.problem().data, data, parameters, "datum", "parameters");
+  refuse(binding.problem().parameters, parameters, data, "parameter", "data");
+}
+
+/// A datum that is declared, with what the problem gives.
+struct Given {
+  model::Declaration declaration;
+  std::optional<model::Value> value;
+};
+
+/// The datum itself, or the members of a family, each with its element of the list.
+std::vector<Given> given(Binding& binding, const model::Declaration& datum) {
+  const model::Value* found = find_named(binding.problem().data, datum.name);
+  const auto value = found ? std::optional(*found) : std::nullopt;
+  if (datum.indices.empty()) {
+    if (value && !value->matrices.empty())
+      throw InputError(value->place, "the datum " + datum.name + " is declared " +
+                                         datum.shape.text + "; found a list of matrices");
+    return {{datum, value}};
+  }
+  if (!value && !datum.fallback)
+    throw InputError({binding.problem().file}, "the datum " + datum.name + " (" + datum.shape.text +
+                                                   " for each index) of the "
+                                                   "method " +
+                                                   binding.method().name +
+                                                   " is missing under 'data'" + kFamilyTakes);
+  const std::vector<model::Value> elements =
+      value ? elements_of(*value) : std::vector<model::Value>{};
+  for (const model::Value& element : elements)
+    if (!element.matrices.empty())
+      throw InputError(element.place, "the family " + datum.name +
+                                          " takes a list of matrices; this member is one itself: "
+                                          "a bracket too many");
+  if (!elements.empty()) learn_count(datum.indices, elements.size(), binding.design->dimensions);
+  expr::Scope& scope = binding.names->known;
+  scope.dimensions = binding.design->dimensions;
+  scope.families[datum.name] = ranges(datum.indices, scope);
+  const auto all = members(datum.indices, {}, scope);
+  if (!elements.empty() && elements.size() != all.size())
+    throw InputError(value->place, "the family " + datum.name + " has " +
+                                       std::to_string(all.size()) +
+                                       " members by the data before it; found " +
+                                       std::to_string(elements.size()));
+  std::vector<Given> result;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    Given member{datum, value};
+    member.declaration.name = all[k].name_of(datum.name);
+    if (!elements.empty()) member.value = elements[k];
+    for (auto* text : {member.value && elements.empty() ? &member.value->value : nullptr,
+                       datum.fallback ? &*member.declaration.fallback : nullptr})
+      if (text != nullptr) *text = instantiate(*text, all[k], scope);
+    result.push_back(std::move(member));
+  }
+  return result;
+}
+
+/// The range in which the problem looks for a scalar.
+const model::ScalarRange* find_searched(const Binding& binding, const std::string& name) {
+  if (!binding.problem().search) return nullptr;
+  const model::Search& search = *binding.problem().search;
+  if (search.extreme && search.extreme->name == name) return &*search.extreme;
+  return find_named(search.over, name);
+}
+
+/// A scalar without a value stands where the search for it begins.
+void start_at_end(const Binding& binding, const model::ScalarRange& searched,
+                  model::Design::Datum& datum) {
+  datum.range = range(searched, binding.names->known);
+  const auto& search = binding.problem().search;
+  const bool smallest =
+      search && !search->largest && search->extreme && search->extreme->name == searched.name;
+  datum.value = smallest ? datum.range->high : datum.range->low;
+  datum.place = searched.place;
+}
+
+void define(Binding& binding, model::Design::Datum datum, std::vector<model::Design::Datum>& list) {
+  numbers::Matrix matrix =
+      value_of(*binding.design, datum, binding.overrides, binding.recorder->values);
+  binding.names->known.symbols[datum.name] = {datum.shape, true};
+  binding.names->known.dimensions = binding.design->dimensions;
+  binding.recorder->values[datum.name] = std::move(matrix);
+  if (datum.value) note_estimate(*binding.design, datum.name, datum.value->program);
+  list.push_back(std::move(datum));
+}
+
+void add_datum(Binding& binding, const Given& given) {
+  const model::Declaration& datum = given.declaration;
+  model::Dimensions& dimensions = binding.design->dimensions;
+  model::Design::Datum bound;
+  bound.name = datum.name;
+  bound.structure = datum.shape.structure;
+  bound.declared = datum.shape.text;
+  bound.missing = "the datum " + datum.name + " (" + datum.shape.text + ") of the method " +
+                  binding.method().name + " is missing under 'data'";
+  const model::ScalarRange* searched = find_searched(binding, datum.name);
+  if (!given.value && !datum.fallback && searched != nullptr) {
+    start_at_end(binding, *searched, bound);
+    return define(binding, std::move(bound), binding.design->data);
+  }
+  if (!given.value && !datum.fallback)
+    return define(binding, std::move(bound), binding.design->data);
+  const model::Value value =
+      given.value ? *given.value : model::Value{datum.name, *datum.fallback, false, datum.place};
+  const auto expected = resolve(datum.shape, dimensions);
+  const bool column = datum.shape.is_column() || (expected && is_proper_column(*expected));
+  model::Value turned{value.name, oriented(value, column), false, value.place};
+  bound.place = value.place;
+  bound.value =
+      formula(turned.value, binding.names->known, has_free_size(value) ? expected : std::nullopt);
+  bound.shape = bound.value->program.shape();
+  if (!learn(datum.shape, bound.shape, dimensions))
+    throw InputError(value.place, "the datum " + datum.name + " is declared " +
+                                      declared(datum, dimensions) + "; found " +
+                                      to_string(bound.shape) +
+                                      (datum.indices.empty() ? "" : kFamilyTakes));
+  bound.elements = element_places(value, bound.shape);
+  define(binding, std::move(bound), binding.design->data);
+}
+
+/// A size such as n + p may have been unknown when the datum was read.
+void check_shape(const Binding& binding, const Given& given) {
+  const model::Declaration& datum = given.declaration;
+  const expr::Shape shape = binding.names->known.symbols.at(datum.name).shape;
+  // Without rows, or without columns, a matrix says that there is no output, no input. A plant
+  // without states is a mistake.
+  const bool empty = shape.rows == 0 && shape.cols == 0 && given.value;
+  if (learn(datum.shape, shape, binding.design->dimensions) && !empty) return;
+  throw InputError(given.value ? given.value->place : datum.place,
+                   "the datum " + datum.name + " is declared " +
+                       declared(datum, binding.design->dimensions) + "; found " + to_string(shape));
+}
+
+void add_parameter(Binding& binding, const model::Parameter& parameter) {
+  model::Design::Datum bound;
+  bound.name = parameter.name;
+  bound.structure = model::Structure::scalar;
+  bound.declared = "scalar";
+  bound.missing = "the parameter " + parameter.name + " of the method " + binding.method().name +
+                  " has no default and is missing under 'parameters'";
+  const model::Value* given = find_named(binding.problem().parameters, parameter.name);
+  const model::ScalarRange* searched = find_searched(binding, parameter.name);
+  if (searched == nullptr && parameter.search) searched = &*parameter.search;
+  if (given != nullptr || parameter.fallback) {
+    bound.value = scalar(given ? given->value : *parameter.fallback, binding.names->known);
+    bound.place = given ? given->place : parameter.place;
+  } else if (searched != nullptr) {
+    start_at_end(binding, *searched, bound);
+  }
+  define(binding, std::move(bound), binding.design->parameters);
+}
+
+void add_definitions(Binding& binding) {
+  auto& definitions = binding.names->known.definitions;
+  for (const model::Let& let : binding.method().let)
+    definitions[let.signature.name] = {let.signature.parameters, let.body};
+  for (const model::Let& let : binding.problem().let) {
+    const std::string& name = let.signature.name;
+    if (binding.names->known.symbols.contains(name) || expr::is_reserved(name))
+      throw InputError(let.place, "'" + name + "' already has a meaning");
+    definitions[name] = {let.signature.parameters, let.body};
+  }
+  if (binding.method().has_dynamics) return;  // signals come with the dynamics
+  for (const model::Named& signal : binding.method().signals)
+    definitions[signal.name] = {{}, signal.value};
+}
+
+void add_assumption(Binding& binding, const model::Named& assumption) {
+  model::Design::Assumption bound;
+  bound.text = assumption.value.text->str();
+  for (const auto& relation : compile_relations(assumption.value, binding.names->known)) {
+    if (relation.equation)
+      throw InputError(assumption.place,
+                       "'==' stands in requirements only; an assumption is an "
+                       "inequality of scalars, such as 0 < T1 <= T2");
+    refuse_estimate(*binding.design, relation.difference, "an assumption");
+    bound.differences.emplace_back(relation.difference, relation.strict);
+  }
+  for (const std::string& name : names_in(assumption.value)) {
+    const auto value = binding.recorder->values.find(name);
+    if (value == binding.recorder->values.end() || value->second.size() != 1) continue;
+    bound.scalars.push_back(name);
+    for (const auto* list : {&binding.problem().data, &binding.problem().parameters})
+      if (const model::Value* given = find_named(*list, name)) bound.place = given->place;
+  }
+  check_assumption(*binding.design, bound, binding.recorder->values);
+  binding.design->assumptions.push_back(std::move(bound));
+}
+
+int degree_of(const Binding& binding, const model::UnknownDeclaration& unknown,
+              model::Design::Unknown& bound) {
+  constexpr int kLargest = 30;
+  if (!unknown.degree) return 0;
+  bound.degree_formula = scalar(*unknown.degree, binding.names->known);
+  const double degree = scalar_value(*bound.degree_formula, binding.recorder->values);
+  if (!(degree >= 0 && degree <= kLargest) || std::trunc(degree) != degree)
+    throw InputError(bound.degree_formula->place,
+                     "the degree of " + unknown.name + " must be a whole number from 0 to " +
+                         std::to_string(kLargest) + ", not " + brief(degree));
+  return static_cast<int>(degree);
+}
+
+expr::Shape known_shape(const Binding& binding, const model::Declaration& declaration,
+                        const char* what) {
+  if (const auto shape = resolve(declaration.shape, binding.design->dimensions)) return *shape;
+  throw InputError(declaration.place,
+                   "the size of the " + std::string(what) + " " + declaration.name + " (" +
+                       declaration.shape.text +
+                       ") does not follow from the data; a shape is n x p, n, scalar, symmetric n "
+                       "or diagonal n, with sizes that the data have");
+}
+
+void add_unknown(Binding& binding, const model::UnknownDeclaration& unknown) {
+  expr::Scope& scope = binding.names->design;
+  model::Design::Unknown bound;
+  bound.name = unknown.name;
+  bound.shape = known_shape(binding, unknown, "unknown");
+  bound.structure = unknown.shape.structure;
+  bound.variable = unknown.variable;
+  bound.declared = unknown.shape.text;
+  bound.place = unknown.place;
+  bound.degree = degree_of(binding, unknown, bound);
+  if (unknown.in) {
+    bound.in = {unknown.name, scalar(unknown.in->low, binding.names->known),
+                scalar(unknown.in->high, binding.names->known), unknown.in->place};
+    ends_of(*bound.in, binding.recorder->values);
+  }
+  if (unknown.variable.empty()) {
+    scope.symbols[unknown.name] = {bound.shape};
+  } else {
+    for (int k = 0; k <= bound.degree; ++k)
+      scope.symbols[model::coefficient_name(unknown.name, static_cast<std::size_t>(k))] = {
+          bound.shape};
+    scope.functions[unknown.name] = bound.shape;
+    scope.functions[expr::derivative_name(unknown.name)] = bound.shape;
+  }
+  binding.design->unknowns.push_back(std::move(bound));
+}
+
+void add_unknowns(Binding& binding) {
+  binding.names->design = binding.names->known;
+  expr::Scope& scope = binding.names->design;
+  for (const model::UnknownDeclaration& unknown : binding.method().unknowns) {
+    if (unknown.indices.empty()) {
+      add_unknown(binding, unknown);
+      continue;
+    }
+    scope.families[unknown.name] = ranges(unknown.indices, scope);
+    for (const Member& member : members(unknown.indices, {}, scope)) {
+      model::UnknownDeclaration one = unknown;
+      one.name = member.name_of(unknown.name);
+      if (one.degree) one.degree = instantiate(*one.degree, member, scope);
+      if (one.in)
+        for (expr::Expression* end : {&one.in->low, &one.in->high})
+          *end = instantiate(*end, member, scope);
+      add_unknown(binding, one);
+    }
+  }
+}
+
+}  // namespace
+
+void bind_data(Binding& binding) {
+  refuse_unknown_names(binding);
+  for (const auto& [name, value] : binding.overrides) {
+    check_scalar_name(binding.method(), name, {binding.problem().file});
+    if (!std::isfinite(value))
+      throw InputError({binding.problem().file}, name + ": expected a finite number");
+  }
+  std::vector<Given> all;
+  for (const model::Declaration& datum : binding.method().data)
+    for (Given& member : given(binding, datum)) {
+      add_datum(binding, member);
+      all.push_back(std::move(member));
+    }
+  for (const Given& datum : all) check_shape(binding, datum);
+  for (const model::Parameter& parameter : binding.method().parameters)
+    add_parameter(binding, parameter);
+  for (const auto& [name, value] : binding.overrides)
+    check_scalar_name(*binding.design, name, {binding.problem().file});
+  add_definitions(binding);
+  for (const model::Named& assumption : binding.method().assume)
+    add_assumption(binding, assumption);
+  add_unknowns(binding);
+}
+
+}  // namespace gainsmith::bind

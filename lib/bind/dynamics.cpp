@@ -1,0 +1,330 @@
+// Components, their states, definitions and flows.
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "base/nearest.h"
+#include "bind/binding.h"
+#include "bind/dynamics_binding.h"
+#include "expr/compile.h"
+#include "expr/rewrite.h"
+
+namespace gainsmith::bind {
+
+namespace {
+
+using Kind = model::Dynamics::VariableKind;
+
+std::vector<std::string> state_names(const model::Component& component) {
+  std::vector<std::string> names;
+  for (const auto* list : {&component.states, &component.modes})
+    for (const model::Declaration& state : *list) names.push_back(state.name);
+  return names;
+}
+
+}  // namespace
+
+DynamicsBinding::DynamicsBinding(const model::Method& method, const model::Dimensions& dimensions,
+                                 const DynamicsNames& names,
+                                 const std::vector<model::UncertainText>& uncertain,
+                                 expr::Scope& scope)
+    : method_(&method),
+      dimensions_(&dimensions),
+      names_(&names),
+      uncertain_(&uncertain),
+      scope_(&scope) {}
+
+model::Formula DynamicsBinding::formula(const expr::Expression& text, const expr::Scope& scope,
+                                        std::optional<expr::Shape> shape) const {
+  return {expr::compile(text, scope, shape), text.place(*text.root), text.text->str()};
+}
+
+bool DynamicsBinding::is_moving(const std::string& name) const {
+  return std::any_of(
+      result_.variables.begin(), result_.variables.end(),
+      [&](const model::Dynamics::Variable& variable) { return variable.name == name; });
+}
+
+bool DynamicsBinding::is_free(const std::string& name) const {
+  return !scope_->symbols.contains(name) && !scope_->definitions.contains(name) &&
+         !scope_->functions.contains(name);
+}
+
+expr::Shape DynamicsBinding::shape_of(const model::Declaration& state) const {
+  if (const auto shape = resolve(state.shape, *dimensions_)) return *shape;
+  throw InputError(state.place, "the size of the state " + state.name + " (" + state.shape.text +
+                                    ") does not follow from the data; a shape is n x p, n, scalar, "
+                                    "symmetric n or diagonal n, with sizes that the data have");
+}
+
+void DynamicsBinding::add_component(const model::Component& component) {
+  model::Dynamics::Component bound;
+  bound.name = component.name;
+  bound.observer = component.name != "plant";
+  bound.place = component.place;
+  result_.components.push_back(std::move(bound));
+}
+
+void DynamicsBinding::add_states(const model::Component& component, std::size_t at) {
+  for (const auto* list : {&component.states, &component.modes})
+    for (const model::Declaration& state : *list) {
+      model::Dynamics::Variable bound;
+      bound.kind = list == &component.modes ? Kind::mode : Kind::state;
+      bound.name = names_->full(component, state.name);
+      bound.component = at;
+      bound.shape = shape_of(state);
+      bound.structure = state.shape.structure;
+      bound.place = state.place;
+      scope_->symbols[bound.name] = {bound.shape, false, true};
+      result_.variables.push_back(std::move(bound));
+    }
+}
+
+void DynamicsBinding::add_definitions(const model::Component& component) {
+  for (const model::Let& let : component.let)
+    scope_->definitions[names_->full(component, let.signature.name)] = {
+        let.signature.parameters, names_->within(component, let.body, let.signature.parameters)};
+  for (const model::Output& output : component.outputs) {
+    const std::string name = names_->full(component, output.name);
+    scope_->definitions[name] = {{}, names_->within(component, output.value)};
+    if (!output.at.empty()) output_events_[name] = output.at;
+    if (component.name == "plant") outputs_of_plant_.insert(name);
+  }
+}
+
+/// The vertices of a list, or the members of the family that it names.
+std::vector<expr::Expression> DynamicsBinding::vertices_of(const model::UncertainText& text,
+                                                           expr::Shape shape) const {
+  std::vector<expr::Expression> vertices;
+  if (text.vertices.size() == 1) {
+    const expr::Expression& only = text.vertices.front().value;
+    const auto family = scope_->families.find(only.root->text);
+    if (only.root->kind == expr::NodeKind::name && family != scope_->families.end()) {
+      if (family->second.size() != 1)
+        throw InputError(text.place, "vertices: the family " + family->first +
+                                         " has several indices; list its members");
+      for (int k = family->second[0].first; k <= family->second[0].second; ++k) {
+        auto member = std::make_shared<expr::Node>(*only.root);
+        member->text = expr::member_name(family->first, {k});
+        vertices.push_back({only.text, member});
+      }
+      return vertices;
+    }
+  }
+  const bool column = shape.cols == 1 && shape.rows > 1;
+  for (const model::Value& value : text.vertices) vertices.push_back(oriented(value, column));
+  return vertices;
+}
+
+/// How the plant's value of uncertain data is chosen.
+model::Dynamics::Noise DynamicsBinding::varied_noise(const model::UncertainText& text,
+                                                     expr::Shape shape) const {
+  model::Dynamics::Noise noise;
+  noise.name = "plant." + text.name;
+  noise.kind = model::Dynamics::NoiseKind::uniform;
+  noise.shape = shape;
+  noise.place = text.place;
+  if (text.corners) noise.kind = model::Dynamics::NoiseKind::corners;
+  if (!text.vertices.empty()) noise.kind = model::Dynamics::NoiseKind::vertices;
+  const std::vector<expr::Expression> values =
+      text.vertices.empty() ? text.box : vertices_of(text, shape);
+  for (const expr::Expression& value : values) noise.values.push_back(constant(value, shape));
+  return noise;
+}
+
+/// Why a name is none that may be uncertain.
+std::string DynamicsBinding::no_datum(const std::string& name) const {
+  if (scope_->definitions.contains(name)) return "a definition: make it, or what it uses, a datum";
+  std::vector<std::string> data;
+  for (const auto& [symbol, about] : scope_->symbols)
+    if (about.known) data.push_back(symbol);
+  return "no datum and no parameter" + suggestion(name, data);
+}
+
+/// Uncertain data as the plant has them, chosen once a run, and the definitions that use them.
+void DynamicsBinding::add_varied() {
+  for (const model::UncertainText& text : *uncertain_) {
+    const auto datum = scope_->symbols.find(text.name);
+    if (datum == scope_->symbols.end() || !datum->second.known)
+      throw InputError(text.place, "uncertain: '" + text.name + "' is " + no_datum(text.name));
+    if (!is_free("plant." + text.name))
+      throw InputError(text.place, "uncertain: '" + text.name + "' also names a part of the plant");
+    add_noise(varied_noise(text, datum->second.shape));
+  }
+  for (const std::string& name : names_->varied())
+    if (const auto found = scope_->definitions.find(name); found != scope_->definitions.end())
+      scope_->definitions["plant." + name] = {
+          found->second.parameters, names_->of_plant(found->second.body, found->second.parameters)};
+}
+
+void DynamicsBinding::add_inputs() {
+  for (const model::Named& input : method_->inputs) {
+    expr::visit_names(input.value, [&](const expr::Node& node) {
+      if (is_moving(node.text))
+        throw InputError(input.value.place(node),
+                         "an input is a function of the time t; '" + node.text + "' is a state");
+    });
+    scope_->definitions[input.name] = {{}, input.value};
+  }
+  // Before t and j, which may be dropped: flows know variables by their numbers.
+  for (const model::MeasuredText& text : method_->measured) add_measured(text);
+  for (const char* name : {"t", "j"}) {
+    if (!is_free(name)) continue;
+    model::Dynamics::Variable number;
+    number.kind = name == std::string("t") ? Kind::time : Kind::jumps;
+    if (number.kind == Kind::time) scope_->time = name;
+    number.name = name;
+    scope_->symbols[name] = {{}, false, true};
+    result_.variables.push_back(std::move(number));
+  }
+}
+
+/// The quantity is a variable that rests, or one whose rate is another variable that rests.
+void DynamicsBinding::add_measured(const model::MeasuredText& text) {
+  if (!is_free(text.name))
+    throw InputError(text.place, "'" + text.name + "' already names something else");
+  model::Dynamics::Variable variable;
+  variable.kind = Kind::measured;
+  variable.name = text.name;
+  variable.of = result_.measured.size();
+  variable.shape = {static_cast<int>(text.series->values.cols()), 1};
+  variable.place = text.place;
+  const std::size_t at = result_.variables.size();
+  scope_->symbols[variable.name] = {variable.shape};
+  result_.variables.push_back(variable);
+  result_.measured.push_back(
+      {text.name, text.between, text.series, text.output, std::nullopt, text.place});
+  if (text.between == model::Between::hold) return;
+  variable.kind = Kind::measured_rate;
+  variable.name = "rate of " + text.name;
+  scope_->symbols[variable.name] = {variable.shape};
+  result_.variables.push_back(variable);
+  expr::Composer rate(text.place);
+  const int input = rate.input(variable.name, variable.shape);
+  result_.flow.push_back({at, {rate.take(input), text.place, variable.name}, text.place});
+}
+
+void DynamicsBinding::bind_measured_events() {
+  for (std::size_t k = 0; k < method_->measured.size(); ++k) {
+    const model::MeasuredText& text = method_->measured[k];
+    if (!text.at.empty()) result_.measured[k].event = event(&method_->plant, text.at, text.place);
+  }
+}
+
+/// A start may name what has a value before: data, gains, and the states before it.
+void DynamicsBinding::bind_starts() {
+  std::size_t at = 0;
+  const auto bind = [&](const model::Component& component) {
+    for (const auto* list : {&component.states, &component.modes})
+      for (const model::Declaration& state : *list) {
+        model::Dynamics::Variable& bound = result_.variables[at++];
+        if (state.fallback)
+          bound.start = formula(names_->within(component, *state.fallback), *scope_, bound.shape);
+      }
+  };
+  bind(method_->plant);
+  for (const model::Component& observer : method_->observers) bind(observer);
+}
+
+std::size_t DynamicsBinding::state(const model::Component& component, std::size_t at,
+                                   const model::Named& entry, const char* what) const {
+  const std::string name = names_->full(component, entry.name);
+  for (std::size_t k = 0; k < result_.variables.size(); ++k) {
+    const model::Dynamics::Variable& variable = result_.variables[k];
+    const bool own = variable.kind == Kind::state || variable.kind == Kind::mode;
+    if (own && variable.component == at && variable.name == name) return k;
+  }
+  throw InputError(entry.place, std::string(what) + " of '" + entry.name +
+                                    "', which is no state of " + component.name +
+                                    suggestion(entry.name, state_names(component)));
+}
+
+void DynamicsBinding::bind_flow(const model::Component& component, std::size_t at) {
+  for (const model::Named& entry : component.flow) {
+    const std::size_t of = state(component, at, entry, "the flow");
+    const model::Dynamics::Variable& variable = result_.variables[of];
+    if (variable.kind == Kind::mode)
+      throw InputError(entry.place, "the mode '" + entry.name +
+                                        "' does not flow; what flows is a "
+                                        "state");
+    const expr::Expression text = names_->within(component, entry.value);
+    check_reads({&component, std::nullopt}, text, *scope_);
+    result_.flow.push_back({of, formula(text, *scope_, variable.shape), entry.place});
+  }
+}
+
+model::Dynamics DynamicsBinding::run() {
+  std::vector<const model::Component*> parts = {&method_->plant};
+  for (const model::Component& observer : method_->observers) parts.push_back(&observer);
+  for (std::size_t at = 0; at < parts.size(); ++at) {
+    add_component(*parts[at]);
+    add_states(*parts[at], at);
+  }
+  add_varied();
+  for (const model::Component* part : parts) add_definitions(*part);
+  add_inputs();
+  add_events();
+  bind_measured_events();
+  for (const model::NoiseText& noise : method_->noise) bind_noise(noise);
+  bind_starts();
+  for (std::size_t at = 0; at < parts.size(); ++at) {
+    set_reader(parts[at]);
+    bind_flow(*parts[at], at);
+    bind_flow_sets(*parts[at], at);
+  }
+  for (std::size_t at = 0; at < result_.events.size(); ++at) {
+    const auto of = result_.events[at].component;
+    set_reader(of ? parts[*of] : nullptr);
+    bind_event(*event_texts_[at], of ? parts[*of] : nullptr, at);
+  }
+  for (std::size_t at = 0; at < parts.size(); ++at) {
+    set_reader(parts[at]);
+    for (const model::ReactionText& reaction : parts[at]->at)
+      bind_reaction(reaction, *parts[at], at);
+  }
+  set_reader(nullptr);
+  return result_;
+}
+
+std::optional<std::size_t> DynamicsBinding::event_of_output(const std::string& output) const {
+  const auto found = output_events_.find(output);
+  if (found == output_events_.end()) return std::nullopt;
+  return events_.at(*names_->event(nullptr, found->second));
+}
+
+namespace {
+
+bool is_used(const model::Dynamics& dynamics, std::size_t event) {
+  const auto at = [&](const auto& list) {
+    return std::any_of(list.begin(), list.end(),
+                       [&](const auto& one) { return one.event == event; });
+  };
+  const auto number = [&](const model::Dynamics::Variable& variable) {
+    return (variable.kind == Kind::count || variable.kind == Kind::since ||
+            variable.kind == Kind::passes || variable.kind == Kind::left) &&
+           variable.of == event;
+  };
+  const auto signal = [&](const model::Dynamics::Signal& one) { return one.at == event; };
+  return at(dynamics.reactions) || at(dynamics.noise) ||
+         std::any_of(dynamics.variables.begin(), dynamics.variables.end(), number) ||
+         std::any_of(dynamics.signals.begin(), dynamics.signals.end(), signal);
+}
+
+}  // namespace
+
+void drop_unread(model::Dynamics& dynamics, const std::set<std::string>& read,
+                 const std::set<std::size_t>& counted) {
+  std::erase_if(dynamics.variables, [&](const model::Dynamics::Variable& variable) {
+    const bool asked = variable.kind != Kind::state && variable.kind != Kind::mode &&
+                       variable.kind != Kind::noise && variable.kind != Kind::measured &&
+                       variable.kind != Kind::measured_rate;
+    return asked && !read.contains(variable.name);
+  });
+  for (std::size_t k = 0; k < dynamics.events.size(); ++k)
+    if (!counted.contains(k) && !is_used(dynamics, k))
+      throw InputError(dynamics.events[k].place,
+                       "nothing happens at the event '" + dynamics.events[k].own +
+                           "': no component has it under 'at', and no text asks for it");
+}
+
+}  // namespace gainsmith::bind

@@ -1,0 +1,28 @@
+// Internal to bind: texts as programs with their places.
+#pragma once
+
+#include <optional>
+
+#include "expr/compile.h"
+#include "expr/scope.h"
+#include "model/design.h"
+#include "model/formula.h"
+#include "model/problem.h"
+
+namespace gainsmith::bind {
+
+bool is_proper_column(expr::Shape shape);
+
+/// A flat list is a row; where a column is declared it is turned.
+expr::Expression oriented(const model::Value& value, bool column);
+
+model::Formula formula(const expr::Expression& expression, const expr::Scope& scope,
+                       std::optional<expr::Shape> expected = std::nullopt);
+/// A 1 x 1 one.
+model::Formula scalar(const expr::Expression& expression, const expr::Scope& scope);
+/// A value that may be a flat list, which is a column where a column is expected.
+model::Formula value(const model::Value& value, const expr::Scope& scope,
+                     std::optional<expr::Shape> expected);
+model::Range range(const model::ScalarRange& range, const expr::Scope& scope);
+
+}  // namespace gainsmith::bind

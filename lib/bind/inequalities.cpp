@@ -1,0 +1,188 @@
+#include "bind/inequalities.h"
+
+#include <algorithm>
+#include <memory>
+
+#include "bind/bind.h"
+#include "bind/convex_terms.h"
+#include "bind/estimates.h"
+#include "bind/families.h"
+#include "bind/formulas.h"
+
+namespace gainsmith::bind {
+
+namespace {
+
+/// Whether a program reads the unknown: the matrix, a coefficient of the function or the function.
+bool uses(const expr::Program& program, const model::Design::Unknown& unknown) {
+  const auto is_named = [&](const expr::Input& input) {
+    if (input.name == unknown.name) return true;
+    if (unknown.variable.empty()) return false;
+    if (input.name == expr::derivative_name(unknown.name)) return true;
+    for (int k = 0; k <= unknown.degree; ++k)
+      if (input.name == model::coefficient_name(unknown.name, static_cast<std::size_t>(k)))
+        return true;
+    return false;
+  };
+  return std::any_of(program.inputs.begin(), program.inputs.end(), is_named) ||
+         std::any_of(program.functions.begin(), program.functions.end(), is_named);
+}
+
+/// The ends, elements or vertices as they are written, or the elements of a vector.
+std::vector<expr::Expression> points_of(const Binding& binding, const model::Forall& forall,
+                                        const Member& member) {
+  std::vector<expr::Expression> points;
+  for (const expr::Expression& point : forall.points)
+    points.push_back(instantiate(point, member, binding.names->known));
+  if (!forall.of_vector) return points;
+  const expr::Expression& vector = points.front();
+  const expr::Shape shape = expr::compile(vector, binding.names->known).shape();
+  if (shape.rows != 1 && shape.cols != 1)
+    throw InputError(vector.place(*vector.root),
+                     "'" + vector.quote(*vector.root) + "' is " + to_string(shape) + ": " +
+                         forall.variable +
+                         " runs over the elements of a vector, an interval "
+                         "[low, high], or a set {a, b, ...}");
+  std::vector<expr::Expression> elements;
+  for (int k = 1; k <= shape.size(); ++k) {
+    auto number = std::make_shared<expr::Node>(*vector.root);
+    number->kind = expr::NodeKind::number;
+    number->text = std::to_string(k);
+    number->children.clear();
+    auto element = std::make_shared<expr::Node>(*vector.root);
+    element->kind = expr::NodeKind::index;
+    element->children = {vector.root, number};
+    elements.push_back({vector.text, element});
+  }
+  return elements;
+}
+
+model::Design::Variable variable(const Binding& binding, const model::Forall& forall,
+                                 const Member& member) {
+  model::Design::Variable bound{forall.variable, forall.over, {}, {}, forall.place};
+  const expr::Scope& scope = binding.names->known;
+  const std::vector<expr::Expression> points = points_of(binding, forall, member);
+  if (forall.over == model::Over::interval) {
+    for (const expr::Expression& end : points) bound.points.push_back(scalar(end, scope));
+    return bound;
+  }
+  for (const expr::Expression& element : points) {
+    bound.points.push_back(formula(element, scope));
+    const expr::Shape shape = bound.points.back().program.shape();
+    if (bound.points.size() == 1) bound.shape = shape;
+    if (shape != bound.shape)
+      throw InputError(element.place(*element.root),
+                       "the elements of " + forall.variable + " must have one shape; found " +
+                           to_string(bound.shape) + " and " + to_string(shape));
+    bound.points.back().text = element.quote(*element.root);
+    if (forall.of_vector)
+      bound.points.back().text += "(" + std::to_string(bound.points.size()) + ")";
+  }
+  return bound;
+}
+
+void bind_objective(Binding& binding, const expr::Expression& text) {
+  const expr::Node& root = *text.root;
+  const bool quotient =
+      root.kind == expr::NodeKind::call && root.text == "lambda_max" && root.children.size() == 2;
+  if (!quotient) {
+    binding.design->objective = scalar(affine_objective(binding, text), binding.names->design);
+    refuse_estimate(*binding.design, binding.design->objective->program, "a minimum");
+    return;
+  }
+  const expr::Expression first{text.text, root.children[0]};
+  const expr::Expression second{text.text, root.children[1]};
+  // The smaller one may be a multiple of I.
+  const auto square = [&](const expr::Expression& part, std::optional<expr::Shape> expected) {
+    expr::Program program = expr::compile(part, binding.names->design, expected);
+    if (!program.shape().is_square())
+      throw InputError(part.place(*part.root),
+                       "lambda_max takes symmetric matrices; found " + to_string(program.shape()));
+    return program;
+  };
+  model::Design::Quotient bound;
+  bound.numerator = square(first, std::nullopt);
+  bound.denominator = square(second, bound.numerator.shape());
+  for (const expr::Program* side : {&bound.numerator, &bound.denominator})
+    refuse_estimate(*binding.design, *side, "a minimum");
+  bound.text = text.quote(root);
+  bound.denominator_text = text.quote(*second.root);
+  bound.place = text.place(root);
+  binding.design->quotient = std::move(bound);
+}
+
+void add_inequality(Binding& binding, const model::Requirement& requirement, const Member& member) {
+  model::Design::Inequality bound;
+  bound.name = member.title_of(requirement.name);
+  bound.place = requirement.place;
+  expr::Scope scope = binding.names->design;
+  const expr::Expression that = instantiate(requirement.that, member, scope);
+  bound.that_place = that.place(*that.root);
+  for (const model::Forall& forall : requirement.forall) {
+    bound.domain.push_back(variable(binding, forall, member));
+    scope.symbols[forall.variable] = {bound.domain.back().shape};
+  }
+  add_comparisons(affine_comparisons(binding, that, scope, !requirement.forall.empty()), bound,
+                  requirement.name, member.label, scope);
+  for (const auto& comparison : bound.comparisons)
+    refuse_estimate(*binding.design, comparison.difference, "'" + requirement.name + "'");
+  for (const model::Design::Variable& one : bound.domain)
+    for (const model::Formula& point : one.points)
+      refuse_estimate(*binding.design, point.program, "'" + requirement.name + "'");
+  binding.design->inequalities.push_back(std::move(bound));
+}
+
+}  // namespace
+
+void add_comparisons(const std::vector<expr::Expression>& comparisons,
+                     model::Design::Inequality& bound, const std::string& stem,
+                     const std::string& member, const expr::Scope& scope) {
+  std::vector<expr::CompiledRelation> relations;
+  for (const expr::Expression& comparison : comparisons)
+    for (expr::CompiledRelation& relation : expr::compile_relations(comparison, scope))
+      relations.push_back(std::move(relation));
+  const std::string at = member.empty() ? "" : " at " + member;
+  for (std::size_t k = 0; k < relations.size(); ++k) {
+    const std::string number = relations.size() > 1 ? "." + std::to_string(k + 1) : "";
+    bound.comparisons.push_back(
+        {stem + number + at, std::move(relations[k].difference), relations[k].strict});
+  }
+}
+
+void bind_inequalities(Binding& binding) {
+  for (const model::Requirement& requirement : binding.method().require)
+    for (const Member& member :
+         members(requirement.indices, requirement.conditions, binding.names->design))
+      add_inequality(binding, requirement, member);
+  if (binding.method().minimize) bind_objective(binding, *binding.method().minimize);
+  if (binding.method().minimize && binding.design->inequalities.empty() &&
+      !binding.design->quotient)
+    throw InputError({binding.method().file}, "the method '" + binding.method().name +
+                                                  "' has no inequality under 'require'");
+}
+
+void refuse_free_unknowns(const model::Design& design) {
+  const auto is_bound = [&](const model::Design::Unknown& unknown) {
+    for (const model::Design::Inequality& inequality : design.inequalities)
+      for (const model::Design::Comparison& comparison : inequality.comparisons)
+        if (uses(comparison.difference, unknown)) return true;
+    if (design.quotient &&
+        (uses(design.quotient->numerator, unknown) || uses(design.quotient->denominator, unknown)))
+      return true;
+    return unknown.shape.size() == 0;
+  };
+  for (const model::Design::Unknown& unknown : design.unknowns) {
+    if (is_bound(unknown)) continue;
+    const auto user = std::find_if(
+        design.gains.begin(), design.gains.end(),
+        [&](const model::Design::Gain& gain) { return uses(gain.formula.program, unknown); });
+    throw InputError(
+        unknown.place,
+        "the unknown " + unknown.name +
+            " stands in no inequality under 'require', so nothing determines it" +
+            (user == design.gains.end() ? "" : "; the gain " + user->name + " needs it") +
+            ": require something of it, or remove it");
+  }
+}
+
+}  // namespace gainsmith::bind

@@ -1,0 +1,20 @@
+// Internal to bind: the inequalities and the objective.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "bind/binding.h"
+#include "expr/ast.h"
+
+namespace gainsmith::bind {
+
+void bind_inequalities(Binding& binding);
+
+/// Adds the comparisons to an inequality: "flow", or "flow.1", "flow.2" of several; of a family
+/// "flow.1 at i = 2".
+void add_comparisons(const std::vector<expr::Expression>& comparisons,
+                     model::Design::Inequality& bound, const std::string& stem,
+                     const std::string& member, const expr::Scope& scope);
+
+}  // namespace gainsmith::bind

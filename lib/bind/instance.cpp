@@ -1,0 +1,73 @@
+#include "bind/instance.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "bind/binding.h"
+
+namespace gainsmith::bind {
+
+namespace {
+
+/// The values of an instance, in the order of the declarations.
+class Evaluation {
+ public:
+  Evaluation(const model::Design& design, const model::Overrides& overrides)
+      : design_(design), overrides_(overrides) {}
+
+  numbers::Values run() {
+    check_overrides();
+    for (const auto* list : {&design_.data, &design_.parameters})
+      for (const model::Design::Datum& datum : *list)
+        values_[datum.name] = value_of(design_, datum, overrides_, values_);
+    for (const model::Design::Assumption& assumption : design_.assumptions)
+      check_assumption(design_, assumption, values_);
+    for (const model::Design::Unknown& unknown : design_.unknowns)
+      if (unknown.in) ends_of(*unknown.in, values_);
+    return std::move(values_);
+  }
+
+ private:
+  void check_overrides() const {
+    for (const auto& [name, value] : overrides_) {
+      check_scalar_name(design_, name, {design_.file});
+      if (!std::isfinite(value))
+        throw InputError({design_.file}, name + ": expected a finite number");
+    }
+  }
+
+  const model::Design& design_;
+  const model::Overrides& overrides_;
+  numbers::Values values_;
+};
+
+/// Whether all that binding took from values is as it was.
+bool has_same_shapes(const model::Design& design, const numbers::Values& values) {
+  const auto is_same_degree = [&](const model::Design::Unknown& unknown) {
+    return !unknown.degree_formula ||
+           scalar_value(*unknown.degree_formula, values) == unknown.degree;
+  };
+  const numbers::KnownDoubles doubles(values);
+  const auto is_same_rank = [&](const model::Design::Rank& known) {
+    if (!known.tolerance) return doubles.rank(known.matrix, nullptr) == known.rank;
+    return doubles.number(*known.tolerance) >= 0 &&
+           doubles.rank(known.matrix, &*known.tolerance) == known.rank;
+  };
+  return std::all_of(design.unknowns.begin(), design.unknowns.end(), is_same_degree) &&
+         std::all_of(design.ranks.begin(), design.ranks.end(), is_same_rank);
+}
+
+}  // namespace
+
+model::Instance evaluate(const model::DesignPtr& design, const model::Overrides& overrides) {
+  try {
+    numbers::Values values = Evaluation(*design, overrides).run();
+    if (has_same_shapes(*design, values)) return {design, overrides, std::move(values)};
+  } catch (const InputError&) {
+    // The programs may be those of another rank.
+    if (design->ranks.empty()) throw;
+  }
+  return bind_again(*design, overrides);
+}
+
+}  // namespace gainsmith::bind

@@ -1,0 +1,187 @@
+#include "bind/stated.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "bind/binding.h"
+#include "bind/gains.h"
+#include "expr/compile.h"
+#include "expr/parser.h"
+
+namespace gainsmith::bind {
+
+namespace {
+
+/// The number of matrices name_0, name_1, ... that the file gives.
+std::size_t count_coefficients(const std::string& name, const model::Gains& gains) {
+  std::size_t count = 0;
+  while (gains.find(model::coefficient_name(name, count)) != nullptr) ++count;
+  return count;
+}
+
+/// The polynomial of `count` coefficients.
+model::Function polynomial(const std::string& name, const std::string& variable, expr::Shape shape,
+                           std::size_t count, const Place& place) {
+  return {name,
+          variable,
+          shape,
+          model::Structure::full,
+          model::monomials(variable, static_cast<int>(count) - 1, place),
+          place};
+}
+
+class Builder {
+ public:
+  Builder(const model::Instance& instance, const model::Gains& gains)
+      : instance_(instance), design_(*instance.design), gains_(gains) {
+    stated_.values = instance.values;
+  }
+
+  model::Stated build() {
+    add_bases();
+    add_functions();
+    for (const auto& [name, value] : gains_.parameters)
+      if (is_parameter(name)) take(name, {}, value);
+    for (const model::UnknownMatrix& unknown : stated_.unknowns)
+      if (const numbers::Matrix* value = gains_.find(unknown.name))
+        take(unknown.name, unknown.shape, *value);
+    for (const model::Design::Gain& gain : design_.gains) add_gain(gain);
+    return std::move(stated_);
+  }
+
+ private:
+  bool is_parameter(const std::string& name) const {
+    return std::any_of(
+        design_.parameters.begin(), design_.parameters.end(),
+        [&](const model::Design::Datum& parameter) { return parameter.name == name; });
+  }
+
+  /// The bases that the gains are in, and the data that follow from them.
+  void add_bases() {
+    numbers::Values bases;
+    for (const auto& [name, basis] : gains_.bases) {
+      const auto datum = std::find_if(
+          design_.data.begin(), design_.data.end(), [&](const model::Design::Datum& known) {
+            return known.name == name && known.value && model::chooses_basis(known.value->program);
+          });
+      if (datum == design_.data.end())
+        throw InputError({gains_.file}, "the gain file has a basis " + name +
+                                            ", which is no datum that takes one by orth or null");
+      take(name, datum->shape, basis);
+      bases[name] = basis;
+    }
+    stated_.values = values_with(instance_, bases);
+  }
+
+  /// The unknown functions as the file defines them, and all unknown matrices.
+  void add_functions() {
+    std::vector<model::Function> functions = polynomials(design_);
+    stated_.bodies = model::Bodies(functions);
+    for (const model::StatedFunction& stated : gains_.functions) {
+      const auto known =
+          std::find_if(functions.begin(), functions.end(), [&](const model::Function& function) {
+            return function.signature() == stated.signature;
+          });
+      if (known == functions.end())
+        throw InputError({gains_.file}, "the gain file defines " + stated.signature +
+                                            ", which is no unknown function of the method");
+      const std::size_t count = count_coefficients(known->name, gains_);
+      if (count == 0 && gains_.unknowns.empty()) continue;  // there is no point
+      if (count == 0)
+        throw InputError({gains_.file}, "the gain file lacks the coefficients " +
+                                            model::coefficient_name(known->name, 0) + ", ... of " +
+                                            stated.signature);
+      known->basis = basis_of(unknown(known->name), count);
+      if (!stated.body && stated.text == known->text())
+        stated_.bodies.set(*known);
+      else
+        stated_.bodies.set(known->name, {known->variable, body_of(*known, stated)});
+    }
+    stated_.unknowns = unknown_matrices(design_, functions);
+  }
+
+  const model::Design::Unknown& unknown(const std::string& name) const {
+    return *std::find_if(design_.unknowns.begin(), design_.unknowns.end(),
+                         [&](const model::Design::Unknown& known) { return known.name == name; });
+  }
+
+  /// `polynomial` has as many coefficients as the file.
+  expr::Program body_of(const model::Function& polynomial,
+                        const model::StatedFunction& stated) const {
+    if (stated.body) return *stated.body;
+    const Place place{gains_.file};
+    expr::Scope scope = design_.names->known;
+    scope.known = std::make_shared<numbers::KnownDoubles>(instance_.values);
+    scope.symbols[polynomial.variable] = {};
+    for (const std::string& coefficient : polynomial.coefficients())
+      scope.symbols[coefficient] = {polynomial.shape};
+    const expr::Program body =
+        expr::compile(expr::parse(expr::Text::generated(stated.text, place)), scope);
+    if (body.shape() != polynomial.shape)
+      throw InputError(place, stated.signature + " is " + to_string(polynomial.shape) + ", but '" +
+                                  stated.text + "' is " + to_string(body.shape()));
+    return body;
+  }
+
+  void take(const std::string& name, expr::Shape shape, const numbers::Matrix& value) {
+    const expr::Shape found = numbers::shape_of(value);
+    if (found != shape)
+      throw InputError({gains_.file}, name + " in the gain file is " + to_string(found) +
+                                          ", expected " + to_string(shape));
+    if (!value.allFinite())
+      throw InputError({gains_.file}, name + " in the gain file is not finite");
+    stated_.values.insert_or_assign(name, value);
+  }
+
+  void add_gain(const model::Design::Gain& gain) {
+    const numbers::Matrix* value = gains_.find(gain.name);
+    if (gain.variable.empty()) {
+      if (value != nullptr) take(gain.name, gain.shape, *value);
+      return;
+    }
+    if (value != nullptr) return add_polynomial(gain, gain.variable, {*value});
+    stated_.bodies.set(gain.name, {gain.variable, gain.formula.program});
+    for (const model::GainFunction& function : gains_.gain_functions) {
+      if (function.name != gain.name) continue;
+      if (function.kind == model::GainFunction::Kind::polynomial)
+        return add_polynomial(gain, function.variable, function.coefficients);
+      if (function.formula != gain.formula.text || function.variable != gain.variable)
+        add_formula(gain, function);
+    }
+  }
+
+  /// A formula that is not the method's own.
+  void add_formula(const model::Design::Gain& gain, const model::GainFunction& function) {
+    const Place place{gains_.file};
+    expr::Program body =
+        bind_gain_formula(instance_, stated_.unknowns, function.formula, function.variable, place);
+    if (body.shape() != gain.shape)
+      throw InputError(place, gain.name + " in the gain file is " + to_string(body.shape()) +
+                                  ", expected " + to_string(gain.shape));
+    stated_.bodies.set(gain.name, {function.variable, std::move(body)});
+  }
+
+  void add_polynomial(const model::Design::Gain& gain, const std::string& variable,
+                      const std::vector<numbers::Matrix>& coefficients) {
+    if (coefficients.empty())
+      throw InputError({gains_.file}, gain.name + " in the gain file has no coefficients");
+    const model::Function function =
+        polynomial(gain.name, variable, gain.shape, coefficients.size(), {gains_.file});
+    stated_.bodies.set(gain.name, function.body());
+    for (std::size_t k = 0; k < coefficients.size(); ++k)
+      take(model::coefficient_name(gain.name, k), gain.shape, coefficients[k]);
+  }
+
+  const model::Instance& instance_;
+  const model::Design& design_;
+  const model::Gains& gains_;
+  model::Stated stated_;
+};
+
+}  // namespace
+
+model::Stated state(const model::Instance& instance, const model::Gains& gains) {
+  return Builder(instance, gains).build();
+}
+
+}  // namespace gainsmith::bind

@@ -1,0 +1,14 @@
+// The texts of a gain file, bound (model/stated.h).
+#pragma once
+
+#include "model/gains.h"
+#include "model/instance.h"
+#include "model/stated.h"
+
+namespace gainsmith::bind {
+
+/// InputError for a matrix of another shape or not finite, when the file defines what is no unknown
+/// function, lacks its coefficients, or holds a text that does not fit.
+model::Stated state(const model::Instance& instance, const model::Gains& gains);
+
+}  // namespace gainsmith::bind

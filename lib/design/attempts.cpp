@@ -1,0 +1,310 @@
+#include "design/attempts.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "base/progress.h"
+#include "base/stop.h"
+#include "design/facial_reduction.h"
+#include "design/gain_values.h"
+
+namespace gainsmith::design {
+
+/// When each kind is due, and what it asks.
+struct Attempts {
+  static constexpr double kTighter = 0.1;  ///< times the bound on gains
+  static constexpr double kNear = 0.01;  ///< of the bound; a gain far below it is not limited by it
+
+  static bool has_minimum(const Climb& climb) {
+    return lmi::has_minimum(climb.posed_.lmi, climb.bounds_);
+  }
+  static bool nothing_holds(const Climb& climb) {
+    const Attempt* point = climb.point();
+    return (point == nullptr || !climb.is_yes(*point)) && climb.refutation() == nullptr;
+  }
+  /// Not even with gains beyond the bound.
+  static bool nothing_holds_at_all(const Climb& climb) {
+    const Attempt* point = climb.point();
+    return (point == nullptr || !point->holds()) && climb.refutation() == nullptr;
+  }
+  static bool is_bounded(const Climb& climb) { return !climb.bounds_.list.empty(); }
+
+  /// Without an objective it comes first; after one only where the bounds leave nothing.
+  static bool free_inside_is_due(const Climb& climb) {
+    return is_bounded(climb) && !has_minimum(climb);
+  }
+  static bool bounds_leave_nothing(const Climb& climb) {
+    return is_bounded(climb) && climb.find(AttemptKind::free_inside) == nullptr &&
+           nothing_holds_at_all(climb);
+  }
+  static bool minimum_is_due(const Climb& climb) { return has_minimum(climb); }
+  /// The last attempt at the minimum within the bounds.
+  static const Attempt* last_minimum(const Climb& climb) {
+    const Attempt* large = climb.find(AttemptKind::large_minimum);
+    return large != nullptr ? large : climb.find(AttemptKind::minimum);
+  }
+  static bool blended_is_due(const Climb& climb) {
+    const Attempt* minimum = last_minimum(climb);
+    const Attempt* inside = climb.find(AttemptKind::inside);
+    return minimum != nullptr && minimum->is_near_optimal() && !minimum->holds() &&
+           inside != nullptr && inside->holds();
+  }
+  /// That no x of ordinary size has the margin says nothing where a point holds.
+  static bool large_minimum_is_due(const Climb& climb) {
+    const Attempt* minimum = climb.find(AttemptKind::minimum);
+    const Attempt* inside = climb.find(AttemptKind::inside);
+    return minimum != nullptr && inside != nullptr && inside->holds() &&
+           minimum->solution.status == sdp::Status::primal_infeasible &&
+           std::isfinite(minimum->solution.certificate.excluded_radius);
+  }
+  static bool free_minimum_is_due(const Climb& climb) {
+    return is_bounded(climb) && has_minimum(climb) && nothing_holds(climb);
+  }
+  static bool is_large(const Climb& climb) {
+    constexpr int kMostRows = 120;
+    return climb.posed_.lmi.rows() > kMostRows;
+  }
+  static bool may_want_digits(const Climb& climb) {
+    return climb.posed_.wide && climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb);
+  }
+  static bool digits_are_due(const Climb& climb) {
+    return may_want_digits(climb) && !climb.waits_for_points();
+  }
+  /// Large programs in 100 digits take their time even so: within these, a minute.
+  static bool certificate_is_due(const Climb& climb) {
+    constexpr double kMost = 1e7;
+    return digits_are_due(climb) && is_large(climb) && climb.last().relaxation_refuted() &&
+           climb.posed_.lmi.multiplications() <= kMost;
+  }
+  /// 100 digits of large programs take minutes, and say more only where 31 and exact multipliers
+  /// (verdict/refined_multipliers.h) do not.
+  static bool most_digits_are_due(const Climb& climb) {
+    return digits_are_due(climb) && !is_large(climb);
+  }
+  static bool faces_are_due(const Climb& climb) {
+    return climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb) &&
+           !climb.waits_for_points();
+  }
+  static bool equations_are_due(const Climb& climb) {
+    return climb.posed_.lmi.stands_for_points() && nothing_holds_at_all(climb) &&
+           states_equations(climb.posed_.lmi);
+  }
+  static bool tighter_is_due(const Climb& climb) {
+    const Attempt* point = climb.point();
+    if (!climb.posed_.look.describe || point == nullptr || !climb.is_yes(*point) ||
+        !has_minimum(climb) || climb.is_free(*point))
+      return false;
+    const auto bounds = lmi::reached_bounds(climb.bounds_, point->x);
+    return std::any_of(bounds.begin(), bounds.end(), [](const model::GainBound& bound) {
+      return !bound.active && bound.reached > kNear * bound.bound;
+    });
+  }
+
+  static Attempt ask(const Climb& climb, Question question) {
+    return measured(climb, attempt(climb.posed_, std::move(question), climb.solve_));
+  }
+  /// With its largest gain, where no bound was asked for.
+  static Attempt measured(const Climb& climb, Attempt result) {
+    if (result.point && climb.is_free(result)) {
+      const lmi::Inequalities& of = climb.posed_.inequalities;
+      numbers::Values values = of.instance.values;
+      for (auto& [name, matrix] : of.unknowns.values(result.x)) values[name] = matrix;
+      result.largest_gain = largest_gain(of, values);
+      result.reached_gain = result.largest_gain;
+      // In the units of the bound.
+      if (!climb.bounds_.units.empty() && !climb.bounds_.list.empty()) {
+        result.reached_gain = 0;
+        for (const auto& bound : lmi::reached_bounds(climb.bounds_, result.x))
+          result.reached_gain =
+              std::max(result.reached_gain, bound.reached / bound.bound * climb.bounds_.beta);
+      }
+    }
+    return result;
+  }
+  static Question objective(const Climb& climb, lmi::GainBounds bounds) {
+    return {lmi::Goal::objective, std::move(bounds), {"auto", 1e-8}, climb.posed_.choices().margin};
+  }
+  static Question interior(lmi::GainBounds bounds, Effort effort = {}) {
+    return {lmi::Goal::interior, std::move(bounds), std::move(effort), 0};
+  }
+
+  static std::optional<Attempt> minimum(const Climb& climb) {
+    return ask(climb, objective(climb, climb.bounds_));
+  }
+  static std::optional<Attempt> inside(const Climb& climb) {
+    return ask(climb, interior(climb.bounds_));
+  }
+  /// Not ended by a certificate against x below some 1e16.
+  static std::optional<Attempt> large_minimum(const Climb& climb) {
+    Question question = objective(climb, climb.bounds_);
+    question.effort.certificate_tolerance = 1e-16;
+    return ask(climb, std::move(question));
+  }
+  static std::optional<Attempt> blended(const Climb& climb) {
+    return design::blended(climb.posed_, *last_minimum(climb), *climb.find(AttemptKind::inside));
+  }
+  static std::optional<Attempt> free_minimum(const Climb& climb) {
+    return ask(climb, objective(climb, {}));
+  }
+  static std::optional<Attempt> free_inside(const Climb& climb) { return ask(climb, interior({})); }
+  /// As near as it takes for the steps of verdict/refined_multipliers.h to lead to a certificate.
+  static std::optional<Attempt> certificate_in_100_digits(const Climb& climb) {
+    Question question = interior({}, {"100", 1e-40});
+    question.single = true;
+    return ask(climb, std::move(question));
+  }
+  static std::optional<Attempt> in_31_digits(const Climb& climb) {
+    return ask(climb, interior({}, {"quad", 1e-22}));
+  }
+  static std::optional<Attempt> on_equations(const Climb& climb) {
+    return measured(climb, attempt_on_equations(climb.posed_, climb.solve_));
+  }
+  static std::optional<Attempt> facial_reduction(const Climb& climb) {
+    return measured(climb, attempt_facial_reduction(climb.posed_, climb.solve_));
+  }
+  static std::optional<Attempt> measured(const Climb& climb, std::optional<Attempt> found) {
+    if (found) found = measured(climb, std::move(*found));
+    return found;
+  }
+  static std::optional<Attempt> in_100_digits(const Climb& climb) {
+    return ask(climb, interior({}, {"100", 1e-76}));
+  }
+  static std::optional<Attempt> tighter(const Climb& climb) {
+    return ask(climb, objective(climb, lmi::gain_bounds(climb.posed_.inequalities,
+                                                        kTighter * climb.bounds_.beta,
+                                                        climb.bounds_.units)));
+  }
+};
+
+namespace {
+
+struct Row {
+  AttemptKind kind;
+  bool (*is_due)(const Climb&);
+  std::optional<Attempt> (*tries)(const Climb&);
+  const char* doing;
+};
+
+constexpr std::array<Row, 13> kAttempts = {{
+    {AttemptKind::minimum, Attempts::minimum_is_due, Attempts::minimum, "the minimum"},
+    {AttemptKind::free_inside, Attempts::free_inside_is_due, Attempts::free_inside,
+     "the largest margin, gains of any size"},
+    {AttemptKind::inside, Attempts::nothing_holds, Attempts::inside, "the largest margin"},
+    {AttemptKind::large_minimum, Attempts::large_minimum_is_due, Attempts::large_minimum,
+     "the minimum, unknowns of any size"},
+    {AttemptKind::blended, Attempts::blended_is_due, Attempts::blended, "a point near the minimum"},
+    {AttemptKind::free_minimum, Attempts::free_minimum_is_due, Attempts::free_minimum,
+     "the minimum, gains of any size"},
+    {AttemptKind::free_inside, Attempts::bounds_leave_nothing, Attempts::free_inside,
+     "the largest margin, gains of any size"},
+    {AttemptKind::on_equations, Attempts::equations_are_due, Attempts::on_equations,
+     "a point that satisfies the equations"},
+    {AttemptKind::in_100_digits, Attempts::certificate_is_due, Attempts::certificate_in_100_digits,
+     "a certificate in 100 digits"},
+    {AttemptKind::in_31_digits, Attempts::digits_are_due, Attempts::in_31_digits,
+     "the largest margin in 31 digits"},
+    {AttemptKind::facial_reduction, Attempts::faces_are_due, Attempts::facial_reduction,
+     "a face that all solutions share"},
+    {AttemptKind::in_100_digits, Attempts::most_digits_are_due, Attempts::in_100_digits,
+     "the largest margin in 100 digits"},
+    {AttemptKind::tighter, Attempts::tighter_is_due, Attempts::tighter, "smaller gains"},
+}};
+
+}  // namespace
+
+Climb::Climb(const Posed& posed, lmi::GainBounds bounds, Solve solve)
+    : posed_(posed), bounds_(std::move(bounds)), solve_(std::move(solve)) {}
+
+void Climb::to_point() { climb(false); }
+
+void Climb::to_end() { climb(true); }
+
+void Climb::climb(bool to_end) {
+  using Clock = std::chrono::steady_clock;
+  for (const Row& row : kAttempts) {
+    if (!to_end && (point() != nullptr || refutation() != nullptr)) return;
+    if (out_of_allowance_) return;
+    if (done_.contains(row.kind) || !row.is_due(*this)) continue;
+    check_stop();
+    doing_ = row.doing;
+    const Doing doing(row.doing);
+    const auto start = Clock::now();
+    const Allowance limit(allowance() - spent_);
+    try {
+      if (auto found = row.tries(*this)) {
+        out_of_allowance_ = found->out_of_allowance;
+        tried_.emplace(row.kind, std::move(*found));
+      }
+      done_.insert(row.kind);
+    } catch (const OutOfAllowance&) {
+      out_of_allowance_ = true;
+    }
+    spent_ += limit.spent();
+    seconds_ += std::chrono::duration<double>(Clock::now() - start).count();
+  }
+}
+
+double Climb::allowance() const {
+  constexpr double kLeast = 2, kMost = 60, kTimes = 20;
+  constexpr double kIterations = 20;
+  if (posed_.choices().full_effort) return std::numeric_limits<double>::infinity();
+  // Never less than the solver itself takes in double.
+  const double solver = kIterations * posed_.lmi.multiplications() * kDoubleWork;
+  return std::max(2 * solver, std::clamp(kTimes * solver, kLeast, kMost));
+}
+
+const Attempt* Climb::find(AttemptKind kind) const {
+  const auto found = tried_.find(kind);
+  return found == tried_.end() ? nullptr : &found->second;
+}
+
+const Attempt* Climb::point() const {
+  // A minimum is worth more than a point inside; within the bounds more than without.
+  constexpr AttemptKind kWorth[] = {AttemptKind::minimum,          AttemptKind::large_minimum,
+                                    AttemptKind::blended,          AttemptKind::inside,
+                                    AttemptKind::free_minimum,     AttemptKind::free_inside,
+                                    AttemptKind::on_equations,     AttemptKind::in_31_digits,
+                                    AttemptKind::facial_reduction, AttemptKind::in_100_digits};
+  const Attempt* holding = nullptr;
+  const Attempt* first = nullptr;
+  for (const AttemptKind kind : kWorth) {
+    const Attempt* attempt = find(kind);
+    if (attempt == nullptr || !attempt->point) continue;
+    if (is_yes(*attempt)) return attempt;
+    if (holding == nullptr && attempt->holds()) holding = attempt;
+    if (first == nullptr) first = attempt;
+  }
+  return holding != nullptr ? holding : first;
+}
+
+const Attempt* Climb::refutation() const {
+  for (const auto& [kind, attempt] : tried_)
+    if (attempt.refuted()) return &attempt;
+  return nullptr;
+}
+
+const Attempt& Climb::last() const {
+  for (const AttemptKind kind : {AttemptKind::in_100_digits, AttemptKind::in_31_digits,
+                                 AttemptKind::free_inside, AttemptKind::inside})
+    if (const Attempt* attempt = find(kind)) return *attempt;
+  return tried_.begin()->second;
+}
+
+bool Climb::waits_for_points() const {
+  return posed_.thin && Attempts::may_want_digits(*this) && Attempts::is_large(*this) &&
+         last().relaxation_refuted();
+}
+
+bool Climb::is_yes(const Attempt& attempt) const {
+  return attempt.holds() && (!is_free(attempt) || attempt.reached_gain <= bounds_.beta);
+}
+
+bool Climb::is_free(const Attempt& attempt) const {
+  return !bounds_.list.empty() && attempt.question.bounds.list.empty();
+}
+
+}  // namespace gainsmith::design

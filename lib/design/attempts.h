@@ -1,0 +1,116 @@
+// The attempts of a synthesis, in their order.
+//
+//   attempt           asks                                     is made after
+//   minimum           the objective, within the gain bounds    -  (where it can have a minimum)
+//   free inside       the largest margin, gains of any size    -  (where it cannot), or nothing
+//                                                              that holds: bounds depend on units
+//   inside            the largest margin, within the bounds    nothing that holds within them
+//   large minimum     the minimum, unknowns of any size        a point inside, where only unknowns
+//                                                              of ordinary size were excluded
+//   blended           a point between minimum and inside       both, the minimum found but not
+//                                                              holding
+//   free minimum      the objective, gains of any size         nothing that holds within the bounds
+//   on equations      a point that satisfies stated            nothing that holds, nothing refuted
+//                     equations exactly, or a no
+//                     (facial_reduction.h)
+//   100 digits        a certificate alone, in these digits     the same, of large programs whose
+//                                                              multipliers in double exclude them
+//   31 digits         the largest margin in these digits       nothing that holds, nothing refuted
+//   facial reduction  a point or a no on the face that all     the same
+//                     solutions share (facial_reduction.h)
+//   100 digits        the largest margin in these digits       the same, of programs that are not
+//                                                              large
+//   tighter           bounds ten times smaller                 a yes with gains near their bounds:
+//                                                              those that shrink are limited by
+//                                                              them alone
+//
+// (An exchange grows by the points at which a solution fails, and begins again; so it does once, by
+// points between its own, before large programs are tried in more digits.) Each attempt is made
+// once at most and its record stays; what they mean together is conclude(). A no comes from an
+// attempt without bounds.
+#pragma once
+
+#include <map>
+#include <set>
+#include <string>
+
+#include "design/attempt.h"
+#include "model/gains.h"
+
+namespace gainsmith::design {
+
+enum class AttemptKind {
+  minimum,
+  free_inside,
+  inside,
+  large_minimum,
+  blended,
+  free_minimum,
+  on_equations,
+  in_31_digits,
+  facial_reduction,
+  in_100_digits,
+  tighter
+};
+
+/// The attempts so far.
+class Climb {
+ public:
+  /// `bounds` are those of the problem.
+  Climb(const Posed& posed, lmi::GainBounds bounds, Solve solve);
+
+  /// The attempts up to the first point, or the refutation.
+  void to_point();
+  /// All the others that are due.
+  void to_end();
+
+  bool has_begun() const { return !tried_.empty(); }
+  /// The attempt that was made last, in words: the one that a stop ended.
+  const std::string& doing() const { return doing_; }
+  /// nullptr: not tried.
+  const Attempt* find(AttemptKind kind) const;
+  /// The attempt whose point counts: the first that is a yes, otherwise the first that holds, or
+  /// has one; nullptr without one.
+  const Attempt* point() const;
+  /// The attempt that refutes the inequalities; nullptr without one.
+  const Attempt* refutation() const;
+  /// The last attempt without gain bounds, or with them when there is no other.
+  const Attempt& last() const;
+  /// Whether more digits wait for more points: Posed::thin, a large program, and multipliers in
+  /// double that exclude it but are no certificate.
+  bool waits_for_points() const;
+  /// Whether the point was found without the bounds of the problem.
+  bool is_free(const Attempt& attempt) const;
+  /// Whether the attempt is a yes, with gains within the bound of the problem.
+  bool is_yes(const Attempt& attempt) const;
+
+  const Posed& posed() const { return posed_; }
+  const lmi::GainBounds& bounds() const { return bounds_; }
+  double seconds() const { return seconds_; }
+  /// Whether what is left would have taken more than the allowance: 20 times the work of the solver
+  /// in double, but at least two and at most sixty seconds; any with full effort.
+  bool is_out_of_allowance() const { return out_of_allowance_; }
+
+ private:
+  friend struct Attempts;
+
+  void climb(bool to_end);
+  double allowance() const;
+
+  const Posed posed_;
+  lmi::GainBounds bounds_;
+  Solve solve_;
+  std::map<AttemptKind, Attempt> tried_;
+  std::set<AttemptKind> done_;  ///< those that came to nothing included
+  std::string doing_;
+  double seconds_ = 0;
+  double spent_ = 0;
+  bool out_of_allowance_ = false;
+};
+
+/// The verdict of the attempts, with the point or the certificate, its margins, bounds and
+/// messages. A yes is a check of the decimals that are written, a no a certificate that was checked
+/// on the decimals of the file; never the solver's own word.
+void conclude(const Climb& climb, model::Gains& gains);
+
+}  // namespace gainsmith::design

@@ -1,0 +1,147 @@
+#include "verdict/exact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <type_traits>
+
+#include "base/scalars.h"
+#include "verdict/printed_check.h"
+#include "verdict/stated_point.h"
+
+namespace gainsmith::verdict {
+
+namespace {
+
+using numbers::Enclosed;
+using numbers::EnclosedValues;
+
+/// (B + B')/2 in the units of a balance, at the rows `kept`.
+template <class S, class Factor>
+ExactElements<S> symmetric_part(const ExactElements<S>& elements, const std::vector<int>& place,
+                                const Factor& factor) {
+  ExactElements<S> result;
+  const auto at = [](int row, int column) {
+    return [=](const ExactElement<S>& e) {
+      return e.column != column ? e.column < column : e.row < row;
+    };
+  };
+  const auto add = [&](int row, int column, const S& mid, double rad) {
+    const int r = place[static_cast<std::size_t>(row)], c = place[static_cast<std::size_t>(column)];
+    if (r < 0 || c < 0) return;
+    const double by = factor(row, column);
+    result.push_back({r, c, mid * S(by), rad * by});
+  };
+  for (const ExactElement<S>& e : elements) {
+    if (e.row == e.column) {
+      add(e.row, e.column, e.mid, e.rad);
+      continue;
+    }
+    const auto mirror = std::partition_point(elements.begin(), elements.end(), at(e.column, e.row));
+    const bool paired =
+        mirror != elements.end() && mirror->row == e.column && mirror->column == e.row;
+    if (paired && mirror->mid == e.mid && mirror->rad == e.rad) {
+      add(e.row, e.column, e.mid, e.rad);
+    } else if (!paired || e.row < e.column) {
+      const numbers::Ball<S> twice = paired ? e.ball() + mirror->ball() : e.ball();
+      if (twice.is_zero()) continue;
+      const S mid = twice.mid / S(2);
+      const double rad = twice.rad / 2 + numbers::kTiny;
+      add(e.row, e.column, mid, rad);
+      add(e.column, e.row, mid, rad);
+    }
+  }
+  std::sort(result.begin(), result.end(), [](const auto& a, const auto& b) {
+    return a.column != b.column ? a.column < b.column : a.row < b.row;
+  });
+  return result;
+}
+
+}  // namespace
+
+template <class S>
+ExactBlocks<S>::ExactBlocks(const lmi::Inequalities& of, const lmi::Balance& balance)
+    : of_(of), balance_(balance), values_(enclosed_values<S>(of.instance)) {}
+
+template <class S>
+EnclosedValues<S> ExactBlocks<S>::values_at(const lmi::Block& block) const {
+  EnclosedValues<S> values = values_;
+  const lmi::Statement& statement = of_.statements[block.inequality];
+  for (std::size_t v = 0; v < statement.domain.size(); ++v) {
+    const std::string& name = statement.domain[v].name;
+    const numbers::Matrix& at = block.where->values.at(name);
+    const expr::Program* stated = stated_at(statement, v, block, [&](const auto& text, End end) {
+      const Enclosed<S> value = numbers::enclose(text, values_);
+      const S t(at(0, 0));
+      return end == End::low ? !(t > value.mid(0, 0) + S(value.rad(0, 0)))
+                             : !(t < value.mid(0, 0) - S(value.rad(0, 0)));
+    });
+    values[name] = stated != nullptr ? numbers::enclose(*stated, values_)
+                   : at.size() == 1
+                       ? enclosed_decimal<S>(at(0, 0))
+                       : numbers::exactly<S>(at.unaryExpr([](double x) { return S(x); }));
+  }
+  return values;
+}
+
+template <class S>
+ExactBlock<S> ExactBlocks<S>::block(const lmi::Block& block, std::size_t at,
+                                    const std::vector<int>& kept) const {
+  const lmi::Statement& statement = of_.statements[block.inequality];
+  const expr::Program& program = statement.differences[block.comparison];
+  const EnclosedValues<S> values = values_at(block);
+  std::vector<ExactForm<S>> inputs;
+  for (const expr::Input& input : program.inputs) {
+    const lmi::Unknown* unknown = of_.unknowns.find(input.name);
+    inputs.push_back(unknown != nullptr ? exact_unknown<S>(*unknown)
+                                        : exact_constant<S>(values.at(input.name)));
+  }
+  expr::Evaluator<ExactAlgebra<S>> evaluator(program);
+  for (std::size_t k = 0; k < inputs.size(); ++k) evaluator.fix(program.inputs[k].name, inputs[k]);
+  const ExactForm<S>& form = evaluator.run();
+  std::vector<int> place(static_cast<std::size_t>(block.size), -1);
+  for (std::size_t k = 0; k < kept.size(); ++k)
+    place[static_cast<std::size_t>(kept[k])] = static_cast<int>(k);
+  ExactBlock<S> result;
+  result.size = static_cast<int>(kept.size());
+  for (const auto& [i, elements] : terms_of(form)) {
+    ExactElements<S> part = symmetric_part(
+        elements, place, [&, i = i](int r, int c) { return balance_.factor(at, r, c, i); });
+    if (!part.empty()) result.terms.emplace_back(i, std::move(part));
+  }
+  return result;
+}
+
+template <class S>
+numbers::Enclosed<S> dense(const ExactElements<S>& elements, int size) {
+  numbers::Enclosed<S> result = numbers::exactly<S>(numbers::MatrixOf<S>::Zero(size, size));
+  for (const ExactElement<S>& e : elements) {
+    result.mid(e.row, e.column) = e.mid;
+    result.rad(e.row, e.column) = e.rad;
+  }
+  return result;
+}
+
+template <class S>
+lmi::BalancedBlock rounded(const ExactBlock<S>& block) {
+  lmi::BalancedBlock result{block.size, {}, {}};
+  for (const auto& [i, elements] : block.terms)
+    for (const ExactElement<S>& e : elements) {
+      if (e.row > e.column) continue;
+      const auto value = as<DoubleDouble>(e.mid);
+      if (value.hi() == 0) continue;
+      result.elements.push_back({i, e.row, e.column, value.hi(), value.lo()});
+      if constexpr (std::is_same_v<S, Decimal100>) result.finer.push_back(finer_part(e.mid));
+    }
+  return result;
+}
+
+template numbers::Enclosed<DoubleDouble> dense(const ExactElements<DoubleDouble>&, int);
+template numbers::Enclosed<Decimal100> dense(const ExactElements<Decimal100>&, int);
+template lmi::BalancedBlock rounded(const ExactBlock<DoubleDouble>&);
+template lmi::BalancedBlock rounded(const ExactBlock<Decimal100>&);
+
+template class ExactBlocks<DoubleDouble>;
+template class ExactBlocks<Decimal100>;
+
+}  // namespace gainsmith::verdict

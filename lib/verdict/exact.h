@@ -1,0 +1,52 @@
+// Blocks from the decimals of the file, in as many digits as are asked for: what a certificate is
+// checked on. Nothing in them went through double; a point of an interval is the decimals that are
+// printed of it, so that a kink at 0.3 is met.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "lmi/assembler.h"
+#include "lmi/balance.h"
+#include "lmi/inequalities.h"
+#include "numbers/enclosure.h"
+#include "verdict/exact_form.h"
+
+namespace gainsmith::verdict {
+
+/// B_ki with bounds of their errors, in the units of a balance: i = 0 is the constant part, and
+/// unknowns that do not stand in it have no entry. Both triangles are there, element for element
+/// the same.
+template <class S>
+struct ExactBlock {
+  int size = 0;
+  std::vector<std::pair<int, ExactElements<S>>> terms;
+};
+
+/// B_ki as a dense matrix.
+template <class S>
+numbers::Enclosed<S> dense(const ExactElements<S>& elements, int size);
+
+/// Evaluates the inequality of a block with `where` as an exact affine form. EvaluationError when
+/// an operation has no result there.
+template <class S>
+class ExactBlocks {
+ public:
+  ExactBlocks(const lmi::Inequalities& of, const lmi::Balance& balance);
+
+  /// The rows `kept` of a block; `at` is its place in the balance.
+  ExactBlock<S> block(const lmi::Block& block, std::size_t at, const std::vector<int>& kept) const;
+
+ private:
+  numbers::EnclosedValues<S> values_at(const lmi::Block& block) const;
+
+  const lmi::Inequalities& of_;
+  const lmi::Balance balance_;
+  numbers::EnclosedValues<S> values_;  ///< of data and parameters
+};
+
+/// Its coefficients, in 31 digits or in all of them.
+template <class S>
+lmi::BalancedBlock rounded(const ExactBlock<S>& block);
+
+}  // namespace gainsmith::verdict

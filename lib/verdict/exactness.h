@@ -1,0 +1,51 @@
+// Whether multipliers that are only nearly a certificate are near an exact one.
+//
+// Y_k = L_k L_k' > 0 with residuals r_i = sum_k <B_ki, Y_k>. With g_i the elements of all L_k' B_ki
+// L_k (and of v for i = 0), H_ij = g_i' g_j. When r' H^-1 r < 1 the correction
+//   dY_k = -sum_j (H^-1 r)_j Y_k B_kj Y_k
+// is smaller than Y_k, so that Y + dY is a certificate without any residual.
+#pragma once
+
+#include <vector>
+
+#include "verdict/exact.h"
+
+namespace gainsmith::verdict {
+
+/// A block with the factor L of its multiplier L L'.
+template <class S>
+struct FactoredBlock {
+  const ExactBlock<S>* block = nullptr;
+  numbers::Matrix L;
+};
+
+/// r_i with |true - r_i| <= error_i; r_0 = -v.
+struct ResidualsInDouble {
+  numbers::Vector r;
+  numbers::Vector error;
+};
+
+/// r' H^-1 r < 1, shown in double. G holds g_i / |g_i|; r' H^-1 r <= |D r|^2 / sigma^2 with D_ii =
+/// 1/|g_i| and sigma the smallest singular value of G, which a Cholesky factorisation of G'G - c I
+/// bounds from below (Rump 2006), less what rounding and the radii of the B_ki change of G. False
+/// says nothing. `constant`: unknown 0 counts, with v > 0.
+template <class S>
+bool is_exact_in_double(const std::vector<FactoredBlock<S>>& blocks,
+                        const ResidualsInDouble& residuals, bool constant);
+
+/// A block with its multiplier.
+template <class S>
+struct WeighedBlock {
+  const ExactBlock<S>* block = nullptr;
+  const numbers::MatrixOf<S>* Y = nullptr;
+};
+
+/// The same with H in S, for multipliers that are nearly singular: with any R near H^-1/2,
+/// r' H^-1 r <= |R' r|^2 / (1 - |I - R' H R|). Of many unknowns it says nothing: what it leaves
+/// open other certificates decide in less time.
+template <class S>
+bool is_exact_in_wide(const std::vector<WeighedBlock<S>>& blocks,
+                      const Eigen::Matrix<S, Eigen::Dynamic, 1>& residuals,
+                      const numbers::Vector& error, bool constant);
+
+}  // namespace gainsmith::verdict

@@ -1,0 +1,37 @@
+// Blocks from the decimals of the file, as fractions: what exact reductions rest on.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "lmi/block.h"
+#include "lmi/inequalities.h"
+#include "numbers/rational.h"
+
+namespace gainsmith::verdict {
+
+/// B(x) = B_0 + sum_i x_i B_i without rounding; coefficients that are 0 have no entry.
+struct RationalBlock {
+  int size = 0;
+  bool strict = true;
+  /// B is what the file says. Otherwise it is what double makes of it, good for finding a point
+  /// and for nothing else.
+  bool exact = true;
+  std::vector<std::pair<int, numbers::RationalMatrix>> terms;
+
+  numbers::RationalMatrix value(const std::vector<Rational>& x) const;
+};
+
+/// One for each block, in order. Not exact is a block that stands for no point of its domain, and
+/// one whose text has a value that is no fraction (numbers/rational.h).
+std::vector<RationalBlock> rational_blocks(const lmi::Inequalities& of,
+                                           const std::vector<lmi::Block>& blocks);
+
+/// Data and parameters; those that have no fraction are left out.
+numbers::RationalValues rational_values(const model::Instance& instance);
+
+/// The number that printed(value) stands for.
+Rational printed_fraction(double value);
+
+}  // namespace gainsmith::verdict

@@ -1,0 +1,223 @@
+#include "verdict/refined_refutation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "verdict/boundary_pair.h"
+#include "verdict/refined_multipliers.h"
+#include "verdict/wide_algebra.h"
+
+namespace gainsmith::verdict {
+
+namespace {
+
+double trace_of(const numbers::MatrixOf<DoubleDouble>& Y) {
+  return as<double>(DoubleDouble(Y.trace()));
+}
+
+/// Those blocks that have a share of the multipliers, with factors of these.
+struct Kept {
+  std::vector<FactoredMultiplier> multipliers;
+  std::vector<std::size_t> which;
+};
+
+/// Blocks with tr(Y_k) >= share, and of them what is above `least`.
+Kept kept_of(const std::vector<ExactBlock<Decimal100>>& blocks, const Multipliers& Y, double share,
+             double least) {
+  Kept kept;
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    if (!(trace_of(Y[k]) > 0 && trace_of(Y[k]) >= share)) continue;
+    const Wide wide = Y[k].unaryExpr([](const DoubleDouble& y) { return as<Decimal100>(y); });
+    kept.multipliers.push_back({&blocks[k], factor_above(wide, least)});
+    kept.which.push_back(k);
+  }
+  return kept;
+}
+
+Refutation refute_kept(const lmi::Lmi& lmi, const std::vector<ExactBlock<Decimal100>>& blocks,
+                       const Multipliers& Y, const Kept& kept, Steps steps) {
+  std::vector<Wide> refined;
+  for (const auto& y : Y) refined.push_back(Wide::Zero(y.rows(), y.cols()));
+  for (std::size_t a = 0; a < kept.which.size(); ++a)
+    refined[kept.which[a]] = kept.multipliers[a].value();
+  // They have next to no residual: whether an exact one is near may take longer than all the rest.
+  return refute<Decimal100>(lmi, blocks, refined,
+                            steps == Steps::in_double ? Exactness::in_double : Exactness::in_wide);
+}
+
+/// x_0 > 0, whose multiplier is v.
+ExactBlock<Decimal100> block_of_constant() { return {1, {{0, {{0, 0, Decimal100(1), 0}}}}}; }
+
+Decimal100 wide_number(const std::vector<double>& values, const std::vector<double>& rest,
+                       std::size_t at) {
+  return Decimal100(values[at]) + Decimal100(rest.empty() ? 0 : rest[at]);
+}
+
+/// The solution x beside its multipliers, both as far as the solver knew them.
+BoundaryPair pair_of(const lmi::Lmi& lmi, const lmi::Formulation& formulation,
+                     const sdp::Solution& solution) {
+  BoundaryPair pair;
+  const std::size_t size = solution.x.size();
+  pair.x.push_back(formulation.homogenised ? wide_number(solution.x, solution.rest.x, size - 2)
+                                           : Decimal100(0));
+  for (std::size_t i = 0; i < static_cast<std::size_t>(lmi.unknowns); ++i)
+    pair.x.push_back(wide_number(solution.x, solution.rest.x, i));
+  pair.Y = wide_multipliers_of(formulation, lmi.blocks.size(), solution);
+  if (formulation.homogenised) {
+    const std::size_t k = formulation.sizes.size();
+    pair.Y.push_back(Wide::Constant(1, 1, Decimal100(solution.Y.values[k][0])));
+  }
+  return pair;
+}
+
+/// -s I, s the unknown i.
+void add_identity(int i, ExactBlock<Decimal100>& block) {
+  ExactElements<Decimal100> elements;
+  for (int r = 0; r < block.size; ++r) elements.push_back({r, r, Decimal100(-1), 0});
+  if (!elements.empty()) block.terms.emplace_back(i, std::move(elements));
+}
+
+/// In units in which no unknown is above 1, and tr Y = 1.
+BoundaryPair violated_pair_of(const lmi::Lmi& lmi, const lmi::Formulation& formulation,
+                              const sdp::Solution& solution) {
+  BoundaryPair pair;
+  pair.violated = true;
+  double unit = 1;
+  for (const double x : solution.x) unit = std::max(unit, std::abs(x));
+  pair.x.push_back(Decimal100(1) / unit);
+  for (const double x : solution.x) pair.x.push_back(Decimal100(x) / unit);
+  pair.Y = wide_multipliers_of(formulation, lmi.blocks.size(), solution);
+  Decimal100 whole(0);
+  for (const Wide& Y : pair.Y) whole += Y.trace();
+  for (Wide& Y : pair.Y) Y /= whole;
+  return pair;
+}
+
+}  // namespace
+
+Refutation refute_on_boundary(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                              const lmi::Formulation& formulation, const sdp::Solution& solution) {
+  if (!lmi.stands_for_points()) return {};
+  const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
+  const ExactBlock<Decimal100> constant = block_of_constant();
+  std::vector<const ExactBlock<Decimal100>*> all;
+  for (const auto& block : blocks) all.push_back(&block);
+  if (formulation.homogenised) all.push_back(&constant);
+  BoundaryPair pair = pair_of(lmi, formulation, solution);
+  if (!refine(all, pair)) return {};
+  pair.Y.resize(blocks.size());
+  return refute<Decimal100>(lmi, blocks, std::move(pair.Y), Exactness::in_double);
+}
+
+namespace {
+
+/// Multipliers of the least violation of blocks with a constant part, without a residual; none
+/// where they do not settle.
+std::optional<std::vector<Wide>> violation_of(std::vector<ExactBlock<Decimal100>> blocks,
+                                              int unknowns, BoundaryPair pair) {
+  std::vector<const ExactBlock<Decimal100>*> all;
+  for (auto& block : blocks) {
+    add_identity(unknowns + 1, block);
+    all.push_back(&block);
+  }
+  if (!refine(all, pair)) return std::nullopt;
+  return std::move(pair.Y);
+}
+
+/// Adds v/|c| to Y. False where v < 0, or the element was not solved.
+bool close(const std::vector<ExactBlock<Decimal100>>& blocks, const lmi::Scale& scale,
+           const std::vector<int>& kept, std::vector<Wide>& Y) {
+  const auto row = std::find(kept.begin(), kept.end(), scale.row);
+  if (row == kept.end()) return false;
+  const auto at = row - kept.begin();
+  Decimal100 r(0), c(0);
+  for (std::size_t k = 0; k < blocks.size(); ++k)
+    for (const auto& [i, elements] : blocks[k].terms) {
+      if (i != scale.unknown) continue;
+      for (const auto& e : elements) {
+        r += e.mid * Y[k](e.row, e.column);
+        if (k == scale.block && e.row == at && e.column == at) c = e.mid;
+      }
+    }
+  if (c == 0) return false;
+  const Decimal100 added = -r / c;
+  if (added < 0) return false;
+  Y[scale.block](at, at) += added;
+  return true;
+}
+
+}  // namespace
+
+Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                               const lmi::Formulation& formulation, const sdp::Solution& solution) {
+  if (!lmi.stands_for_points()) return {};
+  const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
+  auto Y = violation_of(blocks, lmi.unknowns, violated_pair_of(lmi, formulation, solution));
+  return Y ? refute<Decimal100>(lmi, blocks, std::move(*Y), Exactness::in_double) : Refutation{};
+}
+
+Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                               const lmi::Scale& scale, const lmi::Formulation& formulation,
+                               const sdp::Solution& solution) {
+  if (!lmi.stands_for_points()) return {};
+  lmi::Formulation stated;
+  stated.balance = formulation.balance;
+  stated.balance.unknowns.insert(stated.balance.unknowns.begin() + scale.unknown - 1, 0);
+  stated.free_variables = formulation.free_variables;
+  const auto blocks = exact_blocks<Decimal100>(of, lmi, stated);
+  auto with_constants = blocks;
+  for (auto& block : with_constants)
+    for (auto& [i, elements] : block.terms) {
+      i = scaled_number(i, scale);
+      if (i != 0 || scale.sign > 0) continue;
+      for (auto& e : elements) e.mid = -e.mid;
+    }
+  auto Y = violation_of(std::move(with_constants), lmi.unknowns - 1,
+                        violated_pair_of(lmi, formulation, solution));
+  if (!Y || !close(blocks, scale, formulation.free_variables.kept[scale.block], *Y)) return {};
+  return refute<Decimal100>(lmi, blocks, std::move(*Y), Exactness::in_double);
+}
+
+Refutation refute_refined(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                          const lmi::Formulation& formulation, const Multipliers& Y, Steps steps) {
+  // A block that a certificate does not need may keep the others from being one.
+  constexpr double kShares[] = {0, 1e-8, 1e-4};
+  // What is left beside the range of a singular certificate.
+  constexpr double kRanges[] = {1e-4, 1e-7, 1e-2, 1e-10};
+  Refutation best;
+  if (!lmi.stands_for_points()) return best;
+  const auto blocks = exact_blocks<Decimal100>(of, lmi, formulation);
+  double whole = 0;
+  for (const auto& y : Y) whole += trace_of(y);
+  const auto excludes = [&](const Kept& kept) {
+    const Refutation found = refute_kept(lmi, blocks, Y, kept, steps);
+    if (found.exact || found.backward_error < best.backward_error) best = found;
+    return best.exact || best.backward_error <= kNothing;
+  };
+  std::size_t looked_at = 0;
+  for (const double share : kShares) {
+    Kept kept = kept_of(blocks, Y, share * whole, 0);
+    if (kept.which.size() == looked_at) continue;
+    looked_at = kept.which.size();
+    const bool settled = steps == Steps::in_double
+                             ? refine_in_double(kept.multipliers, lmi.unknowns)
+                             : refine(kept.multipliers, lmi.unknowns);
+    if (settled && excludes(kept)) return best;
+  }
+  if (steps == Steps::in_double) return best;
+  std::set<std::vector<Eigen::Index>> tried;
+  for (const double range : kRanges) {
+    Kept kept = kept_of(blocks, Y, range * whole, range * whole);
+    std::vector<Eigen::Index> ranks(blocks.size(), 0);
+    for (std::size_t a = 0; a < kept.which.size(); ++a)
+      ranks[kept.which[a]] = kept.multipliers[a].L.cols();
+    if (!tried.insert(std::move(ranks)).second) continue;
+    if (refine_on_range(kept.multipliers, lmi.unknowns) && excludes(kept)) return best;
+  }
+  return best;
+}
+
+}  // namespace gainsmith::verdict

@@ -1,0 +1,32 @@
+// Certificates inside and on the boundary of the cone, from multipliers that are only nearly one.
+#pragma once
+
+#include "lmi/scale.h"
+#include "verdict/refutation.h"
+
+namespace gainsmith::verdict {
+
+/// What multipliers near those of an interior solution say in 100 digits, made with the solution
+/// beside them so that they have no residual (boundary_pair.h). The solution may be one in double.
+Refutation refute_on_boundary(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                              const lmi::Formulation& formulation, const sdp::Solution& solution);
+
+/// The same of the least violation: a formulation and its solution by formulate_violation().
+Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                               const lmi::Formulation& formulation, const sdp::Solution& solution);
+
+/// The same of homogeneous inequalities, by the formulation and solution of scaled(lmi, scale).
+Refutation refute_by_violation(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                               const lmi::Scale& scale, const lmi::Formulation& formulation,
+                               const sdp::Solution& solution);
+
+/// In which arithmetic the steps of a refinement are computed.
+enum class Steps { in_double, in_wide };
+
+/// The same of multipliers alone (refined_multipliers.h): certificates inside of the cone however
+/// small their eigenvalues are, and with steps of 31 and 100 digits those on its boundary where a
+/// solution beside them has no gap to it.
+Refutation refute_refined(const lmi::Inequalities& of, const lmi::Lmi& lmi,
+                          const lmi::Formulation& formulation, const Multipliers& Y, Steps steps);
+
+}  // namespace gainsmith::verdict
