@@ -16,8 +16,8 @@ struct Outcome {
   nlohmann::ordered_json json() const { return nlohmann::ordered_json::parse(out); }
 };
 
-/// The program that is tested: what GAINSMITH_TEST_PROGRAM names in the environment, else that of this
-/// build.
+/// The program that is tested: what GAINSMITH_TEST_PROGRAM names in the environment, else that of
+/// this build.
 std::string program();
 
 /// Runs gainsmith with the arguments; `input` is its standard input.
