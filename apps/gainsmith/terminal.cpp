@@ -108,6 +108,7 @@ void finish_output() {
 bool is_terminal() { return isatty(STDERR_FILENO) != 0; }
 
 void begin_work(const Patience& patience) {
+  telling_now = 0;
   handle(SIGINT, on_interrupt);
   handle(SIGALRM, on_timer);
   patience_seconds = patience.seconds;
@@ -121,12 +122,15 @@ Telling::Telling() {
 }
 
 Telling::~Telling() {
+  // What a stop asked for is told, though it may not have left the buffer of standard output.
+  if (stop_requested) set_timer(0);
   telling_now = 0;
   hide_progress(false);
 }
 
 void end_work() {
   set_timer(0);
+  telling_now = 1;
   end_progress();
 }
 

@@ -1,6 +1,8 @@
 """The pages show what is there: links, examples, inequalities, options.
 
     pages_test.py TREE GAINSMITH
+
+GAINSMITH_TEST_PROGRAM in the environment names another program, as for the end-to-end tests.
 """
 import fnmatch
 import json
@@ -11,7 +13,8 @@ import sys
 import tempfile
 import unittest
 
-PROGRAM = sys.argv.pop(2)
+BUILT = sys.argv.pop(2)
+PROGRAM = os.environ.get("GAINSMITH_TEST_PROGRAM") or BUILT
 TREE = sys.argv.pop(1)
 
 

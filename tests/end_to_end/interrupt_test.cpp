@@ -45,7 +45,7 @@ void wait_for_handler(pid_t child) {
 Ended interrupted(std::vector<std::string> arguments, double after = 1) {
   using Clock = std::chrono::steady_clock;
   const Folder folder;
-  arguments.insert(arguments.begin(), GAINSMITH_PROGRAM);
+  arguments.insert(arguments.begin(), program());
   std::vector<char*> words;
   for (std::string& word : arguments) words.push_back(word.data());
   words.push_back(nullptr);

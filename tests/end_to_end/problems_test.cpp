@@ -36,16 +36,9 @@ TEST(ProblemsTest, EveryProblemIsValid) {
   EXPECT_EQ(valid, arguments.size() - 1);
 }
 
-/// One test a file below problems/: what is found when the program is linked.
+/// One test a file below problems/, with all runs of its campaign: together they are what a person
+/// gets of `run problems/`. The files are those that there are when the tests are linked.
 class Problems : public ::testing::TestWithParam<std::string> {};
-
-/// Whether its campaign has more runs than a test needs.
-bool has_many_runs(const std::string& file) {
-  const std::string text = text_of(problem(file));
-  std::smatch runs;
-  if (!std::regex_search(text, runs, std::regex("runs: +([0-9]+)"))) return true;
-  return std::stoll(runs[1]) > 100;
-}
 
 /// The texts of a problem file and of the built-in method that it names.
 std::string texts_of(const std::string& file) {
@@ -83,9 +76,7 @@ void judge_first_run(const std::string& gains) {
 
 TEST_P(Problems, IsAsExpected) {
   const Folder folder;
-  std::vector<std::string> arguments = {"run", problem(GetParam()), "-o", folder.path("out")};
-  if (has_many_runs(GetParam())) arguments.insert(arguments.end(), {"--runs", "100"});
-  const Outcome outcome = gainsmith(arguments);
+  const Outcome outcome = gainsmith({"run", problem(GetParam()), "-o", folder.path("out")});
   EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
   EXPECT_EQ(outcome.out.substr(0, 3), "ok ") << outcome.out;
   expect_campaign_or_reason(outcome.out, GetParam());
@@ -99,8 +90,8 @@ TEST_P(Problems, IsAsExpected) {
   if (has_events(GetParam()))
     judge_first_run(reads_data ? problem(GetParam()) : folder.path("out/" + name + "/gains.json"));
   if (!gains.contains("objective_lower_bound")) return;
-  // Of detectability the objective chooses among solutions with unknowns of very different sizes; its
-  // bound, which allows for unknowns twice as large, is loose there.
+  // Of detectability the objective chooses among solutions with unknowns of very different sizes;
+  // its bound, which allows for unknowns twice as large, is loose there.
   const std::string method = gains["statement"].dump();
   if (method.find("method: detectability") != std::string::npos) return;
   const double least = gains["objective_lower_bound"];

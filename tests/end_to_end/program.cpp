@@ -45,9 +45,14 @@ std::vector<std::string> Folder::names() const {
   return result;
 }
 
+std::string program() {
+  const char* chosen = std::getenv("GAINSMITH_TEST_PROGRAM");
+  return chosen == nullptr || *chosen == '\0' ? GAINSMITH_PROGRAM : chosen;
+}
+
 Outcome gainsmith(const std::vector<std::string>& arguments, const std::string& input) {
   const Folder folder;
-  std::string command = quoted(GAINSMITH_PROGRAM);
+  std::string command = quoted(program());
   for (const std::string& argument : arguments) command += " " + quoted(argument);
   command += " < " + quoted(folder.file("in", input)) + " > " + quoted(folder.path("out")) +
              " 2> " + quoted(folder.path("err"));

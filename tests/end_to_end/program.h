@@ -16,6 +16,10 @@ struct Outcome {
   nlohmann::ordered_json json() const { return nlohmann::ordered_json::parse(out); }
 };
 
+/// The program that is tested: what GAINSMITH_TEST_PROGRAM names in the environment, else that of
+/// this build.
+std::string program();
+
 /// Runs gainsmith with the arguments; `input` is its standard input.
 Outcome gainsmith(const std::vector<std::string>& arguments, const std::string& input = "");
 

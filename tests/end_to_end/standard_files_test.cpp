@@ -14,7 +14,7 @@ const std::string kGood = "ferrante-seuret-2021/t2-0.70.yaml";
 /// The exit code of "gainsmith WORDS" in a shell, so that its files can be redirected; -1 after a
 /// signal.
 int shell(const std::string& words) {
-  const int status = std::system(("'" GAINSMITH_PROGRAM "' " + words).c_str());
+  const int status = std::system(("'" + program() + "' " + words).c_str());
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
