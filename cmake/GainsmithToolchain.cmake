@@ -18,8 +18,8 @@ add_compile_options(-Wall -Wextra -Wpedantic -Wshadow -Wconversion)
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   # GCC 12 reports these inside inlined Eigen and libstdc++ code; clang-tidy and asan watch our own.
   add_compile_options(-Wno-maybe-uninitialized -Wno-array-bounds -Wno-stringop-overflow -Wno-restrict)
-  if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
-    # GCC 12 with -march=x86-64-v2 moves integers through registers of MMX without the EMMS that must follow. These are
+  if(NOT CMAKE_BUILD_TYPE STREQUAL "Dev" AND CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64)$")
+    # GCC 12 with -O3 -march=x86-64-v2 moves integers through registers of MMX without the EMMS that must follow. These are
     # the registers of 80-bit numbers, which are nan from then on: Boost.Math computes quantiles in them.
     add_compile_options(-mno-mmx)
   endif()

@@ -254,7 +254,7 @@ void DynamicsBinding::bind_flow_sets(const model::Component& component, std::siz
                   [&](const std::string& name) { return is_moving(name) && !is_mode(name); }))
       throw InputError(bound.frozen->place, "frozen: a condition of modes, which do not flow");
   }
-  for (const FlowSetText& flow_set : component.flow_sets)
+  for (const model::FlowSetText& flow_set : component.flow_sets)
     bound.flow_sets.push_back({condition(names_->within(component, flow_set.condition), &component,
                                          std::nullopt, *scope_),
                                flow_set.say, flow_set.place});
