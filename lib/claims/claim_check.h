@@ -16,7 +16,7 @@
 // jumps do. Then v(0) is the first that counts.
 //
 // The comparison is that of real numbers. Each value comes with a bound of its error
-// (hybrid/bounded_run.h), which says what of it is certain; nothing else is forgiven:
+// (bounded/bounded_run.h), which says what of it is certain; nothing else is forgiven:
 //
 //   violated    value - its bound > what it must not exceed + its bound
 //   held        value + its bound <= what it must not exceed - its bound, at every sample

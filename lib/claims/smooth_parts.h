@@ -20,7 +20,7 @@ struct SmoothPart {
   double to = 0;
   bool after_jump = false;   ///< the value jumps just before it
   bool before_jump = false;  ///< just after it
-  /// The value on [from, to] as a sum of Chebyshev polynomials (hybrid/chebyshev.h).
+  /// The value on [from, to] as a sum of Chebyshev polynomials (ode/chebyshev.h).
   Eigen::RowVectorXd series{};
   double noise = 0;  ///< how far the series may be off: to what it agrees, and rounding
   /// A time at which the value is no number; then there is no series.

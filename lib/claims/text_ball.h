@@ -1,5 +1,5 @@
 // What the evaluation of a text in double rounds, and what errors of the variables make of it where
-// it branches, by running error analysis (hybrid/ball.h): two runs that are compared round alike,
+// it branches, by running error analysis (bounded/ball.h): two runs that are compared round alike,
 // and may both take the wrong branch.
 #pragma once
 

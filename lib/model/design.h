@@ -300,7 +300,7 @@ std::vector<std::string> scalar_names(const Design& design);
 
 /// Whether it says how long a run is: by a horizon, or by measured data.
 bool has_end(const Design& design);
-/// The same, or a timer gives a length by default (hybrid/event_scenario.h).
+/// The same, or a timer gives a length by default (hybrid/scenario.h).
 bool ends(const Design& design);
 
 /// InputError at `place` when `name` is none of scalar_names, with the nearest that is.

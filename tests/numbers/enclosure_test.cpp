@@ -317,8 +317,8 @@ TEST(Balance, UnitsDoNotChangeADigit) {
       std::vector<int> units;
       for (int i = 0; i < n; ++i) units.push_back(static_cast<int>(texts.uniform(-40, 40)));
       const auto scale = [](double x, int exponent) { return std::ldexp(x, exponent); };
-      const Matrix found = exponential(in_units(A, units, scale));
-      EXPECT_EQ(found, in_units(expected, units, scale)) << A;
+      const Matrix found = exponential(numerics::in_units(A, units, scale));
+      EXPECT_EQ(found, numerics::in_units(expected, units, scale)) << A;
     }
   }
 }
@@ -327,7 +327,10 @@ TEST(Balance, UnitsDoNotChangeADigit) {
 TEST(Balance, UnitsAloneDoNotMakeAMatrixLarge) {
   const auto norm = [](const Matrix& A) {
     const auto scale = [](double x, int exponent) { return std::ldexp(x, exponent); };
-    return in_units(Matrix(A.cwiseAbs()), balance(A.cwiseAbs()), scale).rowwise().sum().maxCoeff();
+    return numerics::in_units(Matrix(A.cwiseAbs()), numerics::balance(A.cwiseAbs()), scale)
+        .rowwise()
+        .sum()
+        .maxCoeff();
   };
   EXPECT_LE(norm(Matrix{{-1, 1e8}, {-1e-8, -1}}), 4);
   EXPECT_LE(norm(Matrix{{-1, 1e8}, {0, -1}}), 4);
