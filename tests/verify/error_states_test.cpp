@@ -6,7 +6,7 @@
 #include <string>
 
 #include "io/problem_text.h"
-#include "model/bind.h"
+#include "bind/bind.h"
 #include "verify/campaign.h"
 #include "verify/careful_runs.h"
 
@@ -18,7 +18,7 @@ using model::CampaignVerdict;
 /// z grows by exp(20), one of its elements after the other is measured.
 model::Instance two_sensors(const std::string& flow, const std::string& jump,
                             const std::string& claims) {
-  return model::bind(io::read_problem(R"yaml(problem: p
+  return bind::bind(io::read_problem(R"yaml(problem: p
 method:
   method: m
   events: {one: {every: [0.05, 0.1]}, two: {every: [0.04, 0.13]}}
@@ -78,7 +78,7 @@ TEST(ErrorStates, AnErrorThatDoesNotMoveByItselfIsNone) {
 }
 
 TEST(ErrorStates, AnErrorOfNothingIsNoSignOfTwoRuns) {
-  const model::Instance instance = model::bind(io::read_problem(R"(problem: p
+  const model::Instance instance = bind::bind(io::read_problem(R"(problem: p
 method:
   method: m
   events: {push: {at: [1]}}
@@ -114,7 +114,7 @@ method:
   const auto verdict = [&](const std::string& bound) {
     CampaignOptions options;
     options.threads = 1;
-    return run_campaign(model::bind(io::read_problem(plant + bound +
+    return run_campaign(bind::bind(io::read_problem(plant + bound +
                                                      "}}\ncampaign: {runs: 1, horizon: 2}\n")),
                         model::Gains{}, options)
         .verdict;
