@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hybrid/state_layout.h"
+#include "hybrid/tolerances.h"
 #include "ode/roots.h"
 
 namespace gainsmith::hybrid {
@@ -23,7 +24,7 @@ class Breaks {
   bool none() const { return texts_.empty(); }
 
   /// In rising order, each once, on a step over which `x` is smooth. Where a difference has no
-  /// value nothing is found. Beyond two thousand breaks no more are looked for.
+  /// value nothing is found. Beyond ten thousand breaks no more are looked for.
   /// `near` takes the places where a difference comes near 0, by a 50th of its largest size on the
   /// step, and turns back.
   std::vector<ode::Break> on(const std::function<Eigen::VectorXd(double)>& x, double from,
@@ -54,7 +55,5 @@ bool may_wave(const expr::Program& program);
 /// The sum of the absolute values of the terms of a program, those of products with sums multiplied
 /// out: its rounding is that of its terms.
 expr::Program absolute_terms(expr::Program program);
-/// Of that sum, how far the value may be off.
-constexpr double kTermRounding = 16 * 0x1p-52;
 
 }  // namespace gainsmith::hybrid

@@ -1,5 +1,5 @@
-// Internal to hybrid: texts of an System as functions of the stacked values, one point at a
-// time. The system must outlive them; names are resolved when they are made.
+// Texts of a System as functions of the stacked values, one point at a time. The system must
+// outlive them; names are resolved when they are made.
 #pragma once
 
 #include <Eigen/Core>
@@ -67,7 +67,7 @@ enum class Truth { no, yes, open };
 class EventCondition {
  public:
   struct Comparison {
-    EventFunction border;
+    EventFunction function;
     expr::Condition::Kind kind;
     std::string text;
 
@@ -98,7 +98,7 @@ class EventCondition {
   Part make(const expr::Condition& condition, const System& system);
   template <class Compare>
   static Truth truth(const Part& part, const Compare& compare);
-  bool holds(std::size_t comparison, const Eigen::VectorXd& values);
+  bool is_true(std::size_t comparison, const Eigen::VectorXd& values);
 
   std::vector<Comparison> comparisons_;
   Part whole_;

@@ -1,7 +1,7 @@
 // Dynamics (model/dynamics.h) with values: what the event-driven simulator runs.
 //
 // All variables are stacked in one vector, in the order of the dynamics, columns of each below each
-// other; behind them stand the branches that the flow holds (switches.h). Inside a flow each
+// other; behind them are the branches that the flow takes (switches.h). Inside a flow each
 // variable does one of three things:
 //
 //   rests    counts, modes, noise, branches, states without a flow
@@ -43,14 +43,14 @@ struct System {
     std::optional<double> every;
   };
 
-  model::Dynamics dynamics;  ///< programs without calls, flows with held branches
+  model::Dynamics dynamics;  ///< programs without calls, flows with fixed branches
   numbers::Values constants;
   model::Bodies bodies;
   StateLayout layout;      ///< the variables, then the branches of the switches
   Eigen::Index size = 0;   ///< of the variables
   Eigen::Index whole = 0;  ///< of variables and branches
   std::vector<Switch> switches;
-  /// By flow: its text as it is, where branches of it are held.
+  /// By flow: its text as it is, where branches of it are fixed.
   std::vector<std::optional<expr::Program>> free_flow;
   std::vector<Moves> moves;                            ///< of each slot of the layout
   bool affine = false;                                 ///< the whole flow

@@ -1,4 +1,4 @@
-// Internal to the judge (trajectory_judge.h): what a run draws, drawn again from the definition of
+// Internal to the judge (judge.h): what a run draws, drawn again from the definition of
 // the streams.
 //
 //   u(p, i, k)   draw k of the stream with the key Philox4x32-10 of (p, i, 0, 0) under the seed,
@@ -22,7 +22,7 @@
 
 namespace gainsmith::judge {
 
-void check_draws(JudgedTexts& texts, const hybrid::Trajectory& trajectory, const DrawnFrom& from,
+void check_draws(Texts& texts, const hybrid::Trajectory& trajectory, const DrawnFrom& from,
                  Faults& faults);
 
 }  // namespace gainsmith::judge

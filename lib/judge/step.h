@@ -1,4 +1,4 @@
-// Internal to the judge (trajectory_judge.h): one recorded step of a flow, integrated again.
+// Internal to the judge (judge.h): one recorded step of a flow, integrated again.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,12 +24,12 @@ class StepAgain {
 
   /// All elements are `x` at the start of the step. `allowed`: of each active element; what is
   /// found is certain to a tenth of it. All must outlive it.
-  StepAgain(JudgedTexts& texts, const MovingElements& moving, const hybrid::DenseStep& step,
+  StepAgain(Texts& texts, const MovingElements& moving, const hybrid::DenseStep& step,
             const Eigen::VectorXd& x, const Eigen::VectorXd& allowed);
   StepAgain(const StepAgain&) = delete;  // its integrator points to it
   StepAgain& operator=(const StepAgain&) = delete;
 
-  /// None where no way comes to an end.
+  /// None where no method comes to an end.
   std::optional<Quarters> operator()();
 
  private:
@@ -47,7 +47,7 @@ class StepAgain {
   Quarters recorded_quarters() const;
   Eigen::VectorXd recorded(double t) const { return (*step_)(t)(moving_->active); }
 
-  JudgedTexts* texts_;
+  Texts* texts_;
   const MovingElements* moving_;
   const hybrid::DenseStep* step_;
   const Eigen::VectorXd* x_;

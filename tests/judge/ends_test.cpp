@@ -94,7 +94,7 @@ TEST(JudgedEnds, StuckMeansManyJumps) {
   const model::Dynamics dynamics = text.dynamics();
   ReferenceRun run(column({0}), 10);
   for (int k = 1; k <= 20; ++k) run.jump(0, column({static_cast<double>(k)}));
-  JudgeQuestion question;
+  Question question;
   question.least_chain = 20;
   const hybrid::Trajectory trajectory = run.end(hybrid::Ending::stuck, "on is still due");
   EXPECT_TRUE(check_trajectory(trajectory, dynamics, text.stated(), question).empty());

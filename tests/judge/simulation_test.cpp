@@ -20,7 +20,7 @@ struct Simulated {
   model::Dynamics dynamics;
   model::Stated stated;
   hybrid::Trajectory trajectory;
-  JudgeQuestion question;
+  Question question;
 
   Simulated(const DynamicsText& text, double horizon, std::uint64_t run = 0,
             double accuracy = 1e-10)

@@ -41,7 +41,7 @@ struct Judged {
     system = hybrid::make_system(dynamics, stated.values, stated.bodies);
     const hybrid::Scenario scenario = hybrid::make_scenario(horizon, system);
     run = Simulator(system, scenario).run(1, 0, {accuracy, accuracy});
-    judge::JudgeQuestion question;
+    judge::Question question;
     question.relative = question.absolute = accuracy;
     const auto faults = judge::check_trajectory(run, dynamics, stated, question);
     EXPECT_TRUE(faults.empty()) << tests::to_text(faults);
