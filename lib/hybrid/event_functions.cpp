@@ -65,8 +65,8 @@ EventCondition::Part EventCondition::make(const expr::Condition& condition, cons
   return part;
 }
 
-/// `any` and `all` look at their parts in order and stop where they are decided, so that a part may
-/// guard a later one against having no value.
+/// `any` and `all` ask their parts in order and stop where they are decided. So a part may guard a
+/// later one against having no value.
 template <class Compare>
 Truth EventCondition::truth(const Part& part, const Compare& compare) {
   if (part.kind == ConditionKind::none) {

@@ -22,7 +22,7 @@ class SystemFunction {
  public:
   SystemFunction(const expr::Program& program, const System& system);
 
-  /// The value; it stands until the next call. EvaluationError when an operation has no result.
+  /// The value, valid until the next call. EvaluationError when an operation has no result.
   const numbers::Matrix& operator()(const Eigen::VectorXd& values) { return function_(values); }
 
   /// Whether it is the same all along a flow.

@@ -61,7 +61,7 @@ struct System {
 
   /// The slot of a name, or none.
   std::optional<std::size_t> slot(const std::string& name) const;
-  /// Whether a name stands for what changes within a flow.
+  /// Whether a name is that of what changes within a flow.
   bool is_moving(const std::string& name) const;
   /// "x(2)", "P(1, 2)" or "s".
   std::string element_name(Eigen::Index element) const;
@@ -70,8 +70,8 @@ struct System {
   double scalar(const model::Formula& formula) const { return value(formula)(0, 0); }
 };
 
-/// InputError, at its place, for a text that uses what has no value, a clock that is not 0 <= low
-/// <= high and high > 0, and numbers of passes that are not whole.
+/// InputError, at its place, for a text that uses what has no value and for numbers of passes that
+/// are not whole. The same for a clock that is not 0 <= low <= high and high > 0.
 System make_system(const model::Dynamics& dynamics, numbers::Values constants,
                    model::Bodies bodies);
 

@@ -84,8 +84,8 @@ struct JumpPoint {
 };
 
 struct Trajectory {
-  Eigen::VectorXd start;  ///< all variables at t = 0, stacked in the order of the dynamics, columns
-                          ///< of each below each other
+  /// All variables at t = 0, in the order of the dynamics, columns of each below each other.
+  Eigen::VectorXd start;
   std::vector<std::variant<FlowPiece, JumpPoint>> parts;  ///< in order
   double horizon = 0;
   Ending ending = Ending::horizon;

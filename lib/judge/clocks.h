@@ -13,7 +13,7 @@
 namespace gainsmith::judge {
 
 /// The occurrences of one event. The next one is known for times that are given, for clocks of one
-/// length, and where the run records what is left of the clock; else it is the next jump of the
+/// length, and where the run records what is left of the clock. Otherwise it is the next jump of the
 /// event, and its distance from the last one must be a length.
 class EventClock {
  public:

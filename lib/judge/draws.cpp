@@ -322,7 +322,7 @@ class Draws {
     const auto& every = texts_.noise[noise].every;
     std::uint64_t drawing = 0;
     bool wrong = false;
-    const auto look = [&](std::size_t part, double t, const VectorXd& x, bool drawn) {
+    const auto check_at = [&](std::size_t part, double t, const VectorXd& x, bool drawn) {
       if (wrong) return;
       if (every)
         drawing = static_cast<std::uint64_t>(std::floor(t / *every * (1 + hybrid::kAddedUp)));
@@ -332,16 +332,16 @@ class Draws {
       wrong = !is_drawing(v, drawing, x);
       if (wrong) faults_.add(part, t, "noise that is not drawn so: " + texts_.layout.slots[v].name);
     };
-    look(0, 0, run_.start, false);
+    check_at(0, 0, run_.start, false);
     for (std::size_t k = 0; k < run_.parts.size(); ++k) {
       if (const auto* jump = std::get_if<hybrid::JumpPoint>(&run_.parts[k])) {
-        look(k, jump->t, jump->before, event && *event == jump->event);
+        check_at(k, jump->t, jump->before, event && *event == jump->event);
         continue;
       }
       const auto& piece = std::get<hybrid::FlowPiece>(run_.parts[k]);
-      look(k, piece.from(), piece.start, false);
+      check_at(k, piece.from(), piece.start, false);
       for (const hybrid::DenseStep& step : piece.steps)
-        if (every || spent) look(k, step.from, step(step.from), false);
+        if (every || spent) check_at(k, step.from, step(step.from), false);
     }
   }
 

@@ -13,7 +13,7 @@ namespace {
 
 using V = model::Dynamics::VariableKind;
 
-/// Points of a step at which what rests is looked at.
+/// Points of a step at which what rests is checked.
 constexpr int inner_points = 16;
 
 bool is_clock(V kind) { return kind == V::time || kind == V::since || kind == V::left; }

@@ -19,9 +19,11 @@ Eigen::VectorXd step_sizes(const Texts& texts, const hybrid::DenseStep& step);
 /// What each element moves at x in a few units in the last place of t. 0 where there is no rate.
 Eigen::VectorXd time_rounding_at(Texts& texts, double t, const Eigen::VectorXd& x);
 
-/// How far each element may be off at x by rounding: 1e-13 of its size, a thousandth of the
-/// accuracy (a step that ends at an event is part of a longer one, of larger values) and, as
-/// events lie at times that are rounded too, time_rounding_at. 0 of what rests.
+/// How far each element may be off at x by rounding, 0 of what rests:
+///   1e-13 of its size,
+///   a thousandth of the accuracy: a step that ends at an event is part of a longer one, of larger
+///   values,
+///   and time_rounding_at: events lie at times that are rounded too.
 Eigen::VectorXd rounding_at(Texts& texts, double t, const Eigen::VectorXd& x,
                             const Eigen::VectorXd& sizes);
 

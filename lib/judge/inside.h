@@ -1,5 +1,5 @@
-// Internal to the judge (judge.h): the inside of flows, where no condition of an event is true, no
-// event function crosses zero, no clock runs down, and no flow set is left.
+// Internal to the judge (judge.h): what must not happen inside of flows. No condition of an event is
+// true there, no event function crosses zero, no clock runs down, and no flow set is left.
 #pragma once
 
 #include <Eigen/Core>

@@ -39,8 +39,8 @@ class StepAgain {
   std::optional<Quarters> settled(std::optional<Quarters> coarse);
   /// In `count` Gauss steps, four or more.
   std::optional<Quarters> advance(int count);
-  /// Of a step so short that nothing moves by more than a tenth of what is allowed, next to a
-  /// switch of the flow, say, where no method converges.
+  /// Of a step so short that nothing moves by more than a tenth of what is allowed. Next to a
+  /// switch of the flow no method converges on it.
   std::optional<Quarters> straight();
   std::optional<Eigen::VectorXd> gauss(double t, const Eigen::VectorXd& y, double h);
   void rate(double t, const Eigen::VectorXd& y, Eigen::VectorXd& out);

@@ -24,7 +24,7 @@ class Text {
   Text(const expr::Program& program, const Place& place, const hybrid::StateLayout& layout,
        const model::Stated& stated);
 
-  /// It stands until the next call. EvaluationError when it has no value.
+  /// The value, valid until the next call. EvaluationError when it has no value.
   const numbers::Matrix& operator()(const Eigen::VectorXd& x) { return value_.at(0, x); }
   /// How much each element moves, at most and to first order, when each x_i does by rounding_i.
   numbers::Matrix spread(const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);

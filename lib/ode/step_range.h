@@ -20,7 +20,7 @@ struct StepRange {
     high = *std::max_element(values.begin(), values.end());
   }
 
-  /// Whether the function stays so far from 0 that it has no root on the step. `sign`: on which
+  /// Whether the function is so far from 0 that it has no root on the step. `sign`: on which
   /// side; 0: any.
   bool is_far_from_zero(double sign = 0) const {
     const double above = sign >= 0 ? low : -high;

@@ -1,13 +1,13 @@
 // The branches that a flow takes (switches.h), in one run.
 //
-// A branch is wrong once its D has been on the other side by more than a slack, of kinks
+// A branch is wrong once its D has been on the other side by more than a slack:
 //
-//   slack = 1e-3 (relative * terms + absolute),   of exact flows: the rounding of its terms
+//   of kinks                1e-3 (relative * terms + absolute), a thousandth of the error of the
+//                           integration; of exact flows the rounding of its terms
+//   of signs and `where`    the rounding of its terms
 //
-// a thousandth of what the integration may be off, of signs and of `where` the rounding of its
-// terms always. Then the flow ends at the last root of D before, and goes on with the other
-// branch; below it the wrong branch changes nothing. So neither rounding nor a flow along D = 0
-// ends a flow.
+// Then the flow ends at the last root of D before, and goes on with the other branch. Below the
+// slack the wrong branch changes nothing. So neither rounding nor a flow along D = 0 ends a flow.
 #pragma once
 
 #include <Eigen/Core>

@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The first time after t at which the side of an affine function differs, found for its root and
-/// moved on by units in the last place.
+/// The first time after t at which the side of an affine function differs: its root, moved on by
+/// units in the last place.
 double line_root(const std::function<double(double)>& g, bool strict, double t, double last) {
   const auto side = [&](double value) { return strict ? value > 0 : value >= 0; };
   const double first = g(t);

@@ -29,10 +29,10 @@ class EventWatch {
   std::vector<FlowSet> flow_sets;
   std::vector<hybrid::EventFunction> switches;
 
-  /// The times just after all crossings on a step, in order, of events and of `while`, that
-  /// may decide about something from `values` on, those at the start of the step. `turn` is
-  /// given turning points within `near` of their terms, and of those that come nearest.
-  /// `hidden`, at the start of a flow: the first CrossingsOnStep::hidden_turn, if any.
+  /// The times just after all zero crossings on a step, in order: those of events and of `while`
+  /// that may decide something from `values` on, the values at the start of the step. `turn` is
+  /// given the turning points within `near` of their terms, and those that come nearest. `hidden`,
+  /// at the start of a flow: the first CrossingsOnStep::hidden_turn, if any.
   std::vector<double> crossings(
       const StepValues& inside, const Eigen::VectorXd& values, double near,
       const std::function<void(const hybrid::NearTurn&, bool reached)>& turn,

@@ -181,7 +181,7 @@ class ExactFlow : public Flow {
     return series;
   }
 
-  /// What rests stays.
+  /// What rests is not moved.
   void move(Matrix& series) {
     moves_ = VectorXd::Zero(series.rows());
     for (Index k = 0; k < series.rows(); ++k) {

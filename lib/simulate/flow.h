@@ -42,9 +42,9 @@ class Flow {
 };
 
 /// The flow of the system of a field, which must outlive it; no step is longer than `longest`.
-/// `moved`: by which each step of an exact flow is moved, from nothing at its start to a move in
-/// the last places at its end, so that what has just happened does not happen again. Integrated
-/// flows to two accuracies round apart by themselves.
+/// `moved`: each step of an exact flow is moved by it in the last places at its end, and not at its
+/// start, so that what has just happened does not happen again. Integrated flows to two accuracies
+/// differ in rounding by themselves.
 std::unique_ptr<Flow> make_flow(VectorField& field, const Accuracy& accuracy, double longest,
                                 const hybrid::LastPlaces* moved = nullptr);
 

@@ -122,7 +122,7 @@ void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value
         if (symmetric) value(column, row) = value(row, column);
       }
   } catch (const expr::EvaluationError&) {
-    // Without sizes it stays where it is.
+    // Without sizes it is not moved.
   }
 }
 

@@ -1,4 +1,4 @@
-// The judge on conditions, borders, frozen components and loops of maps.
+// The judge on conditions, zero crossings, frozen components and loops of maps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -87,7 +87,7 @@ TEST(JudgedThermostat, IsAccepted) {
   EXPECT_TRUE(faults.empty()) << to_text(faults);
 }
 
-TEST(JudgedThermostat, FindsABorderThatIsMissed) {
+TEST(JudgedThermostat, FindsAZeroCrossingThatIsMissed) {
   const auto faults = Thermostat().judged({{22, {0}}, {19, {}}});
   EXPECT_TRUE(has_fault(faults, 0, "crosses zero inside a flow: hot")) << to_text(faults);
 }
@@ -120,7 +120,7 @@ TEST(JudgedThermostat, FindsAFrozenComponentThatFlows) {
                         0, "flows, but rests: z"));
 }
 
-/// A jump of one event leads across the border of another.
+/// A jump of one event crosses zero of another.
 TEST(JudgedCrossings, AreCrossedByJumpsOfOthersToo) {
   DynamicsText text;
   text.state("x", 1, "1", "-1").at("kick", {"0.5"}).rises("up", "x");

@@ -102,7 +102,7 @@ DynamicsText thermostat() {
   return text;
 }
 
-/// Van der Pol's stiff oscillator with a loop of maps at a border.
+/// Van der Pol's stiff oscillator with a loop of maps at a zero crossing.
 DynamicsText relaxation() {
   DynamicsText text;
   text.state("x", 2, "[x(2); 500*(1 - x(1)^2)*x(2) - x(1)]", "[2; 0]")

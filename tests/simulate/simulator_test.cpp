@@ -254,14 +254,14 @@ TEST(EventRun, ATwinKeepsTurningPointsNextToZero) {
   for (const double gap : {1e-5, 0.1}) {
     EventProblem problem;
     problem.data("d", gap).state("x", {}, "1 + d").flow("x", "2*t - 2").state("n", {}, "0");
-    problem.when("in", "x <= 0").jump("in", {{"n", "n + 1"}});
+    problem.when("in", "x + 1 <= 1").jump("in", {{"n", "n + 1"}});
     const hybrid::System system = problem.system();
     const hybrid::Scenario scenario = hybrid::make_scenario(2.5, system);
     const hybrid::Trajectory twin = Simulator(system, scenario).run(1, 0, {}, {}, 0);
     ASSERT_EQ(twin.turns.size(), gap < 0.01 ? 1U : 0U) << gap;
     if (gap > 0.01) continue;
     EXPECT_NEAR(twin.turns[0].t, 1, 1e-6);
-    EXPECT_NEAR(twin.turns[0].value, -gap, 1e-10);  // of -x >= 0
+    EXPECT_NEAR(twin.turns[0].value, -gap, 1e-10);  // of 1 - (x + 1)
   }
 }
 
