@@ -16,17 +16,17 @@ constexpr double kPlain = 1e4;  ///< times the rounding
 constexpr double kAddedUp = 1e-12;  ///< relative
 ///< | rounding that has added up over a run: of a clock at the horizon, of data beside their range,
 ///< of the pieces of a step
-///< | JudgedOrder.TicksAreExactMissedAtNoTimeAndNotAtTheHorizon
+///< | Law.WhatIsOutsideByRoundingAloneIsInside
 constexpr double kOneInstant = 1e-14;  ///< of the time
 ///< | times that differ by less are one instant
 ///< | EventRun.AClockAtTheEndOfAStepFiresOnce
 constexpr double kHardly = 1e-9;  ///< of the horizon
 ///< | a time in which a run hardly advances: flows that chatter, switches that slide, steps that
 ///< have become too short, what a flow may be outside of `while` after a jump
-///< | EventEnding.ARelayWithoutHysteresisChatters
+///< | JudgedEnds.ChatteringMeansShortFlows
 constexpr std::size_t kAtOnce = 8;  ///< switches of a flow
 ///< | so many within hardly any time slide; a kink that changes so often at one time is passed over
-///< | EventSwitch.BranchesThatBothLeadBackSlide
+///< | JudgedEnds.ChatteringMeansShortFlows
 constexpr std::size_t kInARow = 100;  ///< flows, switches, jumps, notes
 ///< | so many alike in a row are no accident: a run chatters or slides; as many are named
 ///< | EventSwitch.ACrossingInTheRoundingIsNoSliding
@@ -35,7 +35,7 @@ constexpr std::size_t kFewestRatios = 4;  ///< ratios of lengths
 ///< | JudgedEnds.ZenoMeansASteadyFactor
 constexpr double kSteady = 3e-3;  ///< relative
 ///< | a factor, a rate or a state that changes by less is steady
-///< | EventRun.FlowsThatShrinkMoreSlowlyAreNoZeno
+///< | JudgedEnds.ZenoMeansASteadyFactor
 constexpr double kOfAccuracy = 1e-3;  ///< of the accuracy of the integration
 ///< | what matters to nothing that is integrated
 ///< | EventKinks.AKinkTouchedOrFollowedEndsNothing

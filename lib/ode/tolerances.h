@@ -8,7 +8,7 @@ constexpr double kFar = 4;  ///< times what a function changes by over a step
 ///< | farther from 0 at the ends and the middle, it has no root on the step
 ///< | StepRange.IsNotFarWhereAPairOfRootsMayBe
 constexpr double kFinest = 1e-13;  ///< relative
-///< | the least error that double precision is asked for, of interpolants and of integrations
+///< | the least error that double precision is asked for: of interpolants, of integrations, of a time
 ///< | Roots.RandomPolynomialsAndWavesHaveAllTheirRoots
 constexpr double kTurnsNear = 1e-10;  ///< of the largest value on a step
 ///< | turning points as near to 0 as that are reported
@@ -19,7 +19,7 @@ constexpr int kPatience = 10000;  ///< attempts at one place
 ///< | Roots.CornersAreNoObstacle
 constexpr double kEscape = 1e4;  ///< times the start, and what the flow does at its first rate
 ///< | a flow that has grown by this while its steps fall to nothing escapes
-///< | EventEnding.EscapesNameTheirTime
+///< | JudgedEnds.EscapedMeansLargeOrAtOnce
 constexpr long kStiffFailures = 50;  ///< in a thousand steps
 ///< | a flow whose fixed-point iterations fail more often is stiff
 ///< | EventFlow.VeryStiffFlowsDoNotStandStill

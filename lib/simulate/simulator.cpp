@@ -268,8 +268,9 @@ class EventRun {
         inside, values_, moved_ ? kNearOfTerms : 0,
         [&](const hybrid::NearTurn& turn, bool reached) { near.emplace_back(turn, reached); },
         starts_ ? &hidden : nullptr);
+    constexpr double beyond = 4;  // of the turning point, so that the root behind it is inside
     if (hidden && is_coarse(step, step.from + *hidden * (step.to - step.from)))
-      return take_shorter(step.from + 2 * kShorterStep * *hidden * (step.to - step.from));
+      return take_shorter(step.from + beyond * *hidden * (step.to - step.from));
     const std::vector<DueEvents::Mark> marks = due_.marks();
     const FlowSets::Marks was_inside = flow_sets_.marks();
     for (const double t : crossings) {
@@ -297,7 +298,8 @@ class EventRun {
   /// tells in what is short: the flights of a ball that comes to rest.
   bool is_coarse(const hybrid::DenseStep& step, double t) const {
     const double length = t - step.from;
-    return length < kEarly * (step.to - step.from) && length > hybrid::kOneInstant * horizon_;
+    return length < kEarly * (step.to - step.from) &&
+           length > ode::kFinest * std::max(std::abs(t), hybrid::kHardly * horizon_);
   }
 
   /// The same flow in steps up to `last` at most.

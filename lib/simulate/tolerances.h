@@ -20,7 +20,7 @@ constexpr double kNearOfTerms = 1e-3;  ///< of the sizes of the terms of a guard
 ///< | EventRun.ATwinKeepsTurningPointsNextToZero
 constexpr std::size_t kRatios = 12;  ///< ratios of lengths
 ///< | so many that agree are a steady factor, however slowly the lengths shrink
-///< | EventEnding.ACounterThatEndsShrinkingIsNoZeno
+///< | EventRun.ZenoStopsAtItsAccumulation
 constexpr double kLeftOver = 1e-7;  ///< of the time so far
 ///< | jumps accumulate where no more is left and states are steady; fewer ratios than 12 make it
 ///< | EventEnding.AFewFlightsThatShrinkFastAccumulate
