@@ -38,7 +38,7 @@ constexpr double kSteady = 3e-3;  ///< relative
 ///< | JudgedEnds.ZenoMeansASteadyFactor
 constexpr double kOfAccuracy = 1e-3;  ///< of the accuracy of the integration
 ///< | what matters to nothing that is integrated
-///< | EventKinks.AKinkTouchedOrFollowedEndsNothing
+///< | Judge.FindsALateJump
 constexpr double kMeantEqual = 1e-9;  ///< relative
 ///< | numbers that a person meant to be equal: elements of a symmetric matrix, a datum and its text
 ///< | EventEnding.StatesThatAreNoneOfTheirKindAreErrors
