@@ -16,7 +16,7 @@
 #include "numerics/projection.h"
 #include "sdp/solver.h"
 
-namespace gainsmith::numbers {
+namespace gainsmith::numerics {
 namespace {
 
 struct Set {
@@ -136,6 +136,6 @@ BENCHMARK(projection<slsqp>)->Name("slsqp")->Arg(2)->Arg(3)->Arg(8)->Arg(20);
 BENCHMARK(projection<cone>)->Name("cone")->Arg(2)->Arg(3)->Arg(8)->Arg(20);
 
 }  // namespace
-}  // namespace gainsmith::numbers
+}  // namespace gainsmith::numerics
 
 BENCHMARK_MAIN();

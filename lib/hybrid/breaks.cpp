@@ -8,6 +8,7 @@
 
 #include "expr/branches.h"
 #include "numerics/golden_section.h"
+#include "hybrid/tolerances.h"
 #include "ode/step_range.h"
 
 namespace gainsmith::hybrid {
@@ -20,10 +21,6 @@ using expr::Program;
 using numbers::Matrix;
 
 namespace {
-
-constexpr std::size_t kMostBreaks = 2048;
-/// Of the terms of a difference: what it does below matters to nothing that is integrated.
-constexpr double kOfTerms = 1e-12;
 
 /// Makes the sizes of the terms of instructions: of sums and of products with them.
 class TermSizes {
@@ -116,12 +113,11 @@ void add_roots(const ode::RootFunction& g, bool jumps, double from, double to,
 /// Adds the place where |g| is least on a step, if it is small there and not at an end.
 void add_near(const std::function<double(double)>& g, double from, double to,
               std::vector<double>& near) {
-  constexpr double kNear = 0.02;
   const std::vector<double> times = ode::first_points(from, to);
   std::vector<double> sizes;
   for (const double t : times) sizes.push_back(std::abs(g(t)));
   const auto least = std::min_element(sizes.begin(), sizes.end());
-  if (!(*least <= kNear * *std::max_element(sizes.begin(), sizes.end()))) return;
+  if (!(*least <= kNearBreak * *std::max_element(sizes.begin(), sizes.end()))) return;
   const auto k = static_cast<std::size_t>(least - sizes.begin());
   const double low = times[k == 0 ? 0 : k - 1];
   const double high = times[std::min(k + 1, times.size() - 1)];
@@ -130,8 +126,8 @@ void add_near(const std::function<double(double)>& g, double from, double to,
 
 /// Makes one of breaks with next to nothing between them.
 void merge(std::vector<ode::Break>& breaks, double from, double to) {
-  constexpr double kUnit = std::numeric_limits<double>::epsilon();
-  const double nothing = 1e-12 * (to - from) + 8 * kUnit * std::max(std::abs(from), std::abs(to));
+  const double nothing =
+      kAddedUp * (to - from) + kOneInstant * std::max(std::abs(from), std::abs(to));
   std::size_t kept = 0;
   for (std::size_t k = 1; k < breaks.size(); ++k) {
     const ode::Break& one = breaks[k];
@@ -191,10 +187,10 @@ std::vector<const Program*> Breaks::differences() const {
 }
 
 double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
-  constexpr double kNone = std::numeric_limits<double>::infinity();
+  const double none = std::numeric_limits<double>::infinity();
   Text& text = texts_[k];
   const Matrix here = value_at(text.value, x);
-  if (here.size() == 0) return kNone;
+  if (here.size() == 0) return none;
   Matrix change = Matrix::Zero(here.rows(), here.cols());
   const auto widen = [&](const Matrix& by) {
     for (Index e = 0; e < by.size(); ++e) change(e) = std::fmax(change(e), by(e));
@@ -204,7 +200,7 @@ double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
   for (int bit = 0; bit == 0 || (r.size() - 1) >> (bit - 1) > 0; ++bit)
     if (const Matrix there = value_at(text.value, moved(x, r, bit)); there.size() != 0)
       widen((there - here).cwiseAbs());
-  double least = kNone;
+  double least = none;
   for (Index e = 0; e < here.size(); ++e)
     if (change(e) > 0) least = std::min(least, std::abs(here(e)) / change(e));
   return least;
@@ -217,14 +213,14 @@ std::vector<ode::Break> Breaks::on(const std::function<VectorXd(double)>& x, dou
   const std::array<VectorXd, 3> points = {x(from), x(from + (to - from) / 2), x(to)};
   for (Text& text : texts_) {
     const Index size = text.program->shape().size();
-    for (Index e = 0; e < size && breaks.size() < kMostBreaks; ++e) {
+    for (Index e = 0; e < size && breaks.size() < ode::kPatience; ++e) {
       const auto at = [&](const VectorXd& values) { return element(text.value, values, e); };
       const bool is_slow = breaks.empty() && !text.waves;
       if (is_slow && ode::StepRange(at, points).is_far_from_zero()) continue;
       double terms = 0;
       for (const VectorXd& point : points) terms = std::fmax(terms, element(text.terms, point, e));
       const auto difference = [&](double t) { return at(x(t)); };
-      add_roots({difference, false, kOfTerms * terms}, text.jumps, from, to, breaks);
+      add_roots({difference, false, kAddedUp * terms}, text.jumps, from, to, breaks);
       if (near != nullptr) add_near(difference, from, to, *near);
     }
   }

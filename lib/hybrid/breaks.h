@@ -1,5 +1,5 @@
 // Where a text along a flow is not smooth: where what it branches on (expr/branches.h) comes to 0.
-// That may branch itself: its roots are looked for on the pieces between the breaks before it,
+// That may branch itself: its roots are searched on the pieces between the breaks before it,
 // where it is smooth. So a branch is found however short it is taken.
 #pragma once
 
@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hybrid/state_layout.h"
+#include "hybrid/tolerances.h"
 #include "ode/roots.h"
 
 namespace gainsmith::hybrid {
@@ -23,7 +24,7 @@ class Breaks {
   bool none() const { return texts_.empty(); }
 
   /// In rising order, each once, on a step over which `x` is smooth. Where a difference has no
-  /// value nothing is found. Beyond two thousand breaks no more are looked for.
+  /// value nothing is found. Beyond ten thousand breaks no more are searched.
   /// `near` takes the places where a difference comes near 0, by a 50th of its largest size on the
   /// step, and turns back.
   std::vector<ode::Break> on(const std::function<Eigen::VectorXd(double)>& x, double from,
@@ -32,9 +33,9 @@ class Breaks {
   /// What is 0 at a break.
   std::vector<const expr::Program*> differences() const;
 
-  /// How many times the k-th difference is larger than what it changes by when the variables do by
-  /// r up or down, and than the rounding of its terms; of its elements the least. An estimate from
-  /// some such changes, and no bound. Infinite where it has no value, or where nothing changes it.
+  /// The k-th difference over its change when the variables change by r up or down, or over the
+  /// rounding of its terms where that is more; the least of its elements. An estimate from some
+  /// such changes, and no bound. Infinite where it has no value, or where nothing changes it.
   double distance(std::size_t k, const Eigen::VectorXd& x, const Eigen::VectorXd& r);
 
  private:
@@ -54,7 +55,5 @@ bool may_wave(const expr::Program& program);
 /// The sum of the absolute values of the terms of a program, those of products with sums multiplied
 /// out: its rounding is that of its terms.
 expr::Program absolute_terms(expr::Program program);
-/// Of that sum, how far the value may be off.
-constexpr double kTermRounding = 16 * 0x1p-52;
 
 }  // namespace gainsmith::hybrid

@@ -65,8 +65,8 @@ EventCondition::Part EventCondition::make(const expr::Condition& condition, cons
   return part;
 }
 
-/// `any` and `all` look at their parts in order and stop where they are decided, so that a part may
-/// guard a later one against having no value.
+/// `any` and `all` ask their parts in order and stop where they are decided. So a part may guard a
+/// later one against having no value.
 template <class Compare>
 Truth EventCondition::truth(const Part& part, const Compare& compare) {
   if (part.kind == ConditionKind::none) {
@@ -86,9 +86,9 @@ Truth EventCondition::truth(const Part& part, const Compare& compare) {
   return result;
 }
 
-bool EventCondition::holds(std::size_t comparison, const VectorXd& values) {
+bool EventCondition::is_true(std::size_t comparison, const VectorXd& values) {
   Comparison& one = comparisons_[comparison];
-  const auto difference = one.border(values).array();
+  const auto difference = one.function(values).array();
   if (one.kind == ConditionKind::positive) return (difference > 0).all();
   if (one.kind == ConditionKind::nonnegative) return (difference >= 0).all();
   return (difference == 0).all();
@@ -96,27 +96,27 @@ bool EventCondition::holds(std::size_t comparison, const VectorXd& values) {
 
 bool EventCondition::operator()(const VectorXd& values) {
   return truth(whole_, [&](std::size_t comparison) {
-           return holds(comparison, values) ? Truth::yes : Truth::no;
+           return is_true(comparison, values) ? Truth::yes : Truth::no;
          }) == Truth::yes;
 }
 
 Truth EventCondition::at_rest(const VectorXd& values) {
   return truth(whole_, [&](std::size_t comparison) {
-    if (!comparisons_[comparison].border.rests()) return Truth::open;
-    return holds(comparison, values) ? Truth::yes : Truth::no;
+    if (!comparisons_[comparison].function.rests()) return Truth::open;
+    return is_true(comparison, values) ? Truth::yes : Truth::no;
   });
 }
 
 bool EventCondition::if_changed(const VectorXd& values, std::size_t comparison) {
   return truth(whole_, [&](std::size_t one) {
-           return holds(one, values) != (one == comparison) ? Truth::yes : Truth::no;
+           return is_true(one, values) != (one == comparison) ? Truth::yes : Truth::no;
          }) == Truth::yes;
 }
 
 std::string EventCondition::differences(const VectorXd& values) {
   std::string result;
   for (Comparison& one : comparisons_) {
-    const numbers::Matrix& difference = one.border(values);
+    const numbers::Matrix& difference = one.function(values);
     if (difference.size() == 0) continue;
     if (!result.empty()) result += ", ";
     result += one.text + ": " + brief(difference.minCoeff(), 17);

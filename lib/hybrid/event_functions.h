@@ -1,5 +1,5 @@
-// Internal to hybrid: texts of an System as functions of the stacked values, one point at a
-// time. The system must outlive them; names are resolved when they are made.
+// Texts of a System as functions of the stacked values, one point at a time. The system must
+// outlive them; names are resolved when they are made.
 #pragma once
 
 #include <Eigen/Core>
@@ -22,7 +22,7 @@ class SystemFunction {
  public:
   SystemFunction(const expr::Program& program, const System& system);
 
-  /// The value; it stands until the next call. EvaluationError when an operation has no result.
+  /// The value, valid until the next call. EvaluationError when an operation has no result.
   const numbers::Matrix& operator()(const Eigen::VectorXd& values) { return function_(values); }
 
   /// Whether it is the same all along a flow.
@@ -67,7 +67,7 @@ enum class Truth { no, yes, open };
 class EventCondition {
  public:
   struct Comparison {
-    EventFunction border;
+    EventFunction function;
     expr::Condition::Kind kind;
     std::string text;
 
@@ -98,7 +98,7 @@ class EventCondition {
   Part make(const expr::Condition& condition, const System& system);
   template <class Compare>
   static Truth truth(const Part& part, const Compare& compare);
-  bool holds(std::size_t comparison, const Eigen::VectorXd& values);
+  bool is_true(std::size_t comparison, const Eigen::VectorXd& values);
 
   std::vector<Comparison> comparisons_;
   Part whole_;

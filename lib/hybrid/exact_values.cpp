@@ -6,14 +6,14 @@
 #include <optional>
 #include <string_view>
 
+#include "hybrid/tolerances.h"
+
 namespace gainsmith::hybrid {
 
 namespace {
 
 using expr::Op;
 using Wide = numbers::MatrixOf<Decimal100>;
-
-constexpr double kSameNumber = 1e-9;
 
 Wide shortest_decimals(const numbers::Matrix& matrix) {
   return matrix.unaryExpr([](double value) { return shortest_decimal(value); });
@@ -35,7 +35,7 @@ std::optional<Wide> from_text(const model::Design::Datum& datum, const numbers::
         wide.unaryExpr([](const Decimal100& v) { return as<double>(v); });
     const double size = used.size() > 0 ? used.cwiseAbs().maxCoeff() : 0;
     if (rounded.rows() != used.rows() || rounded.cols() != used.cols()) return std::nullopt;
-    if (used.size() > 0 && !((rounded - used).cwiseAbs().maxCoeff() <= kSameNumber * size))
+    if (used.size() > 0 && !((rounded - used).cwiseAbs().maxCoeff() <= kMeantEqual * size))
       return std::nullopt;
     return wide;
   } catch (const expr::EvaluationError&) {

@@ -12,9 +12,9 @@
 namespace gainsmith::hybrid {
 
 /// Every constant of the system from the decimals as written. A datum is evaluated from its text in
-/// 100 digits; a number of the gain file, and one that replaced the problem's, is the shortest
-/// decimal that reads as its double, which is the number that a person wrote. A basis (orth, null)
-/// is that of the gain file, and what a datum's text does not give to 1e-9 keeps its double.
+/// 100 digits. A number of the gain file, and one that replaced the problem's, is the shortest
+/// decimal that reads as its double: what a person wrote. A basis (orth, null) is that of the gain
+/// file. What a datum's text does not give to 1e-9 keeps its double.
 numbers::ValuesOf<Decimal100> exact_values(const model::Instance& instance,
                                            const numbers::Values& constants,
                                            const model::Gains& gains);

@@ -5,11 +5,11 @@
 #include <numbers>
 
 #include "base/number.h"
+#include "hybrid/tolerances.h"
 
 namespace gainsmith::hybrid {
 
 void read_ellipsoid(StartRule& rule, const std::string& state) {
-  constexpr double kAsymmetry = 1e-9;
   const numbers::Matrix Q = rule.values[1];
   const double level = rule.values[2](0, 0);
   const auto fail = [&](const std::string& why) {
@@ -17,7 +17,7 @@ void read_ellipsoid(StartRule& rule, const std::string& state) {
   };
   const double size = Q.size() > 0 ? Q.cwiseAbs().maxCoeff() : 0;
   const double asymmetry = Q.size() > 0 ? (Q - Q.transpose()).cwiseAbs().maxCoeff() : 0;
-  if (asymmetry > kAsymmetry * size) fail("its matrix is not symmetric");
+  if (asymmetry > kMeantEqual * size) fail("its matrix is not symmetric");
   if (!(level >= 0 && std::isfinite(level)))
     fail("its level is " + brief(level) + ": expected a number from 0 on");
   const Eigen::LLT<numbers::Matrix> factors((Q + Q.transpose()) / 2);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/number.h"
+#include "hybrid/tolerances.h"
 
 namespace gainsmith::hybrid {
 
@@ -13,7 +14,7 @@ namespace {
 using model::LawKind;
 
 double checked_value(const Place& place, double value, double low, double high) {
-  const double slack = 1e-12 * high;
+  const double slack = kAddedUp * high;
   if (!(value >= low - slack && value <= high + slack))
     throw InputError(place,
                      fmt::format("the sampling interval {} is outside the timer's range [{}, {}]",
@@ -36,8 +37,8 @@ double Law::reset_value(std::size_t jump, double t, RandomStream& random) const 
     case LawKind::list:
       return values[jump % values.size()];
     case LawKind::golden: {
-      constexpr double kGoldenRatio = 0.6180339887498949;
-      const double turns = static_cast<double>(jump + 1) * kGoldenRatio;
+      constexpr double golden_ratio = 0.6180339887498949;
+      const double turns = static_cast<double>(jump + 1) * golden_ratio;
       return low + (high - low) * (turns - std::floor(turns));
     }
   }

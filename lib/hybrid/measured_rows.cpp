@@ -4,12 +4,11 @@
 #include <cmath>
 #include <limits>
 
+#include "hybrid/tolerances.h"
+
 namespace gainsmith::hybrid {
 
 namespace {
-
-/// Of the time: instants that are one, as of clocks.
-constexpr double kInstantOfRow = 1e-14;
 
 auto row_of(const model::Series& series, std::size_t row) {
   return series.values.row(static_cast<Eigen::Index>(row)).transpose();
@@ -50,7 +49,7 @@ double MeasuredRows::next() const {
 
 bool MeasuredRows::is_due(const Quantity& one, double t) {
   const std::vector<double>& times = one.measured->series->times;
-  return one.row < times.size() && times[one.row] <= t + kInstantOfRow * std::abs(t);
+  return one.row < times.size() && times[one.row] <= t + kOneInstant * std::abs(t);
 }
 
 bool MeasuredRows::arrive(double t, Eigen::VectorXd& values) const {

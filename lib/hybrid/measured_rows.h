@@ -1,6 +1,6 @@
-// Internal to hybrid: the rows of measured data (model/measured.h) along one run.
+// The rows of measured data (model/measured.h) along one run.
 //
-// At the time of a row the quantity has the first value there as long as events are looked at;
+// At the time of a row the quantity has the first value there as long as events are asked;
 // the flow goes on with the last one, and along the line to the next row.
 #pragma once
 

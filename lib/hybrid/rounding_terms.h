@@ -1,4 +1,4 @@
-// Internal to hybrid: what the evaluation of a text may round.
+// What the evaluation of a text may round.
 #pragma once
 
 #include <optional>

@@ -8,6 +8,7 @@
 
 #include "base/number.h"
 #include "hybrid/event_functions.h"
+#include "hybrid/tolerances.h"
 
 namespace gainsmith::hybrid {
 
@@ -17,9 +18,7 @@ using Eigen::VectorXd;
 using model::Dynamics;
 using model::StartKind;
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
-/// Of the time: instants that are one. Lengths that add up err by some units in the last place.
-constexpr double kOneInstant = 1e-14;
+constexpr double never = std::numeric_limits<double>::infinity();
 
 bool is_drawn(const Dynamics::Variable& variable) {
   return variable.kind == Dynamics::VariableKind::state ||
@@ -111,9 +110,8 @@ void check_start(const Dynamics::Variable& variable, const Place& place, numbers
     throw InputError(place, "the mode " + variable.name + " starts at " + brief(value(0), 17) +
                                 ": expected a whole number");
   if (variable.structure != model::Structure::symmetric || value.size() == 0) return;
-  constexpr double kAsymmetryOfStart = 1e-9;
   const double asymmetry = (value - value.transpose()).cwiseAbs().maxCoeff();
-  if (asymmetry > kAsymmetryOfStart * value.cwiseAbs().maxCoeff())
+  if (asymmetry > kMeantEqual * value.cwiseAbs().maxCoeff())
     throw InputError(place, "the state " + variable.name +
                                 " is symmetric and its start is not: elements differ by " +
                                 brief(asymmetry));
@@ -146,17 +144,17 @@ model::Design::Campaign with_laws_of(std::size_t event, model::Design::Campaign 
 /// Of runs of which nothing says how long they are: so many of the longest lengths. 0 without a
 /// timer.
 double default_horizon(const System& system) {
-  constexpr double kIntervals = 40;
+  constexpr double intervals = 40;
   double longest = 0;
   for (const auto& clock : system.clocks)
     if (clock && system.dynamics.has_timer) longest = std::max(longest, clock->high);
-  return kIntervals * longest;
+  return intervals * longest;
 }
 
 /// Where no horizon is given a run of measured data goes to their end.
 double horizon_of(const model::Design::Campaign& campaign, const System& system) {
   const auto& measured = system.dynamics.measured;
-  double end = kNever;
+  double end = never;
   for (const Dynamics::Measured& one : measured) end = std::min(end, one.series->times.back());
   if (measured.empty()) end = default_horizon(system);
   if (!campaign.horizon && end == 0)
@@ -175,11 +173,10 @@ double horizon_of(const model::Design::Campaign& campaign, const System& system)
 
 /// What a campaign says of the first time, within the range that the dynamics say.
 double first_of(const model::Formula& formula, const System::Clock& clock, const System& system) {
-  constexpr double kRounding = 1e-12;
   const double first = system.scalar(formula);
   if (!clock.first) return first;
   const auto [low, high] = *clock.first;
-  if (!(first >= low - kRounding * high && first <= high + kRounding * high))
+  if (!(first >= low - kAddedUp * high && first <= high + kAddedUp * high))
     throw InputError(formula.place,
                      fmt::format("the first value {} of the timer is outside its range [{}, {}]",
                                  brief(first), brief(low), brief(high)));
@@ -247,7 +244,7 @@ EventClocks::EventClocks(const System& system, const Scenario& scenario, std::ui
                          std::uint64_t run)
     : system_(&system), scenario_(&scenario), run_(run) {
   for (std::size_t e = 0; e < system.dynamics.events.size(); ++e) {
-    clocks_.push_back({kNever, kNever, 0, 0, 0, draw_stream(seed, run, Purpose::length, e),
+    clocks_.push_back({never, never, 0, 0, 0, draw_stream(seed, run, Purpose::length, e),
                        draw_stream(seed, run, Purpose::lost, e)});
     Clock& clock = clocks_.back();
     clock.due = clock.first = clock.length = first_due(e, clock, seed);
@@ -258,7 +255,7 @@ double EventClocks::first_due(std::size_t event, Clock& clock, std::uint64_t see
   const std::vector<double>& times = system_->times[event];
   if (!times.empty()) return times.front();
   const auto& rule = system_->clocks[event];
-  if (!rule) return kNever;
+  if (!rule) return never;
   if (event < scenario_->first.size() && scenario_->first[event]) return *scenario_->first[event];
   if (!rule->first) return drawn_length(event, clock, 0);
   const auto [low, high] = *rule->first;
@@ -276,7 +273,7 @@ double EventClocks::drawn_length(std::size_t event, Clock& clock, double t) cons
 }
 
 double EventClocks::next() const {
-  double earliest = kNever;
+  double earliest = never;
   for (const Clock& clock : clocks_) earliest = std::min(earliest, clock.due);
   return earliest;
 }
@@ -291,7 +288,7 @@ void EventClocks::advance(std::size_t event, double t) {
   const auto& rule = system_->clocks[event];
   const std::vector<double>& times = system_->times[event];
   if (!rule) {
-    clock.due = clock.occurrences < times.size() ? times[clock.occurrences] : kNever;
+    clock.due = clock.occurrences < times.size() ? times[clock.occurrences] : never;
   } else if (rule->low == rule->high) {
     clock.length = rule->low;
     clock.due = clock.first + static_cast<double>(clock.occurrences) * rule->low;
@@ -344,7 +341,7 @@ void NoiseDraws::draw(std::size_t noise, VectorXd& values) {
 }
 
 double NoiseDraws::next() const {
-  double earliest = kNever;
+  double earliest = never;
   for (std::size_t i = 0; i < times_.size(); ++i)
     if (system_->noise[i].every)
       earliest = std::min(earliest, static_cast<double>(times_[i] + 1) * *system_->noise[i].every);

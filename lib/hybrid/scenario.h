@@ -1,4 +1,4 @@
-// What the runs of an System have in common besides it, and what is drawn in them.
+// What the runs of a System have in common besides it, and what is drawn in them.
 //
 // Every draw is a pure function of (seed, run, what it is for, its number), so that the draws of
 // one event do not depend on how often another one happened:

@@ -23,7 +23,7 @@ StateLayout make_layout(const std::vector<model::Design::State>& states, const s
 
 namespace {
 
-/// The timer stands beside the states.
+/// The timer is behind the states.
 std::optional<Eigen::Index> place_of(const std::string& name, const StateLayout& layout) {
   if (name == layout.timer) return layout.size;
   const auto found = std::find_if(layout.slots.begin(), layout.slots.end(),

@@ -25,7 +25,7 @@ struct StateLayout {
   Eigen::Index size = 0;
   std::string timer;
 
-  /// Whether a name stands for a state or the timer, so that its value changes along a run.
+  /// Whether a name is that of a state or the timer, so that its value changes along a run.
   bool moves(const std::string& name) const;
 };
 
@@ -43,7 +43,7 @@ class PointFunction {
   PointFunction(const expr::Program& program, const StateLayout& layout,
                 const numbers::Values& constants);
 
-  /// The value; it stands until the next call. InputError when an operation has no result.
+  /// The value, valid until the next call. InputError when an operation has no result.
   const numbers::Matrix& operator()(const Eigen::VectorXd& x, double tau) {
     return function_(x, tau);
   }

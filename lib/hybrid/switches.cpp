@@ -38,9 +38,9 @@ std::optional<Switch::Kind> kind_of(const Instruction& instruction, Shape operan
   }
 }
 
-/// What a branching instruction becomes once `held`, the instruction of its H, stands for its
-/// branch. None: H itself.
-std::optional<Instruction> held_form(const Instruction& branch, int held) {
+/// What a branching instruction becomes once `fixed`, the instruction of its H, says which
+/// branch is taken. None: H itself.
+std::optional<Instruction> fixed_form(const Instruction& branch, int fixed) {
   switch (branch.op) {
     case Op::where:
     case Op::maximum:
@@ -49,13 +49,13 @@ std::optional<Instruction> held_form(const Instruction& branch, int held) {
       int a = branch.operands[where ? 1 : 0];
       int b = branch.operands[where ? 2 : 1];
       if (branch.op == Op::minimum) std::swap(a, b);
-      Instruction made = operation(Op::where, {held, a, b}, branch.shape, branch);
+      Instruction made = operation(Op::where, {fixed, a, b}, branch.shape, branch);
       made.attributes = {1};
       return made;
     }
     case Op::abs:
     case Op::norm:
-      return operation(Op::elementwise_product, {branch.operands[0], held}, branch.shape, branch);
+      return operation(Op::elementwise_product, {branch.operands[0], fixed}, branch.shape, branch);
     default:
       return std::nullopt;
   }
@@ -80,8 +80,8 @@ class Rewritten {
     return push(std::move(input));
   }
   std::size_t inputs() const { return made_.inputs.size(); }
-  /// The next instruction of the old program stands here.
-  void stands(int at) { at_.push_back(at); }
+  /// Where the next instruction of the old program is now.
+  void set_next(int at) { at_.push_back(at); }
   Instruction moved(Instruction instruction) const {
     for (int& operand : instruction.operands) operand = (*this)[operand];
     return instruction;
@@ -96,9 +96,9 @@ class Rewritten {
   std::vector<int> at_;
 };
 
-class BranchHolder {
+class BranchFixer {
  public:
-  BranchHolder(const std::function<bool(const std::string&)>& moves, std::vector<Switch>& switches)
+  BranchFixer(const std::function<bool(const std::string&)>& moves, std::vector<Switch>& switches)
       : moves_(moves), switches_(switches) {}
 
   Program rewritten(const Program& program) {
@@ -134,20 +134,20 @@ class BranchHolder {
     return at;
   }
 
-  /// Adds an instruction with operands of the assembly, held where it branches.
+  /// Adds an instruction with operands of the assembly, fixed where it branches.
   int add(Instruction instruction) {
     const bool moving = moves(instruction);
     if (const std::string name = input_of(instruction); !name.empty()) {
-      const int held = add_held(name, instruction);
-      const auto form = held_form(instruction, held);
-      return form ? note(assembly_.add(*form), moves(*form)) : held;
+      const int fixed = add_fixed(name, instruction);
+      const auto form = fixed_form(instruction, fixed);
+      return form ? note(assembly_.add(*form), moves(*form)) : fixed;
     }
-    if (instruction.op == Op::jacobian && moving) hold_body(instruction);
+    if (instruction.op == Op::jacobian && moving) fix_body(instruction);
     return note(assembly_.add(std::move(instruction)), moving);
   }
 
   /// Of the H of a branching instruction.
-  int add_held(const std::string& name, const Instruction& branch) {
+  int add_fixed(const std::string& name, const Instruction& branch) {
     const auto found = std::find_if(switches_.begin(), switches_.end(),
                                     [&](const Switch& one) { return one.input == name; });
     return note(assembly_.add_input(name, found->difference.shape(), branch), false);
@@ -155,38 +155,38 @@ class BranchHolder {
 
   /// Replaces the branches in the body of a jacobian, whose operands are in the assembly: each H is
   /// another operand. What a branch hangs on is computed outside, from the same operands.
-  void hold_body(Instruction& jacobian) {
+  void fix_body(Instruction& jacobian) {
     const Program& body = *jacobian.body;
     Rewritten inner(body);
     std::vector<int> outside;
-    const auto held_inside = [&](const std::string& name, const Instruction& like) {
-      const int held = add_held(name, like);
+    const auto fixed_inside = [&](const std::string& name, const Instruction& like) {
+      const int fixed = add_fixed(name, like);
       const std::size_t inputs = jacobian.operands.size();
-      const int at = inner.push_input(name, assembly_.shape(held), like);
-      if (inner.inputs() > inputs) jacobian.operands.push_back(held);
+      const int at = inner.push_input(name, assembly_.shape(fixed), like);
+      if (inner.inputs() > inputs) jacobian.operands.push_back(fixed);
       return at;
     };
     for (const Instruction& instruction : body.code) {
       if (instruction.op == Op::input) {
         outside.push_back(jacobian.operands[static_cast<std::size_t>(instruction.attributes[0])]);
-        inner.stands(inner.push(instruction));
+        inner.set_next(inner.push(instruction));
         continue;
       }
       Instruction here = inner.moved(instruction);
       Instruction there = moved(instruction, outside);
       if (const std::string name = input_of(there); !name.empty()) {
-        const int held = held_inside(name, instruction);
-        const auto form = held_form(here, held);
-        inner.stands(form ? inner.push(*form) : held);
+        const int fixed = fixed_inside(name, instruction);
+        const auto form = fixed_form(here, fixed);
+        inner.set_next(form ? inner.push(*form) : fixed);
       } else if (instruction.op == Op::jacobian && moves(there)) {
         const std::size_t before = there.operands.size();
-        hold_body(there);
+        fix_body(there);
         here.body = there.body;
         for (std::size_t k = before; k < there.operands.size(); ++k)
-          here.operands.push_back(held_inside(there.body->inputs[k].name, instruction));
-        inner.stands(inner.push(std::move(here)));
+          here.operands.push_back(fixed_inside(there.body->inputs[k].name, instruction));
+        inner.set_next(inner.push(std::move(here)));
       } else {
-        inner.stands(inner.push(std::move(here)));
+        inner.set_next(inner.push(std::move(here)));
       }
       outside.push_back(add(moved(instruction, outside)));
     }
@@ -228,10 +228,10 @@ class BranchHolder {
 
 }  // namespace
 
-expr::Program hold_branches(const expr::Program& program,
-                            const std::function<bool(const std::string&)>& moves,
-                            std::vector<Switch>& switches) {
-  return BranchHolder(moves, switches).rewritten(program);
+expr::Program fix_branches(const expr::Program& program,
+                           const std::function<bool(const std::string&)>& moves,
+                           std::vector<Switch>& switches) {
+  return BranchFixer(moves, switches).rewritten(program);
 }
 
 }  // namespace gainsmith::hybrid

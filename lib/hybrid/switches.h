@@ -1,5 +1,5 @@
-// Internal to hybrid: what has branches in the text of a flow. They are held between borders, so
-// that what is integrated is smooth.
+// What has branches in the text of a flow. They are fixed between zero crossings, so that what is
+// integrated is smooth.
 //
 //   where(D, A, B)  becomes  where(H, A, B),   H = 1 where D > 0 (D >= 0), -1 elsewhere
 //   sign(D)         becomes  H,                H = sign(D)
@@ -7,8 +7,8 @@
 //   max(A, B)       becomes  where(H, A, B),   the same of D = A - B
 //   min(A, B)       becomes  where(H, B, A)
 //
-// H is an input that a run sets; the roots of D are borders. What is inside a jacobian is held by
-// the same H as outside of it.
+// H is an input that a run sets; D is an event function. What is inside a jacobian is fixed
+// by the same H as outside of it.
 #pragma once
 
 #include <functional>
@@ -31,8 +31,8 @@ struct Switch {
 
 /// The program with inputs for the branches that depend on what `moves`; new switches are appended,
 /// those with an equal D serve again.
-expr::Program hold_branches(const expr::Program& program,
-                            const std::function<bool(const std::string&)>& moves,
-                            std::vector<Switch>& switches);
+expr::Program fix_branches(const expr::Program& program,
+                           const std::function<bool(const std::string&)>& moves,
+                           std::vector<Switch>& switches);
 
 }  // namespace gainsmith::hybrid

@@ -4,11 +4,13 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 
 #include "base/number.h"
 #include "bind/stated.h"
 #include "hybrid/affine.h"
 #include "model/dynamics_programs.h"
+#include "hybrid/tolerances.h"
 
 namespace gainsmith::hybrid {
 
@@ -16,8 +18,6 @@ namespace {
 
 using model::Dynamics;
 using Kind = Dynamics::VariableKind;
-
-constexpr std::int64_t kMostPasses = 100000000;
 
 /// Replaces calls in every text of the dynamics that a run evaluates, and sees to it that the texts
 /// use variables and constants only.
@@ -41,18 +41,19 @@ void stack_variables(System& system) {
   system.whole = system.size;
 }
 
-void hold_flows(System& system) {
+void fix_branches_of_flows(System& system) {
   for (const Dynamics::Assignment& one : system.dynamics.flow)
     system.moves[one.variable] = Moves::flows;
   const auto moves = [&](const std::string& name) { return system.is_moving(name); };
   for (Dynamics::Assignment& one : system.dynamics.flow) {
-    expr::Program held = hold_branches(one.value.program, moves, system.switches);
+    expr::Program fixed = fix_branches(one.value.program, moves, system.switches);
     const auto is_branch = [&](const expr::Input& input) {
       return !one.value.program.uses(input.name);
     };
-    const bool holds = std::any_of(held.inputs.begin(), held.inputs.end(), is_branch);
-    system.free_flow.push_back(holds ? std::optional(std::move(one.value.program)) : std::nullopt);
-    one.value.program = std::move(held);
+    const bool branches = std::any_of(fixed.inputs.begin(), fixed.inputs.end(), is_branch);
+    system.free_flow.push_back(branches ? std::optional(std::move(one.value.program))
+                                        : std::nullopt);
+    one.value.program = std::move(fixed);
   }
   for (const Switch& one : system.switches) {
     system.layout.slots.push_back({one.input, one.difference.shape(), system.whole});
@@ -129,12 +130,12 @@ void read_events(System& system) {
 /// fastest.
 std::vector<numbers::Matrix> corners_of(const numbers::Matrix& low, const numbers::Matrix& high,
                                         const Dynamics::Noise& noise) {
-  constexpr std::size_t kMost = 16;
   std::vector<Eigen::Index> free;
   for (Eigen::Index k = 0; k < low.size(); ++k)
     if (low(k) != high(k)) free.push_back(k);
-  if (free.size() > kMost)
-    throw InputError(noise.place, fmt::format("the box of {} has 2^{} corners; at most 2^{} are "
+  constexpr std::size_t bits = std::numeric_limits<std::size_t>::digits;
+  if (free.size() >= bits || std::size_t{1} << free.size() > std::size_t{kMost})
+    throw InputError(noise.place, fmt::format("the box of {} has 2^{} corners; at most {} are "
                                               "taken, otherwise give a list of vertices",
                                               noise.name, free.size(), kMost));
   std::vector<numbers::Matrix> corners;
@@ -171,7 +172,7 @@ System::NoiseValues noise_values(const Dynamics::Noise& noise, const System& sys
 }
 
 void read_noise(System& system) {
-  constexpr std::uint64_t kMostTogether = 1'000'000'000'000'000;
+  constexpr std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
   std::uint64_t stride = 1;
   for (const Dynamics::Noise& noise : system.dynamics.noise) {
     system.noise.push_back(noise_values(noise, system));
@@ -179,13 +180,13 @@ void read_noise(System& system) {
     if (noise.kind != Dynamics::NoiseKind::vertices && noise.kind != Dynamics::NoiseKind::corners)
       continue;
     made.stride = stride;
-    if (made.values.size() > kMostTogether / stride)
-      throw InputError(noise.place, "there are more than 1e15 vertices together");
+    if (made.values.size() > most / stride)
+      throw InputError(noise.place, "there are more than 2^64 vertices together");
     stride *= made.values.size();
   }
 }
 
-/// What a run looks at has to be in the files.
+/// What a run reads has to be in the files.
 void check_measured(const System& system) {
   for (const Dynamics::Measured& one : system.dynamics.measured) {
     const model::Series& series = *one.series;
@@ -210,11 +211,10 @@ void read_passes(System& system) {
   for (const Dynamics::Reaction& reaction : system.dynamics.reactions) {
     std::vector<std::int64_t>& most = system.most_passes.emplace_back();
     for (const Dynamics::Pass& pass : reaction.passes) {
-      most.push_back(pass.repeats ? kMostPasses : 1);
+      most.push_back(pass.repeats ? kMost : 1);
       if (!pass.repeats || !pass.at_most) continue;
       const double number = system.scalar(*pass.at_most);
-      if (!(number >= 0 && number <= static_cast<double>(kMostPasses) &&
-            number == std::floor(number)))
+      if (!(number >= 0 && number <= static_cast<double>(kMost) && number == std::floor(number)))
         throw InputError(pass.at_most->place,
                          "expected a whole number of passes, found " + brief(number, 17));
       most.back() = static_cast<std::int64_t>(number);
@@ -237,8 +237,8 @@ void refuse_equations(const expr::Condition& condition, const System& system) {
   for (const expr::Input& input : condition.difference.inputs)
     if (system.is_moving(input.name))
       throw InputError(condition.place,
-                       fmt::format("'{}' is met in passing, as {} moves along flows: write the "
-                                   "border by <= or >=, or as an event of its own, 'crosses: ...'",
+                       fmt::format("'{}' is met in passing, as {} moves along flows: use <= "
+                                   "or >=, or an event of its own, 'crosses: ...'",
                                    condition.text, input.name));
 }
 
@@ -283,7 +283,7 @@ System make_system(const model::Dynamics& dynamics, numbers::Values constants,
   system.bodies = std::move(bodies);
   stack_variables(system);
   link_texts(system);
-  hold_flows(system);
+  fix_branches_of_flows(system);
   classify_flows(system);
   read_events(system);
   read_noise(system);

@@ -1,7 +1,7 @@
 // Dynamics (model/dynamics.h) with values: what the event-driven simulator runs.
 //
 // All variables are stacked in one vector, in the order of the dynamics, columns of each below each
-// other; behind them stand the branches that the flow holds (switches.h). Inside a flow each
+// other; behind them are the branches that the flow takes (switches.h). Inside a flow each
 // variable does one of three things:
 //
 //   rests    counts, modes, noise, branches, states without a flow
@@ -43,14 +43,14 @@ struct System {
     std::optional<double> every;
   };
 
-  model::Dynamics dynamics;  ///< programs without calls, flows with held branches
+  model::Dynamics dynamics;  ///< programs without calls, flows with fixed branches
   numbers::Values constants;
   model::Bodies bodies;
   StateLayout layout;      ///< the variables, then the branches of the switches
   Eigen::Index size = 0;   ///< of the variables
   Eigen::Index whole = 0;  ///< of variables and branches
   std::vector<Switch> switches;
-  /// By flow: its text as it is, where branches of it are held.
+  /// By flow: its text as it is, where branches of it are fixed.
   std::vector<std::optional<expr::Program>> free_flow;
   std::vector<Moves> moves;                            ///< of each slot of the layout
   bool affine = false;                                 ///< the whole flow
@@ -61,7 +61,7 @@ struct System {
 
   /// The slot of a name, or none.
   std::optional<std::size_t> slot(const std::string& name) const;
-  /// Whether a name stands for what changes within a flow.
+  /// Whether a name is that of what changes within a flow.
   bool is_moving(const std::string& name) const;
   /// "x(2)", "P(1, 2)" or "s".
   std::string element_name(Eigen::Index element) const;
@@ -70,8 +70,8 @@ struct System {
   double scalar(const model::Formula& formula) const { return value(formula)(0, 0); }
 };
 
-/// InputError, at its place, for a text that uses what has no value, a clock that is not 0 <= low
-/// <= high and high > 0, and numbers of passes that are not whole.
+/// InputError, at its place, for a text that uses what has no value and for numbers of passes that
+/// are not whole. The same for a clock that is not 0 <= low <= high and high > 0.
 System make_system(const model::Dynamics& dynamics, numbers::Values constants,
                    model::Bodies bodies);
 

@@ -8,12 +8,10 @@
 #include <variant>
 #include <vector>
 
+#include "hybrid/tolerances.h"
 #include "numbers/matrix.h"
 
 namespace gainsmith::hybrid {
-
-/// A run of which a state leaves [-this, this] has diverged.
-constexpr double kLargestState = 1e150;
 
 /// Why a run ended.
 enum class Ending {
@@ -24,7 +22,7 @@ enum class Ending {
   stuck,        ///< 10^6 jumps without a flow between them
   zeno,         ///< flows that shrink by a steady factor: jumps accumulate
   chattering,   ///< flows ever shorter without such a factor
-  sliding,      ///< at a border of `where` both branches lead back
+  sliding,      ///< both branches of a `where` lead back to its switching surface
   full,         ///< more jumps or steps than a run may keep
   passes,       ///< a loop of a jump whose `until` did not become true
   interrupted,  ///< stopped from outside
@@ -86,16 +84,16 @@ struct JumpPoint {
 };
 
 struct Trajectory {
-  Eigen::VectorXd start;  ///< all variables at t = 0, stacked in the order of the dynamics, columns
-                          ///< of each below each other
+  /// All variables at t = 0, in the order of the dynamics, columns of each below each other.
+  Eigen::VectorXd start;
   std::vector<std::variant<FlowPiece, JumpPoint>> parts;  ///< in order
   double horizon = 0;
   Ending ending = Ending::horizon;
   double end = 0;               ///< its time
   std::string message;          ///< why it ended, with time, place and values; empty at the horizon
   double accumulation = 0;      ///< zeno: the time at which jumps accumulate
-  std::vector<NearTurn> turns;  ///< of a twin (event_run.h), in order
-  std::vector<std::string> notes;  ///< such as a border that came near without being reached
+  std::vector<NearTurn> turns;  ///< of a twin (simulate/simulator.h), in order
+  std::vector<std::string> notes;  ///< such as a condition that came near without being met
 };
 
 }  // namespace gainsmith::hybrid

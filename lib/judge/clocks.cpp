@@ -9,11 +9,11 @@ namespace gainsmith::judge {
 
 namespace {
 
-constexpr double kNever = std::numeric_limits<double>::infinity();
+constexpr double never = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-EventClock::EventClock(const JudgedTexts& texts, std::size_t event, std::vector<double> jumps,
+EventClock::EventClock(const Texts& texts, std::size_t event, std::vector<double> jumps,
                        const Eigen::VectorXd& start, Faults& faults)
     : all_(texts),
       texts_(texts.events[event]),
@@ -44,14 +44,14 @@ double EventClock::left(const Eigen::VectorXd& x) const { return all_.part(x, *l
 
 void EventClock::reset(double t) {
   if (is_given()) {
-    next_ = occurrences_ < texts_.times.size() ? texts_.times[occurrences_] : kNever;
+    next_ = occurrences_ < texts_.times.size() ? texts_.times[occurrences_] : never;
   } else if (base_) {
     next_ = *base_ + static_cast<double>(occurrences_) * texts_.low;
   } else if (left_of_) {
     unseen_ = true;
-    next_ = kNever;
+    next_ = never;
   } else {
-    next_ = done_ < jumps_.size() ? std::max(t, jumps_[done_]) : kNever;
+    next_ = done_ < jumps_.size() ? std::max(t, jumps_[done_]) : never;
   }
 }
 
@@ -62,7 +62,7 @@ void EventClock::check_length(std::size_t part, double t) {
   const double length = t - last_;
   const double rounding = 2 * time_rounding(t, high);
   // With an `if` any number of lengths may lie between two jumps.
-  const double most = conditional_ ? kNever : high + rounding;
+  const double most = conditional_ ? never : high + rounding;
   if (length < low - rounding || length > most)
     faults_.add(part, t, "the length of the clock is not in its range: " + name_, length,
                 length < low ? low : high);

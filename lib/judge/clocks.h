@@ -1,4 +1,4 @@
-// Internal to the judge (trajectory_judge.h): when the events `every` and `at` are due.
+// Internal to the judge (judge.h): when the events `every` and `at` are due.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,12 +13,12 @@
 namespace gainsmith::judge {
 
 /// The occurrences of one event. The next one is known for times that are given, for clocks of one
-/// length, and where the run records what is left of the clock; else it is the next jump of the
+/// length, and where the run records what is left of the clock. Otherwise it is the next jump of the
 /// event, and its distance from the last one must be a length.
 class EventClock {
  public:
   /// `jumps`: the times of the event's jumps in the trajectory.
-  EventClock(const JudgedTexts& texts, std::size_t event, std::vector<double> jumps,
+  EventClock(const Texts& texts, std::size_t event, std::vector<double> jumps,
              const Eigen::VectorXd& start, Faults& faults);
 
   /// Infinite: none any more.
@@ -40,7 +40,7 @@ class EventClock {
   void check_length(std::size_t part, double t);
   double left(const Eigen::VectorXd& x) const;
 
-  const JudgedTexts& all_;
+  const Texts& all_;
   const EventTexts& texts_;
   model::Dynamics::EventKind kind_;
   std::string name_;

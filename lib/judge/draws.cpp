@@ -6,6 +6,8 @@
 #include <numbers>
 
 #include "base/random.h"
+#include "judge/tolerances.h"
+#include "ode/tolerances.h"
 
 namespace gainsmith::judge {
 
@@ -18,18 +20,15 @@ using model::Dynamics;
 using model::LawKind;
 using V = Dynamics::VariableKind;
 
-constexpr std::uint32_t kOfStart = 1, kOfFirst = 2, kOfLength = 3, kOfLosses = 4, kOfNoise = 5;
-/// Of the value: another order of the same operations.
-constexpr double kOfValue = 1e-13;
-/// Of the time: occurrences that are one instant; of the horizon: those that are due at it.
-constexpr double kOneInstant = 2e-14;
-constexpr double kNearHorizon = 2e-12;
-/// Drawings that `if` may have spent between two parts of a run.
-constexpr int kMostSpent = 100000;
+/// Of the streams.
+enum : std::uint32_t { of_start = 1, of_first, of_length, of_losses, of_noise };
+/// What the run may round twice: of the time, and of the horizon.
+constexpr double one_instant = 2 * hybrid::kOneInstant;
+constexpr double near_horizon = 2 * hybrid::kAddedUp;
 
 class Draws {
  public:
-  Draws(JudgedTexts& texts, const hybrid::Trajectory& run, const DrawnFrom& from, Faults& faults)
+  Draws(Texts& texts, const hybrid::Trajectory& run, const DrawnFrom& from, Faults& faults)
       : texts_(texts), run_(run), from_(from), faults_(faults) {}
 
   void check() {
@@ -63,7 +62,7 @@ class Draws {
     const VectorXd wanted = start_value(v, *start);
     const VectorXd here = texts_.part(run_.start, v);
     faults_.check(0, 0, "starts where it is not drawn: " + texts_.layout.slots[v].name,
-                  (here - wanted).cwiseAbs().maxCoeff(), kOfValue * wanted.cwiseAbs().maxCoeff());
+                  (here - wanted).cwiseAbs().maxCoeff(), kRounding * wanted.cwiseAbs().maxCoeff());
   }
 
   VectorXd start_value(std::size_t v, const Design::Start& start) const {
@@ -83,7 +82,7 @@ class Draws {
       return end.size() == 1 ? end(0, 0) : end(i, j);
     };
     const bool symmetric = texts_.dynamics.variables[v].structure == model::Structure::symmetric;
-    const RandomStream random = stream(kOfStart, v);
+    const RandomStream random = stream(of_start, v);
     numbers::Matrix value(shape.rows, shape.cols);
     std::uint64_t draw = 0;
     for (Index j = 0; j < shape.cols; ++j)
@@ -98,7 +97,7 @@ class Draws {
   VectorXd in_ellipsoid(std::size_t v, const Design::Start& start) const {
     const numbers::Matrix Q = texts_.constant(start.values[1]);
     const double level = texts_.constant(start.values[2])(0, 0);
-    const RandomStream random = stream(kOfStart, v);
+    const RandomStream random = stream(of_start, v);
     const Index n = Q.rows();
     VectorXd b(n);
     for (Index k = 0; k < n; ++k) {
@@ -146,7 +145,7 @@ class Draws {
     const auto given = [&](std::uint64_t at) {
       return texts_.constant(law->values[at % law->values.size()])(0, 0);
     };
-    const auto u = [&] { return stream(kOfLength, event).uniform_at(k); };
+    const auto u = [&] { return stream(of_length, event).uniform_at(k); };
     switch (kind) {
       case LawKind::uniform:
         return low + (high - low) * u();
@@ -172,7 +171,7 @@ class Draws {
     const Dynamics::Event& one = texts_.dynamics.events[event];
     const EventTexts& texts = texts_.events[event];
     const bool fixed = texts.low == texts.high;
-    const double last = run_.end * (1 + kNearHorizon);
+    const double last = run_.end * (1 + near_horizon);
     std::uint64_t lengths = 0;
     double due = 0;
     if (!fixed && from_.campaign->first) {
@@ -180,7 +179,7 @@ class Draws {
     } else if (one.first_low) {
       due = texts.first_low;
       if (texts.first_low != texts.first_high)
-        due += (texts.first_high - texts.first_low) * stream(kOfFirst, event).uniform_at(0);
+        due += (texts.first_high - texts.first_low) * stream(of_first, event).uniform_at(0);
     } else {
       due = fixed ? texts.low : length(event, lengths++, 0);
     }
@@ -196,8 +195,8 @@ class Draws {
 
   /// Of a sum of lengths.
   double slack(std::size_t lengths, double t) const {
-    const double rounding = kOneInstant * t + static_cast<double>(lengths) * time_rounding(t, 0);
-    return t >= run_.horizon ? std::max(rounding, kNearHorizon * t) : rounding;
+    const double rounding = one_instant * t + static_cast<double>(lengths) * time_rounding(t, 0);
+    return t >= run_.horizon ? std::max(rounding, near_horizon * t) : rounding;
   }
 
   void check_clock(std::size_t event) {
@@ -224,7 +223,7 @@ class Draws {
 
   void check_losses(std::size_t event) {
     const Dynamics::Event& one = texts_.dynamics.events[event];
-    const RandomStream random = stream(kOfLosses, event);
+    const RandomStream random = stream(of_losses, event);
     std::uint64_t number = 0;
     int row = 0;
     for (std::size_t k = 0; k < run_.parts.size(); ++k) {
@@ -287,7 +286,7 @@ class Draws {
   VectorXd noise_value(std::size_t noise, std::uint64_t drawing) const {
     const Dynamics::Noise& one = texts_.dynamics.noise[noise];
     if (is_taken(one)) return taken(noise);
-    const RandomStream random = stream(kOfNoise, noise);
+    const RandomStream random = stream(of_noise, noise);
     const auto size = static_cast<std::uint64_t>(one.shape.size());
     const bool is_normal = one.kind == Dynamics::NoiseKind::normal;
     const numbers::Matrix first = texts_.constant(one.values[0]);
@@ -313,7 +312,7 @@ class Draws {
     const VectorXd wanted = noise_value(texts_.dynamics.variables[v].of, drawing);
     const VectorXd here = texts_.part(x, v);
     return wanted.size() == 0 ||
-           (here - wanted).cwiseAbs().maxCoeff() <= kOfValue * wanted.cwiseAbs().maxCoeff();
+           (here - wanted).cwiseAbs().maxCoeff() <= kRounding * wanted.cwiseAbs().maxCoeff();
   }
 
   void check_noise(std::size_t v) {
@@ -323,29 +322,30 @@ class Draws {
     const auto& every = texts_.noise[noise].every;
     std::uint64_t drawing = 0;
     bool wrong = false;
-    const auto look = [&](std::size_t part, double t, const VectorXd& x, bool drawn) {
+    const auto check_at = [&](std::size_t part, double t, const VectorXd& x, bool drawn) {
       if (wrong) return;
-      if (every) drawing = static_cast<std::uint64_t>(std::floor(t / *every * (1 + 1e-12)));
+      if (every)
+        drawing = static_cast<std::uint64_t>(std::floor(t / *every * (1 + hybrid::kAddedUp)));
       if (drawn) ++drawing;
-      for (int more = 0; spent && more < kMostSpent && !is_drawing(v, drawing, x); ++more)
+      for (int more = 0; spent && more < ode::kPatience && !is_drawing(v, drawing, x); ++more)
         ++drawing;
       wrong = !is_drawing(v, drawing, x);
       if (wrong) faults_.add(part, t, "noise that is not drawn so: " + texts_.layout.slots[v].name);
     };
-    look(0, 0, run_.start, false);
+    check_at(0, 0, run_.start, false);
     for (std::size_t k = 0; k < run_.parts.size(); ++k) {
       if (const auto* jump = std::get_if<hybrid::JumpPoint>(&run_.parts[k])) {
-        look(k, jump->t, jump->before, event && *event == jump->event);
+        check_at(k, jump->t, jump->before, event && *event == jump->event);
         continue;
       }
       const auto& piece = std::get<hybrid::FlowPiece>(run_.parts[k]);
-      look(k, piece.from(), piece.start, false);
+      check_at(k, piece.from(), piece.start, false);
       for (const hybrid::DenseStep& step : piece.steps)
-        if (every || spent) look(k, step.from, step(step.from), false);
+        if (every || spent) check_at(k, step.from, step(step.from), false);
     }
   }
 
-  JudgedTexts& texts_;
+  Texts& texts_;
   const hybrid::Trajectory& run_;
   const DrawnFrom& from_;
   Faults& faults_;
@@ -353,7 +353,7 @@ class Draws {
 
 }  // namespace
 
-void check_draws(JudgedTexts& texts, const hybrid::Trajectory& trajectory, const DrawnFrom& from,
+void check_draws(Texts& texts, const hybrid::Trajectory& trajectory, const DrawnFrom& from,
                  Faults& faults) {
   Draws(texts, trajectory, from, faults).check();
 }

@@ -1,10 +1,9 @@
-// Internal to the judge (trajectory_judge.h): what a run draws, drawn again from the definition of
-// the streams.
+// Internal to the judge (judge.h): what a run draws, drawn again from the definition of the
+// streams.
 //
-//   u(p, i, k)   draw k of the stream with the key Philox4x32-10 of (p, i, 0, 0) under the seed,
-//   and
-//                the number of the run; p = 1 start, 2 first, 3 length, 4 lost, 5 noise, and i the
-//                variable, event or noise
+//   u(p, i, k)   draw k of the stream of the run whose key is Philox4x32-10 of (p, i, 0, 0) under
+//                the seed; p = 1 start, 2 first, 3 length, 4 lost, 5 noise; i: the variable, event
+//                or noise
 //   start        box: low + (high - low) u, one draw an element, of symmetric states of the lower
 //                triangle; list: element `run` modulo their number
 //   first        low + (high - low) u
@@ -22,7 +21,7 @@
 
 namespace gainsmith::judge {
 
-void check_draws(JudgedTexts& texts, const hybrid::Trajectory& trajectory, const DrawnFrom& from,
+void check_draws(Texts& texts, const hybrid::Trajectory& trajectory, const DrawnFrom& from,
                  Faults& faults);
 
 }  // namespace gainsmith::judge

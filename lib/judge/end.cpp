@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 #include <variant>
 #include <vector>
@@ -9,19 +10,15 @@
 #include "expr/number_type.h"
 #include "judge/flow.h"
 #include "judge/jump.h"
+#include "ode/tolerances.h"
 
 namespace gainsmith::judge {
 
 namespace {
 
-constexpr double kLarge = 1e6;         ///< times the start: has escaped
-constexpr double kAtOnce = 1e-9;       ///< of a time
-constexpr std::size_t kLengths = 4;    ///< that must shrink by one factor
-constexpr double kSteady = 0.02;       ///< a factor may change by that
-constexpr double kOfRest = 0.25;       ///< how far an accumulation may be off
-constexpr double kSmallSteady = 3e-3;  ///< of 1 - factor: what small factors may change by
-constexpr std::size_t kShort = 8;      ///< flows of a chattering run
-constexpr double kShortLength = 1e-3;  ///< of the time until then
+using hybrid::kFewestRatios;
+using hybrid::kHardly;
+using hybrid::kSteady;
 
 /// The lengths of the flows between jumps, in order.
 std::vector<double> flow_lengths(const hybrid::Trajectory& trajectory) {
@@ -48,8 +45,8 @@ std::int64_t last_chain(const hybrid::Trajectory& trajectory) {
   return jumps;
 }
 
-/// Whether every text has a value at x: flows, conditions, borders, reactions.
-bool has_values(JudgedTexts& texts, const Eigen::VectorXd& x) {
+/// Whether every text has a value at x: flows, conditions, event functions, reactions.
+bool has_values(Texts& texts, const Eigen::VectorXd& x) {
   try {
     Eigen::VectorXd rate;
     texts.rate(x, rate);
@@ -69,7 +66,7 @@ bool has_values(JudgedTexts& texts, const Eigen::VectorXd& x) {
 }
 
 /// Where the flow leads from x in dt, to first order; x where it has no rate.
-Eigen::VectorXd ahead(JudgedTexts& texts, const Eigen::VectorXd& x, double dt) {
+Eigen::VectorXd ahead(Texts& texts, const Eigen::VectorXd& x, double dt) {
   Eigen::VectorXd rate;
   try {
     texts.rate(x, rate);
@@ -79,61 +76,58 @@ Eigen::VectorXd ahead(JudgedTexts& texts, const Eigen::VectorXd& x, double dt) {
   return x + dt * rate;
 }
 
-bool is_undefined(JudgedTexts& texts, double t, const Eigen::VectorXd& x) {
+bool is_undefined(Texts& texts, double t, const Eigen::VectorXd& x) {
   const double scale = std::max(1.0, std::abs(t));
   for (const double share : {0.0, 1e-15, 1e-13, 1e-11, 1e-9, 1e-7})
     if (!has_values(texts, ahead(texts, x, share * scale))) return true;
   return false;
 }
 
-bool has_escaped(JudgedTexts& texts, const hybrid::Trajectory& trajectory,
-                 const Eigen::VectorXd& x) {
+bool has_escaped(Texts& texts, const hybrid::Trajectory& trajectory, const Eigen::VectorXd& x) {
   if (!x.allFinite() || x.size() == 0) return true;
   const double start = trajectory.start.cwiseAbs().maxCoeff();
-  if (x.cwiseAbs().maxCoeff() >= kLarge * (1 + start)) return true;
+  if (x.cwiseAbs().maxCoeff() >= ode::kEscape * (1 + start)) return true;
   Eigen::VectorXd rate;
   try {
     texts.rate(x, rate);
   } catch (const expr::EvaluationError&) {
     return true;
   }
-  const double time = std::max(trajectory.end, 1e-300);
-  return (rate.cwiseAbs().array() * kAtOnce * time >= x.cwiseAbs().array() + 1e-300).any() &&
-         rate.cwiseAbs().maxCoeff() * kAtOnce * time >= x.cwiseAbs().maxCoeff();
+  constexpr double least = std::numeric_limits<double>::min();
+  const double time = std::max(trajectory.end, least);
+  return (rate.cwiseAbs().array() * kHardly * time >= x.cwiseAbs().array() + least).any() &&
+         rate.cwiseAbs().maxCoeff() * kHardly * time >= x.cwiseAbs().maxCoeff();
 }
 
 bool is_zeno(const hybrid::Trajectory& trajectory) {
   const std::vector<double> lengths = flow_lengths(trajectory);
-  if (lengths.size() < kLengths + 1) return false;
+  if (lengths.size() < kFewestRatios + 1) return false;
   std::vector<double> factors;
-  for (std::size_t k = lengths.size() - kLengths; k < lengths.size(); ++k)
+  for (std::size_t k = lengths.size() - kFewestRatios; k < lengths.size(); ++k)
     factors.push_back(lengths[k] / lengths[k - 1]);
   const auto [least, most] = std::minmax_element(factors.begin(), factors.end());
-  const double steady = std::max(kSteady * *most, kSmallSteady * (1 - *most));
-  if (!(*most < 1 && *most - *least <= steady)) return false;
+  if (!(*most < 1 && *most - *least <= kSteady * (1 - *most))) return false;
   const double rest = factors.back() / (1 - factors.back()) * lengths.back();
   return std::abs(trajectory.accumulation - trajectory.end - rest) <=
-         kOfRest * rest + time_rounding(trajectory.end, trajectory.accumulation);
+         2 * kSteady * rest + time_rounding(trajectory.end, trajectory.accumulation);
 }
 
 bool is_chattering(const hybrid::Trajectory& trajectory) {
   const std::vector<double> lengths = flow_lengths(trajectory);
-  if (lengths.size() < kShort) return false;
-  return std::all_of(lengths.end() - static_cast<std::ptrdiff_t>(kShort), lengths.end(),
-                     [&](double length) {
-                       return length <= kShortLength * std::max(trajectory.end, lengths.front());
-                     });
+  if (lengths.size() < hybrid::kAtOnce) return false;
+  return std::all_of(lengths.end() - static_cast<std::ptrdiff_t>(hybrid::kAtOnce), lengths.end(),
+                     [&](double length) { return length <= kHardly * trajectory.horizon; });
 }
 
-bool is_sliding(JudgedTexts& texts, double t, const Eigen::VectorXd& x) {
-  const double dt = kAtOnce * std::max(1.0, std::abs(t));
+bool is_sliding(Texts& texts, double t, const Eigen::VectorXd& x) {
+  const double dt = kHardly * std::max(1.0, std::abs(t));
   Eigen::VectorXd here, there;
   try {
     texts.rate(x, here);
     for (const double side : {-1.0, 1.0}) {
       texts.rate(x + side * dt * here, there);
       const double size = std::max(here.cwiseAbs().maxCoeff(), there.cwiseAbs().maxCoeff());
-      if ((there - here).cwiseAbs().maxCoeff() > 1e-3 * size) return true;
+      if ((there - here).cwiseAbs().maxCoeff() > kSteady * size) return true;
     }
   } catch (const expr::EvaluationError&) {
     return false;
@@ -141,21 +135,20 @@ bool is_sliding(JudgedTexts& texts, double t, const Eigen::VectorXd& x) {
   return false;
 }
 
-bool exhausts_a_loop(JudgedTexts& texts, const Eigen::VectorXd& x) {
+bool exhausts_a_loop(Texts& texts, const Eigen::VectorXd& x) {
   for (std::size_t e = 0; e < texts.events.size(); ++e)
     if (jump_values(texts, e, false, x).exhausted) return true;
   return false;
 }
 
-bool is_outside(JudgedTexts& texts, double t, const Eigen::VectorXd& x) {
+bool is_outside(Texts& texts, double t, const Eigen::VectorXd& x) {
   const Eigen::VectorXd rounding = rounding_at(texts, t, x, texts.by_variable(x.cwiseAbs()));
   return std::any_of(texts.flow_sets.begin(), texts.flow_sets.end(), [&](FlowSetText& flow_set) {
     return flow_set.left(x) || flow_set.left.truth(x, rounding) != Truth::no;
   });
 }
 
-bool has_its_cause(JudgedTexts& texts, const hybrid::Trajectory& trajectory,
-                   const Eigen::VectorXd& x) {
+bool has_its_cause(Texts& texts, const hybrid::Trajectory& trajectory, const Eigen::VectorXd& x) {
   const double t = trajectory.end;
   switch (trajectory.ending) {
     case hybrid::Ending::horizon:
@@ -186,7 +179,7 @@ bool has_its_cause(JudgedTexts& texts, const hybrid::Trajectory& trajectory,
 
 }  // namespace
 
-void check_end(JudgedTexts& texts, const hybrid::Trajectory& trajectory, const Eigen::VectorXd& x,
+void check_end(Texts& texts, const hybrid::Trajectory& trajectory, const Eigen::VectorXd& x,
                Faults& faults) {
   const std::size_t part = trajectory.parts.size();
   const double t = trajectory.end;

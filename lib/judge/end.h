@@ -1,4 +1,4 @@
-// Internal to the judge (trajectory_judge.h): whether the end of a run has the cause that it names.
+// Internal to the judge (judge.h): whether the end of a run has the cause that it names.
 //
 //   horizon      the horizon is the last time
 //   left         a condition under `while` is false there
@@ -21,7 +21,7 @@
 namespace gainsmith::judge {
 
 /// `x`: the last values.
-void check_end(JudgedTexts& texts, const hybrid::Trajectory& trajectory, const Eigen::VectorXd& x,
+void check_end(Texts& texts, const hybrid::Trajectory& trajectory, const Eigen::VectorXd& x,
                Faults& faults);
 
 }  // namespace gainsmith::judge

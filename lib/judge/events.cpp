@@ -13,9 +13,6 @@ namespace {
 using EventKind = model::Dynamics::EventKind;
 using V = model::Dynamics::VariableKind;
 
-/// Of the horizon: what is due so soon after it may belong to it.
-constexpr double kAtHorizon = 1e-12;
-
 std::vector<double> jump_times(const hybrid::Trajectory& trajectory, std::size_t event) {
   std::vector<double> times;
   for (const auto& part : trajectory.parts)
@@ -27,46 +24,35 @@ std::vector<double> jump_times(const hybrid::Trajectory& trajectory, std::size_t
 
 }  // namespace
 
-JudgedEvents::JudgedEvents(JudgedTexts& texts, const hybrid::Trajectory& trajectory, Faults& faults)
-    : texts_(texts), faults_(faults), horizon_(trajectory.horizon), memory_(texts.events.size()) {
+EventCheck::EventCheck(Texts& texts, const hybrid::Trajectory& trajectory, Faults& faults)
+    : texts_(texts),
+      faults_(faults),
+      horizon_(trajectory.horizon),
+      memory_(texts.events.size()),
+      inside_(texts, memory_, faults) {
   const Eigen::VectorXd rounding =
       rounding_at(texts, 0, trajectory.start, texts.by_variable(trajectory.start.cwiseAbs()));
   for (std::size_t e = 0; e < memory_.size(); ++e) {
     const EventKind kind = texts.dynamics.events[e].kind;
     if (kind == EventKind::every || kind == EventKind::at)
       memory_[e].clock.emplace(texts, e, jump_times(trajectory, e), trajectory.start, faults);
-    if (is_border(e)) remember_side(e, trajectory.start, rounding);
+    if (has_crossing(e)) remember_side(e, trajectory.start, rounding);
   }
 }
 
-bool JudgedEvents::fires(std::size_t event, int from, int to) const {
-  const EventKind kind = texts_.dynamics.events[event].kind;
-  if (kind == EventKind::rises) return from < 0 && to > 0;
-  if (kind == EventKind::falls) return from > 0 && to < 0;
-  return from * to < 0;
-}
-
-int JudgedEvents::side(std::size_t event, const Eigen::VectorXd& x,
-                       const Eigen::VectorXd& rounding) {
-  Text& crossing = *texts_.events[event].crossing;
-  const double value = crossing(x)(0, 0);
-  const double spread = crossing.spread(x, rounding)(0, 0);
-  if (std::abs(value) <= spread) return 0;
-  return value > 0 ? 1 : -1;
-}
-
-void JudgedEvents::remember_side(std::size_t event, const Eigen::VectorXd& x,
-                                 const Eigen::VectorXd& rounding) {
-  if (const int now = side(event, x, rounding); now != 0) memory_[event].side = now;
-}
-
-Truth JudgedEvents::without_if(std::size_t event, double t, const Eigen::VectorXd& x,
+void EventCheck::remember_side(std::size_t event, const Eigen::VectorXd& x,
                                const Eigen::VectorXd& rounding) {
+  if (const int now = side_of(*texts_.events[event].crossing, x, rounding); now != 0)
+    memory_[event].side = now;
+}
+
+Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd& x,
+                             const Eigen::VectorXd& rounding) {
   EventTexts& texts = texts_.events[event];
-  const Memory& memory = memory_[event];
+  const EventMemory& memory = memory_[event];
   if (memory.clock) {
     if (t >= memory.clock->next()) return Truth::yes;
-    const double early = t == horizon_ ? kAtHorizon * horizon_ : 0;
+    const double early = t == horizon_ ? hybrid::kAddedUp * horizon_ : 0;
     const bool near = same_time(t, memory.clock->next()) || memory.clock->next() - t <= early;
     return near ? Truth::unsure : Truth::no;
   }
@@ -75,14 +61,15 @@ Truth JudgedEvents::without_if(std::size_t event, double t, const Eigen::VectorX
     return texts.condition->truth(x, rounding) == Truth::no ? Truth::no : Truth::unsure;
   }
   const double value = (*texts.crossing)(x)(0, 0);
-  if (fires(event, memory.side, value > 0 ? 1 : value < 0 ? -1 : 0)) return Truth::yes;
-  // Just before the border: the run may have stopped there by rounding.
-  const bool near = side(event, x, rounding) == 0;
-  return near && fires(event, memory.side, -memory.side) ? Truth::unsure : Truth::no;
+  const EventKind kind = texts_.dynamics.events[event].kind;
+  if (fires(kind, memory.side, value > 0 ? 1 : value < 0 ? -1 : 0)) return Truth::yes;
+  // Just before zero: the run may have stopped there by rounding.
+  const bool near = side_of(*texts_.events[event].crossing, x, rounding) == 0;
+  return near && fires(kind, memory.side, -memory.side) ? Truth::unsure : Truth::no;
 }
 
-Truth JudgedEvents::due(std::size_t event, double t, const Eigen::VectorXd& x,
-                        const Eigen::VectorXd& rounding) {
+Truth EventCheck::due(std::size_t event, double t, const Eigen::VectorXd& x,
+                      const Eigen::VectorXd& rounding) {
   const Truth occurs = without_if(event, t, x, rounding);
   auto& only_if = texts_.events[event].only_if;
   if (occurs == Truth::no || !only_if) return occurs;
@@ -90,8 +77,8 @@ Truth JudgedEvents::due(std::size_t event, double t, const Eigen::VectorXd& x,
   return only_if->truth(x, rounding) == Truth::no ? Truth::no : Truth::unsure;
 }
 
-void JudgedEvents::look(std::size_t part, double t, const Eigen::VectorXd& x,
-                        std::optional<std::size_t> event) {
+void EventCheck::instant(std::size_t part, double t, const Eigen::VectorXd& x,
+                         std::optional<std::size_t> event) {
   const Eigen::VectorXd rounding = rounding_at(texts_, t, x, texts_.by_variable(x.cwiseAbs()));
   for (std::size_t e = 0; e < memory_.size(); ++e) {
     const std::string& name = texts_.dynamics.events[e].name;
@@ -106,19 +93,19 @@ void JudgedEvents::look(std::size_t part, double t, const Eigen::VectorXd& x,
           "is due before " + texts_.dynamics.events[*event].name + ", which jumps: " + name);
     else if (is_due == Truth::yes)
       faults_.add(part, t, "is due, but does not jump: " + name);
-    Memory& memory = memory_[e];
+    EventMemory& memory = memory_[e];
     const bool is_spent = is_due == Truth::no && without_if(e, t, x, rounding) == Truth::yes;
     if (is_spent && memory.clock) memory.clock->spent(t);
     if (auto& condition = texts_.events[e].condition)
       memory.spent = (*condition)(x) && (memory.spent || is_spent);
-    if (is_border(e) && (is_due == Truth::no || is_due == Truth::yes))
+    if (has_crossing(e) && (is_due == Truth::no || is_due == Truth::yes))
       remember_side(e, x, rounding);
   }
 }
 
-void JudgedEvents::jumped(std::size_t part, const hybrid::JumpPoint& jump) {
+void EventCheck::jumped(std::size_t part, const hybrid::JumpPoint& jump) {
   const model::Dynamics::Event& event = texts_.dynamics.events[jump.event];
-  Memory& memory = memory_[jump.event];
+  EventMemory& memory = memory_[jump.event];
   ++jumps_;
   ++memory.count;
   memory.last = jump.t;
@@ -131,7 +118,7 @@ void JudgedEvents::jumped(std::size_t part, const hybrid::JumpPoint& jump) {
     faults_.add(part, jump.t, "is lost more often in a row than may be: " + event.name,
                 memory.lost_in_a_row, *event.lost_in_a_row);
   if (memory.clock) memory.clock->jumped(part, jump.t, jump.after);
-  if (is_border(jump.event)) {
+  if (has_crossing(jump.event)) {
     memory.side = 0;
     remember_side(
         jump.event, jump.after,
@@ -140,33 +127,19 @@ void JudgedEvents::jumped(std::size_t part, const hybrid::JumpPoint& jump) {
   check_numbers(part, jump.t, jump.after);
 }
 
-void JudgedEvents::flow(std::size_t part, const hybrid::FlowPiece& piece) {
-  part_ = part;
-  for (std::size_t e = 0; e < memory_.size(); ++e) {
-    if (!memory_[e].clock) continue;
-    memory_[e].clock->flow(part, piece.from(), piece.start);
-    watch_clock(piece, e);
-  }
-  const std::vector<Sample> all = samples(piece);
-  for (std::size_t e = 0; e < memory_.size(); ++e) {
-    EventTexts& texts = texts_.events[e];
-    const std::string& name = texts_.dynamics.events[e].name;
-    if (texts.condition)
-      watch_condition(piece, all, *texts.condition, e, "becomes due inside a flow: " + name);
-    if (texts.crossing) watch_border(piece, all, e);
-  }
-  for (FlowSetText& flow_set : texts_.flow_sets)
-    watch_condition(piece, all, flow_set.left, std::nullopt,
-                    "a flow leaves where it may be: " + flow_set.say);
+void EventCheck::flow(std::size_t part, const hybrid::FlowPiece& piece) {
+  for (EventMemory& memory : memory_)
+    if (memory.clock) memory.clock->flow(part, piece.from(), piece.start);
+  inside_(part, piece);
   check_numbers(part, piece.to(), piece.end);
 }
 
-void JudgedEvents::end(std::size_t part, double t) {
-  for (Memory& memory : memory_)
+void EventCheck::end(std::size_t part, double t) {
+  for (EventMemory& memory : memory_)
     if (memory.clock) memory.clock->end(part, t);
 }
 
-void JudgedEvents::check_numbers(std::size_t part, double t, const Eigen::VectorXd& x) {
+void EventCheck::check_numbers(std::size_t part, double t, const Eigen::VectorXd& x) {
   const auto& variables = texts_.dynamics.variables;
   for (std::size_t v = 0; v < variables.size(); ++v) {
     double expected = 0;
@@ -187,7 +160,7 @@ void JudgedEvents::check_numbers(std::size_t part, double t, const Eigen::Vector
     faults_.check(part, t, "has another value: " + variables[v].name,
                   std::abs(texts_.part(x, v)(0) - expected), allowed);
   }
-  for (Memory& memory : memory_)
+  for (EventMemory& memory : memory_)
     if (memory.clock) memory.clock->check_left(part, t, x);
 }
 

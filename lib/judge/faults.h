@@ -1,6 +1,7 @@
-// Internal to the judge (trajectory_judge.h): what was found, and sizes of rounding.
+// Internal to the judge (judge.h): what was found, and sizes of rounding.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "hybrid/tolerances.h"
 #include "judge/judge.h"
 
 namespace gainsmith::judge {
@@ -39,14 +41,17 @@ class Faults {
   std::map<std::pair<std::size_t, std::string>, Fault> worst_;
 };
 
-/// Of sums of a few times: eight units in the last place.
+/// Of sums of a few times.
 inline double time_rounding(double a, double b) {
   // Below the smallest normal number digits are lost.
-  return 8 * std::numeric_limits<double>::epsilon() * std::max(std::abs(a), std::abs(b)) +
+  return hybrid::kTermRounding * std::max(std::abs(a), std::abs(b)) +
          std::numeric_limits<double>::min();
 }
 
 /// Whether rounding may have made two times of one, such as sums of lengths.
-inline bool same_time(double a, double b) { return std::abs(a - b) <= 8 * time_rounding(a, b); }
+inline bool same_time(double a, double b) {
+  return std::abs(a - b) <=
+         2 * hybrid::kOneInstant * std::max(std::abs(a), std::abs(b)) + time_rounding(a, b);
+}
 
 }  // namespace gainsmith::judge

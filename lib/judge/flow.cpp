@@ -5,6 +5,7 @@
 
 #include "expr/number_type.h"
 #include "judge/measured.h"
+#include "judge/tolerances.h"
 
 namespace gainsmith::judge {
 
@@ -12,21 +13,18 @@ namespace {
 
 using V = model::Dynamics::VariableKind;
 
-constexpr double kRounding = 1e-13;
-constexpr double kRoundingOfAccuracy = 1e-4;
-constexpr double kJoint = 1e-12;  ///< between a sum of polynomials and a recorded value
-constexpr double kFactor = 100;   ///< of the accuracy
-constexpr int kInner = 16;        ///< points in a step
+/// Points of a step at which what rests is checked.
+constexpr int inner_points = 16;
 
 bool is_clock(V kind) { return kind == V::time || kind == V::since || kind == V::left; }
 
 }  // namespace
 
-Eigen::VectorXd step_sizes(const JudgedTexts& texts, const hybrid::DenseStep& step) {
+Eigen::VectorXd step_sizes(const Texts& texts, const hybrid::DenseStep& step) {
   return texts.by_variable(step.coefficients.cwiseAbs().rowwise().sum());
 }
 
-Eigen::VectorXd time_rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x) {
+Eigen::VectorXd time_rounding_at(Texts& texts, double t, const Eigen::VectorXd& x) {
   Eigen::VectorXd rate;
   try {
     texts.rate(x, rate);
@@ -36,9 +34,9 @@ Eigen::VectorXd time_rounding_at(JudgedTexts& texts, double t, const Eigen::Vect
   return time_rounding(t, t) * rate.cwiseAbs();
 }
 
-Eigen::VectorXd rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x,
+Eigen::VectorXd rounding_at(Texts& texts, double t, const Eigen::VectorXd& x,
                             const Eigen::VectorXd& sizes) {
-  Eigen::VectorXd result = kRounding * sizes + kRoundingOfAccuracy * texts.accuracy(sizes) +
+  Eigen::VectorXd result = kRounding * sizes + hybrid::kOfAccuracy * texts.accuracy(sizes) +
                            time_rounding_at(texts, t, x);
   const std::vector<bool> flowing = texts.flowing(x);
   for (std::size_t v = 0; v < flowing.size(); ++v)
@@ -56,7 +54,7 @@ Eigen::VectorXd shift_of(const hybrid::DenseStep& step) {
   return std::min(part, 1.0) * swing;
 }
 
-FlowCheck::FlowCheck(JudgedTexts& texts, Faults& faults)
+FlowCheck::FlowCheck(Texts& texts, Faults& faults)
     : texts_(texts), faults_(faults), moving_{{}, Eigen::VectorXd::Zero(texts.layout.size)} {
   for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v)
     if (is_clock(texts.dynamics.variables[v].kind))
@@ -94,7 +92,7 @@ void FlowCheck::operator()(std::size_t part, const hybrid::FlowPiece& piece) {
   check_joint(x, piece.to(), piece.end, largest, false, Eigen::VectorXd::Zero(texts_.layout.size));
   const double steps = static_cast<double>(piece.steps.size());
   report(piece.to(), "a flow drifts away from its text", sum.cwiseAbs(),
-         (kFactor + 10 * steps) * texts_.accuracy(largest) +
+         kFactor * (1 + kCertain * steps) * texts_.accuracy(largest) +
              time_rounding_at(texts_, piece.to(), piece.end));
 }
 
@@ -111,7 +109,7 @@ void FlowCheck::check_joint(const Eigen::VectorXd& x, double t, const Eigen::Vec
         texts_.part(difference, v).setZero();
     }
   report(t, "the steps of a flow do not join", difference,
-         kJoint * sizes + kRoundingOfAccuracy * texts_.accuracy(sizes) +
+         hybrid::kAddedUp * sizes + hybrid::kOfAccuracy * texts_.accuracy(sizes) +
              time_rounding_at(texts_, t, next) + shift);
 }
 
@@ -119,8 +117,9 @@ void FlowCheck::check_rest(const hybrid::DenseStep& step, const Eigen::VectorXd&
                            const Eigen::VectorXd& sizes) {
   const Eigen::VectorXd clock_allowed =
       4 * kRounding * sizes.array() + time_rounding(step.from, step.to);
-  for (int k = 0; k <= kInner; ++k) {
-    const double t = k == kInner ? step.to : step.from + (step.to - step.from) * (k + 0.5) / kInner;
+  for (int k = 0; k <= inner_points; ++k) {
+    const double t =
+        k == inner_points ? step.to : step.from + (step.to - step.from) * (k + 0.5) / inner_points;
     const Eigen::VectorXd moved = step(t) - x;
     for (std::size_t v = 0; v < flowing_.size(); ++v) {
       const hybrid::Slot& slot = texts_.layout.slots[v];
@@ -131,7 +130,7 @@ void FlowCheck::check_rest(const hybrid::DenseStep& step, const Eigen::VectorXd&
         faults_.check(
             part_, t,
             (clock ? "a clock does not run at its rate: " : "flows, but rests: ") + slot.name, off,
-            clock ? clock_allowed(i) : 1e-14 * sizes(i));
+            clock ? clock_allowed(i) : kRounding * sizes(i));
       }
     }
   }

@@ -1,4 +1,4 @@
-// Internal to the judge (trajectory_judge.h): flows, integrated again.
+// Internal to the judge (judge.h): flows, integrated again.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,20 +14,22 @@ namespace gainsmith::judge {
 
 /// The sum of the sizes of the coefficients, the largest of each variable: a bound for its values
 /// on the step, to which rounding and accuracy are relative.
-Eigen::VectorXd step_sizes(const JudgedTexts& texts, const hybrid::DenseStep& step);
+Eigen::VectorXd step_sizes(const Texts& texts, const hybrid::DenseStep& step);
 
 /// What each element moves at x in a few units in the last place of t. 0 where there is no rate.
-Eigen::VectorXd time_rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x);
+Eigen::VectorXd time_rounding_at(Texts& texts, double t, const Eigen::VectorXd& x);
 
-/// How far each element may be off at x by rounding: 1e-13 of its size, a ten-thousandth of the
-/// accuracy (a step that ends at an event was cut from a longer one, of larger values) and, as
-/// events lie at times that are rounded too, time_rounding_at. 0 of what rests.
-Eigen::VectorXd rounding_at(JudgedTexts& texts, double t, const Eigen::VectorXd& x,
+/// How far each element may be off at x by rounding, 0 of what rests:
+///   1e-13 of its size,
+///   a thousandth of the accuracy: a step that ends at an event is part of a longer one, of larger
+///   values,
+///   and time_rounding_at: events lie at times that are rounded too.
+Eigen::VectorXd rounding_at(Texts& texts, double t, const Eigen::VectorXd& x,
                             const Eigen::VectorXd& sizes);
 
 class FlowCheck {
  public:
-  FlowCheck(JudgedTexts& texts, Faults& faults);
+  FlowCheck(Texts& texts, Faults& faults);
 
   /// The piece alone; where it begins is known to be right.
   void operator()(std::size_t part, const hybrid::FlowPiece& piece);
@@ -44,7 +46,7 @@ class FlowCheck {
   void report(double t, const std::string& what, const Eigen::VectorXd& size,
               const Eigen::VectorXd& allowed);
 
-  JudgedTexts& texts_;
+  Texts& texts_;
   Faults& faults_;
   std::size_t part_ = 0;
   std::vector<bool> flowing_;  ///< by variable

@@ -1,18 +1,17 @@
-// The inside of flows: what must not happen there (judged_events.h).
+#include "judge/inside.h"
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "judge/events.h"
 #include "judge/flow.h"
 
 namespace gainsmith::judge {
 
 namespace {
 
-constexpr int kPoints = 16;    ///< inside a step
-constexpr int kCloser = 24;    ///< next to each end of a flow: down to 4^-24 of a step
-constexpr double kStay = 1e4;  ///< times rounding: a flow along a border of `while` may be off
+constexpr int points = 16;  ///< inside a step
+constexpr int closer = 24;  ///< next to each end of a flow: down to 4^-24 of a step
 
 /// Whether a value that is `here` <= 0 between two others may be above 0 near by: it is an
 /// extremum, and 0 is no farther than the lower of the others.
@@ -23,7 +22,38 @@ bool may_reach(double before, double here, double after) {
 
 }  // namespace
 
-JudgedEvents::Sample JudgedEvents::sample(const hybrid::FlowPiece& piece, double t) const {
+bool fires(model::Dynamics::EventKind kind, int from, int to) {
+  using EventKind = model::Dynamics::EventKind;
+  if (kind == EventKind::rises) return from < 0 && to > 0;
+  if (kind == EventKind::falls) return from > 0 && to < 0;
+  return from * to < 0;
+}
+
+int side_of(Text& crossing, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding) {
+  const double value = crossing(x)(0, 0);
+  const double spread = crossing.spread(x, rounding)(0, 0);
+  if (std::abs(value) <= spread) return 0;
+  return value > 0 ? 1 : -1;
+}
+
+void FlowInside::operator()(std::size_t part, const hybrid::FlowPiece& piece) {
+  part_ = part;
+  for (std::size_t e = 0; e < memory_.size(); ++e)
+    if (memory_[e].clock) watch_clock(piece, e);
+  const std::vector<Sample> all = samples(piece);
+  for (std::size_t e = 0; e < memory_.size(); ++e) {
+    EventTexts& texts = texts_.events[e];
+    if (texts.condition)
+      watch_condition(piece, all, *texts.condition, e,
+                      "becomes due inside a flow: " + texts_.dynamics.events[e].name);
+    if (texts.crossing) watch_crossing(piece, all, e);
+  }
+  for (FlowSetText& flow_set : texts_.flow_sets)
+    watch_condition(piece, all, flow_set.left, std::nullopt,
+                    "a flow leaves where it may be: " + flow_set.say);
+}
+
+FlowInside::Sample FlowInside::sample(const hybrid::FlowPiece& piece, double t) const {
   const auto after =
       std::upper_bound(piece.steps.begin(), piece.steps.end() - 1, t,
                        [](double time, const hybrid::DenseStep& step) { return time < step.to; });
@@ -32,12 +62,12 @@ JudgedEvents::Sample JudgedEvents::sample(const hybrid::FlowPiece& piece, double
   return result;
 }
 
-std::vector<double> JudgedEvents::sample_times(const hybrid::FlowPiece& piece) {
+std::vector<double> FlowInside::sample_times(const hybrid::FlowPiece& piece) {
   std::vector<double> times;
   for (const hybrid::DenseStep& step : piece.steps) {
     times.push_back(step.from);
-    for (int k = 0; k < kPoints; ++k) {
-      const double z = std::cos(std::numbers::pi * (k + 0.5) / kPoints);
+    for (int k = 0; k < points; ++k) {
+      const double z = std::cos(std::numbers::pi * (k + 0.5) / points);
       times.push_back(step.from + (step.to - step.from) * (1 - z) / 2);
     }
   }
@@ -45,7 +75,7 @@ std::vector<double> JudgedEvents::sample_times(const hybrid::FlowPiece& piece) {
   const hybrid::DenseStep& first = piece.steps.front();
   const hybrid::DenseStep& last = piece.steps.back();
   double share = 0.25;
-  for (int k = 0; k < kCloser; ++k, share /= 4) {
+  for (int k = 0; k < closer; ++k, share /= 4) {
     times.push_back(first.from + share * (first.to - first.from));
     times.push_back(last.to - share * (last.to - last.from));
   }
@@ -55,23 +85,22 @@ std::vector<double> JudgedEvents::sample_times(const hybrid::FlowPiece& piece) {
   return times;
 }
 
-std::vector<JudgedEvents::Sample> JudgedEvents::samples(const hybrid::FlowPiece& piece) const {
+std::vector<FlowInside::Sample> FlowInside::samples(const hybrid::FlowPiece& piece) const {
   std::vector<Sample> all;
   for (const double t : sample_times(piece)) all.push_back(sample(piece, t));
   return all;
 }
 
-bool JudgedEvents::must_jump(std::size_t event, const Sample& at) {
+bool FlowInside::must_jump(std::size_t event, const Sample& at) {
   auto& only_if = texts_.events[event].only_if;
-  return !only_if || inside(*only_if, at) == Truth::yes;
+  return !only_if || truth(*only_if, at) == Truth::yes;
 }
 
-Truth JudgedEvents::inside(Guard& guard, const Sample& at, double times) {
+Truth FlowInside::truth(Guard& guard, const Sample& at, double times) {
   return guard.truth(at.x, times * rounding_at(texts_, at.t, at.x, at.sizes));
 }
 
-double JudgedEvents::highest(double low, double high,
-                             const std::function<double(double)>& value) const {
+double FlowInside::highest(double low, double high, const std::function<double(double)>& value) {
   const double share = (std::sqrt(5.0) - 1) / 2;
   double a = high - share * (high - low);
   double b = low + share * (high - low);
@@ -95,8 +124,7 @@ double JudgedEvents::highest(double low, double high,
   return at_a > at_b ? a : b;
 }
 
-double JudgedEvents::entry(double low, double high,
-                           const std::function<bool(double)>& is_there) const {
+double FlowInside::entry(double low, double high, const std::function<bool(double)>& is_there) {
   for (int k = 0; k < 60; ++k) {
     const double middle = low + (high - low) / 2;
     if (!(low < middle && middle < high)) break;
@@ -105,9 +133,9 @@ double JudgedEvents::entry(double low, double high,
   return high;
 }
 
-void JudgedEvents::watch_condition(const hybrid::FlowPiece& piece, const std::vector<Sample>& all,
-                                   Guard& guard, std::optional<std::size_t> event,
-                                   const std::string& what) {
+void FlowInside::watch_condition(const hybrid::FlowPiece& piece, const std::vector<Sample>& all,
+                                 Guard& guard, std::optional<std::size_t> event,
+                                 const std::string& what) {
   bool none = false;  // of what has no `if` nothing is ever spent
   bool& spent = event ? memory_[*event].spent : none;
   const auto holds = [&](double t) { return guard(sample(piece, t).x); };
@@ -116,7 +144,7 @@ void JudgedEvents::watch_condition(const hybrid::FlowPiece& piece, const std::ve
   for (const Sample& one : all) depths.push_back(guard.depth(one.x));
   // Found true at `at`, false or spent at `before`.
   const auto found = [&](double before, const Sample& at) {
-    if (inside(guard, at, event ? 1 : kStay) != Truth::yes) return;
+    if (truth(guard, at, event ? 1 : hybrid::kPlain) != Truth::yes) return;
     if (event && texts_.events[*event].only_if) {
       if (!must_jump(*event, sample(piece, entry(before, at.t, holds)))) {
         spent = true;
@@ -140,21 +168,20 @@ void JudgedEvents::watch_condition(const hybrid::FlowPiece& piece, const std::ve
   }
 }
 
-void JudgedEvents::watch_border(const hybrid::FlowPiece& piece, const std::vector<Sample>& all,
+void FlowInside::watch_crossing(const hybrid::FlowPiece& piece, const std::vector<Sample>& all,
                                 std::size_t event) {
-  const std::string what =
-      "crosses its border inside a flow: " + texts_.dynamics.events[event].name;
+  const std::string what = "crosses zero inside a flow: " + texts_.dynamics.events[event].name;
   Text& crossing = *texts_.events[event].crossing;
   int& known = memory_[event].side;
   const auto side_at = [&](const Sample& at) {
-    return side(event, at.x, rounding_at(texts_, at.t, at.x, at.sizes));
+    return side_of(crossing, at.x, rounding_at(texts_, at.t, at.x, at.sizes));
   };
   std::vector<double> values;
   for (const Sample& one : all) values.push_back(crossing(one.x)(0, 0));
   for (std::size_t k = 1; k + 1 < all.size(); ++k) {
     const int now = side_at(all[k]);
     if (now == 0) continue;
-    if (fires(event, known, now)) {
+    if (fires(texts_.dynamics.events[event].kind, known, now)) {
       const auto is_there = [&](double t) { return now * crossing(sample(piece, t).x)(0, 0) > 0; };
       const double t = entry(all[k - 1].t, all[k].t, is_there);
       if (must_jump(event, sample(piece, t))) faults_.add(part_, t, what);
@@ -170,7 +197,7 @@ void JudgedEvents::watch_border(const hybrid::FlowPiece& piece, const std::vecto
   }
 }
 
-void JudgedEvents::watch_clock(const hybrid::FlowPiece& piece, std::size_t event) {
+void FlowInside::watch_clock(const hybrid::FlowPiece& piece, std::size_t event) {
   EventClock& clock = *memory_[event].clock;
   while (clock.next() < piece.to() && !same_time(clock.next(), piece.to())) {
     const double t = clock.next();

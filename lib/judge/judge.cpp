@@ -12,6 +12,7 @@
 #include "judge/jump.h"
 #include "judge/measured.h"
 #include "judge/texts.h"
+#include "judge/tolerances.h"
 
 namespace gainsmith::judge {
 
@@ -20,8 +21,7 @@ namespace {
 using V = model::Dynamics::VariableKind;
 
 /// Whether the parts have the sizes without which nothing else can be asked.
-bool is_well_formed(const hybrid::Trajectory& trajectory, const JudgedTexts& texts,
-                    Faults& faults) {
+bool is_well_formed(const hybrid::Trajectory& trajectory, const Texts& texts, Faults& faults) {
   const Eigen::Index n = texts.layout.size;
   const auto fits = [&](const std::variant<hybrid::FlowPiece, hybrid::JumpPoint>& part) {
     if (const auto* jump = std::get_if<hybrid::JumpPoint>(&part))
@@ -42,7 +42,7 @@ bool is_well_formed(const hybrid::Trajectory& trajectory, const JudgedTexts& tex
 
 class Walk {
  public:
-  Walk(const hybrid::Trajectory& trajectory, JudgedTexts& texts, Faults& faults)
+  Walk(const hybrid::Trajectory& trajectory, Texts& texts, Faults& faults)
       : trajectory_(trajectory),
         texts_(texts),
         faults_(faults),
@@ -56,7 +56,7 @@ class Walk {
     faults_.check(part_, trajectory_.end, "the run does not end where its last part does",
                   std::abs(trajectory_.end - t_), 0);
     if (trajectory_.ending == hybrid::Ending::horizon)
-      guarded([&] { watch_.look(part_, t_, x_, {}); });
+      guarded([&] { watch_.instant(part_, t_, x_, {}); });
     watch_.end(part_, t_);
     check_end(texts_, trajectory_, x_, faults_);
   }
@@ -81,7 +81,7 @@ class Walk {
 
   void over(const hybrid::JumpPoint& jump) {
     go_on(jump.t, jump.j, jump.before, jump.event);
-    guarded([&] { watch_.look(part_, t_, jump.before, jump.event); });
+    guarded([&] { watch_.instant(part_, t_, jump.before, jump.event); });
     guarded([&] { check_jump(texts_, part_, jump, faults_); });
     guarded([&] { watch_.jumped(part_, jump); });
     check_noise(jump.after);
@@ -92,7 +92,7 @@ class Walk {
 
   void over(const hybrid::FlowPiece& piece) {
     go_on(piece.from(), piece.j, piece.start, {});
-    guarded([&] { watch_.look(part_, t_, piece.start, {}); });
+    guarded([&] { watch_.instant(part_, t_, piece.start, {}); });
     for (std::size_t k = 1; k < piece.steps.size(); ++k)
       faults_.check(part_, piece.steps[k].from, "the steps of a flow are not contiguous",
                     std::abs(piece.steps[k].from - piece.steps[k - 1].to), 0);
@@ -163,7 +163,7 @@ class Walk {
     if (!start || slot.shape.size() == 0) return;
     faults_.check(0, 0, "starts with another value: " + slot.name,
                   (here - start->reshaped()).cwiseAbs().maxCoeff(),
-                  1e-13 * start->cwiseAbs().maxCoeff());
+                  kRounding * start->cwiseAbs().maxCoeff());
   }
 
   void check_noise(const Eigen::VectorXd& x) {
@@ -178,10 +178,10 @@ class Walk {
   }
 
   const hybrid::Trajectory& trajectory_;
-  JudgedTexts& texts_;
+  Texts& texts_;
   Faults& faults_;
   FlowCheck flows_;
-  JudgedEvents watch_;
+  EventCheck watch_;
   std::size_t part_ = 0;
   double t_ = 0;
   std::int64_t j_ = 0;
@@ -192,9 +192,9 @@ class Walk {
 
 std::vector<Fault> check_trajectory(const hybrid::Trajectory& trajectory,
                                     const model::Dynamics& dynamics, const model::Stated& stated,
-                                    const JudgeQuestion& question) {
+                                    const Question& question) {
   Faults faults;
-  JudgedTexts texts(dynamics, stated, question);
+  Texts texts(dynamics, stated, question);
   if (is_well_formed(trajectory, texts, faults)) Walk(trajectory, texts, faults)();
   return faults.list();
 }

@@ -8,9 +8,9 @@
 //            keeps its bits, and observers do where the occurrence is lost
 //   events   at each instant the first that is due jumps, and a flow begins when none is; inside a
 //            flow, at 16 points a step and at the extrema between them, no condition is true, no
-//            border is crossed, no clock has run down
+//            event function crosses zero, no clock has run down
 //   draws    clock lengths, losses, noise and starts lie in their ranges; and, where the question
-//            says from which seed, they are the draws of its streams (judged_draws.h)
+//            says from which seed, they are the draws of its streams (draws.h)
 //   the end  has its cause
 //
 // Where the recorded values alone decide (which event is due at an instant) decisions are exact;
@@ -45,14 +45,14 @@ struct StartRange {
   numbers::Matrix low, high;  ///< of its shape
 };
 
-/// Where the draws of a run come from: the streams are defined in event_scenario.h.
+/// Where the draws of a run come from: the streams are defined in hybrid/scenario.h.
 struct DrawnFrom {
   std::uint64_t seed = 1;
   std::uint64_t run = 0;
   const model::Design::Campaign* campaign = nullptr;  ///< must outlive the judging
 };
 
-struct JudgeQuestion {
+struct Question {
   double relative = 1e-10;  ///< the accuracy of the run
   double absolute = 1e-10;
   Eigen::VectorXd absolute_of;     ///< of each element of the variables; empty: `absolute` of all
@@ -66,6 +66,6 @@ struct JudgeQuestion {
 /// use what has no value.
 std::vector<Fault> check_trajectory(const hybrid::Trajectory& trajectory,
                                     const model::Dynamics& dynamics, const model::Stated& stated,
-                                    const JudgeQuestion& question = {});
+                                    const Question& question = {});
 
 }  // namespace gainsmith::judge

@@ -5,17 +5,18 @@
 #include <limits>
 #include <string>
 
+#include "judge/tolerances.h"
+
 namespace gainsmith::judge {
 
 namespace {
 
 using V = model::Dynamics::VariableKind;
 
-constexpr double kRelative = 1e-13;
-constexpr double kInfinite = std::numeric_limits<double>::infinity();
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// One map on the values before it; `slack` takes what the new values may be off.
-void apply_map(JudgedTexts& texts, PassTexts& pass, Eigen::VectorXd& x, Eigen::VectorXd& slack) {
+void apply_map(Texts& texts, PassTexts& pass, Eigen::VectorXd& x, Eigen::VectorXd& slack) {
   const Eigen::VectorXd before = x;
   for (auto& [variable, text] : pass.map) {
     numbers::Matrix value = text(before);
@@ -27,13 +28,12 @@ void apply_map(JudgedTexts& texts, PassTexts& pass, Eigen::VectorXd& x, Eigen::V
     }
     const double size = value.size() > 0 ? value.cwiseAbs().maxCoeff() : 0;
     texts.part(x, variable) = value.reshaped();
-    texts.part(slack, variable).setConstant(kRelative * size + asymmetry);
+    texts.part(slack, variable).setConstant(kRounding * size + asymmetry);
   }
 }
 
 /// All passes of a reaction on x, of which it changes states of its own component alone.
-void apply_reaction(JudgedTexts& texts, ReactionTexts& reaction, Eigen::VectorXd& x,
-                    JumpValues& result) {
+void apply_reaction(Texts& texts, ReactionTexts& reaction, Eigen::VectorXd& x, JumpValues& result) {
   for (PassTexts& pass : reaction.passes) {
     if (!pass.repeats) {
       apply_map(texts, pass, x, result.slack);
@@ -51,20 +51,20 @@ void apply_reaction(JudgedTexts& texts, ReactionTexts& reaction, Eigen::VectorXd
   }
 }
 
-void count_jump(const JudgedTexts& texts, std::size_t event, JumpValues& result) {
+void count_jump(const Texts& texts, std::size_t event, JumpValues& result) {
   for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v) {
     const model::Dynamics::Variable& variable = texts.dynamics.variables[v];
     const bool own = variable.of == event;
     if (variable.kind == V::jumps || (variable.kind == V::count && own))
       texts.part(result.after, v).array() += 1;
     if (variable.kind == V::since && own) texts.part(result.after, v).setZero();
-    if (variable.kind == V::left && own) texts.part(result.slack, v).setConstant(kInfinite);
+    if (variable.kind == V::left && own) texts.part(result.slack, v).setConstant(infinite);
     if (variable.kind == V::passes && own)
       texts.part(result.after, v).setConstant(static_cast<double>(result.passes));
   }
 }
 
-std::string complaint(const JudgedTexts& texts, std::size_t variable, bool reacts,
+std::string complaint(const Texts& texts, std::size_t variable, bool reacts,
                       const std::string& event) {
   const model::Dynamics::Variable& one = texts.dynamics.variables[variable];
   switch (one.kind) {
@@ -82,8 +82,7 @@ std::string complaint(const JudgedTexts& texts, std::size_t variable, bool react
 
 }  // namespace
 
-JumpValues jump_values(JudgedTexts& texts, std::size_t event, bool lost,
-                       const Eigen::VectorXd& before) {
+JumpValues jump_values(Texts& texts, std::size_t event, bool lost, const Eigen::VectorXd& before) {
   JumpValues result{before, Eigen::VectorXd::Zero(before.size()), 0, false};
   for (ReactionTexts& reaction : texts.reactions) {
     if (reaction.event != event) continue;
@@ -98,8 +97,7 @@ JumpValues jump_values(JudgedTexts& texts, std::size_t event, bool lost,
   return result;
 }
 
-void check_jump(JudgedTexts& texts, std::size_t part, const hybrid::JumpPoint& jump,
-                Faults& faults) {
+void check_jump(Texts& texts, std::size_t part, const hybrid::JumpPoint& jump, Faults& faults) {
   const std::string& event = texts.dynamics.events[jump.event].name;
   const JumpValues again = jump_values(texts, jump.event, jump.lost, jump.before);
   if (again.exhausted) faults.add(part, jump.t, "a loop of " + event + " ends without its `until`");

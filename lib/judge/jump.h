@@ -1,4 +1,4 @@
-// Internal to the judge (trajectory_judge.h): jumps, computed again from the texts.
+// Internal to the judge (judge.h): jumps, computed again from the texts.
 #pragma once
 
 #include <Eigen/Core>
@@ -20,10 +20,8 @@ struct JumpValues {
 
 /// The values after a jump of the event. `before` has the noise that is drawn at it.
 /// EvaluationError when a map has no value.
-JumpValues jump_values(JudgedTexts& texts, std::size_t event, bool lost,
-                       const Eigen::VectorXd& before);
+JumpValues jump_values(Texts& texts, std::size_t event, bool lost, const Eigen::VectorXd& before);
 
-void check_jump(JudgedTexts& texts, std::size_t part, const hybrid::JumpPoint& jump,
-                Faults& faults);
+void check_jump(Texts& texts, std::size_t part, const hybrid::JumpPoint& jump, Faults& faults);
 
 }  // namespace gainsmith::judge

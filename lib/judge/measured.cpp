@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "judge/tolerances.h"
+
 namespace gainsmith::judge {
 
 namespace {
@@ -11,29 +13,27 @@ using model::Dynamics;
 using model::Series;
 using V = Dynamics::VariableKind;
 
-constexpr double kRoundingOfRows = 1e-13;
-
 /// The rows that count as being at t.
 std::pair<std::size_t, std::size_t> rows_at(const Series& series, double t) {
   const double slack = time_rounding(t, t);
   return {series.not_before(t, slack), series.after(t, slack)};
 }
 
-void compare_with_file(const JudgedTexts& texts, std::size_t part, double t, std::size_t v,
+void compare_with_file(const Texts& texts, std::size_t part, double t, std::size_t v,
                        const numbers::Matrix& here, const Course& course, double sizes,
                        Faults& faults) {
   const numbers::Matrix& expected = texts.is(v, V::measured) ? course.value : course.rate;
   if (expected.size() == 0) return;
   const double largest = std::max(expected.cwiseAbs().maxCoeff(), sizes);
   const double slack =
-      kRoundingOfRows * largest + time_rounding(t, t) * course.rate.cwiseAbs().maxCoeff();
+      kRounding * largest + time_rounding(t, t) * course.rate.cwiseAbs().maxCoeff();
   faults.check(part, t, "is not what its file says: " + texts.layout.slots[v].name,
                (here - expected).cwiseAbs().maxCoeff(), slack);
 }
 
 }  // namespace
 
-void check_measured(const JudgedTexts& texts, std::size_t part, const hybrid::DenseStep& step,
+void check_measured(const Texts& texts, std::size_t part, const hybrid::DenseStep& step,
                     Faults& faults) {
   for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v) {
     if (!texts.is_measured(v)) continue;
@@ -53,7 +53,7 @@ void check_measured(const JudgedTexts& texts, std::size_t part, const hybrid::De
   }
 }
 
-void check_measured(const JudgedTexts& texts, std::size_t part, double t, const Eigen::VectorXd& x,
+void check_measured(const Texts& texts, std::size_t part, double t, const Eigen::VectorXd& x,
                     Faults& faults) {
   for (std::size_t v = 0; v < texts.dynamics.variables.size(); ++v) {
     if (!texts.is(v, V::measured)) continue;
@@ -69,7 +69,7 @@ void check_measured(const JudgedTexts& texts, std::size_t part, double t, const 
   }
 }
 
-bool JudgedTexts::has_row(std::size_t variable, double t) const {
+bool Texts::has_row(std::size_t variable, double t) const {
   const auto [first, last] = rows_at(*dynamics.measured[dynamics.variables[variable].of].series, t);
   return first < last;
 }

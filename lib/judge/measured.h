@@ -1,4 +1,4 @@
-// Internal to hybrid: measured data in a run, read again from their rows.
+// Measured data in a run, read again from their rows.
 #pragma once
 
 #include "hybrid/trajectory.h"
@@ -8,10 +8,10 @@
 namespace gainsmith::judge {
 
 /// No row lies inside of the step, and within it quantities and rates are those of their files.
-void check_measured(const JudgedTexts& texts, std::size_t part, const hybrid::DenseStep& step,
+void check_measured(const Texts& texts, std::size_t part, const hybrid::DenseStep& step,
                     Faults& faults);
 /// At an instant: one of the rows there, or the course between two.
-void check_measured(const JudgedTexts& texts, std::size_t part, double t, const Eigen::VectorXd& x,
+void check_measured(const Texts& texts, std::size_t part, double t, const Eigen::VectorXd& x,
                     Faults& faults);
 
 }  // namespace gainsmith::judge

@@ -1,12 +1,11 @@
 #include "judge/step.h"
 
 #include "expr/number_type.h"
+#include "judge/tolerances.h"
 
 namespace gainsmith::judge {
 
 namespace {
-
-constexpr int kFinest = 256;  ///< Gauss steps in one step
 
 /// Whether all changes are at most this share of what is allowed.
 bool is_within(const numbers::Matrix& change, const Eigen::VectorXd& allowed, double share) {
@@ -15,9 +14,8 @@ bool is_within(const numbers::Matrix& change, const Eigen::VectorXd& allowed, do
 
 }  // namespace
 
-StepAgain::StepAgain(JudgedTexts& texts, const MovingElements& moving,
-                     const hybrid::DenseStep& step, const Eigen::VectorXd& x,
-                     const Eigen::VectorXd& allowed)
+StepAgain::StepAgain(Texts& texts, const MovingElements& moving, const hybrid::DenseStep& step,
+                     const Eigen::VectorXd& x, const Eigen::VectorXd& allowed)
     : texts_(&texts),
       moving_(&moving),
       step_(&step),
@@ -31,7 +29,7 @@ StepAgain::StepAgain(JudgedTexts& texts, const MovingElements& moving,
 std::optional<StepAgain::Quarters> StepAgain::operator()() {
   const std::optional<Quarters> first = halves();
   // What agrees with the recorded step needs no other witness.
-  if (first && is_within(recorded_quarters() - *first, *allowed_, 0.1)) return first;
+  if (first && is_within(recorded_quarters() - *first, *allowed_, kCertain)) return first;
   const std::optional<Quarters> finer = settled(first);
   return finer ? finer : straight();
 }
@@ -81,9 +79,9 @@ std::optional<StepAgain::Quarters> StepAgain::advance(int count) {
 }
 
 std::optional<StepAgain::Quarters> StepAgain::settled(std::optional<Quarters> coarse) {
-  for (int count = 4; count <= kFinest; count *= 2) {
+  for (int count = 4; count <= kMostParts; count *= 2) {
     std::optional<Quarters> fine = advance(count);
-    if (coarse && fine && is_within(*fine - *coarse, *allowed_, 0.1)) return fine;
+    if (coarse && fine && is_within(*fine - *coarse, *allowed_, kCertain)) return fine;
     coarse = std::move(fine);
   }
   return std::nullopt;
@@ -95,7 +93,7 @@ std::optional<StepAgain::Quarters> StepAgain::straight() {
     texts_->rate((*step_)(step_->from + h_ / 2), middle);
     for (const double t : {step_->from, step_->to}) {
       texts_->rate((*step_)(t), rate);
-      if (!is_within(h_ * rate(moving_->active), *allowed_, 0.1)) return std::nullopt;
+      if (!is_within(h_ * rate(moving_->active), *allowed_, kCertain)) return std::nullopt;
     }
   } catch (const expr::EvaluationError&) {
     return std::nullopt;

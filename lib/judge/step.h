@@ -1,4 +1,4 @@
-// Internal to the judge (trajectory_judge.h): one recorded step of a flow, integrated again.
+// Internal to the judge (judge.h): one recorded step of a flow, integrated again.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,12 +24,12 @@ class StepAgain {
 
   /// All elements are `x` at the start of the step. `allowed`: of each active element; what is
   /// found is certain to a tenth of it. All must outlive it.
-  StepAgain(JudgedTexts& texts, const MovingElements& moving, const hybrid::DenseStep& step,
+  StepAgain(Texts& texts, const MovingElements& moving, const hybrid::DenseStep& step,
             const Eigen::VectorXd& x, const Eigen::VectorXd& allowed);
   StepAgain(const StepAgain&) = delete;  // its integrator points to it
   StepAgain& operator=(const StepAgain&) = delete;
 
-  /// None where no way comes to an end.
+  /// None where no method comes to an end.
   std::optional<Quarters> operator()();
 
  private:
@@ -39,15 +39,15 @@ class StepAgain {
   std::optional<Quarters> settled(std::optional<Quarters> coarse);
   /// In `count` Gauss steps, four or more.
   std::optional<Quarters> advance(int count);
-  /// Of a step so short that nothing moves by more than a tenth of what is allowed, next to a
-  /// switch of the flow, say, where no method converges.
+  /// Of a step so short that nothing moves by more than a tenth of what is allowed. Next to a
+  /// switch of the flow no method converges on it.
   std::optional<Quarters> straight();
   std::optional<Eigen::VectorXd> gauss(double t, const Eigen::VectorXd& y, double h);
   void rate(double t, const Eigen::VectorXd& y, Eigen::VectorXd& out);
   Quarters recorded_quarters() const;
   Eigen::VectorXd recorded(double t) const { return (*step_)(t)(moving_->active); }
 
-  JudgedTexts* texts_;
+  Texts* texts_;
   const MovingElements* moving_;
   const hybrid::DenseStep* step_;
   const Eigen::VectorXd* x_;

@@ -29,7 +29,7 @@ std::unique_ptr<const expr::Program> linked(const expr::Program& program, const 
   return result;
 }
 
-/// The variables that a program uses, where they stand: no others need be copied at each point.
+/// The variables that a program uses, at their places: no others need be copied at each point.
 hybrid::StateLayout used_part(const hybrid::StateLayout& layout, const expr::Program& program) {
   hybrid::StateLayout used;
   used.size = layout.size;
@@ -145,8 +145,8 @@ double Guard::depth(const Eigen::VectorXd& x) {
   return result;
 }
 
-JudgedTexts::JudgedTexts(const Dynamics& dynamics_given, const model::Stated& stated_given,
-                         const JudgeQuestion& question_given)
+Texts::Texts(const Dynamics& dynamics_given, const model::Stated& stated_given,
+             const Question& question_given)
     : dynamics(dynamics_given),
       stated(stated_given),
       question(question_given),
@@ -165,15 +165,15 @@ JudgedTexts::JudgedTexts(const Dynamics& dynamics_given, const model::Stated& st
   for (const Dynamics::Noise& one : dynamics.noise) noise.push_back(noise_range(one));
 }
 
-numbers::Matrix JudgedTexts::constant(const model::Formula& formula) const {
+numbers::Matrix Texts::constant(const model::Formula& formula) const {
   const auto value = stated.value(formula.program);
   if (!value) throw InputError(formula.place, "'" + formula.text + "' has no value");
   return *value;
 }
 
-double JudgedTexts::scalar(const model::Formula& formula) const { return constant(formula)(0, 0); }
+double Texts::scalar(const model::Formula& formula) const { return constant(formula)(0, 0); }
 
-EventTexts JudgedTexts::event_texts(const Dynamics::Event& event) const {
+EventTexts Texts::event_texts(const Dynamics::Event& event) const {
   EventTexts texts;
   if (event.condition) texts.condition.emplace(*event.condition, layout, stated);
   if (event.crossing)
@@ -195,7 +195,7 @@ EventTexts JudgedTexts::event_texts(const Dynamics::Event& event) const {
   return texts;
 }
 
-ReactionTexts JudgedTexts::reaction_texts(const Dynamics::Reaction& reaction) const {
+ReactionTexts Texts::reaction_texts(const Dynamics::Reaction& reaction) const {
   ReactionTexts texts{reaction.event, reaction.component, {}};
   for (const Dynamics::Pass& pass : reaction.passes) {
     PassTexts one;
@@ -210,7 +210,7 @@ ReactionTexts JudgedTexts::reaction_texts(const Dynamics::Reaction& reaction) co
   return texts;
 }
 
-NoiseRange JudgedTexts::noise_range(const Dynamics::Noise& one) const {
+NoiseRange Texts::noise_range(const Dynamics::Noise& one) const {
   const auto fitted = [&](const model::Formula& formula) {
     const numbers::Matrix value = constant(formula);
     if (value.size() != 1) return value;
@@ -232,7 +232,7 @@ NoiseRange JudgedTexts::noise_range(const Dynamics::Noise& one) const {
   return range;
 }
 
-std::vector<bool> JudgedTexts::flowing(const Eigen::VectorXd& x) {
+std::vector<bool> Texts::flowing(const Eigen::VectorXd& x) {
   std::vector<bool> frozen;
   for (auto& condition : frozen_) frozen.push_back(condition && (*condition)(x));
   std::vector<bool> result(dynamics.variables.size(), false);
@@ -242,7 +242,7 @@ std::vector<bool> JudgedTexts::flowing(const Eigen::VectorXd& x) {
   return result;
 }
 
-void JudgedTexts::rate(const Eigen::VectorXd& x, Eigen::VectorXd& out) {
+void Texts::rate(const Eigen::VectorXd& x, Eigen::VectorXd& out) {
   using V = Dynamics::VariableKind;
   out.setZero(layout.size);
   const std::vector<bool> flows = flowing(x);
@@ -259,14 +259,14 @@ void JudgedTexts::rate(const Eigen::VectorXd& x, Eigen::VectorXd& out) {
   }
 }
 
-bool JudgedTexts::changes_inside(std::size_t variable) const {
+bool Texts::changes_inside(std::size_t variable) const {
   if (is_measured(variable)) return true;
   if (!is(variable, Dynamics::VariableKind::noise)) return false;
   const Dynamics::Noise& one = dynamics.noise[dynamics.variables[variable].of];
   return one.every || (one.event && dynamics.events[*one.event].only_if);
 }
 
-void JudgedTexts::settle(const Eigen::VectorXd& start, Eigen::VectorXd& x) {
+void Texts::settle(const Eigen::VectorXd& start, Eigen::VectorXd& x) {
   using V = Dynamics::VariableKind;
   const std::vector<bool> flows = flowing(start);
   for (std::size_t v = 0; v < dynamics.variables.size(); ++v) {
@@ -275,7 +275,7 @@ void JudgedTexts::settle(const Eigen::VectorXd& start, Eigen::VectorXd& x) {
   }
 }
 
-Eigen::VectorXd JudgedTexts::by_variable(const Eigen::VectorXd& sizes) const {
+Eigen::VectorXd Texts::by_variable(const Eigen::VectorXd& sizes) const {
   Eigen::VectorXd result = sizes;
   for (const hybrid::Slot& slot : layout.slots)
     if (slot.shape.size() > 0)
@@ -284,14 +284,13 @@ Eigen::VectorXd JudgedTexts::by_variable(const Eigen::VectorXd& sizes) const {
   return result;
 }
 
-std::optional<std::size_t> JudgedTexts::find(Dynamics::VariableKind kind, std::size_t of) const {
+std::optional<std::size_t> Texts::find(Dynamics::VariableKind kind, std::size_t of) const {
   for (std::size_t v = 0; v < dynamics.variables.size(); ++v)
     if (is(v, kind) && dynamics.variables[v].of == of) return v;
   return std::nullopt;
 }
 
-std::optional<numbers::Matrix> JudgedTexts::start(std::size_t variable,
-                                                  const Eigen::VectorXd& x) const {
+std::optional<numbers::Matrix> Texts::start(std::size_t variable, const Eigen::VectorXd& x) const {
   const auto& formula = dynamics.variables[variable].start;
   if (!formula) return std::nullopt;
   return Text(formula->program, formula->place, layout, stated)(x);

@@ -1,4 +1,4 @@
-// Internal to the judge (trajectory_judge.h): the texts of Dynamics with values, as functions of
+// Internal to the judge (judge.h): the texts of Dynamics with values, as functions of
 // the stacked variables, and conditions that know what rounding leaves open.
 #pragma once
 
@@ -24,7 +24,7 @@ class Text {
   Text(const expr::Program& program, const Place& place, const hybrid::StateLayout& layout,
        const model::Stated& stated);
 
-  /// It stands until the next call. EvaluationError when it has no value.
+  /// The value, valid until the next call. EvaluationError when it has no value.
   const numbers::Matrix& operator()(const Eigen::VectorXd& x) { return value_.at(0, x); }
   /// How much each element moves, at most and to first order, when each x_i does by rounding_i.
   numbers::Matrix spread(const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
@@ -46,9 +46,9 @@ class Guard {
   static Guard negation(Guard guard);
 
   bool operator()(const Eigen::VectorXd& x);
-  /// What holds for all values whose elements lie within `rounding` of x.
+  /// What is true for all values whose elements lie within `rounding` of x.
   Truth truth(const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
-  /// A number that is > 0 where the condition is true, < 0 where it is false, up to its borders:
+  /// A number that is > 0 where the condition is true, < 0 where it is false, up to where they meet:
   /// of a comparison the least difference, of `and` the least of its parts, of `or` the largest.
   double depth(const Eigen::VectorXd& x);
 
@@ -93,12 +93,11 @@ struct FlowSetText {
   std::string say;
 };
 
-class JudgedTexts {
+class Texts {
  public:
   /// All must outlive it. InputError for a text that uses what has no value, and for constants
   /// that do not fit.
-  JudgedTexts(const model::Dynamics& dynamics, const model::Stated& stated,
-              const JudgeQuestion& question);
+  Texts(const model::Dynamics& dynamics, const model::Stated& stated, const Question& question);
 
   /// What counts as right of elements of these sizes.
   Eigen::VectorXd accuracy(const Eigen::VectorXd& sizes) const {
@@ -142,7 +141,7 @@ class JudgedTexts {
 
   const model::Dynamics& dynamics;
   const model::Stated& stated;
-  const JudgeQuestion& question;
+  const Question& question;
   hybrid::StateLayout layout;  ///< one slot a variable
   std::vector<EventTexts> events;
   std::vector<ReactionTexts> reactions;

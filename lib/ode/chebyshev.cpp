@@ -25,14 +25,13 @@ Transform make_transform(int degree) {
   const Index n = degree;
   Transform made{VectorXd::Ones(n + 1), Matrix::Ones(n + 1, n + 1)};
   if (n == 0) return made;
-  constexpr double kPi = std::numbers::pi;
   const auto size = static_cast<double>(n);
   const auto half_at_end = [&](Index k) { return k == 0 || k == n ? 0.5 : 1.0; };
   for (Index k = 0; k <= n; ++k) {
-    made.points(k) = std::sin(kPi * static_cast<double>(2 * k - n) / (2 * size));
+    made.points(k) = std::sin(std::numbers::pi * static_cast<double>(2 * k - n) / (2 * size));
     for (Index j = 0; j <= n; ++j) {
       const Index turns = (j * (n - k)) % (2 * n);
-      const double wave = std::cos(kPi * static_cast<double>(turns) / size);
+      const double wave = std::cos(std::numbers::pi * static_cast<double>(turns) / size);
       made.matrix(k, j) = 2 / size * half_at_end(k) * half_at_end(j) * wave;
     }
   }
@@ -42,10 +41,10 @@ Transform make_transform(int degree) {
 const Transform& transform(Index degree) {
   static const std::vector<Transform> all = [] {
     std::vector<Transform> made;
-    for (int n = 0; n <= kLargestDegree; ++n) made.push_back(make_transform(n));
+    for (int n = 0; n <= largest_degree; ++n) made.push_back(make_transform(n));
     return made;
   }();
-  if (degree < 0 || degree > kLargestDegree) throw std::logic_error("a series of that degree");
+  if (degree < 0 || degree > largest_degree) throw std::logic_error("a series of that degree");
   return all[static_cast<std::size_t>(degree)];
 }
 
@@ -74,7 +73,7 @@ void combine(const double* c, Index stride, const double* weights, std::size_t t
 void at(const Matrix& coefficients, double x, double* out) {
   const Index rows = coefficients.rows();
   const auto terms = static_cast<std::size_t>(coefficients.cols());
-  std::array<double, kLargestDegree + 1> usual;
+  std::array<double, largest_degree + 1> usual;
   std::vector<double> more(terms > usual.size() ? terms : 0);
   double* const weights = more.empty() ? usual.data() : more.data();  // T_k(x)
   weights[0] = 1;

@@ -1,4 +1,4 @@
-// Internal to hybrid: functions of time as sums of Chebyshev polynomials on [-1, 1].
+// Functions of time as sums of Chebyshev polynomials on [-1, 1].
 //
 //   p(x) = sum_k c_k T_k(x),   rows of a matrix are functions, column k their c_k
 //
@@ -11,7 +11,8 @@
 
 namespace gainsmith::ode::chebyshev {
 
-constexpr int kLargestDegree = 20;
+/// The highest degree that tables of points are kept for.
+inline constexpr int largest_degree = 20;
 
 /// The points -cos(pi k/degree), k = 0 .. degree, in rising order, exact at -1, 0 and 1; of degree
 /// 0 the point 1.

@@ -1,5 +1,5 @@
-// Internal to hybrid: the exponentials of exact flows (flow.h). They depend on what is frozen, on
-// branches that are held and on values that rest alone, so all flows and runs of one simulator
+// The exponentials of exact flows (simulate/exact_flow.h). They depend on what is frozen, on the
+// branches that are taken and on values that rest alone. So all flows and runs of one simulator
 // share them.
 #pragma once
 
@@ -31,14 +31,14 @@ struct ExponentialTable {
 class ExponentialTables {
  public:
   /// The table of a key; fresh where it is not known. Beyond a number of tables all are forgotten,
-  /// as for noise that never comes back; who holds one keeps it.
+  /// as for noise that never comes back; a shared pointer keeps its own.
   std::shared_ptr<ExponentialTable>& at(const std::vector<double>& key) {
-    constexpr std::size_t kMost = 256;
-    if (tables_.size() >= kMost && !tables_.contains(key)) tables_.clear();
+    if (tables_.size() >= capacity && !tables_.contains(key)) tables_.clear();
     return tables_[key];
   }
 
  private:
+  static constexpr std::size_t capacity = 256;
   std::map<std::vector<double>, std::shared_ptr<ExponentialTable>> tables_;
 };
 

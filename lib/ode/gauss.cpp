@@ -7,13 +7,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include "ode/tolerances.h"
+
 namespace gainsmith::ode {
 
 namespace {
 
-constexpr Eigen::Index kStages = 4;
-constexpr int kFixedPointSteps = 40;
-constexpr int kNewtonSteps = 30;
+constexpr Eigen::Index stages = 4;
 
 /// P_0(z) ... P_4(z).
 std::array<double, 5> legendre(double z) {
@@ -44,8 +44,8 @@ GaussTableau gauss_tableau() {
   tableau.b = Eigen::Vector4d(light, heavy, heavy, light);
   // The Lagrange polynomials in those of Legendre, which are orthogonal on c too:
   //   l_j = b_j sum_k (2k + 1) P_k(z_j) P_k,  integral of (2k + 1) P_k = (P_{k+1} - P_{k-1}) / 2
-  for (Eigen::Index i = 0; i < kStages; ++i)
-    for (Eigen::Index j = 0; j < kStages; ++j) {
+  for (Eigen::Index i = 0; i < stages; ++i)
+    for (Eigen::Index j = 0; j < stages; ++j) {
       const std::array<double, 5> to = legendre(z(i));
       const std::array<double, 5> of = legendre(z(j));
       double sum = tableau.c(i);
@@ -59,18 +59,18 @@ GaussTableau gauss_tableau() {
 GaussIntegrator::GaussIntegrator(Eigen::Index size, Rate rate)
     : tableau_(gauss_tableau()),
       rate_(std::move(rate)),
-      stages_(size, kStages),
-      rates_(size, kStages),
-      residual_(size, kStages),
+      stages_(size, stages),
+      rates_(size, stages),
+      residual_(size, stages),
       at_(size),
       value_(size) {}
 
 std::optional<Eigen::VectorXd> GaussIntegrator::step(double t, const Eigen::VectorXd& x, double h,
                                                      const Eigen::VectorXd& tolerance,
                                                      const Guess& guess) {
-  for (Eigen::Index i = 0; i < kStages; ++i) stages_.col(i) = guess(t + tableau_.c(i) * h) - x;
+  for (Eigen::Index i = 0; i < stages; ++i) stages_.col(i) = guess(t + tableau_.c(i) * h) - x;
   if (!fixed_point(t, x, h, tolerance)) {
-    for (Eigen::Index i = 0; i < kStages; ++i) stages_.col(i) = guess(t + tableau_.c(i) * h) - x;
+    for (Eigen::Index i = 0; i < stages; ++i) stages_.col(i) = guess(t + tableau_.c(i) * h) - x;
     if (!newton(t, x, h, tolerance)) return std::nullopt;
   }
   return x + stages_ * tableau_.d;
@@ -78,7 +78,7 @@ std::optional<Eigen::VectorXd> GaussIntegrator::step(double t, const Eigen::Vect
 
 bool GaussIntegrator::residual(double t, const Eigen::VectorXd& x, double h) {
   try {
-    for (Eigen::Index i = 0; i < kStages; ++i) {
+    for (Eigen::Index i = 0; i < stages; ++i) {
       at_ = x + stages_.col(i);
       rate_(t + tableau_.c(i) * h, at_, value_);
       rates_.col(i) = value_;
@@ -93,14 +93,13 @@ bool GaussIntegrator::residual(double t, const Eigen::VectorXd& x, double h) {
 bool GaussIntegrator::fixed_point(double t, const Eigen::VectorXd& x, double h,
                                   const Eigen::VectorXd& tolerance) {
   double last = -1;
-  for (int k = 0; k < kFixedPointSteps; ++k) {
+  for (int k = 0; k < kMostIterations; ++k) {
     if (!residual(t, x, h)) return false;
     const double change = weighted(residual_, tolerance);
     stages_ += residual_;
     // A change of ratio q leaves an error of q/(1 - q) times the change.
     const double q = last > 0 ? change / last : 0.5;
-    if (change == 0 || (q < 1 && change * q / (1 - q) <= 1e-2 && k > 0)) return true;
-    if (k == 0 && change <= 2e-3) return true;
+    if (change == 0 || (q < 1 && change * q / (1 - q) <= kSolved)) return true;
     if (k > 1 && q > 0.5) return false;
     last = change;
   }
@@ -111,12 +110,13 @@ numbers::Matrix GaussIntegrator::jacobian(double t, const Eigen::VectorXd& x,
                                           const Eigen::VectorXd& tolerance) {
   numbers::Matrix J =
       numbers::Matrix::Constant(x.size(), x.size(), std::numeric_limits<double>::quiet_NaN());
+  const double root_of_unit = std::sqrt(std::numeric_limits<double>::epsilon());
   try {
     Eigen::VectorXd base(x.size());
     rate_(t, x, base);
     Eigen::VectorXd moved = x;
     for (Eigen::Index j = 0; j < x.size(); ++j) {
-      const double delta = 1.5e-8 * std::abs(x(j)) + tolerance(j);
+      const double delta = root_of_unit * std::abs(x(j)) + tolerance(j);
       moved(j) = x(j) + delta;
       rate_(t, moved, value_);
       J.col(j) = (value_ - base) / (moved(j) - x(j));
@@ -133,21 +133,21 @@ bool GaussIntegrator::newton(double t, const Eigen::VectorXd& x, double h,
   const Eigen::Index n = x.size();
   const numbers::Matrix J = jacobian(t, x, tolerance);
   if (!J.allFinite()) return false;
-  numbers::Matrix M = numbers::Matrix::Identity(kStages * n, kStages * n);
-  for (Eigen::Index i = 0; i < kStages; ++i)
-    for (Eigen::Index j = 0; j < kStages; ++j)
+  numbers::Matrix M = numbers::Matrix::Identity(stages * n, stages * n);
+  for (Eigen::Index i = 0; i < stages; ++i)
+    for (Eigen::Index j = 0; j < stages; ++j)
       M.block(i * n, j * n, n, n) -= h * tableau_.A(i, j) * J;
   const Eigen::PartialPivLU<numbers::Matrix> lu(M);
   double last = -1;
-  for (int k = 0; k < kNewtonSteps; ++k) {
+  for (int k = 0; k < kMostIterations; ++k) {
     if (!residual(t, x, h)) return false;
     const Eigen::VectorXd change = lu.solve(residual_.reshaped());
     if (!change.allFinite()) return false;
-    const numbers::Matrix by_stage = change.reshaped(n, kStages);
+    const numbers::Matrix by_stage = change.reshaped(n, stages);
     const double size = weighted(by_stage, tolerance);
     stages_ += by_stage;
     const double q = last > 0 ? size / last : 0.5;
-    if (size == 0 || (q < 1 && size * q / (1 - q) <= 1e-2 && k > 0)) return true;
+    if (size == 0 || (q < 1 && size * q / (1 - q) <= kSolved && k > 0)) return true;
     if (k > 2 && q >= 1) return false;
     last = size;
   }

@@ -35,9 +35,9 @@ class GaussIntegrator {
 
   GaussIntegrator(Eigen::Index size, Rate rate);
 
-  /// One step from x at t. `tolerance` > 0, one an element: up to a hundredth of it the equations
-  /// of the stages are solved, by fixed-point iterations and, where they do not contract, by
-  /// Newton's method with a Jacobian of differences. None when neither converges.
+  /// One step from x at t. `tolerance` > 0, one an element: the equations of the stages are solved
+  /// to a hundredth of it. Fixed-point iterations do that; where they do not contract, Newton's
+  /// method with a Jacobian of differences. None when neither converges.
   std::optional<Eigen::VectorXd> step(double t, const Eigen::VectorXd& x, double h,
                                       const Eigen::VectorXd& tolerance, const Guess& guess);
 

@@ -7,33 +7,16 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <algorithm>
+#include <limits>
 #include <new>
 #include <utility>
 
 #include "base/number.h"
+#include "ode/tolerances.h"
 
 namespace gainsmith::ode {
 
 namespace cvode {
-
-/// Of one call of advance(): beyond the first the flow counts as stiff.
-constexpr long kMostSteps = 5000;
-constexpr long kMostStiffSteps = 50000;
-
-/// Of what is left of the flow.
-constexpr double kShortestStep = 1e-15;
-
-/// A flow whose steps fall to nothing while it has grown by this escapes.
-constexpr double kEscape = 1e4;
-
-/// Of the largest element, in a flow that is too stiff to follow the small ones.
-constexpr double kSmallest = 1e-2;
-
-/// Of step(): after so many, whether the flow is stiff is looked at.
-constexpr long kStepsOfAWindow = 1000;
-
-/// Fixed-point iterations that failed in a window of steps, of a flow that counts as stiff.
-constexpr long kFailuresOfStiff = kStepsOfAWindow / 20;
 
 /// Frees what CVODE made.
 template <auto free>
@@ -168,10 +151,10 @@ class Solver {
 
   /// Steps that the iteration keeps short, and not the error.
   bool has_become_stiff() {
-    if (++steps_ < kStepsOfAWindow) return false;
+    if (++steps_ < window) return false;
     long failures = 0;
     require(CVodeGetNumNonlinSolvConvFails(memory_.get(), &failures));
-    const bool stiff = failures - failures_ > kFailuresOfStiff;
+    const bool stiff = failures - failures_ > kStiffFailures;
     steps_ = 0;
     failures_ = failures;
     return stiff;
@@ -196,13 +179,13 @@ class Solver {
   /// An element that has died down in a stiff flow is noise of the iteration: then all count alike.
   void forgive_small_elements() {
     const double largest = values(vector_).lpNorm<Eigen::Infinity>();
-    values(absolute_) = values(absolute_).cwiseMax(kSmallest * relative_ * largest);
+    values(absolute_) = values(absolute_).cwiseMax(relative_ * largest);
   }
 
   std::string trouble(int flag) const {
     if (trouble_.empty() && has_escaped()) return "the flow escapes";
     if (flag == CV_TOO_MUCH_WORK && trouble_.empty())
-      return "the flow needs more than " + std::to_string(kMostStiffSteps) + " steps";
+      return "the flow needs more than " + std::to_string(kPatience) + " steps";
     if (!trouble_.empty()) return trouble_;
     return "the steps of the integration fall to nothing (CVODE " + std::to_string(flag) + ")";
   }
@@ -238,7 +221,7 @@ class Solver {
     require(CVodeSetErrFile(memory_.get(), nullptr));
     require(CVodeInit(memory_.get(), rate, 0, vector_.get()));
     require(CVodeSetUserData(memory_.get(), this));
-    require(CVodeSetMaxNumSteps(memory_.get(), method == CV_ADAMS ? kMostSteps : kMostStiffSteps));
+    require(CVodeSetMaxNumSteps(memory_.get(), kPatience));
     require(CVodeSetMaxHnilWarns(memory_.get(), -1));
     require(CVodeSVtolerances(memory_.get(), 1e-8, ones().get()));
     if (method == CV_ADAMS) {
@@ -267,8 +250,11 @@ class Solver {
     require(CVodeSetMaxStep(memory_.get(), longest_));
     steps_ = failures_ = 0;
     // Without it steps of length 0 count as an arrival.
-    require(CVodeSetMinStep(memory_.get(), kShortestStep * (last_ - t_)));
+    require(CVodeSetMinStep(memory_.get(), std::numeric_limits<double>::epsilon() * (last_ - t_)));
   }
+
+  /// Steps after which it is asked whether the flow is stiff.
+  static constexpr long window = 1000;
 
   Rate rate_;
   Eigen::VectorXd x_, slope_;

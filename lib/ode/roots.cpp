@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ode/chebyshev.h"
+#include "ode/tolerances.h"
 
 namespace gainsmith::ode {
 
@@ -17,17 +18,13 @@ using Eigen::RowVectorXd;
 using Eigen::VectorXd;
 using numbers::Matrix;
 
-constexpr int kBorderDegree = 16;
+/// Of the interpolant.
+constexpr int degree = 16;
 /// Where the interpolant is compared with g, besides its own last coefficients.
-constexpr std::array<double, 2> kCheckPoints = {-0.617, 0.443};
-constexpr double kAgreement = 1e-13;
-constexpr double kTurnsNear = 1e-10;
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-/// Of the step: what is too short to be a time of its own at t = 0.
-constexpr double kShortestOfStep = 1e-20;
-/// Evaluations of g, beyond which the sides at the points of an interval have to do.
-constexpr int kPatience = 10000;
-constexpr int kMostHalvings = 60;
+constexpr std::array<double, 2> check_points = {-0.617, 0.443};
+constexpr double unit = std::numeric_limits<double>::epsilon();
+/// After them an interval is a rounding of itself.
+constexpr int most_halvings = 60;
 
 /// sum_k |c_k|, k > 0.
 double swing(const Matrix& c) { return c.rightCols(c.cols() - 1).cwiseAbs().sum(); }
@@ -36,8 +33,8 @@ bool excludes_roots(const Matrix& c, double slack = 0) { return std::abs(c(0)) >
 
 class RootSearch {
  public:
-  RootSearch(const RootFunction& border, double from, double to)
-      : border_(border), from_(from), to_(to) {}
+  RootSearch(const RootFunction& function, double from, double to)
+      : function_(function), from_(from), to_(to) {}
 
   Found run() {
     scale_ = 0;
@@ -50,19 +47,19 @@ class RootSearch {
  private:
   double value(double t) {
     ++evaluations_;
-    return border_.value(t);
+    return function_.value(t);
   }
-  bool side(double g) const { return border_.strict ? g > 0 : g >= 0; }
-  /// How near to 0 a turning point is looked at.
-  double near() const { return std::max(kTurnsNear * scale_, border_.near); }
-  double tolerance() const { return kAgreement * scale_ + border_.noise; }
+  bool side(double g) const { return function_.strict ? g > 0 : g >= 0; }
+  /// How near to 0 a turning point is reported.
+  double near() const { return std::max(kTurnsNear * scale_, function_.near); }
+  double tolerance() const { return kFinest * scale_ + function_.noise; }
   double resolution(double a, double b) const {
-    return 2 * kEpsilon * std::max(std::abs(a), std::abs(b)) + kShortestOfStep * (to_ - from_);
+    return 2 * unit * std::max(std::abs(a), std::abs(b)) + unit * unit * (to_ - from_);
   }
 
   /// Roots of g on [a, b].
   void interval(double a, double b, int halvings) {
-    const VectorXd& points = chebyshev::points(kBorderDegree);
+    const VectorXd& points = chebyshev::points(degree);
     VectorXd times(points.size());
     RowVectorXd values(points.size());
     for (Index k = 0; k < points.size(); ++k) {
@@ -71,8 +68,8 @@ class RootSearch {
     }
     const double largest = values.cwiseAbs().maxCoeff();
     if (halvings == 0) scale_ = largest;
-    const bool short_enough = b - a <= 4 * resolution(a, b) || halvings >= kMostHalvings;
-    if (largest <= border_.noise || short_enough || evaluations_ > kPatience) {
+    const bool short_enough = b - a <= 4 * resolution(a, b) || halvings >= most_halvings;
+    if (largest <= function_.noise || short_enough || evaluations_ > kPatience) {
       by_sides(times);
       return;
     }
@@ -82,22 +79,21 @@ class RootSearch {
       return;
     }
     if (stays_away(values)) return;
-    const double middle = times(kBorderDegree / 2);
+    const double middle = times(degree / 2);
     interval(a, middle, halvings + 1);
     interval(middle, b, halvings + 1);
   }
 
   bool agrees(const Matrix& c, double a, double b) {
     if (c.rightCols(2).cwiseAbs().sum() > tolerance()) return false;
-    return std::all_of(kCheckPoints.begin(), kCheckPoints.end(), [&](double x) {
+    return std::all_of(check_points.begin(), check_points.end(), [&](double x) {
       return std::abs(value(chebyshev::outer(x, a, b)) - chebyshev::first(c, x)) <= tolerance();
     });
   }
 
   /// A function with corners that changes little from point to point, and lies beyond that.
   bool stays_away(const RowVectorXd& values) const {
-    const double step =
-        (values.rightCols(kBorderDegree) - values.leftCols(kBorderDegree)).cwiseAbs().maxCoeff();
+    const double step = (values.rightCols(degree) - values.leftCols(degree)).cwiseAbs().maxCoeff();
     const double nearest = values.cwiseAbs().minCoeff();
     return nearest > 2 * step && nearest > near() && values.minCoeff() * values.maxCoeff() > 0;
   }
@@ -108,10 +104,10 @@ class RootSearch {
 
   /// Roots of g on [a, b], on which c is its interpolant.
   void part(const Matrix& c, double a, double b, int halvings) {
-    if (excludes_roots(c, near() + border_.noise)) return;
+    if (excludes_roots(c, near() + function_.noise)) return;
     const Matrix slope = chebyshev::derivative(c);
-    const double noise = border_.noise + kEpsilon * scale_;
-    if (excludes_roots(slope) || swing(c) <= noise || halvings >= kMostHalvings) {
+    const double noise = function_.noise + unit * scale_;
+    if (excludes_roots(slope) || swing(c) <= noise || halvings >= most_halvings) {
       between(a, b);
       return;
     }
@@ -133,7 +129,7 @@ class RootSearch {
     }
     double low = -1;
     double high = 1;
-    while (high - low > kEpsilon) {
+    while (high - low > unit) {
       const double x = (low + high) / 2;
       ((chebyshev::first(slope, x) > 0) == (left > 0) ? low : high) = x;
     }
@@ -142,7 +138,7 @@ class RootSearch {
     const double g = value(t);
     // A minimum of |g|: below zero the slope falls, above it rises.
     const bool towards = (chebyshev::first(c, low) > 0) == (left < 0);
-    if ((found || towards) && std::abs(g) <= near()) found_.turns.push_back({t, g, found});
+    if ((found || towards) && std::abs(g) <= near()) found_.turning_points.push_back({t, g, found});
   }
 
   /// The root between a and b where the sides differ.
@@ -158,7 +154,7 @@ class RootSearch {
     return true;
   }
 
-  const RootFunction& border_;
+  const RootFunction& function_;
   double from_, to_;
   double scale_ = 0;  ///< the largest |g| on the step
   int evaluations_ = 0;
@@ -167,23 +163,24 @@ class RootSearch {
 
 }  // namespace
 
-Found find_roots(const RootFunction& border, double from, double to) {
-  return RootSearch(border, from, to).run();
+Found find_roots(const RootFunction& function, double from, double to) {
+  return RootSearch(function, from, to).run();
 }
 
-Found find_roots(const RootFunction& border, double from, double to,
+Found find_roots(const RootFunction& function, double from, double to,
                  const std::vector<Break>& breaks) {
-  if (breaks.empty()) return find_roots(border, from, to);
+  if (breaks.empty()) return find_roots(function, from, to);
   const auto side = [&](double t) {
-    const double g = border.value(t);
-    return border.strict ? g > 0 : g >= 0;
+    const double g = function.value(t);
+    return function.strict ? g > 0 : g >= 0;
   };
   Found all;
   const auto add = [&](double a, double b) {
     if (!(a < b)) return;
-    const Found found = find_roots(border, a, b);
+    const Found found = find_roots(function, a, b);
     all.roots.insert(all.roots.end(), found.roots.begin(), found.roots.end());
-    all.turns.insert(all.turns.end(), found.turns.begin(), found.turns.end());
+    all.turning_points.insert(all.turning_points.end(), found.turning_points.begin(),
+                              found.turning_points.end());
   };
   double left = from;
   for (const Break& one : breaks) {
@@ -197,9 +194,8 @@ Found find_roots(const RootFunction& border, double from, double to,
 
 std::vector<double> first_points(double from, double to) {
   std::vector<double> times;
-  for (const double x : chebyshev::points(kBorderDegree))
-    times.push_back(chebyshev::outer(x, from, to));
-  for (const double x : kCheckPoints) times.push_back(chebyshev::outer(x, from, to));
+  for (const double x : chebyshev::points(degree)) times.push_back(chebyshev::outer(x, from, to));
+  for (const double x : check_points) times.push_back(chebyshev::outer(x, from, to));
   std::sort(times.begin(), times.end());
   return times;
 }

@@ -1,5 +1,4 @@
-// Internal to hybrid: all places on a step where a function of time comes to be positive or ceases
-// to be.
+// All roots of a function of time on a step: where it comes to be positive or ceases to be.
 //
 //   side(t) = g(t) > 0,  or g(t) >= 0
 //
@@ -24,7 +23,7 @@ struct Root {
 
 /// A turning point of g next to 0: a minimum of |g| without a root, or an extremum between two
 /// roots.
-struct Turn {
+struct TurningPoint {
   double t = 0;
   double value = 0;      ///< of g
   bool reached = false;  ///< between two roots, or a root itself
@@ -34,17 +33,17 @@ struct RootFunction {
   std::function<double(double)> value;  ///< g; deterministic
   bool strict = false;                  ///< side: > 0; otherwise >= 0
   double noise = 0;                     ///< how far rounding may lead g astray
-  double near =
-      0;  ///< turning points as near to 0 as that are told; 1e-10 of the largest |g| always
+  /// Turning points as near to 0 as that are reported; kTurnsNear of the largest |g| always.
+  double near = 0;
 };
 
 struct Found {
   std::vector<Root> roots;  ///< in rising order
-  std::vector<Turn> turns;
+  std::vector<TurningPoint> turning_points;
 };
 
 /// What `value` throws leaves it.
-Found find_roots(const RootFunction& border, double from, double to);
+Found find_roots(const RootFunction& function, double from, double to);
 
 /// A place where g is not smooth: it lies between two numbers that are next to each other, or
 /// nearly.
@@ -53,7 +52,7 @@ struct Break : Root {
 };
 
 /// The same of a g that is smooth between breaks, in rising order.
-Found find_roots(const RootFunction& border, double from, double to,
+Found find_roots(const RootFunction& function, double from, double to,
                  const std::vector<Break>& breaks);
 
 /// The points of [from, to] at which find_roots evaluates g first, in rising order; for callers

@@ -1,9 +1,11 @@
-// Internal to hybrid: what a function is at the start, the middle and the end of a step.
+// What a function is at the start, the middle and the end of a step.
 #pragma once
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <array>
+
+#include "ode/tolerances.h"
 
 namespace gainsmith::ode {
 
@@ -18,10 +20,9 @@ struct StepRange {
     high = *std::max_element(values.begin(), values.end());
   }
 
-  /// One that stays away from 0 by so many times what it changes over a step has no root on it.
-  /// `sign`: which side is meant; 0: any.
+  /// Whether the function is so far from 0 that it has no root on the step. `sign`: on which
+  /// side; 0: any.
   bool is_far_from_zero(double sign = 0) const {
-    constexpr double kFar = 4;
     const double above = sign >= 0 ? low : -high;
     const double below = sign == 0 ? -high : above;
     return std::max(above, below) > kFar * (high - low);

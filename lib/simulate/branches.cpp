@@ -13,17 +13,9 @@ using Eigen::Index;
 using Eigen::VectorXd;
 using numbers::Matrix;
 
-namespace {
-
-constexpr double kOfAccuracy = 1e-3;
-/// Of what D changes: farther from 0 at all points of a step, it has no pair of roots there.
-constexpr double kFar = 4;
-
-}  // namespace
-
 /// What the kinks of one step share.
-struct Branches::Look {
-  explicit Look(const StepValues& inside)
+struct Branches::OnStep {
+  explicit OnStep(const StepValues& inside)
       : points(inside),
         three{inside.at(inside.from()),
               inside.at(inside.from() + (inside.to() - inside.from()) / 2),
@@ -31,17 +23,18 @@ struct Branches::Look {
 
   StepPoints points;
   std::array<VectorXd, 3> three;
-  std::optional<CrossingsOnStep> border;  ///< of the kink that is looked at
-  VectorXd slack;                         ///< of its elements
+  std::optional<CrossingsOnStep> crossings;  ///< of one kink
+  VectorXd slack;                            ///< of its elements
 };
 
 Branches::Branches(const hybrid::System& system, EventWatch& watch, const Accuracy& accuracy)
     : system_(&system),
       watch_(&watch),
-      relative_(system.affine ? 0 : kOfAccuracy * accuracy.relative),
-      absolute_(system.affine                     ? 0
-                : accuracy.absolute_of.size() > 0 ? kOfAccuracy * accuracy.absolute_of.minCoeff()
-                                                  : kOfAccuracy * accuracy.absolute) {}
+      relative_(system.affine ? 0 : hybrid::kOfAccuracy * accuracy.relative),
+      absolute_(system.affine ? 0
+                : accuracy.absolute_of.size() > 0
+                    ? hybrid::kOfAccuracy * accuracy.absolute_of.minCoeff()
+                    : hybrid::kOfAccuracy * accuracy.absolute) {}
 
 Index Branches::offset(std::size_t one) const {
   return system_->layout.slots[system_->dynamics.variables.size() + one].offset;
@@ -51,76 +44,77 @@ bool Branches::is_kink(std::size_t one) const {
   return system_->switches[one].kind == hybrid::Switch::Kind::kink;
 }
 
-void Branches::hold(VectorXd& values) {
-  for (std::size_t k = 0; k < watch_->switches.size(); ++k) hold_one(k, values);
+void Branches::update(VectorXd& values) {
+  for (std::size_t k = 0; k < watch_->switches.size(); ++k) update_one(k, values);
 }
 
-void Branches::hold_kinks(VectorXd& values) {
+void Branches::update_kinks(VectorXd& values) {
   for (std::size_t k = 0; k < watch_->switches.size(); ++k)
-    if (is_kink(k)) hold_one(k, values);
+    if (is_kink(k)) update_one(k, values);
 }
 
-void Branches::hold_one(std::size_t k, VectorXd& values) {
+void Branches::update_one(std::size_t k, VectorXd& values) {
   const hybrid::Switch& one = system_->switches[k];
-  hybrid::EventFunction& border = watch_->switches[k];
-  const Matrix difference = border(values);
+  hybrid::EventFunction& function = watch_->switches[k];
+  const Matrix difference = function(values);
   const bool kink = one.kind == hybrid::Switch::Kind::kink;
-  const Matrix noise = kink ? Matrix(hybrid::kTermRounding * border.terms(values)) : Matrix();
+  const Matrix noise = kink ? Matrix(hybrid::kTermRounding * function.terms(values)) : Matrix();
   for (Index e = 0; e < difference.size(); ++e) {
-    double& held = values(offset(k) + e);
+    double& branch = values(offset(k) + e);
     const double d = difference(e);
-    if (kink && held != 0 && std::abs(d) <= noise(e)) continue;
+    if (kink && branch != 0 && std::abs(d) <= noise(e)) continue;
     if (kink) {
-      held = d > 0 ? 1 : d < 0 ? -1 : held < 0 ? -1 : 1;
+      branch = d > 0 ? 1 : d < 0 ? -1 : branch < 0 ? -1 : 1;
     } else if (one.kind == hybrid::Switch::Kind::sign) {
-      held = d > 0 ? 1 : d < 0 ? -1 : 0;
+      branch = d > 0 ? 1 : d < 0 ? -1 : 0;
     } else {
-      held = (one.strict ? d > 0 : d >= 0) ? 1 : -1;
+      branch = (one.strict ? d > 0 : d >= 0) ? 1 : -1;
     }
   }
 }
 
-std::optional<Branches::Turn> Branches::first_turn(const StepValues& inside,
-                                                   const VectorXd& values) {
-  std::optional<Turn> first;
-  std::optional<Look> look;
+std::optional<Branches::Change> Branches::first_change(const StepValues& inside,
+                                                       const VectorXd& values) {
+  std::optional<Change> first;
+  std::optional<OnStep> on_step;
   for (std::size_t k = 0; k < watch_->switches.size(); ++k) {
-    hybrid::EventFunction& border = watch_->switches[k];
-    if (border.rests()) continue;
-    if (!look) look.emplace(inside);
-    look->border.reset();
-    for (Index e = 0; e < border.size(); ++e) {
-      const double held = values(offset(k) + e);
-      const ode::StepRange range([&](const VectorXd& x) { return border(x)(e); }, look->three);
-      if (!border.waves() && range.is_far_from_zero(held)) continue;
-      if (const auto turn = turn_of(k, e, held, *look); turn && (!first || turn->t < first->t))
-        first = turn;
+    hybrid::EventFunction& function = watch_->switches[k];
+    if (function.rests()) continue;
+    if (!on_step) on_step.emplace(inside);
+    on_step->crossings.reset();
+    for (Index e = 0; e < function.size(); ++e) {
+      const double branch = values(offset(k) + e);
+      const ode::StepRange range([&](const VectorXd& x) { return function(x)(e); }, on_step->three);
+      if (!function.waves() && range.is_far_from_zero(branch)) continue;
+      if (const auto change = change_of(k, e, branch, *on_step);
+          change && (!first || change->t < first->t))
+        first = change;
     }
   }
   return first;
 }
 
-std::optional<Branches::Turn> Branches::turn_of(std::size_t one, Index element, double held,
-                                                Look& look) {
-  const std::vector<double>& times = look.points.times();
-  if (!look.border) {
-    look.border.emplace(watch_->switches[one], look.points);
-    look.slack = look.border->noise();
-    const auto terms = watch_->switches[one].terms(look.three[0]).reshaped();
-    if (is_kink(one)) look.slack += (relative_ * terms.array() + absolute_ * part_).matrix();
+std::optional<Branches::Change> Branches::change_of(std::size_t one, Index element, double branch,
+                                                    OnStep& on_step) {
+  const std::vector<double>& times = on_step.points.times();
+  if (!on_step.crossings) {
+    on_step.crossings.emplace(watch_->switches[one], on_step.points);
+    on_step.slack = on_step.crossings->noise();
+    const auto terms = watch_->switches[one].terms(on_step.three[0]).reshaped();
+    if (is_kink(one)) on_step.slack += (relative_ * terms.array() + absolute_ * part_).matrix();
   }
-  const double slack = look.slack(element);
-  const auto value = [&](double t) { return look.border->value(element, t); };
+  const double slack = on_step.slack(element);
+  const auto value = [&](double t) { return on_step.crossings->value(element, t); };
   const auto beyond = [&](double t) {
     const double d = value(t);
-    return held == 0 ? std::abs(d) > slack : d * held < -slack;
+    return branch == 0 ? std::abs(d) > slack : d * branch < -slack;
   };
-  const auto on_side = (held * look.border->values().row(element).array()).eval();
+  const auto on_side = (branch * on_step.crossings->values().row(element).array()).eval();
   // No pair of roots hides between points of a D that is far from 0 at all of them.
   if (!watch_->switches[one].waves() &&
-      on_side.minCoeff() > (on_side.maxCoeff() - on_side.minCoeff()) / kFar)
+      on_side.minCoeff() > (on_side.maxCoeff() - on_side.minCoeff()) / ode::kFar)
     return std::nullopt;
-  ode::Found found = look.border->roots(element, held < 0);
+  ode::Found found = on_step.crossings->roots(element, branch < 0);
   std::vector<double> places(times.begin(), times.end());
   for (std::size_t k = 0; k + 1 < found.roots.size(); ++k)
     places.push_back((found.roots[k].right + found.roots[k + 1].left) / 2);
@@ -128,11 +122,12 @@ std::optional<Branches::Turn> Branches::turn_of(std::size_t one, Index element, 
   const auto there = std::find_if(places.begin(), places.end(), beyond);
   if (there == places.end()) return std::nullopt;
   const double to = value(*there) > 0 ? 1 : -1;
-  if (held == 0 && to > 0) found = look.border->roots(element, true);
-  Turn turn{value(times.front()) * to < 0 ? *there : times.front(), offset(one) + element, to, one};
+  if (branch == 0 && to > 0) found = on_step.crossings->roots(element, true);
+  Change change{value(times.front()) * to < 0 ? *there : times.front(), offset(one) + element, to,
+                one};
   for (const ode::Root& root : found.roots)
-    if (root.right <= *there) turn.t = root.right;
-  return turn;
+    if (root.right <= *there) change.t = root.right;
+  return change;
 }
 
 }  // namespace gainsmith::simulate

@@ -1,13 +1,13 @@
-// Internal to hybrid: the branches that a flow holds (switches.h), in one run.
+// The branches that a flow takes (switches.h), in one run.
 //
-// A branch is wrong once its D has been on the other side by more than a slack, of kinks
+// A branch is wrong once its D has been on the other side by more than a slack:
 //
-//   slack = 1e-3 (relative * terms + absolute),   of exact flows: the rounding of its terms
+//   of kinks                1e-3 (relative * terms + absolute), a thousandth of the error of the
+//                           integration; of exact flows the rounding of its terms
+//   of signs and `where`    the rounding of its terms
 //
-// a thousandth of what the integration may be off, of signs and of `where` the rounding of its
-// terms always. Then the flow is cut at the last root of D before, and goes on with the other
-// branch; below it the wrong branch changes nothing. So neither rounding nor a flow along a border
-// makes cuts.
+// Then the flow ends at the last root of D before, and goes on with the other branch. Below the
+// slack the wrong branch changes nothing. So neither rounding nor a flow along D = 0 ends a flow.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,29 +26,30 @@ class Branches {
   Branches(const hybrid::System& system, EventWatch& watch, const Accuracy& accuracy);
 
   /// Sets the branches for these values.
-  void hold(Eigen::VectorXd& values);
+  void update(Eigen::VectorXd& values);
   /// The same of kinks alone.
-  void hold_kinks(Eigen::VectorXd& values);
+  void update_kinks(Eigen::VectorXd& values);
 
   bool is_kink(std::size_t one) const;
 
   /// An element of a switch whose branch changes.
-  struct Turn {
+  struct Change {
     double t = 0;  ///< step.from: the whole step is on the other side
-    Eigen::Index held = 0;
+    Eigen::Index element = 0;
     double to = 0;  ///< 1 or -1
     std::size_t branch = 0;
   };
   /// The first on a step with the branches of `values`.
-  std::optional<Turn> first_turn(const StepValues& inside, const Eigen::VectorXd& values);
+  std::optional<Change> first_change(const StepValues& inside, const Eigen::VectorXd& values);
 
   /// From now on errors count as absolute below this part of the accuracy's.
   void sharpen(double part) { part_ = part; }
 
  private:
-  struct Look;
-  void hold_one(std::size_t one, Eigen::VectorXd& values);
-  std::optional<Turn> turn_of(std::size_t one, Eigen::Index element, double held, Look& look);
+  struct OnStep;
+  void update_one(std::size_t one, Eigen::VectorXd& values);
+  std::optional<Change> change_of(std::size_t one, Eigen::Index element, double branch,
+                                  OnStep& on_step);
   Eigen::Index offset(std::size_t one) const;
 
   const hybrid::System* system_;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "ode/chebyshev.h"
+#include "simulate/tolerances.h"
 
 namespace gainsmith::simulate {
 
@@ -14,65 +15,66 @@ using numbers::Matrix;
 
 namespace {
 
-constexpr int kTurnDegree = 16;
-/// Of the step: how early a turn is, and the earliest that is told from none.
-constexpr double kEarlyTurn = 0.1;
-constexpr double kEarliestTurn = 1e-4;
-/// Times the noise: what the search for roots cannot overlook.
-constexpr double kPlain = 1e4;
+/// Of the interpolant of an event function.
+constexpr int turn_degree = 16;
+/// Of the step: the earliest turning point that rounding leaves.
+constexpr double earliest = 1 / hybrid::kPlain;
 
 }  // namespace
 
-CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& border, StepPoints& points)
-    : border_(border), points_(points), values_(border.size(), 0) {
+CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& function, StepPoints& points)
+    : function_(function), points_(points), values_(function.size(), 0) {
   const std::vector<VectorXd>& all = points.values();
-  values_.resize(border.size(), static_cast<Index>(all.size()));
+  values_.resize(function.size(), static_cast<Index>(all.size()));
   for (std::size_t k = 0; k < all.size(); ++k)
-    values_.col(static_cast<Index>(k)) = border(all[k]).reshaped();
-  noise_ = border.terms(all.front()).reshaped();
+    values_.col(static_cast<Index>(k)) = function(all[k]).reshaped();
+  noise_ = function.terms(all.front()).reshaped();
   for (const VectorXd* point : {&all[all.size() / 2], &all.back()})
-    noise_ = noise_.cwiseMax(border.terms(*point).reshaped());
+    noise_ = noise_.cwiseMax(function.terms(*point).reshaped());
   noise_ *= hybrid::kTermRounding;
   const StepValues& inside = points.inside();
-  breaks_ = border.breaks().on([&](double t) { return inside.at(t); }, inside.from(), inside.to());
+  breaks_ =
+      function.breaks().on([&](double t) { return inside.at(t); }, inside.from(), inside.to());
 }
 
 ode::Found CrossingsOnStep::roots(Index element, bool strict, double near) {
   const StepValues& inside = points_.inside();
-  const ode::RootFunction border{[&](double t) { return value(element, t); }, strict,
-                                 noise_(element), near * noise_(element) / hybrid::kTermRounding};
-  return ode::find_roots(border, inside.from(), inside.to(), breaks_);
+  const ode::RootFunction root_function{[&](double t) { return value(element, t); }, strict,
+                                        noise_(element),
+                                        near * noise_(element) / hybrid::kTermRounding};
+  return ode::find_roots(root_function, inside.from(), inside.to(), breaks_);
 }
 
 double CrossingsOnStep::value(Index element, double t) {
   const std::vector<double>& times = points_.times();
   const auto known = std::lower_bound(times.begin(), times.end(), t);
   if (known != times.end() && *known == t) return values_(element, known - times.begin());
-  return border_(points_.inside().at(t))(element);
+  return function_(points_.inside().at(t))(element);
 }
 
 std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
   const StepValues& inside = points_.inside();
   const double noise = noise_(element);
   if (!(std::abs(value(element, inside.from())) <= noise) || !breaks_.empty()) return std::nullopt;
-  const VectorXd& points = ode::chebyshev::points(kTurnDegree);
+  const VectorXd& points = ode::chebyshev::points(turn_degree);
   RowVectorXd values(points.size());
   for (Index k = 0; k < points.size(); ++k)
     values(k) = value(element, ode::chebyshev::outer(points(k), inside.from(), inside.to()));
-  if (!(values.cwiseAbs().maxCoeff() > kPlain * noise)) return std::nullopt;
+  if (!(values.cwiseAbs().maxCoeff() > hybrid::kPlain * noise)) return std::nullopt;
   const Matrix c = ode::chebyshev::coefficients(values);
   const Matrix slope = ode::chebyshev::derivative(c);
   const double first = ode::chebyshev::first(slope, -1);
-  if (std::abs(first) <= kTurnDegree * kTurnDegree * noise) return kEarliestTurn;
+  if (std::abs(first) <= turn_degree * turn_degree * noise) return earliest;
   double low = -1;
-  double high = -1 + 2 * kEarlyTurn;
+  double high = -1 + 2 * kEarly;
   if ((ode::chebyshev::first(slope, high) > 0) == (first > 0)) return std::nullopt;
   for (int k = 0; k < 60; ++k) {
     const double x = low + (high - low) / 2;
     ((ode::chebyshev::first(slope, x) > 0) == (first > 0) ? low : high) = x;
   }
-  if (std::abs(ode::chebyshev::first(c, high) - values(0)) > kPlain * noise) return std::nullopt;
-  return std::max((1 + high) / 2, kEarliestTurn);
+  if (std::abs(ode::chebyshev::first(c, high) - values(0)) > hybrid::kPlain * noise)
+    return std::nullopt;
+  return std::max((1 + high) / 2, earliest);
 }
 
 }  // namespace gainsmith::simulate

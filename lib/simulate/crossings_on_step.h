@@ -1,4 +1,4 @@
-// Internal to hybrid: one border on a step, all its elements.
+// The zero crossings of one event function on a step, of all its elements.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,14 +14,14 @@ namespace gainsmith::simulate {
 class CrossingsOnStep {
  public:
   /// Both must outlive it.
-  CrossingsOnStep(hybrid::EventFunction& border, StepPoints& points);
+  CrossingsOnStep(hybrid::EventFunction& function, StepPoints& points);
 
   /// `near`: of the terms, as RootFunction::near.
   ode::Found roots(Eigen::Index element, bool strict, double near = 0);
   double value(Eigen::Index element, double t);
-  /// The part of the step after which an element turns back that starts within its noise and has
-  /// hardly left it, so that a root may lie in the noise; of an element whose first slope is noise
-  /// the shortest. None where all of it is noise, or where its text branches.
+  /// Of an element that starts within its noise: the part of the step after which it turns back,
+  /// where it has hardly left the noise, so that a root may lie in it. Where its first slope is
+  /// noise, the shortest part; none where all of it is noise, or where its text branches.
   std::optional<double> hidden_turn(Eigen::Index element);
   /// Elements x points.times().
   const numbers::Matrix& values() const { return values_; }
@@ -29,7 +29,7 @@ class CrossingsOnStep {
   const Eigen::VectorXd& noise() const { return noise_; }
 
  private:
-  hybrid::EventFunction& border_;
+  hybrid::EventFunction& function_;
   StepPoints& points_;
   numbers::Matrix values_;
   Eigen::VectorXd noise_;

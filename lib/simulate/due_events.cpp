@@ -7,14 +7,6 @@ namespace gainsmith::simulate {
 using Eigen::VectorXd;
 using DueKind = model::Dynamics::EventKind;
 
-namespace {
-
-/// Of the horizon: a clock that runs down so shortly after it is due at it, to the rounding of many
-/// lengths added up.
-constexpr double kAtHorizon = 1e-12;
-
-}  // namespace
-
 DueEvents::DueEvents(const hybrid::System& system, EventWatch& watch, hybrid::EventClocks clocks,
                      double horizon)
     : system_(&system),
@@ -43,9 +35,10 @@ bool DueEvents::has_clock(std::size_t event) const {
 
 bool DueEvents::is_due(std::size_t event, const VectorXd& values, double t) {
   Mark& mark = marks_[event];
-  if (has_clock(event)) return clocks_.is_due(event, t >= horizon_ ? t + kAtHorizon * horizon_ : t);
+  if (has_clock(event))
+    return clocks_.is_due(event, t >= horizon_ ? t + hybrid::kAddedUp * horizon_ : t);
   if (watch_->crossing[event]) {
-    look_at_sign(event, sign_of(event, values));
+    note_sign(event, sign_of(event, values));
     return mark.crossed;
   }
   if ((*watch_->when[event])(values)) return !mark.spent;
@@ -58,7 +51,7 @@ int DueEvents::sign_of(std::size_t event, const VectorXd& values) {
   return value > 0 ? 1 : value < 0 ? -1 : 0;
 }
 
-void DueEvents::look_at_sign(std::size_t event, int sign) {
+void DueEvents::note_sign(std::size_t event, int sign) {
   Mark& mark = marks_[event];
   if (sign == 0 || sign == mark.sign) return;
   const DueKind kind = system_->dynamics.events[event].kind;

@@ -1,4 +1,4 @@
-// Internal to hybrid: which event of an System is due (event_run.h says when).
+// Which event of a System is due (simulator.h says when).
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ class DueEvents {
 
   /// At the start of a run.
   void begin(const Eigen::VectorXd& values, VectorField& field);
-  /// The first that is due. Looking moves marks: a crossing that is seen stays due.
+  /// The first that is due. Asking changes marks: a crossing that was found remains due.
   std::optional<std::size_t> first(const Eigen::VectorXd& values, double t);
   /// The occurrence at t is over.
   void spend(std::size_t event, double t, VectorField& field);
@@ -41,7 +41,7 @@ class DueEvents {
  private:
   bool is_due(std::size_t event, const Eigen::VectorXd& values, double t);
   int sign_of(std::size_t event, const Eigen::VectorXd& values);
-  void look_at_sign(std::size_t event, int sign);
+  void note_sign(std::size_t event, int sign);
 
   const hybrid::System* system_;
   EventWatch* watch_;

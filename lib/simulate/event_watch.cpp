@@ -13,8 +13,8 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// The first time after t at which the side of an affine function differs, found for its root and
-/// moved on by units in the last place.
+/// The first time after t at which the side of an affine function differs: its root, moved on by
+/// units in the last place.
 double line_root(const std::function<double(double)>& g, bool strict, double t, double last) {
   const auto side = [&](double value) { return strict ? value > 0 : value >= 0; };
   const double first = g(t);
@@ -30,7 +30,7 @@ double line_root(const std::function<double(double)>& g, bool strict, double t, 
 }
 
 /// Of a turning point beyond a root that of the root, where something may happen.
-double time_of(const ode::Turn& turn, const std::vector<ode::Root>& roots) {
+double time_of(const ode::TurningPoint& turn, const std::vector<ode::Root>& roots) {
   double t = turn.t;
   if (turn.reached)
     for (const ode::Root& root : roots)
@@ -64,13 +64,13 @@ void EventWatch::comparisons_of(const Role& role, const VectorXd& values, const 
   using Kind = expr::Condition::Kind;
   for (std::size_t k = 0; k < condition.comparisons().size(); ++k) {
     hybrid::EventCondition::Comparison& one = condition.comparisons()[k];
-    if (one.border.rests()) continue;
-    visit(one.border, {one.kind != Kind::nonnegative, one.kind != Kind::positive},
+    if (one.function.rests()) continue;
+    visit(one.function, {one.kind != Kind::nonnegative, one.kind != Kind::positive},
           {role.of, role.index, &condition, k});
   }
 }
 
-void EventWatch::active_borders(const VectorXd& values, const Visit& visit) {
+void EventWatch::active_functions(const VectorXd& values, const Visit& visit) {
   using Of = hybrid::NearTurn::Of;
   for (std::size_t e = 0; e < when.size(); ++e) {
     if (when[e]) comparisons_of({Of::when, e, &*when[e], 0}, values, visit);
@@ -81,17 +81,17 @@ void EventWatch::active_borders(const VectorXd& values, const Visit& visit) {
     comparisons_of({Of::flow_set, s, &flow_sets[s].where, 0}, values, visit);
 }
 
-/// Whether it matters on which side of 0 the border is.
+/// Whether it matters on which side of 0 the function is.
 bool EventWatch::decides(const Role& role, const VectorXd& values) {
   return role.condition == nullptr ||
          role.condition->if_changed(values, role.comparison) != (*role.condition)(values);
 }
 
-hybrid::EventFunction& EventWatch::border_of(const hybrid::NearTurn& turn) {
+hybrid::EventFunction& EventWatch::function_of(const hybrid::NearTurn& turn) {
   if (turn.of == hybrid::NearTurn::Of::crossing) return *crossing[turn.index];
   hybrid::EventCondition& condition =
       turn.of == hybrid::NearTurn::Of::when ? *when[turn.index] : flow_sets[turn.index].where;
-  return condition.comparisons()[turn.comparison].border;
+  return condition.comparisons()[turn.comparison].function;
 }
 
 std::vector<double> EventWatch::crossings(
@@ -99,10 +99,10 @@ std::vector<double> EventWatch::crossings(
     const std::function<void(const hybrid::NearTurn&, bool)>& turn, std::optional<double>* hidden) {
   std::vector<double> result;
   StepPoints points(inside);
-  active_borders(values, [&](hybrid::EventFunction& border, Sides sides, const Role& role) {
-    if (border.size() == 0) return;
-    CrossingsOnStep on_step(border, points);
-    for (Index element = 0; element < border.size(); ++element) {
+  active_functions(values, [&](hybrid::EventFunction& function, Sides sides, const Role& role) {
+    if (function.size() == 0) return;
+    CrossingsOnStep on_step(function, points);
+    for (Index element = 0; element < function.size(); ++element) {
       if (hidden != nullptr)
         if (const auto early = on_step.hidden_turn(element); early && early < hidden->value_or(1))
           *hidden = early;
@@ -110,7 +110,7 @@ std::vector<double> EventWatch::crossings(
         if (!(strict ? sides.above : sides.at_least)) continue;
         const ode::Found found = on_step.roots(element, strict, near);
         for (const ode::Root& root : found.roots) result.push_back(root.right);
-        for (const ode::Turn& one : found.turns) {
+        for (const ode::TurningPoint& one : found.turning_points) {
           if (!decides(role, inside.at(one.t))) continue;
           const std::string text = role.condition == nullptr
                                        ? system_->dynamics.events[role.index].name
@@ -130,26 +130,26 @@ double EventWatch::next_line(const VectorField& field, double t, double last,
                              const VectorXd& values) {
   double first = last;
   VectorXd point = values;
-  const auto look = [&](hybrid::EventFunction& border, Sides sides) {
-    if (!border.is_line()) return;
-    for (Index element = 0; element < border.size(); ++element)
+  const auto search = [&](hybrid::EventFunction& function, Sides sides) {
+    if (!function.is_line()) return;
+    for (Index element = 0; element < function.size(); ++element)
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;
         const auto g = [&](double at) {
           point = values;
           if (at != t) field.fill(at, point);
-          return border(point)(element);
+          return function(point)(element);
         };
         first = std::min(first, line_root(g, strict, t, first));
       }
   };
-  active_borders(values, [&](hybrid::EventFunction& border, Sides sides, const Role&) {
-    look(border, sides);
+  active_functions(values, [&](hybrid::EventFunction& function, Sides sides, const Role&) {
+    search(function, sides);
   });
   for (std::size_t k = 0; k < switches.size(); ++k) {
     const hybrid::Switch& one = system_->switches[k];
     if (!switches[k].rests())
-      look(switches[k], {one.strict, one.kind != hybrid::Switch::Kind::where || !one.strict});
+      search(switches[k], {one.strict, one.kind != hybrid::Switch::Kind::where || !one.strict});
   }
   return first;
 }

@@ -1,5 +1,4 @@
-// Internal to hybrid: the texts of an System that decide when something happens, and their
-// borders on a step.
+// The texts of a System that decide when something happens, and their zero crossings on a step.
 #pragma once
 
 #include <Eigen/Core>
@@ -30,20 +29,20 @@ class EventWatch {
   std::vector<FlowSet> flow_sets;
   std::vector<hybrid::EventFunction> switches;
 
-  /// The times just after all crossings on a step, in order, of borders of events and of `while`
-  /// that may decide about something from `values` on, those at the start of the step. `turn` is
-  /// told of turning points within `near` of their terms, and of those that come nearest.
-  /// `hidden`, at the start of a flow: the first CrossingsOnStep::hidden_turn, if any.
+  /// The times just after all zero crossings on a step, in order: those of events and of `while`
+  /// that may decide something from `values` on, the values at the start of the step. `turn` is
+  /// given the turning points within `near` of their terms, and those that come nearest. `hidden`,
+  /// at the start of a flow: the first CrossingsOnStep::hidden_turn, if any.
   std::vector<double> crossings(
       const StepValues& inside, const Eigen::VectorXd& values, double near,
       const std::function<void(const hybrid::NearTurn&, bool reached)>& turn,
       std::optional<double>* hidden = nullptr);
 
-  /// The border that a turning point is of.
-  hybrid::EventFunction& border_of(const hybrid::NearTurn& turn);
+  /// The function that a turning point is of.
+  hybrid::EventFunction& function_of(const hybrid::NearTurn& turn);
 
-  /// The first time in (t, last] at which a border that is affine in what is steady is crossed;
-  /// `last` when there is none.
+  /// The first time in (t, last] at which a function that is affine in what is steady crosses
+  /// zero; `last` when there is none.
   double next_line(const VectorField& field, double t, double last, const Eigen::VectorXd& values);
 
  private:
@@ -51,7 +50,7 @@ class EventWatch {
     bool above = false;     ///< > 0
     bool at_least = false;  ///< >= 0
   };
-  /// What a border decides about; the condition is none of a crossing.
+  /// What a function decides about; the condition is none of a crossing.
   struct Role {
     hybrid::NearTurn::Of of;
     std::size_t index;
@@ -60,7 +59,7 @@ class EventWatch {
   };
   using Visit = std::function<void(hybrid::EventFunction&, Sides, const Role&)>;
 
-  void active_borders(const Eigen::VectorXd& values, const Visit& visit);
+  void active_functions(const Eigen::VectorXd& values, const Visit& visit);
   static void comparisons_of(const Role& role, const Eigen::VectorXd& values, const Visit& visit);
   static bool decides(const Role& role, const Eigen::VectorXd& values);
 

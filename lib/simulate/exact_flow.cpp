@@ -1,3 +1,5 @@
+#include "simulate/exact_flow.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +11,6 @@
 #include "numbers/dense.h"
 #include "ode/chebyshev.h"
 #include "ode/integrator.h"
-#include "simulate/flow.h"
 
 namespace gainsmith::simulate {
 
@@ -22,20 +23,19 @@ using numbers::Matrix;
 using WideMatrix = ode::ExponentialTable::WideMatrix;
 using Level = ode::ExponentialTable::Level;
 
-constexpr int kExactDegree = 12;
-constexpr int kMostDoublings = 60;
-constexpr double kStepNorm = 0.5;
+/// Of the series.
+constexpr int exact_degree = 12;
+/// Of s_0: more leave nothing of a step.
+constexpr int most_doublings = 60;
 /// Of the sizes that are added up at a point: what the last terms of a series may amount to.
-constexpr double kSeriesRounding = 64 * std::numeric_limits<double>::epsilon();
-/// Of the largest value in a flow: what has died down so far is followed no more.
-constexpr double kDied = 1e-20;
+constexpr double series_rounding = 4 * hybrid::kTermRounding;
 
 /// expm(length G) where length ||G|| <= 1/2 in balanced units; 24 terms leave less than 1e-31.
 WideMatrix short_step(const WideMatrix& G, long double length) {
-  constexpr int kTerms = 24;
+  constexpr int terms = 24;
   WideMatrix term = WideMatrix::Identity(G.rows(), G.cols());
   WideMatrix sum = term;
-  for (int k = 1; k <= kTerms; ++k) {
+  for (int k = 1; k <= terms; ++k) {
     term = (term.lazyProduct(G) * (length / k)).eval();
     sum += term;
   }
@@ -128,8 +128,8 @@ class ExactFlow : public Flow {
         rate = std::max({rate, std::abs(lambda.imag()), lambda.real()});
     }
     const double top = rate > 0 ? std::min(longest_, 1 / rate) : longest_;
-    table.shortest = norm > 0 ? std::min(top, kStepNorm / norm) : top;
-    while (table.top < kMostDoublings && std::ldexp(table.shortest, table.top + 1) <= top)
+    table.shortest = norm > 0 ? std::min(top, 0.5 / norm) : top;
+    while (table.top < most_doublings && std::ldexp(table.shortest, table.top + 1) <= top)
       ++table.top;
   }
 
@@ -138,14 +138,14 @@ class ExactFlow : public Flow {
   int level_of(double length) const {
     int exponent = 0;
     std::frexp(length / table_->shortest, &exponent);
-    return std::max(exponent, -kMostDoublings);
+    return std::max(exponent, -most_doublings);
   }
 
   const Level& level_at(int number) {
     const auto known = table_->levels.find(number);
     if (known != table_->levels.end()) return known->second;
     const Level* half = number > 0 ? &level_at(number - 1) : nullptr;
-    const VectorXd& points = ode::chebyshev::points(kExactDegree);
+    const VectorXd& points = ode::chebyshev::points(exact_degree);
     Level level;
     level.length = std::ldexp(table_->shortest, number);
     for (Index k = 0; k < points.size(); ++k) {
@@ -164,7 +164,7 @@ class ExactFlow : public Flow {
 
   Matrix series_over(const Level& level, bool& agrees) {
     const Index n = field_->size();
-    Matrix values(n, kExactDegree + 1);
+    Matrix values(n, exact_degree + 1);
     VectorXd sizes = VectorXd::Zero(n);
     for (std::size_t k = 0; k < level.maps.size(); ++k) {
       const auto map = level.maps[k].topRows(n);
@@ -175,16 +175,18 @@ class ExactFlow : public Flow {
     const VectorXd tail = series.rightCols(2).cwiseAbs().rowwise().sum();
     peaks_ = peaks_.cwiseMax(sizes);
     sizes_ = level.maps.back().topRows(n).cwiseAbs().lazyProduct(z_.cwiseAbs());
-    agrees = (tail.array() <= kSeriesRounding * sizes.array() + kDied * peaks_.array()).all();
+    // What has died down to the rounding of rounding is followed no more.
+    const auto size = sizes.array() + series_rounding * peaks_.array();
+    agrees = (tail.array() <= series_rounding * size).all();
     return series;
   }
 
-  /// What rests stays.
+  /// What rests is not moved.
   void move(Matrix& series) {
     moves_ = VectorXd::Zero(series.rows());
     for (Index k = 0; k < series.rows(); ++k) {
       const auto row = series.row(k);
-      if ((row.tail(kExactDegree).array() == 0).all()) continue;
+      if ((row.tail(exact_degree).array() == 0).all()) continue;
       moves_(k) = moved_->of(row.sum(), sizes_(k));
       series(k, 0) += moves_(k) / 2;
       series(k, 1) += moves_(k) / 2;
@@ -229,12 +231,6 @@ class ExactFlow : public Flow {
 std::unique_ptr<Flow> exact_flow(VectorField& field, double longest,
                                  const hybrid::LastPlaces* moved) {
   return std::make_unique<ExactFlow>(field, longest, moved);
-}
-
-std::unique_ptr<Flow> make_flow(VectorField& field, const Accuracy& accuracy, double longest,
-                                const hybrid::LastPlaces* moved) {
-  return field.system().affine ? exact_flow(field, longest, moved)
-                               : integrated_flow(field, accuracy, longest);
 }
 
 }  // namespace gainsmith::simulate

@@ -1,4 +1,4 @@
-// Internal to hybrid: one flow of an System after the other, in steps with dense output.
+// One flow of a System after the other, in steps with dense output.
 //
 //   exact        x' = M x + b: at the Chebyshev points of a step, E(s) x + f(s) with [E f; 0 1] =
 //                expm(s [M b; 0 0]). Steps have the lengths s_0 2^k, s_0 = 1/(2 ||M||) in units
@@ -42,15 +42,10 @@ class Flow {
 };
 
 /// The flow of the system of a field, which must outlive it; no step is longer than `longest`.
-/// `moved`: by which each step of an exact flow is moved, from nothing at its start to a move in
-/// the last places at its end, so that what has just happened does not happen again. Integrated
-/// flows to two accuracies round apart by themselves.
+/// `moved`: each step of an exact flow is moved by it in the last places at its end, and not at its
+/// start, so that what has just happened does not happen again. Integrated flows to two accuracies
+/// differ in rounding by themselves.
 std::unique_ptr<Flow> make_flow(VectorField& field, const Accuracy& accuracy, double longest,
                                 const hybrid::LastPlaces* moved = nullptr);
-
-/// The two kinds, for tests; the exact one for affine systems only.
-std::unique_ptr<Flow> exact_flow(VectorField& field, double longest,
-                                 const hybrid::LastPlaces* moved = nullptr);
-std::unique_ptr<Flow> integrated_flow(VectorField& field, const Accuracy& accuracy, double longest);
 
 }  // namespace gainsmith::simulate

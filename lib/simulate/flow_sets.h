@@ -1,5 +1,5 @@
-// Internal to hybrid: the conditions under `while` along one run: each has to stay true in a flow
-// once it has been true there.
+// The conditions under `while`, the flow sets, along one run: each has to remain true in a flow once
+// it has been true there.
 #pragma once
 
 #include <Eigen/Core>
@@ -21,7 +21,8 @@ class FlowSets {
 
   /// A flow begins there.
   void begin(const Eigen::VectorXd& values);
-  /// A jump to a border may miss it by rounding: the flow has to lead inside by the time `soon`.
+  /// A jump to the boundary of a flow set may miss it by rounding: the flow has to lead inside by
+  /// the time `soon`.
   /// RunEnd otherwise.
   void require_inside(const StepValues& inside, double soon);
   /// Whether a condition that was true is not any more.

@@ -1,16 +1,14 @@
+#include "simulate/integrated_flow.h"
+
 #include <algorithm>
 #include <cmath>
 
 #include "ode/chebyshev.h"
 #include "ode/integrator.h"
-#include "simulate/flow.h"
 
 namespace gainsmith::simulate {
 
 namespace {
-
-/// Of the time: a flow that CVODE does not begin.
-constexpr double kInstant = 1e-14;
 
 class IntegratedFlow : public Flow {
  public:
@@ -25,7 +23,7 @@ class IntegratedFlow : public Flow {
     t_ = t;
     last_ = last;
     y_ = field_->gathered(values);
-    instant_ = last - t <= kInstant * std::max(std::abs(t), std::abs(last));
+    instant_ = last - t <= hybrid::kOneInstant * std::max(std::abs(t), std::abs(last));
     if (instant_) return;
     const Eigen::VectorXd absolute = accuracy_.absolute_of.size() > 0
                                          ? field_->gathered(accuracy_.absolute_of)
@@ -69,11 +67,6 @@ class IntegratedFlow : public Flow {
 };
 
 }  // namespace
-
-Accuracy Accuracy::times(double factor) const {
-  constexpr double kLeast = 1e-13;
-  return {std::max(relative * factor, kLeast), absolute * factor, absolute_of * factor};
-}
 
 std::unique_ptr<Flow> integrated_flow(VectorField& field, const Accuracy& accuracy,
                                       double longest) {

@@ -14,9 +14,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Of the largest element before and after the jump.
-constexpr double kAsymmetryOfJump = 1e-9;
-
 bool is_mode(const hybrid::System& system, std::size_t variable) {
   return system.dynamics.variables[variable].kind == model::Dynamics::VariableKind::mode;
 }
@@ -125,7 +122,7 @@ void JumpMaps::move(MapEntry& entry, const VectorXd& own, numbers::Matrix& value
         if (symmetric) value(column, row) = value(row, column);
       }
   } catch (const expr::EvaluationError&) {
-    // Without sizes it stays where it is.
+    // Without sizes it is not moved.
   }
 }
 
@@ -139,7 +136,7 @@ void JumpMaps::check(const MapEntry& entry, const VectorXd& own, numbers::Matrix
   const double asymmetry = (value - value.transpose()).cwiseAbs().maxCoeff();
   const double largest = std::max(value.cwiseAbs().maxCoeff(),
                                   own.segment(slot.offset, value.size()).cwiseAbs().maxCoeff());
-  if (asymmetry > kAsymmetryOfJump * largest)
+  if (asymmetry > hybrid::kMeantEqual * largest)
     throw InputError(entry.place, "the state " + variable.name +
                                       " is symmetric and its jump is not: elements differ by " +
                                       brief(asymmetry));

@@ -1,4 +1,4 @@
-// Internal to hybrid: the maps of the jumps of an System.
+// The maps of the jumps of a System.
 #pragma once
 
 #include <cstdint>

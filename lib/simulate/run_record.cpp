@@ -10,13 +10,6 @@
 
 namespace gainsmith::simulate {
 
-namespace {
-
-constexpr std::size_t kMostNotes = 100;
-constexpr std::size_t kLastJumps = 100;
-
-}  // namespace
-
 RunRecord::RunRecord(const hybrid::System& system, double horizon, const RecordLimits& limits)
     : system_(&system), limits_(limits), jumps_(system.dynamics.events.size(), 0) {
   result_.horizon = horizon;
@@ -49,13 +42,13 @@ void RunRecord::add(hybrid::JumpPoint jump) {
   result_.parts.emplace_back(std::move(jump));
 }
 
-void RunRecord::shorten_chain(std::int64_t count, std::size_t kept) {
-  result_.parts.resize(result_.parts.size() - static_cast<std::size_t>(count) + kept);
+void RunRecord::shorten_chain(std::int64_t count) {
+  result_.parts.resize(result_.parts.size() - static_cast<std::size_t>(count) + kept_of_chain);
 }
 
 std::string RunRecord::last_events() const {
   std::vector<std::size_t> events;
-  const std::size_t kept = std::min(kLastJumps, result_.parts.size());
+  const std::size_t kept = std::min(hybrid::kInARow, result_.parts.size());
   for (std::size_t k = result_.parts.size() - kept; k < result_.parts.size(); ++k)
     if (const auto* jump = std::get_if<hybrid::JumpPoint>(&result_.parts[k]))
       if (std::find(events.begin(), events.end(), jump->event) == events.end())
@@ -84,7 +77,7 @@ void RunRecord::is_full(const std::string& of) const {
 }
 
 void RunRecord::note(const std::string& text) {
-  if (result_.notes.size() < kMostNotes) result_.notes.push_back(text);
+  if (result_.notes.size() < hybrid::kInARow) result_.notes.push_back(text);
 }
 
 void RunRecord::ends(hybrid::Ending ending, const std::string& why, double t, std::int64_t j) {

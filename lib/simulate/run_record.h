@@ -1,4 +1,4 @@
-// Internal to hybrid: what a run leaves while it is made.
+// What a run leaves while it is made.
 #pragma once
 
 #include <Eigen/Core>
@@ -25,7 +25,7 @@ class RunRecord {
 
   void start(const Eigen::VectorXd& variables) { result_.start = variables; }
 
-  /// A flow begins, or goes on after a border.
+  /// A flow begins, or goes on with another branch.
   void flow_begins(std::int64_t j, const Eigen::VectorXd& variables);
   /// RunEnd when the record is full.
   void add(const hybrid::DenseStep& step, const Eigen::VectorXd& end);
@@ -35,8 +35,10 @@ class RunRecord {
 
   /// RunEnd when the record is full.
   void add(hybrid::JumpPoint jump);
-  /// Leaves out the last jumps but for the first `kept` of `count`.
-  void shorten_chain(std::int64_t count, std::size_t kept);
+  /// Of a chain of jumps without a flow between them.
+  static constexpr std::size_t kept_of_chain = 1000;
+  /// Leaves out the last `count` jumps but for the first of them.
+  void shorten_chain(std::int64_t count);
   /// "a, b": the events of the last hundred jumps, each once.
   std::string last_events() const;
 

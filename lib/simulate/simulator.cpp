@@ -12,6 +12,7 @@
 #include "base/stop.h"
 #include "hybrid/measured_rows.h"
 #include "ode/integrator.h"
+#include "ode/tolerances.h"
 #include "simulate/branches.h"
 #include "simulate/due_events.h"
 #include "simulate/event_watch.h"
@@ -19,6 +20,7 @@
 #include "simulate/jump_maps.h"
 #include "simulate/run_record.h"
 #include "simulate/sliding.h"
+#include "simulate/tolerances.h"
 #include "simulate/zeno.h"
 
 namespace gainsmith::simulate {
@@ -36,24 +38,6 @@ struct Simulator::Texts {
 };
 
 namespace {
-
-constexpr std::int64_t kLongestChain = 1000000;
-constexpr std::size_t kKeptOfChain = 1000;
-constexpr std::int64_t kMostStepsOfRun = 2000000;
-constexpr std::int64_t kMostSlowSteps = 3000;
-constexpr double kSlow = 1e-10;            ///< of the horizon
-constexpr double kLongestStep = 1.0 / 16;  ///< of the horizon
-constexpr double kOfHorizon = 1e-6;        ///< a time near 0 counts as so much of it
-/// Of the horizon: how long a flow may be outside of `while` after a jump to its border.
-constexpr double kOutside = 1e-9;
-constexpr double kEarly = 0.1;            ///< of a step
-constexpr double kShorterStep = 1.5;      ///< of the time up to an event
-constexpr double kBeyondTurn = 4;         ///< of the time up to a turn near a border
-constexpr double kShortestAgain = 1e-13;  ///< of the time
-/// Of the terms of a guard: turning points that a twin keeps, to be compared with their errors.
-constexpr double kNearOfTerms = 1e-3;
-/// At one time, before a kink counts as one that does not matter.
-constexpr int kMostTurns = 8;
 
 /// Elements of states and modes among all values.
 std::vector<Index> rows_of_states(const hybrid::System& system) {
@@ -117,7 +101,7 @@ class EventRun {
 
  private:
   enum class Went { on, stopped };
-  using Turns = std::vector<std::pair<hybrid::NearTurn, bool>>;
+  using NearTurns = std::vector<std::pair<hybrid::NearTurn, bool>>;
 
   // --- The start and the end. ---
 
@@ -127,7 +111,7 @@ class EventRun {
     rows_.begin(values_);
     due_.begin(values_, field_);
     field_.fill_clocks(0, values_);
-    branches_.hold(values_);
+    branches_.update(values_);
     record_.start(variables(values_));
     require_range();
   }
@@ -161,7 +145,7 @@ class EventRun {
       due_.spend(event, t_, field_);
       field_.fill_clocks(t_, values_);
     }
-    branches_.hold(values_);
+    branches_.update(values_);
   }
 
   void jump(std::size_t event) {
@@ -179,12 +163,12 @@ class EventRun {
     record_.add(hybrid::JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
     ++j_;
     require_range();
-    if (++chain_ >= kLongestChain) end_chain(event);
+    if (++chain_ >= hybrid::kMost) end_chain(event);
   }
 
   [[noreturn]] void end_chain(std::size_t event) {
     const std::string names = record_.last_events();
-    record_.shorten_chain(kLongestChain, kKeptOfChain);
+    record_.shorten_chain(hybrid::kMost);
     const auto next = due_.first(values_, t_);
     const std::size_t due = next.value_or(event);
     const model::Dynamics::Event& one = system_.dynamics.events[due];
@@ -196,7 +180,7 @@ class EventRun {
         hybrid::Ending::stuck,
         fmt::format("{} jumps without a flow between them, of {}: then the event {} is due "
                     "again{}; the first {} of them are kept",
-                    kLongestChain, names, one.name, value, kKeptOfChain));
+                    hybrid::kMost, names, one.name, value, RunRecord::kept_of_chain));
   }
 
   void watch_zeno(std::size_t event) {
@@ -229,10 +213,10 @@ class EventRun {
 
   void flow() {
     if (rows_.leave(t_, values_)) {
-      branches_.hold(values_);
+      branches_.update(values_);
       if (due_.first(values_, t_)) return;  // by the last of several rows at t
     }
-    branches_.hold_kinks(values_);
+    branches_.update_kinks(values_);
     double stop = std::min({horizon_, due_.clocks().next(), noise_.next(), rows_.next()});
     field_.begin(t_, values_);
     stop = watch_.next_line(field_, t_, stop, values_);
@@ -242,48 +226,51 @@ class EventRun {
     Went went = Went::on;
     while (went == Went::on && t_ < stop) {
       check_stop();
-      if (++steps_ > kMostStepsOfRun)
-        throw RunEnd(hybrid::Ending::lost, fmt::format("more than {} steps", kMostStepsOfRun));
+      if (++steps_ > hybrid::kMost)
+        throw RunEnd(hybrid::Ending::lost, fmt::format("more than {} steps", hybrid::kMost));
       watch_progress();
       went = take(flow_->next());
     }
     const bool drawn = noise_.draw_due(t_, values_);
-    if (rows_.arrive(t_, values_) || drawn) branches_.hold(values_);
+    if (rows_.arrive(t_, values_) || drawn) branches_.update(values_);
   }
 
-  /// Goes along a step up to where something happens. A kink that turns at its start again and
-  /// again does not matter.
+  /// Goes along a step up to where something happens. A kink that changes at its start again
+  /// and again does not matter.
   Went take(const hybrid::DenseStep& whole) {
-    const auto turn = branches_.first_turn(StepValues(field_, values_, whole), values_);
-    const bool back = turn && turn->t == whole.from;
-    if (back && (!branches_.is_kink(turn->branch) || ++turned_back_ < kMostTurns)) {
-      turns_over(*turn);
+    const auto change = branches_.first_change(StepValues(field_, values_, whole), values_);
+    const bool back = change && change->t == whole.from;
+    if (back && (!branches_.is_kink(change->branch) || ++changed_back_ < hybrid::kAtOnce)) {
+      change_branch(*change);
       return Went::stopped;
     }
-    const bool turns = turn && turn->t > whole.from;
-    const Went went = along(turns && turn->t < whole.to ? field_.until(whole, turn->t) : whole);
-    if (!turns || t_ != turn->t) return went;
-    turns_over(*turn);
+    const bool changes = change && change->t > whole.from;
+    const Went went =
+        along(changes && change->t < whole.to ? field_.until(whole, change->t) : whole);
+    if (!changes || t_ != change->t) return went;
+    change_branch(*change);
     return Went::stopped;
   }
 
-  void turns_over(const Branches::Turn& turn) {
-    values_(turn.held) = turn.to;
-    if (!branches_.is_kink(turn.branch)) sliding_.switched(turn.branch, t_, values_);
+  void change_branch(const Branches::Change& change) {
+    values_(change.element) = change.to;
+    if (!branches_.is_kink(change.branch)) sliding_.switched(change.branch, t_, values_);
   }
 
-  /// The same of a step on which no branch turns.
+  /// The same of a step on which no branch changes.
   Went along(const hybrid::DenseStep& step) {
     const StepValues inside(field_, values_, step);
-    flow_sets_.require_inside(inside, std::min(inside.to(), inside.from() + kOutside * horizon_));
-    Turns near;
+    flow_sets_.require_inside(inside,
+                              std::min(inside.to(), inside.from() + hybrid::kHardly * horizon_));
+    NearTurns near;
     std::optional<double> hidden;
     const auto crossings = watch_.crossings(
         inside, values_, moved_ ? kNearOfTerms : 0,
         [&](const hybrid::NearTurn& turn, bool reached) { near.emplace_back(turn, reached); },
         starts_ ? &hidden : nullptr);
+    constexpr double beyond = 4;  // of the turning point, so that the root behind it is inside
     if (hidden && is_coarse(step, step.from + *hidden * (step.to - step.from)))
-      return take_shorter(step.from + kBeyondTurn * *hidden * (step.to - step.from));
+      return take_shorter(step.from + beyond * *hidden * (step.to - step.from));
     const std::vector<DueEvents::Mark> marks = due_.marks();
     const FlowSets::Marks was_inside = flow_sets_.marks();
     for (const double t : crossings) {
@@ -312,7 +299,7 @@ class EventRun {
   bool is_coarse(const hybrid::DenseStep& step, double t) const {
     const double length = t - step.from;
     return length < kEarly * (step.to - step.from) &&
-           length > kShortestAgain * std::max(std::abs(t), kOfHorizon * horizon_);
+           length > ode::kFinest * std::max(std::abs(t), hybrid::kHardly * horizon_);
   }
 
   /// The same flow in steps up to `last` at most.
@@ -329,14 +316,14 @@ class EventRun {
     t_ = step.to;
     if (moved_) moved_->next();
     chain_ = 0;
-    turned_back_ = 0;
+    changed_back_ = 0;
     starts_ = false;
     sliding_.moved(values_);
     require_range();
   }
 
-  /// Borders that came near up to a time.
-  void note(const Turns& near, double until) {
+  /// What came near to zero up to a time.
+  void note(const NearTurns& near, double until) {
     for (const auto& [turn, reached] : near) {
       if (turn.t > until) continue;
       if (moved_) {
@@ -350,15 +337,15 @@ class EventRun {
 
   /// Steps without end that hardly advance.
   void watch_progress() {
-    if (t_ - slow_since_ > kSlow * horizon_) {
+    if (t_ - slow_since_ > hybrid::kHardly * horizon_) {
       slow_since_ = t_;
       slow_steps_ = 0;
     }
-    if (++slow_steps_ > kMostSlowSteps)
+    if (++slow_steps_ > ode::kPatience)
       throw RunEnd(hybrid::Ending::lost,
                    fmt::format("the steps have become too short: {} of them for {} "
                                "of the horizon",
-                               kMostSlowSteps, brief(kSlow)));
+                               ode::kPatience, brief(hybrid::kHardly)));
   }
 
   const hybrid::System& system_;
@@ -382,9 +369,9 @@ class EventRun {
   std::int64_t chain_ = 0;  ///< jumps without a flow between them
   std::int64_t steps_ = 0;
   double slow_since_ = 0;
-  std::int64_t slow_steps_ = 0;  ///< since then
-  bool starts_ = true;           ///< no step of the flow has been taken
-  int turned_back_ = 0;          ///< turns of kinks at this time
+  std::int64_t slow_steps_ = 0;   ///< since then
+  bool starts_ = true;            ///< no step of the flow has been taken
+  std::size_t changed_back_ = 0;  ///< changes of kinks at this time
   RunRecord record_;
 };
 

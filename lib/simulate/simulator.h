@@ -1,10 +1,10 @@
-// The event-driven simulator: runs of an System, each a function of (seed, run) alone.
+// The event-driven simulator: runs of a System, each a function of (seed, run) alone.
 //
-//   At an instant the events are looked at in their order; the first that is due jumps, alone, and
-//   all are looked at again. When none is due the flow goes on, to the first time at which one is:
-//   clocks and borders that are affine in time are stepped to, all other borders are searched along
-//   the dense output (borders.h). At each root in turn all events are looked at just after it. The
-//   start is an instant like any other, and so is the horizon.
+//   At an instant the events are asked in their order: the first that is due jumps, alone, and all
+//   are asked again. When none is due the flow goes on, to the first time at which one is. Clocks
+//   and event functions that are affine in time are stepped to; the zero crossings of all others
+//   are searched along the dense output (crossings_on_step.h). After each root in order all events
+//   are asked. The start is an instant like any other, and so is the horizon.
 //
 //   when      due while its condition is true
 //   rises, falls, crosses
@@ -17,8 +17,8 @@
 // at the start. An occurrence that `if` rejects is spent: the clock goes on, a crossing is over,
 // and `when` is due again once its condition has been false. `lost` is asked for each jump.
 //
-// Between borders `where`, `sign`, `abs`, `max` and `min` in a flow hold their branch (switches.h,
-// branches.h); where one turns the flow starts again with the new branch.
+// Between zero crossings `where`, `sign`, `abs`, `max` and `min` in a flow keep their branch
+// (switches.h, branches.h); where one changes the flow starts again with the new branch.
 #pragma once
 
 #include <cstdint>

@@ -9,13 +9,9 @@ namespace gainsmith::simulate {
 
 namespace {
 
-constexpr std::size_t kAtOnce = 8;
-constexpr double kAtOnceTime = 1e-10;  ///< of the horizon
-constexpr int kInNoise = 100;
-
 /// |D|, element by element.
-Eigen::VectorXd sizes(hybrid::EventFunction& border, const Eigen::VectorXd& values) {
-  return border(values).reshaped().cwiseAbs();
+Eigen::VectorXd sizes(hybrid::EventFunction& function, const Eigen::VectorXd& values) {
+  return function(values).reshaped().cwiseAbs();
 }
 
 }  // namespace
@@ -30,10 +26,11 @@ void SlidingDetector::moved(const Eigen::VectorXd& values) {
 
 void SlidingDetector::switched(std::size_t branch, double t, const Eigen::VectorXd& values) {
   times_.push_back(t);
-  if (times_.size() > kAtOnce) times_.erase(times_.begin());
-  if (times_.size() == kAtOnce && t - times_.front() <= kAtOnceTime * horizon_) end(branch);
+  if (times_.size() > hybrid::kAtOnce) times_.erase(times_.begin());
+  if (times_.size() == hybrid::kAtOnce && t - times_.front() <= hybrid::kHardly * horizon_)
+    end(branch);
   row_ = row_ > 0 && branch == branch_ && is_noise(values) ? row_ + 1 : 1;
-  if (row_ > kInNoise) end(branch);
+  if (row_ > hybrid::kInARow) end(branch);
   branch_ = branch;
   swing_ = Eigen::VectorXd::Zero(watch_->switches[branch].size());
 }
@@ -41,10 +38,10 @@ void SlidingDetector::switched(std::size_t branch, double t, const Eigen::Vector
 /// Whether the element that switches has stayed in the error of the integration since it did last.
 bool SlidingDetector::is_noise(const Eigen::VectorXd& values) {
   if (system_->affine) return false;  // exact
-  hybrid::EventFunction& border = watch_->switches[branch_];
+  hybrid::EventFunction& function = watch_->switches[branch_];
   Eigen::Index element = 0;
-  sizes(border, values).minCoeff(&element);
-  const double terms = border.terms(values).reshaped()(element);
+  sizes(function, values).minCoeff(&element);
+  const double terms = function.terms(values).reshaped()(element);
   return swing_(element) <= accuracy_.absolute + accuracy_.relative * terms;
 }
 
@@ -53,8 +50,8 @@ void SlidingDetector::end(std::size_t branch) const {
   throw RunEnd(
       hybrid::Ending::sliding,
       fmt::format(
-          "sliding along the border of the {} at {}: both branches lead back to it; a sign with a "
-          "width, clip(s/w, -1, 1), or a mode with two thresholds can be followed",
+          "sliding on the switching surface of the {} at {}: both branches lead back to it; a sign "
+          "with a width, clip(s/w, -1, 1), or a mode with two thresholds can be followed",
           one.kind == hybrid::Switch::Kind::sign ? "sign" : "where", to_string(one.place)));
 }
 

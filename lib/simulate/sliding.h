@@ -1,7 +1,6 @@
-// Internal to hybrid: whether a flow goes on along the border of a switch, to which both branches
-// lead back.
+// Whether a flow goes on along the switching surface of a switch, to which both branches lead back.
 //
-//   at once       8 switches within 1e-10 of the horizon
+//   at once       8 switches within 1e-9 of the horizon
 //   within noise  100 switches of one branch in a row, without a jump between them, between which
 //                 what it branches on never leaves the error of the integration: of x' = -sign(x)
 //                 sqrt(abs(x)) after it has come to 0
@@ -39,7 +38,7 @@ class SlidingDetector {
   double horizon_;
   std::vector<double> times_;  ///< of the last switches
   std::size_t branch_ = 0;     ///< of the row
-  int row_ = 0;                ///< switches in it
+  std::size_t row_ = 0;        ///< switches in it
   Eigen::VectorXd swing_;      ///< since the last of them: |D| at its largest
 };
 

@@ -1,4 +1,4 @@
-// Internal to hybrid: what the variables are within one step.
+// What the variables are within one step.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,7 +11,7 @@ namespace gainsmith::simulate {
 /// All values at times of one step.
 class StepValues {
  public:
-  /// `start`: the values at step.from, which a jump may have left on a border.
+  /// `start`: the values at step.from, which a jump may have left at a zero crossing.
   StepValues(const VectorField& field, const Eigen::VectorXd& start, const hybrid::DenseStep& step)
       : field_(&field), start_(&start), step_(&step) {}
 
@@ -25,7 +25,7 @@ class StepValues {
   const hybrid::DenseStep* step_;
 };
 
-/// The values at the points that a search for roots always looks at, made when they are asked for.
+/// The values at the points at which every search for roots begins, made when they are asked for.
 class StepPoints {
  public:
   explicit StepPoints(const StepValues& inside) : inside_(&inside) {}

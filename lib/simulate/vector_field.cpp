@@ -13,9 +13,6 @@ using Eigen::VectorXd;
 
 namespace {
 
-/// Of the largest rate in a run: what counts as rounding in the flow of a symmetric state.
-constexpr double kAsymmetryOfRate = 1e-9;
-
 /// The programs of what flows and is not steady.
 std::vector<const expr::Program*> flowing(const hybrid::System& system) {
   std::vector<const expr::Program*> programs;
@@ -141,7 +138,7 @@ void VectorField::require_symmetric(Entry& entry, const numbers::Matrix& rate) {
   double& largest = largest_rate_[entry.variable];
   if (rate.size() > 0) largest = std::max(largest, rate.cwiseAbs().maxCoeff());
   const double asymmetry = rate.size() > 0 ? (rate - rate.transpose()).cwiseAbs().maxCoeff() : 0;
-  if (!(asymmetry > kAsymmetryOfRate * largest)) return;
+  if (!(asymmetry > hybrid::kMeantEqual * largest)) return;
   const auto& flow = system_->dynamics.flow;
   const auto found = std::find_if(flow.begin(), flow.end(),
                                   [&](const auto& one) { return one.variable == entry.variable; });

@@ -1,4 +1,4 @@
-// Internal to hybrid: what the variables of an System do within one flow.
+// What the variables of a System do within one flow.
 //
 // The elements that flow are y: those of states that are neither resting nor steady, of symmetric
 // ones the lower triangle. Everything that is steady is a line
@@ -54,7 +54,7 @@ class VectorField {
 
   /// All variables over [from, to] from a series for y.
   hybrid::DenseStep step(double from, double to, const numbers::Matrix& series) const;
-  /// The part of a step up to t: what is steady stays the same line, and what rests keeps its bits.
+  /// The part of a step up to t: what is steady is the same line, and what rests keeps its bits.
   hybrid::DenseStep until(const hybrid::DenseStep& step, double t) const;
   const hybrid::System& system() const { return *system_; }
   /// Of exact flows.
@@ -75,7 +75,7 @@ class VectorField {
     std::size_t variable = 0;
     hybrid::SystemFunction value;
     Eigen::Index first = 0;  ///< of its elements in y, or of its lines
-    /// With branches as they are: where a held one has no value, such as sqrt(max(x, 0)) below 0.
+    /// With branches as they are: where a fixed one has no value, such as sqrt(max(x, 0)) below 0.
     std::optional<hybrid::SystemFunction> free;
   };
 

@@ -1,14 +1,12 @@
-// Internal to hybrid: whether the jumps of a run accumulate.
+// Whether the jumps of a run accumulate.
 //
-//   Zeno         over the last flows each length is r times that of a period of 1 to 3 flows
-//                before, over 12 of them or at least 4 that make a millionth,
-//                r < 1, and what is left, sum of the last period * r/(1 - r), is below 1e-7 of the
-//                time so far, and over the last period no state changed by more than 1e-4 of its
-//                largest size: the jumps accumulate there. While a state counts, what is left is
-//                to be below 1e-8. Before a run chatters r may be that of the last hundred flows,
-//                the same over both halves of them, and what is left 1e-5 of the time
-//   chattering   a hundred flows in a row below 1e-10 of the horizon, or ten thousand below 1e-6,
-//                without such an r; the clock of an event ends the row
+//   Zeno         Each length is r < 1 times that of a period of 1 to 3 flows before. This r is the
+//                same over 12 of them, or over at least 4 that shrink by 1e-7 together. What is
+//                left, the sum of the last period * r/(1 - r), is below 1e-7 of the time so far,
+//                and no state changed by more than 3e-3 of its largest size over the last period.
+//                While a state counts, what is left is to be below 1e-8.
+//   chattering   a hundred flows in a row below 1e-9 of the horizon, without such an r; the clock
+//                of an event ends the row
 #pragma once
 
 #include <Eigen/Core>
@@ -16,6 +14,8 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "hybrid/tolerances.h"
 
 namespace gainsmith::simulate {
 
@@ -30,21 +30,21 @@ class ZenoDetector {
 
   /// The time at which jumps accumulate, when lengths shrink by a steady factor.
   std::optional<double> accumulation() const;
-  bool chatters() const { return shortest_flows_ >= 100 || short_flows_ >= 10000; }
+  bool chatters() const { return short_flows_ >= hybrid::kInARow; }
   /// The length of the last flow, as a part of the longest one.
   double shrinkage() const { return lengths_.empty() ? 1 : lengths_.back() / longest_; }
   /// The events of the last flows, each once, in order.
   std::vector<std::size_t> events() const;
 
  private:
+  static constexpr std::size_t longest_period = 3;
   std::optional<double> steady_rest(std::size_t period, std::size_t ratios) const;
-  std::optional<double> slow_rest() const;
   bool settles(std::size_t period) const;
 
   double horizon_;
   double t_ = 0;
   double longest_ = 0;
-  int short_flows_ = 0, shortest_flows_ = 0;  ///< in a row
+  std::size_t short_flows_ = 0;  ///< in a row
   std::vector<double> lengths_;
   std::vector<std::size_t> events_;
   std::vector<Eigen::VectorXd> states_;

@@ -60,7 +60,7 @@ std::optional<std::string> EventDoubts::of_turn(const NearTurn& turn,
                                                 const claims::TwinFlow& flow) {
   constexpr int kPoints = 5;
   if (flow.twin == nullptr) return std::nullopt;
-  EventFunction& border = watch_.border_of(turn);
+  EventFunction& border = watch_.function_of(turn);
   const double from = std::max(flow.flow->from(), flow.twin->from());
   const double last = std::min({turn.t, flow.flow->to(), flow.twin->to()});
   if (!(from < last)) return std::nullopt;
@@ -123,7 +123,7 @@ std::vector<EventDoubts::Guard> EventDoubts::guards(std::size_t event, const Ins
   if (watch_.crossing[event]) add(*watch_.crossing[event], 0);
   if (watch_.when[event]) {
     auto& comparisons = watch_.when[event]->comparisons();
-    for (std::size_t k = 0; k < comparisons.size(); ++k) add(comparisons[k].border, k);
+    for (std::size_t k = 0; k < comparisons.size(); ++k) add(comparisons[k].function, k);
   }
   return result;
 }

@@ -155,11 +155,11 @@ std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const model::
                                     const model::Gains& gains, const EventSetup& setup,
                                     std::uint64_t seed, std::uint64_t number) {
   const simulate::Accuracy accuracy = setup.accuracy(kUsualOfOne);
-  judge::JudgeQuestion question{accuracy.relative,
-                                accuracy.absolute,
-                                accuracy.absolute_of,
-                                {},
-                                judge::DrawnFrom{seed, number, &instance.design->campaign}};
+  judge::Question question{accuracy.relative,
+                           accuracy.absolute,
+                           accuracy.absolute_of,
+                           {},
+                           judge::DrawnFrom{seed, number, &instance.design->campaign}};
   for (const model::Design::Start& start : instance.design->campaign.starts) {
     const hybrid::Slot& slot = setup.system.layout.slots[start.state];
     const numbers::Matrix value = run.start.segment(slot.offset, slot.shape.size())

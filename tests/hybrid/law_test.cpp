@@ -88,6 +88,15 @@ TEST(Law, WithoutAnyThereAreFive) {
   EXPECT_EQ(made[4].values, std::vector{1.1});
 }
 
+TEST(Law, WhatIsOutsideByRoundingAloneIsInside) {
+  TextProblem inside = plant();  // lengths in [0.5, 1.1]
+  inside.law(Kind::list, {"0.5*(1 - 1e-13)", "1.1*(1 + 1e-13)"});
+  EXPECT_EQ(laws(inside)[0].values, (std::vector{0.5, 1.1}));
+  TextProblem outside = plant();
+  outside.law(Kind::constant, {"1.1*(1 + 1e-10)"});
+  EXPECT_NE(error_of(outside).find("is outside"), std::string::npos);
+}
+
 /// The plant with a gain of 0: what uses it is known only with the gain file.
 TextProblem plant_with_gain() {
   TextProblem problem = plant();

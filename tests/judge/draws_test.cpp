@@ -76,7 +76,7 @@ struct Drawn {
     return 0;
   }
   std::vector<Fault> judged() const {
-    JudgeQuestion question;
+    Question question;
     question.drawn = DrawnFrom{seed, number_of_run, &campaign};
     return check_trajectory(run, dynamics, stated, question);
   }

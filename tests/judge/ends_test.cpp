@@ -55,6 +55,10 @@ TEST(JudgedEnds, EscapedMeansLargeOrAtOnce) {
       check_trajectory(run.end(hybrid::Ending::escaped, "x escapes"), dynamics, text.stated())
           .empty());
   EXPECT_TRUE(has_fault(judged(text, flow, 0.5, hybrid::Ending::escaped), 1, kCause));
+  DynamicsText slow;
+  slow.state("x", 1, "x", "1");
+  const auto grown = [](double t) { return column({std::exp(t)}); };
+  EXPECT_TRUE(has_fault(judged(slow, grown, 7, hybrid::Ending::escaped, 16), 1, kCause));
 }
 
 TEST(JudgedEnds, UndefinedMeansWithoutAValue) {
@@ -94,7 +98,7 @@ TEST(JudgedEnds, StuckMeansManyJumps) {
   const model::Dynamics dynamics = text.dynamics();
   ReferenceRun run(column({0}), 10);
   for (int k = 1; k <= 20; ++k) run.jump(0, column({static_cast<double>(k)}));
-  JudgeQuestion question;
+  Question question;
   question.least_chain = 20;
   const hybrid::Trajectory trajectory = run.end(hybrid::Ending::stuck, "on is still due");
   EXPECT_TRUE(check_trajectory(trajectory, dynamics, text.stated(), question).empty());

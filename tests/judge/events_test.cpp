@@ -1,4 +1,4 @@
-// The judge on conditions, borders, frozen components and loops of maps.
+// The judge on conditions, zero crossings, frozen components and loops of maps.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -87,9 +87,9 @@ TEST(JudgedThermostat, IsAccepted) {
   EXPECT_TRUE(faults.empty()) << to_text(faults);
 }
 
-TEST(JudgedThermostat, FindsABorderThatIsMissed) {
+TEST(JudgedThermostat, FindsAZeroCrossingThatIsMissed) {
   const auto faults = Thermostat().judged({{22, {0}}, {19, {}}});
-  EXPECT_TRUE(has_fault(faults, 0, "crosses its border inside a flow: hot")) << to_text(faults);
+  EXPECT_TRUE(has_fault(faults, 0, "crosses zero inside a flow: hot")) << to_text(faults);
 }
 
 TEST(JudgedThermostat, FindsAnEventInTheWrongDirection) {
@@ -120,8 +120,8 @@ TEST(JudgedThermostat, FindsAFrozenComponentThatFlows) {
                         0, "flows, but rests: z"));
 }
 
-/// A jump of one event leads across the border of another.
-TEST(JudgedBorders, AreCrossedByJumpsOfOthersToo) {
+/// A jump of one event crosses zero of another.
+TEST(JudgedCrossings, AreCrossedByJumpsOfOthersToo) {
   DynamicsText text;
   text.state("x", 1, "1", "-1").at("kick", {"0.5"}).rises("up", "x");
   text.state("n", 1, "", "0").reacts("kick", {{"x", "x + 2"}}).reacts("up", {{"n", "n + 1"}});
@@ -140,7 +140,7 @@ TEST(JudgedBorders, AreCrossedByJumpsOfOthersToo) {
 }
 
 /// A pair of crossings between two of the points at which conditions are looked at.
-TEST(JudgedBorders, PairsInsideOneStepAreFound) {
+TEST(JudgedCrossings, PairsInsideOneStepAreFound) {
   DynamicsText text;
   text.state("x", 1, "1", "0")
       .when("spike", "cos(10*x) >= 0.99999")
@@ -150,7 +150,7 @@ TEST(JudgedBorders, PairsInsideOneStepAreFound) {
   ReferenceRun run(column({0.1}), 1.2);
   run.flow(
       1.2, [](double t) { return column({0.1 + t}); }, 2);
-  JudgeQuestion question;
+  Question question;
   question.starts.push_back({0, numbers::Matrix{{0}}, numbers::Matrix{{1}}});
   const auto faults = check_trajectory(run.end(), dynamics, text.stated(), question);
   EXPECT_TRUE(has_fault(faults, 0, "becomes due inside a flow: spike")) << to_text(faults);

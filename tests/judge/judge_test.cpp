@@ -106,7 +106,7 @@ struct Ball {
     return run.end();
   }
   std::vector<Fault> judged(const hybrid::Trajectory& trajectory, double accuracy = 1e-10) const {
-    JudgeQuestion question;
+    Question question;
     question.relative = accuracy;
     question.absolute = accuracy;
     return check_trajectory(trajectory, dynamics, text.stated(), question);
@@ -308,7 +308,7 @@ TEST(Judge, FindsAWrongStart) {
   trajectory.start(0) = 1.5;
   EXPECT_TRUE(has_fault(ball.judged(trajectory), 0, "starts with another value: x"));
   // A campaign's range takes the place of the text's start.
-  JudgeQuestion question;
+  Question question;
   question.starts.push_back({0, numbers::Matrix{{0.5}, {-1}}, numbers::Matrix{{1.5}, {1}}});
   EXPECT_TRUE(check_trajectory(ball.right(), ball.dynamics, ball.text.stated(), question).empty());
   question.starts[0].low(0) = 1.1;
@@ -360,7 +360,7 @@ TEST(Judge, FollowsANonlinearFlowThatDependsOnTime) {
     return check_trajectory(reference.end(), dynamics, text.stated());
   };
   EXPECT_TRUE(run(1).empty()) << to_text(run(1));
-  EXPECT_TRUE(has_fault(run(1.001), 0, "crosses its border inside a flow: half"));
+  EXPECT_TRUE(has_fault(run(1.001), 0, "crosses zero inside a flow: half"));
   EXPECT_TRUE(has_fault(run(0.999), 1, "jumps, but is not due: half"));
 }
 

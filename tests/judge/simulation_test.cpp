@@ -20,7 +20,7 @@ struct Simulated {
   model::Dynamics dynamics;
   model::Stated stated;
   hybrid::Trajectory trajectory;
-  JudgeQuestion question;
+  Question question;
 
   Simulated(const DynamicsText& text, double horizon, std::uint64_t run = 0,
             double accuracy = 1e-10)
@@ -102,7 +102,7 @@ DynamicsText thermostat() {
   return text;
 }
 
-/// Van der Pol's stiff oscillator with a loop of maps at a border.
+/// Van der Pol's stiff oscillator with a loop of maps at a zero crossing.
 DynamicsText relaxation() {
   DynamicsText text;
   text.state("x", 2, "[x(2); 500*(1 - x(1)^2)*x(2) - x(1)]", "[2; 0]")

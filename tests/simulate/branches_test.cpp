@@ -41,7 +41,7 @@ struct Judged {
     system = hybrid::make_system(dynamics, stated.values, stated.bodies);
     const hybrid::Scenario scenario = hybrid::make_scenario(horizon, system);
     run = Simulator(system, scenario).run(1, 0, {accuracy, accuracy});
-    judge::JudgeQuestion question;
+    judge::Question question;
     question.relative = question.absolute = accuracy;
     const auto faults = judge::check_trajectory(run, dynamics, stated, question);
     EXPECT_TRUE(faults.empty()) << tests::to_text(faults);
@@ -101,7 +101,7 @@ TEST(EventKinks, InsideAJacobian) {
 
 /// The same D inside and outside of a jacobian is one switch; a jacobian by another name that holds
 /// one by this name has the same branches too.
-TEST(EventKinks, ABranchIsHeldOnce) {
+TEST(EventKinks, ABranchIsFixedOnce) {
   const hybrid::System system = EventProblem()
                                     .state("x", {2, 1}, "[1; -1]")
                                     .flow("x", "-max(x, 0) - jacobian(max(x, 0).^2, x)*[1; 1]")
@@ -109,7 +109,7 @@ TEST(EventKinks, ABranchIsHeldOnce) {
   EXPECT_EQ(system.switches.size(), 1U);
 }
 
-/// The branch of a kink where its argument has no value beyond the border.
+/// The branch of a kink where its argument has no value on the other side.
 TEST(EventKinks, ATankRunsEmpty) {
   DynamicsText text;
   text.state("h", 1, "-sqrt(max(h, 0))", "1");
@@ -168,12 +168,12 @@ TEST(EventKinks, RandomPiecewiseFlows) {
   }
 }
 
-// At the border the state rounds to either side of it.
+// At the zero crossing the state rounds to either side of it.
 TEST(EventKinks, AnExactFlowPassesOne) {
   for (const double at : {0.1, 0.5, 0.7, 0.9, 1.3}) {
     EventProblem problem;
-    const std::string border = brief(at, 17);
-    problem.state("x", {}, "0").flow("x", "1 - 3*max(x - " + border + ", 0)");
+    const std::string kink = brief(at, 17);
+    problem.state("x", {}, "0").flow("x", "1 - 3*max(x - " + kink + ", 0)");
     const hybrid::System system = problem.system();
     const hybrid::Scenario scenario = hybrid::make_scenario(3, system);
     const hybrid::Trajectory run = Simulator(system, scenario).run(1, 0);

@@ -156,7 +156,7 @@ TEST(EventEnding, StatesThatAreNoneOfTheirKindAreErrors) {
             std::string::npos);
 }
 
-TEST(EventSwitch, BranchesAreHeldAndChangeAtTheirBorder) {
+TEST(EventSwitch, BranchesAreFixedAndChangeAtTheirZeroCrossing) {
   for (const bool exact : {true, false}) {
     EventProblem problem;
     problem.state("x", {}, "1")
@@ -187,8 +187,8 @@ TEST(EventSwitch, BranchesThatBothLeadBackSlide) {
   EXPECT_EQ(simulate(relay.system(), 5).ending, hybrid::Ending::sliding);
 }
 
-// x = (1 - t)^2 comes to rest on the border; what is left is noise of the integration.
-TEST(EventSwitch, ARateThatFallsToNothingOnTheBorderSlides) {
+// x = (1 - t)^2 comes to rest on the switching surface; what is left is noise of the integration.
+TEST(EventSwitch, ARateThatFallsToNothingOnTheSurfaceSlides) {
   EventProblem problem;
   problem.state("x", {}, "1").flow("x", "-2*sign(x)*abs(x)^0.5");
   const hybrid::System system = problem.system();

@@ -22,7 +22,7 @@ hybrid::Trajectory simulate(const hybrid::System& system, double horizon,
                             const Accuracy& accuracy = {}) {
   const hybrid::Scenario scenario = hybrid::make_scenario(horizon, system);
   const hybrid::Trajectory run = Simulator(system, scenario).run(1, 0, accuracy);
-  judge::JudgeQuestion question;
+  judge::Question question;
   question.relative = accuracy.relative;
   question.absolute = accuracy.absolute;
   model::Dynamics written = system.dynamics;

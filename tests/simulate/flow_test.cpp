@@ -1,5 +1,6 @@
 // Flows step by step, scenarios and draws: against closed forms.
-#include "simulate/flow.h"
+#include "simulate/exact_flow.h"
+#include "simulate/integrated_flow.h"
 
 #include <gtest/gtest.h>
 

@@ -134,7 +134,7 @@ TEST(Measured, EventsSeeTheFirstRowOfTheirTimeAndFlowsTheLast) {
   expect_accepted(run);
 }
 
-TEST(Measured, BordersAreFoundBetweenRowsAndAtThem) {
+TEST(Measured, ZeroCrossingsAreFoundBetweenRowsAndAtThem) {
   DynamicsText text;
   text.measured("u", Between::line, {{0, -1}, {1, 1}, {2, -1}})
       .measured("v", Between::hold, {{0, 0}, {0.7, 2}})
@@ -154,7 +154,7 @@ TEST(Measured, BordersAreFoundBetweenRowsAndAtThem) {
   expect_accepted(run);
 }
 
-TEST(Measured, SwitchesHoldTheirBranchesBetweenRows) {
+TEST(Measured, SwitchesKeepTheirBranchesBetweenRows) {
   DynamicsText text;
   text.measured("u", Between::hold, {{0, -1}, {0.4, 1}, {1, -1}})
       .state("x", 1, "where(u > 0, 2, 0) + 0*x*x", "0");

@@ -228,7 +228,7 @@ TEST(EventRun, TwoGuardsAtOneInstantGoInOrder) {
   EXPECT_EQ(part_of(system, jumps[1].after, "log")(0), 21);
 }
 
-TEST(EventRun, APairOfRootsNearATouchAndABorderThatIsNotReached) {
+TEST(EventRun, APairOfRootsNearATouchAndAValueThatIsNotReached) {
   EventProblem problem;
   problem.data("d", 1e-9).state("x", {}, "1 - d").flow("x", "2*t - 2");
   problem.when("in", "x <= 0 and q == 0").when("out", "x > 0 and q == 1").mode("q", "0");
@@ -247,6 +247,22 @@ TEST(EventRun, APairOfRootsNearATouchAndABorderThatIsNotReached) {
   EXPECT_TRUE(jumps_of(near).empty());
   ASSERT_EQ(near.notes.size(), 1U);
   EXPECT_NE(near.notes[0].find("x <= 0"), std::string::npos);
+}
+
+// What comes near to 0 beside its terms is to be compared with the difference of two runs.
+TEST(EventRun, ATwinKeepsTurningPointsNextToZero) {
+  for (const double gap : {1e-5, 0.1}) {
+    EventProblem problem;
+    problem.data("d", gap).state("x", {}, "1 + d").flow("x", "2*t - 2").state("n", {}, "0");
+    problem.when("in", "x + 1 <= 1").jump("in", {{"n", "n + 1"}});
+    const hybrid::System system = problem.system();
+    const hybrid::Scenario scenario = hybrid::make_scenario(2.5, system);
+    const hybrid::Trajectory twin = Simulator(system, scenario).run(1, 0, {}, {}, 0);
+    ASSERT_EQ(twin.turns.size(), gap < 0.01 ? 1U : 0U) << gap;
+    if (gap > 0.01) continue;
+    EXPECT_NEAR(twin.turns[0].t, 1, 1e-6);
+    EXPECT_NEAR(twin.turns[0].value, -gap, 1e-10);  // of 1 - (x + 1)
+  }
 }
 
 TEST(EventRun, JumpsSeeTheValuesBeforeThemAndMapsFollowEachOther) {

@@ -1,0 +1,75 @@
+// Internal to the judge (judge.h): what must not happen inside of flows. No condition of an event is
+// true there, no event function crosses zero, no clock runs down, and no flow set is left.
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hybrid/trajectory.h"
+#include "judge/clocks.h"
+#include "judge/faults.h"
+#include "judge/texts.h"
+
+namespace gainsmith::judge {
+
+/// What one event has seen so far.
+struct EventMemory {
+  int side = 0;        ///< of a crossing: on which e was last, for sure; 0 after its own jump
+  bool spent = false;  ///< `when`: rejected by `if`, not due until its condition has been false
+  std::optional<EventClock> clock;
+  double last = 0;  ///< the time of the last jump
+  std::int64_t count = 0;
+  int lost_in_a_row = 0;
+};
+
+/// Whether an event of this kind comes where e goes from one sign to another.
+bool fires(model::Dynamics::EventKind kind, int from, int to);
+/// The sign of e, 0 where rounding hides it.
+int side_of(Text& crossing, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
+
+class FlowInside {
+ public:
+  /// All must outlive it.
+  FlowInside(Texts& texts, std::vector<EventMemory>& memory, Faults& faults)
+      : texts_(texts), memory_(memory), faults_(faults) {}
+
+  void operator()(std::size_t part, const hybrid::FlowPiece& piece);
+
+ private:
+  /// A point of a flow.
+  struct Sample {
+    double t = 0;
+    Eigen::VectorXd x;
+    Eigen::VectorXd sizes;  ///< of its step
+  };
+
+  static std::vector<double> sample_times(const hybrid::FlowPiece& piece);
+  std::vector<Sample> samples(const hybrid::FlowPiece& piece) const;
+  Sample sample(const hybrid::FlowPiece& piece, double t) const;
+  /// What is true at a point up to so many times its rounding.
+  Truth truth(Guard& guard, const Sample& at, double times = 1);
+  void watch_condition(const hybrid::FlowPiece& piece, const std::vector<Sample>& all, Guard& guard,
+                       std::optional<std::size_t> event, const std::string& what);
+  void watch_crossing(const hybrid::FlowPiece& piece, const std::vector<Sample>& all,
+                      std::size_t event);
+  void watch_clock(const hybrid::FlowPiece& piece, std::size_t event);
+  /// Whether an occurrence at a point must jump: its `if` is true, for sure.
+  bool must_jump(std::size_t event, const Sample& at);
+  /// Where `value` is largest between two points on both sides of a point where it is larger; an
+  /// early stop where it is > 0.
+  static double highest(double low, double high, const std::function<double(double)>& value);
+  /// The first point, up to rounding, of (low, high] where `is_there` is.
+  static double entry(double low, double high, const std::function<bool(double)>& is_there);
+
+  Texts& texts_;
+  std::vector<EventMemory>& memory_;
+  Faults& faults_;
+  std::size_t part_ = 0;
+};
+
+}  // namespace gainsmith::judge

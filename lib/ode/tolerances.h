@@ -1,0 +1,33 @@
+// What decides where functions of time are integrated and searched for roots. One line each:
+// unit | meaning | the test that fails where the value is wrong (docs/tolerances.md).
+#pragma once
+
+namespace gainsmith::ode {
+
+constexpr double kFar = 4;  ///< times what a function changes by over a step
+///< | farther from 0 at the ends and the middle, it has no root on the step
+///< | StepRange.IsNotFarWhereAPairOfRootsMayBe
+constexpr double kFinest = 1e-13;  ///< relative
+///< | the least error that double precision is asked for: of interpolants, of integrations, of a time
+///< | Roots.RandomPolynomialsAndWavesHaveAllTheirRoots
+constexpr double kTurnsNear = 1e-10;  ///< of the largest value on a step
+///< | turning points as near to 0 as that are reported
+///< | Roots.WhatComesNearWithoutReachingIsNoted
+constexpr int kPatience = 10000;  ///< attempts at one place
+///< | evaluations and breaks of a function on a step, steps of one flow, steps that hardly advance,
+///< draws: more are not made
+///< | Roots.CornersAreNoObstacle
+constexpr double kEscape = 1e4;  ///< times the start, and what the flow does at its first rate
+///< | a flow that has grown by this while its steps fall to nothing escapes
+///< | JudgedEnds.EscapedMeansLargeOrAtOnce
+constexpr long kStiffFailures = 50;  ///< in a thousand steps
+///< | a flow whose fixed-point iterations fail more often is stiff
+///< | EventFlow.VeryStiffFlowsDoNotStandStill
+constexpr int kMostIterations = 40;  ///< iterations
+///< | what solves the stages of a Gauss step takes no more
+///< | Gauss.FollowsStiffFlows
+constexpr double kSolved = 0.01;  ///< of the tolerance
+///< | the error to which the stages of a Gauss step are solved
+///< | Gauss.KeepsTheEnergyOfAnOscillator
+
+}  // namespace gainsmith::ode
