@@ -20,17 +20,16 @@
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
+#include "bounded/tolerances.h"
 #include "expr/number_type.h"
 #include "numbers/matrix.h"
 #include "numbers/real.h"
 
 namespace gainsmith::bounded {
-
-/// Bounds are the computed ones times this.
-constexpr double kBoundSlack = 1 + 1e-9;
 
 /// A bound of the relative error of +, -, *, / and sqrt in Scalar.
 template <class Scalar>
@@ -42,6 +41,17 @@ constexpr double unit_roundoff<double>() {
 template <>
 constexpr double unit_roundoff<DoubleDouble>() {
   return 0x1p-102;
+}
+template <>
+constexpr double unit_roundoff<Decimal100>() {
+  return 1e-98;
+}
+
+/// The radius where no bound is known.
+constexpr double no_bound() { return std::numeric_limits<double>::infinity(); }
+/// Sums of products above it, 2^-970, have lost no digits to the end of the range of double.
+constexpr double full_precision_from() {
+  return std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 }
 
 /// The size of a number as a double.

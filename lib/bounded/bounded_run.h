@@ -36,8 +36,6 @@ class BoundedSimulator {
   BoundedSimulator(const SampledSystem& system, const hybrid::Scenario& scenario,
                    const FlowSteps& steps, const BoundedSystem<Scalar>& bounded);
 
-  static constexpr std::int64_t kMostJumps = 1000000;
-
   /// The run that Simulator makes of the same seed and number. It ends as diverged when a
   /// coordinate leaves [-1e150, 1e150]; what is no coordinate may grow.
   const Track<Scalar>& run(std::uint64_t seed, std::uint64_t run);

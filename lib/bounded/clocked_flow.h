@@ -8,7 +8,7 @@
 //
 // for every run, with Phi' = M Phi + [0 b] and W' = [Phi; 0 1]' Q [Phi; 0 1]. They are integrated
 // once over the longest interval (integrator.h) and kept as Chebyshev series over pieces of it,
-// each so short that the series has ended at a tenth of the accuracy.
+// each so short that the series has ended at the accuracy.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,11 +43,9 @@ class ClockedFlow {
   std::size_t pieces() const { return pieces_.size(); }
 
  private:
-  static constexpr int kDegree = 16;
-
   struct Piece {
     double begin = 0, end = 0;
-    numbers::Matrix series;  ///< entries x (kDegree + 1)
+    numbers::Matrix series;  ///< entries x (degree + 1)
   };
 
   class Stack;

@@ -32,8 +32,6 @@ namespace gainsmith::bounded {
 /// The flows of a system that is linear but for clocks, made when they are first asked for.
 class ClockedFlows {
  public:
-  static constexpr double kSharper = 1e-2;
-
   /// `integrals`: elements of the coordinates that are integrals, of quadratic forms all. All
   /// arguments must outlive it.
   ClockedFlows(const SampledSystem& system, const hybrid::Scenario& scenario,
@@ -56,8 +54,6 @@ class ClockedFlows {
 /// Simulates run after run; one for each thread. All arguments must outlive it.
 class ClockedSimulator {
  public:
-  static constexpr int kPieces = 32;
-  static constexpr std::int64_t kMostJumps = 1000000;
   /// Where A errs by the rounding of jumps: the first element of each state up or down.
   enum class Rounding { up, down };
 

@@ -48,8 +48,7 @@ struct Polynomial {
 /// Polynomials over one table of atoms.
 class Polynomials {
  public:
-  /// The program's value. std::length_error when it has more than kMostTerms words.
-  static constexpr std::size_t kMostTerms = 2000;
+  /// The program's value. std::length_error when it has more than kMostWords words.
   Polynomial of(const expr::Program& program);
 
   /// A program for the polynomial.

@@ -3,7 +3,7 @@
 // A step of length s maps  x -> E(s) x + f(s),  [E f; 0 1] = expm(s [M b; 0 0]).  The lengths are
 // s_k = s_0 2^k, k = 0 .. K, so each map is the square of the one before: one table serves every
 // interval of every run. What is left of an interval below s_0 is stepped by the Taylor series of
-// degree kDegree of the exponential, whose remainder is below rounding because ||M||_1 s_0 <= 1/4.
+// degree 12 of the exponential, whose remainder is below rounding because ||M||_1 s_0 <= 1/4.
 //
 //   s_K = min(longest/8, 1/w),  w = the largest |Im lambda| or Re lambda over the eigenvalues of M
 //   K   = the smallest with ||M||_1 s_0 <= 1/4, at least 3
@@ -31,8 +31,6 @@ struct FlowStep {
 
 class FlowSteps {
  public:
-  static constexpr int kDegree = 12;
-
   /// `longest`: the longest interval to be cut, > 0. InputError, at `place`, when M or b is not
   /// finite or ||M||_1 longest exceeds 2^40.
   FlowSteps(const hybrid::AffineMap& flow, double longest, const Place& place = {});

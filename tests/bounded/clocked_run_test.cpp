@@ -116,6 +116,26 @@ TEST(ClockedRun, SharesFlowsThatAreLinearButForClocks) {
   }
 }
 
+/// x' = -s x + 1 + s^2 from 1 has the solution s + exp(-s^2/2).
+TEST(ClockedRun, BoundsHoldTheErrorOfAClosedForm) {
+  TextProblem problem;
+  problem.state("x", "scalar").state("s", "scalar");
+  problem.flow({{"x", "-s*x + 1 + s^2"}, {"s", "1"}}).timer("3", "3", "3", "3").horizon("3");
+  problem.start("x", StartKind::expression, {"1"}).start("s", StartKind::expression, {"0"});
+  problem.jump({{"s", "0"}});
+  const SampledProblem made(problem);
+  const Coordinates states = made.states();
+  ClockedFlows flows(made.system(), made.scenario, states, {});
+  ClockedSimulator simulator(made.system(), made.scenario, states, flows);
+  const Track<double>& track = simulator.run(1, 0, 1e-5);
+  for (std::size_t k = 0; k < track.samples() && !(k > 0 && track.moves[k - 1].jump); ++k) {
+    const double s = track.t[k];
+    const double error = std::abs(track.state(k)(0) - s - std::exp(-s * s / 2));
+    EXPECT_LE(error, track.bound(k)(0)) << s;
+    EXPECT_LE(track.bound(k)(0), 1e-3) << s;
+  }
+}
+
 TEST(ClockedRun, SharesNoOtherFlows) {
   const auto is_shared = [](const char* flow, const char* jump, const char* start) {
     TextProblem problem;
@@ -134,6 +154,7 @@ TEST(ClockedRun, SharesNoOtherFlows) {
   EXPECT_FALSE(is_shared("-s*x", "s/2", "0"));
   EXPECT_FALSE(is_shared("-s*x^2", "0", "0"));
   EXPECT_FALSE(is_shared("-tau*x", "0", "0"));
+  EXPECT_FALSE(is_shared("sin(1e6*s)*x", "0", "0"));  // of too many pieces
 }
 
 }  // namespace
