@@ -1,4 +1,4 @@
-// Where along a flow the values of claims are looked at.
+// The sample points along a flow at which the values of claims are compared.
 //
 //   - at the ends of 32 equal parts of it
 //   - at the times from which on claims are made
@@ -37,7 +37,7 @@ struct SamplePoints {
   std::vector<Falling> falling;
 };
 
-/// Which rises of values that must not increase are worth a look.
+/// Which rises of values that must not increase get sample points.
 struct RiseLimits {
   double noise = 0;       ///< of the size of a value, what a rise has to exceed
   double agreement = 0;   ///< to which the values are followed (smooth_parts.h)
@@ -52,7 +52,7 @@ struct SamplePoint {
 };
 
 /// In order of time; the last is the end of the flow.
-std::vector<SamplePoint> points_along(const hybrid::FlowPiece& flow, const SamplePoints& looks,
+std::vector<SamplePoint> points_along(const hybrid::FlowPiece& flow, const SamplePoints& wanted,
                                       std::vector<RunValue>& functions, const RiseLimits& rises);
 
 /// All variables at a place of a flow.

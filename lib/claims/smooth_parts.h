@@ -7,11 +7,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "claims/run_values.h"
+#include "claims/tolerances.h"
 
 namespace gainsmith::claims {
 
@@ -20,14 +22,14 @@ struct SmoothPart {
   double to = 0;
   bool after_jump = false;   ///< the value jumps just before it
   bool before_jump = false;  ///< just after it
-  /// The value on [from, to] as a sum of Chebyshev polynomials (hybrid/chebyshev.h).
+  /// The value on [from, to] as a sum of Chebyshev polynomials (ode/chebyshev.h).
   Eigen::RowVectorXd series{};
   double noise = 0;  ///< how far the series may be off: to what it agrees, and rounding
   /// A time at which the value is no number; then there is no series.
   std::optional<double> undefined{};
 
-  /// Points as close as the series needs them, both ends among them.
-  int points() const { return 1 + 4 * static_cast<int>(series.size()); }
+  /// Points as close as the series needs them, both ends among them; at least those of degree 4.
+  int points() const { return 1 + 4 * std::max(static_cast<int>(series.size()), 5); }
   double time(int point) const;
   /// The series at t.
   double operator()(double t) const;
@@ -35,7 +37,8 @@ struct SmoothPart {
 
 /// In order, at least one. `near`: takes the places at which it nearly branches.
 std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& step,
-                                     std::vector<double>* near = nullptr, double agreement = 1e-6);
+                                     std::vector<double>* near = nullptr,
+                                     double agreement = kAgreement);
 
 /// Where the series of a part turns, in rising order.
 std::vector<double> turns_of(const SmoothPart& part);

@@ -11,6 +11,7 @@
 #include <variant>
 #include <vector>
 
+#include "claims/tolerances.h"
 #include "hybrid/system.h"
 #include "hybrid/trajectory.h"
 #include "simulate/jump_maps.h"
@@ -36,12 +37,6 @@ struct TwinParts {
   std::vector<std::variant<TwinFlow, TwinJump>> parts;
   bool whole = false;  ///< false: from there on they have other events
 };
-
-/// Flows that add up to less than this part of a run's time lie within an instant.
-constexpr double kInstantOfRun = 1e-6;
-
-/// Of the difference of a run and its twin: the error of the better one.
-constexpr double kOfDifference = 4;
 
 TwinParts pair_twins(const hybrid::Trajectory& run, const hybrid::Trajectory& twin,
                      const hybrid::System& system, simulate::JumpMaps& maps);

@@ -92,7 +92,7 @@ bool add_clocked_flows(SampledSetup& setup) {
   }
   setup.flows = std::make_unique<bounded::ClockedFlows>(*setup.system, setup.scenario,
                                                         setup.coordinates, integrals);
-  return setup.flows->to(kUsualOfMany) != nullptr;
+  return setup.flows->to(kAccuracyOfMany) != nullptr;
 }
 
 /// None when the dynamics are of another kind.
