@@ -2,9 +2,9 @@
 //
 //   value = mid, |true - mid| <= rad element by element
 //
-// `mid` is computed in Scalar; `rad`, a double, grows by what an operation does to the bounds of
-// its operands and by the rounding of the operation itself (running error analysis; Higham,
-// "Accuracy and Stability of Numerical Algorithms", ch. 3). u is unit_roundoff:
+// `mid` is computed in Scalar. `rad`, a double, grows by what an operation does to the bounds of
+// its operands and by its own rounding (running error analysis; Higham, "Accuracy and Stability of
+// Numerical Algorithms", ch. 3). u is unit_roundoff:
 //
 //   a + b       ra + rb + u |a + b|
 //   A B         |A| RB + RA (|B| + RB) + (k + 1) u |A| |B|,  k terms
@@ -12,10 +12,10 @@
 //   expm(A)     ||RA|| exp(mu + ||RA||), mu the logarithmic 1-norm of A, and the rounding of 100
 //               digits
 //
-// What nothing is rounded in has the bound 0: sums with 0, products with 0, zeros, selections. The
-// bounds themselves are computed in double without directed rounding, so who compares widens them
-// by kBoundSlack. Underflow below 1e-290 is not bounded here. Singular values and bases of ranges
-// that are not exact have an infinite bound where none is known.
+// Where nothing is rounded the bound is 0: sums with 0, products with 0, zeros, selections. The
+// bounds themselves are computed in double without directed rounding, so whoever compares widens
+// them by kBoundSlack. Underflow below 2^-970 is not bounded here. Singular values and bases of
+// ranges that are not exact have an infinite bound where none is known.
 #pragma once
 
 #include <Eigen/Core>

@@ -18,7 +18,7 @@ using numbers::Matrix;
 
 namespace {
 
-/// The value of a program of constants; none when anything that moves stands in it.
+/// The value of a program of constants; none when it depends on anything that moves.
 std::optional<Matrix> fixed_value(const expr::Program& program, const hybrid::StateLayout& layout,
                                   const numbers::Values& constants) {
   for (const expr::Input& input : program.inputs)
@@ -154,7 +154,8 @@ class ClockedFlow::Stack {
   VectorXd moving_, slope_;
 };
 
-/// The error of each entry that counts as relative: of Phi that of its column, of W that of W.
+/// The size to which the error of each entry is relative: of Phi that of its column, of W that of
+/// W.
 VectorXd ClockedFlow::sizes(const VectorXd& stack, const VectorXd& rate, double longest) const {
   const auto n = static_cast<Index>(linear_.size());
   VectorXd result = VectorXd::Ones(stack.size());

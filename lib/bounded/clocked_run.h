@@ -1,13 +1,13 @@
-// One run in the coordinates of a judgement when the flow is linear but for clocks
-// (clocked_flow.h): every flow is integrated once for all runs, to an accuracy and to a hundredth.
+// One run in the coordinates of a judgement, when the flow is linear but for clocks.
 //
-// A uses the coarser flow, B the sharper one; samples at 32 equal pieces of each flow. A also errs
-// by the rounding of its start and jumps, to twice the radius of their balls (ball.h), so that what
-// becomes of such errors shows in |A - B|.
+// All runs share the flow (clocked_flow.h), which is integrated to an accuracy for copy A and to a
+// hundredth of it for copy B. Samples lie at the ends of 32 equal parts of each flow. A also errs
+// by twice the rounding of its start and jumps (ball.h), so that |A - B| shows what becomes of such
+// errors.
 //
-// The samples are those of B. The bound of an element's error is four times the largest |A - B| of
-// its state at the sample and at two on each side, + 8 u |B|: A errs some hundred times more than
-// B, so it is an estimate that leaves a margin, and no proof. u has to stay below the accuracy.
+// The samples are those of B. The bound of an element is four times the largest |A - B| of its
+// state at the sample and at two on each side, + 8 u |B|. A errs some hundred times more than B, so
+// the bound is an estimate with a margin, and no proof. u has to stay below the accuracy.
 #pragma once
 
 #include <Eigen/Core>
@@ -60,9 +60,9 @@ class ClockedSimulator {
   ClockedSimulator(const SampledSystem& system, const hybrid::Scenario& scenario,
                    const Coordinates& coordinates, ClockedFlows& flows);
 
-  /// The run that Simulator makes of the same seed and number, to `relative` and to a
-  /// hundredth of it. It ends as undefined where a jump map has no value, as lost where the flows
-  /// are not known so accurately, as diverged where a coordinate leaves [-1e150, 1e150].
+  /// The run that Simulator makes of the same seed and number, to `relative` and to a hundredth of
+  /// it. It ends as undefined where a jump map has no value, as lost where the flows are not known
+  /// so accurately, as diverged where a coordinate leaves [-1e150, 1e150].
   const Track<double>& run(std::uint64_t seed, std::uint64_t run, double relative,
                            Rounding rounding = Rounding::up);
 

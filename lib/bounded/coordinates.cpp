@@ -39,8 +39,8 @@ Program product(const Program& a, const Program& b) {
       compose.apply(Op::multiply, {first, second}, {a.shape().rows, b.shape().cols}));
 }
 
-/// The differences of states of one shape that stand in the functions, none of which uses what
-/// another one replaces.
+/// The differences of states of one shape in the functions. No difference uses what another one
+/// replaces.
 std::vector<Pair> find_differences(const std::vector<Program>& functions,
                                    const hybrid::StateLayout& layout) {
   std::vector<Pair> pairs;

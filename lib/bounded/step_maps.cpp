@@ -61,7 +61,7 @@ Matrix squared_errors(const Matrix& sizes, const Matrix& errors) {
 }
 
 /// The tails of a series whose terms are at most `term` and what `next` makes of it, k = 1, 2, ...
-/// The terms fall at least like those of an exponential of 1/2; what is left after them all is
+/// The terms fall at least like those of an exponential of 1/2. So what is left after them all is
 /// below the last one, at elements that any term reaches.
 template <class Next>
 std::vector<Matrix> tails_of(Matrix term, std::size_t most, Next next) {

@@ -248,8 +248,8 @@ Finding ClaimCheck<Scalar>::nothing_counts(const Track& track) const {
   return finding;
 }
 
-/// Of the terms of the value at samples that count, or of the value itself where there are none,
-/// with what they may be off; 0 at the others.
+/// The sizes of the terms of the value at samples that count, with their errors; 0 at the others.
+/// Without terms they are those of the value itself.
 template <class Scalar>
 std::vector<double> ClaimCheck<Scalar>::term_sizes(const Track& track,
                                                    const std::vector<Bounded>& v) {

@@ -8,10 +8,10 @@
 //   shrinks         v(end) <= factor v(0)            held at once when v(0) = 0
 //   below, above    v(k) <= b, v(k) >= b             at every sample; b a constant
 //
-// Some samples may lie as near the one before as rounding allows: those that are there for the sake
-// of the value alone, and those in a flow of hardly any length. There an undecided comparison
-// counts only when the value seems to have grown by the part kGrown of its bounds. Later samples
-// are compared with the least value of all.
+// Some samples may lie as near the one before as rounding allows: those for the sake of the value
+// alone, and those in a flow of hardly any length. There an undecided comparison counts only when
+// the value seems to have grown by the part kGrown of its bounds. Later samples are compared with
+// the least value of all.
 //
 // `after` a time, the samples before it do not count; `over` an event, only those just after its
 // jumps do. Then v(0) is the first that counts.
@@ -23,9 +23,9 @@
 //   held        value + its bound <= what it must not exceed - its bound, at every sample
 //   undecided   neither
 //
-// A value that cannot have changed since the sample before (all that it depends on is constant
-// along flows, or unchanged by jumps) is not compared with itself. A value that has no number
-// violates in 31 digits and is undecided in double.
+// A value that cannot have changed since the sample before is not compared with itself: all that it
+// depends on is constant along flows, or unchanged by jumps. A value that has no number violates in
+// 31 digits and is undecided in double.
 //
 // A value that falls by more than its digits can show is noise in the end. Noise is not compared,
 // and Finding::floor says down to where values were:

@@ -96,8 +96,8 @@ double time_of(const SamplePoints::Peak& peak, const FlowPiece& flow, RunValue& 
   return best;
 }
 
-/// The lows of a value and the tops after them, where it rises by more than its noise, and than
-/// `noise` of its size, to a size above `floor`. A low is the lowest so far.
+/// The lows of a value and the tops after them. A rise counts that is larger than its noise and
+/// than `noise` of its size, and that leads to a size above `floor`. A low is the lowest so far.
 class Rises {
  public:
   Rises(double noise, double floor) : noise_(noise), floor_(floor) {}

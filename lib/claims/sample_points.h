@@ -1,13 +1,13 @@
-// The sample points along a flow at which the values of claims are compared.
+// The sample points along a flow at which the values of claims are compared:
 //
-//   - at the ends of 32 equal parts of it
-//   - at the times from which on claims are made
-//   - where the text of a value branches (hybrid/breaks.h): at kinks, on both sides of jumps - a
-//     little aside, and of a value with a bound next to them too -, half-way between these, and
-//     where it nearly branches
-//   - where a value with a bound is largest, by golden section from the series of its parts
+//   - the ends of 32 equal parts of it
+//   - the times from which on claims are made
+//   - where the text of a value branches (hybrid/breaks.h): kinks, both sides of jumps at a small
+//     distance, the middles between these, and points at which it nearly branches; of a value with
+//     a bound also points next to the jumps
+//   - the peak of a value with a bound, by golden section from the series of its parts
 //     (smooth_parts.h)
-//   - where a value that must not increase turns, and rises by more than its noise
+//   - the turning points of a value that must not increase and rises by more than its noise
 #pragma once
 
 #include <Eigen/Core>

@@ -1,9 +1,10 @@
-// The parts of a step on which a value is smooth and known from some of its points: those between
-// its breaks (hybrid/breaks.h), halved until a polynomial of degree 4, 8 or 16 through Chebyshev
-// points agrees with the value at two others to a part of what it changes by, or to its rounding.
-// So the parts are as short as the text needs them, whatever the step is as long as: sin(60*t)
-// along a clock. What is narrower than the points of the first polynomials lie apart may hide
-// between them.
+// The parts of a step on which a value is smooth and known from some of its points.
+//
+// They are the parts between its breaks (hybrid/breaks.h), halved until a polynomial of degree 4, 8
+// or 16 through Chebyshev points agrees with the value at two others. It agrees to a part of what
+// the value changes by, or to its rounding. So the parts are as short as the text needs them,
+// however long the step is: sin(60*t) along a clock. What is narrower than the distance of the
+// points of the first polynomials may hide between them.
 #pragma once
 
 #include <Eigen/Core>

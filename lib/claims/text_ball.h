@@ -1,6 +1,6 @@
-// What the evaluation of a text in double rounds, and what errors of the variables make of it where
-// it branches, by running error analysis (bounded/ball.h): two runs that are compared round alike,
-// and may both take the wrong branch.
+// Errors of a text in double, by running error analysis (bounded/ball.h): what its evaluation
+// rounds, and what errors of the variables make of it where it branches. Two runs that are compared
+// do not show either: they round alike, and may both take the wrong branch.
 #pragma once
 
 #include <Eigen/Core>

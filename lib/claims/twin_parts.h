@@ -1,10 +1,11 @@
 // The parts of a run beside those of its twin: two runs of one (seed, number) that differ in
 // accuracy and rounding.
 //
-// Where both have the same events at one instant in another order, or with a flow of hardly any
-// length between them, the twin's jumps are taken again in the order of the run, from the twin's
-// values before the first of them: events that do not touch each other are the same in any order,
-// and what they do otherwise shows in the values. So it is where a chain of jumps is longer in one.
+// Both may have the same events at one instant in another order, or with a flow of hardly any
+// length between them. Then the twin's jumps are taken again in the order of the run, from the
+// twin's values before the first of them. Events that do not touch each other are the same in any
+// order; what others do shows in the values. A chain of jumps that is longer in one run is paired
+// in this manner too.
 #pragma once
 
 #include <Eigen/Core>

@@ -186,8 +186,7 @@ std::vector<CheckReport> report_checks(const Setup& setup, const Tally& tally) {
   return reports;
 }
 
-/// Repeats the worst runs in 31 digits and adds those that violate there too. Whether the worst one
-/// does.
+/// Repeats the worst runs and adds those that violate again. Whether the worst one does.
 bool confirm_worst(const Setup& setup, std::uint64_t seed, Report& report) {
   std::vector<std::uint64_t> runs{report.worst_run};
   for (const CheckReport& check : report.checks)

@@ -14,7 +14,7 @@
 
 namespace gainsmith::verify {
 
-/// How the runs of sampled dynamics (hybrid/sampled_system.h) are made and judged: with bounds
+/// How the runs of sampled dynamics (bounded/sampled_system.h) are made and judged: with bounds
 /// where the flow is affine, otherwise by flows that all runs share.
 struct SampledSetup {
   hybrid::System dynamics;

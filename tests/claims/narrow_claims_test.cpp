@@ -1,4 +1,4 @@
-// Claims and figures whose texts branch for less than a look, or whose evaluation cancels.
+// Claims and figures whose texts branch between two sample points, or whose evaluation cancels.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -223,7 +223,7 @@ campaign: {runs: 2, horizon: 2, initial: {x: {list: [3, -1]}}}
   EXPECT_EQ(report.worst_run, 0U);
 }
 
-TEST(NarrowClaims, WhatIsNeverLookedAtSaysSo) {
+TEST(NarrowClaims, WhatIsNeverComparedSaysSo) {
   CampaignOptions options;
   options.threads = 1;
   const Report report = run_campaign(
