@@ -17,8 +17,8 @@ using Eigen::Index;
 using Eigen::RowVectorXd;
 
 /// The degrees that are tried, and two points between those of all polynomials.
-constexpr std::array<int, 3> degrees = {4, 8, 16};
-constexpr int largest_degree = degrees.back();
+constexpr std::array<int, 3> tried_degrees = {4, 8, 16};
+constexpr int largest_degree = tried_degrees.back();
 constexpr std::array<double, 2> check_points = {-0.617, 0.443};
 constexpr int evaluations_of_part = largest_degree + 1 + static_cast<int>(check_points.size());
 
@@ -47,7 +47,7 @@ class Halving {
     std::array<double, check_points.size()> checks{};
     for (std::size_t k = 0; k < check_points.size(); ++k) checks[k] = at(part, check_points[k]);
     int before = 0;
-    for (const int degree : degrees) {
+    for (const int degree : tried_degrees) {
       const int apart = largest_degree / degree;
       for (int k = 0; k <= degree; ++k)
         if (before == 0 || k % 2 == 1)
