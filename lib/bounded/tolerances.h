@@ -25,8 +25,7 @@ constexpr int kMostLevels = 40;  ///< powers of two | a flow whose matrix times 
 constexpr std::int64_t kMostJumps = 1000000;  ///< jumps | a run with more of them ends at the jump
         ///< limit | SampledRun.IntervalsThatShrinkToNothingHitTheJumpLimit
 constexpr std::size_t kStepsOfBox = 8;  ///< steps | new errors are bounded element by element so
-        ///< long before they join the ellipsoid |
-        ///< BoundedRun.ItsBoundsHoldTheErrorAgainstHundredDigits
+        ///< long before they join the ellipsoid | BoundedRun.StiffFlowsAndConstantsToo
 constexpr int kPartsOfFlow = 32;  ///< parts | claims are compared at the ends of so many equal
         ///< parts of an integrated flow | ClockedRun.SharesFlowsThatAreLinearButForClocks
 constexpr double kSharper = 1e-2;  ///< of the accuracy | the accuracy of the second run, whose
@@ -39,7 +38,7 @@ constexpr int kSamplesBeside = 2;  ///< samples on each side | the difference of
         ///< ClockedRun.SharesFlowsThatAreLinearButForClocks
 constexpr double kLeastColumn = 1e-4;  ///< of the first columns | a column of a shared flow that
         ///< decays below it is integrated to an absolute error |
-        ///< ClockedRun.SharesFlowsThatAreLinearButForClocks
+        ///< ClockedRun.FollowsADecayOverManyDecades
 constexpr std::size_t kMostPieces = 10000;  ///< pieces | a flow that needs more, with those that
         ///< were halved, is not shared: every run integrates its own |
         ///< ClockedRun.SharesNoOtherFlows
