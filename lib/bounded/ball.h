@@ -2,9 +2,9 @@
 //
 //   value = mid, |true - mid| <= rad element by element
 //
-// `mid` is computed in Scalar; `rad`, a double, grows by what an operation does to the bounds of
-// its operands and by the rounding of the operation itself (running error analysis; Higham,
-// "Accuracy and Stability of Numerical Algorithms", ch. 3). u is unit_roundoff:
+// `mid` is computed in Scalar. `rad`, a double, grows by what an operation does to the bounds of
+// its operands and by its own rounding (running error analysis; Higham, "Accuracy and Stability of
+// Numerical Algorithms", ch. 3). u is unit_roundoff:
 //
 //   a + b       ra + rb + u |a + b|
 //   A B         |A| RB + RA (|B| + RB) + (k + 1) u |A| |B|,  k terms
@@ -12,25 +12,24 @@
 //   expm(A)     ||RA|| exp(mu + ||RA||), mu the logarithmic 1-norm of A, and the rounding of 100
 //               digits
 //
-// What nothing is rounded in has the bound 0: sums with 0, products with 0, zeros, selections. The
-// bounds themselves are computed in double without directed rounding, so who compares widens them
-// by kBoundSlack. Underflow below 1e-290 is not bounded here. Singular values and bases of ranges
-// that are not exact have an infinite bound where none is known.
+// Where nothing is rounded the bound is 0: sums with 0, products with 0, zeros, selections. The
+// bounds themselves are computed in double without directed rounding, so whoever compares widens
+// them by kBoundSlack. Underflow below 2^-970 is not bounded here. Singular values and bases of
+// ranges that are not exact have an infinite bound where none is known.
 #pragma once
 
 #include <Eigen/Core>
 #include <cmath>
+#include <limits>
 
 #include "base/eigen_scalars.h"
 #include "base/scalars.h"
+#include "bounded/tolerances.h"
 #include "expr/number_type.h"
 #include "numbers/matrix.h"
 #include "numbers/real.h"
 
 namespace gainsmith::bounded {
-
-/// Bounds are the computed ones times this.
-constexpr double kBoundSlack = 1 + 1e-9;
 
 /// A bound of the relative error of +, -, *, / and sqrt in Scalar.
 template <class Scalar>
@@ -42,6 +41,17 @@ constexpr double unit_roundoff<double>() {
 template <>
 constexpr double unit_roundoff<DoubleDouble>() {
   return 0x1p-102;
+}
+template <>
+constexpr double unit_roundoff<Decimal100>() {
+  return 1e-98;
+}
+
+/// The radius where no bound is known.
+constexpr double no_bound() { return std::numeric_limits<double>::infinity(); }
+/// Sums of products above it, 2^-970, have lost no digits to the end of the range of double.
+constexpr double full_precision_from() {
+  return std::numeric_limits<double>::min() / std::numeric_limits<double>::epsilon();
 }
 
 /// The size of a number as a double.

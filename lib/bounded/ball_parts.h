@@ -1,4 +1,4 @@
-// Internal to hybrid: what several operations of balls are made of.
+// Internal to bounded: what several operations of balls are made of.
 #pragma once
 
 #include <cmath>
@@ -51,23 +51,22 @@ void in_wide_digits(const expr::Instruction& instruction, const Ball<Scalar>& a,
   out = ball_of<Scalar>(result);
 }
 
-/// e^A at the middle, with its own rounding: over 100 digits, in doubles over 31, whose error stays
-/// far below theirs while A is no larger than kMost.
+/// e^A at the middle, with its own rounding: over 100 digits; for doubles over 31 while the error
+/// of these stays far below that of a double.
 template <class Scalar>
 void exponential_of_middle(const expr::Instruction& instruction, const Ball<Scalar>& a,
                            Ball<Scalar>& out) {
-  constexpr double kMost = 8;
-  constexpr double kError = 0x1p-80;  // of e^|A|; a quarter of the digits for the method
   if constexpr (std::is_same_v<Scalar, double>) {
     const double norm = a.mid.size() == 0 ? 0 : a.mid.cwiseAbs().colwise().sum().maxCoeff();
-    if (norm <= kMost) {
+    const double error = kExponentialError * std::exp(norm);
+    if (error <= kSharper * unit_roundoff<double>()) {
       const MatrixOf<DoubleDouble> operand = a.mid.template cast<DoubleDouble>();
       const MatrixOf<DoubleDouble>* operands[] = {&operand};
       MatrixOf<DoubleDouble> result;
       numbers::Real<DoubleDouble>{}.apply(instruction, operands, result);
       out.mid = result.unaryExpr([](const DoubleDouble& x) { return as<double>(x); });
       out.rad = unit_roundoff<double>() * out.mid.cwiseAbs();
-      out.rad.array() += kError * std::exp(norm);
+      out.rad.array() += error;
       return;
     }
   }

@@ -1,4 +1,4 @@
-// Internal to hybrid: the operations of balls.
+// Internal to bounded: the operations of balls.
 #pragma once
 
 #include <algorithm>
@@ -18,15 +18,11 @@ using expr::Op;
 using numbers::Matrix;
 using numbers::MatrixOf;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-/// Elementary functions: a few units in the last place.
-constexpr double kFunction = 8;
-
 template <class Scalar>
 struct BallRules {
   using Value = Ball<Scalar>;
   using At = expr::Step<Value>;
-  static constexpr double kUnit = unit_roundoff<Scalar>();
+  static constexpr double unit = unit_roundoff<Scalar>();
 
   /// out(e) = f(e) with the radius r(e), element by element.
   template <class F, class R>
@@ -74,7 +70,7 @@ struct BallRules {
       const Scalar& b = at[1].mid(e);
       out.mid(e) = minus ? a - b : a + b;
       const bool exact = a == Scalar(0) || b == Scalar(0);
-      out.rad(e) = at[0].rad(e) + at[1].rad(e) + (exact ? 0 : kUnit * size_of(out.mid(e)));
+      out.rad(e) = at[0].rad(e) + at[1].rad(e) + (exact ? 0 : unit * size_of(out.mid(e)));
     }
   }
   void operator()(Is<Op::add>, const At& at, Value& out) const { sum(at, out, false); }
@@ -92,20 +88,20 @@ struct BallRules {
         at, out, [&](Index e) { return s * at[1].mid(e); },
         [&](Index e) {
           const double y = size_of(at[1].mid(e));
-          return size * at[1].rad(e) + rad * (y + at[1].rad(e)) + kUnit * size * y;
+          return size * at[1].rad(e) + rad * (y + at[1].rad(e)) + unit * size * y;
         });
   }
   void operator()(Is<Op::divide>, const At& at, Value& out) const {
     const Scalar& by = at[1].mid(0);
     const double rad = at[1].rad(0);
     if (by == Scalar(0) && rad == 0) expr::fault::division_by_zero();
-    const double least = size_of(by) * (1 - 4 * kUnit) - rad;
+    const double least = size_of(by) * (1 - 4 * unit) - rad;
     each(
         at, out, [&](Index e) { return by == Scalar(0) ? Scalar(0) : at[0].mid(e) / by; },
         [&](Index e) {
-          if (!(least > 0)) return kInfinity;
+          if (!(least > 0)) return no_bound();
           const double quotient = size_of(at[0].mid(e)) / size_of(by);
-          return (quotient * rad + at[0].rad(e)) / least + 2 * kUnit * quotient;
+          return (quotient * rad + at[0].rad(e)) / least + 2 * unit * quotient;
         });
   }
   void operator()(Is<Op::power>, const At& at, Value& out) const {
@@ -137,7 +133,7 @@ struct BallRules {
         [&](Index e) {
           const double x = size_of(at[0].mid(e));
           const double y = size_of(at[1].mid(e));
-          return x * at[1].rad(e) + at[0].rad(e) * (y + at[1].rad(e)) + kUnit * x * y;
+          return x * at[1].rad(e) + at[0].rad(e) * (y + at[1].rad(e)) + unit * x * y;
         });
   }
   void operator()(Is<Op::real_power>, const At& at, Value& out) const {
@@ -150,7 +146,7 @@ struct BallRules {
       const double ry = at[1].rad(e);
       const auto value = [&](double dx, double dy) { return pow(x + Scalar(dx), y + Scalar(dy)); };
       out.mid(e) = value(0, 0);
-      double rad = kFunction * kUnit * size_of(out.mid(e));
+      double rad = kFunctionRounding * unit * size_of(out.mid(e));
       if (rx > 0 || ry > 0) {
         // Monotone in each argument where the base is positive: the corners are the extremes.
         const bool positive = x - Scalar(rx) > Scalar(0);
@@ -158,10 +154,10 @@ struct BallRules {
           for (const double dy : {-ry, ry})
             if (positive) {
               const Scalar corner = value(dx, dy);
-              rad = std::max(
-                  rad, size_of(corner - out.mid(e)) + 2 * kFunction * kUnit * size_of(corner));
+              rad = std::max(rad, size_of(corner - out.mid(e)) +
+                                      2 * kFunctionRounding * unit * size_of(corner));
             }
-        if (!positive) rad = kInfinity;
+        if (!positive) rad = no_bound();
       }
       out.rad(e) = rad;
     }
@@ -211,7 +207,7 @@ struct BallRules {
         [&](Index e) {
           const double size = size_of(out.mid(e));
           const bool one = at[0].mid(e) == Scalar(0);
-          return size * std::expm1(at[0].rad(e)) + (one ? 0 : kFunction * kUnit * size);
+          return size * std::expm1(at[0].rad(e)) + (one ? 0 : kFunctionRounding * unit * size);
         });
   }
   void operator()(Is<Op::log>, const At& at, Value& out) const {
@@ -223,8 +219,8 @@ struct BallRules {
         at, out, [&](Index e) { return log(at[0].mid(e)); },
         [&](Index e) {
           const double ratio = at[0].rad(e) / size_of(at[0].mid(e));
-          if (!(ratio < 1)) return kInfinity;
-          return -std::log1p(-ratio) + kFunction * kUnit * size_of(out.mid(e));
+          if (!(ratio < 1)) return no_bound();
+          return -std::log1p(-ratio) + kFunctionRounding * unit * size_of(out.mid(e));
         });
   }
   void operator()(Is<Op::sqrt>, const At& at, Value& out) const {
@@ -241,7 +237,7 @@ struct BallRules {
           const double least = std::sqrt(size_of(positive(low(e))));
           const double top = size_of(at[0].mid(e)) + at[0].rad(e);
           const double change = root + least > 0 ? at[0].rad(e) / (root + least) : std::sqrt(top);
-          return std::min(change, std::sqrt(top)) + 2 * kUnit * root;
+          return std::min(change, std::sqrt(top)) + 2 * unit * root;
         });
   }
   template <Op op>
@@ -257,7 +253,7 @@ struct BallRules {
           return op == Op::cos ? cos(at[0].mid(e)) : tanh(at[0].mid(e));
         },
         [&](Index e) {
-          return std::min(at[0].rad(e), 2.0) + kFunction * kUnit * size_of(out.mid(e));
+          return std::min(at[0].rad(e), 2.0) + kFunctionRounding * unit * size_of(out.mid(e));
         });
   }
   void operator()(Is<Op::abs>, const At& at, Value& out) const {
@@ -281,12 +277,12 @@ struct BallRules {
   template <Op op>
   requires expr::OneOf<op, Op::minimum, Op::maximum>
   void operator()(Is<op>, const At& at, Value& out) const {
-    constexpr double kSign = op == Op::maximum ? 1 : -1;
+    const double sign = op == Op::maximum ? 1 : -1;
     shape_like(at.instruction, out);
     for (Index e = 0; e < out.mid.size(); ++e) {
-      const double apart = kSign * static_cast<double>(at[0].mid(e) - at[1].mid(e));
+      const double apart = sign * static_cast<double>(at[0].mid(e) - at[1].mid(e));
       const Value& first = at[apart >= 0 ? 0 : 1];
-      const double other = at[apart >= 0 ? 1 : 0].rad(e) - std::abs(apart) * (1 - 4 * kUnit);
+      const double other = at[apart >= 0 ? 1 : 0].rad(e) - std::abs(apart) * (1 - 4 * unit);
       out.mid(e) = first.mid(e);
       out.rad(e) = std::max(first.rad(e), other);
     }
@@ -305,7 +301,7 @@ struct BallRules {
       // Half-way between the two, which reaches over both.
       const Scalar half = (other.mid(e) - chosen.mid(e)) / Scalar(2);
       out.mid(e) = chosen.mid(e) + half;
-      out.rad(e) = size_of(half) * (1 + 8 * kUnit) + kUnit * size_of(out.mid(e)) +
+      out.rad(e) = size_of(half) * (1 + 8 * unit) + unit * size_of(out.mid(e)) +
                    std::max(chosen.rad(e), other.rad(e));
     }
   }
@@ -313,7 +309,7 @@ struct BallRules {
     const Index n = at[0].mid.rows();
     out.mid = MatrixOf<Scalar>::Constant(1, 1, at[0].mid.trace());
     const double sizes = sizes_of(at[0].mid.diagonal()).sum();
-    out.rad = Matrix::Constant(1, 1, at[0].rad.trace() + static_cast<double>(n) * kUnit * sizes);
+    out.rad = Matrix::Constant(1, 1, at[0].rad.trace() + static_cast<double>(n) * unit * sizes);
   }
   void operator()(Is<Op::norm>, const At& at, Value& out) const {
     const MatrixOf<Scalar>* operands[] = {&at[0].mid};
@@ -322,7 +318,7 @@ struct BallRules {
     out.mid = result;
     const bool vector = at[0].mid.rows() == 1 || at[0].mid.cols() == 1;
     const double rounding = (vector ? 1 : 100) * (static_cast<double>(at[0].mid.size()) + 4);
-    out.rad = Matrix::Constant(1, 1, at[0].rad.norm() + rounding * kUnit * size_of(result(0)));
+    out.rad = Matrix::Constant(1, 1, at[0].rad.norm() + rounding * unit * size_of(result(0)));
   }
   void operator()(Is<Op::inverse>, const At& at, Value& out) const {
     const Value& a = at[0];
@@ -334,9 +330,9 @@ struct BallRules {
     Value product;
     multiply(inverse, a, product);
     const Matrix R =
-        sizes_of(product.mid - MatrixOf<Scalar>::Identity(n, n)) * (1 + 4 * kUnit) + product.rad;
+        sizes_of(product.mid - MatrixOf<Scalar>::Identity(n, n)) * (1 + 4 * unit) + product.rad;
     const double norm = n == 0 ? 0 : R.rowwise().sum().maxCoeff();
-    out.rad = Matrix::Constant(n, n, kInfinity);
+    out.rad = Matrix::Constant(n, n, no_bound());
     if (norm < 1) out.rad = R.rowwise().sum() * sizes_of(X).colwise().maxCoeff() / (1 - norm);
     out.mid = X;
   }
@@ -350,7 +346,7 @@ struct BallRules {
     exponential_of_middle(at.instruction, a, out);
     const double rad = n == 0 ? 0 : a.rad.colwise().sum().maxCoeff();
     if (rad == 0) return;
-    double mu = -kInfinity;
+    double mu = -no_bound();
     for (Index j = 0; j < n; ++j)
       mu = std::max(mu, static_cast<double>(a.mid(j, j)) + sizes_of(a.mid.col(j)).sum() -
                             size_of(a.mid(j, j)));
@@ -377,7 +373,7 @@ struct BallRules {
   void operator()(Is<op>, const At& at, Value& out) const {
     const MatrixOf<Scalar>* operands[] = {&at[0].mid};
     numbers::Real<Scalar>{}.apply(at.instruction, operands, out.mid);
-    out.rad = Matrix::Constant(out.mid.rows(), out.mid.cols(), out.mid.isZero(0) ? 0 : kInfinity);
+    out.rad = Matrix::Constant(out.mid.rows(), out.mid.cols(), out.mid.isZero(0) ? 0 : no_bound());
   }
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,

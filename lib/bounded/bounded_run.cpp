@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "bounded/run_loop.h"
 #include "bounded/small_size.h"
 
 namespace gainsmith::bounded {
@@ -12,13 +13,6 @@ namespace gainsmith::bounded {
 using Eigen::Index;
 using numbers::Matrix;
 using numbers::MatrixOf;
-
-namespace {
-
-/// After so many steps of a flow its errors are gathered.
-constexpr std::size_t kGather = 8;
-
-}  // namespace
 
 template <class Scalar>
 BoundedSimulator<Scalar>::BoundedSimulator(const SampledSystem& system,
@@ -186,7 +180,7 @@ void BoundedSimulator<Scalar>::flow(double interval) {
     elapsed = last ? interval : elapsed + cuts_[i].length;
     passed = last ? Scalar(interval) : passed + Scalar(cuts_[i].length);
     track_.moves.push_back({false, cuts_[i]});
-    if (i % kGather == kGather - 1) {
+    if (i % kStepsOfBox == kStepsOfBox - 1) {
       errors_.gather();
       r_ = errors_.bounds();
     }
@@ -299,20 +293,10 @@ const Track<Scalar>& BoundedSimulator<Scalar>::run(std::uint64_t seed, std::uint
   track_.size = x_.rows();
   start(draws.start());
   append(0, 0, Scalar(draws.length()), 0);
-  while (true) {
-    const bool jumps = draws.is_within(scenario_->horizon);
-    flow(jumps ? draws.length() : scenario_->horizon - track_.t.back());
-    if (track_.termination != Termination::horizon || !jumps) return track_;
-    if (track_.j.back() >= kMostJumps) {
-      track_.termination = Termination::jump_limit;
-      return track_;
-    }
-    track_.t.back() = draws.due();
-    draws.jumped();
-    jump(draws.length());
-    if (track_.termination != Termination::horizon || track_.t.back() >= scenario_->horizon)
-      return track_;
-  }
+  flow_and_jump(
+      draws, scenario_->horizon, track_, [&](double interval) { flow(interval); },
+      [&](double length) { jump(length); });
+  return track_;
 }
 
 template class BoundedSimulator<double>;

@@ -1,7 +1,7 @@
 // One run in the coordinates of a judgement, in double or in 31 digits, with a bound of its error.
 //
-// The run is that of its draws: first state, intervals and horizon are the doubles that were drawn,
-// and its maps are those of the decimals. With e = true x - x, a step x+ = fl(E x + f) has
+// The first state, intervals and horizon are the doubles that were drawn; the maps are those of the
+// decimals. With e = true x - x, a step x+ = fl(E x + f) has
 //
 //   e+ = E e + d,   |d_i| <= delta_i = (n + 4) u (|E| |x| + |f|)_i + what the error of E adds
 //
@@ -9,9 +9,9 @@
 // the identity adds nothing, so what stays as it is has no error of its own, and 0 that is exact
 // stays so.
 //
-// A jump that is affine in the states with coefficients that depend on clocks (F(s)) is a step
-// whose E has a bound of its own. An entry of any other kind is evaluated over balls (ball.h): its
-// row of E is 0 and delta is the radius.
+// A jump may be affine in the states with coefficients that depend on clocks, F(s): then its E has
+// a bound of its own. An entry of any other kind is evaluated over balls (ball.h): its row of E is
+// 0 and delta is the radius.
 //
 // A rest is x + [D f] [x; 1] with [D f] a polynomial in its length (Series).
 #pragma once
@@ -35,8 +35,6 @@ class BoundedSimulator {
  public:
   BoundedSimulator(const SampledSystem& system, const hybrid::Scenario& scenario,
                    const FlowSteps& steps, const BoundedSystem<Scalar>& bounded);
-
-  static constexpr std::int64_t kMostJumps = 1000000;
 
   /// The run that Simulator makes of the same seed and number. It ends as diverged when a
   /// coordinate leaves [-1e150, 1e150]; what is no coordinate may grow.

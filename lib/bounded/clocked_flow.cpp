@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "bounded/ball.h"
+#include "bounded/degrees.h"
 #include "bounded/dependence.h"
 #include "numbers/degree.h"
 #include "ode/integrator.h"
@@ -16,7 +18,7 @@ using numbers::Matrix;
 
 namespace {
 
-/// The value of a program of constants; none when anything that moves stands in it.
+/// The value of a program of constants; none when it depends on anything that moves.
 std::optional<Matrix> fixed_value(const expr::Program& program, const hybrid::StateLayout& layout,
                                   const numbers::Values& constants) {
   for (const expr::Input& input : program.inputs)
@@ -39,14 +41,6 @@ std::optional<Matrix> clock_start(const Coordinate& clock, const std::string& na
                     first->cols() == next->cols() && *first == *next;
   return same ? first : std::nullopt;
 }
-
-constexpr double kBelow = 1e-2;           ///< of the accuracy: absolute, of a column
-constexpr double kSmallestColumn = 1e-4;  ///< of the first columns
-constexpr double kResolved = 0.1;         ///< of the accuracy
-constexpr double kShortest = 1e-12;       ///< piece, of the whole
-constexpr int kFirstPieces = 32;
-constexpr double kFewestSteps = 512;  ///< of the whole: what lasts less may be stepped over
-constexpr std::size_t kMostPieces = 10000;
 
 /// Elements of a symmetric matrix of n + 1 rows.
 Index triangle(Index n) { return (n + 1) * (n + 2) / 2; }
@@ -160,30 +154,30 @@ class ClockedFlow::Stack {
   VectorXd moving_, slope_;
 };
 
-/// The error of each entry that counts as relative: of Phi that of its column, of W that of W.
+/// The size to which the error of each entry is relative: of Phi that of its column, of W that of
+/// W.
 VectorXd ClockedFlow::sizes(const VectorXd& stack, const VectorXd& rate, double longest) const {
   const auto n = static_cast<Index>(linear_.size());
   VectorXd result = VectorXd::Ones(stack.size());
   for (Index j = 0; j <= n; ++j) {
     const double size = stack.segment(j * n, n).lpNorm<Eigen::Infinity>();
-    result.segment(j * n, n).setConstant(j < n ? std::max(size, kSmallestColumn) : size);
+    result.segment(j * n, n).setConstant(j < n ? std::max(size, kLeastColumn) : size);
   }
   const double largest = n > 0 ? result.head(n * n).maxCoeff() : 1;
-  if (n > 0)
-    result.segment(n * n, n) = result.segment(n * n, n).cwiseMax(kSmallestColumn * largest);
+  if (n > 0) result.segment(n * n, n) = result.segment(n * n, n).cwiseMax(kLeastColumn * largest);
   for (std::size_t k = 0; k < quadratic_.size(); ++k) {
     const Index at = n * (n + 1) + static_cast<Index>(k) * triangle(n);
-    const double size = std::max(
-        stack.segment(at, triangle(n)).lpNorm<Eigen::Infinity>(),
-        kSmallestColumn * longest * rate.segment(at, triangle(n)).lpNorm<Eigen::Infinity>());
-    result.segment(at, triangle(n)).setConstant(std::max(size, 1e-250));
+    const double size =
+        std::max(stack.segment(at, triangle(n)).lpNorm<Eigen::Infinity>(),
+                 kLeastColumn * longest * rate.segment(at, triangle(n)).lpNorm<Eigen::Infinity>());
+    result.segment(at, triangle(n)).setConstant(std::max(size, std::sqrt(full_precision_from())));
   }
   return result;
 }
 
 /// The Chebyshev coefficients of what has these columns at the points cos(pi k/N).
 Matrix ClockedFlow::series_of(const Matrix& at_points) {
-  constexpr int N = kDegree;
+  const int N = degree::shared_flow;
   Matrix transform(N + 1, N + 1);
   for (int k = 0; k <= N; ++k)
     for (int d = 0; d <= N; ++d) {
@@ -211,31 +205,32 @@ ClockedFlow::ClockedFlow(const Coordinates& coordinates, const numbers::Values& 
   VectorXd at = stack.begin();
   VectorXd rate(at.size());
   double begin = 0;
-  double length = longest / kFirstPieces;
-  while (begin < longest) {
-    if (pieces_.size() >= kMostPieces)
+  double length = longest / kPartsOfFlow;
+  for (std::size_t tried = 0; begin < longest; ++tried) {
+    if (tried >= kMostPieces)
       throw ode::IntegrationError(
           "the flow needs more than " + std::to_string(kMostPieces) + " pieces", begin, false);
-    const double end = begin + length >= longest * (1 - 1e-12) ? longest : begin + length;
+    const bool is_last = longest - begin <= 1.5 * length;
+    const double end = is_last ? longest : begin + length;
     stack(begin, at, rate);
     const VectorXd scale = sizes(at, rate, longest);
-    integrator.start(begin, at, end, relative, kBelow * relative * scale,
-                     std::min((end - begin) / kDegree, longest / kFewestSteps));
-    Matrix points(at.size(), kDegree + 1);
-    points.col(kDegree) = at;
+    integrator.start(begin, at, end, relative, kSharper * relative * scale,
+                     std::min(end - begin, longest / kPartsOfFlow) / degree::shared_flow);
+    Matrix points(at.size(), degree::shared_flow + 1);
+    points.col(degree::shared_flow) = at;
     VectorXd next(at.size());
-    for (int k = kDegree - 1; k >= 0; --k) {
-      const double t =
-          k == 0 ? end
-                 : begin + 0.5 * (end - begin) * (1 + std::cos(std::numbers::pi * k / kDegree));
+    for (int k = degree::shared_flow - 1; k >= 0; --k) {
+      const double t = k == 0
+                           ? end
+                           : begin + 0.5 * (end - begin) *
+                                         (1 + std::cos(std::numbers::pi * k / degree::shared_flow));
       integrator.advance(t, next);
       points.col(k) = next;
     }
     Piece piece{begin, end, series_of(points)};
     const auto left = piece.series.rightCols(2).cwiseAbs().rowwise().maxCoeff();
     const VectorXd reached = points.cwiseAbs().rowwise().maxCoeff().cwiseMax(scale);
-    if ((left.array() > kResolved * relative * reached.array()).any() &&
-        end - begin > kShortest * longest) {
+    if ((left.array() > relative * reached.array()).any()) {
       length = 0.5 * (end - begin);
       continue;
     }
@@ -252,10 +247,11 @@ void ClockedFlow::operator()(const VectorXd& from, double t, VectorXd& to) const
   const Piece& piece = found == pieces_.end() ? pieces_.back() : *found;
   const double s =
       std::clamp((2 * t - piece.begin - piece.end) / (piece.end - piece.begin), -1.0, 1.0);
-  VectorXd cosines(kDegree + 1);
+  VectorXd cosines(degree::shared_flow + 1);
   cosines(0) = 1;
   cosines(1) = s;
-  for (int d = 2; d <= kDegree; ++d) cosines(d) = 2 * s * cosines(d - 1) - cosines(d - 2);
+  for (int d = 2; d <= degree::shared_flow; ++d)
+    cosines(d) = 2 * s * cosines(d - 1) - cosines(d - 2);
   const VectorXd stack = piece.series * cosines;
   const auto n = static_cast<Index>(linear_.size());
   VectorXd x(n + 1);

@@ -1,14 +1,14 @@
 // The flow of a system that is linear but for clocks, for all runs at once.
 //
-// Let every flow begin with the clocks at the same values, and x' = M(t) x + b(t) for the other
-// coordinates, t the time since the flow began; integrals of quadratic forms of them besides,
+// Every flow begins with the clocks at the same values. With t the time since then, the other
+// coordinates obey x' = M(t) x + b(t). Integrals of quadratic forms of them may be added, with
 // c' = [x; 1]' Q(t) [x; 1]. Then
 //
 //   x(t) = Phi(t) [x(0); 1],   c(t) = c(0) + [x(0); 1]' W(t) [x(0); 1]
 //
 // for every run, with Phi' = M Phi + [0 b] and W' = [Phi; 0 1]' Q [Phi; 0 1]. They are integrated
-// once over the longest interval (integrator.h) and kept as Chebyshev series over pieces of it,
-// each so short that the series has ended at a tenth of the accuracy.
+// once over the longest interval (ode/integrator.h) and kept as Chebyshev series. Each piece of the
+// interval is so short that its series has ended at the accuracy.
 #pragma once
 
 #include <Eigen/Core>
@@ -43,11 +43,9 @@ class ClockedFlow {
   std::size_t pieces() const { return pieces_.size(); }
 
  private:
-  static constexpr int kDegree = 16;
-
   struct Piece {
     double begin = 0, end = 0;
-    numbers::Matrix series;  ///< entries x (kDegree + 1)
+    numbers::Matrix series;  ///< entries x (degree + 1)
   };
 
   class Stack;

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 #include <utility>
 
 #include "base/error.h"
 #include "bounded/ball.h"
+#include "bounded/run_loop.h"
 
 namespace gainsmith::bounded {
 
@@ -16,13 +16,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::VectorXd;
-
-constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
-constexpr double kNoTime = 1e-14;  ///< of the time so far: a flow that only rounding made
-
-/// Where A and B happen to agree, samples beside it and a margin speak for the error.
-constexpr Index kBeside = 2;
-constexpr double kMargin = 4;
 
 /// A value that errs by its rounding, in turns up and down.
 numbers::Matrix with_rounding(const Ball<double>& value, double up) {
@@ -111,11 +104,11 @@ void ClockedSimulator::set_bounds() {
   const numbers::Matrix own = bounds.rightCols(static_cast<Index>(last - flow_first_ + 1));
   for (std::size_t k = flow_first_; k <= last; ++k) {
     const auto at = static_cast<Index>(k - flow_first_);
-    const Index from = std::max<Index>(at - kBeside, 0);
-    const Index to = std::min<Index>(at + kBeside, own.cols() - 1);
+    const Index from = std::max<Index>(at - kSamplesBeside, 0);
+    const Index to = std::min<Index>(at + kSamplesBeside, own.cols() - 1);
     Eigen::Map<VectorXd>(track_.bounds.data() + static_cast<Index>(k) * track_.size, track_.size) =
-        kMargin * own.middleCols(from, to - from + 1).rowwise().maxCoeff() +
-        8 * kUnit * track_.state(k).cwiseAbs();
+        kErrorOfDifference * own.middleCols(from, to - from + 1).rowwise().maxCoeff() +
+        8 * unit_roundoff<double>() * track_.state(k).cwiseAbs();
   }
 }
 
@@ -143,17 +136,12 @@ void ClockedSimulator::flow(double interval) {
   const double timer = track_.timer.back();
   const std::int64_t jumps = track_.j.back();
   for (Copy& copy : copies_) copy.start = copy.x;
-  if (interval > 0 && interval <= kNoTime * start) {
-    track_.moves.push_back({false, {FlowStep::kRest, interval}});
-    append(start + interval, jumps, timer - interval, kUnit * timer);
-    return set_bounds();
-  }
-  for (int piece = 1; piece <= kPieces && interval > 0; ++piece) {
-    const double t = piece == kPieces ? interval : interval * piece / kPieces;
+  for (int piece = 1; piece <= kPartsOfFlow && interval > 0; ++piece) {
+    const double t = piece == kPartsOfFlow ? interval : interval * piece / kPartsOfFlow;
     advance(t);
-    track_.moves.push_back({false, {FlowStep::kRest, interval / kPieces}});
+    track_.moves.push_back({false, {FlowStep::kRest, interval / kPartsOfFlow}});
     const double left = timer - t;
-    append(start + t, jumps, left, left == 0 ? 0 : 4 * kUnit * timer);
+    append(start + t, jumps, left, left == 0 ? 0 : 4 * unit_roundoff<double>() * timer);
     if (track_.termination != Termination::horizon) break;
   }
   set_bounds();
@@ -209,7 +197,7 @@ const Track<double>& ClockedSimulator::run(std::uint64_t seed, std::uint64_t run
   rounding_ = rounding == Rounding::up ? 2 : -2;
   flow_first_ = 0;
   copies_[0].flow = flows_->to(relative);
-  copies_[1].flow = flows_->to(ClockedFlows::kSharper * relative);
+  copies_[1].flow = flows_->to(kSharper * relative);
   SampledDraws draws(*system_, *scenario_, seed, run);
   try {
     begin(draws.start());
@@ -218,22 +206,11 @@ const Track<double>& ClockedSimulator::run(std::uint64_t seed, std::uint64_t run
       lose("the flow cannot be integrated so accurately");
       return track_;
     }
-    while (true) {
-      const bool jumps = draws.is_within(scenario_->horizon);
-      flow(jumps ? draws.length() : scenario_->horizon - track_.t.back());
-      if (track_.termination != Termination::horizon || !jumps) return track_;
-      if (track_.j.back() >= kMostJumps) {
-        track_.termination = Termination::jump_limit;
-        return track_;
-      }
-      track_.t.back() = draws.due();
-      draws.jumped();
-      jump(draws.length());
-      if (track_.termination != Termination::horizon || track_.t.back() >= scenario_->horizon) {
-        set_bounds();
-        return track_;
-      }
-    }
+    const bool ends_with_jump = flow_and_jump(
+        draws, scenario_->horizon, track_, [&](double interval) { flow(interval); },
+        [&](double length) { jump(length); });
+    if (ends_with_jump) set_bounds();
+    return track_;
   } catch (const InputError& error) {
     track_.message = error.what();
   }

@@ -1,13 +1,13 @@
-// One run in the coordinates of a judgement when the flow is linear but for clocks
-// (clocked_flow.h): every flow is integrated once for all runs, to an accuracy and to a hundredth.
+// One run in the coordinates of a judgement, when the flow is linear but for clocks.
 //
-// A uses the coarser flow, B the sharper one; samples at 32 equal pieces of each flow. A also errs
-// by the rounding of its start and jumps, to twice the radius of their balls (ball.h), so that what
-// becomes of such errors shows in |A - B|.
+// All runs share the flow (clocked_flow.h), which is integrated to an accuracy for copy A and to a
+// hundredth of it for copy B. Samples lie at the ends of 32 equal parts of each flow. A also errs
+// by twice the rounding of its start and jumps (ball.h), so that |A - B| shows what becomes of such
+// errors.
 //
-// The samples are those of B. The bound of an element's error is four times the largest |A - B| of
-// its state at the sample and at two on each side, + 8 u |B|: A errs some hundred times more than
-// B, so it is an estimate that leaves a margin, and no proof. u has to stay below the accuracy.
+// The samples are those of B. The bound of an element is four times the largest |A - B| of its
+// state at the sample and at two on each side, + 8 u |B|. A errs some hundred times more than B, so
+// the bound is an estimate with a margin, and no proof. u has to stay below the accuracy.
 #pragma once
 
 #include <Eigen/Core>
@@ -32,8 +32,6 @@ namespace gainsmith::bounded {
 /// The flows of a system that is linear but for clocks, made when they are first asked for.
 class ClockedFlows {
  public:
-  static constexpr double kSharper = 1e-2;
-
   /// `integrals`: elements of the coordinates that are integrals, of quadratic forms all. All
   /// arguments must outlive it.
   ClockedFlows(const SampledSystem& system, const hybrid::Scenario& scenario,
@@ -56,17 +54,15 @@ class ClockedFlows {
 /// Simulates run after run; one for each thread. All arguments must outlive it.
 class ClockedSimulator {
  public:
-  static constexpr int kPieces = 32;
-  static constexpr std::int64_t kMostJumps = 1000000;
   /// Where A errs by the rounding of jumps: the first element of each state up or down.
   enum class Rounding { up, down };
 
   ClockedSimulator(const SampledSystem& system, const hybrid::Scenario& scenario,
                    const Coordinates& coordinates, ClockedFlows& flows);
 
-  /// The run that Simulator makes of the same seed and number, to `relative` and to a
-  /// hundredth of it. It ends as undefined where a jump map has no value, as lost where the flows
-  /// are not known so accurately, as diverged where a coordinate leaves [-1e150, 1e150].
+  /// The run that Simulator makes of the same seed and number, to `relative` and to a hundredth of
+  /// it. It ends as undefined where a jump map has no value, as lost where the flows are not known
+  /// so accurately, as diverged where a coordinate leaves [-1e150, 1e150].
   const Track<double>& run(std::uint64_t seed, std::uint64_t run, double relative,
                            Rounding rounding = Rounding::up);
 

@@ -1,17 +1,16 @@
 // The coordinates in which a run is judged: those of the claims, not those of the plant.
 //
-// A claim of z - zh that is computed from z and zh drowns in their rounding when they are large.
-// Here what a claim is about becomes a coordinate of its own:
+// A claim of z - zh that is computed from z and zh is lost in their rounding when they are large.
+// So what a claim is about becomes a coordinate of its own:
 //
-//   d = a - b       for states a, b whose difference stands in a claim; d takes the place of b
-//   w = expm(K) x   for x' = M x and K = s N, s a scalar with s' = r, when r N + M = 0: then w' =
-//   0,
-//                   w is constant along flows and a claim of w cannot see the rounding of expm
+//   d = a - b       for states a, b whose difference is part of a claim; d takes the place of b
+//   w = expm(K) x   for x' = M x and K = s N, s a scalar with s' = r, when r N + M = 0:
+//                   then w' = 0, and a claim of w does not see the rounding of expm
 //
 // and the maps of the others are rewritten with b = a - d. Coefficients are formed as polynomials
-// (polynomial.h), so that equal terms cancel exactly, and evaluated in 100 digits from the
-// decimals; what is left below 1e-80 of the largest coefficient is nothing. Coordinates that no
-// claim depends on are dropped: a diverging plant is not a part of what is judged of its observer.
+// (polynomial.h), so that equal terms cancel exactly. They are evaluated in 100 digits from the
+// decimals, and what is left below kCoefficientNoise is 0. Coordinates that no claim depends on are
+// dropped: a diverging plant has no part in the judgement of its observer.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,7 +30,7 @@ struct Coordinate {
   std::optional<expr::Program> jump;  ///< its value after a jump; none: unchanged
   bool clock = false;                 ///< constant derivative, and jumps depend on clocks alone
 
-  /// Whether nothing that moves stands in the derivative. There must be one.
+  /// Whether the derivative depends on nothing that moves. There must be one.
   bool rate_is_constant(const hybrid::StateLayout& layout) const;
 };
 

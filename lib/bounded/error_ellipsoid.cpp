@@ -13,12 +13,8 @@ namespace {
 using Eigen::Index;
 using numbers::Matrix;
 
-/// The largest row of G_ is kept between these.
-constexpr double kLeastScale = 1e-80;
-constexpr double kMostScale = 1e80;
-
-/// Below this the sum of the squares of a row may have underflowed.
-constexpr double kLeastSquare = 1e-280;
+/// Whether squares and products of such sizes stay far within the range of double.
+bool is_in_range(double size) { return size >= 0x1p-256 && size <= 0x1p256; }
 
 template <int N>
 void multiply(Index size, const double* e, const double* g, double* p) {
@@ -92,13 +88,13 @@ void ErrorEllipsoid::set_bounds() {
   const double factor = std::sqrt(terms_) * scale_;
   double largest = 0;
   for (Index i = 0; i < n; ++i) {
-    norm_(i) = norm_(i) > kLeastSquare
+    norm_(i) = norm_(i) > full_precision_from()
                    ? std::sqrt(norm_(i))
                    : std::sqrt(static_cast<double>(n)) * G_.row(i).lpNorm<Eigen::Infinity>();
     bounds_(i) = (factor * norm_(i) + z_(i)) * kBoundSlack;
     largest = std::max(largest, norm_(i));
   }
-  if (largest > kMostScale || (largest < kLeastScale && largest > 0)) {
+  if (largest > 0 && !is_in_range(largest)) {
     rescale(largest);
     set_bounds();
   }
@@ -129,7 +125,7 @@ void ErrorEllipsoid::gather() {
   const double most = n == 0 ? 0 : z_.maxCoeff();
   if (!(most > 0)) return;
   const double largest = std::max(most, terms_ == 0 ? 0 : scale_ * norm_.maxCoeff());
-  if (!(largest <= 1e300)) return;
+  if (!std::isfinite(largest)) return;
   rescale(largest / scale_);
   stacked_.resize(2 * n, n);
   stacked_.topRows(n) = G_.transpose();

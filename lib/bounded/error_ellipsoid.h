@@ -5,9 +5,9 @@
 //
 //   |c' a|^2 <= m |G' c|^2   for every c,   so that   |e_i| <= sqrt(m) |row i of G| + z_i
 //
-// and a step takes  G+ = E G,  z+ = |E| z + delta + what the rounding of E G adds: old errors turn
-// and die down as the steps do, and only what came since the last gather() grows with |E|. gather()
-// makes one more error of a of it,
+// and a step takes  G+ = E G,  z+ = |E| z + delta + what the rounding of E G adds. So old errors
+// turn and decay as the steps do, and only what came since the last gather() grows with |E|.
+// gather() makes one more error of a of it,
 //
 //   [G, sqrt(n) diag(z)]' = Q R,   G+ = R',   m+ = m + 1,   z+ = 0
 //

@@ -22,7 +22,7 @@ class FlowRate {
 
   /// The elements that are integrated, in order.
   const std::vector<Eigen::Index>& elements() const { return elements_; }
-  /// Those of one coordinate; empty when it is not integrated.
+  /// Whether a coordinate is among them.
   bool is_integrated(std::size_t coordinate) const { return flow_[coordinate] != nullptr; }
 
   /// All elements, t after the start of a flow at `start`.

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bounded/tolerances.h"
 #include "expr/assembly.h"
 #include "expr/rewrite.h"
 
@@ -59,8 +60,7 @@ void add_term(Polynomial& sum, Word word, std::int64_t coefficient) {
   if (coefficient == 0) return;
   const auto [found, fresh] = sum.terms.emplace(std::move(word), coefficient);
   if (!fresh && (found->second += coefficient) == 0) sum.terms.erase(found);
-  if (sum.terms.size() > Polynomials::kMostTerms)
-    throw std::length_error("a polynomial of too many terms");
+  if (sum.terms.size() > kMostWords) throw std::length_error("a polynomial of too many terms");
 }
 
 void add_to(Polynomial& sum, const Polynomial& other, std::int64_t factor) {

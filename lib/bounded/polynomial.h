@@ -2,12 +2,12 @@
 //
 //   (A - L*C)*zh + L*C*z  with  zh = z - d   is   A z - A d + L C d
 //
-// because L C z - L C z is nothing here, while A - fl(L C) - fl(A - L C) is not 0 in any arithmetic
-// and would multiply a large z. A polynomial is a sum of words with whole coefficients; a word is a
-// product of atoms: inputs, decimals, and the values of functions that are no sums or products
-// (exp, inv, expm, where, ...). Products of matrices keep their order, 1 x 1 factors commute. A
-// part of a sum is the sum of the parts, and so are blocks. Nothing else is used, no numbers of the
-// data: what cancels, cancels for all of them.
+// because L C z - L C z is nothing here. In any arithmetic A - fl(L C) - fl(A - L C) is not 0 and
+// would multiply a large z. A polynomial is a sum of words with whole coefficients, a word a
+// product of atoms: inputs, decimals, and values of functions that are no sums or products (exp,
+// inv, expm, where, ...). Products of matrices keep their order, 1 x 1 factors commute. A part of
+// a sum is the sum of the parts, and so are blocks. No numbers of the data are used: what cancels,
+// cancels for all of them.
 #pragma once
 
 #include <compare>
@@ -33,8 +33,8 @@ struct Factor {
 using Chain = std::vector<Factor>;
 
 /// The product of 1 x 1 atoms, of 1 x 1 chains, and of one chain of the polynomial's shape; an
-/// empty chain of that shape is the identity. No part of a chain that can stand alone is 1 x 1:
-/// L*C*z with a row C is the chain L and the inner chain C z.
+/// empty chain of that shape is the identity. A part of a chain that is 1 x 1 is an inner chain of
+/// its own: with a row C, L*C*z is the chain L and the inner chain C z.
 struct Word {
   std::vector<int> scalars;  ///< sorted
   std::vector<Chain> inner;  ///< sorted; each the lesser of itself and its transpose
@@ -50,8 +50,7 @@ struct Polynomial {
 /// Polynomials over one table of atoms.
 class Polynomials {
  public:
-  /// The program's value. std::length_error when it has more than kMostTerms words.
-  static constexpr std::size_t kMostTerms = 2000;
+  /// The program's value. std::length_error when it has more than kMostWords words.
   Polynomial of(const expr::Program& program);
 
   /// A program for the polynomial.

@@ -5,8 +5,8 @@
 //
 // x stacks the states, in the order of the dynamics; tau is what is left of the clock. Whether the
 // flow is M x + b with constant M and b is read from its program: such a flow is exact (steps.h).
-// Jump maps may be any expression. Runs are those of the careful simulator (event_run.h): the same
-// draws, the same maps.
+// Jump maps may be any expression. Runs are those of the careful simulator (simulate/simulator.h):
+// the same draws, the same maps.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,7 +33,7 @@ struct SampledSystem {
   std::vector<std::size_t> variable;  ///< of the dynamics, of each slot
   std::vector<MapEntry> flow_entries;
   std::optional<hybrid::AffineMap> flow;  ///< when it is affine and does not depend on the timer
-  Place flow_place;                       ///< where the fastest part of the flow stands
+  Place flow_place;                       ///< of the fastest part of the flow
   std::vector<MapEntry> jump;             ///< states that change; the others keep their value
   std::optional<hybrid::AffineMap> affine_jump;  ///< when every entry of `jump` is affine
   double longest = 0;                            ///< length between jumps, or up to the first one
@@ -41,9 +41,9 @@ struct SampledSystem {
   const numbers::Values& constants() const { return dynamics->constants; }
 };
 
-/// The same dynamics in this form; none when they are of another kind: other events, conditions,
-/// noise, measured data, modes, losses, texts that ask for the time or branch. The dynamics must
-/// outlive it.
+/// The same dynamics in this form; none when they are of another kind. Of another kind are other
+/// events, conditions, noise, measured data, modes, losses, and texts that ask for the time or
+/// branch. The dynamics must outlive it.
 std::unique_ptr<const SampledSystem> make_sampled_system(const hybrid::System& dynamics);
 
 /// The draws of one run: its first state, and the lengths from jump to jump.

@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "bounded/degrees.h"
 #include "bounded/small_size.h"
 
 namespace gainsmith::bounded {
@@ -15,9 +16,7 @@ using Eigen::Index;
 using numbers::Matrix;
 using numbers::times;
 using Wide = numbers::MatrixOf<Decimal100>;
-
-constexpr double kWideUnit = 1e-98;
-constexpr int kMostTerms = 400;
+constexpr double wide_unit = unit_roundoff<Decimal100>();
 
 template <class Scalar>
 numbers::MatrixOf<Scalar> rounded_to(const Wide& matrix) {
@@ -29,45 +28,40 @@ Matrix upper_sizes(const Wide& matrix) {
   return sizes_of(rounded_to<double>(matrix)) * kBoundSlack;
 }
 
-constexpr double kLeastTerm = 1e-4;  // of kWideUnit
-
 /// sum_k of terms that `next(term, k)` makes one of the other, to 100 digits.
 template <class Next>
 Wide series(Wide term, Next next) {
   Wide sum = term;
-  const Decimal100 least = Decimal100(kWideUnit) * Decimal100(kLeastTerm);
-  for (int k = 1; k <= kMostTerms; ++k) {
+  for (int k = 1; k <= degree::wide_exponential; ++k) {
     term = next(term, k);
     sum += term;
-    if (largest_of(term) <= least * largest_of(sum)) break;
   }
   return sum;
 }
 
 /// R_0 of expm(step) by `series`: the rounding of its terms, and those that it leaves out.
 Matrix series_errors(const Wide& step) {
-  constexpr int kTerms = 60;  // of columns whose sum is at most 1/4, but for the constant's
   const Matrix sizes = upper_sizes(step);
   Matrix term = Matrix::Identity(step.rows(), step.cols());
   Matrix sum = term;
-  for (int k = 1; k <= kTerms; ++k) {
+  for (int k = 1; k <= degree::wide_exponential; ++k) {
     term = times<double>(term, sizes) / k;
     sum += term;
   }
-  const double left_out = kLeastTerm * sum.maxCoeff();
-  const double unit = kWideUnit * static_cast<double>(step.rows() + 1) * kBoundSlack;
-  return sum.unaryExpr([=](double size) { return size > 0 ? unit * (size + left_out) : 0; });
+  const double left_out = term.size() == 0 ? 0 : 2 * term.maxCoeff();
+  const double unit = wide_unit * static_cast<double>(step.rows() + 1) * kBoundSlack;
+  return sum.unaryExpr([=](double size) { return size > 0 ? unit * size + left_out : 0; });
 }
 
 /// R_(k+1) of X_k and R_k.
 Matrix squared_errors(const Matrix& sizes, const Matrix& errors) {
-  const double unit = kWideUnit * static_cast<double>(sizes.rows() + 1);
+  const double unit = wide_unit * static_cast<double>(sizes.rows() + 1);
   return kBoundSlack * (times<double>(sizes, errors) + times<double>(errors, sizes) +
                         times<double>(errors, errors) + unit * times<double>(sizes, sizes));
 }
 
 /// The tails of a series whose terms are at most `term` and what `next` makes of it, k = 1, 2, ...
-/// The terms fall at least like those of an exponential of 1/2; what is left after them all is
+/// The terms fall at least like those of an exponential of 1/2. So what is left after them all is
 /// below the last one, at elements that any term reaches.
 template <class Next>
 std::vector<Matrix> tails_of(Matrix term, std::size_t most, Next next) {
@@ -89,8 +83,6 @@ std::vector<Matrix> tails_of(Matrix term, std::size_t most, Next next) {
   return tails;
 }
 
-constexpr std::size_t kRestTerms = 40;
-
 /// The series of the flow, and of the forms' integrals over it, for lengths up to `shortest`.
 void add_rests(const Wide& G, double shortest, const std::vector<Wide>& forms, ExactSteps& exact) {
   int exponent = 0;
@@ -101,11 +93,11 @@ void add_rests(const Wide& G, double shortest, const std::vector<Wide>& forms, E
   const Index n = G.rows() - 1;
   exact.rest.exponent = exponent;
   Wide power = step;
-  for (std::size_t k = 1; k <= kRestTerms; ++k) {
+  for (int k = 1; k <= degree::wide_rest; ++k) {
     exact.rest.powers.emplace_back(power.topRows(n));
-    power = times<Decimal100>(power, step) / Decimal100(static_cast<int>(k) + 1);
+    power = times<Decimal100>(power, step) / Decimal100(k + 1);
   }
-  exact.rest.tails = tails_of(sizes, kRestTerms, [&](const Matrix& term, double k) {
+  exact.rest.tails = tails_of(sizes, degree::wide_rest, [&](const Matrix& term, double k) {
     return Matrix(times<double>(term, sizes) / k);
   });
   for (Matrix& tail : exact.rest.tails) tail = tail.topRows(n).eval();
@@ -113,13 +105,13 @@ void add_rests(const Wide& G, double shortest, const std::vector<Wide>& forms, E
     ExactSeries series;
     series.exponent = exponent;
     Wide form = Q * unit;
-    for (std::size_t k = 1; k <= kRestTerms; ++k) {
+    for (int k = 1; k <= degree::wide_rest; ++k) {
       series.powers.push_back(form);
       form = Wide(times<Decimal100>(step.transpose(), form) + times<Decimal100>(form, step)) /
-             Decimal100(static_cast<int>(k) + 1);
+             Decimal100(k + 1);
     }
     series.tails = tails_of(
-        sizes_of(rounded_to<double>(series.powers.front())), kRestTerms,
+        sizes_of(rounded_to<double>(series.powers.front())), degree::wide_rest,
         [&](const Matrix& term, double k) {
           return Matrix((times<double>(sizes.transpose(), term) + times<double>(term, sizes)) / k);
         });
@@ -131,10 +123,10 @@ void add_rests(const Wide& G, double shortest, const std::vector<Wide>& forms, E
 template <class Scalar, int N>
 Bounded<Scalar> value_of_form(const Form<Scalar>& form, Index size, const Scalar* x,
                               const double* r) {
-  constexpr int kRows = N > 0 ? N + 1 : Eigen::Dynamic;
+  constexpr int rows_and_one = N > 0 ? N + 1 : Eigen::Dynamic;
   const Index n = N > 0 ? N : size;
-  Eigen::Matrix<Scalar, kRows, 1> sum(n + 1);
-  Eigen::Matrix<double, kRows, 1> absolute(n + 1), spread(n + 1);
+  Eigen::Matrix<Scalar, rows_and_one, 1> sum(n + 1);
+  Eigen::Matrix<double, rows_and_one, 1> absolute(n + 1), spread(n + 1);
   const Scalar* q = form.matrix.data() + n * (n + 1);
   const double* s = form.sizes.data() + n * (n + 1);
   for (Index i = 0; i <= n; ++i) {

@@ -5,6 +5,8 @@
 
 #include "base/error.h"
 #include "base/number.h"
+#include "bounded/degrees.h"
+#include "bounded/tolerances.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::bounded {
@@ -14,11 +16,6 @@ namespace {
 // Squaring k times multiplies the rounding error of the first map by 2^k; the wider type pays for
 // it.
 using Extended = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-
-constexpr int kFewestLevels = 3;
-constexpr int kMostLevels = 40;
-constexpr double kFirstNorm = 0.25;
-constexpr double kStepsPerInterval = 8;
 
 Extended augmented(const hybrid::AffineMap& flow) {
   const Eigen::Index n = flow.linear.rows();
@@ -30,10 +27,9 @@ Extended augmented(const hybrid::AffineMap& flow) {
 
 /// expm(length * generator) for a linear part of norm at most 1/4; 20 terms leave less than 1e-31.
 Extended short_exponential(const Extended& generator, long double length) {
-  constexpr int kTerms = 20;
   Extended term = Extended::Identity(generator.rows(), generator.cols());
   Extended sum = term;
-  for (int k = 1; k <= kTerms; ++k) {
+  for (int k = 1; k <= degree::short_exponential; ++k) {
     term = (term.lazyProduct(generator) * (length / k)).eval();
     sum += term;
   }
@@ -63,9 +59,9 @@ FlowSteps::FlowSteps(const hybrid::AffineMap& flow, double longest, const Place&
     throw InputError(place, "the flow is too fast to be stepped: norm of its matrix " +
                                 brief(norm) + ", longest interval " + brief(longest));
   const double rate = n > 0 ? fastest_rate(flow.linear) : 0;
-  const double top = std::min(longest / kStepsPerInterval, rate > 0 ? 1 / rate : longest);
+  const double top = std::min(std::ldexp(longest, -kFewestLevels), rate > 0 ? 1 / rate : longest);
   int last = kFewestLevels;
-  while (norm * std::ldexp(top, -last) > kFirstNorm) ++last;
+  while (norm * std::ldexp(top, -last) > degree::norm) ++last;
   shortest_ = std::ldexp(top, -last);
 
   Extended map = short_exponential(augmented(flow), shortest_);
@@ -98,9 +94,9 @@ void FlowSteps::cut(double interval, std::vector<FlowStep>& steps) const {
 
 numbers::Matrix FlowSteps::taylor_terms(double length,
                                         const Eigen::Ref<const Eigen::VectorXd>& x) const {
-  numbers::Matrix terms(x.size(), kDegree + 1);
+  numbers::Matrix terms(x.size(), degree::rest + 1);
   terms.col(0) = x;
-  for (int k = 1; k <= kDegree; ++k) {
+  for (int k = 1; k <= degree::rest; ++k) {
     terms.col(k).noalias() = flow_.linear.lazyProduct(terms.col(k - 1));
     if (k == 1) terms.col(k) += flow_.constant;
     terms.col(k) *= length / k;

@@ -3,15 +3,15 @@
 // A step of length s maps  x -> E(s) x + f(s),  [E f; 0 1] = expm(s [M b; 0 0]).  The lengths are
 // s_k = s_0 2^k, k = 0 .. K, so each map is the square of the one before: one table serves every
 // interval of every run. What is left of an interval below s_0 is stepped by the Taylor series of
-// degree kDegree of the exponential, whose remainder is below rounding because ||M||_1 s_0 <= 1/4.
+// degree 12. Its remainder is below rounding because ||M||_1 s_0 <= 1/4.
 //
 //   s_K = min(longest/8, 1/w),  w = the largest |Im lambda| or Re lambda over the eigenvalues of M
 //   K   = the smallest with ||M||_1 s_0 <= 1/4, at least 3
 //
-// An interval is cut as s_0, s_1, ..., s_{K-1}, then s_K while it fits, then what is left in
-// falling powers of two, then the rest below s_0. Fast modes that decay live right behind a jump;
-// there the steps grow with the time since the jump, so each mode is resolved while it is alive at
-// the price of log2 of the stiffness and not of the stiffness itself.
+// An interval is cut as s_0, s_1, ..., s_{K-1}, then s_K while it fits. What is left follows in
+// falling powers of two, and then the rest below s_0. Fast modes that decay live right behind a
+// jump, and there the steps grow with the time since it. So each mode is resolved while it is
+// alive, at the price of log2 of the stiffness and not of the stiffness itself.
 #pragma once
 
 #include <Eigen/Core>
@@ -31,8 +31,6 @@ struct FlowStep {
 
 class FlowSteps {
  public:
-  static constexpr int kDegree = 12;
-
   /// `longest`: the longest interval to be cut, > 0. InputError, at `place`, when M or b is not
   /// finite or ||M||_1 longest exceeds 2^40.
   FlowSteps(const hybrid::AffineMap& flow, double longest, const Place& place = {});

@@ -1,5 +1,5 @@
-// A run in the coordinates of a judgement: its samples in hybrid time (t, j), t the continuous time
-// and j the number of jumps so far, with a bound of the error of each value.
+// A run in the coordinates of a judgement: its samples, with a bound of the error of each value.
+// Hybrid time is (t, j), t the continuous time and j the number of jumps so far.
 #pragma once
 
 #include <Eigen/Core>
@@ -33,8 +33,8 @@ struct Move {
 };
 
 /// The samples of one run in the coordinates of a judgement, in order. At a jump the sample before
-/// (t, j) and the one after (t, j + 1) are both there; a flow interval has its two ends and the
-/// points between its steps.
+/// (t, j) and the one after (t, j + 1) are both there. A flow has its two ends and the points
+/// between its steps.
 template <class Scalar>
 struct Track {
   Eigen::Index size = 0;
@@ -45,8 +45,7 @@ struct Track {
   std::vector<Move> moves;      ///< moves[k] leads from sample k to k + 1
   std::vector<Scalar> stacked;  ///< the states, one after the other
   std::vector<double> bounds;
-  /// By sample: the coordinate for whose sake alone it is there, or kForAll. Empty: all are for
-  /// all.
+  /// By sample: the coordinate for whose sake alone it is there, or kForAll. Empty: all for all.
   std::vector<int> sampled_for;
   static constexpr int kForAll = -1;
   /// By coordinate, sample after sample: whether its value is the same to the last bit whatever the
@@ -57,8 +56,8 @@ struct Track {
   std::vector<char> within_instant;
   Termination termination = Termination::horizon;
   std::string message;
-  /// The relative accuracy of a flow that is integrated: its bounds are
-  /// estimates. 0: they are bounds.
+  /// The relative accuracy of flows that are integrated, whose bounds are estimates. 0: proved
+  /// ones.
   double accuracy = 0;
 
   void clear() {

@@ -9,8 +9,6 @@ namespace {
 using Eigen::Index;
 using Wide = numbers::MatrixOf<Decimal100>;
 
-constexpr double kNoise = 1e-80;
-
 }  // namespace
 
 Decimal100 largest_of(const Wide& matrix) {
@@ -20,7 +18,7 @@ Decimal100 largest_of(const Wide& matrix) {
 }
 
 void remove_noise(Wide& matrix, const Decimal100& largest) {
-  const Decimal100 least = largest * Decimal100(kNoise);
+  const Decimal100 least = largest * Decimal100(kCoefficientNoise);
   for (Index e = 0; e < matrix.size(); ++e)
     if (abs(matrix(e)) <= least) matrix(e) = Decimal100(0);
 }

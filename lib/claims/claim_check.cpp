@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
+#include <type_traits>
 #include <utility>
+
+#include "claims/tolerances.h"
 
 namespace gainsmith::claims {
 
@@ -14,23 +16,13 @@ using bounded::Bounded;
 using bounded::Track;
 using Eigen::Index;
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
+template <class Scalar>
+constexpr bool is_double = std::is_same_v<Scalar, double>;
 
 template <class Scalar>
-constexpr double kFloor = 1e-200;
-template <>
-constexpr double kFloor<DoubleDouble> = 1e-24;
-
-// Of integrated flows: a value of which so much is error that no more than its size is known, when
-// that is so small a part of v(0).
-constexpr double kDrowned = 0.1;
-constexpr double kNothing = 1e-8;
-constexpr double kGrown = 0.1;
-
-template <class Scalar>
-constexpr int kDigits = kDoubleDigits;
-template <>
-constexpr int kDigits<DoubleDouble> = kQuadDigits;
+int digits_of() {
+  return is_double<Scalar> ? kDoubleDigits : kQuadDigits;
+}
 
 template <class Scalar>
 bool is_number(const Bounded<Scalar>& value) {
@@ -42,7 +34,7 @@ bool is_number(const Bounded<Scalar>& value) {
 template <class Scalar>
 Judgement compare(const Bounded<Scalar>& value, const Bounded<Scalar>& bound) {
   if (!is_number(value) || !is_number(bound))
-    return kDigits<Scalar> > kDoubleDigits ? Judgement::violated : Judgement::undecided;
+    return is_double<Scalar> ? Judgement::undecided : Judgement::violated;
   const double excess = static_cast<double>(value.value - bound.value);
   const double rounding = (value.bound + bound.bound) * bounded::kBoundSlack +
                           2 * bounded::unit_roundoff<Scalar>() * std::abs(excess);
@@ -61,15 +53,15 @@ Finding finding_at(const Track<Scalar>& track, std::size_t sample, const Bounded
   finding.bound = static_cast<double>(bound.value);
   // What overflowed bounds nothing; a difference of two such is no number.
   finding.rounding = value.bound + bound.bound;
-  if (std::isnan(finding.rounding)) finding.rounding = kInfinity;
+  if (std::isnan(finding.rounding)) finding.rounding = bounded::no_bound();
   finding.t = track.t[sample];
   finding.j = track.j[sample];
-  finding.digits = kDigits<Scalar>;
+  finding.digits = digits_of<Scalar>();
   finding.estimated = track.accuracy > 0;
   const double excess = static_cast<double>(value.value - bound.value);
   const bool violated = judgement == Judgement::violated;
   if (std::isnan(excess) || (violated && scale == 0)) {
-    finding.score = kInfinity;
+    finding.score = bounded::no_bound();
   } else {
     finding.score = scale == 0 ? -1 : excess / std::abs(scale);
   }
@@ -201,8 +193,10 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
   while (first < v.size() && !counts(track, first)) ++first;
   if (first == v.size()) return nothing_counts(track);
   const double scale = static_cast<double>(v[first].value);
-  const double floor =
-      (track.accuracy > 0 ? kFloorOfAccuracy * track.accuracy : kFloor<Scalar>)*std::abs(scale);
+  const bool integrated = track.accuracy > 0;
+  const double floor = integrated          ? kFloorOfAccuracy * track.accuracy
+                       : is_double<Scalar> ? 0
+                                           : kFloorOfDigits;
   Bounded low = v[first];   // with the smallest value - bound
   Bounded high = v[first];  // with the smallest value + bound
   std::size_t last = first;
@@ -222,12 +216,10 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
         static_cast<double>(v[k].value - high.value) <= kGrown * (v[k].bound + high.bound))
       judgement = Judgement::held;
     const double top = bounded::size_of(v[k].value) + v[k].bound;
-    const bool integrated = track.accuracy > 0;
-    const bool drowned = integrated && judgement == Judgement::undecided &&
-                         v[k].bound >= kDrowned * bounded::size_of(v[k].value) &&
-                         top <= kNothing * std::abs(scale);
-    const bool open = judgement == Judgement::undecided || integrated;
-    if (judgement != Judgement::held && open && scale != 0 && (top <= floor || drowned)) {
+    const double least = judgement == Judgement::undecided ? std::max(floor, track.accuracy)
+                         : integrated                      ? floor
+                                                           : 0;
+    if (judgement != Judgement::held && scale != 0 && top <= least * std::abs(scale)) {
       noise = std::max(noise, top / std::abs(scale));
     } else if (judgement != Judgement::held) {
       const Finding found = finding_at(track, k, v[k], high, scale, judgement);
@@ -248,16 +240,16 @@ template <class Scalar>
 Finding ClaimCheck<Scalar>::nothing_counts(const Track& track) const {
   Finding finding;
   finding.looked = false;
-  finding.score = -kInfinity;
+  finding.score = -bounded::no_bound();
   finding.t = track.t.back();
   finding.j = track.j.back();
-  finding.digits = kDigits<Scalar>;
+  finding.digits = digits_of<Scalar>();
   finding.estimated = track.accuracy > 0;
   return finding;
 }
 
-/// Of the terms of the value at samples that count, or of the value itself where there are none,
-/// with what they may be off; 0 at the others.
+/// The sizes of the terms of the value at samples that count, with their errors; 0 at the others.
+/// Without terms they are those of the value itself.
 template <class Scalar>
 std::vector<double> ClaimCheck<Scalar>::term_sizes(const Track& track,
                                                    const std::vector<Bounded>& v) {
@@ -295,7 +287,7 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
     Finding found = finding_at(track, k, above ? b : v[k], above ? v[k] : b, scale, judgement);
     if (above) std::swap(found.value, found.bound);
     const double part = largest > 0 ? sizes[k] / largest : 1;
-    const bool drowned = found.undecided() && is_number(v[k]) && part <= kNothing;
+    const bool drowned = found.undecided() && is_number(v[k]) && part <= track.accuracy;
     const bool nothing = judgement != Judgement::held && track.accuracy > 0 &&
                          (part <= kFloorOfAccuracy * track.accuracy || drowned);
     if (nothing) noise = std::max(noise, part);

@@ -8,9 +8,10 @@
 //   shrinks         v(end) <= factor v(0)            held at once when v(0) = 0
 //   below, above    v(k) <= b, v(k) >= b             at every sample; b a constant
 //
-// At samples that a track has for the sake of the value alone, or in a flow of hardly any length,
-// near others as they may be, what is undecided counts when the value seems to have grown by a part
-// kGrown of its bounds: those that follow are compared with the least of all.
+// Some samples may lie as near the one before as rounding allows: those for the sake of the value
+// alone, and those in a flow of hardly any length. There an undecided comparison counts only when
+// the value seems to have grown by the part kGrown of its bounds. Later samples are compared with
+// the least value of all.
 //
 // `after` a time, the samples before it do not count; `over` an event, only those just after its
 // jumps do. Then v(0) is the first that counts.
@@ -22,15 +23,19 @@
 //   held        value + its bound <= what it must not exceed - its bound, at every sample
 //   undecided   neither
 //
-// A value that cannot have changed since the sample before (all that it depends on is constant
-// along flows, or unchanged by jumps) is not compared with itself. A value that has no number
-// violates in 31 digits and is undecided in double. Of a value that falls by more than the digits
-// can show, the rest is noise: what is below kFloor of v(0) is not compared, and Finding::floor
-// says so. kFloor is 1e-24 in 31 digits, of which the last are rounding, and the range of the
-// numbers, 1e-200, in double. The bounds of a flow that is integrated to a relative accuracy a are
-// estimates: below a/1e4 of v(0) nothing is compared, nor below 1e-8 of it what lies in its own
-// error. In a comparison with a bound of 0 that is so of the terms of v, whose sum falls to
-// nothing: where they merely cancel nothing is left out, nor with any other bound.
+// A value that cannot have changed since the sample before is not compared with itself: all that it
+// depends on is constant along flows, or unchanged by jumps. A value that has no number violates in
+// 31 digits and is undecided in double.
+//
+// A value that falls by more than its digits can show is noise in the end. Noise is not compared,
+// and Finding::floor says down to where values were:
+//
+//   31 digits                            what is undecided below kFloorOfDigits of v(0)
+//   flows integrated to an accuracy a    what is undecided below a of v(0), and all that is below
+//                                        kFloorOfAccuracy a of v(0), where bounds are estimates
+//
+// In a comparison with a bound of 0 the largest terms of v take the place of v(0), since their sum
+// falls to nothing. Where terms merely cancel, and with any other bound, everything is compared.
 //
 // The integral of a quadratic form over a flow is a quadratic form of its start (step_maps.h). That
 // of any other is bounded over pieces of the flow (flow_integral.h).
@@ -57,7 +62,7 @@ struct Finding {
   /// the bound, or 1 when that is 0; (bound - value) / |scale| for `above`. While
   /// `nonincreasing` holds, value and bound are v(end) and v(0): what is left at the end. Infinite
   /// when a value is no number or the scale of a violation is 0; -1 when the scale is 0 and the
-  /// claim holds; minus infinite when nothing was looked at.
+  /// claim holds; minus infinite when no sample counts.
   double score = -1;
   double value = 0;     ///< at the worst sample
   double bound = 0;     ///< what it must not exceed there
@@ -75,9 +80,6 @@ struct Finding {
   bool violated() const { return judgement == Judgement::violated; }
   bool undecided() const { return judgement == Judgement::undecided; }
 };
-
-/// Of integrated flows: the part of the accuracy, of v(0), below which nothing is compared.
-constexpr double kFloorOfAccuracy = 1e-4;
 
 /// A claim whose functions are in the coordinates of the judgement.
 struct JudgedClaim {

@@ -10,10 +10,10 @@
 
 namespace gainsmith::claims {
 
-/// A claim whose programs call nothing. It is stated when every symbol that they use has a value
-/// and, of `shrinks`, the problem gives the time in which it must: how far an error shrinks says
-/// something only about a time that somebody chose. Otherwise `missing` names what has no value (P1
-/// when the analysis was infeasible, campaign.horizon) and the claim cannot be checked.
+/// A claim whose programs call nothing. It is stated when every symbol that they use has a value.
+/// Of `shrinks` the problem must also give a time: how far an error shrinks says something only
+/// about a time that somebody chose. Otherwise `missing` names what has no value (P1 when the
+/// analysis was infeasible, campaign.horizon) and the claim cannot be checked.
 struct LinkedClaim {
   std::string name;
   model::ClaimKind kind = model::ClaimKind::nonincreasing;

@@ -15,7 +15,7 @@ using numbers::Enclosed;
 using numbers::Jet;
 using numbers::Matrix;
 
-constexpr double kNoBound = std::numeric_limits<double>::infinity();
+constexpr double kNoBound = bounded::no_bound();
 
 /// A step is cut into 2^kCuts pieces.
 template <class Scalar>
@@ -27,7 +27,7 @@ constexpr int kCuts<DoubleDouble> = 5;
 constexpr double kLongest = 4;
 
 /// M in double, of the decimals; A covers its rounding.
-constexpr double kUnit = 0x1p-52;
+constexpr double kUnit = 2 * bounded::unit_roundoff<double>();
 
 Matrix in_double(const numbers::MatrixOf<Decimal100>& matrix) {
   return matrix.unaryExpr([](const Decimal100& value) { return static_cast<double>(value); });

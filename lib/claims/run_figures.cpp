@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "claims/smooth_parts.h"
+#include "claims/tolerances.h"
 #include "numerics/golden_section.h"
 
 namespace gainsmith::claims {
@@ -18,14 +19,7 @@ using hybrid::FlowPiece;
 using hybrid::JumpPoint;
 using hybrid::Trajectory;
 
-constexpr double kUnbounded = std::numeric_limits<double>::infinity();
-
-/// Points of a part of a step at which a value is looked at before it is looked at more closely.
-constexpr int kSamplePoints = 24;
-
-double look(const SmoothPart& part, int k) {
-  return k == kSamplePoints ? part.to : part.from + (part.to - part.from) * k / kSamplePoints;
-}
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -133,38 +127,36 @@ double FigureOf::extreme(const Trajectory& run, double sign) {
 
 /// The last time of a step at which the value is not below a level; minus infinity: never.
 double FigureOf::last_above(const DenseStep& step, double level) {
-  constexpr int kHalvings = 60;
   const auto above = [&](double t) { return !(value_->number(step(t)) < level); };
   const auto last_between = [&](double high, double below) {
-    for (int i = 0; i < kHalvings; ++i) {
+    while (true) {
       const double middle = high + (below - high) / 2;
+      if (middle == high || middle == below) return high;
       (above(middle) ? high : below) = middle;
     }
-    return high;
   };
   const auto at = [&](double t) { return value_->number(step(t)); };
   std::vector<SmoothPart> parts = smooth_parts(*value_, step);
   for (; !parts.empty(); parts.pop_back()) {
     const SmoothPart& part = parts.back();
-    std::array<double, kSamplePoints + 1> looks{};
-    for (int k = 0; k <= kSamplePoints; ++k) looks[static_cast<std::size_t>(k)] = at(look(part, k));
-    for (int k = kSamplePoints; k >= 0; --k) {
+    const int last = part.points() - 1;
+    std::vector<double> values;
+    for (int k = 0; k <= last; ++k) values.push_back(at(part.time(k)));
+    const auto value = [&](int k) { return values[static_cast<std::size_t>(k)]; };
+    for (int k = last; k >= 0; --k) {
       const int before = std::max(k - 1, 0);
-      const int after = std::min(k + 1, kSamplePoints);
-      const double here = looks[static_cast<std::size_t>(k)];
-      if (!(here < level))
-        return k == kSamplePoints ? part.to : last_between(look(part, k), look(part, after));
-      // A top between looks that lie below the level.
-      const double beside =
-          std::min(looks[static_cast<std::size_t>(before)], looks[static_cast<std::size_t>(after)]);
-      const bool is_top = here >= looks[static_cast<std::size_t>(before)] &&
-                          here >= looks[static_cast<std::size_t>(after)];
-      if (!is_top || here + (here - beside) < level) continue;
-      const double top = numerics::peak_between(at, look(part, before), look(part, after));
-      if (above(top)) return last_between(top, look(part, top > look(part, k) ? after : k));
+      const int after = std::min(k + 1, last);
+      if (!(value(k) < level))
+        return k == last ? part.to : last_between(part.time(k), part.time(after));
+      // A peak between points at which the value is below the level.
+      const double beside = std::min(value(before), value(after));
+      const bool is_top = value(k) >= value(before) && value(k) >= value(after);
+      if (!is_top || value(k) + (value(k) - beside) < level) continue;
+      const double top = numerics::peak_between(at, part.time(before), part.time(after));
+      if (above(top)) return last_between(top, part.time(top > part.time(k) ? after : k));
     }
   }
-  return -kUnbounded;
+  return -infinity;
 }
 
 double FigureOf::settled(const Trajectory& run) {
@@ -172,39 +164,38 @@ double FigureOf::settled(const Trajectory& run) {
   bool last = true;
   for (std::size_t k = run.parts.size(); k-- > 0; last = false) {
     if (const auto* jump = std::get_if<JumpPoint>(&run.parts[k])) {
-      if (!(value_->number(jump->after) < level)) return last ? kUnbounded : jump->t;
+      if (!(value_->number(jump->after) < level)) return last ? infinity : jump->t;
       continue;
     }
     const auto& flow = std::get<FlowPiece>(run.parts[k]);
-    if (last && !(value_->number(flow.end) < level)) return kUnbounded;
+    if (last && !(value_->number(flow.end) < level)) return infinity;
     for (std::size_t i = flow.steps.size(); i-- > 0;)
       if (const double t = last_above(flow.steps[i], level); t >= 0) return t;
   }
-  return value_->number(run.start) < level ? 0 : (run.parts.empty() ? kUnbounded : 0);
+  return value_->number(run.start) < level ? 0 : (run.parts.empty() ? infinity : 0);
 }
 
 /// Gauss' rule with five nodes on pieces of the series of each part.
 std::optional<double> FigureOf::root_mean_square(const Trajectory& run) {
-  constexpr std::array<std::pair<double, double>, 5> kRule = {
+  constexpr std::array<std::pair<double, double>, 5> rule = {
       {{-0.906179845938664, 0.236926885056189},
        {-0.538469310105683, 0.478628670499366},
        {0, 0.568888888888889},
        {0.538469310105683, 0.478628670499366},
        {0.906179845938664, 0.236926885056189}}};
-  constexpr double kAgreement = 1e-10;
   const double from = numbers_.front();
   const double to = numbers_.back();
-  if (!(0 <= from && from < to && to <= run.end * (1 + 1e-12))) return std::nullopt;
+  if (!(0 <= from && from < to && to <= run.end * (1 + kValueRounding))) return std::nullopt;
   double sum = 0;
   visit_steps(run, [&](const DenseStep& step) {
     if (!(std::max(from, step.from) < std::min(to, step.to))) return;
-    for (const SmoothPart& part : smooth_parts(*value_, step, nullptr, kAgreement)) {
+    for (const SmoothPart& part : smooth_parts(*value_, step, nullptr, kExactAgreement)) {
       const double low = std::max(from, part.from);
       const auto pieces = static_cast<int>(part.series.size());
       const double half = (std::min(to, part.to) - low) / (2 * pieces);
       if (part.undefined) sum = std::numeric_limits<double>::quiet_NaN();
       for (int piece = 0; half > 0 && piece < pieces; ++piece)
-        for (const auto& [node, weight] : kRule) {
+        for (const auto& [node, weight] : rule) {
           const double value = part(low + half * (2 * piece + 1 + node));
           sum += half * weight * value * value;
         }

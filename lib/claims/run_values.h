@@ -66,8 +66,8 @@ struct Moment {
 };
 
 /// Visits the start, the ends of all flows, points between them and the states after jumps, in
-/// order: the points that are multiples of `step`, or, when it is 0, the ends of the steps of the
-/// integration and their middles.
+/// order. The points are the multiples of `step`. When it is 0, they are the ends of the steps of
+/// the integration and their middles.
 void visit(const hybrid::Trajectory& run, double step,
            const std::function<void(const Moment&)>& seen);
 

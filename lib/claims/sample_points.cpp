@@ -6,7 +6,9 @@
 #include <iterator>
 #include <limits>
 
+#include "bounded/tolerances.h"
 #include "claims/smooth_parts.h"
+#include "claims/tolerances.h"
 #include "numerics/golden_section.h"
 
 namespace gainsmith::claims {
@@ -16,11 +18,6 @@ namespace {
 using hybrid::DenseStep;
 using hybrid::FlowPiece;
 
-constexpr int kParts = 32;
-constexpr int kSections = 40;
-/// Of a part beside a jump of a value: two runs to two accuracies jump at times that differ less.
-constexpr double kMargin = 1e-5;
-
 Eigen::VectorXd state_at_time(const FlowPiece& flow, double t) {
   const auto step = std::find_if(flow.steps.begin(), std::prev(flow.steps.end()),
                                  [&](const DenseStep& one) { return t <= one.to; });
@@ -28,7 +25,7 @@ Eigen::VectorXd state_at_time(const FlowPiece& flow, double t) {
 }
 
 /// Where a value jumps, and where it nearly branches.
-struct Borders {
+struct Breaks {
   std::vector<double> jumps, near;
 };
 
@@ -46,18 +43,18 @@ struct Stretch {
 
 /// In order, with where the value jumps and where it nearly branches.
 std::vector<Stretch> stretches_of(const FlowPiece& flow, RunValue& function, double after,
-                                  Borders* borders = nullptr, double agreement = 1e-6) {
+                                  Breaks* breaks = nullptr, double agreement = kAgreement) {
   std::vector<Stretch> result;
   bool jumped = false;  // at the end of the part before
   for (const DenseStep& step : flow.steps) {
     if (step.to < after) continue;
     const std::vector<SmoothPart> parts =
-        smooth_parts(function, step, borders != nullptr ? &borders->near : nullptr, agreement);
-    if (borders != nullptr && !jumped && is_whole(parts)) continue;
+        smooth_parts(function, step, breaks != nullptr ? &breaks->near : nullptr, agreement);
+    if (breaks != nullptr && !jumped && is_whole(parts)) continue;
     for (const SmoothPart& part : parts) {
-      if (borders != nullptr && part.after_jump) borders->jumps.push_back(part.from);
-      if (borders != nullptr && part.before_jump) borders->jumps.push_back(part.to);
-      const double aside = kMargin * (part.to - part.from);
+      if (breaks != nullptr && part.after_jump) breaks->jumps.push_back(part.from);
+      if (breaks != nullptr && part.before_jump) breaks->jumps.push_back(part.to);
+      const double aside = kBesideJump * (part.to - part.from);
       const bool jumps = part.after_jump || jumped;
       jumped = part.before_jump;
       const double from = std::max(jumps ? part.from + aside : part.from, after);
@@ -68,11 +65,10 @@ std::vector<Stretch> stretches_of(const FlowPiece& flow, RunValue& function, dou
   return result;
 }
 
-/// The ends and middles of the stretches; where its borders are asked for, only of the steps that
-/// have some.
-void add_places(const FlowPiece& flow, RunValue& function, Borders& borders,
+/// The ends and middles of the stretches of steps on which the value breaks.
+void add_places(const FlowPiece& flow, RunValue& function, Breaks& breaks,
                 const std::function<void(double)>& add) {
-  for (const Stretch& one : stretches_of(flow, function, flow.from(), &borders))
+  for (const Stretch& one : stretches_of(flow, function, flow.from(), &breaks))
     for (const double t : {one.from, one.from + (one.to - one.from) / 2, one.to}) add(t);
 }
 
@@ -90,7 +86,7 @@ double time_of(const SamplePoints::Peak& peak, const FlowPiece& flow, RunValue& 
   double most = -std::numeric_limits<double>::infinity();
   for (const Top& top : tops) {
     if (top.value + top.rise <= most) continue;
-    const double refined = numerics::peak_between(at, top.before, top.after, kSections);
+    const double refined = numerics::peak_between(at, top.before, top.after);
     for (const double t : {top.t, refined})
       if (const double value = at(t); value > most) {
         most = value;
@@ -100,8 +96,8 @@ double time_of(const SamplePoints::Peak& peak, const FlowPiece& flow, RunValue& 
   return best;
 }
 
-/// The lows of a value and the tops after them, where it rises by more than its noise, and than
-/// `noise` of its size, to a size above `floor`. A low is the lowest so far.
+/// The lows of a value and the tops after them. A rise counts that is larger than its noise and
+/// than `noise` of its size, and that leads to a size above `floor`. A low is the lowest so far.
 class Rises {
  public:
   Rises(double noise, double floor) : noise_(noise), floor_(floor) {}
@@ -123,8 +119,8 @@ class Rises {
   }
 
   const std::vector<double>& end() {
-    constexpr double kPlain = 4;  // two series that meet are both off
-    if (top_at_ > low_at_ && top_ - low_ > noise_ * size_ + kPlain * drowned_ && size_ > floor_)
+    if (top_at_ > low_at_ &&
+        top_ - low_ > noise_ * size_ + bounded::kErrorOfDifference * drowned_ && size_ > floor_)
       times_.insert(times_.end(), {low_at_, top_at_});
     top_ = low_;
     return times_;
@@ -174,35 +170,35 @@ Eigen::VectorXd state_at(const FlowPiece& flow, double share) {
   return state_at_time(flow, flow.from() + (flow.to() - flow.from()) * share);
 }
 
-std::vector<SamplePoint> points_along(const FlowPiece& flow, const SamplePoints& looks,
+std::vector<SamplePoint> points_along(const FlowPiece& flow, const SamplePoints& wanted,
                                       std::vector<RunValue>& functions, const RiseLimits& rises) {
   const double from = flow.from();
   const double length = flow.to() - from;
   std::vector<SamplePoint> result;
-  for (int part = 1; part <= kParts; ++part) {
-    const double share = static_cast<double>(part) / kParts;
+  for (int part = 1; part <= bounded::kPartsOfFlow; ++part) {
+    const double share = static_cast<double>(part) / bounded::kPartsOfFlow;
     result.push_back({share, from + length * share});
   }
   const auto add = [&](double t, int function) {
     if (t > from && t < flow.to()) result.push_back({(t - from) / length, t, function});
   };
-  for (const double t : looks.times) add(t, -1);
-  for (const std::size_t function : looks.along)
+  for (const double t : wanted.times) add(t, -1);
+  for (const std::size_t function : wanted.along)
     if (!functions[function].is_smooth()) {
-      Borders borders;
-      add_places(flow, functions[function], borders,
+      Breaks breaks;
+      add_places(flow, functions[function], breaks,
                  [&](double t) { add(t, static_cast<int>(function)); });
       const bool is_bounded =
-          std::any_of(looks.peaks.begin(), looks.peaks.end(),
+          std::any_of(wanted.peaks.begin(), wanted.peaks.end(),
                       [&](const SamplePoints::Peak& peak) { return peak.function == function; });
       if (is_bounded)
-        for (const double t : borders.jumps) add(t, static_cast<int>(function));
-      for (const double t : borders.near) add(t, static_cast<int>(function));
+        for (const double t : breaks.jumps) add(t, static_cast<int>(function));
+      for (const double t : breaks.near) add(t, static_cast<int>(function));
     }
-  for (const SamplePoints::Peak& peak : looks.peaks)
+  for (const SamplePoints::Peak& peak : wanted.peaks)
     if (peak.after < flow.to())
       add(time_of(peak, flow, functions[peak.function]), static_cast<int>(peak.function));
-  for (const SamplePoints::Falling& one : looks.falling)
+  for (const SamplePoints::Falling& one : wanted.falling)
     if (one.after < flow.to()) {
       for (const double t : rises_of(one, flow, functions[one.function], rises))
         add(t, static_cast<int>(one.function));

@@ -1,13 +1,13 @@
-// Where along a flow the values of claims are looked at.
+// The sample points along a flow at which the values of claims are compared:
 //
-//   - at the ends of 32 equal parts of it
-//   - at the times from which on claims are made
-//   - where the text of a value branches (hybrid/breaks.h): at kinks, on both sides of jumps - a
-//     little aside, and of a value with a bound next to them too -, half-way between these, and
-//     where it nearly branches
-//   - where a value with a bound is largest, by golden section from the series of its parts
+//   - the ends of 32 equal parts of it
+//   - the times from which on claims are made
+//   - where the text of a value branches (hybrid/breaks.h): kinks, both sides of jumps at a small
+//     distance, the middles between these, and points at which it nearly branches; of a value with
+//     a bound also points next to the jumps
+//   - the peak of a value with a bound, by golden section from the series of its parts
 //     (smooth_parts.h)
-//   - where a value that must not increase turns, and rises by more than its noise
+//   - the turning points of a value that must not increase and rises by more than its noise
 #pragma once
 
 #include <Eigen/Core>
@@ -37,7 +37,7 @@ struct SamplePoints {
   std::vector<Falling> falling;
 };
 
-/// Which rises of values that must not increase are worth a look.
+/// Which rises of values that must not increase get sample points.
 struct RiseLimits {
   double noise = 0;       ///< of the size of a value, what a rise has to exceed
   double agreement = 0;   ///< to which the values are followed (smooth_parts.h)
@@ -52,7 +52,7 @@ struct SamplePoint {
 };
 
 /// In order of time; the last is the end of the flow.
-std::vector<SamplePoint> points_along(const hybrid::FlowPiece& flow, const SamplePoints& looks,
+std::vector<SamplePoint> points_along(const hybrid::FlowPiece& flow, const SamplePoints& wanted,
                                       std::vector<RunValue>& functions, const RiseLimits& rises);
 
 /// All variables at a place of a flow.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
+#include "claims/tolerances.h"
 #include "ode/chebyshev.h"
 
 namespace gainsmith::claims {
@@ -14,15 +16,11 @@ namespace chebyshev = ode::chebyshev;
 using Eigen::Index;
 using Eigen::RowVectorXd;
 
-constexpr std::array<int, 3> kDegrees = {4, 8, 16};
-constexpr int kDegree = kDegrees.back();
-constexpr std::array<double, 2> kChecks = {-0.617, 0.443};
-constexpr double kRounding = 1e-13;    ///< of its size
-constexpr double kBeside = 1e-11;      ///< of half a part
-constexpr double kVariable = 0x1p-48;  ///< of a variable
-constexpr int kLookAtOne = kDegree + 1 + static_cast<int>(kChecks.size());
-/// Evaluations on one step, after which a text that no polynomial agrees with is left as it is.
-constexpr int kPatience = 1500;
+/// The degrees that are tried, and two points between those of all polynomials.
+constexpr std::array<int, 3> tried_degrees = {4, 8, 16};
+constexpr int largest_degree = tried_degrees.back();
+constexpr std::array<double, 2> check_points = {-0.617, 0.443};
+constexpr int evaluations_of_part = largest_degree + 1 + static_cast<int>(check_points.size());
 
 class Halving {
  public:
@@ -33,7 +31,7 @@ class Halving {
   void halve(SmoothPart part, int patience, std::vector<SmoothPart>& parts) {
     const double middle = part.from + (part.to - part.from) / 2;
     const bool is_shortest = !(part.from < middle && middle < part.to);
-    if (is_known(part) || is_shortest || evaluations_ + kLookAtOne > patience) {
+    if (is_known(part) || is_shortest || evaluations_ + evaluations_of_part > patience) {
       parts.push_back(std::move(part));
       return;
     }
@@ -45,12 +43,12 @@ class Halving {
  private:
   /// Makes its series; whether that is the value, or there is none.
   bool is_known(SmoothPart& part) {
-    std::array<double, kDegree + 1> values{};
-    std::array<double, kChecks.size()> checks{};
-    for (std::size_t k = 0; k < kChecks.size(); ++k) checks[k] = at(part, kChecks[k]);
+    std::array<double, largest_degree + 1> values{};
+    std::array<double, check_points.size()> checks{};
+    for (std::size_t k = 0; k < check_points.size(); ++k) checks[k] = at(part, check_points[k]);
     int before = 0;
-    for (const int degree : kDegrees) {
-      const int apart = kDegree / degree;
+    for (const int degree : tried_degrees) {
+      const int apart = largest_degree / degree;
       for (int k = 0; k <= degree; ++k)
         if (before == 0 || k % 2 == 1)
           values[static_cast<std::size_t>(apart * k)] = at(part, chebyshev::points(degree)(k));
@@ -60,22 +58,22 @@ class Halving {
       for (int k = 0; k <= degree; ++k) seen(k) = values[static_cast<std::size_t>(apart * k)];
       part.series = chebyshev::coefficients(seen);
       const double tolerance = agreement_ * (seen.maxCoeff() - seen.minCoeff()) +
-                               kRounding * seen.cwiseAbs().maxCoeff() + noise_;
+                               kValueRounding * seen.cwiseAbs().maxCoeff() + noise_;
       part.noise = tolerance;
       bool agrees = part.series.tail(2).cwiseAbs().sum() <= tolerance;
-      for (std::size_t k = 0; k < kChecks.size(); ++k)
-        agrees =
-            agrees && std::abs(chebyshev::first(part.series, kChecks[k]) - checks[k]) <= tolerance;
+      for (std::size_t k = 0; k < check_points.size(); ++k)
+        agrees = agrees &&
+                 std::abs(chebyshev::first(part.series, check_points[k]) - checks[k]) <= tolerance;
       if (agrees) return true;
     }
     return false;
   }
 
-  /// What the rounding of the variables makes of the value: at one of two places, as a place on a
-  /// border shows the jump across it.
+  /// What the rounding of the variables makes of the value: the lesser at two places, since a place
+  /// at a break shows the jump there.
   double noise() {
-    return std::fmin(noise_at(chebyshev::outer(kChecks[0], step_.from, step_.to)),
-                     noise_at(chebyshev::outer(kChecks[1], step_.from, step_.to)));
+    return std::fmin(noise_at(chebyshev::outer(check_points[0], step_.from, step_.to)),
+                     noise_at(chebyshev::outer(check_points[1], step_.from, step_.to)));
   }
 
   /// In some directions.
@@ -87,7 +85,7 @@ class Halving {
     for (const Index period : {1, 2, 4}) {
       Eigen::VectorXd rounded = x;
       for (Index e = 0; e < x.size(); ++e)
-        rounded(e) += (e / period % 2 == 0 ? kVariable : -kVariable) * sizes(e);
+        rounded(e) += (e / period % 2 == 0 ? kValueRounding : -kValueRounding) * sizes(e);
       result = std::fmax(result, std::abs(value_.number(rounded) - value));
     }
     return result;
@@ -95,8 +93,8 @@ class Halving {
 
   double at(SmoothPart& part, double x) {
     ++evaluations_;
-    // At a border itself a sign may be 0, beside it never.
-    const double inside = std::clamp(x, -1 + kBeside, 1 - kBeside);
+    // At a break itself a sign may be 0, beside it never.
+    const double inside = std::clamp(x, -1 + kBesideBreak, 1 - kBesideBreak);
     const double t = chebyshev::outer(inside, part.from, part.to);
     const double value = value_.at(t);
     if (!std::isfinite(value) && !part.undefined) part.undefined = t;
@@ -110,22 +108,21 @@ class Halving {
   int evaluations_ = 0;
 };
 
-/// The roots of a series on [-1, 1], the points [low, high] of another: halved until it is monotone
-/// or has none.
-void add_roots(const numbers::Matrix& c, double low, double high, int halvings,
+/// The roots of a derivative on [low, high], a part of [-1, 1]; `c` is its series there. It is
+/// halved until it is monotone, has no root, or its integral changes by less than `noise`.
+void add_roots(const numbers::Matrix& c, double low, double high, double noise,
                std::vector<double>& roots) {
   const auto excludes = [](const numbers::Matrix& one) {
     return std::abs(one(0)) > one.rightCols(one.cols() - 1).cwiseAbs().sum();
   };
   if (excludes(c)) return;
-  constexpr int kBisections = 50;
-  constexpr int kMostTurnHalvings = 10;
-  if (excludes(chebyshev::derivative(c)) || halvings >= kMostTurnHalvings) {
+  const bool is_noise = c.cwiseAbs().sum() * (high - low) <= noise;
+  if (is_noise || excludes(chebyshev::derivative(c))) {
     double left = -1;
     double right = 1;
     const bool first = chebyshev::first(c, left) > 0;
     if (first == (chebyshev::first(c, right) > 0)) return;
-    for (int k = 0; k < kBisections; ++k) {
+    while (right - left > std::numeric_limits<double>::epsilon()) {
       const double middle = (left + right) / 2;
       ((chebyshev::first(c, middle) > 0) == first ? left : right) = middle;
     }
@@ -133,15 +130,15 @@ void add_roots(const numbers::Matrix& c, double low, double high, int halvings,
     return;
   }
   const double middle = (low + high) / 2;
-  add_roots(chebyshev::part(c, -1, 0), low, middle, halvings + 1, roots);
-  add_roots(chebyshev::part(c, 0, 1), middle, high, halvings + 1, roots);
+  add_roots(chebyshev::part(c, -1, 0), low, middle, noise, roots);
+  add_roots(chebyshev::part(c, 0, 1), middle, high, noise, roots);
 }
 
 }  // namespace
 
 std::vector<double> turns_of(const SmoothPart& part) {
   std::vector<double> times;
-  add_roots(chebyshev::derivative(part.series), -1, 1, 0, times);
+  add_roots(chebyshev::derivative(part.series), -1, 1, part.noise, times);
   for (double& t : times) t = chebyshev::outer(t, part.from, part.to);
   return times;
 }

@@ -1,17 +1,20 @@
-// The parts of a step on which a value is smooth and known from some of its points: those between
-// its breaks (hybrid/breaks.h), halved until a polynomial of degree 4, 8 or 16 through Chebyshev
-// points agrees with the value at two others to a part of what it changes by, or to its rounding.
-// So the parts are as short as the text needs them, whatever the step is as long as: sin(60*t)
-// along a clock. What is narrower than the points of the first polynomials lie apart may hide
-// between them.
+// The parts of a step on which a value is smooth and known from some of its points.
+//
+// They are the parts between its breaks (hybrid/breaks.h), halved until a polynomial of degree 4, 8
+// or 16 through Chebyshev points agrees with the value at two others. It agrees to a part of what
+// the value changes by, or to its rounding. So the parts are as short as the text needs them,
+// however long the step is: sin(60*t) along a clock. What is narrower than the distance of the
+// points of the first polynomials may hide between them.
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <functional>
 #include <optional>
 #include <vector>
 
 #include "claims/run_values.h"
+#include "claims/tolerances.h"
 
 namespace gainsmith::claims {
 
@@ -26,8 +29,8 @@ struct SmoothPart {
   /// A time at which the value is no number; then there is no series.
   std::optional<double> undefined{};
 
-  /// Points as close as the series needs them, both ends among them.
-  int points() const { return 1 + 4 * static_cast<int>(series.size()); }
+  /// Points as close as the series needs them, both ends among them; at least those of degree 4.
+  int points() const { return 1 + 4 * std::max(static_cast<int>(series.size()), 5); }
   double time(int point) const;
   /// The series at t.
   double operator()(double t) const;
@@ -35,7 +38,8 @@ struct SmoothPart {
 
 /// In order, at least one. `near`: takes the places at which it nearly branches.
 std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& step,
-                                     std::vector<double>* near = nullptr, double agreement = 1e-6);
+                                     std::vector<double>* near = nullptr,
+                                     double agreement = kAgreement);
 
 /// Where the series of a part turns, in rising order.
 std::vector<double> turns_of(const SmoothPart& part);

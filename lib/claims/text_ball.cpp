@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/error.h"
+#include "claims/tolerances.h"
 
 namespace gainsmith::claims {
 
@@ -44,17 +45,15 @@ bool TextBall::is_open(const VectorXd& x, const VectorXd& r) {
 }
 
 bool TextBall::is_open(std::size_t k, const VectorXd& x, const VectorXd& r) {
-  constexpr double kFar = 1000;  // balls cost much more
-  constexpr double kUnbounded = 10;
   const Index size = exact_.size();
   const double distance = value_->distance(k, x, r.head(size));
-  if (distance > kFar) return false;
+  if (distance > kFarBranch) return false;
   try {
     const bounded::Ball<double>& d = differences_[k](x.head(size), r.head(size), 0, 0);
-    if (!d.rad.allFinite()) return distance <= kUnbounded;
+    if (!d.rad.allFinite()) return true;
     return (d.mid.array().abs() <= d.rad.array() * bounded::kBoundSlack && d.rad.array() > 0).any();
   } catch (const InputError&) {
-    return distance <= kUnbounded;
+    return true;
   }
 }
 

@@ -1,6 +1,6 @@
-// What the evaluation of a text in double rounds, and what errors of the variables make of it where
-// it branches, by running error analysis (bounded/ball.h): two runs that are compared round alike,
-// and may both take the wrong branch.
+// Errors of a text in double, by running error analysis (bounded/ball.h): what its evaluation
+// rounds, and what errors of the variables make of it where it branches. Two runs that are compared
+// do not show either: they round alike, and may both take the wrong branch.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,8 +24,8 @@ class TextBall {
   /// How far the computed value may be from the true one at x; 0 where no bound is known.
   double rounding(const Eigen::VectorXd& x);
 
-  /// Whether which branch it takes is not certain when the variables may be off by r. Where no
-  /// bound is known, by an estimate with a margin of ten.
+  /// Whether it is uncertain which branch is taken when the variables may be off by r. An estimate
+  /// decides where no bound is known.
   bool is_open(const Eigen::VectorXd& x, const Eigen::VectorXd& r);
   /// All values that it may have then; infinite where no bound is known.
   bounded::Bounded<double> hull(const Eigen::VectorXd& x, const Eigen::VectorXd& r);

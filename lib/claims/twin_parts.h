@@ -1,16 +1,18 @@
 // The parts of a run beside those of its twin: two runs of one (seed, number) that differ in
 // accuracy and rounding.
 //
-// Where both have the same events at one instant in another order, or with a flow of hardly any
-// length between them, the twin's jumps are taken again in the order of the run, from the twin's
-// values before the first of them: events that do not touch each other are the same in any order,
-// and what they do otherwise shows in the values. So it is where a chain of jumps is longer in one.
+// Both may have the same events at one instant in another order, or with a flow of hardly any
+// length between them. Then the twin's jumps are taken again in the order of the run, from the
+// twin's values before the first of them. Events that do not touch each other are the same in any
+// order; what others do shows in the values. A chain of jumps that is longer in one run is paired
+// in this manner too.
 #pragma once
 
 #include <Eigen/Core>
 #include <variant>
 #include <vector>
 
+#include "claims/tolerances.h"
 #include "hybrid/system.h"
 #include "hybrid/trajectory.h"
 #include "simulate/jump_maps.h"
@@ -36,12 +38,6 @@ struct TwinParts {
   std::vector<std::variant<TwinFlow, TwinJump>> parts;
   bool whole = false;  ///< false: from there on they have other events
 };
-
-/// Flows that add up to less than this part of a run's time lie within an instant.
-constexpr double kInstantOfRun = 1e-6;
-
-/// Of the difference of a run and its twin: the error of the better one.
-constexpr double kOfDifference = 4;
 
 TwinParts pair_twins(const hybrid::Trajectory& run, const hybrid::Trajectory& twin,
                      const hybrid::System& system, simulate::JumpMaps& maps);

@@ -1,6 +1,7 @@
 #include "claims/value.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <set>
@@ -23,8 +24,8 @@ using hybrid::Slot;
 using Wide = numbers::MatrixOf<Decimal100>;
 
 /// Below this, squares and products may underflow; then the bound grows by kUnderflow.
-constexpr double kTiny = 1e-70;
-constexpr double kUnderflow = 1e-290;
+constexpr double kUnderflow = bounded::full_precision_from();
+const double kTiny = std::pow(kUnderflow, 0.25);
 
 /// What a program depends on.
 struct Dependence {

@@ -4,8 +4,8 @@
 //
 //   v(x, tau) = sum_m g_m(tau) [x; 1]' Q_m [x; 1],
 //
-// found from the text (bounded/polynomial.h); the Q_m are formed in 100 digits and rounded once. Any
-// other function is evaluated over balls (bounded/ball.h).
+// found from the text (bounded/polynomial.h); the Q_m are formed in 100 digits and rounded once.
+// Any other function is evaluated over balls (bounded/ball.h).
 #pragma once
 
 #include <optional>

@@ -149,12 +149,12 @@ Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, st
 /// are done when the campaign is stopped.
 Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
                 const CampaignOptions& options) {
-  constexpr std::uint64_t kBlock = 64;
-  std::vector<Tally> blocks((runs + kBlock - 1) / kBlock);
+  const std::uint64_t block_size = 64;
+  std::vector<Tally> blocks((runs + block_size - 1) / block_size);
   const Doing doing("runs", runs);
   const auto judge_block = [&](std::size_t block) {
-    const std::uint64_t first = block * kBlock;
-    const std::uint64_t last = std::min(runs, first + kBlock);
+    const std::uint64_t first = block * block_size;
+    const std::uint64_t last = std::min(runs, first + block_size);
     blocks[block] = judge_runs(setup, seed, first, last);
     Doing::step(blocks[block].runs);
   };
@@ -186,8 +186,7 @@ std::vector<CheckReport> report_checks(const Setup& setup, const Tally& tally) {
   return reports;
 }
 
-/// Repeats the worst runs in 31 digits and adds those that violate there too. Whether the worst one
-/// does.
+/// Repeats the worst runs and adds those that violate again. Whether the worst one does.
 bool confirm_worst(const Setup& setup, std::uint64_t seed, Report& report) {
   std::vector<std::uint64_t> runs{report.worst_run};
   for (const CheckReport& check : report.checks)

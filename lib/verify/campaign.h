@@ -49,14 +49,13 @@ struct Report {
   bounded::Termination unfinished_termination = bounded::Termination::horizon;
   std::string unfinished_message;  ///< why it ended
   std::uint64_t close = 0;         ///< undecided runs that reach it: a comparison is too close
-  std::uint64_t repeated = 0;      ///< runs that were repeated, in 31 digits
-  /// The violating runs that were, and violate there too; the worst run and that of each claim are
-  /// among them. In order.
+  std::uint64_t repeated = 0;      ///< runs that were repeated: in 31 digits, or more accurately
+  /// The repeated runs that violate again, in order. The worst run of the campaign and that of each
+  /// claim are repeated if they violate.
   std::vector<std::uint64_t> confirmed;
-  /// The run that violates worst; of a campaign that held, the run nearest to it. Violating runs
-  /// come first, of these those that do not reach the horizon, then others that do not, then
-  /// undecided ones, then by the largest score of a claim, among those that it violates if any;
-  /// ties to the lowest.
+  /// The worst run; of a campaign that held, the one nearest to a violation. In order of
+  /// precedence: it violates; it does not reach the horizon; it is undecided; the largest score of
+  /// a claim, of those that it violates if any. Ties go to the lowest number.
   std::uint64_t worst_run = 0;
   double horizon = 0;
   bool integrated = false;  ///< errors are estimates, and "repeated" means more accurately
@@ -70,10 +69,9 @@ struct Report {
 };
 
 /// Simulates all runs and checks every claim that the gain file states (judge.h). The verdict is
-/// `violated` when a run violates and the worst one does so in 31 digits, `held` when every run
-/// holds, and `undecided` otherwise, as after a stop (base/stop.h) with the runs that were done.
-/// InputError for input that does not fit, for 0 runs, and when no claim is stated: then there is
-/// nothing to hold.
+/// `violated` when the worst run violates and does so again when it is repeated, `held` when every
+/// run holds, and `undecided` otherwise. A stop (base/stop.h) leaves it undecided, with the runs
+/// that were done. InputError for input that does not fit, for 0 runs, and when no claim is stated.
 Report run_campaign(const model::Instance& instance, const model::Gains& gains,
                     const CampaignOptions& options = {});
 

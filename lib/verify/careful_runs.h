@@ -15,6 +15,7 @@
 #include "claims/run_values.h"
 #include "claims/sample_points.h"
 #include "simulate/simulator.h"
+#include "verify/tolerances.h"
 
 namespace gainsmith::verify {
 
@@ -37,10 +38,6 @@ struct EventSetup {
   /// To what a run is integrated: as the campaign asks, otherwise to `usual`; times a factor.
   simulate::Accuracy accuracy(double usual, double factor = 1) const;
 };
-
-/// Of a run that is looked at; those of a campaign, which are made twice, are coarser.
-constexpr double kUsualOfOne = 1e-10;
-constexpr double kUsualOfMany = 1e-8;
 
 /// At an address of its own: its parts point to each other.
 std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instance,

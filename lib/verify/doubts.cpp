@@ -6,7 +6,9 @@
 #include <limits>
 
 #include "base/number.h"
+#include "bounded/ball.h"
 #include "claims/sample_points.h"
+#include "verify/tolerances.h"
 
 namespace gainsmith::verify {
 
@@ -19,22 +21,17 @@ using hybrid::EventFunction;
 using hybrid::NearTurn;
 using EventKind = model::Dynamics::EventKind;
 
-constexpr double kEpsilon = std::numeric_limits<double>::epsilon();
-constexpr double kBeforeEnd = 1.0 / 64;  ///< of the last step: over which a rate is taken
-/// Of the sizes: two orders of maps lead to the same, to rounding.
-constexpr double kSameState = 1e-12;
-
-double element(EventFunction& border, const VectorXd& values, Index e) {
+double element(EventFunction& guard, const VectorXd& values, Index e) {
   try {
-    return border(values)(e);
+    return guard(values)(e);
   } catch (const expr::EvaluationError&) {
     return std::numeric_limits<double>::quiet_NaN();
   }
 }
 
-double noise_of(EventFunction& border, const VectorXd& values, Index e) {
+double noise_of(EventFunction& guard, const VectorXd& values, Index e) {
   try {
-    const double terms = border.terms(values)(e);
+    const double terms = guard.terms(values)(e);
     return std::isnan(terms) ? 0 : hybrid::kTermRounding * terms;
   } catch (const expr::EvaluationError&) {
     return 0;
@@ -58,25 +55,26 @@ VectorXd EventDoubts::whole(const VectorXd& variables) const {
 
 std::optional<std::string> EventDoubts::of_turn(const NearTurn& turn,
                                                 const claims::TwinFlow& flow) {
-  constexpr int kPoints = 5;
+  const int points = 2 * bounded::kSamplesBeside + 1;
   if (flow.twin == nullptr) return std::nullopt;
-  EventFunction& border = watch_.function_of(turn);
+  EventFunction& guard = watch_.function_of(turn);
   const double from = std::max(flow.flow->from(), flow.twin->from());
   const double last = std::min({turn.t, flow.flow->to(), flow.twin->to()});
   if (!(from < last)) return std::nullopt;
   double difference = 0;
   VectorXd here;
-  for (int k = 0; k < kPoints; ++k) {
+  for (int k = 0; k < points; ++k) {
     const double t = last - (last - from) * k / 16;
     const auto at = [&](const hybrid::FlowPiece& one) {
       return whole(claims::state_at(one, std::min((t - one.from()) / length(one), 1.0)));
     };
     const VectorXd own = at(*flow.flow);
     if (k == 0) here = own;
-    difference = std::fmax(difference, std::abs(element(border, own, turn.element) -
-                                                element(border, at(*flow.twin), turn.element)));
+    difference = std::fmax(difference, std::abs(element(guard, own, turn.element) -
+                                                element(guard, at(*flow.twin), turn.element)));
   }
-  const double error = claims::kOfDifference * difference + noise_of(border, here, turn.element);
+  const double error =
+      bounded::kErrorOfDifference * difference + noise_of(guard, here, turn.element);
   if (!(std::abs(turn.value) <= error)) return std::nullopt;
   return fmt::format("t = {}: '{}' turns at {} from being reached, and that is known to {}",
                      brief(turn.t, 12), turn.text, brief(turn.value, 3), brief(error, 2));
@@ -111,13 +109,13 @@ std::optional<EventDoubts::Instant> EventDoubts::instant(const claims::TwinParts
 /// Those that a flow changes, of a condition all its elements.
 std::vector<EventDoubts::Guard> EventDoubts::guards(std::size_t event, const Instant& at) {
   std::vector<Guard> result;
-  const auto add = [&](EventFunction& border, std::size_t comparison) {
-    if (border.rests()) return;
-    for (Index e = 0; e < border.size(); ++e) {
-      const double value = element(border, at.now, e);
-      const double difference = std::abs(value - element(border, at.twin, e));
-      result.push_back({&border, comparison, value, element(border, at.before, e),
-                        claims::kOfDifference * difference + noise_of(border, at.now, e)});
+  const auto add = [&](EventFunction& guard, std::size_t comparison) {
+    if (guard.rests()) return;
+    for (Index e = 0; e < guard.size(); ++e) {
+      const double value = element(guard, at.now, e);
+      const double difference = std::abs(value - element(guard, at.twin, e));
+      result.push_back({&guard, comparison, value, element(guard, at.before, e),
+                        bounded::kErrorOfDifference * difference + noise_of(guard, at.now, e)});
     }
   };
   if (watch_.crossing[event]) add(*watch_.crossing[event], 0);
@@ -130,13 +128,13 @@ std::vector<EventDoubts::Guard> EventDoubts::guards(std::size_t event, const Ins
 
 /// By the guard that comes to 0 there.
 void EventDoubts::set_time_error(Instant& at) {
-  at.time_error = 4 * kEpsilon * at.t;
+  at.time_error = 8 * bounded::unit_roundoff<double>() * at.t;
   const auto nearest = std::min_element(
       at.own.begin(), at.own.end(),
       [](const Guard& a, const Guard& b) { return std::abs(a.value) < std::abs(b.value); });
   if (nearest == at.own.end()) return;
   const double rate = std::abs(nearest->value - nearest->before) / at.since;
-  if (rate > 0) at.time_error += noise_of(*nearest->border, at.now, 0) / rate;
+  if (rate > 0) at.time_error += noise_of(*nearest->function, at.now, 0) / rate;
 }
 
 /// Whether the event is arrived at, and lies within its error.
@@ -179,7 +177,7 @@ bool EventDoubts::fires(std::size_t event, const std::vector<Guard>& guards, con
   EventCondition& condition = *watch_.when[event];
   if (condition(values)) return true;
   return std::any_of(guards.begin(), guards.end(), [&](const Guard& guard) {
-    const auto difference = (*guard.border)(values).reshaped();
+    const auto difference = (*guard.function)(values).reshaped();
     return is_near(guard, difference.cwiseAbs().minCoeff()) &&
            condition.if_changed(values, guard.comparison);
   });
@@ -193,7 +191,7 @@ bool EventDoubts::commute(std::size_t other, const std::vector<Guard>& guards, c
     VectorXd second = maps_(other, false, at.now);
     if (fires(at.event, at.own, at, second)) second = maps_(at.event, at.lost, second);
     const auto sizes = first.cwiseAbs().cwiseMax(second.cwiseAbs()).cwiseMax(at.now.cwiseAbs());
-    return ((first - second).cwiseAbs().array() <= kSameState * sizes.array()).all();
+    return ((first - second).cwiseAbs().array() <= claims::kValueRounding * sizes.array()).all();
   } catch (const std::exception&) {
     return false;
   }
@@ -224,7 +222,7 @@ std::optional<std::string> EventDoubts::clocks_after(const claims::TwinParts& tw
     if (!has_clock(system_->dynamics.events[other].kind)) continue;
     const double gap = next.jump->t - at.t;
     const double error =
-        claims::kOfDifference * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
+        bounded::kErrorOfDifference * std::abs(gap - (next.twin_t - own.twin_t)) + at.time_error;
     if (gap <= error && !commute(other, {}, at)) return message(at, other, gap, error);
   }
   return std::nullopt;

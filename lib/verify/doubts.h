@@ -4,8 +4,8 @@
 //   order   an event whose guard lies within its error when another one happens, so that it may
 //           come before or after, and whose maps do not commute on that state
 //
-// The error of a guard is four times the difference of the two runs, what its terms round, and
-// what the error of the time of the other event makes of its rate. Clocks strike when they do:
+// The error of a guard has three parts: four times the difference of the two runs, what its terms
+// round, and its rate times the error of the time of the other event. Clocks strike when they do:
 // two of them are in the order of the file, as are guards that are 0 together bit by bit.
 #pragma once
 
@@ -36,7 +36,7 @@ class EventDoubts {
  private:
   /// A guard at a jump and shortly before.
   struct Guard {
-    hybrid::EventFunction* border = nullptr;
+    hybrid::EventFunction* function = nullptr;
     std::size_t comparison = 0;
     double value = 0, before = 0;
     double error = 0;  ///< without that of the time

@@ -20,10 +20,9 @@ class TwoRuns {
   TwoRuns(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
           std::uint64_t run)
       : setup_(make_event_setup(instance, gains)) {
-    constexpr double kSharper = 1e-2;
     simulate::Simulator simulator(setup_->system, setup_->scenario);
-    usual_ = simulator.run(seed, run, setup_->accuracy(kUsualOfOne));
-    sharper_ = simulator.run(seed, run, setup_->accuracy(kUsualOfOne, kSharper));
+    usual_ = simulator.run(seed, run, setup_->accuracy(kAccuracyOfOne));
+    sharper_ = simulator.run(seed, run, setup_->accuracy(kAccuracyOfOne, bounded::kSharper));
     check_stop();
   }
 

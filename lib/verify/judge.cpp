@@ -18,7 +18,7 @@ bool is_certain_end(const bounded::Track<Scalar>& track) {
   const std::size_t last = track.samples() - 1;
   for (Eigen::Index i = 0; i < track.size; ++i) {
     const double size = bounded::size_of(track.state(last)(i));
-    if (size > 1e150 && track.bound(last)(i) <= size / 2) return true;
+    if (size > hybrid::kLargestState && track.bound(last)(i) <= size / 2) return true;
   }
   return false;
 }
@@ -101,14 +101,15 @@ Judge::Judge(const Setup& setup) {
 
 const bounded::Track<double>& Judge::track(std::uint64_t seed, std::uint64_t run) {
   if (events_) return events_->run(seed, run, 1);
-  return clocked_ ? clocked_->run(seed, run, kUsual) : narrow_->run(seed, run);
+  return clocked_ ? clocked_->run(seed, run, kAccuracyOfMany) : narrow_->run(seed, run);
 }
 
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
-  if (events_) return last_verdict(events_->run(seed, run, kRepeated / kUsual), checks_);
+  if (events_)
+    return last_verdict(events_->run(seed, run, kAccuracyOfOne / kAccuracyOfMany), checks_);
   if (!clocked_) return last_verdict(wide_->run(seed, run), wide_checks_);
   const auto rounded = [&](Rounding rounding) {
-    return last_verdict(clocked_->run(seed, run, kRepeated, rounding), checks_);
+    return last_verdict(clocked_->run(seed, run, kAccuracyOfOne, rounding), checks_);
   };
   return agreed(rounded(Rounding::up), rounded(Rounding::down));
 }

@@ -28,10 +28,6 @@ struct RunVerdict {
 /// Judges run after run; one for each thread. The setup must outlive it.
 class Judge {
  public:
-  /// The relative accuracies of integrated runs, usual and repeated.
-  static constexpr double kUsual = 1e-8;
-  static constexpr double kRepeated = 1e-10;
-
   /// A stop (base/stop.h) may end a careful run; then its verdict says nothing.
   explicit Judge(const Setup& setup);
 

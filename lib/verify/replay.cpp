@@ -154,7 +154,7 @@ class EventTable {
 std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const model::Instance& instance,
                                     const model::Gains& gains, const EventSetup& setup,
                                     std::uint64_t seed, std::uint64_t number) {
-  const simulate::Accuracy accuracy = setup.accuracy(kUsualOfOne);
+  const simulate::Accuracy accuracy = setup.accuracy(kAccuracyOfOne);
   judge::Question question{accuracy.relative,
                            accuracy.absolute,
                            accuracy.absolute_of,
@@ -179,7 +179,7 @@ Replay replay_run(const model::Instance& instance, const model::Gains& gains, st
   const EventSetup& events = *setup->events;
   Replay result;
   result.run = simulate::Simulator(events.system, events.scenario)
-                   .run(seed, run, events.accuracy(kUsualOfOne));
+                   .run(seed, run, events.accuracy(kAccuracyOfOne));
   if (result.run.ending == hybrid::Ending::interrupted) {
     const Concluding concluding;
     EventTable(*instance.design, events).fill(step, result);

@@ -12,7 +12,7 @@ std::optional<double> mean_figure(const model::Instance& instance, const model::
   const auto setup = make_event_setup(instance, gains);
   simulate::Simulator simulator(setup->system, setup->scenario);
   BoundFigure bound(figure, *setup);
-  const simulate::Accuracy accuracy = setup->accuracy(kUsualOfMany);
+  const simulate::Accuracy accuracy = setup->accuracy(kAccuracyOfMany);
   double sum = 0;
   for (std::uint64_t run = 0; run < runs; ++run) {
     const auto trajectory = simulator.run(instance.design->campaign.seed, run, accuracy);

@@ -31,8 +31,8 @@ std::vector<expr::Program> functions_of(const StatedClaims& claims) {
   return functions;
 }
 
-/// Of each stated claim, the coordinate that is the integral of its flow cost along flows that are
-/// integrated; none where there is no such cost.
+/// By stated claim, the coordinate that is the integral of its flow cost along integrated flows;
+/// none where there is no such cost.
 std::vector<std::optional<Eigen::Index>> add_integrals(const StatedClaims& claims,
                                                        SampledSetup& setup) {
   std::vector<std::optional<Eigen::Index>> added;
@@ -81,8 +81,7 @@ void add_judged_claims(const StatedClaims& claims, SampledSetup& setup, std::vec
   }
 }
 
-/// Costs must be quadratic: their integrals are a part of the flow. Whether the flow is of the
-/// kind.
+/// Whether the flow is of the kind. Costs must be quadratic: their integrals are a part of it.
 bool add_clocked_flows(SampledSetup& setup, const hybrid::Scenario& scenario) {
   std::vector<Eigen::Index> integrals;
   for (const claims::JudgedClaim& claim : setup.judged) {
@@ -92,7 +91,7 @@ bool add_clocked_flows(SampledSetup& setup, const hybrid::Scenario& scenario) {
   }
   setup.flows = std::make_unique<bounded::ClockedFlows>(*setup.system, scenario, setup.coordinates,
                                                         integrals);
-  return setup.flows->to(kUsualOfMany) != nullptr;
+  return setup.flows->to(kAccuracyOfMany) != nullptr;
 }
 
 /// None when the dynamics are of another kind.

@@ -15,7 +15,8 @@ using hybrid::Ending;
 namespace {
 
 constexpr double kUnit = std::numeric_limits<double>::epsilon() / 2;
-constexpr int kAround = 5;  ///< samples from which the bound of one is taken
+/// The samples from which the bound of one is taken.
+constexpr int kAround = 2 * bounded::kSamplesBeside + 1;
 /// The samples around the k-th of all.
 Index first_around(Index k, Index all) {
   return std::max<Index>(std::min<Index>(k - kAround / 2, all - kAround), 0);
@@ -77,7 +78,7 @@ VectorXd EventTracks::with_rounding(const VectorXd& x, int bit) const {
 
 /// What the variables may be off by, where the two runs differ by so much at samples around.
 VectorXd EventTracks::errors(const VectorXd& fine, const VectorXd& around) const {
-  VectorXd result = claims::kOfDifference * around;
+  VectorXd result = bounded::kErrorOfDifference * around;
   for (Index e = 0; e < fine.size(); ++e)
     if (rounds_[static_cast<std::size_t>(e)])
       result(e) += (4 + rounded_) * kUnit * std::abs(fine(e));
@@ -95,7 +96,7 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
   VectorXd difference = (values(look, coarse) - value).cwiseAbs().cwiseMax(rounded);
   rounded /= (4 + rounded_) * kUnit;
   const VectorXd error = errors(fine, around);
-  constexpr double kUnknown = std::numeric_limits<double>::infinity();
+  constexpr double kUnknown = bounded::no_bound();
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const auto row = static_cast<Index>(k);
     if (!counts(look, k)) {
@@ -128,8 +129,6 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
 }
 
 bool EventTracks::parts(std::size_t function, double value, double difference, double size) {
-  constexpr double kOfRange = 1e-3;
-  constexpr double kOfAccuracy = 1e3;
   const auto claim = static_cast<std::size_t>(setup_->first_of_claim[function]);
   Range& range = ranges_[function];
   range.low = range.seen ? std::fmin(range.low, value) : value;
@@ -137,8 +136,8 @@ bool EventTracks::parts(std::size_t function, double value, double difference, d
   range.seen = true;
   sizes_[claim] = std::fmax(sizes_[claim], std::fmax(std::abs(value), size));
   // A value that is nothing but errors of its terms goes on to be known to them.
-  if (difference > kOfRange * (range.high - range.low) &&
-      difference > kOfAccuracy * track_.accuracy * sizes_[claim])
+  if (difference > kParted * (range.high - range.low) &&
+      difference > kPartedAccuracy * track_.accuracy * sizes_[claim])
     parted_[claim] = 1;
   return parted_[claim] != 0;
 }
@@ -196,13 +195,9 @@ void EventTracks::add_jump(const claims::TwinParts& twins, std::size_t at) {
 /// A rise within the noise of a run is never certain.
 claims::RiseLimits EventTracks::limits_of_rises(const VectorXd& start, double accuracy) {
   claims::RiseLimits limits;
-  constexpr double kRounding = 1e-13;
-  constexpr double kOfAccuracy = 1e-3;
-  constexpr double kExactAgreement = 1e-10;
-  constexpr double kAgreement = 10;  // times the accuracy
   const bool exact = setup_->system.affine;
-  limits.noise = exact ? kRounding : kOfAccuracy * accuracy;
-  limits.agreement = exact ? kExactAgreement : kAgreement * accuracy;
+  limits.noise = exact ? claims::kValueRounding : kLeastRise * accuracy;
+  limits.agreement = exact ? claims::kExactAgreement : bounded::kErrorOfDifference * accuracy;
   limits.floor = VectorXd::Zero(static_cast<Index>(functions_.size()));
   for (const claims::SamplePoints::Falling& one : setup_->looks.falling)
     if (one.after == 0)
@@ -250,17 +245,17 @@ void EventTracks::widen(std::size_t first) {
       for (Index other = first_around(i, all); other < last_around(i, all); ++other)
         around = std::fmax(around, own(f, seen[static_cast<std::size_t>(other)]));
       const double value = track_.state(first + static_cast<std::size_t>(k))(f);
-      bounds(f, k) = claims::kOfDifference * around + 8 * kUnit * std::abs(value) + rounding(f, k);
+      bounds(f, k) =
+          bounded::kErrorOfDifference * around + 8 * kUnit * std::abs(value) + rounding(f, k);
     }
   }
 }
 
 void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine,
                       bool certain) {
-  constexpr double kSame = 1e-6;
   track_.message = fine.message;
   const bool same = certain && coarse.ending == fine.ending &&
-                    std::abs(coarse.end - fine.end) <= kSame * fine.end;
+                    std::abs(coarse.end - fine.end) <= claims::kInstantOfRun * fine.end;
   const bool complete = is_complete(fine.ending);
   const bool breaks = fine.ending == Ending::escaped || fine.ending == Ending::undefined ||
                       fine.ending == Ending::stuck;
@@ -280,16 +275,15 @@ void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory
 
 const bounded::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t run,
                                                double factor) {
-  constexpr double kSharper = 1e-2;
   track_.clear();
   track_.size = setup_->coordinates.layout.size;
-  const simulate::Accuracy accuracy = setup_->accuracy(kUsualOfMany, factor);
+  const simulate::Accuracy accuracy = setup_->accuracy(kAccuracyOfMany, factor);
   track_.accuracy = accuracy.relative;
   rounded_ = 0;
   rounding_.clear();
   hybrid::Trajectory coarse = simulator_.run(seed, run, accuracy);
   hybrid::Trajectory fine =
-      simulator_.run(seed, run, accuracy.times(kSharper), {}, factor < 1 ? 1 : 0);
+      simulator_.run(seed, run, accuracy.times(bounded::kSharper), {}, factor < 1 ? 1 : 0);
   costs_.add_to(coarse, true);
   costs_.add_to(fine, false);
   rises_ = limits_of_rises(fine.start, accuracy.relative);

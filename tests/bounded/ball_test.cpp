@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "bounded/ball_parts.h"
 #include "bounded/bounded_system.h"
 #include "bounded/wide_state.h"
 #include "support/text_problem.h"
@@ -88,6 +89,20 @@ TEST(Balls, HoldTheValueInHundredDigits) {
     SCOPED_TRACE(text);
     hold_their_values<double>(text);
     hold_their_values<DoubleDouble>(text);
+  }
+}
+
+/// A sum of a million radii of 0.1 comes out 1e-11 of it too large or too small.
+TEST(Balls, BoundsOfLongSumsHold) {
+  const Eigen::Index count = 1000000;
+  Ball<double> ones = exact_ball<double>(numbers::Matrix::Ones(1, count));
+  Ball<double> zeros = exact_ball<double>(numbers::Matrix::Zero(count, 1));
+  for (const double radius : {0.1, 0.3, 0.7}) {
+    zeros.rad.setConstant(radius);
+    Ball<double> sum;
+    rules::multiply(ones, zeros, sum);
+    EXPECT_GE(Decimal100(sum.rad(0)) * Decimal100(kBoundSlack),
+              Decimal100(radius) * Decimal100(count));
   }
 }
 

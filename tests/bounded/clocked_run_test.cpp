@@ -116,6 +116,41 @@ TEST(ClockedRun, SharesFlowsThatAreLinearButForClocks) {
   }
 }
 
+/// x' = -s x + 1 + s^2 from 1 has the solution s + exp(-s^2/2).
+TEST(ClockedRun, BoundsHoldTheErrorOfAClosedForm) {
+  TextProblem problem;
+  problem.state("x", "scalar").state("s", "scalar");
+  problem.flow({{"x", "-s*x + 1 + s^2"}, {"s", "1"}}).timer("3", "3", "3", "3").horizon("3");
+  problem.start("x", StartKind::expression, {"1"}).start("s", StartKind::expression, {"0"});
+  problem.jump({{"s", "0"}});
+  const SampledProblem made(problem);
+  const Coordinates states = made.states();
+  ClockedFlows flows(made.system(), made.scenario, states, {});
+  ClockedSimulator simulator(made.system(), made.scenario, states, flows);
+  const Track<double>& track = simulator.run(1, 0, 1e-5);
+  for (std::size_t k = 0; k < track.samples() && !(k > 0 && track.moves[k - 1].jump); ++k) {
+    const double s = track.t[k];
+    const double error = std::abs(track.state(k)(0) - s - std::exp(-s * s / 2));
+    EXPECT_LE(error, track.bound(k)(0)) << s;
+    EXPECT_LE(track.bound(k)(0), 1e-3) << s;
+  }
+}
+
+/// x' = -(20 + s) x falls to exp(-20.5) of its start in a second.
+TEST(ClockedRun, FollowsADecayOverManyDecades) {
+  TextProblem problem;
+  problem.state("x", "scalar").state("s", "scalar");
+  problem.flow({{"x", "-(20 + s)*x"}, {"s", "1"}}).jump({{"s", "0"}}).horizon("1");
+  problem.timer("2", "2", "2", "2").start("x", StartKind::expression, {"1"});
+  problem.start("s", StartKind::expression, {"0"});
+  const SampledProblem made(problem);
+  const Coordinates states = made.states();
+  ClockedFlows flows(made.system(), made.scenario, states, {});
+  ClockedSimulator simulator(made.system(), made.scenario, states, flows);
+  const Track<double>& track = simulator.run(1, 0, 1e-8);
+  EXPECT_NEAR(track.state(track.samples() - 1)(0) * std::exp(20.5), 1, 1e-5);
+}
+
 TEST(ClockedRun, SharesNoOtherFlows) {
   const auto is_shared = [](const char* flow, const char* jump, const char* start) {
     TextProblem problem;
@@ -134,6 +169,8 @@ TEST(ClockedRun, SharesNoOtherFlows) {
   EXPECT_FALSE(is_shared("-s*x", "s/2", "0"));
   EXPECT_FALSE(is_shared("-s*x^2", "0", "0"));
   EXPECT_FALSE(is_shared("-tau*x", "0", "0"));
+  EXPECT_TRUE(is_shared("sin(300*s)*x", "0", "0"));   // of many pieces
+  EXPECT_FALSE(is_shared("sin(1e6*s)*x", "0", "0"));  // of too many pieces
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Polynomials stand for the same function as the text, for all numbers of the data.
+// Polynomials are the same function as the text, for all numbers of the data.
 #include "bounded/polynomial.h"
 
 #include <gtest/gtest.h>

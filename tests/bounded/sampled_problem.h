@@ -1,4 +1,4 @@
-// A TextProblem as sampled dynamics, for the tests of hybrid.
+// A TextProblem as sampled dynamics, for the tests of bounded.
 #pragma once
 
 #include <memory>

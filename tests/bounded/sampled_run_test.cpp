@@ -268,7 +268,7 @@ TEST(SampledRun, IntervalsThatShrinkToNothingHitTheJumpLimit) {
   problem.state("x", "scalar").timer("0", "1", "0", "0").law(Law::constant, {"0"});
   const Track<double> arc = simulate(problem);
   EXPECT_EQ(arc.termination, Termination::jump_limit);
-  EXPECT_EQ(arc.j.back(), BoundedSimulator<double>::kMostJumps);
+  EXPECT_EQ(arc.j.back(), kMostJumps);
   EXPECT_EQ(arc.t.back(), 0);
 }
 

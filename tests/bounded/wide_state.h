@@ -1,4 +1,4 @@
-// Programs and states in 100 digits, for the tests of hybrid.
+// Programs and states in 100 digits, for the tests of bounded.
 #pragma once
 
 #include <Eigen/Core>

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <string>
 
-#include "io/problem_text.h"
 #include "bind/bind.h"
+#include "io/problem_text.h"
 #include "verify/campaign.h"
 #include "verify/careful_runs.h"
 
@@ -31,8 +31,8 @@ method:
     at:
       one: {zh: "zh + [0.7; 0]*(y1 - zh(1))"}
       two: {zh: ")yaml" + jump + "\"}\n    flow: {zh: \"" +
-                                      flow + "\"}\n  claims: " + claims +
-                                      "\ncampaign: {runs: 3, horizon: 10}\n"));
+                                     flow + "\"}\n  claims: " + claims +
+                                     "\ncampaign: {runs: 3, horizon: 10}\n"));
 }
 
 const std::string kCopy = "[2*zh(1) + zh(2); 1.5*zh(2)]";
@@ -54,7 +54,7 @@ TEST(ErrorStates, RunsOfBothSystemsAreTheSame) {
   ASSERT_NE(errors, nullptr);
   const auto end_of = [](const EventSetup& setup) {
     const hybrid::Trajectory run =
-        simulate::Simulator(setup.system, setup.scenario).run(7, 0, setup.accuracy(kUsualOfOne));
+        simulate::Simulator(setup.system, setup.scenario).run(7, 0, setup.accuracy(kAccuracyOfOne));
     return std::get<hybrid::FlowPiece>(run.parts[40]).start;
   };
   const Eigen::VectorXd x = end_of(*written);
@@ -115,7 +115,7 @@ method:
     CampaignOptions options;
     options.threads = 1;
     return run_campaign(bind::bind(io::read_problem(plant + bound +
-                                                     "}}\ncampaign: {runs: 1, horizon: 2}\n")),
+                                                    "}}\ncampaign: {runs: 1, horizon: 2}\n")),
                         model::Gains{}, options)
         .verdict;
   };

@@ -141,6 +141,24 @@ TEST(ClaimsAlongRuns, WhatFallsToItsBoundIsHeldAndSaysHowFar) {
   EXPECT_LT(report.checks[0].floor, 1e-8);
 }
 
+/// z+ = 4 z (1 - z) at every tick: the rounding of z doubles, and after 50 ticks it is all of z.
+TEST(ClaimsAlongRuns, TwoRunsThatHavePartedSayNothingMore) {
+  const std::string method = R"(  events: {tick: {every: 1}}
+  plant:
+    state: {x: {shape: scalar, start: 1}, z: {shape: scalar, start: 0.3}}
+    flow: {x: -x - x^3}
+    at: {tick: {z: 4*z*(1 - z)}}
+)";
+  const auto verdict = [&](const char* claim, const char* horizon) {
+    return report_of(instance_of(method, "{c: {" + std::string(claim) + "}}",
+                                 "{runs: 1, horizon: " + std::string(horizon) + "}"))
+        .verdict;
+  };
+  EXPECT_EQ(verdict("below: z, bound: 1.01", "20.5"), CampaignVerdict::held);
+  EXPECT_EQ(verdict("below: z, bound: 1.01", "100.5"), CampaignVerdict::undecided);
+  EXPECT_EQ(verdict("below: rate(x^2) + x^2, bound: 0", "40"), CampaignVerdict::held);
+}
+
 TEST(ClaimsAlongRuns, AViolationIsFoundWhereItIs) {
   const Report report = report_of(
       instance_of(kMethod, "{c: {below: x, bound: 0.3, after: 1}}", "{runs: 1, horizon: 4.5}"));

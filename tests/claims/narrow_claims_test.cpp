@@ -1,4 +1,4 @@
-// Claims and figures whose texts branch for less than a look, or whose evaluation cancels.
+// Claims and figures whose texts branch between two sample points, or whose evaluation cancels.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -91,12 +91,14 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(
         Case{"below: sin(20*x)*exp(-(x - 1.5)^2/10), bound: 0.9975", CampaignVerdict::violated},
         Case{"below: sin(20*x)*exp(-(x - 1.5)^2/10), bound: 0.999", CampaignVerdict::held},
+        Case{"below: sin(600*x)*exp(-(x - 1.5)^2), bound: 0.9999", CampaignVerdict::violated},
         Case{"above: sin(60*t) - 0.1*t, bound: -1.29", CampaignVerdict::violated},
         Case{"above: sin(60*t) - 0.1*t, bound: -1.3", CampaignVerdict::held},
         Case{"nonincreasing: sin(60*x) - 59.9*x", CampaignVerdict::violated},
         Case{"below: sign(x)*(1 + sin(20*t)), bound: 1.999", CampaignVerdict::violated},
         Case{"below: \"where(sin(60*x) > 0.9, 1, 0)\", bound: 0.5", CampaignVerdict::violated},
         Case{"nonincreasing: \"where(sin(134*x) > 0.9, 1, 0) - x\"", CampaignVerdict::violated},
+        Case{"nonincreasing: 1 + 3e-9*sin(400*x) - 1e-7*x", CampaignVerdict::violated},
         Case{"nonincreasing: sin(60*t) - 60.1*t", CampaignVerdict::held}));
 
 // An equation whose evaluation rounds is neither held nor violated for certain, whatever else there
@@ -223,7 +225,7 @@ campaign: {runs: 2, horizon: 2, initial: {x: {list: [3, -1]}}}
   EXPECT_EQ(report.worst_run, 0U);
 }
 
-TEST(NarrowClaims, WhatIsNeverLookedAtSaysSo) {
+TEST(NarrowClaims, WhatIsNeverComparedSaysSo) {
   CampaignOptions options;
   options.threads = 1;
   const Report report = run_campaign(

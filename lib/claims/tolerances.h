@@ -1,0 +1,40 @@
+// The tolerances of this room, some of which verify shares: unit | meaning | test.
+#pragma once
+
+namespace gainsmith::claims {
+
+// clang-format off
+constexpr double kFloorOfDigits = 1e-24;  ///< of the value at the start | in 31 digits nothing
+        ///< below it is compared that is not certain |
+        ///< Noise.InDigitsAnUndecidedComparisonCountsDownToTheirFloor
+constexpr double kFloorOfAccuracy = 1e-4;  ///< of the accuracy | nothing below so much of the value
+        ///< at the start is compared where flows are integrated |
+        ///< Noise.ACertainRiseCountsDownToAPartOfTheAccuracy
+constexpr double kGrown = 0.1;  ///< of the error | at a sample that may lie at the one before, a
+        ///< value counts as grown only beyond it |
+        ///< Noise.WithinAnInstantAValueHasGrownBeyondAPartOfItsError
+constexpr double kAgreement = 1e-6;  ///< of the range of a value on a part | a series agrees with
+        ///< the value, when it only locates something |
+        ///< FasterThanTheSteps/NarrowClaims.AreJudgedAsTheyAre
+constexpr double kExactAgreement = 1e-10;  ///< of the range of a value on a part | a series agrees
+        ///< with the value, when its own values count |
+        ///< Measures.FollowTextsThatAreFasterThanTheSteps
+constexpr double kValueRounding = 1e-13;  ///< relative | the rounding of a value along a run, and
+        ///< of two orders of maps that lead to the same state |
+        ///< NarrowClaims.WhatIsTrueIsNeverViolated
+constexpr double kBesideJump = 1e-5;  ///< of a part | samples on both sides of a jump of a value
+        ///< lie so far from it, since two runs jump at different times |
+        ///< Jumps/NarrowClaims.AreJudgedAsTheyAre
+constexpr double kBesideBreak = 1e-11;  ///< of half a part | a series takes no value at a break
+        ///< itself, where a sign is 0 | Jumps/NarrowClaims.AreJudgedAsTheyAre
+constexpr int kPatience = 1500;  ///< evaluations on a step | a text that no series agrees with
+        ///< after these is left as it is | FasterThanTheSteps/NarrowClaims.AreJudgedAsTheyAre
+constexpr double kFarBranch = 1000;  ///< errors | a branch is certain that lies farther away, by an
+        ///< estimate that costs less than a bound |
+        ///< NarrowClaims.BranchesWithoutAnErrorBoundAreDecidedWhereTheyAreFar
+constexpr double kInstantOfRun = 1e-6;  ///< of the time of a run | flows that add up to less lie
+        ///< within an instant, and two runs that end so near each other end together |
+        ///< TwinParts.EventsThatLieApartAreNotExchanged
+// clang-format on
+
+}  // namespace gainsmith::claims

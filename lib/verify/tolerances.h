@@ -1,0 +1,26 @@
+// The tolerances of this room: unit | meaning | test.
+#pragma once
+
+namespace gainsmith::verify {
+
+// clang-format off
+constexpr double kAccuracyOfMany = 1e-8;  ///< relative, and absolute | the runs of a campaign are
+        ///< integrated to it unless the campaign asks for another accuracy |
+        ///< Campaign.IntegratedFlowsAreNoCauseOfWrongVerdicts
+constexpr double kAccuracyOfOne = 1e-10;  ///< relative, and absolute | a run that is shown, or
+        ///< repeated because a claim is undecided | Campaign.FlowsThatAreNotAffineAreIntegrated
+constexpr double kParted = 1e-3;  ///< of the range of a value so far | two runs that differ by more
+        ///< have parted, and nothing is known of the value from there on |
+        ///< ClaimsAlongRuns.TwoRunsThatHavePartedSayNothingMore
+constexpr double kPartedAccuracy = 1e3;  ///< of the accuracy, of the terms of a value | two runs
+        ///< have not parted whose difference is less |
+        ///< ClaimsAlongRuns.TwoRunsThatHavePartedSayNothingMore
+constexpr double kLeastRise = 1e-3;  ///< of the accuracy, of the value | a smaller rise of a value
+        ///< that must not increase is sought only at the samples |
+        ///< FasterThanTheSteps/NarrowClaims.AreJudgedAsTheyAre
+constexpr double kBeforeEnd = 1.0/64;  ///< of the last step | the rate of a guard at an event is
+        ///< that over this part of the step |
+        ///< EventDoubts.AnOrderWithinTheErrorThatMattersIsUncertain
+// clang-format on
+
+}  // namespace gainsmith::verify
