@@ -159,11 +159,11 @@ std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& s
   SmoothPart part{step.from, step.to};
   for (const ode::Break& one : value.breaks(near)) {
     part.to = one.left;
-    if (part.from < part.to || parts.empty()) halving.halve(part, kPatience, parts);
+    if (part.from < part.to || parts.empty()) halving.halve(part, kMostEvaluations, parts);
     parts.back().before_jump = one.jumps;
     part = {one.right, step.to, one.jumps};
   }
-  if (part.from < part.to || parts.empty()) halving.halve(part, kPatience, parts);
+  if (part.from < part.to || parts.empty()) halving.halve(part, kMostEvaluations, parts);
   return parts;
 }
 

@@ -27,7 +27,7 @@ constexpr double kBesideJump = 1e-5;  ///< of a part | samples on both sides of 
         ///< Jumps/NarrowClaims.AreJudgedAsTheyAre
 constexpr double kBesideBreak = 1e-11;  ///< of half a part | a series takes no value at a break
         ///< itself, where a sign is 0 | Jumps/NarrowClaims.AreJudgedAsTheyAre
-constexpr int kPatience = 1500;  ///< evaluations on a step | a text that no series agrees with
+constexpr int kMostEvaluations = 1500;  ///< evaluations on a step | a text that no series agrees with
         ///< after these is left as it is | FasterThanTheSteps/NarrowClaims.AreJudgedAsTheyAre
 constexpr double kFarBranch = 1000;  ///< errors | a branch is certain that lies farther away, by an
         ///< estimate that costs less than a bound |
