@@ -5,6 +5,7 @@
 #include <limits>
 #include <string>
 
+#include "expr/number_type.h"
 #include "judge/tolerances.h"
 
 namespace gainsmith::judge {
@@ -15,18 +16,32 @@ using V = model::Dynamics::VariableKind;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
+/// The largest of the terms that the value is the sum of: where they cancel, their rounding is all
+/// that is left.
+double size_of_terms(MapText& text, const Eigen::VectorXd& before, const numbers::Matrix& value) {
+  const double size = value.size() > 0 ? value.cwiseAbs().maxCoeff() : 0;
+  if (!text.terms || value.size() == 0) return size;
+  try {
+    const numbers::Matrix& terms = (*text.terms)(before);
+    return terms.allFinite() ? std::max(size, terms.cwiseAbs().maxCoeff()) : size;
+  } catch (const expr::EvaluationError&) {
+    return size;
+  }
+}
+
 /// One map on the values before it; `slack` takes what the new values may be off.
 void apply_map(Texts& texts, PassTexts& pass, Eigen::VectorXd& x, Eigen::VectorXd& slack) {
   const Eigen::VectorXd before = x;
-  for (auto& [variable, text] : pass.map) {
-    numbers::Matrix value = text(before);
+  for (MapText& text : pass.map) {
+    const std::size_t variable = text.variable;
+    numbers::Matrix value = text.value(before);
     double asymmetry = 0;
     if (texts.dynamics.variables[variable].structure == model::Structure::symmetric &&
         value.size() > 0) {
       asymmetry = (value - value.transpose()).cwiseAbs().maxCoeff();
       make_symmetric(value);
     }
-    const double size = value.size() > 0 ? value.cwiseAbs().maxCoeff() : 0;
+    const double size = size_of_terms(text, before, value);
     texts.part(x, variable) = value.reshaped();
     texts.part(slack, variable).setConstant(kRounding * size + asymmetry);
   }
@@ -90,8 +105,8 @@ JumpValues jump_values(Texts& texts, std::size_t event, bool lost, const Eigen::
     Eigen::VectorXd own = before;
     apply_reaction(texts, reaction, own, result);
     for (const PassTexts& pass : reaction.passes)
-      for (const auto& entry : pass.map)
-        texts.part(result.after, entry.first) = texts.part(own, entry.first);
+      for (const MapText& entry : pass.map)
+        texts.part(result.after, entry.variable) = texts.part(own, entry.variable);
   }
   count_jump(texts, event, result);
   return result;

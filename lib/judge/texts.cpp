@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hybrid/rounding_terms.h"
+
 namespace gainsmith::judge {
 
 namespace {
@@ -195,12 +197,18 @@ EventTexts Texts::event_texts(const Dynamics::Event& event) const {
   return texts;
 }
 
+MapText Texts::map_text(const Dynamics::Assignment& entry) const {
+  MapText text{entry.variable, {entry.value.program, entry.place, layout, stated}, std::nullopt};
+  if (const auto terms = hybrid::rounding_terms(stated.bodies.link(entry.value.program)))
+    text.terms.emplace(*terms, entry.place, layout, stated);
+  return text;
+}
+
 ReactionTexts Texts::reaction_texts(const Dynamics::Reaction& reaction) const {
   ReactionTexts texts{reaction.event, reaction.component, {}};
   for (const Dynamics::Pass& pass : reaction.passes) {
     PassTexts one;
-    for (const Dynamics::Assignment& entry : pass.map)
-      one.map.emplace_back(entry.variable, Text(entry.value.program, entry.place, layout, stated));
+    for (const Dynamics::Assignment& entry : pass.map) one.map.push_back(map_text(entry));
     one.repeats = pass.repeats;
     if (pass.until) one.until.emplace(*pass.until, layout, stated);
     if (pass.at_most) one.at_most = std::llround(scalar(*pass.at_most));

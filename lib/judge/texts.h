@@ -69,8 +69,15 @@ struct EventTexts {
   std::vector<double> times;             ///< of `at`, in order, each once
 };
 
+struct MapText {
+  std::size_t variable;
+  Text value;
+  /// Sizes of the terms that the value is the sum of; none where nothing is computed.
+  std::optional<Text> terms;
+};
+
 struct PassTexts {
-  std::vector<std::pair<std::size_t, Text>> map;  ///< variables with their new values
+  std::vector<MapText> map;  ///< variables with their new values
   bool repeats = false;
   std::optional<Guard> until;
   std::int64_t at_most = 1;
@@ -151,6 +158,7 @@ class Texts {
  private:
   double scalar(const model::Formula& formula) const;
   EventTexts event_texts(const model::Dynamics::Event& event) const;
+  MapText map_text(const model::Dynamics::Assignment& entry) const;
   ReactionTexts reaction_texts(const model::Dynamics::Reaction& reaction) const;
   NoiseRange noise_range(const model::Dynamics::Noise& noise) const;
 

@@ -177,6 +177,22 @@ TEST(Judge, FindsAWrongMap) {
   EXPECT_TRUE(has_fault(ball.judged(trajectory), 1, "the jump impact gives another value: x"));
 }
 
+/// 0.1 + 0.2 - 0.3 is 0, or what the order and the fused steps of a computation leave of it.
+TEST(Judge, AJumpMapIsOffByTheRoundingOfItsTerms) {
+  DynamicsText text;
+  text.state("x", 1, "", "1").at("sum", {"1"}).reacts("sum", {{"x", "0.1*x + 0.2*x - 0.3*x"}});
+  const model::Dynamics dynamics = text.dynamics();
+  const auto judged = [&](double after) {
+    const auto rest = [](double x) { return [x](double) { return VectorXd::Constant(1, x); }; };
+    ReferenceRun run(VectorXd::Ones(1), 2);
+    run.flow(1, rest(1)).jump(0, VectorXd::Constant(1, after)).flow(2, rest(after));
+    return check_trajectory(run.end(), dynamics, text.stated());
+  };
+  for (const double rounding : {0.0, 5.5e-17, -1.1e-16})
+    EXPECT_TRUE(judged(rounding).empty()) << to_text(judged(rounding));
+  EXPECT_TRUE(has_fault(judged(1e-12), 1, "the jump sum gives another value: x"));
+}
+
 TEST(Judge, FindsAStateThatJumpsWithoutAReaction) {
   const Ball ball;
   hybrid::Trajectory trajectory = ball.right();
