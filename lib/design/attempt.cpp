@@ -179,6 +179,13 @@ std::optional<Interior::Solved> solve_interior(const Posed& posed, Interior& int
   std::optional<Interior::Solved> first;
   for (int k = 0; k < most_rounds; ++k) {
     Interior::Solved solved = interior(round);
+    if (solved.solution.x.empty()) {  // stopped before its first iteration
+      if (k == 0) {
+        result.formulation = std::move(solved.formulation);
+        result.solution = std::move(solved.solution);
+      }
+      break;
+    }
     const auto next =
         lmi::next_round(posed.lmi, result.question.bounds, solved.formulation, solved.solution.x);
     const std::vector<double> x = lmi::read_back(posed.lmi, solved.formulation, solved.solution);
