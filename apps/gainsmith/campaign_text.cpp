@@ -75,8 +75,8 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
                        fmt::join(check.missing, ", "));
   if (!check.worst.looked && !check.worst.ended)
     return fmt::format(
-        "  {:<{}} {:<17} held      never looked at: no run comes to where it is "
-        "claimed\n",
+        "  {:<{}} {:<17} held      never checked: no run reaches the time or event "
+        "of the claim\n",
         check.name, width, kind_text(check.kind));
   const claims::Finding& worst = check.worst;
   const bool bounded =
@@ -91,7 +91,7 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
                   check.name, width, kind_text(check.kind), verdict, held ? "nearest" : "worst",
                   check.worst_run, brief(worst.value), brief(worst.bound), brief(worst.t), worst.j);
   if (worst.ended)
-    text += "               left open: the run ends there, before the horizon\n";
+    text += "               undecided: the run ends there, before the horizon\n";
   else if (worst.undecided())
     text += uncertainty_text(check.kind, worst);
   if (check.floor > 0)

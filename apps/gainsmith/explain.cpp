@@ -39,7 +39,7 @@ ExitCode explain(const ExplainOptions& options) {
                                 : explanation_text(explanation) +
                                       plant_line(instance, explanation) + held_line(instance));
   if (!explanation.finished) {
-    say("not finished: what is called undecided, or is not there, was not looked at to its end\n");
+    say("not finished: what is undecided or missing here was not examined to its end\n");
     return ExitCode::undecided;
   }
   return exit_of(explanation.gains.verdict);

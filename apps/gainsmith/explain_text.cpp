@@ -65,7 +65,8 @@ std::string conflict_statement(const design::Conflict& conflict) {
 
 std::string certificate_brief(const model::CertificateRecord& certificate) {
   if (certificate.exact) return "exact";
-  return "no solution survives a relative change of " + brief(certificate.backward_error, 2);
+  return "excludes every solution, up to a relative change of the data by " +
+         brief(certificate.backward_error, 2);
 }
 
 std::string conflict_text(const design::Conflict& conflict) {

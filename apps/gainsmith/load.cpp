@@ -90,7 +90,7 @@ void refuse_without_gains(const model::Gains& gains, const model::Design& design
     return;
   throw InputError({file}, "the verdict is " + std::string(to_string(gains.verdict)) +
                                ": the file has no gains to simulate; 'gainsmith explain' of its "
-                               "problem says what stands against them");
+                               "problem says why");
 }
 
 /// The scalars that the search of a file set.

@@ -44,7 +44,7 @@ void add_questions(const ScanOptions& options, const std::vector<RangeOption>& r
     model::check_scalar_name(*problem.method, option.range.name, {"--over"});
     for (const model::ScalarRange& known : problem.questions.ranges)
       if (known.name == option.range.name)
-        throw InputError({"--over"}, option.range.name + " stands twice");
+        throw InputError({"--over"}, option.range.name + " is given twice");
     problem.questions.ranges.push_back(option.range);
   }
   for (const std::string& text : options.show)

@@ -77,7 +77,7 @@ std::string search_text(const model::Gains& gains) {
   else
     text = fmt::format("search      {}: nothing feasible was found\n", search.figure);
   if (bracket && search.value && !search.beyond && search.open.empty())
-    text += "            that is the end of the range: the border lies beyond it\n";
+    text += "            that is the end of the range: the limit lies beyond it\n";
   text += beyond_text(gains) + breaks_text(search) + ends_text(search) + refinement_text(search);
   return text + fmt::format("            {} evaluations, {} feasible{}\n", search.evaluations,
                             search.feasible, search.finished ? "" : "; STOPPED EARLY");

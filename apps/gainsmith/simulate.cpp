@@ -37,9 +37,9 @@ void say_claims(const std::vector<verify::ReplayedClaim>& claims, bool early) {
     const claims::Finding& finding = claim.finding;
     if (!finding.looked) {
       say(fmt::format("  {:<12} {}\n", claim.name,
-                      early ? "undecided: never looked at, as the run ends before"
-                            : "held: never looked at, as the run does not come to where it is "
-                              "claimed"));
+                      early ? "undecided: never checked, as the run ends before"
+                            : "held: never checked, as the run does not reach the time or event "
+                              "of the claim"));
       continue;
     }
     const bool so_far = early && finding.judgement == claims::Judgement::held;

@@ -60,14 +60,18 @@ std::string objective_text(const model::Gains& gains) {
   if (!gains.objective) return "";
   std::string text = fmt::format("objective   {}", brief(*gains.objective, 10));
   if (gains.objective_lower_bound) {
-    constexpr double kTells = 0.1;  // an objective near 0 has no relative price
-    const double price = *gains.objective - *gains.objective_lower_bound;
-    const double relative = price / std::max(std::abs(*gains.objective), 1e-300);
-    text +=
-        fmt::format("  (without margins no solution of its size{} is below {}{})",
-                    gains.bounds.empty() ? "" : ", within the gain bound,",
-                    brief(*gains.objective_lower_bound, 10),
-                    relative < kTells ? ": the margins cost at most " + brief(relative, 2) : "");
+    constexpr double kTells = 0.1;  // of the objective: a wider bracket says little of its upper end
+    const std::string optimum =
+        gains.bounds.empty() ? "the optimum" : "the optimum within the gain bound";
+    const std::string low = brief(*gains.objective_lower_bound, 10);
+    const std::string high = brief(*gains.objective, 10);
+    const double width = *gains.objective - *gains.objective_lower_bound;
+    if (low == high)
+      text += fmt::format("  ({}, to these digits)", optimum);
+    else if (width < kTells * std::abs(*gains.objective))
+      text += fmt::format("  ({} is between {} and {})", optimum, low, high);
+    else
+      text += fmt::format("  ({} is at least {})", optimum, low);
   }
   return text + "\n";
 }
@@ -106,14 +110,12 @@ std::string certificate_text(const model::Gains& gains) {
     return fmt::format("certificate exact steps on {}, as above: no solution exists\n", of);
   if (c.exact)
     return fmt::format(
-        "certificate multipliers Y > 0, checked in {} digits on {}: near them is an exact one, so "
-        "no\n"
-        "            solution exists\n",
+        "certificate multipliers Y > 0, checked in {} digits on {}: an exact certificate lies near\n"
+        "            them, so no solution exists\n",
         c.digits, of);
   return fmt::format(
-      "certificate multipliers Y >= 0, checked in {} digits on {}: no solution survives a "
-      "relative\n"
-      "            change of {} of the coefficients\n",
+      "certificate multipliers Y >= 0, checked in {} digits on {}: they exclude every\n"
+      "            solution, up to a relative change of the data by {}\n",
       c.digits, of, brief(c.backward_error, 2));
 }
 

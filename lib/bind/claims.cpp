@@ -55,7 +55,7 @@ model::Formula constant_of_claim(const Binding& binding, const expr::Expression&
   for (const expr::Input& input : bound.program.inputs)
     if (changes(input.name))
       throw InputError(bound.place, key + ": '" + input.name +
-                                        "' changes along a run; here stands what data, parameters "
+                                        "' changes along a run; this is made of what data, parameters "
                                         "and gains give");
   return bound;
 }

@@ -109,7 +109,7 @@ std::optional<Curvature> curvature_at(const Binding& binding, const expr::Expres
   if (count < function.fewest || (function.most >= 0 && count > function.most))
     throw InputError(text.place(node),
                      node.text == "lambda_max" && count == 2
-                         ? "lambda_max(M, N) of two matrices stands alone in minimize; elsewhere "
+                         ? "lambda_max(M, N) of two matrices is alone in minimize; elsewhere "
                            "write M <= l*N with a number l"
                          : "'" + node.text + "' is written " + std::string(function.usage) +
                                "; found " + std::to_string(count) + " arguments");
@@ -129,7 +129,7 @@ void refuse_nested(const Binding& binding, const expr::Expression& text, const N
   for (const NodePtr& child : call.children)
     if (has_curvature(binding, text, *child, scope))
       throw InputError(text.place(*child),
-                       "'" + text.quote(*child) + "' stands inside of another such function");
+                       "'" + text.quote(*child) + "' is inside of another such function");
 }
 
 /// Of the arguments of a call. InputError when the function does not take them.
@@ -271,7 +271,7 @@ NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& n
     if (quantified)
       throw InputError(text.place(*node), "under 'forall' with an interval or a set, '" +
                                               text.quote(*node) +
-                                              "' stands alone on its side of the comparison");
+                                              "' must be alone on its side of the comparison");
     refuse_nested(binding, text, *node, scope);
     return bounding_unknown(binding, text, *node, *curvature);
   }
@@ -303,7 +303,7 @@ NodePtr bounded(Binding& binding, const expr::Expression& text, const NodePtr& n
       break;
   }
   throw InputError(text.place(*node),
-                   "norm, abs, max, min and eigenvalues of unknowns may stand in sums, in sum(...) "
+                   "norm, abs, max, min and eigenvalues of unknowns may be used in sums, in sum(...) "
                    "and times a number that is written out, not inside of '" +
                        text.quote(*node) + "'; a weight w >= 0 goes inside, as in norm(w*X)");
 }

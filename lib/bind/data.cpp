@@ -253,7 +253,7 @@ void add_assumption(Binding& binding, const model::Named& assumption) {
   for (const auto& relation : compile_relations(assumption.value, binding.names->known)) {
     if (relation.equation)
       throw InputError(assumption.place,
-                       "'==' stands in requirements only; an assumption is an "
+                       "'==' is for requirements only; an assumption is an "
                        "inequality of scalars, such as 0 < T1 <= T2");
     refuse_estimate(*binding.design, relation.difference, "an assumption");
     bound.differences.emplace_back(relation.difference, relation.strict);

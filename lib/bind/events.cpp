@@ -55,7 +55,7 @@ void DynamicsBinding::sort_events() {
   };
   for (const std::string& name : order)
     if (std::count(order.begin(), order.end(), name) > 1)
-      throw InputError(method_->dynamics_place, "order: '" + name + "' stands there twice");
+      throw InputError(method_->dynamics_place, "order: '" + name + "' is given twice");
   for (const std::string& name : order)
     if (!events_.contains(name))
       throw InputError(method_->dynamics_place, "order: there is no event '" + name + "'" +
@@ -111,7 +111,7 @@ model::Formula DynamicsBinding::constant(const expr::Expression& text,
   for (const expr::Input& input : bound.program.inputs)
     if (is_moving(input.name))
       throw InputError(bound.place, "'" + input.name +
-                                        "' changes along a run; here stands what data, parameters "
+                                        "' changes along a run; this is made of what data, parameters "
                                         "and gains give");
   return bound;
 }

@@ -179,7 +179,7 @@ void refuse_free_unknowns(const model::Design& design) {
     throw InputError(
         unknown.place,
         "the unknown " + unknown.name +
-            " stands in no inequality under 'require', so nothing determines it" +
+            " is used by no inequality under 'require', so nothing determines it" +
             (user == design.gains.end() ? "" : "; the gain " + user->name + " needs it") +
             ": require something of it, or remove it");
   }

@@ -17,7 +17,7 @@ Bound Binder::rate(const Expression& expression, const Node& node) {
   const auto first = scope_.definitions.lower_bound(prefix);
   if (first == scope_.definitions.end() || !first->first.starts_with(prefix))
     fail(expression, node,
-         "rate(v) is the derivative of v along flows: it stands in signals, claims and figures");
+         "rate(v) is the derivative of v along flows: it is for signals, claims and figures");
   const Node& argument = *node.children[0];
   const int value = sized(expression, argument, bind(expression, argument));
   if (shape(value).cols != 1)

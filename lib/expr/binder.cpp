@@ -111,15 +111,15 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
     case NodeKind::block:
       return bind_block(expression, node);
     case NodeKind::range:
-      fail(expression, node, "a range stands only in an index, such as x(1:2)");
+      fail(expression, node, "a range is allowed only in an index, such as x(1:2)");
     case NodeKind::each:
-      fail(expression, node, "an index stands only in a sum, such as sum(i in 1..N, P(i))");
+      fail(expression, node, "an index is allowed only in a sum, such as sum(i in 1..N, P(i))");
     case NodeKind::within:
-      fail(expression, node, "a box stands only in maximum(f, x in [a, b]) and in minimum(...)");
+      fail(expression, node, "a box is allowed only in maximum(f, x in [a, b]) and in minimum(...)");
     case NodeKind::mirror:
-      fail(expression, node, "'*' alone stands only in a block");
+      fail(expression, node, "'*' alone is allowed only in a block");
     case NodeKind::compare:
-      fail(expression, node, "a comparison stands only on its own or in where(...)");
+      fail(expression, node, "a comparison is allowed only on its own or in where(...)");
     case NodeKind::conjunction:
     case NodeKind::disjunction:
     case NodeKind::negation:

@@ -24,7 +24,7 @@ struct Bound {
 
 /// What is said of != anywhere else.
 inline constexpr const char* kNotEqual =
-    "'!=' stands between indices only, as in forall: [i in 1..N, j in 1..N, i != j]";
+    "'!=' compares indices only, as in forall: [i in 1..N, j in 1..N, i != j]";
 
 /// Comparison k of a chain: its larger side and then the smaller one; of an equation as written.
 Node ordered_pair(const Node& chain, std::size_t k);

@@ -81,7 +81,7 @@ constexpr auto kForeign = std::to_array<Foreign>({
     {"%", "a remark begins with #, outside of quotation marks"},
     {"\"", "the quotation mark that begins the formula is missing"},
     {"\xC2\xA0", "this is a non-breaking space; type a plain one"},
-    {"{", "matrices stand in [ ], arguments in ( )"},
+    {"{", "matrices are written in [ ], arguments in ( )"},
     {"\xC3\x97", "write * for a product"},
     {"\xC2\xB7", "write * for a product"},
     {"\xC2\xB2", "write ^2"},

@@ -91,7 +91,7 @@ class Parser : TokenCursor {
       if (std::find(result.parameters.begin(), result.parameters.end(), parameter.text) !=
           result.parameters.end())
         throw InputError(text()->place(parameter.begin),
-                         "the parameter '" + parameter.text + "' stands here twice");
+                         "the parameter '" + parameter.text + "' is given twice");
       result.parameters.push_back(parameter.text);
     } while (accept(TokenKind::comma));
     expect(TokenKind::close, "',' or ')'");
@@ -101,7 +101,7 @@ class Parser : TokenCursor {
                            const Place& place) {
     const auto count = std::count_if(indices.begin(), indices.end(),
                                      [&](const Index& index) { return index.name == name; });
-    if (count > 1) throw InputError(place, "the index '" + name + "' stands here twice");
+    if (count > 1) throw InputError(place, "the index '" + name + "' is given twice");
   }
 
   /// "i in ..."

@@ -122,7 +122,7 @@ model::Basis weights(const Box& box, const std::string& variable, const Place& p
 void refuse_vertices(const Place& place) {
   throw InputError(place, "the hull of this inequality has more than " +
                               std::to_string(kMostVertices) +
-                              " vertices; use the way exchange or fewer slices");
+                              " vertices; use synthesis: {forall: exchange} or fewer slices");
 }
 
 }  // namespace gainsmith::forall

@@ -219,7 +219,7 @@ class Search {
   static constexpr std::string_view
       kNotDecided = "the sign at a point is within its error bound",
       kTooSteep = "it moves too much between two points that are next to each other",
-      kTooMany = "more pieces than are looked at";
+      kTooMany = "more pieces than are examined";
 
   Function<S>& function_;
   Piece whole_;

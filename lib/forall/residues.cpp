@@ -168,7 +168,7 @@ void verify(const std::vector<std::pair<Atom, numbers::Matrix>>& terms, const nu
     if (!((sum - exact).norm() <= kTolerance * exact.norm()))
       throw expr::EvaluationError(
           "expm cannot be written as a sum of scalar functions to 10 digits: its matrix has "
-          "eigenvalues that are close but not equal; use the way exchange");
+          "eigenvalues that are close but not equal; use synthesis: {forall: exchange}");
   }
 }
 

@@ -54,7 +54,7 @@ class NamedBlocks {
     const std::size_t j = at(entry.key);
     if (i != j && entries_.contains({j, i}))
       throw InputError(entry.place, "the block " + row + ", " + entry.key +
-                                        " stands on the other side of the diagonal too, as " +
+                                        " is given on the other side of the diagonal too, as " +
                                         entry.key + ", " + row + "; one of them is enough");
     entries_.emplace(std::pair(i, j), file_.scalar(entry.value, entry.key));
   }

@@ -121,7 +121,7 @@ model::PassText pass(const YamlFile& file, const YamlItem& item) {
   const std::string word = file.string(otherwise->value, "else");
   if (word != "go on" || !until)
     throw InputError(file.place(otherwise->value),
-                     "else: 'go on', after 'until', is all that may stand here; without it the "
+                     "else: 'go on', after 'until', is all that is allowed here; without it the "
                      "run ends when the condition does not become true");
   result.go_on = true;
   return result;
@@ -150,7 +150,7 @@ model::ReactionText reaction(const YamlFile& file, const YamlItem& item) {
   for (const YamlItem& entry : map.items()) {
     if (entry.key == "let") continue;
     if (entry.key == "repeat")
-      throw InputError(entry.place, "with 'let' a loop stands in the component's own 'let'");
+      throw InputError(entry.place, "with 'let' a loop is put in the component's own 'let'");
     own.map.push_back({entry.key, file.expression(entry.value, entry.key), entry.place});
   }
   result.passes.push_back(std::move(own));

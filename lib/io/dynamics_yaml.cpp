@@ -40,7 +40,7 @@ void read_jump(model::Component& component, bool has_timer) {
   const Place place = component.jump.front().place;
   if (!has_timer)
     throw InputError(place,
-                     "jump: of a method with a timer; otherwise a jump stands under its event, "
+                     "jump: of a method with a timer; otherwise a jump is given under its event, "
                      "'at: {sample: {...}}'");
   model::PassText pass;
   pass.map = std::move(component.jump);

@@ -74,7 +74,7 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
   if (const auto at = map.find("at")) {
     ++found;
     read_moment(file, *at, result);
-    if (!value) throw InputError(at->place, "at: with the value that is looked up, 'value: ...'");
+    if (!value) throw InputError(at->place, "at: with the wanted value, 'value: ...'");
     result.value = file.expression(value->value, "value");
     result.title = result.value->text->str() + " " + result.title;
   }
@@ -96,7 +96,7 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
     result.title = "ended";
     if (ending == nullptr)
       throw InputError(ended->place,
-                       "ended: stands in expect.run alone: all observers end with the run");
+                       "ended: belongs in expect.run alone: all observers end with the run");
     *ending = file.string(ended->value, "ended");
     const std::vector<std::string> known = {"horizon", "escaped", "undefined",   "left",
                                             "stuck",   "zeno",    "chattering",  "sliding",

@@ -83,7 +83,7 @@ class Builder : public nlohmann::json_sax<Json> {
     const auto [known, fresh] = keys_.back().emplace(key, read_);
     if (!fresh)
       throw InputError(place_of(text_, file_, begin_of_key(read_)),
-                       "the key '" + key + "' stands twice; first in line " +
+                       "the key '" + key + "' is given twice; first in line " +
                            std::to_string(place_of(text_, file_, known->second).line));
     key_ = std::move(key);
     return true;

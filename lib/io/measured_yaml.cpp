@@ -30,7 +30,7 @@ std::string path_of(const YamlFile& file, const YamlItem& item) {
   if (!std::filesystem::exists(path, error))
     throw InputError(file.place(item.value),
                      item.key + ": there is no file " + path.string() +
-                         (is_gain_file ? "; a gain file looks for the data of its problem beside "
+                         (is_gain_file ? "; the data of a gain file's problem are expected beside "
                                          "itself: copy them there, or take the problem instead"
                                        : ""));
   return path.string();
@@ -121,7 +121,7 @@ double time_of(const Source& source, std::size_t row, std::size_t column, double
   if (*time - source.from < before)
     throw InputError(place, "the time " + brief(*time, 15) + " comes after " +
                                 brief(before + source.from, 15) +
-                                ": rows stand in the order of time");
+                                ": rows must be in the order of time");
   return *time - source.from;
 }
 

@@ -2,12 +2,16 @@
 // problem).
 #pragma once
 
+#include <string>
+
 #include "io/yaml.h"
 #include "model/method.h"
 
 namespace gainsmith::io {
 
-model::Method method_from(const YamlFile& file, const YAML::Node& node);
+/// `problem`: the name of the problem that the method stands in, which is its own name where it
+/// gives none; empty for a method file, which needs one.
+model::Method method_from(const YamlFile& file, const YAML::Node& node, const std::string& problem);
 
 /// The reason of "no campaign", which is not empty.
 std::string reason(const YamlFile& file, const YamlItem& item);

@@ -134,7 +134,7 @@ void read_no_campaign(const YamlFile& file, const YamlItem& item, model::Method&
   const bool moves = method.has_dynamics || !method.claims.empty();
   if (moves)
     throw InputError(item.place,
-                     "no campaign: the method has dynamics or claims; the reason stands where "
+                     "no campaign: the method has dynamics or claims; the reason is given where "
                      "nothing moves. A problem may have one of its own");
 }
 
@@ -196,11 +196,14 @@ model::Forall parse_forall(const expr::Text& text) {
   return forall;
 }
 
-model::Method method_from(const YamlFile& file, const YAML::Node& node) {
+model::Method method_from(const YamlFile& file, const YAML::Node& node,
+                          const std::string& problem) {
   YamlMap map(file, node, "method");
   model::Method method;
   method.file = file.file();
-  method.name = file.string(map.require("method").value, "method");
+  const auto name =
+      problem.empty() ? std::optional<YamlItem>(map.require("method")) : map.find("method");
+  method.name = name ? file.string(name->value, "method") : problem;
   method.source = optional_string(file, map.find("source"));
   method.summary = optional_string(file, map.find("summary"));
   method.data = declarations(file, map.find("data"), "data", "default");
@@ -235,7 +238,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node) {
 
 model::Method parse_method(const std::string& text, const std::string& file) {
   const YamlFile yaml(text, file);
-  model::Method method = method_from(yaml, yaml.root());
+  model::Method method = method_from(yaml, yaml.root(), "");
   method.text = text;
   return method;
 }

@@ -18,8 +18,10 @@ namespace gainsmith::io {
 namespace {
 
 std::shared_ptr<const model::Method> method_of(const YamlFile& file, const YamlItem& item,
+                                               const std::string& problem,
                                                const MethodLibrary& library) {
-  if (item.value.IsMap()) return std::make_shared<model::Method>(method_from(file, item.value));
+  if (item.value.IsMap())
+    return std::make_shared<model::Method>(method_from(file, item.value, problem));
   const std::string name = file.string(item.value, "method");
   const auto text = library.text(name);
   if (!text)
@@ -342,7 +344,7 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.name = yaml.string(map.require("problem").value, "problem");
   const YamlItem method = map.require("method");
   problem.method_place = method.place;
-  problem.method = method_of(yaml, method, library);
+  problem.method = method_of(yaml, method, problem.name, library);
   problem.method_name = problem.method->name;
   problem.data = values(yaml, map.find("data"), "data", datum_of);
   problem.parameters = values(yaml, map.find("parameters"), "parameters", value_of);

@@ -316,7 +316,7 @@ YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what)
     const Place place = file.place(entry.first);
     for (const YamlItem& earlier : items_)
       if (earlier.key == key)
-        throw InputError(place, what_ + ": the key '" + key + "' stands twice; first in line " +
+        throw InputError(place, what_ + ": the key '" + key + "' is given twice; first in line " +
                                     std::to_string(earlier.place.line));
     items_.push_back({key, file.scalar(entry.first, key), place, entry.second});
   }

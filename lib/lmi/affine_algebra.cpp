@@ -64,7 +64,7 @@ class Rules {
       if (both.terms.size() <= kMostFunctions) return both;
       throw expr::EvaluationError("the power expands to more than " +
                                   std::to_string(kMostFunctions) +
-                                  " functions of the 'forall' variables; use the way exchange");
+                                  " functions of the 'forall' variables; use synthesis: {forall: exchange}");
     };
     AffineForm result = constant_form(one);
     AffineForm square = form;
@@ -143,7 +143,7 @@ class Rules {
                                   " depends on " + unknowns_.scalar_name(which));
     throw expr::EvaluationError(
         "the " + to_string(op) +
-        " of a function of a 'forall' variable: the way hull takes sums and products of powers, "
+        " of a function of a 'forall' variable: 'hull' takes sums and products of powers, "
         "exp, sin and cos of affine functions and expm of multiples of one variable; use the way "
         "exchange");
   }

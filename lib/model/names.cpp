@@ -58,7 +58,7 @@ class NameCheck {
     std::map<std::string, int> counts;
     for (const expr::Index& index : indices) {
       if (++counts[index.name] > 1)
-        throw InputError(index.place, "the index '" + index.name + "' stands here twice");
+        throw InputError(index.place, "the index '" + index.name + "' is given twice");
       if (expr::is_reserved(index.name) || index.name == "in")
         throw InputError(index.place, "'" + index.name + "' is a word of the language");
       if (const auto found = known_.find(index.name); found != known_.end())
@@ -243,7 +243,7 @@ void check_names(const Method& method) {
     std::map<std::string, Place> variables;
     const auto add = [&](const std::string& name, const Place& place) {
       if (!variables.emplace(name, place).second)
-        throw InputError(place, "'" + name + "' stands twice in 'forall'");
+        throw InputError(place, "'" + name + "' is given twice in 'forall'");
     };
     for (const expr::Index& index : requirement.indices) add(index.name, index.place);
     for (const Forall& forall : requirement.forall) {

@@ -153,7 +153,7 @@ bool Faces::pairs(std::size_t k, std::size_t l) {
     const Rational room = constant(a) + *factor * constant(b);
     if (room > 0) return false;
     if (room < 0) {
-      exclude(both + " leave no room for each other");
+      exclude(both + " exclude each other");
       return true;
     }
   }

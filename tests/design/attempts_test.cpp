@@ -217,7 +217,7 @@ TEST(Attempts, PlainStepsOnFacesDecideWhateverTheSolverSays) {
   EXPECT_EQ(no.gains.verdict, Verdict::no);
   ASSERT_TRUE(no.gains.certificate);
   EXPECT_TRUE(no.gains.certificate->exact);
-  EXPECT_TRUE(no.says("low and high leave no room for each other")) << no.message();
+  EXPECT_TRUE(no.says("low and high exclude each other")) << no.message();
   const Case one(
       "  unknowns: {x: scalar, y: scalar}\n  require: {least: x + 2*y >= 0.3, most: x + 2*y <= "
       "0.3, same: y >= 0.1, too: y <= 0.1}\n");

@@ -158,7 +158,7 @@ TEST(FamilyDesign, MistakesAreNamed) {
                                   "  data: {k: scalar}\n  assume: {c: k != 2}\n  unknowns: {x: "
                                   "scalar}\n  require: {p: x > k}\n"})
     EXPECT_NE(message(text, std::string(text).find("data") != std::string::npos ? "data: {k: 1}\n" : "")
-                  .find("'!=' stands between indices only"),
+                  .find("'!=' compares indices only"),
               std::string::npos)
         << text;
   EXPECT_NE(message("  unknowns: {P: {shape: scalar, for: i in 1..2}, P_1: scalar}\n"

@@ -95,7 +95,7 @@ TEST_F(Extrema, RefuseOtherForms) {
   expect_error("maximum(x, x in [0; 1])", "',' between the ends of the box");
   expect_error("maximum(x, x in [0, 1, 2])", "']' after the ends of the box");
   expect_error("maximum(x, x in [0, inf])", "a number must be finite");
-  expect_error("abs(x in [0, 1])", "a box stands only in maximum");
+  expect_error("abs(x in [0, 1])", "a box is allowed only in maximum");
   expect_error("maximum(minimum(x*u, u in [0, 1]), x in [0, 1])",
                "write one with the names of both");
 }

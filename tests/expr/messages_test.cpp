@@ -139,7 +139,7 @@ TEST_F(Messages, AJacobianIsByAName) {
 }
 
 TEST_F(Messages, AComparisonIsNoValue) {
-  expect("1 + (A > 0)", 6, {"a comparison stands only on its own or in where"});
+  expect("1 + (A > 0)", 6, {"a comparison is allowed only on its own or in where"});
   expect("where(A, 1, 2)", 7, {"where needs a condition"});
   expect("where(A > 0 and 1, 1, 2)", 17, {"expected a condition"});
   expect("1 + (A > 0 and A < 1)", 6, {"'and', 'or' and 'not' join conditions"});

@@ -204,7 +204,7 @@ TEST(ProofTest, WhatHasNoValueIsOpenWithItsReason) {
   EXPECT_EQ(prove("2 + 1/(t - 0.3)^2", kUnit).status, Status::open);
   const DomainProof many = prove("1.0001 + cos(1e7*t)", kUnit, {}, true, {500});
   EXPECT_EQ(many.status, Status::open);
-  EXPECT_EQ(many.reason, "more pieces than are looked at");
+  EXPECT_EQ(many.reason, "more pieces than are examined");
   EXPECT_EQ(many.pieces, 500U);
 }
 

@@ -87,7 +87,7 @@ TEST(Claims, MistakesAreNamedAtTheirPlace) {
       {"rate(V)", "rate(x*x')", 18, 25, "rate(v) is of a number or a column, not x*x'"},
       {"rate(V)", "rate(rate(V))", 18, 20, "what holds a jacobian or a rate has none"},
       {"-m]\"}\n    at", "-rate(m)]\"}\n    at", 10, 24,
-       "it stands in signals, claims and figures"},
+       "it is for signals, claims and figures"},
       {"{center: [1, 0], matrix: Q}", "{center: [1, 0]}", 19, 50, "matrix"},
       {"center: [1, 0]", "centre: [1, 0]", 19, 51, "did you mean 'center'?"},
       {"center: [1, 0]", "center: [1, 0, 0]", 19, 59, "wrong shape"},

@@ -50,7 +50,7 @@ TEST(JsonText, AKeyThatStandsTwiceIsRefusedAtItsPlace) {
   };
   const InputError outer = refusal("{\"a\": 1,\n \"b\": 2,\n  \"a\": 3}");
   EXPECT_EQ(outer.place(), (Place{"f", 3, 3}));
-  EXPECT_EQ(outer.message(), "the key 'a' stands twice; first in line 1");
+  EXPECT_EQ(outer.message(), "the key 'a' is given twice; first in line 1");
   EXPECT_EQ(refusal(R"([{"x": {"\"q": 1, "\"q": 2}}])").place(), (Place{"f", 1, 19}));
   // The same key in two objects is none.
   EXPECT_EQ(parse_json(R"({"a": {"k": 1}, "b": {"k": 2}, "k": [{"k": 3}, {"k": 4}]})", "f").size(),

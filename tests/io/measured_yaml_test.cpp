@@ -99,7 +99,7 @@ TEST_F(Measured, WhatIsWrongInTheFileIsSaidOfTheFile) {
   EXPECT_EQ(refused("{}", "u: {csv: bad.csv, column: x}").place(), (Place{csv, 4, 7}));
   const InputError falls = refused("{}", "u: {csv: bad.csv, column: x1}");
   EXPECT_EQ(falls.place(), (Place{csv, 4, 1}));
-  EXPECT_EQ(falls.message(), "the time 0.5 comes after 1: rows stand in the order of time");
+  EXPECT_EQ(falls.message(), "the time 0.5 comes after 1: rows must be in the order of time");
   write("bad.csv", "t,u\n0,1\n,3\n");
   EXPECT_EQ(refused("{}", "u: {csv: bad.csv, column: u}").message(), "the row has no time");
 }

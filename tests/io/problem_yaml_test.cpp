@@ -76,6 +76,12 @@ TEST(Problem, MayHoldItsMethod) {
   EXPECT_EQ(problem.method->require[1].place, (Place{"p.yaml", 19, 5}));
 }
 
+TEST(Problem, AMethodWithoutANameHasThatOfTheProblem) {
+  const model::Problem problem = read_problem(
+      "problem: mine\nmethod:\n  unknowns: {P: symmetric 2}\n  require: {positive: P > I}\n");
+  EXPECT_EQ(problem.method_name, "mine");
+}
+
 class BrokenProblem : public testing::TestWithParam<Mistake> {};
 
 TEST_P(BrokenProblem, IsRefusedAtItsPlace) {
@@ -107,8 +113,8 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"constant:", "constnat:", 16, 24, "did you mean 'constant'?"},
                     Mistake{"verdict:", "verdct:", 22, 3, "did you mean 'verdict'?"},
                     Mistake{"relative:", "realtive:", 27, 29, "did you mean 'relative'?"},
-                    Mistake{"seed: 3", "runs: 3", 13, 3, "stands twice; first in line 12"},
-                    Mistake{"    zh:", "    z:", 19, 5, "stands twice"}));
+                    Mistake{"seed: 3", "runs: 3", 13, 3, "is given twice; first in line 12"},
+                    Mistake{"    zh:", "    z:", 19, 5, "is given twice}));
 
 INSTANTIATE_TEST_SUITE_P(
     Values, BrokenProblem,

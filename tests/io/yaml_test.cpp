@@ -179,7 +179,7 @@ TEST(YamlMap, MistakesInKeysAreShownWithASuggestion) {
   expect("size: 2\nnmae: a\n", {"f", 2, 1}, "thing: unknown key 'nmae'; did you mean 'name'?");
   expect("size: 2\n", {"f", 1, 1}, "thing: the key 'name' is missing");
   expect("name: a\nsize: 1\n\nname: b\n", {"f", 4, 1},
-         "thing: the key 'name' stands twice; first in line 1");
+         "thing: the key 'name' is given twice; first in line 1");
   expect("[1, 2]", {"f", 1, 1}, "thing: expected a mapping 'key: value', found a list");
   expect("word", {"f", 1, 1}, "thing: expected a mapping 'key: value', found 'word'");
   expect("name: a\n[1]: b\n", {"f", 2, 1}, "thing: a key: expected a text, found a list");
