@@ -84,19 +84,20 @@ std::string verdict_of(const design::ScanRow& row) {
 
 /// `digits`: as many as reading back needs (17), or fewer for people.
 Table table_of(const std::vector<design::ScanRow>& rows, const std::vector<std::string>& names,
-               const std::vector<std::string>& figures, int digits) {
+               const std::vector<std::string>& figures, bool minimizes, int digits) {
   const auto number = [&](const std::optional<double>& value) {
     return value ? brief(*value, digits) : std::string();
   };
   Table table;
   table.columns = names;
-  table.columns.insert(table.columns.end(), {"verdict", "objective"});
+  table.columns.push_back("verdict");
+  if (minimizes) table.columns.push_back("objective");
   table.columns.insert(table.columns.end(), figures.begin(), figures.end());
   for (const design::ScanRow& row : rows) {
     std::vector<std::string> cells;
     for (const double value : row.at) cells.push_back(brief(value, digits));
     cells.push_back(verdict_of(row));
-    cells.push_back(number(row.objective));
+    if (minimizes) cells.push_back(number(row.objective));
     for (std::size_t k = 0; k < figures.size(); ++k)
       cells.push_back(k < row.figures.size() ? number(row.figures[k]) : "");
     table.rows.push_back(std::move(cells));
@@ -175,14 +176,16 @@ ExitCode scan(const ScanOptions& options) {
   const Telling telling;
   constexpr int kForPeople = 8;
   constexpr int kExact = 17;
-  const std::string file = csv(table_of(rows, grid.names, options.show, kExact));
+  const bool minimizes = instance.design->objective || instance.design->quotient;
+  const std::string file = csv(table_of(rows, grid.names, options.show, minimizes, kExact));
   if (options.output == "-") {
     fmt::print("{}", file);
     return exit_of_all(rows);
   }
   if (!options.output.empty()) write_atomically(options.output, file);
   fmt::print("{}", options.json ? json(rows, grid, options.show)
-                                : aligned(table_of(rows, grid.names, options.show, kForPeople)) +
+                                : aligned(table_of(rows, grid.names, options.show, minimizes,
+                                                 kForPeople)) +
                                       held_line(instance, grid.names));
   return exit_of_all(rows);
 }

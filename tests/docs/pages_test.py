@@ -138,14 +138,16 @@ class Pages(unittest.TestCase):
 
     def compare_pictures(self, page, folder):
         """Pictures that a page shows and its commands make have the same words; WRITE_PICTURES=1 replaces those shown."""
-        for target in re.findall(r"!\[[^]]*\]\((pictures/[^)]+)\)", read(page)):
-            shown = os.path.join(TREE, os.path.dirname(page), target)
-            made = os.path.join(folder, os.path.basename(target))
-            self.assertTrue(os.path.exists(made), f"{page}: no command makes {target}")
-            if os.environ.get("WRITE_PICTURES"):
-                shutil.copyfile(made, shown)
-            words = [re.findall(r"<text[^>]*>([^<]*)</text>", open(path, encoding="utf-8").read()) for path in (shown, made)]
-            self.assertEqual(*[[word for word in of if re.match("[a-z]", word)] for of in words], f"{page}: {target}")
+        for target in re.findall(r"!\[[^]]*\]\(([^)]+\.svg)\)", read(page)):
+            shown = os.path.normpath(os.path.join(TREE, os.path.dirname(page), target))
+            places = ["/".join(shown.split("/")[-2:]), os.path.basename(shown)]
+            made = [path for path in (os.path.join(folder, place) for place in places) if os.path.exists(path)]
+            self.assertTrue(made or page not in ("docs/tutorial.md", "docs/gallery.md"), f"{page}: no command makes {target}")
+            if made and os.environ.get("WRITE_PICTURES"):
+                shutil.copyfile(made[0], shown)
+            words = [re.findall(r"<text[^>]*>([^<]*)</text>", read(os.path.relpath(path, TREE))) for path in [shown, *made]]
+            for of in words[1:]:
+                self.assertEqual(*[[word for word in each if re.match("[a-z]", word)] for each in (of, words[0])], f"{page}: {target}")
 
     def test_readme_lists_the_subcommands(self):
         listed = re.findall(r"^\| `gainsmith (\w+)", read("README.md"), re.M)
