@@ -56,7 +56,8 @@ std::string runs_text(std::uint64_t runs) {
 std::string uncertainty_text(model::ClaimKind kind, const claims::Finding& worst) {
   if (worst.estimated && !std::isfinite(worst.rounding))
     return "               nothing is certain: two runs that differ in accuracy and in their last "
-           "places have parted by then\n";
+           "places have parted by then,\n               or the text branches more often than can be "
+           "searched\n";
   const std::string how =
       worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits);
   const std::string known =

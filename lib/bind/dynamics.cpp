@@ -292,39 +292,13 @@ std::optional<std::size_t> DynamicsBinding::event_of_output(const std::string& o
   return events_.at(*names_->event(nullptr, found->second));
 }
 
-namespace {
-
-bool is_used(const model::Dynamics& dynamics, std::size_t event) {
-  const auto at = [&](const auto& list) {
-    return std::any_of(list.begin(), list.end(),
-                       [&](const auto& one) { return one.event == event; });
-  };
-  const auto number = [&](const model::Dynamics::Variable& variable) {
-    return (variable.kind == Kind::count || variable.kind == Kind::since ||
-            variable.kind == Kind::passes || variable.kind == Kind::left) &&
-           variable.of == event;
-  };
-  const auto signal = [&](const model::Dynamics::Signal& one) { return one.at == event; };
-  return at(dynamics.reactions) || at(dynamics.noise) ||
-         std::any_of(dynamics.variables.begin(), dynamics.variables.end(), number) ||
-         std::any_of(dynamics.signals.begin(), dynamics.signals.end(), signal);
-}
-
-}  // namespace
-
-void drop_unread(model::Dynamics& dynamics, const std::set<std::string>& read,
-                 const std::set<std::size_t>& counted) {
+void drop_unread(model::Dynamics& dynamics, const std::set<std::string>& read) {
   std::erase_if(dynamics.variables, [&](const model::Dynamics::Variable& variable) {
     const bool asked = variable.kind != Kind::state && variable.kind != Kind::mode &&
                        variable.kind != Kind::noise && variable.kind != Kind::measured &&
                        variable.kind != Kind::measured_rate;
     return asked && !read.contains(variable.name);
   });
-  for (std::size_t k = 0; k < dynamics.events.size(); ++k)
-    if (!counted.contains(k) && !is_used(dynamics, k))
-      throw InputError(dynamics.events[k].place,
-                       "nothing happens at the event '" + dynamics.events[k].own +
-                           "': no component has it under 'at', and no text asks for it");
 }
 
 }  // namespace gainsmith::bind

@@ -99,10 +99,7 @@ class DynamicsBinding {
   std::vector<const model::EventText*> event_texts_;  ///< of result_.events, in order
 };
 
-/// Drops the numbers of events, t and j, where no program reads them. InputError for an event at
-/// which nothing happens and that nothing reads.
-/// `counted`: events that figures name.
-void drop_unread(model::Dynamics& dynamics, const std::set<std::string>& read,
-                 const std::set<std::size_t>& counted);
+/// Drops the numbers of events, t and j, where no program reads them.
+void drop_unread(model::Dynamics& dynamics, const std::set<std::string>& read);
 
 }  // namespace gainsmith::bind

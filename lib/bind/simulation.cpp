@@ -165,11 +165,7 @@ void finish_dynamics(Binding& binding) {
     for (const expr::Input& input : program.inputs) read.insert(input.name);
   };
   for_each_program(*binding.design->dynamics, add);
-  std::set<std::size_t> counted;
   const auto add_figure = [&](const model::Figure& figure) {
-    if (figure.kind == model::FigureKind::count || figure.kind == model::FigureKind::at_event ||
-        figure.kind == model::FigureKind::lost)
-      counted.insert(figure.event);
     if (figure.value) add(figure.value->program);
     if (figure.kind == model::FigureKind::passes)
       read.insert(
@@ -185,9 +181,8 @@ void finish_dynamics(Binding& binding) {
     add(claim.value.program);
     for (const auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor})
       if (*part) add((*part)->program);
-    if (claim.over) counted.insert(*claim.over);
   }
-  drop_unread(*binding.design->dynamics, read, counted);
+  drop_unread(*binding.design->dynamics, read);
 }
 
 }  // namespace gainsmith::bind

@@ -3,6 +3,8 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "hybrid/breaks.h"
@@ -35,11 +37,13 @@ class RunValue {
 
   /// Whether it is smooth along every flow.
   bool is_smooth() const { return breaks_.none(); }
-  /// Where it is not, on a step.
-  std::vector<ode::Break> breaks(std::vector<double>* near = nullptr) {
+  /// Where it is not, on a step: Breaks::on.
+  std::optional<std::vector<ode::Break>> breaks(std::vector<double>* near = nullptr) {
     return breaks_.on([this](double t) -> const Eigen::VectorXd& { return point(t); }, from_, to_,
                       near);
   }
+  /// Until when, in a run, its breaks can be searched.
+  double followed_until = std::numeric_limits<double>::infinity();
   /// What is 0 there.
   std::vector<const expr::Program*> differences() const { return breaks_.differences(); }
   /// Breaks::distance of the k-th.

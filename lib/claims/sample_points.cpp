@@ -48,8 +48,13 @@ std::vector<Stretch> stretches_of(const FlowPiece& flow, RunValue& function, dou
   bool jumped = false;  // at the end of the part before
   for (const DenseStep& step : flow.steps) {
     if (step.to < after) continue;
+    if (step.from >= function.followed_until) break;
     const std::vector<SmoothPart> parts =
         smooth_parts(function, step, breaks != nullptr ? &breaks->near : nullptr, agreement);
+    if (!parts.front().followed) {
+      function.followed_until = step.from;
+      break;
+    }
     if (breaks != nullptr && !jumped && is_whole(parts)) continue;
     for (const SmoothPart& part : parts) {
       if (breaks != nullptr && part.after_jump) breaks->jumps.push_back(part.from);

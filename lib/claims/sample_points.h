@@ -51,7 +51,8 @@ struct SamplePoint {
   int function = -1;  ///< the one for whose sake alone it is there; -1: for all
 };
 
-/// In order of time; the last is the end of the flow.
+/// In order of time; the last is the end of the flow. A function that branches more often than can
+/// be searched gets none from there on but the equal parts: RunValue::followed_until.
 std::vector<SamplePoint> points_along(const hybrid::FlowPiece& flow, const SamplePoints& wanted,
                                       std::vector<RunValue>& functions, const RiseLimits& rises);
 

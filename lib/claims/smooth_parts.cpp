@@ -157,7 +157,13 @@ std::vector<SmoothPart> smooth_parts(RunValue& value, const hybrid::DenseStep& s
   std::vector<SmoothPart> parts;
   Halving halving(value, step, agreement);
   SmoothPart part{step.from, step.to};
-  for (const ode::Break& one : value.breaks(near)) {
+  const auto breaks = value.breaks(near);
+  if (!breaks) {
+    part.undefined = step.from;
+    part.followed = false;
+    return {part};
+  }
+  for (const ode::Break& one : *breaks) {
     part.to = one.left;
     if (part.from < part.to || parts.empty()) halving.halve(part, kMostEvaluations, parts);
     parts.back().before_jump = one.jumps;

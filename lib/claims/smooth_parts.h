@@ -28,6 +28,7 @@ struct SmoothPart {
   double noise = 0;  ///< how far the series may be off: to what it agrees, and rounding
   /// A time at which the value is no number; then there is no series.
   std::optional<double> undefined{};
+  bool followed = true;  ///< false: the step, which has more breaks than can be searched
 
   /// Points as close as the series needs them, both ends among them; at least those of degree 4.
   int points() const { return 1 + 4 * std::max(static_cast<int>(series.size()), 5); }

@@ -90,24 +90,28 @@ VectorXd moved(const VectorXd& x, const VectorXd& r, int bit) {
   return result;
 }
 
-/// Adds the roots of g on the pieces between the breaks so far, and to these what it does there.
-void add_roots(const ode::RootFunction& g, bool jumps, double from, double to,
+/// Adds the roots of g on the pieces between the breaks so far, and to these what it does there;
+/// false where there are too many.
+bool add_roots(const ode::RootFunction& g, bool jumps, double from, double to,
                std::vector<ode::Break>& breaks) {
   std::vector<ode::Break> fresh;
   const auto add = [&](double a, double b) {
-    if (!(a < b)) return;
-    for (const ode::Root& root : ode::find_roots(g, a, b).roots) fresh.push_back({root, jumps});
+    if (!(a < b)) return true;
+    const ode::Found found = ode::find_roots(g, a, b);
+    for (const ode::Root& root : found.roots) fresh.push_back({root, jumps});
+    return found.whole;
   };
   double left = from;
   for (ode::Break& one : breaks) {
     one.jumps = one.jumps || (jumps && g.value(one.left) * g.value(one.right) <= 0);
-    add(left, one.left);
+    if (!add(left, one.left)) return false;
     left = one.right;
   }
-  add(left, to);
+  if (!add(left, to)) return false;
   breaks.insert(breaks.end(), fresh.begin(), fresh.end());
   std::stable_sort(breaks.begin(), breaks.end(),
                    [](const ode::Break& a, const ode::Break& b) { return a.left < b.left; });
+  return true;
 }
 
 /// Adds the place where |g| is least on a step, if it is small there and not at an end.
@@ -206,21 +210,23 @@ double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
   return least;
 }
 
-std::vector<ode::Break> Breaks::on(const std::function<VectorXd(double)>& x, double from, double to,
-                                   std::vector<double>* near) {
+std::optional<std::vector<ode::Break>> Breaks::on(const std::function<VectorXd(double)>& x,
+                                                  double from, double to,
+                                                  std::vector<double>* near) {
   std::vector<ode::Break> breaks;
   if (none() || !(from < to)) return breaks;
   const std::array<VectorXd, 3> points = {x(from), x(from + (to - from) / 2), x(to)};
   for (Text& text : texts_) {
     const Index size = text.program->shape().size();
-    for (Index e = 0; e < size && breaks.size() < ode::kPatience; ++e) {
+    for (Index e = 0; e < size; ++e) {
       const auto at = [&](const VectorXd& values) { return element(text.value, values, e); };
       const bool is_slow = breaks.empty() && !text.waves;
       if (is_slow && ode::StepRange(at, points).is_far_from_zero()) continue;
       double terms = 0;
       for (const VectorXd& point : points) terms = std::fmax(terms, element(text.terms, point, e));
       const auto difference = [&](double t) { return at(x(t)); };
-      add_roots({difference, false, kAddedUp * terms}, text.jumps, from, to, breaks);
+      if (!add_roots({difference, false, kAddedUp * terms}, text.jumps, from, to, breaks))
+        return std::nullopt;
       if (near != nullptr) add_near(difference, from, to, *near);
     }
   }

@@ -6,6 +6,7 @@
 #include <Eigen/Core>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "hybrid/state_layout.h"
@@ -24,11 +25,12 @@ class Breaks {
   bool none() const { return texts_.empty(); }
 
   /// In rising order, each once, on a step over which `x` is smooth. Where a difference has no
-  /// value nothing is found. Beyond ten thousand breaks no more are searched.
+  /// value nothing is found. None where there are more than can be searched (Found::whole).
   /// `near` takes the places where a difference comes near 0, by a 50th of its largest size on the
   /// step, and turns back.
-  std::vector<ode::Break> on(const std::function<Eigen::VectorXd(double)>& x, double from,
-                             double to, std::vector<double>* near = nullptr);
+  std::optional<std::vector<ode::Break>> on(const std::function<Eigen::VectorXd(double)>& x,
+                                            double from, double to,
+                                            std::vector<double>* near = nullptr);
 
   /// What is 0 at a break.
   std::vector<const expr::Program*> differences() const;

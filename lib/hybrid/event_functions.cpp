@@ -1,6 +1,7 @@
 #include "hybrid/event_functions.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "base/number.h"
@@ -47,6 +48,11 @@ EventFunction::EventFunction(const expr::Program& program, const System& system)
       terms_(*terms_program_, system),
       breaks_(program, system.layout, system.constants,
               [&](const std::string& name) { return system.is_moving(name); }) {}
+
+bool EventFunction::is_noise(const VectorXd& values, Eigen::Index element) {
+  const double size = std::abs(value_(values)(element));
+  return size <= kTermRounding * terms_(values)(element);
+}
 
 EventCondition::EventCondition(const expr::Condition& condition, const System& system)
     : text_(condition.text), place_(condition.place) {

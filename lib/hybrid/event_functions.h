@@ -45,6 +45,8 @@ class EventFunction {
   const numbers::Matrix& operator()(const Eigen::VectorXd& values) { return value_(values); }
   /// The sums of the terms' absolute values, element by element.
   const numbers::Matrix& terms(const Eigen::VectorXd& values) { return terms_(values); }
+  /// Whether an element is 0 but for the rounding of its terms.
+  bool is_noise(const Eigen::VectorXd& values, Eigen::Index element = 0);
   /// Between them it is smooth along a flow.
   Breaks& breaks() { return breaks_; }
   bool rests() const { return value_.rests(); }

@@ -20,7 +20,7 @@ constexpr double kAddedUp = 1e-12;  ///< relative
 constexpr double kOneInstant = 1e-14;  ///< of the time
 ///< | times that differ by less are one instant
 ///< | EventRun.AClockAtTheEndOfAStepFiresOnce
-constexpr double kHardly = 1e-9;  ///< of the horizon
+constexpr double kHardly = 1e-9;  ///< of the horizon; of the time so far for steps
 ///< | a time in which a run hardly advances: flows that chatter, switches that slide, steps that
 ///< have become too short, what a flow may be outside of `while` after a jump
 ///< | JudgedEnds.ChatteringMeansShortFlows

@@ -36,14 +36,23 @@ EventCheck::EventCheck(Texts& texts, const hybrid::Trajectory& trajectory, Fault
     const EventKind kind = texts.dynamics.events[e].kind;
     if (kind == EventKind::every || kind == EventKind::at)
       memory_[e].clock.emplace(texts, e, jump_times(trajectory, e), trajectory.start, faults);
-    if (has_crossing(e)) remember_side(e, trajectory.start, rounding);
+    if (has_crossing(e)) forget_side(e, trajectory.start, rounding);
   }
 }
 
 void EventCheck::remember_side(std::size_t event, const Eigen::VectorXd& x,
                                const Eigen::VectorXd& rounding) {
-  if (const int now = side_of(*texts_.events[event].crossing, x, rounding); now != 0)
-    memory_[event].side = now;
+  const int now = side_of(*texts_.events[event].crossing, x, rounding);
+  if (now == 0) return;
+  memory_[event].side = now;
+  memory_[event].at_zero = false;
+}
+
+void EventCheck::forget_side(std::size_t event, const Eigen::VectorXd& x,
+                             const Eigen::VectorXd& rounding) {
+  memory_[event].side = 0;
+  memory_[event].at_zero = (*texts_.events[event].crossing)(x)(0, 0) == 0;
+  remember_side(event, x, rounding);
 }
 
 Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd& x,
@@ -61,11 +70,14 @@ Truth EventCheck::without_if(std::size_t event, double t, const Eigen::VectorXd&
     return texts.condition->truth(x, rounding) == Truth::no ? Truth::no : Truth::unsure;
   }
   const double value = (*texts.crossing)(x)(0, 0);
+  const int now = value > 0 ? 1 : value < 0 ? -1 : 0;
+  const int certain = side_of(*texts.crossing, x, rounding);
   const EventKind kind = texts_.dynamics.events[event].kind;
-  if (fires(kind, memory.side, value > 0 ? 1 : value < 0 ? -1 : 0)) return Truth::yes;
+  if (fires(kind, memory.side, now)) return Truth::yes;
+  if (memory.side == 0 && leaves_zero(kind, memory.at_zero ? now : certain))
+    return memory.at_zero && certain == now ? Truth::yes : Truth::unsure;
   // Just before zero: the run may have stopped there by rounding.
-  const bool near = side_of(*texts_.events[event].crossing, x, rounding) == 0;
-  return near && fires(kind, memory.side, -memory.side) ? Truth::unsure : Truth::no;
+  return certain == 0 && fires(kind, memory.side, -memory.side) ? Truth::unsure : Truth::no;
 }
 
 Truth EventCheck::due(std::size_t event, double t, const Eigen::VectorXd& x,
@@ -118,11 +130,13 @@ void EventCheck::jumped(std::size_t part, const hybrid::JumpPoint& jump) {
     faults_.add(part, jump.t, "is lost more often in a row than may be: " + event.name,
                 memory.lost_in_a_row, *event.lost_in_a_row);
   if (memory.clock) memory.clock->jumped(part, jump.t, jump.after);
-  if (has_crossing(jump.event)) {
-    memory.side = 0;
-    remember_side(
-        jump.event, jump.after,
-        rounding_at(texts_, jump.t, jump.after, texts_.by_variable(jump.after.cwiseAbs())));
+  const Eigen::VectorXd rounding =
+      rounding_at(texts_, jump.t, jump.after, texts_.by_variable(jump.after.cwiseAbs()));
+  for (std::size_t e = 0; e < memory_.size(); ++e) {
+    if (!has_crossing(e)) continue;
+    const auto value = [&](const Eigen::VectorXd& x) { return (*texts_.events[e].crossing)(x)(0, 0); };
+    if (e == jump.event || (value(jump.after) == 0 && value(jump.before) != 0))
+      forget_side(e, jump.after, rounding);
   }
   check_numbers(part, jump.t, jump.after);
 }

@@ -38,6 +38,8 @@ class EventCheck {
                    const Eigen::VectorXd& rounding);
   bool has_crossing(std::size_t event) const { return texts_.events[event].crossing.has_value(); }
   void remember_side(std::size_t event, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
+  /// From the start or a jump on nothing of before counts.
+  void forget_side(std::size_t event, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
 
   Texts& texts_;
   Faults& faults_;

@@ -19,7 +19,8 @@ namespace gainsmith::judge {
 
 /// What one event has seen so far.
 struct EventMemory {
-  int side = 0;        ///< of a crossing: on which e was last, for sure; 0 after its own jump
+  int side = 0;  ///< of a crossing: on which e was last, for sure; 0 after its own jump
+  bool at_zero = false;  ///< the start or a jump led e to exactly 0, and it has not left it
   bool spent = false;  ///< `when`: rejected by `if`, not due until its condition has been false
   std::optional<EventClock> clock;
   double last = 0;  ///< the time of the last jump
@@ -29,6 +30,8 @@ struct EventMemory {
 
 /// Whether an event of this kind comes where e goes from one sign to another.
 bool fires(model::Dynamics::EventKind kind, int from, int to);
+/// Whether it comes where e goes from 0 to a sign.
+bool leaves_zero(model::Dynamics::EventKind kind, int to);
 /// The sign of e, 0 where rounding hides it.
 int side_of(Text& crossing, const Eigen::VectorXd& x, const Eigen::VectorXd& rounding);
 

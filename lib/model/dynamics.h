@@ -69,7 +69,7 @@ struct Dynamics {
 
   enum class EventKind {
     when,     ///< while the condition is true
-    rises,    ///< once, when e comes to be > 0 from below
+    rises,    ///< once, when e comes to be > 0 from below, or from exactly 0 after a start or jump
     falls,    ///< once, when it comes to be < 0 from above
     crosses,  ///< either
     every,    ///< when its clock has run down

@@ -7,6 +7,7 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <new>
 #include <utility>
@@ -142,7 +143,26 @@ class Solver {
     throw IntegrationError(trouble(flag), t_, escaped, !trouble_.empty());
   }
 
-  int one_step() { return CVode(memory_.get(), last_, vector_.get(), &t_, CV_ONE_STEP); }
+  int one_step() {
+    set_shortest_step(t_);
+    return CVode(memory_.get(), first_end_, vector_.get(), &t_, CV_ONE_STEP);
+  }
+
+  /// Without it steps of length 0 count as an arrival.
+  void set_shortest_step(double t) {
+    require(CVodeSetMinStep(memory_.get(), std::numeric_limits<double>::epsilon() * std::abs(t)));
+  }
+
+  /// The time within which CVODE seeks its first step: ten times what moves an element by its error
+  /// or by a tenth. With all the time that is left rounding would make the first step too long.
+  double end_of_first() {
+    if (rate(t_, vector_.get(), inner_.get()) != 0) return last_;
+    const double fastest =
+        (slope_.array().abs() / (0.1 * values(vector_).array().abs() + values(absolute_).array()))
+            .maxCoeff();
+    constexpr double least = 1e3 * std::numeric_limits<double>::epsilon();
+    return std::min(last_, t_ + std::max(10 / fastest, least * std::abs(t_)));
+  }
 
   void become_stiff() {
     make(CV_BDF);
@@ -160,7 +180,10 @@ class Solver {
     return stiff;
   }
 
-  int integrate(double t) { return CVode(memory_.get(), t, vector_.get(), &t_, CV_NORMAL); }
+  int integrate(double t) {
+    set_shortest_step(t);
+    return CVode(memory_.get(), t, vector_.get(), &t_, CV_NORMAL);
+  }
 
   /// Whether other steps may go on: not where f has no value, nor where x escapes, since an
   /// implicit step leaps over a pole.
@@ -233,6 +256,11 @@ class Solver {
     matrix_.reset(made(SUNDenseMatrix(size, size, context_.get())));
     solver_.reset(made(SUNLinSol_Dense(vector_.get(), matrix_.get(), context_.get())));
     require(CVodeSetLinearSolver(memory_.get(), solver_.get(), matrix_.get()));
+    // With a jacobian of 50 steps ago, as CVODE may use it, what decays fast is left wrong where its
+    // rate has changed. So it costs less, too.
+    require(CVodeSetNonlinConvCoef(memory_.get(), kSolved));
+    require(CVodeSetLSetupFrequency(memory_.get(), jacobian_lasts));
+    require(CVodeSetJacEvalFrequency(memory_.get(), jacobian_lasts));
   }
 
   Vector ones() const {
@@ -249,18 +277,20 @@ class Solver {
     require(CVodeSetMinStep(memory_.get(), 0));
     require(CVodeSetMaxStep(memory_.get(), longest_));
     steps_ = failures_ = 0;
-    // Without it steps of length 0 count as an arrival.
-    require(CVodeSetMinStep(memory_.get(), std::numeric_limits<double>::epsilon() * (last_ - t_)));
+    first_end_ = end_of_first();
   }
 
   /// Steps after which it is asked whether the flow is stiff.
   static constexpr long window = 1000;
+  /// Steps after which the jacobian of the flow is made anew.
+  static constexpr long jacobian_lasts = 5;
 
   Rate rate_;
   Eigen::VectorXd x_, slope_;
   std::string trouble_;  ///< why f had no value last
   int method_ = CV_ADAMS;
   double t_ = 0, last_ = 0, relative_ = 0, longest_ = 0;
+  double first_end_ = 0;           ///< up to where the first step may lead
   double size_ = 0;                ///< of x at the start
   long steps_ = 0, failures_ = 0;  ///< of the iteration, in this window of steps and before it
   Owned<SUNContext, free_context> context_;

@@ -45,10 +45,7 @@ class RootSearch {
   }
 
  private:
-  double value(double t) {
-    ++evaluations_;
-    return function_.value(t);
-  }
+  double value(double t) const { return function_.value(t); }
   bool side(double g) const { return function_.strict ? g > 0 : g >= 0; }
   /// How near to 0 a turning point is reported.
   double near() const { return std::max(kTurnsNear * scale_, function_.near); }
@@ -59,7 +56,13 @@ class RootSearch {
 
   /// Roots of g on [a, b].
   void interval(double a, double b, int halvings) {
+    if (points_ > kPatience) {
+      found_.whole = false;
+      between(a, b);
+      return;
+    }
     const VectorXd& points = chebyshev::points(degree);
+    points_ += points.size();
     VectorXd times(points.size());
     RowVectorXd values(points.size());
     for (Index k = 0; k < points.size(); ++k) {
@@ -69,7 +72,7 @@ class RootSearch {
     const double largest = values.cwiseAbs().maxCoeff();
     if (halvings == 0) scale_ = largest;
     const bool short_enough = b - a <= 4 * resolution(a, b) || halvings >= most_halvings;
-    if (largest <= function_.noise || short_enough || evaluations_ > kPatience) {
+    if (largest <= function_.noise || short_enough) {
       by_sides(times);
       return;
     }
@@ -84,7 +87,7 @@ class RootSearch {
     interval(middle, b, halvings + 1);
   }
 
-  bool agrees(const Matrix& c, double a, double b) {
+  bool agrees(const Matrix& c, double a, double b) const {
     if (c.rightCols(2).cwiseAbs().sum() > tolerance()) return false;
     return std::all_of(check_points.begin(), check_points.end(), [&](double x) {
       return std::abs(value(chebyshev::outer(x, a, b)) - chebyshev::first(c, x)) <= tolerance();
@@ -157,7 +160,7 @@ class RootSearch {
   const RootFunction& function_;
   double from_, to_;
   double scale_ = 0;  ///< the largest |g| on the step
-  int evaluations_ = 0;
+  Index points_ = 0;  ///< of all intervals
   Found found_;
 };
 
@@ -178,6 +181,7 @@ Found find_roots(const RootFunction& function, double from, double to,
   const auto add = [&](double a, double b) {
     if (!(a < b)) return;
     const Found found = find_roots(function, a, b);
+    all.whole = all.whole && found.whole;
     all.roots.insert(all.roots.end(), found.roots.begin(), found.roots.end());
     all.turning_points.insert(all.turning_points.end(), found.turning_points.begin(),
                               found.turning_points.end());

@@ -38,6 +38,8 @@ struct RootFunction {
 };
 
 struct Found {
+  /// False: after ten thousand points pairs of roots are no longer looked for.
+  bool whole = true;
   std::vector<Root> roots;  ///< in rising order
   std::vector<TurningPoint> turning_points;
 };

@@ -14,9 +14,9 @@ constexpr double kTurnsNear = 1e-10;  ///< of the largest value on a step
 ///< | turning points as near to 0 as that are reported
 ///< | Roots.WhatComesNearWithoutReachingIsNoted
 constexpr int kPatience = 10000;  ///< attempts at one place
-///< | evaluations and breaks of a function on a step, steps of one flow, steps that hardly advance,
+///< | points of a function on a step, steps of one flow, steps that hardly advance,
 ///< draws: more are not made
-///< | Roots.CornersAreNoObstacle
+///< | Roots.OfMoreThanCanBeSearchedNotAllAreSought
 constexpr double kEscape = 1e4;  ///< times the start, and what the flow does at its first rate
 ///< | a flow that has grown by this while its steps fall to nothing escapes
 ///< | JudgedEnds.EscapedMeansLargeOrAtOnce
@@ -27,7 +27,7 @@ constexpr int kMostIterations = 40;  ///< iterations
 ///< | what solves the stages of a Gauss step takes no more
 ///< | Gauss.FollowsStiffFlows
 constexpr double kSolved = 0.01;  ///< of the tolerance
-///< | the error to which the stages of a Gauss step are solved
+///< | the error to which implicit steps are solved: stages of Gauss, BDF
 ///< | Gauss.KeepsTheEnergyOfAnOscillator
 
 }  // namespace gainsmith::ode

@@ -17,6 +17,8 @@ namespace {
 
 /// Of the interpolant of an event function.
 constexpr int turn_degree = 16;
+/// They lead from the length of a step to its rounding.
+constexpr int most_halvings = 60;
 /// Of the step: the earliest turning point that rounding leaves.
 constexpr double earliest = 1 / hybrid::kPlain;
 
@@ -33,8 +35,9 @@ CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& function, StepPoints& po
     noise_ = noise_.cwiseMax(function.terms(*point).reshaped());
   noise_ *= hybrid::kTermRounding;
   const StepValues& inside = points.inside();
-  breaks_ =
-      function.breaks().on([&](double t) { return inside.at(t); }, inside.from(), inside.to());
+  breaks_ = function.breaks()
+                .on([&](double t) { return inside.at(t); }, inside.from(), inside.to())
+                .value_or(std::vector<ode::Break>());
 }
 
 ode::Found CrossingsOnStep::roots(Index element, bool strict, double near) {
@@ -68,13 +71,32 @@ std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
   double low = -1;
   double high = -1 + 2 * kEarly;
   if ((ode::chebyshev::first(slope, high) > 0) == (first > 0)) return std::nullopt;
-  for (int k = 0; k < 60; ++k) {
+  for (int k = 0; k < most_halvings; ++k) {
     const double x = low + (high - low) / 2;
     ((ode::chebyshev::first(slope, x) > 0) == (first > 0) ? low : high) = x;
   }
   if (std::abs(ode::chebyshev::first(c, high) - values(0)) > hybrid::kPlain * noise)
     return std::nullopt;
   return std::max((1 + high) / 2, earliest);
+}
+
+std::optional<double> CrossingsOnStep::leaves_zero(Index element) {
+  const StepValues& inside = points_.inside();
+  const auto is_noise = [&](double t) { return function_.is_noise(inside.at(t), element); };
+  double low = inside.from();
+  if (!is_noise(low)) return std::nullopt;
+  for (double high : points_.times()) {
+    if (is_noise(high)) {
+      low = high;
+      continue;
+    }
+    for (int k = 0; k < most_halvings; ++k) {
+      const double middle = low + (high - low) / 2;
+      (is_noise(middle) ? low : high) = middle;
+    }
+    return high;
+  }
+  return std::nullopt;
 }
 
 }  // namespace gainsmith::simulate

@@ -23,6 +23,8 @@ class CrossingsOnStep {
   /// where it has hardly left the noise, so that a root may lie in it. Where its first slope is
   /// noise, the shortest part; none where all of it is noise, or where its text branches.
   std::optional<double> hidden_turn(Eigen::Index element);
+  /// Of an element that starts as noise: when it ceases to be.
+  std::optional<double> leaves_zero(Eigen::Index element);
   /// Elements x points.times().
   const numbers::Matrix& values() const { return values_; }
   /// Of each element, what its terms may round to.

@@ -38,7 +38,9 @@ bool DueEvents::is_due(std::size_t event, const VectorXd& values, double t) {
   if (has_clock(event))
     return clocks_.is_due(event, t >= horizon_ ? t + hybrid::kAddedUp * horizon_ : t);
   if (watch_->crossing[event]) {
-    note_sign(event, sign_of(event, values));
+    // What leaves 0 has left it once it is no rounding.
+    if (mark.sign != 0 || !watch_->crossing[event]->is_noise(values))
+      note_sign(event, sign_of(event, values));
     return mark.crossed;
   }
   if ((*watch_->when[event])(values)) return !mark.spent;
@@ -56,7 +58,7 @@ void DueEvents::note_sign(std::size_t event, int sign) {
   if (sign == 0 || sign == mark.sign) return;
   const DueKind kind = system_->dynamics.events[event].kind;
   const bool wanted = kind == DueKind::crosses || (kind == DueKind::rises) == (sign > 0);
-  mark.crossed = mark.sign != 0 && wanted;
+  mark.crossed = wanted;
   mark.sign = sign;
 }
 
@@ -68,9 +70,13 @@ void DueEvents::spend(std::size_t event, double t, VectorField& field) {
   field.set_due(event, clocks_.due(event));
 }
 
-void DueEvents::jumped(std::size_t event, const VectorXd& values) {
+void DueEvents::jumped(std::size_t event, const VectorXd& before, const VectorXd& values) {
   marks_[event].spent = false;
-  if (watch_->crossing[event]) marks_[event].sign = sign_of(event, values);
+  for (std::size_t e = 0; e < marks_.size(); ++e) {
+    if (!watch_->crossing[e]) continue;
+    const int sign = sign_of(e, values);
+    if (e == event || (sign == 0 && sign_of(e, before) != 0)) marks_[e].sign = sign;
+  }
 }
 
 }  // namespace gainsmith::simulate

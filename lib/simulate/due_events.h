@@ -16,7 +16,8 @@ class DueEvents {
   /// What is known of an event besides its text.
   struct Mark {
     bool spent = false;    ///< `when`: not due until its condition has been false
-    int sign = 0;          ///< the last of e that was not 0
+    /// The last of e that was not 0; 0 where the start or a jump led e to exactly 0.
+    int sign = 0;
     bool crossed = false;  ///< in the direction of the event, and due
   };
 
@@ -30,7 +31,7 @@ class DueEvents {
   /// The occurrence at t is over.
   void spend(std::size_t event, double t, VectorField& field);
   /// After its jump: what its own map does to e is no crossing.
-  void jumped(std::size_t event, const Eigen::VectorXd& values);
+  void jumped(std::size_t event, const Eigen::VectorXd& before, const Eigen::VectorXd& values);
 
   bool has_clock(std::size_t event) const;
   hybrid::EventClocks& clocks() { return clocks_; }

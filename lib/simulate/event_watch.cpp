@@ -106,6 +106,8 @@ std::vector<double> EventWatch::crossings(
       if (hidden != nullptr)
         if (const auto early = on_step.hidden_turn(element); early && early < hidden->value_or(1))
           *hidden = early;
+      if (role.of == hybrid::NearTurn::Of::crossing)
+        if (const auto left = on_step.leaves_zero(element)) result.push_back(*left);
       for (const bool strict : {true, false}) {
         if (!(strict ? sides.above : sides.at_least)) continue;
         const ode::Found found = on_step.roots(element, strict, near);

@@ -159,7 +159,7 @@ class EventRun {
     due_.spend(event, t_, field_);
     field_.set_since(event, t_);
     field_.fill_clocks(t_, values_);
-    due_.jumped(event, values_);
+    due_.jumped(event, before, values_);
     record_.add(hybrid::JumpPoint{t_, j_, event, lost, variables(before), variables(values_)});
     ++j_;
     require_range();
@@ -337,14 +337,14 @@ class EventRun {
 
   /// Steps without end that hardly advance.
   void watch_progress() {
-    if (t_ - slow_since_ > hybrid::kHardly * horizon_) {
+    if (t_ - slow_since_ > hybrid::kHardly * t_) {
       slow_since_ = t_;
       slow_steps_ = 0;
     }
     if (++slow_steps_ > ode::kPatience)
       throw RunEnd(hybrid::Ending::lost,
                    fmt::format("the steps have become too short: {} of them for {} "
-                               "of the horizon",
+                               "of the time so far",
                                ode::kPatience, brief(hybrid::kHardly)));
   }
 

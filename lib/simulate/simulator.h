@@ -9,7 +9,8 @@
 //   when      due while its condition is true
 //   rises, falls, crosses
 //             due once when the sign of e has changed in that direction, by flow or by a jump of
-//             another event; the last sign counts that was not 0
+//             another event; the last sign counts that was not 0. Where the start or a jump led e
+//             to exactly 0 it changes its sign when it leaves 0
 //   every, at due at their times; times of several clocks that differ by rounding alone are one
 //             instant
 //

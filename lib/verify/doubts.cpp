@@ -202,7 +202,7 @@ std::string EventDoubts::message(const Instant& at, std::size_t other, double di
   const auto& events = system_->dynamics.events;
   return fmt::format(
       "t = {}: the events {} and {} lie within their errors ({}, known to {}), and what comes of "
-      "them depends on their order",
+      "them depends on their order: make them one event, or set them apart",
       brief(at.t, 12), events[at.event].name, events[other].name, brief(distance, 3),
       brief(error, 2));
 }

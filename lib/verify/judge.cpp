@@ -80,6 +80,15 @@ RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
   return one;
 }
 
+/// A run repeated: what of it was decided before stays so.
+RunVerdict with_decided(const RunVerdict& before, RunVerdict again) {
+  if (before.unfinished()) return again;
+  for (std::size_t i = 0; i < again.findings.size(); ++i)
+    if (!before.findings[i].undecided()) again.findings[i] = before.findings[i];
+  if (!again.unfinished()) again.judgement = worst_of(again.findings);
+  return again;
+}
+
 }  // namespace
 
 Judge::Judge(const Setup& setup) {
@@ -105,8 +114,15 @@ const bounded::Track<double>& Judge::track(std::uint64_t seed, std::uint64_t run
 }
 
 RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
-  if (events_)
-    return last_verdict(events_->run(seed, run, kAccuracyOfOne / kAccuracyOfMany), checks_);
+  if (events_) {
+    constexpr double sharper = kAccuracyOfOne / kAccuracyOfMany;
+    RunVerdict verdict = last_verdict(events_->run(seed, run, sharper), checks_);
+    if (verdict.judgement != claims::Judgement::undecided ||
+        !events_->can_decide_more(sharper * sharper))
+      return verdict;
+    return with_decided(verdict,
+                        last_verdict(events_->run(seed, run, sharper * sharper), checks_));
+  }
   if (!clocked_) return last_verdict(wide_->run(seed, run), wide_checks_);
   const auto rounded = [&](Rounding rounding) {
     return last_verdict(clocked_->run(seed, run, kAccuracyOfOne, rounding), checks_);
@@ -120,11 +136,7 @@ RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run) {
   const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
                                 [](const claims::Finding& one) { return one.undecided(); });
   if (!open) return verdict;
-  RunVerdict again = confirm(seed, run);
-  for (std::size_t i = 0; i < again.findings.size(); ++i)
-    if (!verdict.findings[i].undecided()) again.findings[i] = verdict.findings[i];
-  if (!again.unfinished()) again.judgement = worst_of(again.findings);
-  return again;
+  return with_decided(verdict, confirm(seed, run));
 }
 
 }  // namespace gainsmith::verify

@@ -5,6 +5,8 @@
 #include <limits>
 #include <utility>
 
+#include "ode/tolerances.h"
+
 namespace gainsmith::verify {
 
 using bounded::Termination;
@@ -53,8 +55,16 @@ EventTracks::EventTracks(const EventSetup& setup)
 
 /// Whether a function is of a claim that a look is for.
 bool EventTracks::counts(const claims::SamplePoint& look, std::size_t function) const {
+  if (rests_[function] != 0) return false;
   return look.function == bounded::Track<double>::kForAll ||
          look.function == setup_->first_of_claim[function];
+}
+
+/// What comes next follows a jump of the event.
+void EventTracks::come_to(std::size_t event) {
+  for (const claims::JudgedClaim& claim : setup_->judged)
+    for (std::size_t k = 0; claim.over && k < rests_.size(); ++k)
+      if (setup_->first_of_claim[k] == claim.sampled_for) rests_[k] = *claim.over != event;
 }
 
 VectorXd EventTracks::values(const claims::SamplePoint& look, const VectorXd& x) {
@@ -99,9 +109,11 @@ void EventTracks::append(const claims::SamplePoint& look, std::int64_t j, const 
   constexpr double kUnknown = bounded::no_bound();
   for (std::size_t k = 0; k < functions_.size(); ++k) {
     const auto row = static_cast<Index>(k);
-    if (!counts(look, k)) {
+    const bool is_followed = look.t <= functions_[k].followed_until;
+    if (!counts(look, k) || !is_followed) {
       track_.is_fixed.push_back(0);
-      rounding_.push_back(0);
+      rounding_.push_back(is_followed ? 0 : kUnknown);
+      difference(row) = 0;
       continue;
     }
     const bool is_open = !functions_[k].is_smooth() && balls_[k].is_open(fine, error);
@@ -188,6 +200,7 @@ void EventTracks::add_jump(const claims::TwinParts& twins, std::size_t at) {
     return;
   }
   rounded_ += 1;
+  come_to(jump->event);
   track_.moves.push_back({true, {}, jump->event});
   append({1, jump->t}, jump->j + 1, after, jump->after, (after - jump->after).cwiseAbs(), 0, 1);
 }
@@ -273,6 +286,12 @@ void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory
   }
 }
 
+bool EventTracks::can_decide_more(double factor) const {
+  return !setup_->system.affine &&
+         setup_->accuracy(kAccuracyOfMany, factor).relative > ode::kFinest &&
+         std::find(parted_.begin(), parted_.end(), 1) == parted_.end();
+}
+
 const bounded::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t run,
                                                double factor) {
   track_.clear();
@@ -290,6 +309,9 @@ const bounded::Track<double>& EventTracks::run(std::uint64_t seed, std::uint64_t
   ranges_.assign(functions_.size(), {});
   sizes_.assign(functions_.size(), 0);
   parted_.assign(functions_.size(), 0);
+  rests_.assign(functions_.size(), 0);
+  for (claims::RunValue& function : functions_)
+    function.followed_until = std::numeric_limits<double>::infinity();
   next_turn_ = 0;
   doubt_.clear();
   const bool certain = add_parts(coarse, fine);

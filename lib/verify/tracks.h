@@ -15,8 +15,9 @@ namespace gainsmith::verify {
 /// to a hundredth of it, of which every exact flow and every jump is moved by random units in the
 /// last place (hybrid/last_places.h). One for each thread. The setup must outlive it.
 ///
-///   samples   the looks along each flow (flow_looks.h), and the values after each jump; of a look
-///             for the sake of one claim only its values, 0 for the others
+///   samples   the sample points along each flow (claims/sample_points.h), and the values after each
+///             jump; at a point for the sake of one claim only its values, 0 for the others; so
+///             too after a jump over which a claim is not made
 ///   bound     four times the largest difference between the two runs at five samples around it, or
 ///             what a rounding for each step and jump so far makes of the value, up for some
 ///             elements and down for the others, + 8 u |value| and what its evaluation rounds
@@ -24,7 +25,8 @@ namespace gainsmith::verify {
 ///             of the variables makes a branch uncertain, all values that are possible
 ///
 /// Once the two runs differ by more than a thousandth of the range of a value so far, they are two
-/// runs that have nothing to do with each other: from there on bounds of the claim are infinite.
+/// runs that have nothing to do with each other: from there on bounds of the claim are infinite. So
+/// they are from where its text branches more often than can be searched.
 ///
 /// Where it is not certain which events happen, because the two runs take others or because they
 /// lie within their errors (event_doubts.h), the run is lost: the samples end there. Events at one
@@ -36,6 +38,10 @@ class EventTracks {
 
   /// `factor`: of the accuracy of a campaign.
   const bounded::Track<double>& run(std::uint64_t seed, std::uint64_t run, double factor);
+
+  /// Whether a smaller factor may decide what the last run left open: its two runs differ by errors
+  /// of integration, and have not parted.
+  bool can_decide_more(double factor) const;
 
  private:
   void append(const claims::SamplePoint& look, std::int64_t j, const Eigen::VectorXd& coarse,
@@ -51,6 +57,7 @@ class EventTracks {
   void end(const hybrid::Trajectory& coarse, const hybrid::Trajectory& fine, bool certain);
   void widen(std::size_t first);
   bool counts(const claims::SamplePoint& look, std::size_t function) const;
+  void come_to(std::size_t event);
   Eigen::VectorXd values(const claims::SamplePoint& look, const Eigen::VectorXd& x);
   Eigen::VectorXd with_rounding(const Eigen::VectorXd& x, int bit) const;
   Eigen::VectorXd errors(const Eigen::VectorXd& fine, const Eigen::VectorXd& around) const;
@@ -61,6 +68,7 @@ class EventTracks {
   std::vector<claims::RunValue> functions_;
   std::vector<claims::TextBall> balls_;  ///< of the functions
   EventDoubts doubts_;
+  std::vector<char> rests_;  ///< by function: of a claim over another event than the last
   std::vector<bool> rounds_;  ///< by element: whether it is no whole number, which is exact
   bounded::Track<double> track_;
   std::vector<double> rounding_;  ///< of the evaluation, as the bounds of the track

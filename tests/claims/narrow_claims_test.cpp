@@ -163,6 +163,17 @@ TEST(NarrowClaims, WhatIsFalseIsNeverHeld) {
   }
 }
 
+TEST(NarrowClaims, TextsThatBranchTooOftenAreUndecidedFromThereOn) {
+  for (const bool integrated : {false, true}) {
+    EXPECT_EQ(verdict_of("below: \"mod(1e9*x, 1)\", bound: 2", integrated),
+              CampaignVerdict::undecided);
+    EXPECT_EQ(verdict_of("below: \"where(x < 2, 0, mod(1e9*x, 1))\", bound: -0.5", integrated),
+              CampaignVerdict::violated);
+    EXPECT_EQ(verdict_of("above: \"x + floor(1e300*t)\", bound: 0.5", integrated),
+              CampaignVerdict::violated);
+  }
+}
+
 TEST(NarrowClaims, WhatIsTrueIsNeverViolated) {
   for (const bool integrated : {false, true}) {
     for (const char* claim : {"below: \"where(y > exp(-t), 1, 0)\", bound: 0.5",

@@ -100,8 +100,6 @@ TEST(Dynamics, MistakesAreNamedAtTheirPlace) {
       {"xh + L*(y - C*xh)", "xh + L*(x(1) - C*xh)", "'x' is a state of the plant"},
       {"flow: {xh: f(xh)}", "flow: {xh: f(xh) + L*y}", "'y' exists only at the event 'sample'"},
       {"at: {far:", "at: {fur:", "there is no event 'fur'; did you mean 'far'?"},
-      {"at: {far: {let: {k: 0.5}, xh: k*xh, q: 1}}", "at: {}",
-       "nothing happens at the event 'far'"},
       {"when: q == 0 and norm(xh) >= 3", "when: 1 > 0", "never changes"},
       {"when: q == 0 and norm(xh) >= 3", "when: norm(xh)", "expected a condition"},
       {"like: plain", "like: plane", "there is no observer 'plane' before this one"},

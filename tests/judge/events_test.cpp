@@ -139,6 +139,41 @@ TEST(JudgedCrossings, AreCrossedByJumpsOfOthersToo) {
   EXPECT_TRUE(has_fault(judged(2), 3, "jumps, but is not due: up"));
 }
 
+/// From exactly 0, at the start and where the jump of another leads there.
+TEST(JudgedCrossings, ComeWhereZeroIsLeft) {
+  DynamicsText text;
+  text.state("x", 1, "1", "0").at("kick", {"0.5"}).rises("up", "x").falls("down", "x");
+  text.state("n", 1, "", "0").reacts("kick", {{"x", "0"}}).reacts("up", {{"n", "n + 1"}});
+  const model::Dynamics dynamics = text.dynamics();
+  // Jumps at the start, and half a second later.
+  const auto judged = [&](int first, int second, std::size_t event = 1) {
+    double n = 0;
+    ReferenceRun run(column({0, 0}), 1);
+    const auto flow = [&](double until, double zero) {
+      run.flow(until, [=](double t) { return column({t - zero, n}); });
+    };
+    const auto jumps = [&](int times) {
+      for (int k = 0; k < times; ++k) {
+        n += event == 1 ? 1 : 0;
+        run.jump(event, column({run.x()(0), n}));
+      }
+    };
+    flow(1e-20, 0);
+    jumps(first);
+    flow(0.5, 0);
+    run.jump(0, column({0, n}));
+    flow(0.5 + 1e-15, 0.5);
+    jumps(second);
+    flow(1, 0.5);
+    return check_trajectory(run.end(), dynamics, text.stated());
+  };
+  EXPECT_TRUE(judged(1, 1).empty()) << to_text(judged(1, 1));
+  EXPECT_TRUE(has_fault(judged(0, 1), 1, "crosses zero inside a flow: up")) << to_text(judged(0, 1));
+  EXPECT_TRUE(has_fault(judged(1, 0), 5, "crosses zero inside a flow: up")) << to_text(judged(1, 0));
+  EXPECT_TRUE(has_fault(judged(2, 1), 2, "jumps, but is not due: up"));
+  EXPECT_TRUE(has_fault(judged(1, 1, 2), 1, "jumps, but is not due: down"));
+}
+
 /// A pair of crossings between two of the points at which conditions are looked at.
 TEST(JudgedCrossings, PairsInsideOneStepAreFound) {
   DynamicsText text;

@@ -130,6 +130,29 @@ TEST(JudgedSimulation, AThermostatSwitches) { expect_accepted(Simulated(thermost
 
 TEST(JudgedSimulation, AStiffFlowWithLoops) { expect_accepted(Simulated(relaxation(), 100), 50); }
 
+/// What decays fast, at a rate that falls and rises within a step.
+TEST(JudgedSimulation, AStiffFlowOfVaryingRate) {
+  DynamicsText text;
+  text.state("z", 2, "[z(2); -z(1)]", "[1; 0]")
+      .state("y", 1, "-(500 + 6.2e4*(c - 0.5)^2)*y", "0.5")
+      .state("c", 1, "1", "0")
+      .every("tick", "1")
+      .reacts("tick", {{"y", "0.5*z(1)"}, {"c", "0"}});
+  expect_accepted(Simulated(text, 20), 20);
+}
+
+TEST(JudgedSimulation, LeavingZero) {
+  DynamicsText text;
+  text.state("x", 2, "[x(2); -sin(x(1))]", "[0; 1]")
+      .rises("up", "x(1)")
+      .falls("down", "x(1)")
+      .crosses("both", "x(1)")
+      .falls("top", "x(2)")
+      .at("kick", {"[5; 6]"})
+      .reacts("kick", {{"x", "[0; -x(2)]"}});
+  expect_accepted(Simulated(text, 10), 10);
+}
+
 TEST(JudgedSimulation, TwoClocksInOrder) {
   DynamicsText text;
   text.state("x", 1, "-x", "1").every("slow", "0.3").every("fast", "0.1").only_if("x < 1.5");

@@ -135,6 +135,19 @@ TEST(Roots, RoundingAloneCostsLittleAndMakesNothingUp) {
   EXPECT_LT(evaluations, 100);
 }
 
+TEST(Roots, OfMoreThanCanBeSearchedNotAllAreSought) {
+  int evaluations = 0;
+  const auto wave = [&](double t) {
+    ++evaluations;
+    return std::sin(1e300 * t);
+  };
+  EXPECT_FALSE(roots(wave, 0, 1).whole);
+  EXPECT_LT(evaluations, 30000);
+  const Found found = roots([](double t) { return std::sin(1e3 * std::numbers::pi * t); }, 0.5, 1);
+  EXPECT_TRUE(found.whole);
+  EXPECT_NEAR(static_cast<double>(found.roots.size()), 500, 1);
+}
+
 TEST(Roots, LeavesZeroAtOnce) {
   const auto g = [](double t) { return t; };
   const Found strict = roots(g, 0, 1, true);

@@ -244,5 +244,27 @@ TEST(EventFlow, StiffFlowsAreFollowed) {
   EXPECT_NEAR(jumps_of(run)[0].t, 807.0, 1.0);
 }
 
+/// Its first steps are a millionth of a second, whatever the horizon.
+TEST(EventFlow, FirstStepsFollowTheFlowAndNotTheHorizon) {
+  EventProblem problem;
+  problem.state("y", {3, 1}, "[1; 0; 0]")
+      .let("slow", "0.04*y(1) - 1e4*y(2)*y(3)")
+      .flow("y", "[-slow; slow - 3e7*y(2)^2; 3e7*y(2)^2]");
+  const hybrid::System system = problem.system();
+  const hybrid::Trajectory run = simulate(system, 1e11);
+  EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
+  EXPECT_NEAR(value_at(system, run, "y", 40)(0), 0.7158270688, 1e-7);
+  EXPECT_NEAR(value_at(system, run, "y", 4e10)(0), 5.2e-8, 5e-9);
+}
+
+/// Fast at first, for a time that is nothing beside the horizon.
+TEST(EventFlow, ManyStepsInASmallPartOfTheHorizonAreProgress) {
+  EventProblem problem;
+  problem.state("x", {2, 1}, "[1; 0]").state("a", {}, "1");
+  problem.flow("x", "[15*x(2); -15*x(1)] - 0.1*x").flow("a", "-a^3");
+  const hybrid::Trajectory run = simulate(problem.system(), 1e13);
+  EXPECT_EQ(run.ending, hybrid::Ending::horizon) << run.message;
+}
+
 }  // namespace
 }  // namespace gainsmith::simulate

@@ -170,6 +170,37 @@ TEST(EventRun, ACrossingByTheJumpOfAnotherEventCountsAndByItsOwnDoesNot) {
   EXPECT_EQ(part_of(system, jumps_of(run).back().after, "x")(0), -4);
 }
 
+TEST(EventRun, LeavingExactlyZeroIsACrossing) {
+  for (const bool exact : {true, false}) {
+    EventProblem problem;
+    problem.state("x", {}, "0.3").state("v", {}, "1");
+    problem.flow("x", exact ? "v" : "v*cos(x)");
+    problem.crossing(EventKind::rises, "up", "x - 0.3").at("push", {"1"});
+    problem.crossing(EventKind::falls, "down", "x - 0.3");
+    problem.crossing(EventKind::crosses, "both", "x - 0.3");
+    problem.jump("push", {{"x", "0.3"}, {"v", "-v"}});
+    const hybrid::System system = problem.system();
+    EXPECT_EQ(system.affine, exact);
+    const hybrid::Trajectory run = simulate(system, 2);
+    ASSERT_EQ(times_of(run, 0).size(), 1U);
+    ASSERT_EQ(times_of(run, 2).size(), 1U);
+    ASSERT_EQ(times_of(run, 3).size(), 2U);
+    EXPECT_NEAR(times_of(run, 0)[0], 0, 1e-14);
+    EXPECT_NEAR(times_of(run, 2)[0], 1, 1e-14);
+    EXPECT_NEAR(times_of(run, 3)[0], 0, 1e-14);
+    EXPECT_NEAR(times_of(run, 3)[1], 1, 1e-14);
+  }
+}
+
+TEST(EventRun, AnEventWhoseMapLeadsToZeroMayComeAgainAtOnce) {
+  EventProblem problem;
+  problem.state("h", {}, "1").flow("h", "-1").state("n", {}, "0");
+  problem.crossing(EventKind::falls, "floor", "h").jump("floor", {{"h", "0"}, {"n", "n + 1"}});
+  const hybrid::Trajectory run = simulate(problem.system(), 3);
+  EXPECT_EQ(run.ending, hybrid::Ending::chattering) << run.message;
+  EXPECT_NEAR(run.end, 1, 1e-9);
+}
+
 TEST(EventRun, AClockAtTheEndOfAStepFiresOnce) {
   EventProblem problem;
   problem.state("x", {}, "1").flow("x", "-x + sin(x)").state("n", {}, "0");
