@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "bind/stated.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/problem_files.h"
@@ -47,7 +48,7 @@ void check_runs(const model::Instance& instance) {
   const bool runs = design.dynamics && design.no_campaign.empty() && model::ends(design);
   const bool needs_nothing = design.unknowns.empty() && design.inequalities.empty() &&
                              design.open.empty() && design.gains.empty();
-  if (runs && needs_nothing) verify::make_event_setup(instance, model::Gains{});
+  if (runs && needs_nothing) verify::make_event_setup(bind::run_texts(instance, {}));
 }
 
 /// What a valid problem asks for.

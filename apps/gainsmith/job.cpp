@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <exception>
+#include <memory>
 #include <stdexcept>
 #include <system_error>
 
@@ -96,15 +97,17 @@ class Job {
       prepare_folder();
       write_atomically(folder_ / "gains.json", io::gains_text(gains));
     };
+    std::unique_ptr<const verify::Setup> setup;
     std::optional<verify::Report> campaign;
     try {
-      campaign = verify_gains(gains);
+      if (why_no_campaign(gains).empty()) setup = verify::make_setup(instance_, gains);
+      if (setup) campaign = verify_gains(*setup);
     } catch (const InputError&) {
       write();
       throw;
     }
     write();
-    if (campaign) write_campaign(gains, *campaign);
+    if (campaign) write_campaign(*setup, *campaign);
     return campaign;
   }
 
@@ -119,21 +122,17 @@ class Job {
     return "";
   }
 
-  /// A campaign when the method can be simulated and every gain has a value.
-  std::optional<verify::Report> verify_gains(const model::Gains& gains) {
-    if (!why_no_campaign(gains).empty()) return std::nullopt;
+  verify::Report verify_gains(const verify::Setup& setup) const {
     const verify::CampaignOptions campaign{options_.runs, options_.seed, options_.threads};
-    verify::Report report = verify::run_campaign(instance_, gains, campaign);
+    verify::Report report = verify::run_campaign(setup, campaign);
     if (report.interrupted()) throw Interrupted(interruption_text(report));
     return report;
   }
 
-  void write_campaign(const model::Gains& gains, const verify::Report& report) const {
+  void write_campaign(const verify::Setup& setup, const verify::Report& report) const {
     write_atomically(folder_ / "campaign.json", io::to_text(campaign_json(report)));
-    if (report.verdict != model::CampaignVerdict::held) {
-      write_atomically(folder_ / "worst-run.csv",
-                       run_csv(instance_, gains, report.seed, report.worst_run));
-    }
+    if (report.verdict != model::CampaignVerdict::held)
+      write_atomically(folder_ / "worst-run.csv", run_csv(setup, report.seed, report.worst_run));
   }
 
   io::Json report(const model::Gains& gains, const std::optional<verify::Report>& campaign,

@@ -25,9 +25,8 @@ std::vector<std::string> names_of(const verify::Replay& replay) {
 
 }  // namespace
 
-std::string run_csv(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
-                    std::uint64_t run) {
-  return events_csv(verify::replay_run(instance, gains, seed, run, 0));
+std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run) {
+  return events_csv(verify::replay_run(setup, seed, run, 0));
 }
 
 std::string events_csv(const verify::Replay& replay) {

@@ -6,16 +6,13 @@
 #include <vector>
 
 #include "io/json_text.h"
-#include "model/gains.h"
-#include "model/instance.h"
 #include "verify/expected_run.h"
 #include "verify/replay.h"
 
 namespace gainsmith::app {
 
 /// One run of a campaign as CSV, with points of its flows as the integration went.
-std::string run_csv(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
-                    std::uint64_t run);
+std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run);
 
 /// Columns t, j, event, variables, signals, claims; what is no number is an empty cell.
 std::string events_csv(const verify::Replay& replay);

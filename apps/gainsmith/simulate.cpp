@@ -57,13 +57,12 @@ void write(const SimulateOptions& options, const std::string& text) {
 }
 
 /// Steps of exact flows are long: a picture shows what lies between their ends.
-verify::Replay for_plot(const SimulateOptions& options, const LoadedGains& loaded,
+verify::Replay for_plot(const SimulateOptions& options, const verify::Setup& setup,
                         std::uint64_t seed, const verify::Replay& replay) {
   constexpr double kPoints = 1500;
   if (options.step > 0 || replay.run.end <= 0 || replay.run.ending == hybrid::Ending::interrupted)
     return replay;
-  return verify::replay_run(loaded.stated, loaded.gains, seed, options.run,
-                            replay.run.end / kPoints);
+  return verify::replay_run(setup, seed, options.run, replay.run.end / kPoints);
 }
 
 ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std::uint64_t seed) {
@@ -86,13 +85,14 @@ ExitCode simulate(const SimulateOptions& options) {
   const LoadedGains loaded = load_run(options.gains);
   const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
   if (options.compare) return compare(options, loaded, seed);
-  const verify::Replay replay = verify::replay_run(loaded.stated, loaded.gains, seed, options.run,
-                                                   options.step, options.judge);
+  const auto setup = verify::make_setup(loaded.stated, loaded.gains);
+  const verify::Replay replay =
+      verify::replay_run(*setup, seed, options.run, options.step, options.judge);
   const bool stopped = replay.run.ending == hybrid::Ending::interrupted;
   const Telling telling;
   if (!options.plot.empty())
     write_atomically(options.plot, run_figure(loaded.stated.design->name,
-                                              for_plot(options, loaded, seed, replay)));
+                                              for_plot(options, *setup, seed, replay)));
   if (options.plot.empty() || !options.output.empty() || options.json)
     write(options, options.json ? io::to_text(events_json(replay)) : events_csv(replay));
   const auto jumps = static_cast<std::size_t>(std::count_if(

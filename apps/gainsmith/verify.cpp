@@ -25,7 +25,8 @@ struct VerifyOptions {
 ExitCode verify_gains(const VerifyOptions& options) {
   const LoadedGains loaded = load_run(options.gains);
   const verify::CampaignOptions campaign{options.runs, options.seed, options.threads};
-  const verify::Report report = verify::run_campaign(loaded.stated, loaded.gains, campaign);
+  const auto setup = verify::make_setup(loaded.stated, loaded.gains);
+  const verify::Report report = verify::run_campaign(*setup, campaign);
   const Telling telling;
   fmt::print("{}", options.json ? io::to_text(campaign_json(report))
                                 : campaign_summary(report, options.gains));

@@ -184,4 +184,8 @@ model::Stated state(const model::Instance& instance, const model::Gains& gains) 
   return Builder(instance, gains).build();
 }
 
+model::RunTexts run_texts(const model::Instance& instance, const model::Gains& gains) {
+  return model::run_texts(*instance.design, state(instance, gains));
+}
+
 }  // namespace gainsmith::bind

@@ -3,12 +3,15 @@
 
 #include "model/gains.h"
 #include "model/instance.h"
-#include "model/stated.h"
+#include "model/run_texts.h"
 
 namespace gainsmith::bind {
 
 /// InputError for a matrix of another shape or not finite, when the file defines what is no unknown
 /// function, lacks its coefficients, or holds a text that does not fit.
 model::Stated state(const model::Instance& instance, const model::Gains& gains);
+
+/// What runs read; InputError for the same, and as model::run_texts.
+model::RunTexts run_texts(const model::Instance& instance, const model::Gains& gains);
 
 }  // namespace gainsmith::bind

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "bounded/run_loop.h"
 #include "bounded/small_size.h"
 
 namespace gainsmith::bounded {

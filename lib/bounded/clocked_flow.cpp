@@ -5,8 +5,6 @@
 #include <numbers>
 
 #include "bounded/ball.h"
-#include "bounded/degrees.h"
-#include "bounded/dependence.h"
 #include "numbers/degree.h"
 #include "ode/integrator.h"
 
@@ -31,9 +29,9 @@ std::optional<Matrix> clock_start(const Coordinate& clock, const std::string& na
                                   const SampledSystem& system, const hybrid::Scenario& scenario,
                                   const Coordinates& coordinates,
                                   const numbers::Values& constants) {
-  const std::size_t state = index_of(system.layout, name);
-  if (!clock.jump || state >= system.variable.size()) return std::nullopt;
-  const hybrid::StartRule& rule = *scenario.starts[system.variable[state]];
+  const auto state = system.layout.slot(name);
+  if (!clock.jump || !state) return std::nullopt;
+  const hybrid::StartRule& rule = *scenario.starts[system.variable[*state]];
   if (rule.kind != model::StartKind::expression) return std::nullopt;
   const auto first = fixed_value(rule.program, system.layout, constants);
   const auto next = fixed_value(*clock.jump, coordinates.layout, constants);

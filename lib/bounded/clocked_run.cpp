@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "bounded/ball.h"
-#include "bounded/run_loop.h"
 
 namespace gainsmith::bounded {
 

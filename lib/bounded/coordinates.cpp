@@ -7,7 +7,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bounded/dependence.h"
 #include "bounded/differences.h"
 #include "bounded/polynomial.h"
 #include "expr/rewrite.h"
@@ -128,7 +127,7 @@ class Builder {
     result_.constant = std::move(map.constant);
   }
 
-  std::size_t coordinate(const std::string& name) const { return index_of(result_.layout, name); }
+  std::size_t coordinate(const std::string& name) const { return *result_.layout.slot(name); }
 
   /// Whether the 1 x 1 coordinate has a constant derivative; then `rate` is it.
   bool has_rate(const hybrid::Slot& slot, Decimal100& rate) const {

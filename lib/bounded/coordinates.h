@@ -54,6 +54,12 @@ struct Coordinates {
 Eigen::Index add_integral(Coordinates& coordinates, const std::string& name,
                           const expr::Program& function);
 
+/// Drops the coordinates on which no function depends, neither itself nor through flows and jumps.
+void keep_needed(Coordinates& coordinates);
+
+/// Marks the coordinates whose derivative is constant and whose jumps depend on such ones alone.
+void mark_clocks(Coordinates& coordinates);
+
 /// Coordinates for functions of the states, the timer and constants.
 Coordinates make_coordinates(const SampledSystem& system, numbers::ValuesOf<Decimal100> constants,
                              const std::vector<expr::Program>& functions);

@@ -1,10 +1,11 @@
-#include "bounded/dependence.h"
-
+// What depends on what among coordinates: which of them the functions need, and which are clocks.
 #include <Eigen/Core>
 #include <algorithm>
 #include <set>
 #include <utility>
 #include <vector>
+
+#include "bounded/coordinates.h"
 
 namespace gainsmith::bounded {
 
@@ -16,12 +17,13 @@ std::vector<bool> find_needed(const Coordinates& all) {
   std::vector<bool> needed(slots.size(), false);
   std::vector<std::size_t> open;
   const auto need = [&](std::size_t at) {
-    if (at >= slots.size() || needed[at]) return;
+    if (needed[at]) return;
     needed[at] = true;
     open.push_back(at);
   };
   const auto need_inputs = [&](const expr::Program& program) {
-    for (const expr::Input& input : program.inputs) need(index_of(all.layout, input.name));
+    for (const expr::Input& input : program.inputs)
+      if (const auto at = all.layout.slot(input.name)) need(*at);
   };
   for (const expr::Program& function : all.functions) need_inputs(function);
   while (!open.empty()) {
@@ -43,12 +45,6 @@ std::vector<bool> find_needed(const Coordinates& all) {
 }
 
 }  // namespace
-
-std::size_t index_of(const hybrid::StateLayout& layout, const std::string& name) {
-  const auto found = std::find_if(layout.slots.begin(), layout.slots.end(),
-                                  [&](const hybrid::Slot& slot) { return slot.name == name; });
-  return static_cast<std::size_t>(found - layout.slots.begin());
-}
 
 void keep_needed(Coordinates& coordinates) {
   const std::vector<bool> needed = find_needed(coordinates);

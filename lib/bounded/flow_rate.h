@@ -22,8 +22,6 @@ class FlowRate {
 
   /// The elements that are integrated, in order.
   const std::vector<Eigen::Index>& elements() const { return elements_; }
-  /// Whether a coordinate is among them.
-  bool is_integrated(std::size_t coordinate) const { return flow_[coordinate] != nullptr; }
 
   /// All elements, t after the start of a flow at `start`.
   void place(const Eigen::VectorXd& start, double t, const Eigen::VectorXd& moving,

@@ -318,18 +318,6 @@ Program Polynomials::program(const Polynomial& polynomial) const {
   return sum < 0 ? single(Op::zeros, polynomial.shape) : compose.take(sum);
 }
 
-std::vector<int> Polynomials::atoms_of(const Word& word) {
-  std::vector<int> atoms = word.scalars;
-  const auto add = [&](const Chain& chain) {
-    for (const Factor& factor : chain) atoms.push_back(factor.atom);
-  };
-  for (const Chain& chain : word.inner) add(chain);
-  add(word.chain);
-  std::sort(atoms.begin(), atoms.end());
-  atoms.erase(std::unique(atoms.begin(), atoms.end()), atoms.end());
-  return atoms;
-}
-
 int Polynomials::degree(const Word& word, const std::string& name) const {
   const auto is_input = [&](int at) {
     const Program& program = atom(at);

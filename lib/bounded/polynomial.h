@@ -59,8 +59,6 @@ class Polynomials {
   const expr::Program& atom(int at) const { return atoms_[static_cast<std::size_t>(at)]; }
   /// How many factors of the word are the input `name`.
   int degree(const Word& word, const std::string& name) const;
-  /// Every atom of the word once.
-  static std::vector<int> atoms_of(const Word& word);
 
  private:
   int atom_of(const expr::Program& program);

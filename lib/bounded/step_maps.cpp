@@ -5,7 +5,6 @@
 #include <limits>
 #include <type_traits>
 
-#include "bounded/degrees.h"
 #include "bounded/small_size.h"
 
 namespace gainsmith::bounded {

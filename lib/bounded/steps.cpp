@@ -5,7 +5,6 @@
 
 #include "base/error.h"
 #include "base/number.h"
-#include "bounded/degrees.h"
 #include "bounded/tolerances.h"
 #include "numbers/dense.h"
 

@@ -22,6 +22,20 @@
 
 namespace gainsmith::bounded {
 
+/// Degrees of series: what is left of one is a part of the bound of its error.
+namespace degree {
+
+/// Largest 1-norm of a matrix whose exponential is a series.
+constexpr double norm = 0.25;
+
+constexpr int wide_exponential = 80;   ///< in 100 digits, of a norm up to 1: below 1e-118
+constexpr int wide_rest = 40;          ///< of what is left of an interval, in 100 digits
+constexpr int short_exponential = 20;  ///< in long double: below 1e-31
+constexpr int rest = 12;               ///< of what is left of an interval, in double
+constexpr int shared_flow = 16;        ///< of Chebyshev polynomials over a piece of a flow
+
+}  // namespace degree
+
 /// One step of a flow. `level` is k of s_k, or kRest.
 struct FlowStep {
   static constexpr int kRest = -1;

@@ -97,6 +97,20 @@ std::string to_string(Judgement judgement) {
   return "?";
 }
 
+JudgedClaim judged_claim(const Claim& claim, const std::function<JudgedFunction()>& next) {
+  JudgedClaim judged;
+  judged.name = claim.name;
+  judged.kind = claim.kind;
+  judged.value = next();
+  if (claim.flow_cost) judged.flow_cost = next();
+  if (claim.jump_cost) judged.jump_cost = next();
+  if (claim.factor) judged.factor = next();
+  if (claim.bound) judged.bound = next();
+  judged.after = claim.after;
+  judged.over = claim.over;
+  return judged;
+}
+
 template <class Scalar>
 ClaimCheck<Scalar>::ClaimCheck(const JudgedClaim& claim,
                                const bounded::BoundedSystem<Scalar>& system)

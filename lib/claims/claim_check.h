@@ -42,6 +42,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -99,6 +100,9 @@ struct JudgedClaim {
   /// The coordinate that is the integral of the flow cost, when the flow is integrated.
   std::optional<Eigen::Index> accumulated;
 };
+
+/// The claim over functions that `next` gives, in the order of programs_of.
+JudgedClaim judged_claim(const Claim& claim, const std::function<JudgedFunction()>& next);
 
 /// Checks one claim, run after run; one for each thread. All arguments must outlive it.
 template <class Scalar>

@@ -8,58 +8,70 @@ namespace gainsmith::claims {
 
 namespace {
 
-LinkedClaim link_claim(const model::Design::Claim& claim, const hybrid::System& system) {
-  LinkedClaim linked;
-  linked.name = claim.name;
-  linked.kind = claim.kind;
-  const auto link = [&](const model::Formula& formula) {
-    expr::Program program = system.bodies.link(formula.program);
-    for (const expr::Input& input : program.inputs) {
-      auto& missing = linked.missing;
-      const bool has_value = system.slot(input.name) || system.constants.contains(input.name);
-      if (!has_value && std::find(missing.begin(), missing.end(), input.name) == missing.end())
-        missing.push_back(input.name);
-    }
-    return program;
+using model::ClaimKind;
+
+/// Adds the names that a formula uses and that have no value.
+void add_missing(const model::Formula& formula, const hybrid::System& system,
+                 std::vector<std::string>& missing) {
+  for (const expr::Input& input : formula.program.inputs) {
+    const bool has_value = system.slot(input.name) || system.constants.contains(input.name);
+    if (!has_value && std::ranges::find(missing, input.name) == missing.end())
+      missing.push_back(input.name);
+  }
+}
+
+Claim claim_of(const model::Design::Claim& claim, const hybrid::System& system) {
+  Claim made;
+  made.name = claim.name;
+  made.kind = claim.kind;
+  made.over = claim.over;
+  add_missing(claim.value, system, made.missing);
+  made.value = claim.value.program;
+  const auto take = [&](const std::optional<model::Formula>& formula) {
+    if (formula) add_missing(*formula, system, made.missing);
+    return formula ? std::optional(formula->program) : std::nullopt;
   };
-  linked.value = link(claim.value);
-  if (claim.flow_cost) linked.flow_cost = link(*claim.flow_cost);
-  if (claim.jump_cost) linked.jump_cost = link(*claim.jump_cost);
-  if (claim.factor) linked.factor = link(*claim.factor);
-  if (claim.bound) linked.bound = link(*claim.bound);
-  if (claim.after) link(*claim.after);
-  linked.over = claim.over;
-  if (claim.kind == model::ClaimKind::shrinks && !claim.factor)
+  made.flow_cost = take(claim.flow_cost);
+  made.jump_cost = take(claim.jump_cost);
+  made.factor = take(claim.factor);
+  made.bound = take(claim.bound);
+  take(claim.after);
+  if (claim.kind == ClaimKind::shrinks && !claim.factor)
     throw InputError(claim.place, "the claim '" + claim.name + "' has no factor");
-  const bool bounded =
-      claim.kind == model::ClaimKind::below || claim.kind == model::ClaimKind::above;
+  const bool bounded = claim.kind == ClaimKind::below || claim.kind == ClaimKind::above;
   if (bounded && !claim.bound)
     throw InputError(claim.place, "the claim '" + claim.name + "' has no bound");
-  if (!linked.stated() || !claim.after) return linked;
-  linked.after = system.scalar(*claim.after);
-  if (!(linked.after >= 0))
-    throw InputError(claim.after->place, "after: a time from 0 on, found " + brief(linked.after));
-  return linked;
+  return made;
+}
+
+double after_of(const model::Formula& after, const hybrid::System& system, double horizon) {
+  const double t = system.scalar(after);
+  if (!(t >= 0)) throw InputError(after.place, "after: a time from 0 on, found " + brief(t));
+  if (t >= horizon)
+    throw InputError(after.place,
+                     "after: the runs end at " + brief(horizon) + ", before the claim begins");
+  return t;
 }
 
 }  // namespace
 
-std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::System& system) {
-  std::vector<LinkedClaim> claims;
-  for (const model::Design::Claim& claim : design.claims) {
-    claims.push_back(link_claim(claim, system));
-    if (claim.kind == model::ClaimKind::shrinks && !model::has_end(design))
-      claims.back().missing.emplace_back("campaign.horizon");
+std::vector<Claim> claims_of(const model::RunTexts& texts, const hybrid::System& system,
+                             double horizon) {
+  const bool has_end = texts.campaign.horizon || !texts.dynamics.measured.empty();
+  std::vector<Claim> claims;
+  for (const model::Design::Claim& claim : texts.claims) {
+    Claim& made = claims.emplace_back(claim_of(claim, system));
+    if (claim.kind == ClaimKind::shrinks && !has_end) made.missing.emplace_back("campaign.horizon");
+    if (made.stated() && claim.after) made.after = after_of(*claim.after, system, horizon);
   }
   return claims;
 }
 
-void check_times(const model::Design& design, const std::vector<LinkedClaim>& claims,
-                 double horizon) {
-  for (std::size_t k = 0; k < claims.size(); ++k)
-    if (claims[k].stated() && claims[k].after >= horizon)
-      throw InputError(design.claims[k].after->place,
-                       "after: the runs end at " + brief(horizon) + ", before the claim begins");
+std::vector<expr::Program> programs_of(const Claim& claim) {
+  std::vector<expr::Program> programs{claim.value};
+  for (const auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor, &claim.bound})
+    if (*part) programs.push_back(**part);
+  return programs;
 }
 
 }  // namespace gainsmith::claims

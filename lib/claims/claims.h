@@ -6,15 +6,15 @@
 #include <vector>
 
 #include "hybrid/system.h"
-#include "model/design.h"
+#include "model/run_texts.h"
 
 namespace gainsmith::claims {
 
-/// A claim whose programs call nothing. It is stated when every symbol that they use has a value.
+/// A claim of a gain file. It is stated when every symbol that they use has a value.
 /// Of `shrinks` the problem must also give a time: how far an error shrinks says something only
 /// about a time that somebody chose. Otherwise `missing` names what has no value (P1 when the
 /// analysis was infeasible, campaign.horizon) and the claim cannot be checked.
-struct LinkedClaim {
+struct Claim {
   std::string name;
   model::ClaimKind kind = model::ClaimKind::nonincreasing;
   std::vector<std::string> missing;
@@ -30,11 +30,12 @@ struct LinkedClaim {
 };
 
 /// All claims, in the method's order. InputError for `shrinks` without a factor, a bound that is
-/// missing, and a time `after` that is no number from 0 on.
-std::vector<LinkedClaim> link_claims(const model::Design& design, const hybrid::System& system);
+/// missing, and a time `after` that is no number from 0 on or not before the horizon.
+std::vector<Claim> claims_of(const model::RunTexts& texts, const hybrid::System& system,
+                             double horizon);
 
-/// InputError for a claim that begins at the end of the runs or later. `claims`: of the design.
-void check_times(const model::Design& design, const std::vector<LinkedClaim>& claims,
-                 double horizon);
+/// The programs of a claim: its value, and those that it has of flow cost, jump cost, factor and
+/// bound, in this order.
+std::vector<expr::Program> programs_of(const Claim& claim);
 
 }  // namespace gainsmith::claims

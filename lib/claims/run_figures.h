@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "claims/run_values.h"
+#include "model/figure.h"
 
 namespace gainsmith::claims {
 

@@ -45,9 +45,9 @@ double Law::reset_value(std::size_t jump, double t, RandomStream& random) const 
   return high;
 }
 
-std::vector<Law> make_laws(const model::Design::Campaign& campaign, double low, double high,
-                           const std::function<double(const model::Formula&)>& value) {
-  if (campaign.laws.empty()) {
+std::vector<Law> make_laws(const std::vector<model::Design::Law>& given, double low, double high,
+                           const System& system) {
+  if (given.empty()) {
     std::vector<Law> usual = {{LawKind::uniform, low, high, {}},
                               {LawKind::extremes, low, high, {}},
                               {LawKind::sinusoid, low, high, {}},
@@ -58,10 +58,10 @@ std::vector<Law> make_laws(const model::Design::Campaign& campaign, double low, 
     return usual;
   }
   std::vector<Law> laws;
-  for (const model::Design::Law& law : campaign.laws) {
+  for (const model::Design::Law& law : given) {
     Law result{law.kind, low, high, {}};
     for (const model::Formula& one : law.values)
-      result.values.push_back(checked_value(one.place, value(one), low, high));
+      result.values.push_back(checked_value(one.place, system.scalar(one), low, high));
     const bool needs_values = law.kind == LawKind::constant || law.kind == LawKind::list;
     if (needs_values && result.values.empty())
       throw InputError(law.place, "the sampling law " + model::to_string(law.kind) +

@@ -2,11 +2,10 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <vector>
 
 #include "base/random.h"
-#include "model/design.h"
+#include "hybrid/system.h"
 
 namespace gainsmith::hybrid {
 
@@ -22,11 +21,10 @@ struct Law {
   double reset_value(std::size_t jump, double t, RandomStream& random) const;
 };
 
-/// The laws of a campaign for lengths in [low, high], in order, with the values of formulas by
-/// `value`; without any: uniform, extremes, sinusoid, constant low, constant high. InputError for a
+/// Laws of a campaign for lengths in [low, high], in order; without any: uniform, extremes, sinusoid, constant low, constant high. InputError for a
 /// value outside [low, high] (1e-12 high is forgiven as rounding) and for a constant or list
 /// without a value.
-std::vector<Law> make_laws(const model::Design::Campaign& campaign, double low, double high,
-                           const std::function<double(const model::Formula&)>& value);
+std::vector<Law> make_laws(const std::vector<model::Design::Law>& given, double low, double high,
+                           const System& system);
 
 }  // namespace gainsmith::hybrid

@@ -26,10 +26,8 @@ bool is_drawn(const Dynamics::Variable& variable) {
 }
 
 /// InputError when the text uses a variable that has no value yet.
-expr::Program link_start(const model::Formula& formula, std::size_t variable,
-                         const System& system) {
-  expr::Program program = system.bodies.link(formula.program);
-  for (const expr::Input& input : program.inputs) {
+void check_start(const model::Formula& formula, std::size_t variable, const System& system) {
+  for (const expr::Input& input : formula.program.inputs) {
     const auto slot = system.slot(input.name);
     if (slot && *slot >= variable)
       throw InputError(formula.place, "the initial value of " + system.layout.slots[variable].name +
@@ -37,14 +35,14 @@ expr::Program link_start(const model::Formula& formula, std::size_t variable,
     if (!slot && !system.constants.contains(input.name))
       throw InputError(formula.place, "there is no value for " + input.name);
   }
-  return program;
 }
 
 StartRule rule_of(const model::Design::Start& start, const System& system) {
   const Slot& slot = system.layout.slots[start.state];
   StartRule rule{start.kind, {}, {}, start.place};
   if (start.kind == StartKind::expression) {
-    rule.program = link_start(start.values.front(), start.state, system);
+    check_start(start.values.front(), start.state, system);
+    rule.program = start.values.front().program;
     return rule;
   }
   for (const model::Formula& formula : start.values) {
@@ -105,7 +103,7 @@ numbers::Matrix box_value(const StartRule& rule, bool symmetric, RandomStream& r
   return value;
 }
 
-void check_start(const Dynamics::Variable& variable, const Place& place, numbers::Matrix& value) {
+void check_value(const Dynamics::Variable& variable, const Place& place, numbers::Matrix& value) {
   if (variable.kind == Dynamics::VariableKind::mode && value(0) != std::round(value(0)))
     throw InputError(place, "the mode " + variable.name + " starts at " + brief(value(0), 17) +
                                 ": expected a whole number");
@@ -131,14 +129,12 @@ Scenario make_scenario(double horizon, const System& system) {
 
 namespace {
 
-/// The campaign with the laws of one event: its own, otherwise those of all.
-model::Design::Campaign with_laws_of(std::size_t event, model::Design::Campaign campaign) {
+/// The laws of one event: its own, otherwise those of all.
+std::vector<model::Design::Law> laws_of(std::size_t event, std::vector<model::Design::Law> laws) {
   const auto is_own = [&](const model::Design::Law& law) { return law.event == event; };
-  const bool own = std::any_of(campaign.laws.begin(), campaign.laws.end(), is_own);
-  std::erase_if(campaign.laws, [&](const model::Design::Law& law) {
-    return own ? !is_own(law) : law.event.has_value();
-  });
-  return campaign;
+  const bool own = std::ranges::any_of(laws, is_own);
+  std::erase_if(laws, [&](const auto& law) { return own ? !is_own(law) : law.event.has_value(); });
+  return laws;
 }
 
 /// Of runs of which nothing says how long they are: so many of the longest lengths. 0 without a
@@ -195,9 +191,8 @@ Scenario make_scenario(const model::Design::Campaign& campaign, const System& sy
     if (!clock) continue;
     if (campaign.first) scenario.first.back() = first_of(*campaign.first, *clock, system);
     if (clock->low == clock->high) continue;
-    scenario.laws.back() =
-        make_laws(with_laws_of(scenario.laws.size() - 1, campaign), clock->low, clock->high,
-                  [&](const model::Formula& formula) { return system.scalar(formula); });
+    scenario.laws.back() = make_laws(laws_of(scenario.laws.size() - 1, campaign.laws), clock->low,
+                                     clock->high, system);
   }
   return scenario;
 }
@@ -229,7 +224,7 @@ VectorXd draw_start(const System& system, const Scenario& scenario, std::uint64_
       RandomStream random = draw_stream(seed, run, Purpose::start, i);
       value = box_value(rule, variable.structure == model::Structure::symmetric, random);
     }
-    check_start(variable, rule.place, value);
+    check_value(variable, rule.place, value);
     values.segment(system.layout.slots[i].offset, value.size()) = value.reshaped();
   }
   for (const auto& [b, a] : scenario.differences) {

@@ -1,22 +1,21 @@
 #include "hybrid/state_layout.h"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
 namespace gainsmith::hybrid {
 
-bool StateLayout::moves(const std::string& name) const {
-  return name == timer || std::any_of(slots.begin(), slots.end(),
-                                      [&](const Slot& slot) { return slot.name == name; });
+std::optional<std::size_t> StateLayout::slot(const std::string& name) const {
+  const auto found = std::ranges::find(slots, name, &Slot::name);
+  if (found == slots.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - slots.begin());
 }
 
-StateLayout make_layout(const std::vector<model::Design::State>& states, const std::string& timer) {
+StateLayout layout_of(const model::Dynamics& dynamics) {
   StateLayout layout;
-  layout.timer = timer;
-  for (const model::Design::State& state : states) {
-    layout.slots.push_back({state.name, state.shape, layout.size});
-    layout.size += state.shape.size();
+  for (const model::Dynamics::Variable& variable : dynamics.variables) {
+    layout.slots.push_back({variable.name, variable.shape, layout.size});
+    layout.size += variable.shape.size();
   }
   return layout;
 }
@@ -26,10 +25,8 @@ namespace {
 /// The timer is behind the states.
 std::optional<Eigen::Index> place_of(const std::string& name, const StateLayout& layout) {
   if (name == layout.timer) return layout.size;
-  const auto found = std::find_if(layout.slots.begin(), layout.slots.end(),
-                                  [&](const Slot& slot) { return slot.name == name; });
-  if (found == layout.slots.end()) return std::nullopt;
-  return found->offset;
+  const auto found = layout.slot(name);
+  return found ? std::optional(layout.slots[*found].offset) : std::nullopt;
 }
 
 }  // namespace

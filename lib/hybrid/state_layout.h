@@ -2,11 +2,12 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "expr/program.h"
-#include "model/design.h"
+#include "model/dynamics.h"
 #include "numbers/stacked_functions.h"
 
 namespace gainsmith::hybrid {
@@ -18,18 +19,20 @@ struct Slot {
   Eigen::Index offset = 0;
 };
 
-/// How the named states are stacked to x in R^size: plant first, then observer, in the method's
-/// order.
+/// How the named states are stacked to x in R^size.
 struct StateLayout {
   std::vector<Slot> slots;
   Eigen::Index size = 0;
   std::string timer;
 
   /// Whether a name is that of a state or the timer, so that its value changes along a run.
-  bool moves(const std::string& name) const;
+  bool moves(const std::string& name) const { return name == timer || slot(name); }
+  /// The slot of a name, or none.
+  std::optional<std::size_t> slot(const std::string& name) const;
 };
 
-StateLayout make_layout(const std::vector<model::Design::State>& states, const std::string& timer);
+/// All variables, in the order of the dynamics, without a timer.
+StateLayout layout_of(const model::Dynamics& dynamics);
 
 /// Programs as one function of (x, tau). They and the constants must outlive it; every input must
 /// be a state, the timer or a constant.

@@ -7,10 +7,9 @@
 #include <limits>
 
 #include "base/number.h"
-#include "bind/stated.h"
 #include "hybrid/affine.h"
-#include "model/dynamics_programs.h"
 #include "hybrid/tolerances.h"
+#include "model/dynamics_programs.h"
 
 namespace gainsmith::hybrid {
 
@@ -19,11 +18,9 @@ namespace {
 using model::Dynamics;
 using Kind = Dynamics::VariableKind;
 
-/// Replaces calls in every text of the dynamics that a run evaluates, and sees to it that the texts
-/// use variables and constants only.
-void link_texts(System& system) {
-  model::for_each_run_program(system.dynamics, [&](expr::Program& one, const Place& place) {
-    one = system.bodies.link(one);
+/// Sees to it that the texts that a run evaluates use variables and constants only.
+void check_texts(System& system) {
+  model::for_each_run_program(system.dynamics, [&](const expr::Program& one, const Place& place) {
     for (const expr::Input& input : one.inputs)
       if (!system.slot(input.name) && !system.constants.contains(input.name))
         throw InputError(place, "there is no value for " + input.name);
@@ -31,14 +28,13 @@ void link_texts(System& system) {
 }
 
 void stack_variables(System& system) {
+  system.layout = layout_of(system.dynamics);
+  system.whole = system.size = system.layout.size;
   for (const Dynamics::Variable& variable : system.dynamics.variables) {
-    system.layout.slots.push_back({variable.name, variable.shape, system.size});
-    system.size += variable.shape.size();
     const bool is_clock =
         variable.kind == Kind::time || variable.kind == Kind::since || variable.kind == Kind::left;
     system.moves.push_back(is_clock ? Moves::steady : Moves::rests);
   }
-  system.whole = system.size;
 }
 
 void fix_branches_of_flows(System& system) {
@@ -244,12 +240,6 @@ void refuse_equations(const expr::Condition& condition, const System& system) {
 
 }  // namespace
 
-std::optional<std::size_t> System::slot(const std::string& name) const {
-  for (std::size_t i = 0; i < layout.slots.size(); ++i)
-    if (layout.slots[i].name == name) return i;
-  return std::nullopt;
-}
-
 bool System::is_moving(const std::string& name) const {
   const auto found = slot(name);
   return found && moves[*found] != Moves::rests;
@@ -268,21 +258,18 @@ std::string System::element_name(Eigen::Index element) const {
 }
 
 numbers::Matrix System::value(const model::Formula& formula) const {
-  const expr::Program program = bodies.link(formula.program);
-  for (const expr::Input& input : program.inputs)
+  for (const expr::Input& input : formula.program.inputs)
     if (!constants.contains(input.name))
       throw InputError(formula.place, "there is no value for " + input.name);
-  return numbers::evaluate(program, constants);
+  return numbers::evaluate(formula.program, constants);
 }
 
-System make_system(const model::Dynamics& dynamics, numbers::Values constants,
-                   model::Bodies bodies) {
+System make_system(const model::Dynamics& dynamics, numbers::Values constants) {
   System system;
   system.dynamics = dynamics;
   system.constants = std::move(constants);
-  system.bodies = std::move(bodies);
   stack_variables(system);
-  link_texts(system);
+  check_texts(system);
   fix_branches_of_flows(system);
   classify_flows(system);
   read_events(system);
@@ -292,14 +279,6 @@ System make_system(const model::Dynamics& dynamics, numbers::Values constants,
   for (const model::Dynamics::Event& event : system.dynamics.events)
     if (event.condition) refuse_equations(*event.condition, system);
   return system;
-}
-
-System make_system(const model::Instance& instance, const model::Gains& gains) {
-  const model::Design& design = *instance.design;
-  if (!design.dynamics)
-    throw InputError({design.method_file, 0, 0}, "there are no events and no components to run");
-  model::Stated stated = bind::state(instance, gains);
-  return make_system(*design.dynamics, std::move(stated.values), std::move(stated.bodies));
 }
 
 }  // namespace gainsmith::hybrid

@@ -1,4 +1,5 @@
-// Dynamics (model/dynamics.h) with values: what the event-driven simulator runs.
+// Dynamics (model/dynamics.h) with values: what the event-driven simulator runs. Its texts call
+// nothing: functions were replaced before (model/run_texts.h).
 //
 // All variables are stacked in one vector, in the order of the dynamics, columns of each below each
 // other; behind them are the branches that the flow takes (switches.h). Inside a flow each
@@ -21,7 +22,7 @@
 #include "hybrid/state_layout.h"
 #include "hybrid/switches.h"
 #include "model/dynamics.h"
-#include "model/stated.h"
+#include "model/run_texts.h"
 
 namespace gainsmith::hybrid {
 
@@ -43,9 +44,8 @@ struct System {
     std::optional<double> every;
   };
 
-  model::Dynamics dynamics;  ///< programs without calls, flows with fixed branches
+  model::Dynamics dynamics;  ///< flows with fixed branches
   numbers::Values constants;
-  model::Bodies bodies;
   StateLayout layout;      ///< the variables, then the branches of the switches
   Eigen::Index size = 0;   ///< of the variables
   Eigen::Index whole = 0;  ///< of variables and branches
@@ -60,7 +60,7 @@ struct System {
   std::vector<std::vector<std::int64_t>> most_passes;  ///< by reaction, of each of its maps
 
   /// The slot of a name, or none.
-  std::optional<std::size_t> slot(const std::string& name) const;
+  std::optional<std::size_t> slot(const std::string& name) const { return layout.slot(name); }
   /// Whether a name is that of what changes within a flow.
   bool is_moving(const std::string& name) const;
   /// "x(2)", "P(1, 2)" or "s".
@@ -72,10 +72,6 @@ struct System {
 
 /// InputError, at its place, for a text that uses what has no value and for numbers of passes that
 /// are not whole. The same for a clock that is not 0 <= low <= high and high > 0.
-System make_system(const model::Dynamics& dynamics, numbers::Values constants,
-                   model::Bodies bodies);
-
-/// Of an instance whose design has dynamics, for the gains of one file.
-System make_system(const model::Instance& instance, const model::Gains& gains);
+System make_system(const model::Dynamics& dynamics, numbers::Values constants);
 
 }  // namespace gainsmith::hybrid

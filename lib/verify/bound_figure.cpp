@@ -8,7 +8,7 @@ namespace gainsmith::verify {
 BoundFigure::BoundFigure(const model::Figure& figure, const EventSetup& setup) {
   std::optional<claims::RunValue> value;
   if (figure.value) {
-    program_ = setup.system.bodies.link(figure.value->program);
+    program_ = setup.texts.stated.bodies.link(figure.value->program);
     for (const expr::Input& input : program_->inputs)
       if (!setup.system.slot(input.name) && !setup.system.constants.contains(input.name))
         throw InputError(figure.value->place, "there is no value for " + input.name);

@@ -13,7 +13,6 @@
 #include "base/progress.h"
 #include "base/stop.h"
 #include "verify/judge.h"
-#include "verify/setup.h"
 #include "verify/statistics.h"
 
 namespace gainsmith::verify {
@@ -171,7 +170,7 @@ Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
 std::vector<CheckReport> report_checks(const Setup& setup, const Tally& tally) {
   std::vector<CheckReport> reports;
   std::size_t next = 0;
-  for (const claims::LinkedClaim& claim : setup.claims()) {
+  for (const claims::Claim& claim : setup.claims()) {
     CheckReport report{claim.name, claim.kind, claim.stated(), claim.missing, 0, 0, 0, {}, 0};
     if (claim.stated()) {
       const ClaimTally& found = tally.claims[next++];
@@ -209,11 +208,10 @@ bool confirm_worst(const Setup& setup, std::uint64_t seed, Report& report) {
   return std::binary_search(report.confirmed.begin(), report.confirmed.end(), report.worst_run);
 }
 
-void require_a_claim(const model::Design& design, const std::vector<claims::LinkedClaim>& claims) {
-  const Place place{design.method_file, 0, 0};
+void require_a_claim(const Place& place, const std::vector<claims::Claim>& claims) {
   if (claims.empty())
     throw InputError(place, "the method makes no claims, so there is nothing to verify");
-  for (const claims::LinkedClaim& claim : claims)
+  for (const claims::Claim& claim : claims)
     if (claim.stated()) return;
   throw InputError(place, "no claim can be checked: there is no value for " +
                               claims.front().missing.front() + ", which '" + claims.front().name +
@@ -222,17 +220,14 @@ void require_a_claim(const model::Design& design, const std::vector<claims::Link
 
 }  // namespace
 
-Report run_campaign(const model::Instance& instance, const model::Gains& gains,
-                    const CampaignOptions& options) {
-  const model::Design& design = *instance.design;
-  const std::unique_ptr<const Setup> made = make_setup(instance, gains);
-  const Setup& setup = *made;
-  require_a_claim(design, setup.claims());
+Report run_campaign(const Setup& setup, const CampaignOptions& options) {
+  const model::RunTexts& texts = setup.events->texts;
+  require_a_claim(texts.method, setup.claims());
   Report report;
-  report.asked = options.runs.value_or(design.campaign.runs);
-  report.seed = options.seed.value_or(design.campaign.seed);
+  report.asked = options.runs.value_or(texts.campaign.runs);
+  report.seed = options.seed.value_or(texts.campaign.seed);
   if (report.asked == 0)
-    throw InputError(design.campaign.place, "a campaign needs at least one run");
+    throw InputError(texts.campaign.place, "a campaign needs at least one run");
 
   const Tally tally = judge_all(setup, report.seed, report.asked, options);
   report.runs = tally.runs;

@@ -11,9 +11,8 @@
 
 #include "bounded/track.h"
 #include "claims/claim_check.h"
-#include "model/gains.h"
-#include "model/instance.h"
 #include "model/words.h"
+#include "verify/setup.h"
 
 namespace gainsmith::verify {
 
@@ -71,8 +70,7 @@ struct Report {
 /// Simulates all runs and checks every claim that the gain file states (judge.h). The verdict is
 /// `violated` when the worst run violates and does so again when it is repeated, `held` when every
 /// run holds, and `undecided` otherwise. A stop (base/stop.h) leaves it undecided, with the runs
-/// that were done. InputError for input that does not fit, for 0 runs, and when no claim is stated.
-Report run_campaign(const model::Instance& instance, const model::Gains& gains,
-                    const CampaignOptions& options = {});
+/// that were done. InputError for 0 runs, and when no claim is stated.
+Report run_campaign(const Setup& setup, const CampaignOptions& options = {});
 
 }  // namespace gainsmith::verify

@@ -14,17 +14,18 @@
 #include "claims/cost_integrals.h"
 #include "claims/run_values.h"
 #include "claims/sample_points.h"
+#include "model/run_texts.h"
 #include "simulate/simulator.h"
 #include "verify/tolerances.h"
 
 namespace gainsmith::verify {
 
 struct EventSetup {
+  model::RunTexts texts;
   hybrid::System system;
   hybrid::StateLayout layout;  ///< of the variables: without branches that flows hold
   hybrid::Scenario scenario;
-  std::vector<model::Dynamics::Assignment> flow;  ///< as written, before branches are held
-  std::vector<claims::LinkedClaim> claims;
+  std::vector<claims::Claim> claims;
   std::vector<expr::Program> functions;  ///< of the claims that are stated: the coordinates
   std::vector<int> first_of_claim;       ///< of each function: the value of its claim
   std::vector<claims::FlowCost> costs;   ///< of the claims that are stated
@@ -33,18 +34,12 @@ struct EventSetup {
   std::vector<claims::JudgedClaim> judged;  ///< the claims that are stated, in order
   claims::SamplePoints looks;               ///< that the claims ask for
   std::unique_ptr<bounded::BoundedSystem<double>> narrow;
-  std::optional<model::Design::RunAccuracy> asked;  ///< of the campaign
 
   /// To what a run is integrated: as the campaign asks, otherwise to `usual`; times a factor.
   simulate::Accuracy accuracy(double usual, double factor = 1) const;
 };
 
-/// At an address of its own: its parts point to each other.
-std::unique_ptr<const EventSetup> make_event_setup(const model::Instance& instance,
-                                                   const model::Gains& gains);
-
-/// The same with errors as states (error_states.h); none where no claim asks for one.
-std::unique_ptr<const EventSetup> make_error_setup(const model::Instance& instance,
-                                                   const model::Gains& gains);
+/// At an address of its own: its parts point to each other. InputError for what does not fit.
+std::unique_ptr<const EventSetup> make_event_setup(model::RunTexts texts);
 
 }  // namespace gainsmith::verify

@@ -5,13 +5,13 @@
 #include <string>
 #include <utility>
 
-#include "expr/rewrite.h"
+#include "bounded/differences.h"
+#include "hybrid/state_layout.h"
 #include "model/dynamics_programs.h"
 
 namespace gainsmith::verify {
 
 using expr::Program;
-using hybrid::System;
 using model::Dynamics;
 
 namespace {
@@ -46,57 +46,55 @@ bool is_plain(const Dynamics& dynamics, std::size_t variable, bool may_be_lost) 
          !dynamics.components[one.component].frozen && is_simple(dynamics, variable, may_be_lost);
 }
 
-/// The dynamics of a system with flows as written, before their branches are held.
-Dynamics as_written(const System& system) {
-  Dynamics dynamics = system.dynamics;
-  for (std::size_t f = 0; f < dynamics.flow.size(); ++f)
-    if (system.free_flow[f]) dynamics.flow[f].value.program = *system.free_flow[f];
-  return dynamics;
-}
-
 Program zeros(expr::Shape shape) {
   expr::Composer compose({});
   return compose.take(compose.apply(expr::Op::zeros, {}, shape));
 }
 
-}  // namespace
+using Differences = std::vector<bounded::StateDifference>;
 
-std::optional<ErrorStates> ErrorStates::of(const System& system,
-                                           const std::vector<Program>& functions) {
-  std::vector<bounded::StateDifference> differences =
-      bounded::find_differences(functions, system.layout);
-  std::erase_if(differences, [&](const bounded::StateDifference& one) {
-    return !is_plain(system.dynamics, *system.slot(one.plus), false) ||
-           !is_plain(system.dynamics, *system.slot(one.minus), true);
-  });
-  while (!differences.empty()) {
-    ErrorStates result(system, differences);
-    const auto bound = result.first_bound();
-    if (!bound) return result;
-    differences.erase(differences.begin() + static_cast<std::ptrdiff_t>(*bound));
+/// Dynamics with differences as states.
+class ErrorStates {
+ public:
+  ErrorStates(const Dynamics& dynamics, const hybrid::StateLayout& layout,
+              const Differences& differences)
+      : differences_(differences), rewriting_(differences, layout), dynamics_(dynamics) {
+    dynamics_.signals.clear();
+    for (const bounded::StateDifference& one : differences_)
+      places_.push_back({*layout.slot(one.plus), *layout.slot(one.minus)});
+    find_flows();
+    find_jumps();
+    model::for_each_run_program(
+        dynamics_, [&](Program& program, const gainsmith::Place&) { rewrite(program); });
+    for (std::size_t k = 0; k < places_.size(); ++k)
+      dynamics_.variables[places_[k].minus].name = differences_[k].name;
   }
-  return std::nullopt;
-}
 
-ErrorStates::ErrorStates(const System& system, std::vector<bounded::StateDifference> differences)
-    : differences_(std::move(differences)),
-      rewriting_(differences_, system.layout),
-      dynamics_(as_written(system)) {
-  dynamics_.signals.clear();
-  for (const bounded::StateDifference& one : differences_)
-    places_.push_back({*system.slot(one.plus), *system.slot(one.minus)});
-  find_flows();
-  find_jumps();
-  model::for_each_run_program(
-      dynamics_, [&](Program& program, const gainsmith::Place&) { program = (*this)(program); });
-  for (std::size_t k = 0; k < places_.size(); ++k)
-    dynamics_.variables[places_[k].minus].name = differences_[k].name;
-}
+  /// The first difference that does not move by itself.
+  std::optional<std::size_t> first_bound() const;
+  model::RunTexts rewritten(model::RunTexts texts);
 
-Program ErrorStates::operator()(const Program& program) {
+ private:
+  struct Place {
+    std::size_t plus = 0, minus = 0;  ///< of a and b among the variables
+  };
+
+  void rewrite(Program& program);
+  void find_flows();
+  void find_jumps();
+  Dynamics::Assignment& map_of(std::size_t event, std::size_t variable,
+                               const Dynamics::Assignment& like);
+
+  const Differences& differences_;
+  std::vector<Place> places_;
+  bounded::ErrorRewriting rewriting_;
+  Dynamics dynamics_;
+};
+
+void ErrorStates::rewrite(Program& program) {
   const bool reads = std::any_of(differences_.begin(), differences_.end(),
                                  [&](const auto& one) { return uses(program, one.minus); });
-  return reads ? rewriting_(program) : program;
+  if (reads) program = rewriting_(program);
 }
 
 /// The flow of b becomes f_a - f_b.
@@ -176,14 +174,43 @@ std::optional<std::size_t> ErrorStates::first_bound() const {
   return std::nullopt;
 }
 
-void ErrorStates::rewrite(hybrid::Scenario& scenario) const {
+/// b = a - d in claims; where runs start the place of d still holds b.
+model::RunTexts ErrorStates::rewritten(model::RunTexts texts) {
   std::map<std::string, Program> names;
   for (const bounded::StateDifference& one : differences_)
     names[one.minus] = bounded::input_program(one.name, one.shape);
-  for (auto& rule : scenario.starts)
-    if (rule && rule->kind == model::StartKind::expression)
-      rule->program = bounded::replace_inputs(rule->program, names);
-  for (const Place& one : places_) scenario.differences.emplace_back(one.minus, one.plus);
+  const auto rename = [&](Program& start) { start = bounded::replace_inputs(start, names); };
+  texts.dynamics = std::move(dynamics_);
+  for (Dynamics::Variable& variable : texts.dynamics.variables)
+    if (variable.start) rename(variable.start->program);
+  for (model::Design::Start& start : texts.campaign.starts)
+    if (start.kind == model::StartKind::expression) rename(start.values.front().program);
+  for (model::Design::Claim& claim : texts.claims) {
+    rewrite(claim.value.program);
+    for (auto* part : {&claim.flow_cost, &claim.jump_cost, &claim.factor, &claim.bound})
+      if (*part) rewrite((*part)->program);
+  }
+  for (const Place& one : places_) texts.differences.emplace_back(one.minus, one.plus);
+  return texts;
+}
+
+}  // namespace
+
+std::optional<model::RunTexts> with_error_states(const model::RunTexts& texts,
+                                                 const std::vector<Program>& functions) {
+  const hybrid::StateLayout layout = hybrid::layout_of(texts.dynamics);
+  Differences differences = bounded::find_differences(functions, layout);
+  std::erase_if(differences, [&](const bounded::StateDifference& one) {
+    return !is_plain(texts.dynamics, *layout.slot(one.plus), false) ||
+           !is_plain(texts.dynamics, *layout.slot(one.minus), true);
+  });
+  while (!differences.empty()) {
+    ErrorStates states(texts.dynamics, layout, differences);
+    const auto bound = states.first_bound();
+    if (!bound) return states.rewritten(texts);
+    differences.erase(differences.begin() + static_cast<std::ptrdiff_t>(*bound));
+  }
+  return std::nullopt;
 }
 
 }  // namespace gainsmith::verify

@@ -1,4 +1,4 @@
-// The same dynamics with errors of observers as states.
+// The same runs with errors of observers as states.
 //
 //   d = a - b in place of b,   d' = f_a - f_b,   d+ = a+ - b+,   b = a - d elsewhere
 //
@@ -7,46 +7,16 @@
 // error of d.
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
-#include "bounded/differences.h"
-#include "hybrid/scenario.h"
-#include "hybrid/system.h"
+#include "model/run_texts.h"
 
 namespace gainsmith::verify {
 
-class ErrorStates {
- public:
-  /// None without such a difference. `functions`: of the claims, without calls.
-  static std::optional<ErrorStates> of(const hybrid::System& system,
-                                       const std::vector<expr::Program>& functions);
-
-  /// b keeps its place; its name is that of the difference.
-  const model::Dynamics& dynamics() const { return dynamics_; }
-  /// Starts are drawn as they were; then d is a - b.
-  void rewrite(hybrid::Scenario& scenario) const;
-  /// A program without calls.
-  expr::Program operator()(const expr::Program& program);
-
- private:
-  ErrorStates(const hybrid::System& system, std::vector<bounded::StateDifference> differences);
-
-  void find_flows();
-  void find_jumps();
-  model::Dynamics::Assignment& map_of(std::size_t event, std::size_t variable,
-                                      const model::Dynamics::Assignment& like);
-  /// The first difference that does not move by itself.
-  std::optional<std::size_t> first_bound() const;
-
-  struct Place {
-    std::size_t plus = 0, minus = 0;  ///< of a and b among the variables
-  };
-  std::vector<bounded::StateDifference> differences_;
-  std::vector<Place> places_;
-  bounded::ErrorRewriting rewriting_;
-  model::Dynamics dynamics_;
-};
+/// None without such a difference in `functions`, those of the claims. b keeps its place; its name
+/// is that of the difference. Starts are drawn as they were; then d is a - b. Signals are left out.
+std::optional<model::RunTexts> with_error_states(const model::RunTexts& texts,
+                                                 const std::vector<expr::Program>& functions);
 
 }  // namespace gainsmith::verify

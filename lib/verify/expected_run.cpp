@@ -7,6 +7,7 @@
 
 #include "base/number.h"
 #include "base/stop.h"
+#include "bind/stated.h"
 #include "verify/bound_figure.h"
 #include "verify/careful_runs.h"
 
@@ -19,7 +20,7 @@ class TwoRuns {
  public:
   TwoRuns(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
           std::uint64_t run)
-      : setup_(make_event_setup(instance, gains)) {
+      : setup_(make_event_setup(bind::run_texts(instance, gains))) {
     simulate::Simulator simulator(setup_->system, setup_->scenario);
     usual_ = simulator.run(seed, run, setup_->accuracy(kAccuracyOfOne));
     sharper_ = simulator.run(seed, run, setup_->accuracy(kAccuracyOfOne, bounded::kSharper));

@@ -5,7 +5,6 @@
 #include <memory>
 #include <utility>
 
-#include "bind/stated.h"
 #include "claims/run_values.h"
 #include "verify/judge.h"
 
@@ -29,8 +28,11 @@ std::string element(const std::string& name, expr::Shape shape, int at) {
   return label;
 }
 
-/// t and j have columns of their own, what a log says is an output.
-bool is_shown_otherwise(const model::Dynamics& dynamics, const model::Dynamics::Variable& one) {
+/// t and j have columns of their own, what a log says is an output; integrals belong to claims.
+bool is_shown_otherwise(const model::RunTexts& texts, const model::Dynamics::Variable& one) {
+  const model::Dynamics& dynamics = texts.dynamics;
+  for (const model::Design::Claim& claim : texts.claims)
+    if (claim.flow_cost && one.name == model::integral_name(claim.name)) return true;
   return one.kind == VariableKind::time || one.kind == VariableKind::jumps ||
          one.kind == VariableKind::measured_rate ||
          (one.kind == VariableKind::measured && dynamics.measured[one.of].output);
@@ -47,21 +49,20 @@ struct Source {
 
 class EventTable {
  public:
-  EventTable(const model::Design& design, const EventSetup& setup)
-      : design_(design), setup_(setup) {
-    const model::Dynamics& dynamics = *design.dynamics;
+  explicit EventTable(const EventSetup& setup) : setup_(setup) {
+    const model::Dynamics& dynamics = setup.texts.dynamics;
     for (const model::Dynamics::Component& one : dynamics.components)
       if (one.observer) observers_.push_back(one.name);
     for (std::size_t k = 0; k < dynamics.variables.size(); ++k) {
       const model::Dynamics::Variable& variable = dynamics.variables[k];
-      if (is_shown_otherwise(dynamics, variable)) continue;
+      if (is_shown_otherwise(setup.texts, variable)) continue;
       const hybrid::Slot& slot = setup.system.layout.slots[k];
       sources_.push_back({column(variable.name, kind_of(variable.kind)), slot.shape, slot.offset,
                           std::nullopt, std::nullopt});
     }
     for (const model::Dynamics::Signal& signal : dynamics.signals)
       add(signal.name, signal.value.program, Column::Kind::signal, signal.at);
-    for (const claims::LinkedClaim& claim : setup.claims)
+    for (const claims::Claim& claim : setup.claims)
       if (claim.stated() && add(claim.name, claim.value, Column::Kind::claim, std::nullopt))
         sources_.back().column.scope = scope(claim);
   }
@@ -87,10 +88,8 @@ class EventTable {
   }
 
  private:
-  ClaimScope scope(const claims::LinkedClaim& claim) const {
-    ClaimScope scope{claim.after,
-                     claim.over ? design_.dynamics->events[*claim.over].name : std::string(),
-                     std::nullopt};
+  ClaimScope scope(const claims::Claim& claim) const {
+    ClaimScope scope{claim.after, claim.over ? name_of(*claim.over) : std::string(), std::nullopt};
     if (claim.bound)
       scope.bound = claims::RunValue(*claim.bound, setup_.layout, setup_.system.constants)
                         .number(Eigen::VectorXd::Zero(setup_.layout.size));
@@ -100,20 +99,20 @@ class EventTable {
   /// Whether it has a value.
   bool add(const std::string& name, const expr::Program& program, Column::Kind kind,
            std::optional<std::size_t> at) {
-    expr::Program linked = setup_.system.bodies.link(program);
-    for (const expr::Input& input : linked.inputs)
+    for (const expr::Input& input : program.inputs)
       if (!setup_.system.slot(input.name) && !setup_.system.constants.contains(input.name))
         return false;
-    programs_.push_back(std::make_unique<expr::Program>(std::move(linked)));
-    const expr::Program& own = *programs_.back();
-    sources_.push_back({column(name, kind), own.shape(), std::nullopt,
-                        claims::RunValue(own, setup_.layout, setup_.system.constants), at});
+    sources_.push_back({column(name, kind), program.shape(), std::nullopt,
+                        claims::RunValue(program, setup_.layout, setup_.system.constants), at});
     return true;
   }
 
   std::string event_of(const hybrid::JumpPoint& jump) const {
-    const std::string& name = design_.dynamics->events[jump.event].name;
-    return jump.lost ? name + " (lost)" : name;
+    return jump.lost ? name_of(jump.event) + " (lost)" : name_of(jump.event);
+  }
+
+  const std::string& name_of(std::size_t event) const {
+    return setup_.texts.dynamics.events[event].name;
   }
 
   /// Of the only observer a name needs no prefix.
@@ -143,53 +142,46 @@ class EventTable {
     values.insert(values.end(), value.data(), value.data() + value.size());
   }
 
-  const model::Design& design_;
   const EventSetup& setup_;
   std::vector<std::string> observers_;
-  std::vector<std::unique_ptr<expr::Program>> programs_;
   std::vector<Source> sources_;
 };
 
 /// Starts that the campaign gives are asked about with what is drawn.
-std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const model::Instance& instance,
-                                    const model::Gains& gains, const EventSetup& setup,
+std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const EventSetup& setup,
                                     std::uint64_t seed, std::uint64_t number) {
   const simulate::Accuracy accuracy = setup.accuracy(kAccuracyOfOne);
   judge::Question question{accuracy.relative,
                            accuracy.absolute,
                            accuracy.absolute_of,
                            {},
-                           judge::DrawnFrom{seed, number, &instance.design->campaign}};
-  for (const model::Design::Start& start : instance.design->campaign.starts) {
-    const hybrid::Slot& slot = setup.system.layout.slots[start.state];
+                           judge::DrawnFrom{seed, number, &setup.texts.campaign}};
+  for (const model::Design::Start& start : setup.texts.campaign.starts) {
+    const hybrid::Slot& slot = setup.layout.slots[start.state];
     const numbers::Matrix value = run.start.segment(slot.offset, slot.shape.size())
                                       .reshaped(slot.shape.rows, slot.shape.cols);
     question.starts.push_back({start.state, value, value});
   }
-  model::Dynamics dynamics = setup.system.dynamics;
-  dynamics.flow = setup.flow;
-  return judge::check_trajectory(run, dynamics, bind::state(instance, gains), question);
+  return judge::check_trajectory(run, setup.texts.dynamics, setup.texts.stated, question);
 }
 
 }  // namespace
 
-Replay replay_run(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
-                  std::uint64_t run, double step, bool judged) {
-  const std::unique_ptr<const Setup> setup = make_setup(instance, gains);
-  const EventSetup& events = *setup->events;
+Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
+                  bool judged) {
+  const EventSetup& events = *setup.events;
   Replay result;
   result.run = simulate::Simulator(events.system, events.scenario)
                    .run(seed, run, events.accuracy(kAccuracyOfOne));
   if (result.run.ending == hybrid::Ending::interrupted) {
     const Concluding concluding;
-    EventTable(*instance.design, events).fill(step, result);
+    EventTable(events).fill(step, result);
     return result;
   }
-  EventTable(*instance.design, events).fill(step, result);
-  if (judged) result.faults = faults_of(result.run, instance, gains, events, seed, run);
+  EventTable(events).fill(step, result);
+  if (judged) result.faults = faults_of(result.run, events, seed, run);
   if (events.judged.empty()) return result;
-  Judge judge(*setup);
-  const std::vector<claims::Finding> findings = judge(seed, run).findings;
+  const std::vector<claims::Finding> findings = Judge(setup)(seed, run).findings;
   for (std::size_t k = 0; k < findings.size(); ++k)
     result.claims.push_back({events.judged[k].name, findings[k]});
   return result;

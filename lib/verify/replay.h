@@ -8,8 +8,7 @@
 
 #include "claims/claim_check.h"
 #include "judge/judge.h"
-#include "model/gains.h"
-#include "model/instance.h"
+#include "verify/setup.h"
 
 namespace gainsmith::verify {
 
@@ -47,7 +46,7 @@ struct Replay {
 
 /// `step`: of the points of flows; 0: as the integration went. `judged`: whether the run is checked
 /// against the texts. After a stop (base/stop.h) the run as far as it came, without claims.
-Replay replay_run(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
-                  std::uint64_t run, double step, bool judged = false);
+Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
+                  bool judged = false);
 
 }  // namespace gainsmith::verify

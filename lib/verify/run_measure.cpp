@@ -3,13 +3,14 @@
 #include <cmath>
 
 #include "base/stop.h"
+#include "bind/stated.h"
 #include "verify/bound_figure.h"
 
 namespace gainsmith::verify {
 
 std::optional<double> mean_figure(const model::Instance& instance, const model::Gains& gains,
                                   const model::Figure& figure, std::uint64_t runs) {
-  const auto setup = make_event_setup(instance, gains);
+  const auto setup = make_event_setup(bind::run_texts(instance, gains));
   simulate::Simulator simulator(setup->system, setup->scenario);
   BoundFigure bound(figure, *setup);
   const simulate::Accuracy accuracy = setup->accuracy(kAccuracyOfMany);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "bind/stated.h"
 #include "hybrid/exact_values.h"
+#include "verify/error_states.h"
 
 namespace gainsmith::verify {
 
@@ -11,73 +13,44 @@ namespace {
 
 using Wide = numbers::MatrixOf<Decimal100>;
 
-using StatedClaims = std::vector<const claims::LinkedClaim*>;
-
-StatedClaims stated_claims(const std::vector<claims::LinkedClaim>& claims) {
-  StatedClaims stated;
-  for (const claims::LinkedClaim& claim : claims)
-    if (claim.stated()) stated.push_back(&claim);
-  return stated;
-}
-
-/// The functions of the claims, in the order in which judged_claims takes them back.
-std::vector<expr::Program> functions_of(const StatedClaims& claims) {
+/// The programs of the claims that are stated.
+std::vector<expr::Program> functions_of(const std::vector<claims::Claim>& claims) {
   std::vector<expr::Program> functions;
-  for (const claims::LinkedClaim* claim : claims) {
-    functions.push_back(claim->value);
-    for (const auto* part : {&claim->flow_cost, &claim->jump_cost, &claim->factor, &claim->bound})
-      if (*part) functions.push_back(**part);
-  }
+  for (const claims::Claim& claim : claims)
+    if (claim.stated())
+      for (expr::Program& program : claims::programs_of(claim))
+        functions.push_back(std::move(program));
   return functions;
 }
 
-/// By stated claim, the coordinate that is the integral of its flow cost along integrated flows;
-/// none where there is no such cost.
-std::vector<std::optional<Eigen::Index>> add_integrals(const StatedClaims& claims,
-                                                       SampledSetup& setup) {
-  std::vector<std::optional<Eigen::Index>> added;
+/// Along flows that are integrated the integral of each flow cost is a coordinate.
+void add_integrals(const std::vector<claims::Claim>& claims, bounded::Coordinates& coordinates) {
   std::size_t next = 0;
-  for (const claims::LinkedClaim* claim : claims) {
-    ++next;  // the value
-    added.emplace_back();
-    if (claim->flow_cost) {
-      const expr::Program& cost = setup.coordinates.functions[next++];
-      if (!setup.steps)
-        added.back() = bounded::add_integral(setup.coordinates, "integral of " + claim->name, cost);
-    }
-    next += static_cast<std::size_t>(claim->jump_cost.has_value()) +
-            static_cast<std::size_t>(claim->factor.has_value()) +
-            static_cast<std::size_t>(claim->bound.has_value());
+  for (const claims::Claim& claim : claims) {
+    if (!claim.stated()) continue;
+    if (claim.flow_cost)
+      bounded::add_integral(coordinates, model::integral_name(claim.name),
+                            coordinates.functions[next + 1]);
+    next += claims::programs_of(claim).size();
   }
-  return added;
 }
 
-void add_judged_claims(const StatedClaims& claims, SampledSetup& setup, std::vector<Wide>& forms) {
-  const auto integrals = add_integrals(claims, setup);
-  auto accumulated = integrals.begin();
-  std::size_t next = 0;
-  const auto take = [&] {
-    return claims::make_function(setup.coordinates.functions[next++], setup.coordinates);
-  };
-  for (const claims::LinkedClaim* claim : claims) {
-    claims::JudgedClaim judged;
-    judged.name = claim->name;
-    judged.kind = claim->kind;
-    judged.value = take();
-    if (claim->flow_cost) judged.flow_cost = take();
-    if (claim->jump_cost) judged.jump_cost = take();
-    if (claim->factor) judged.factor = take();
-    if (claim->bound) judged.bound = take();
-    judged.after = claim->after;
-    judged.over = claim->over;
-    const Eigen::Index n = setup.coordinates.layout.size;
-    judged.accumulated = *accumulated++;
-    if (setup.steps && judged.flow_cost && judged.flow_cost->is_form()) {
-      judged.integral = forms.size();
-      forms.push_back(judged.flow_cost->parts.empty() ? Wide(Wide::Zero(n + 1, n + 1))
-                                                      : judged.flow_cost->parts.front().matrix);
-    }
-    setup.judged.push_back(std::move(judged));
+/// `forms`: gets the quadratic forms whose integrals the claims ask of exact steps.
+void add_judged_claims(const std::vector<claims::Claim>& claims, SampledSetup& setup,
+                       std::vector<Wide>& forms) {
+  const bounded::Coordinates& coordinates = setup.coordinates;
+  std::size_t k = 0;
+  const auto next = [&] { return claims::make_function(coordinates.functions[k++], coordinates); };
+  for (const claims::Claim& claim : claims) {
+    if (!claim.stated()) continue;
+    claims::JudgedClaim& judged = setup.judged.emplace_back(claims::judged_claim(claim, next));
+    const auto integral = coordinates.layout.slot(model::integral_name(claim.name));
+    if (integral) judged.accumulated = coordinates.layout.slots[*integral].offset;
+    if (!setup.steps || !judged.flow_cost || !judged.flow_cost->is_form()) continue;
+    const Eigen::Index n = coordinates.layout.size;
+    judged.integral = forms.size();
+    forms.push_back(judged.flow_cost->parts.empty() ? Wide(Wide::Zero(n + 1, n + 1))
+                                                    : judged.flow_cost->parts.front().matrix);
   }
 }
 
@@ -94,20 +67,23 @@ bool add_clocked_flows(SampledSetup& setup, const hybrid::Scenario& scenario) {
   return setup.flows->to(kAccuracyOfMany) != nullptr;
 }
 
-/// None when the dynamics are of another kind.
+/// None when the dynamics are of another kind, or a claim is one that only careful runs understand.
 std::unique_ptr<const SampledSetup> make_sampled_setup(const model::Instance& instance,
                                                        const model::Gains& gains,
                                                        const EventSetup& events) {
+  const auto is_over = [](const claims::Claim& claim) { return claim.over.has_value(); };
+  if (events.texts.campaign.accuracy || std::ranges::any_of(events.claims, is_over)) return nullptr;
   auto setup = std::make_unique<SampledSetup>();
   setup->system = bounded::make_sampled_system(events.system);
   if (!setup->system) return nullptr;
   const bounded::SampledSystem& system = *setup->system;
   if (system.flow) setup->steps.emplace(*system.flow, system.longest, system.flow_place);
-  const StatedClaims stated = stated_claims(events.claims);
-  setup->coordinates = bounded::make_coordinates(
-      system, hybrid::exact_values(instance, system.constants(), gains), functions_of(stated));
+  setup->coordinates =
+      bounded::make_coordinates(system, hybrid::exact_values(instance, system.constants(), gains),
+                                functions_of(events.claims));
+  if (!setup->steps) add_integrals(events.claims, setup->coordinates);
   std::vector<Wide> forms;
-  add_judged_claims(stated, *setup, forms);
+  add_judged_claims(events.claims, *setup, forms);
   if (!setup->steps && !add_clocked_flows(*setup, events.scenario)) return nullptr;
   std::optional<bounded::ExactSteps> exact;
   if (setup->steps) exact = bounded::exact_steps(setup->coordinates, *setup->steps, forms);
@@ -117,22 +93,16 @@ std::unique_ptr<const SampledSetup> make_sampled_setup(const model::Instance& in
   return setup;
 }
 
-/// Of claims that only the careful run understands.
-bool is_of_samples(const model::Design& design) {
-  return std::none_of(design.claims.begin(), design.claims.end(),
-                      [](const model::Design::Claim& claim) { return claim.over.has_value(); });
-}
-
 }  // namespace
 
 std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
                                         const model::Gains& gains) {
   auto setup = std::make_unique<Setup>();
-  setup->events = make_event_setup(instance, gains);
-  if (!instance.design->campaign.accuracy && is_of_samples(*instance.design))
-    setup->sampled = make_sampled_setup(instance, gains, *setup->events);
-  if (setup->sampled) return setup;
-  setup->errors = make_error_setup(instance, gains);
+  setup->events = make_event_setup(bind::run_texts(instance, gains));
+  setup->sampled = make_sampled_setup(instance, gains, *setup->events);
+  if (!setup->sampled)
+    if (auto texts = with_error_states(setup->events->texts, functions_of(setup->events->claims)))
+      setup->errors = make_event_setup(std::move(*texts));
   return setup;
 }
 

@@ -31,7 +31,7 @@ struct Setup {
   std::unique_ptr<const EventSetup> errors;     ///< with errors as states; none: there are none
   std::unique_ptr<const SampledSetup> sampled;  ///< none: all runs are careful
 
-  const std::vector<claims::LinkedClaim>& claims() const { return events->claims; }
+  const std::vector<claims::Claim>& claims() const { return events->claims; }
   /// By which the careful run judges.
   const EventSetup& judged() const { return errors ? *errors : *events; }
   double horizon() const { return events->scenario.horizon; }

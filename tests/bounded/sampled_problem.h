@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "bind/stated.h"
 #include "bounded/bounded_run.h"
 #include "bounded/sampled_system.h"
 #include "hybrid/exact_values.h"
@@ -17,9 +18,10 @@ namespace gainsmith::bounded {
 struct SampledProblem {
   explicit SampledProblem(const tests::TextProblem& problem)
       : instance(problem.instance()),
-        dynamics(hybrid::make_system(instance, problem.gains)),
+        texts(bind::run_texts(instance, problem.gains)),
+        dynamics(hybrid::make_system(texts.dynamics, texts.stated.values)),
         made(make_sampled_system(dynamics)),
-        scenario(hybrid::make_scenario(instance.design->campaign, dynamics)),
+        scenario(hybrid::make_scenario(texts.campaign, dynamics)),
         values(hybrid::exact_values(instance, dynamics.constants, problem.gains)) {
     if (!made) throw std::logic_error("not sampled");
     if (made->flow) steps.emplace(*made->flow, made->longest, made->flow_place);
@@ -40,6 +42,7 @@ struct SampledProblem {
   }
 
   model::Instance instance;
+  model::RunTexts texts;
   hybrid::System dynamics;
   std::unique_ptr<const SampledSystem> made;
   hybrid::Scenario scenario;

@@ -27,7 +27,7 @@ model::Instance instance_of(const std::string& method, const std::string& claims
 Report report_of(const model::Instance& instance) {
   CampaignOptions options;
   options.threads = 1;
-  return run_campaign(instance, model::Gains{}, options);
+  return run_campaign(*make_setup(instance, {}), options);
 }
 
 /// x = exp(-t); y = sin(50 t); z' = 1, z+ = 0.9 z when it comes to 1; q counts.
@@ -236,7 +236,7 @@ TEST(Rate, IsTheLimitOfDifferenceQuotients) {
                   "{runs: 3, horizon: 2, initial: {x: {box: [-2, 2]}, z: {box: [-2, 2]}}}");
   constexpr double kStep = 1e-4;
   for (std::uint64_t run = 0; run < 3; ++run) {
-    const Replay replay = replay_run(instance, {}, 1, run, kStep);
+    const Replay replay = replay_run(*make_setup(instance, {}), 1, run, kStep);
     const Eigen::VectorXd t = column(replay, "t");
     const Eigen::VectorXd j = column(replay, "j");
     const Eigen::VectorXd z = column(replay, "z1");
@@ -269,7 +269,7 @@ TEST(Rate, OfAFrozenStateIsZero) {
   signals: {r: rate(x)}
 )";
   const auto instance = instance_of(method, "{c: {below: r, bound: 9}}", "{runs: 1, horizon: 2}");
-  const Replay replay = replay_run(instance, {}, 1, 0, 0.25);
+  const Replay replay = replay_run(*make_setup(instance, {}), 1, 0, 0.25);
   const Eigen::VectorXd t = column(replay, "t");
   const Eigen::VectorXd j = column(replay, "j");
   const Eigen::VectorXd r = column(replay, "r");

@@ -40,7 +40,7 @@ model::Instance instance_of(const std::string& claims, bool integrated,
 CampaignVerdict verdict_of(const std::string& claim, bool integrated) {
   CampaignOptions options;
   options.threads = 1;
-  return run_campaign(instance_of("{c: {" + claim + "}}", integrated), model::Gains{}, options)
+  return run_campaign(*make_setup(instance_of("{c: {" + claim + "}}", integrated), {}), options)
       .verdict;
 }
 
@@ -133,15 +133,11 @@ CampaignVerdict verdict_on_circle(const std::string& claim, const std::string& h
   const std::string z = integrated ? ", z: {shape: scalar, start: 0.3}" : "";
   CampaignOptions options;
   options.threads = 1;
-  return run_campaign(
-             bind::bind(io::read_problem(
-                 "problem: p\nmethod:\n  method: m\n  plant:\n    state: {x: {shape: 2, start: "
-                 "\"[1; 0]\"}" +
-                 z + "}\n    flow: {x: \"[x(2); -x(1)]\"" + (integrated ? ", z: -z^3" : "") +
-                 "}\n  claims: {c: {" + claim + "}}\ncampaign: {runs: 1, horizon: " + horizon +
-                 "}\n")),
-             model::Gains{}, options)
-      .verdict;
+  const model::Instance instance = bind::bind(io::read_problem(
+      "problem: p\nmethod:\n  method: m\n  plant:\n    state: {x: {shape: 2, start: \"[1; 0]\"}" +
+      z + "}\n    flow: {x: \"[x(2); -x(1)]\"" + (integrated ? ", z: -z^3" : "") +
+      "}\n  claims: {c: {" + claim + "}}\ncampaign: {runs: 1, horizon: " + horizon + "}\n"));
+  return run_campaign(*make_setup(instance, {}), options).verdict;
 }
 
 TEST(NarrowClaims, WhatIsFalseIsNeverHeld) {
@@ -229,7 +225,7 @@ method:
   claims: {c: {below: x, bound: 3.5}}
 campaign: {runs: 2, horizon: 2, initial: {x: {list: [3, -1]}}}
 )yaml"));
-  const Report report = run_campaign(instance, model::Gains{}, options);
+  const Report report = run_campaign(*make_setup(instance, {}), options);
   EXPECT_EQ(report.verdict, CampaignVerdict::violated);
   EXPECT_EQ(report.violations, 1U);
   EXPECT_EQ(report.undecided, 1U);
@@ -239,11 +235,11 @@ campaign: {runs: 2, horizon: 2, initial: {x: {list: [3, -1]}}}
 TEST(NarrowClaims, WhatIsNeverComparedSaysSo) {
   CampaignOptions options;
   options.threads = 1;
-  const Report report = run_campaign(
+  const model::Instance instance =
       instance_of("{a: {below: x, bound: 1, over: never}, b: {above: x, bound: -1}}", false,
                   "  events: {never: {when: plant.x >= 100}}\n  observer: {state: {n: {shape: "
-                  "scalar, start: 0}}, at: {never: {n: 1}}}\n"),
-      model::Gains{}, options);
+                  "scalar, start: 0}}, at: {never: {n: 1}}}\n");
+  const Report report = run_campaign(*make_setup(instance, {}), options);
   EXPECT_EQ(report.verdict, CampaignVerdict::held);
   EXPECT_FALSE(report.checks[0].worst.looked);
   EXPECT_TRUE(report.checks[1].worst.looked);

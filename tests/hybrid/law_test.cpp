@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "bind/stated.h"
 #include "hybrid/scenario.h"
 #include "support/text_problem.h"
 
@@ -22,15 +23,14 @@ TextProblem plant() {
 }
 
 std::vector<Law> laws(TextProblem& problem) {
-  const model::Instance instance = problem.instance();
-  const System system = make_system(instance, problem.gains);
-  return make_scenario(instance.design->campaign, system).laws.front();
+  const model::RunTexts texts = bind::run_texts(problem.instance(), problem.gains);
+  const System system = make_system(texts.dynamics, texts.stated.values);
+  return make_scenario(texts.campaign, system).laws.front();
 }
 
 std::string error_of(TextProblem& problem) {
   try {
-    const model::Instance instance = problem.instance();
-    make_scenario(instance.design->campaign, make_system(instance, problem.gains));
+    laws(problem);
   } catch (const InputError& error) {
     return error.what();
   }

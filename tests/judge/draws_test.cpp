@@ -66,7 +66,7 @@ struct Drawn {
                                model::StartKind::box,
                                {number("0"), number("1")},
                                {}});
-    const hybrid::System system = hybrid::make_system(dynamics, stated.values, stated.bodies);
+    const hybrid::System system = hybrid::make_system(dynamics, stated.values);
     const hybrid::Scenario scenario = hybrid::make_scenario(campaign, system);
     run = simulate::Simulator(system, scenario).run(seed, number_of_run);
   }
@@ -168,8 +168,7 @@ TEST(JudgedDraws, ALengthIsFound) {
   Drawn drawn(0);
   model::Design::Campaign other = drawn.campaign;
   other.laws = {{LawKind::list, {number("0.2"), number("0.25"), number("0.11")}, {}, 0}};
-  const hybrid::System system =
-      hybrid::make_system(drawn.dynamics, drawn.stated.values, drawn.stated.bodies);
+  const hybrid::System system = hybrid::make_system(drawn.dynamics, drawn.stated.values);
   drawn.run = simulate::Simulator(system, hybrid::make_scenario(other, system))
                   .run(drawn.seed, drawn.number_of_run);
   const std::size_t at = drawn.jump("sample");

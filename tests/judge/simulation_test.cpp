@@ -25,7 +25,7 @@ struct Simulated {
   Simulated(const DynamicsText& text, double horizon, std::uint64_t run = 0,
             double accuracy = 1e-10)
       : dynamics(text.dynamics()), stated(text.stated()) {
-    const hybrid::System system = hybrid::make_system(dynamics, stated.values, stated.bodies);
+    const hybrid::System system = hybrid::make_system(dynamics, stated.values);
     const hybrid::Scenario scenario = hybrid::make_scenario(horizon, system);
     trajectory = simulate::Simulator(system, scenario).run(1, run, {accuracy, accuracy});
     question.relative = question.absolute = accuracy;

@@ -38,7 +38,7 @@ struct Judged {
 
   Judged(const DynamicsText& text, double horizon, double accuracy = 1e-10)
       : dynamics(text.dynamics()), stated(text.stated()) {
-    system = hybrid::make_system(dynamics, stated.values, stated.bodies);
+    system = hybrid::make_system(dynamics, stated.values);
     const hybrid::Scenario scenario = hybrid::make_scenario(horizon, system);
     run = Simulator(system, scenario).run(1, 0, {accuracy, accuracy});
     judge::Question question;

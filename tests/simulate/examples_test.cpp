@@ -28,7 +28,7 @@ hybrid::Trajectory simulate(const hybrid::System& system, double horizon,
   model::Dynamics written = system.dynamics;
   for (std::size_t k = 0; k < written.flow.size(); ++k)
     if (system.free_flow[k]) written.flow[k].value.program = *system.free_flow[k];
-  const model::Stated stated{system.constants, system.bodies, {}};
+  const model::Stated stated{system.constants, {}, {}};
   const auto faults = judge::check_trajectory(run, written, stated, question);
   EXPECT_TRUE(faults.empty()) << tests::to_text(faults);
   return run;

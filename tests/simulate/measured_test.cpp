@@ -30,7 +30,7 @@ struct Simulated {
   Simulated(const DynamicsText& text, double horizon)
       : dynamics(text.dynamics()),
         stated(text.stated()),
-        system(hybrid::make_system(dynamics, stated.values, stated.bodies)) {
+        system(hybrid::make_system(dynamics, stated.values)) {
     const hybrid::Scenario scenario = hybrid::make_scenario(horizon, system);
     trajectory = Simulator(system, scenario).run(1, 0);
   }
@@ -178,7 +178,7 @@ TEST(Measured, AnEventMayTakeItsTimesFromRows) {
   text.state("n", 1, "", "0").at("tick", {"0.5"}).reacts("tick", {{"n", "n + 1"}});
   model::Dynamics dynamics = text.dynamics();
   dynamics.events[0].rows = {0.25, 0.5, 0.75};
-  const hybrid::System system = hybrid::make_system(dynamics, {}, {});
+  const hybrid::System system = hybrid::make_system(dynamics, {});
   EXPECT_EQ(system.times[0], (std::vector<double>{0.25, 0.5, 0.75}));
   const hybrid::Trajectory run = Simulator(system, hybrid::make_scenario(1, system)).run(1, 0);
   const model::Stated stated = text.stated();
@@ -223,7 +223,7 @@ TEST(Measured, ARunAsksForNoMoreThanThereIs) {
             std::string::npos);
   line.measured("u", Between::line, {{0, 1}, {1, 1}}).state("x", 1, "u", "0");
   const model::Dynamics dynamics = line.dynamics();
-  const hybrid::System system = hybrid::make_system(dynamics, {}, {});
+  const hybrid::System system = hybrid::make_system(dynamics, {});
   model::Design::Campaign campaign;
   EXPECT_EQ(hybrid::make_scenario(campaign, system).horizon, 1);
 }

@@ -275,7 +275,7 @@ EventProblem& EventProblem::repeat(const std::string& event, const Map& map,
 }
 
 hybrid::System EventProblem::system() const {
-  return hybrid::make_system(EventCompiler(*this).compile(), values_, model::Bodies());
+  return hybrid::make_system(EventCompiler(*this).compile(), values_);
 }
 
 numbers::Matrix part_of(const hybrid::System& system, const Eigen::VectorXd& values,

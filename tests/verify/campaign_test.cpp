@@ -35,11 +35,11 @@ TextProblem row_three() {
 
 Replay replay(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
               std::uint64_t run) {
-  return replay_run(instance, gains, seed, run, 0);
+  return replay_run(*make_setup(instance, gains), seed, run, 0);
 }
 
 Report run(TextProblem& problem, CampaignOptions options = {}) {
-  return run_campaign(problem.instance(), problem.gains, options);
+  return run_campaign(*make_setup(problem.instance(), problem.gains), options);
 }
 
 bool same(const Report& a, const Report& b) {

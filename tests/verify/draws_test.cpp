@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bind/bind.h"
+#include "bind/stated.h"
 #include "io/problem_text.h"
-#include "bind/bind.h"
 #include "verify/careful_runs.h"
 #include "verify/expected_run.h"
 
@@ -21,6 +21,10 @@ using Eigen::VectorXd;
 
 model::Instance instance_of(const std::string& method, const std::string& problem) {
   return bind::bind(io::read_problem("problem: p\nmethod:\n  method: m\n" + method + problem));
+}
+
+std::unique_ptr<const EventSetup> setup_of(const std::string& method, const std::string& problem) {
+  return make_event_setup(bind::run_texts(instance_of(method, problem), {}));
 }
 
 const std::string kPlant =
@@ -42,11 +46,10 @@ VectorXd start(const EventSetup& setup, std::uint64_t seed, std::uint64_t run) {
 }
 
 TEST(EventDraws, AnEllipsoidIsFilledEvenly) {
-  const auto setup = make_event_setup(
-      instance_of(kPlant,
-                  "campaign: {horizon: 1, initial: {x: {ellipsoid: {center: [1, 2, 3], matrix: Q, "
-                  "level: 2}}, z: 0}}\n"),
-      {});
+  const auto setup =
+      setup_of(kPlant,
+               "campaign: {horizon: 1, initial: {x: {ellipsoid: {center: [1, 2, 3], matrix: Q, "
+               "level: 2}}, z: 0}}\n");
   const Eigen::Matrix3d Q{{4, 1, 0}, {1, 2, 0.5}, {0, 0.5, 1}};
   const Eigen::Vector3d center(1, 2, 3);
   constexpr int kRuns = 20000;
@@ -73,11 +76,10 @@ TEST(EventDraws, AnEllipsoidIsFilledEvenly) {
 }
 
 TEST(EventDraws, StatesOfAllComponentsTakeListsBoxesAndEllipsoids) {
-  const auto setup = make_event_setup(
-      instance_of(kPlant,
-                  "campaign: {horizon: 1, initial: {x: {list: [[1, 2, 3], [4, 5, 6]]}, a.z: {box: "
-                  "[2, 3]}, b.z: {ellipsoid: {matrix: 4*I}}}}\n"),
-      {});
+  const auto setup =
+      setup_of(kPlant,
+               "campaign: {horizon: 1, initial: {x: {list: [[1, 2, 3], [4, 5, 6]]}, a.z: {box: "
+               "[2, 3]}, b.z: {ellipsoid: {matrix: 4*I}}}}\n");
   for (std::uint64_t run = 0; run < 20; ++run) {
     const VectorXd values = start(*setup, 3, run);
     EXPECT_EQ(part(*setup, values, "x")(0), run % 2 == 0 ? 1 : 4);
@@ -97,10 +99,8 @@ TEST(EventDraws, ABadEllipsoidIsRefused) {
         std::pair("{matrix: eye(2)}", "wrong shape")}) {
     SCOPED_TRACE(ellipsoid);
     try {
-      make_event_setup(
-          instance_of(kPlant, "campaign: {horizon: 1, initial: {z: 0, x: {ellipsoid: " +
-                                  std::string(ellipsoid) + "}}}\n"),
-          {});
+      setup_of(kPlant, "campaign: {horizon: 1, initial: {z: 0, x: {ellipsoid: " +
+                           std::string(ellipsoid) + "}}}\n");
       ADD_FAILURE();
     } catch (const InputError& error) {
       EXPECT_NE(std::string(error.what()).find(message), std::string::npos) << error.what();
@@ -122,8 +122,7 @@ TEST(EventDraws, VerticesTakeEachCombinationInTurn) {
         "uncertain: {A: {vertices: [As(1), 2*As(1), [[3, 0], [0, 3]]]}, c: {vertices: [1, "
         "2]}}\n"}) {
     SCOPED_TRACE(uncertain);
-    const auto setup =
-        make_event_setup(instance_of(method, data + uncertain + "campaign: {horizon: 1}\n"), {});
+    const auto setup = setup_of(method, data + uncertain + "campaign: {horizon: 1}\n");
     std::set<std::pair<double, double>> seen;
     for (std::uint64_t run = 0; run < 12; ++run) {
       VectorXd values = start(*setup, 1, run);
@@ -145,13 +144,11 @@ TEST(EventDraws, CornersOfABoxOfAMatrix) {
       "  data: {A: 2 x 2}\n"
       "  plant: {state: {x: {shape: 2, start: \"[1; 1]\"}}, flow: {x: A*x}}\n"
       "  claims: {k: {below: norm(x), bound: 1e9}}\n";
-  const auto setup = make_event_setup(
-      instance_of(
-          method,
-          "data: {A: [[1, 2], [3, 4]]}\n"
-          "uncertain: {A: {box: [\"[0, 2; 1, 3]\", \"[1, 2; 5, 4]\"], sampling: vertices}}\n"
-          "campaign: {horizon: 1}\n"),
-      {});
+  const auto setup =
+      setup_of(method,
+               "data: {A: [[1, 2], [3, 4]]}\n"
+               "uncertain: {A: {box: [\"[0, 2; 1, 3]\", \"[1, 2; 5, 4]\"], sampling: vertices}}\n"
+               "campaign: {horizon: 1}\n");
   ASSERT_EQ(setup->system.noise[0].values.size(), 8U);
   std::set<std::vector<double>> seen;
   for (const numbers::Matrix& corner : setup->system.noise[0].values) {
@@ -170,7 +167,7 @@ TEST(EventDraws, ASinusoidIsWhatItSays) {
       "  noise: {w: {sinusoid: {amplitude: \"[2; 3]\", frequency: [1, 4], phase: [0, 2*pi]}}}\n"
       "  plant: {state: {x: {shape: 2, start: 0}}, flow: {x: w}}\n"
       "  claims: {k: {below: norm(x), bound: 1e9}}\n";
-  const auto setup = make_event_setup(instance_of(method, "campaign: {horizon: 3}\n"), {});
+  const auto setup = setup_of(method, "campaign: {horizon: 3}\n");
   simulate::Simulator simulator(setup->system, setup->scenario);
   std::set<double> frequencies;
   for (std::uint64_t run = 0; run < 5; ++run) {

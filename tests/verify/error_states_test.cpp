@@ -8,7 +8,6 @@
 #include "bind/bind.h"
 #include "io/problem_text.h"
 #include "verify/campaign.h"
-#include "verify/careful_runs.h"
 
 namespace gainsmith::verify {
 namespace {
@@ -43,14 +42,15 @@ TEST(ErrorStates, AnObserverOfAGrowingPlantIsJudgedByItsError) {
       two_sensors(kCopy, kCorrection, "{small: {shrinks: norm(z - zh), to: 1e-12}}");
   CampaignOptions options;
   options.threads = 1;
-  EXPECT_EQ(run_campaign(instance, model::Gains{}, options).verdict, CampaignVerdict::held);
+  EXPECT_EQ(run_campaign(*make_setup(instance, {}), options).verdict, CampaignVerdict::held);
 }
 
 TEST(ErrorStates, RunsOfBothSystemsAreTheSame) {
   const model::Instance instance =
       two_sensors(kCopy, kCorrection, "{small: {shrinks: norm(z - zh), to: 1e-12}}");
-  const auto written = make_event_setup(instance, model::Gains{});
-  const auto errors = make_error_setup(instance, model::Gains{});
+  const auto setup = make_setup(instance, {});
+  const auto& written = setup->events;
+  const auto& errors = setup->errors;
   ASSERT_NE(errors, nullptr);
   const auto end_of = [](const EventSetup& setup) {
     const hybrid::Trajectory run =
@@ -69,12 +69,12 @@ TEST(ErrorStates, RunsOfBothSystemsAreTheSame) {
 
 TEST(ErrorStates, AnErrorThatDoesNotMoveByItselfIsNone) {
   const std::string claims = "{small: {shrinks: norm(z - zh), to: 1e-12}}";
-  EXPECT_EQ(make_error_setup(two_sensors("[2*zh(1); 1.5*zh(2)]", kCorrection, claims), {}),
-            nullptr);
-  EXPECT_EQ(make_error_setup(two_sensors(kCopy, "[zh(1); sin(y2)]", claims), {}), nullptr);
-  EXPECT_EQ(
-      make_error_setup(two_sensors(kCopy, kCorrection, "{small: {below: norm(zh), bound: 1}}"), {}),
-      nullptr);
+  const auto errors = [](const model::Instance& instance) {
+    return make_setup(instance, {})->errors != nullptr;
+  };
+  EXPECT_FALSE(errors(two_sensors("[2*zh(1); 1.5*zh(2)]", kCorrection, claims)));
+  EXPECT_FALSE(errors(two_sensors(kCopy, "[zh(1); sin(y2)]", claims)));
+  EXPECT_FALSE(errors(two_sensors(kCopy, kCorrection, "{small: {below: norm(zh), bound: 1}}")));
 }
 
 TEST(ErrorStates, AnErrorOfNothingIsNoSignOfTwoRuns) {
@@ -92,10 +92,10 @@ method:
   claims: {pushed: {below: "z - zh", bound: 1.4}}
 campaign: {runs: 1, horizon: 2}
 )"));
-  ASSERT_EQ(make_error_setup(instance, model::Gains{}), nullptr);
+  ASSERT_EQ(make_setup(instance, {})->errors, nullptr);
   CampaignOptions options;
   options.threads = 1;
-  EXPECT_EQ(run_campaign(instance, model::Gains{}, options).verdict, CampaignVerdict::held);
+  EXPECT_EQ(run_campaign(*make_setup(instance, {}), options).verdict, CampaignVerdict::held);
 }
 
 TEST(ErrorStates, AJumpOfThePlantAloneIsAJumpOfTheError) {
@@ -114,10 +114,9 @@ method:
   const auto verdict = [&](const std::string& bound) {
     CampaignOptions options;
     options.threads = 1;
-    return run_campaign(bind::bind(io::read_problem(plant + bound +
-                                                    "}}\ncampaign: {runs: 1, horizon: 2}\n")),
-                        model::Gains{}, options)
-        .verdict;
+    const model::Instance instance =
+        bind::bind(io::read_problem(plant + bound + "}}\ncampaign: {runs: 1, horizon: 2}\n"));
+    return run_campaign(*make_setup(instance, {}), options).verdict;
   };
   // z - zh = 0.5 exp(t - 1) after t = 1.
   EXPECT_EQ(verdict("1.35915"), CampaignVerdict::held);

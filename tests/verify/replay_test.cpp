@@ -26,7 +26,7 @@ TextProblem problem_with_claims() {
 }
 
 Replay replay(const TextProblem& problem, std::uint64_t seed, std::uint64_t run) {
-  return replay_run(problem.instance(), problem.gains, seed, run, 0);
+  return replay_run(*make_setup(problem.instance(), problem.gains), seed, run, 0);
 }
 
 std::vector<std::string> names(const Replay& replay) {
@@ -54,7 +54,7 @@ TEST(Replay, HasAColumnForEachThing) {
 
 TEST(Replay, FindsWhatTheCampaignFound) {
   const TextProblem problem = problem_with_claims();
-  const Report report = run_campaign(problem.instance(), problem.gains, {});
+  const Report report = run_campaign(*make_setup(problem.instance(), problem.gains));
   for (std::size_t i = 0; i < report.checks.size(); ++i) {
     const CheckReport& check = report.checks[i];
     const Replay again = replay(problem, report.seed, check.worst_run);

@@ -36,7 +36,7 @@ class Measures : public testing::Test {
     return mean_figure(problem.instance, {}, *problem.instance.design->search->run_figure, runs);
   }
   static double start_of(const YamlProblem& problem, std::uint64_t run) {
-    const auto setup = make_event_setup(problem.instance, {});
+    const auto setup = make_event_setup(bind::run_texts(problem.instance, {}));
     simulate::Simulator simulator(setup->system, setup->scenario);
     const YamlProblem first(decay("{at: {t: 0}, value: x}"));
     BoundFigure start(*first.instance.design->search->run_figure, *setup);

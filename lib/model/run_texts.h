@@ -1,0 +1,33 @@
+// What the runs of a design read, for the values of one gain file.
+//
+// Here functions are replaced by what they stand for, in all texts and once: the programs call
+// nothing. What they use is a variable of the dynamics or a constant, or has no value.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "model/design.h"
+#include "model/dynamics.h"
+#include "model/stated.h"
+
+namespace gainsmith::model {
+
+struct RunTexts {
+  Place method;       ///< the file of the method
+  Stated stated;      ///< the constants, and what functions stand for
+  Dynamics dynamics;  ///< with a variable for the integral of each flow cost of a claim
+  Design::Campaign campaign;
+  std::vector<Design::Claim> claims;
+  /// Variables b that hold a difference a - b, with a: they start as b, then b is taken from a.
+  std::vector<std::pair<std::size_t, std::size_t>> differences{};
+};
+
+/// InputError for a design without dynamics, and for a derivative that is not known.
+RunTexts run_texts(const Design& design, Stated stated);
+
+/// The variable that is the integral of the flow cost of a claim. It rests along flows.
+std::string integral_name(const std::string& claim);
+
+}  // namespace gainsmith::model
