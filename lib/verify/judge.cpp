@@ -82,7 +82,7 @@ RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
 
 }  // namespace
 
-Judge::Judge(const Setup& setup) {
+Judge::Judge(const Setup& setup) : event_count_(setup.events->system.dynamics.events.size()) {
   if (!setup.sampled) {
     events_.emplace(setup.judged());
     checks_ = make_checks(setup.judged().judged, *setup.judged().narrow);
@@ -115,12 +115,18 @@ RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
 }
 
 RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run) {
-  RunVerdict verdict = verdict_on(track(seed, run), checks_);
-  if (verdict.unfinished()) return confirm(seed, run);
+  const bounded::Track<double>& made = track(seed, run);
+  std::vector<char> happened(event_count_, 0);
+  for (const bounded::Move& move : made.moves)
+    if (move.jump) happened[move.event] = 1;
+  RunVerdict verdict = verdict_on(made, checks_);
+  verdict.happened = happened;
   const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
                                 [](const claims::Finding& one) { return one.undecided(); });
-  if (!open) return verdict;
+  if (!open && !verdict.unfinished()) return verdict;
   RunVerdict again = confirm(seed, run);
+  again.happened = std::move(happened);
+  if (verdict.unfinished()) return again;
   for (std::size_t i = 0; i < again.findings.size(); ++i)
     if (!verdict.findings[i].undecided()) again.findings[i] = verdict.findings[i];
   if (!again.unfinished()) again.judgement = worst_of(again.findings);
