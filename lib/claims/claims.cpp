@@ -29,6 +29,7 @@ LinkedClaim link_claim(const model::Design::Claim& claim, const hybrid::System& 
   if (claim.bound) linked.bound = link(*claim.bound);
   if (claim.after) link(*claim.after);
   linked.over = claim.over;
+  linked.tolerance = claim.tolerance;
   if (claim.kind == model::ClaimKind::shrinks && !claim.factor)
     throw InputError(claim.place, "the claim '" + claim.name + "' has no factor");
   const bool bounded =

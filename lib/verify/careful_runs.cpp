@@ -77,6 +77,7 @@ class Functions {
       judged.name = claim.name;
       judged.kind = claim.kind;
       judged.after = claim.after;
+      judged.tolerance = claim.tolerance;
       first_ = static_cast<int>(setup_.functions.size());
       judged.sampled_for = first_;
       judged.over = claim.over;

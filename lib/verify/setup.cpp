@@ -70,6 +70,7 @@ void add_judged_claims(const StatedClaims& claims, SampledSetup& setup, std::vec
     if (claim->bound) judged.bound = take();
     judged.after = claim->after;
     judged.over = claim->over;
+    judged.tolerance = claim->tolerance;
     const Eigen::Index n = setup.coordinates.layout.size;
     judged.accumulated = *accumulated++;
     if (setup.steps && judged.flow_cost && judged.flow_cost->is_form()) {
@@ -117,10 +118,13 @@ std::unique_ptr<const SampledSetup> make_sampled_setup(const model::Instance& in
   return setup;
 }
 
-/// Of claims that only the careful run understands.
+/// Of no claim that only the careful run understands: over an event, or with a tolerance of a bound,
+/// which may be 0.
 bool is_of_samples(const model::Design& design) {
   return std::none_of(design.claims.begin(), design.claims.end(),
-                      [](const model::Design::Claim& claim) { return claim.over.has_value(); });
+                      [](const model::Design::Claim& claim) {
+                        return claim.over.has_value() || (claim.bound && claim.tolerance > 0);
+                      });
 }
 
 }  // namespace
