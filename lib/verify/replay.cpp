@@ -5,6 +5,9 @@
 #include <memory>
 #include <utility>
 
+#include "base/error.h"
+#include "base/number.h"
+#include "base/stop.h"
 #include "bind/stated.h"
 #include "claims/run_values.h"
 #include "verify/judge.h"
@@ -177,6 +180,11 @@ Replay replay_run(const model::Instance& instance, const model::Gains& gains, st
                   std::uint64_t run, double step, bool judged) {
   const std::unique_ptr<const Setup> setup = make_setup(instance, gains);
   const EventSetup& events = *setup->events;
+  constexpr double kMostPoints = 1e7;
+  if (step > 0 && setup->horizon() / step > kMostPoints)
+    throw InputError({}, "a step of " + brief(step) + " makes " +
+                             brief(setup->horizon() / step, 2) + " points of a run of length " +
+                             brief(setup->horizon()) + "; at most 1e7 are written");
   Replay result;
   result.run = simulate::Simulator(events.system, events.scenario)
                    .run(seed, run, events.accuracy(kAccuracyOfOne));
