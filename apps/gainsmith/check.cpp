@@ -78,8 +78,7 @@ std::vector<std::string> check_runs(const model::Instance& instance) {
   for (const std::size_t event : hybrid::late_events(setup->system, setup->scenario))
     late.push_back(design.dynamics->events[event].name);
   if (!late.empty()) notes.push_back(note_on_events(late) + ": it is due after the horizon");
-  const std::string drawn =
-      note_on_runs(hybrid::different_runs(setup->system, setup->scenario));
+  const std::string drawn = note_on_runs(hybrid::different_runs(setup->system, setup->scenario));
   if (!drawn.empty()) notes.push_back(drawn);
   return notes;
 }
@@ -128,8 +127,7 @@ void print(const std::string& path, const io::Json& found) {
                listed(found["events"]));
   for (const auto& word : found["campaign_defaults"])
     fmt::print("  by default  {}\n", word.get<std::string>());
-  for (const auto& note : found["notes"])
-    fmt::print("  note        {}\n", note.get<std::string>());
+  for (const auto& note : found["notes"]) fmt::print("  note        {}\n", note.get<std::string>());
 }
 
 ExitCode check(const CheckOptions& options) {

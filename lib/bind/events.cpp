@@ -34,9 +34,8 @@ void DynamicsBinding::add_events() {
       event.place = text.place;
       const auto [known, fresh] = events_.emplace(event.name, result_.events.size());
       if (!fresh)
-        throw InputError(text.place,
-                         "there already is an event '" + text.name + "', in line " +
-                             std::to_string(result_.events[known->second].place.line));
+        throw InputError(text.place, "there already is an event '" + text.name + "', in line " +
+                                         std::to_string(result_.events[known->second].place.line));
       result_.events.push_back(std::move(event));
       event_texts_.push_back(&text);
     }

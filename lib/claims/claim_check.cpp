@@ -142,8 +142,7 @@ Bounded<Scalar> ClaimCheck<Scalar>::eased(const Bounded& bound, double size, dou
   const double forgiven = claim_->tolerance * size;
   const double rounded = bounded::unit_roundoff<double>() * forgiven +
                          bounded::unit_roundoff<Scalar>() * bounded::size_of(bound.value);
-  return {bound.value + Scalar(forgiven),
-          bound.bound + claim_->tolerance * error + 2 * rounded};
+  return {bound.value + Scalar(forgiven), bound.bound + claim_->tolerance * error + 2 * rounded};
 }
 
 /// Whether a sample is there for the sake of one value.

@@ -38,9 +38,10 @@ std::uint64_t values_of(const Dynamics::Noise& noise, const System::NoiseValues&
 }
 
 std::uint64_t values_of(const std::vector<Law>& laws) {
-  const bool drawn = laws.empty() || std::any_of(laws.begin(), laws.end(), [](const Law& law) {
-    return law.kind == model::LawKind::uniform || law.kind == model::LawKind::extremes;
-  });
+  const bool drawn =
+      laws.empty() || std::any_of(laws.begin(), laws.end(), [](const Law& law) {
+        return law.kind == model::LawKind::uniform || law.kind == model::LawKind::extremes;
+      });
   return drawn ? 0 : laws.size();
 }
 

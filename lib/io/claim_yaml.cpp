@@ -60,10 +60,11 @@ void read_kind(const YamlFile& file, const YamlItem& item, YamlMap& map, model::
 
 model::Claim claim(const YamlFile& file, const YamlItem& item) {
   if (!item.value.IsMap())
-    throw InputError(item.place, "the claim '" + item.key +
-                                     "': expected {nonincreasing: V}, {below: v, bound: b}, {above: "
-                                     "v, bound: b}, {shrinks: v, to: s} or {cost: {flow: f}, below: "
-                                     "V}");
+    throw InputError(item.place,
+                     "the claim '" + item.key +
+                         "': expected {nonincreasing: V}, {below: v, bound: b}, {above: "
+                         "v, bound: b}, {shrinks: v, to: s} or {cost: {flow: f}, below: "
+                         "V}");
   YamlMap map(file, item.value, item.key);
   const auto after = map.find("after");
   const auto over = map.find("over");

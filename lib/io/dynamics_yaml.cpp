@@ -70,8 +70,7 @@ model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
   constexpr const char* kForms =
       "expected {normal: deviation}, {uniform: [low, high]} or {sinusoid: {amplitude: ..., "
       "frequency: ..., phase: ...}}";
-  if (!item.value.IsMap())
-    throw InputError(item.place, "the noise '" + item.key + "': " + kForms);
+  if (!item.value.IsMap()) throw InputError(item.place, "the noise '" + item.key + "': " + kForms);
   YamlMap map(file, item.value, item.key);
   model::NoiseText result;
   result.name = item.key;

@@ -259,8 +259,8 @@ Report run_campaign(const model::Instance& instance, const model::Gains& gains,
   report.unfinished_message = tally.unfinished_message;
   report.close = tally.close;
   if (!report.different)
-    report.violation_probability = violation_probability_bound(
-        report.violations + report.undecided, report.runs, report.confidence);
+    report.violation_probability = violation_probability_bound(report.violations + report.undecided,
+                                                               report.runs, report.confidence);
   for (std::size_t e = 0; e < tally.happened.size(); ++e)
     if (tally.happened[e] == 0)
       report.silent_events.push_back(setup.events->system.dynamics.events[e].name);

@@ -60,7 +60,8 @@ TEST_F(ProblemFiles, LinksThatLeadNowhereStopNothing) {
 }
 
 TEST_F(ProblemFiles, OfOneNameAreToldApartByTheirFolders) {
-  for (const char* folder : {"one/deep", "two/deep", "three"}) fs::create_directories(root_ / folder);
+  for (const char* folder : {"one/deep", "two/deep", "three"})
+    fs::create_directories(root_ / folder);
   for (const char* name :
        {"one/deep/x.yaml", "two/deep/x.yaml", "three/x.yaml", "three/x.yml", "three/y.yaml"})
     std::ofstream(root_ / name) << "x";

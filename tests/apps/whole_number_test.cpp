@@ -17,9 +17,30 @@ TEST(WholeNumber, IsReadInDigitsAndWithAnExponent) {
 }
 
 TEST(WholeNumber, IsNothingElse) {
-  for (const char* text : {"", "e", "e4", "1e", "-1", "+1", "1.5e0", "1.25e1", "1e-2", "1e20", "1e99",
-                           "1e99999999999999999999", "18446744073709551616", "0x10", "1 000", " 1",
-                           "1e 4", ".", ".5e1", "1..0e3", "1.2.3e5", "nan", "inf", "ten"})
+  for (const char* text : {"",
+                           "e",
+                           "e4",
+                           "1e",
+                           "-1",
+                           "+1",
+                           "1.5e0",
+                           "1.25e1",
+                           "1e-2",
+                           "1e20",
+                           "1e99",
+                           "1e99999999999999999999",
+                           "18446744073709551616",
+                           "0x10",
+                           "1 000",
+                           " 1",
+                           "1e 4",
+                           ".",
+                           ".5e1",
+                           "1..0e3",
+                           "1.2.3e5",
+                           "nan",
+                           "inf",
+                           "ten"})
     EXPECT_FALSE(parse_whole(text)) << text;
 }
 

@@ -122,10 +122,10 @@ TEST(ClaimsAlongRuns, AToleranceHoldsAnEquation) {
     EXPECT_EQ(verdict(claim + ", tolerance: 1e-6"), CampaignVerdict::held) << claim;
   for (const std::string claim :
        {"below: r*(1 + t)*(1 + 2e-6), bound: 1", "above: r*(1 + t)*(1 - 2e-6), bound: 1",
-        "above: -r*(1 + t)*(1 + 2e-6), bound: -1", "below: rate(r) + (1 + 3e-6)/(1 + t)^2, bound: 0",
-        "nonincreasing: r*(1 + t)*(1 + 1e-6*t)", "nonincreasing: -r*(1 + t)*(1 - 1e-6*t)",
-        "cost: {flow: r^2}, below: (r - 0.2)*(1 - 2e-6)", "shrinks: r, to: 0.2*(1 - 2e-6)",
-        "shrinks: -r, to: 0.2*(1 + 2e-6)"})
+        "above: -r*(1 + t)*(1 + 2e-6), bound: -1",
+        "below: rate(r) + (1 + 3e-6)/(1 + t)^2, bound: 0", "nonincreasing: r*(1 + t)*(1 + 1e-6*t)",
+        "nonincreasing: -r*(1 + t)*(1 - 1e-6*t)", "cost: {flow: r^2}, below: (r - 0.2)*(1 - 2e-6)",
+        "shrinks: r, to: 0.2*(1 - 2e-6)", "shrinks: -r, to: 0.2*(1 + 2e-6)"})
     EXPECT_EQ(verdict(claim + ", tolerance: 1e-6"), CampaignVerdict::violated) << claim;
 }
 

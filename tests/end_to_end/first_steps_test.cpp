@@ -63,8 +63,9 @@ TEST(FirstSteps, ACampaignWithoutDrawsMakesOneRunAndClaimsNoConfidence) {
   const Outcome outcome = gainsmith({"verify", file});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_TRUE(has(outcome.out, "held in 1 run (nothing is drawn)")) << outcome.out;
-  EXPECT_TRUE(has(outcome.out, "note        nothing is drawn in this campaign: all its runs are "
-                               "equal"))
+  EXPECT_TRUE(has(outcome.out,
+                  "note        nothing is drawn in this campaign: all its runs are "
+                  "equal"))
       << outcome.out;
   EXPECT_FALSE(has(outcome.out, "confidence")) << outcome.out;
   const auto json = gainsmith({"verify", file, "--json", "--runs", "1e3"}).json();
@@ -81,7 +82,8 @@ TEST(FirstSteps, ACampaignWithoutDrawsMakesOneRunAndClaimsNoConfidence) {
 TEST(FirstSteps, ACampaignOfListsMakesNoRunTwice) {
   const Folder folder;
   const std::string file = folder.file(
-      "p.yaml", replaced(kDecay, "runs: 200", "runs: 200, initial: {x: {list: [[1, 0], [0, 1], [1, 1]]}}"));
+      "p.yaml",
+      replaced(kDecay, "runs: 200", "runs: 200, initial: {x: {list: [[1, 0], [0, 1], [1, 1]]}}"));
   const auto json = gainsmith({"verify", file, "--json"}).json();
   EXPECT_EQ(json["runs"], 3);
   EXPECT_TRUE(json["confidence"].is_null());
@@ -99,9 +101,10 @@ TEST(FirstSteps, ACampaignOfListsMakesNoRunTwice) {
 
 TEST(FirstSteps, WhatNeverHappensIsNamed) {
   const Folder folder;
-  const std::string file = folder.file(
-      "p.yaml", replaced(kDecay, "  observer:\n", "  observers:\n   idle: {state: {q: {shape: scalar, "
-                                                  "start: 1}}, output: {r: q}}\n   busy:\n"));
+  const std::string file =
+      folder.file("p.yaml", replaced(kDecay, "  observer:\n",
+                                     "  observers:\n   idle: {state: {q: {shape: scalar, "
+                                     "start: 1}}, output: {r: q}}\n   busy:\n"));
   const std::string idle = "the observer 'idle' never changes: it has no flow, and no map";
   const Outcome verify = gainsmith({"verify", file});
   EXPECT_EQ(verify.exit, 0) << verify.err;
@@ -122,17 +125,16 @@ TEST(FirstSteps, WhatNeverHappensIsNamed) {
 
 TEST(FirstSteps, AListIsAColumnWhereATextIsTaken) {
   const Folder folder;
-  const std::string text = replaced(
-      replaced(kDecay, "flow: {x: -x}", "flow: {x: \"[x(2); -x(1)]\"}"), "start: [1, 0]",
-      "start: \"[1; 0]\"");
-  const std::string list =
-      replaced(replaced(kDecay, "flow: {x: -x}", "flow: {x: [x(2), -x(1)]}"), "y: x(1)",
-               "y: [x(1), x(2)]");
+  const std::string text =
+      replaced(replaced(kDecay, "flow: {x: -x}", "flow: {x: \"[x(2); -x(1)]\"}"), "start: [1, 0]",
+               "start: \"[1; 0]\"");
+  const std::string list = replaced(replaced(kDecay, "flow: {x: -x}", "flow: {x: [x(2), -x(1)]}"),
+                                    "y: x(1)", "y: [x(1), x(2)]");
   const auto table = [&](const std::string& problem) {
     return gainsmith({"simulate", folder.file("p.yaml", problem), "--step", "0.5"});
   };
-  const Outcome quoted = table(replaced(replaced(text, "y: x(1)", "y: \"[x(1); x(2)]\""), "z: y",
-                                        "z: y(1)"));
+  const Outcome quoted =
+      table(replaced(replaced(text, "y: x(1)", "y: \"[x(1); x(2)]\""), "z: y", "z: y(1)"));
   const Outcome listed = table(replaced(list, "z: y", "z: y(1)"));
   EXPECT_EQ(quoted.exit, 0) << quoted.err;
   EXPECT_EQ(listed.out, quoted.out) << listed.err;
@@ -182,8 +184,8 @@ TEST(FirstSteps, DefinitionsStandInEachPassOfALoop) {
 
 TEST(FirstSteps, EqualNamesInPlantAndObserverAreShownAtBothPlaces) {
   const Folder folder;
-  const Outcome outcome =
-      gainsmith({"check", folder.file("p.yaml", replaced(kDecay, "state: {z:", "state: {x: 2, z:"))});
+  const Outcome outcome = gainsmith(
+      {"check", folder.file("p.yaml", replaced(kDecay, "state: {z:", "state: {x: 2, z:"))});
   EXPECT_EQ(outcome.exit, 2);
   EXPECT_TRUE(has(outcome.err,
                   "p.yaml:7:13: 'x' names a state of the observer here, but it already names a "
@@ -201,9 +203,9 @@ TEST(FirstSteps, FoldersOfOutputsAreMade) {
   EXPECT_TRUE(std::filesystem::exists(folder.path("a/b/run.csv")));
   EXPECT_TRUE(std::filesystem::exists(folder.path("c/run.svg")));
   EXPECT_EQ(gainsmith({"synth", file, "-o", folder.path("d/gains.json")}).exit, 0);
-  EXPECT_EQ(gainsmith({"run", file, "-o", folder.path("e/f"), "--junit", folder.path("g/j.xml")})
-                .exit,
-            0);
+  EXPECT_EQ(
+      gainsmith({"run", file, "-o", folder.path("e/f"), "--junit", folder.path("g/j.xml")}).exit,
+      0);
   EXPECT_TRUE(std::filesystem::exists(folder.path("e/f/p/gains.json")));
   EXPECT_TRUE(std::filesystem::exists(folder.path("g/j.xml")));
   const Outcome outcome = gainsmith({"synth", file, "-o", file + "/gains.json"});

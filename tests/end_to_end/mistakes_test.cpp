@@ -28,7 +28,7 @@ data:
 synthesis: {gain_bound: 100}
 )";
 
-const std::string kRun = R"(problem: filter
+const std::string kRun = R"yaml(problem: filter
 method:
   method: filter
   let:      {f(x): "[x(2); -9.81*sin(x(1)) - 0.1*x(2)]", C: "[1, 0]"}
@@ -42,7 +42,7 @@ method:
   signals:  {e: x - xh}
   claims:   {small: {shrinks: norm(e), to: 0.5}}
 campaign:   {horizon: 10, runs: 5}
-)";
+)yaml";
 
 struct Mistake {
   const std::string* base;
@@ -64,10 +64,9 @@ TEST_P(Mistakes, AreNamedWithTheirCure) {
   ASSERT_NE(at, std::string::npos);
   text.replace(at, std::string(mistake.from).size(), mistake.to);
   const std::string file = folder.file("p.yaml", text);
-  const std::string place =
-      mistake.line == 0 ? file + ": "
-                        : file + ":" + std::to_string(mistake.line) + ":" +
-                              std::to_string(mistake.column) + ": ";
+  const std::string place = mistake.line == 0 ? file + ": "
+                                              : file + ":" + std::to_string(mistake.line) + ":" +
+                                                    std::to_string(mistake.column) + ": ";
   const Outcome outcome = gainsmith({"check", file});
   EXPECT_EQ(outcome.exit, 2) << outcome.out;
   EXPECT_EQ(outcome.err.find("gainsmith: " + place), 0U) << outcome.err;
@@ -155,8 +154,7 @@ TEST(WrongFiles, AreNamedForWhatTheyAre) {
            {std::string(1000000, 'x'), "found 'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...'"}}) {
     const Outcome outcome = gainsmith({"check", folder.file("p.yaml", wrong.text)});
     EXPECT_EQ(outcome.exit, 2);
-    EXPECT_NE(outcome.err.find(wrong.message), std::string::npos)
-        << outcome.err.substr(0, 500);
+    EXPECT_NE(outcome.err.find(wrong.message), std::string::npos) << outcome.err.substr(0, 500);
     EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
   }
 }
