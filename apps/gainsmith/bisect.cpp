@@ -111,7 +111,7 @@ std::string table(const design::BisectResult& result, const std::string& name) {
 }
 
 ExitCode bisect(const BisectOptions& options) {
-  refuse_overwriting(options.problem, {options.output});
+  prepare_outputs(options.problem, {options.output});
   check_positive(options.tolerance, "--tolerance");
   const model::Instance instance =
       load_problem(options.problem, [&](model::Problem& problem) { add_range(options, problem); });

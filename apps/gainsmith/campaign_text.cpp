@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "base/scalars.h"
+#include "gainsmith/notes.h"
 
 namespace gainsmith::app {
 
@@ -44,6 +45,7 @@ io::Json check_json(const verify::CheckReport& check) {
                      {"rounding", io::finite_or_null(check.worst.rounding)},
                      {"t", check.worst.t},
                      {"j", check.worst.j}};
+  if (check.worst.tolerance > 0) result["tolerance"] = check.worst.tolerance;
   if (check.floor > 0) result["checked_down_to"] = check.floor;
   return result;
 }
@@ -95,6 +97,9 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
     text += "               undecided: the run ends there, before the horizon\n";
   else if (worst.undecided())
     text += uncertainty_text(check.kind, worst);
+  if (worst.tolerance > 0)
+    text += fmt::format("               within a tolerance of {} {}\n", brief(worst.tolerance),
+                        bounded && worst.bound == 0 ? "of the largest terms" : "of the bound");
   if (check.floor > 0)
     text += fmt::format("               checked down to {} of the {}: the {} no larger drop\n",
                         brief(check.floor, 2), bounded ? "largest terms" : "start",
@@ -155,8 +160,11 @@ io::Json campaign_json(const verify::Report& report) {
       {"worst_run", report.worst_run},
       {report.integrated ? "repeated" : "repeated_in_31_digits", report.repeated},
       {report.integrated ? "confirmed" : "confirmed_in_31_digits", report.confirmed},
-      {"confidence", report.confidence},
-      {"violation_probability_at_most", report.violation_probability},
+      {"different_runs", report.different ? io::Json(*report.different) : io::Json()},
+      {"confidence", report.different ? io::Json() : io::Json(report.confidence)},
+      {"violation_probability_at_most",
+       report.different ? io::Json() : io::Json(report.violation_probability)},
+      {"notes", notes_on(report)},
       {"checks", checks}};
   if (report.interrupted()) {
     document["runs_asked"] = report.asked;
@@ -177,7 +185,8 @@ std::string interruption_text(const verify::Report& report) {
 std::string campaign_line(const verify::Report& report) {
   if (report.interrupted()) return "undecided: " + interruption_text(report);
   if (report.verdict == model::CampaignVerdict::held)
-    return fmt::format("held in {}", runs_text(report.runs));
+    return fmt::format("held in {}{}", runs_text(report.runs),
+                       report.different ? " (nothing is drawn)" : "");
   if (report.verdict == model::CampaignVerdict::violated)
     return fmt::format(
         "violated in {} of {}, worst {}, confirmed {}", report.violations, runs_text(report.runs),
@@ -198,6 +207,7 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
     text += fmt::format("  {} did not reach the horizon; run {}: {}\n",
                         runs_text(report.unfinished), report.unfinished_run, ending_text(report));
   text += undecided_text(report, gains_file);
+  for (const std::string& note : notes_on(report)) text += "  note        " + note + "\n";
   if (report.violation_probability < 1)
     text += fmt::format("  with {} % confidence at most {} of such runs violate\n",
                         brief(100 * report.confidence), brief(report.violation_probability, 3));

@@ -9,8 +9,10 @@
 #include "bind/stated.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
+#include "gainsmith/notes.h"
 #include "gainsmith/problem_files.h"
 #include "gainsmith/terminal.h"
+#include "hybrid/idle.h"
 #include "io/json_text.h"
 #include "lmi/compile.h"
 #include "verify/careful_runs.h"
@@ -24,35 +26,66 @@ struct CheckOptions {
   bool json = false;
 };
 
+bool has_start(const model::Design& design, std::size_t state) {
+  const auto& starts = design.campaign.starts;
+  return design.states[state].start || design.states[state].shape.size() == 0 ||
+         std::any_of(starts.begin(), starts.end(),
+                     [&](const auto& start) { return start.state == state; });
+}
+
 /// What of a campaign the problem leaves to the defaults.
 std::vector<std::string> campaign_defaults(const model::Design& design) {
   std::vector<std::string> words;
   if (!design.dynamics || design.claims.empty() || !design.no_campaign.empty()) return words;
   if (!model::has_end(design) && model::ends(design))
     words.emplace_back("campaign.horizon: 40 of the timer's longest intervals");
-  for (std::size_t i = 0; i < design.states.size(); ++i) {
-    const auto& starts = design.campaign.starts;
-    const bool given = std::any_of(starts.begin(), starts.end(),
-                                   [&](const auto& start) { return start.state == i; });
-    if (!given && !design.states[i].start)
+  for (std::size_t i = 0; i < design.states.size(); ++i)
+    if (!has_start(design, i) &&
+        hybrid::starts_in_a_box(*design.dynamics, design.dynamics->variables[i]))
       words.push_back("campaign.initial." + design.states[i].name +
                       ": the box [-1, 1], in the units of the file");
-  }
   return words;
 }
 
+/// States that start nowhere: no run can be made.
+std::vector<std::string> missing_starts(const model::Design& design) {
+  std::vector<std::string> names;
+  for (std::size_t i = 0; design.dynamics && i < design.states.size(); ++i)
+    if (!has_start(design, i) &&
+        !hybrid::starts_in_a_box(*design.dynamics, design.dynamics->variables[i]))
+      names.push_back(design.states[i].name);
+  return names;
+}
+
 /// Finds what a run would refuse, where it needs no gains: a horizon beyond the data, a time from
-/// which on nothing is claimed.
-void check_runs(const model::Instance& instance) {
+/// which on nothing is claimed. What it says of the runs besides.
+std::vector<std::string> check_runs(const model::Instance& instance) {
   const model::Design& design = *instance.design;
+  std::vector<std::string> notes;
+  if (design.dynamics) notes = notes_on_observers(hybrid::idle_observers(*design.dynamics));
   const bool runs = design.dynamics && design.no_campaign.empty() && model::ends(design);
+  if (!runs) return notes;
+  const std::vector<std::string> nowhere = missing_starts(design);
+  if (!nowhere.empty()) {
+    notes.push_back("no run can be made: the " + counted("state", nowhere) +
+                    (nowhere.size() == 1 ? " has no start" : " have no start"));
+    return notes;
+  }
   const bool needs_nothing = design.unknowns.empty() && design.inequalities.empty() &&
                              design.open.empty() && design.gains.empty();
-  if (runs && needs_nothing) verify::make_event_setup(bind::run_texts(instance, {}));
+  if (!needs_nothing) return notes;
+  const auto setup = verify::make_event_setup(bind::run_texts(instance, {}));
+  std::vector<std::string> late;
+  for (const std::size_t event : hybrid::late_events(setup->system, setup->scenario))
+    late.push_back(design.dynamics->events[event].name);
+  if (!late.empty()) notes.push_back(note_on_events(late) + ": it is due after the horizon");
+  const std::string drawn = note_on_runs(hybrid::different_runs(setup->system, setup->scenario));
+  if (!drawn.empty()) notes.push_back(drawn);
+  return notes;
 }
 
 /// What a valid problem asks for.
-io::Json description(const model::Instance& instance) {
+io::Json description(const model::Instance& instance, const std::vector<std::string>& notes) {
   const lmi::Lmi lmi = lmi::compile(lmi::Inequalities(instance));
   io::Json sizes = io::Json::object();
   for (const auto& [name, size] : instance.design->dimensions) sizes[name] = size;
@@ -62,7 +95,8 @@ io::Json description(const model::Instance& instance) {
                      {"dimensions", sizes},
                      {"unknown_scalars", lmi.unknowns},
                      {"blocks", lmi.blocks.size()},
-                     {"campaign_defaults", campaign_defaults(*instance.design)}};
+                     {"campaign_defaults", campaign_defaults(*instance.design)},
+                     {"notes", notes}};
   if (const auto& dynamics = instance.design->dynamics) {
     io::Json observers = io::Json::array();
     io::Json events = io::Json::array();
@@ -94,6 +128,7 @@ void print(const std::string& path, const io::Json& found) {
                listed(found["events"]));
   for (const auto& word : found["campaign_defaults"])
     fmt::print("  by default  {}\n", word.get<std::string>());
+  for (const auto& note : found["notes"]) fmt::print("  note        {}\n", note.get<std::string>());
 }
 
 ExitCode check(const CheckOptions& options) {
@@ -103,8 +138,7 @@ ExitCode check(const CheckOptions& options) {
     const std::string path = problem.path.string();
     try {
       const model::Instance instance = load_problem(path);
-      check_runs(instance);
-      io::Json found = description(instance);
+      io::Json found = description(instance, check_runs(instance));
       if (!options.json) print(path, found);
       found["file"] = path;
       results.push_back(std::move(found));

@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <cstdio>
 #include <sstream>
 #include <type_traits>
@@ -10,6 +9,7 @@
 #include "base/nearest.h"
 #include "base/number.h"
 #include "gainsmith/terminal.h"
+#include "gainsmith/whole_number.h"
 
 namespace gainsmith::app {
 
@@ -18,11 +18,15 @@ namespace {
 template <typename Value, typename... Types>
 constexpr bool is_one_of = (std::is_same_v<Value, Types> || ...);
 
+/// "1e4" becomes "10000".
+std::string write_in_digits(std::string& text) {
+  if (const auto value = parse_whole(text)) text = std::to_string(*value);
+  return {};
+}
+
 /// CLI11 itself would take -1, and all numbers that are too large, for the largest unsigned number.
 std::string whole_number_error(const std::string& text) {
-  std::uint64_t value = 0;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (end.ec == std::errc() && end.ptr == text.data() + text.size()) return {};
+  if (parse_whole(text)) return {};
   return "expected a whole number from 0 to 18446744073709551615 (2^64 - 1), not '" + text + "'";
 }
 
@@ -46,12 +50,11 @@ template <typename Whole>
 CLI::Validator validator(const Option::Range<Whole>& range) {
   const std::string ends = std::to_string(range.first) + " to " + std::to_string(range.second);
   return {[range, ends](const std::string& text) -> std::string {
-            Whole value = 0;
-            const auto end = std::from_chars(text.data(), text.data() + text.size(), value);
-            if (end.ec == std::errc() && end.ptr == text.data() + text.size() &&
-                range.first <= value && value <= range.second)
+            const auto value = parse_whole(text);
+            if (value && static_cast<std::uint64_t>(range.first) <= *value &&
+                *value <= static_cast<std::uint64_t>(range.second))
               return {};
-            return "expected a whole number from " + ends + " in digits, not '" + text + "'";
+            return "expected a whole number from " + ends + ", not '" + text + "'";
           },
           "WHOLE in [" + ends + "]"};
 }
@@ -76,6 +79,9 @@ CLI::Option& add_option(CLI::App& command, const Option& option, Value& value) {
     CLI::Option& added = *command.add_option(option.name, value, option.text);
     if constexpr (is_one_of<Value, int, unsigned, std::uint64_t, double, std::string>)
       added.capture_default_str();
+    if constexpr (is_one_of<Value, int, unsigned, std::uint64_t, std::optional<int>,
+                            std::optional<std::uint64_t>>)
+      added.transform(CLI::Validator(write_in_digits, ""));
     if constexpr (is_one_of<Value, std::uint64_t, std::optional<std::uint64_t>>)
       if (option.range.index() == 0) added.check(whole_number_error, "WHOLE");
     if constexpr (is_one_of<Value, std::vector<std::string>>)
@@ -149,6 +155,15 @@ std::string unknown_argument(const CLI::App& command) {
   return "unknown option '" + word + "'" + suggestion(word, known);
 }
 
+/// What the reader says, but of values that are missing: it names their type there.
+std::string in_words(const CLI::ParseError& error) {
+  const std::string said = error.what();
+  const std::size_t colon = said.find(": ");
+  if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr || colon == said.npos)
+    return said;
+  return said.substr(0, colon) + ": a value is missing";
+}
+
 /// What is wrong with the command line, and where help is.
 std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
   const auto used = program.get_subcommands();
@@ -157,8 +172,7 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
                        (used.empty() && !program.remaining().empty());
   const std::string name = program.get_name() + (used.empty() ? "" : " " + command.get_name());
   return (used.empty() ? "" : command.get_name() + ": ") +
-         (unknown ? unknown_argument(command) : std::string(error.what())) + " (see '" + name +
-         " --help')";
+         (unknown ? unknown_argument(command) : in_words(error)) + " (see '" + name + " --help')";
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ void add_search(const OptimizeOptions& options, model::Problem& problem) {
 }
 
 ExitCode optimize(const OptimizeOptions& options) {
-  refuse_overwriting(options.problem, {options.output});
+  prepare_outputs(options.problem, {options.output});
   check_positive(options.tolerance, "--tolerance");
   const model::Instance instance =
       load_problem(options.problem, [&](model::Problem& problem) { add_search(options, problem); });

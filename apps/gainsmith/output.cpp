@@ -14,7 +14,23 @@
 
 namespace gainsmith::app {
 
-void refuse_overwriting(const std::string& input, const std::vector<std::string>& outputs) {
+namespace {
+
+void make_folder_of(const std::filesystem::path& file) {
+  std::error_code error;
+  if (std::filesystem::is_directory(file, error))
+    throw InputError({file.string()}, "this is a folder; expected the name of a file");
+  const std::filesystem::path folder = file.parent_path();
+  if (folder.empty() || std::filesystem::is_directory(folder, error)) return;
+  std::filesystem::create_directories(folder, error);
+  if (error)
+    throw InputError({file.string()},
+                     "cannot make the folder '" + folder.string() + "': " + error.message());
+}
+
+}  // namespace
+
+void prepare_outputs(const std::string& input, const std::vector<std::string>& outputs) {
   std::error_code ignored;
   for (const std::string& path : outputs)
     if (!path.empty() && std::filesystem::equivalent(path, input, ignored))
@@ -22,6 +38,8 @@ void refuse_overwriting(const std::string& input, const std::vector<std::string>
   for (auto path = outputs.begin(); path != outputs.end(); ++path)
     if (!path->empty() && std::find(outputs.begin(), path, *path) != path)
       throw InputError({*path}, "two outputs cannot go here; choose another for one");
+  for (const std::string& path : outputs)
+    if (!path.empty() && path != "-") make_folder_of(path);
 }
 
 void write_result(const model::Gains& gains, const std::string& output, const std::string& report,

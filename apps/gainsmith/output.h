@@ -10,8 +10,9 @@
 
 namespace gainsmith::app {
 
-/// InputError when an output would replace the input file or another output.
-void refuse_overwriting(const std::string& input, const std::vector<std::string>& outputs);
+/// Makes the folders of the outputs, before the work that they wait for. InputError when an output
+/// would replace the input file or another output, is a folder, or has none that can be made.
+void prepare_outputs(const std::string& input, const std::vector<std::string>& outputs);
 
 /// Writes the gain file to `output` (nowhere when empty, standard output for "-") and the report to
 /// standard output, or to standard error when the gain file goes there. `quiet`: no line on where

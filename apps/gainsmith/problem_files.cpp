@@ -1,6 +1,8 @@
 #include "gainsmith/problem_files.h"
 
 #include <algorithm>
+#include <iterator>
+#include <map>
 #include <set>
 #include <system_error>
 
@@ -45,11 +47,50 @@ std::vector<ProblemFile> files_below(const fs::path& folder) {
   return files;
 }
 
-/// One text for all ways to a file; of one that does not exist its path.
-std::string identity(const fs::path& path) {
+/// One path for all ways to a file; of one that does not exist its own.
+fs::path identity(const fs::path& path) {
   std::error_code error;
   const fs::path real = fs::canonical(path, error);
-  return error ? path.lexically_normal().string() : real.string();
+  return error ? fs::absolute(path, error).lexically_normal() : real;
+}
+
+/// The end of a path: its name and as many of its folders.
+std::string end_of(const fs::path& path, std::size_t folders) {
+  fs::path end = path.filename();
+  for (fs::path above = path.parent_path(); folders > 0 && above.has_filename(); --folders) {
+    end = above.filename() / end;
+    above = above.parent_path();
+  }
+  return end.string();
+}
+
+/// Whether any two are equal.
+bool repeat(std::vector<std::string> names) {
+  std::sort(names.begin(), names.end());
+  return std::adjacent_find(names.begin(), names.end()) != names.end();
+}
+
+/// Names of files that would have one name: their paths from the last folder on in which they
+/// differ, with their endings where these alone do.
+void tell_apart(const std::vector<ProblemFile*>& files) {
+  const auto named = [&](std::size_t folders, bool ending) {
+    std::vector<std::string> names;
+    for (const ProblemFile* file : files) {
+      fs::path path = identity(file->path);
+      names.push_back(end_of(ending ? path : path.replace_extension(), folders));
+    }
+    return names;
+  };
+  std::size_t most = 0;
+  for (const ProblemFile* file : files) {
+    const fs::path path = identity(file->path);
+    most = std::max(most, static_cast<std::size_t>(std::distance(path.begin(), path.end())));
+  }
+  std::vector<std::string> names = named(0, true);
+  for (std::size_t folders = 1; folders < most && repeat(names); ++folders)
+    names = named(folders, false);
+  if (repeat(names)) names = named(most, true);
+  for (std::size_t k = 0; k < files.size(); ++k) files[k]->name = names[k];
 }
 
 }  // namespace
@@ -58,7 +99,7 @@ std::vector<ProblemFile> problem_files(const std::vector<std::string>& paths) {
   std::vector<ProblemFile> files;
   std::set<std::string> known;
   const auto add = [&](ProblemFile file) {
-    if (known.insert(identity(file.path)).second) files.push_back(std::move(file));
+    if (known.insert(identity(file.path).string()).second) files.push_back(std::move(file));
   };
   for (const fs::path path : paths) {
     if (path == kStandardInput) {
@@ -68,6 +109,18 @@ std::vector<ProblemFile> problem_files(const std::vector<std::string>& paths) {
     } else {
       add({path, path.stem().string()});
     }
+  }
+  // A new name may be that of another file.
+  bool changed = true;
+  for (std::size_t round = 0; changed && round < files.size(); ++round) {
+    std::map<std::string, std::vector<ProblemFile*>> by_name;
+    for (ProblemFile& file : files) by_name[file.name].push_back(&file);
+    changed = false;
+    for (const auto& [name, alike] : by_name)
+      if (alike.size() > 1) {
+        tell_apart(alike);
+        changed = true;
+      }
   }
   return files;
 }

@@ -10,7 +10,8 @@ namespace gainsmith::app {
 /// A problem file and a name for it.
 struct ProblemFile {
   std::filesystem::path path;
-  std::string name;  ///< without its ending; below a folder that was named, the path from there
+  std::string name;  ///< that of no other: without its ending; below a folder that was named, the
+                     ///< path from there; after as many of its folders as others with it need
 };
 
 /// The files, and those ending in .yaml or .yml below the folders, sorted: each once, by the first

@@ -1,12 +1,12 @@
 #include "gainsmith/range_option.h"
 
-#include <charconv>
 #include <cmath>
 #include <vector>
 
 #include "base/error.h"
 #include "base/nearest.h"
 #include "expr/parser.h"
+#include "gainsmith/whole_number.h"
 
 namespace gainsmith::app {
 
@@ -25,11 +25,10 @@ std::vector<std::string> split(const std::string& text, char mark) {
 
 int count_of(const std::string& text, const std::string& option) {
   constexpr int kMost = 1000000;
-  int count = 0;
-  const auto end = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (end.ec != std::errc() || end.ptr != text.data() + text.size() || count < 1 || count > kMost)
+  const auto count = parse_whole(text);
+  if (!count || *count < 1 || *count > kMost)
     throw InputError({option}, "expected a number of points from 1 to 1000000, not '" + text + "'");
-  return count;
+  return static_cast<int>(*count);
 }
 
 bool scale_of(const std::string& text, const std::string& option) {

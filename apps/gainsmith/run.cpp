@@ -33,18 +33,6 @@ struct RunOptions {
   JobOptions job;
 };
 
-/// The problem files; each name is that of a folder in the output.
-std::vector<ProblemFile> items_of(const std::vector<std::string>& paths) {
-  std::vector<ProblemFile> items = problem_files(paths);
-  for (std::size_t i = 0; i < items.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (items[i].name == items[j].name)
-        throw InputError({items[i].path.string()}, "would write into the same folder '" +
-                                                       items[i].name + "' as " +
-                                                       items[j].path.string() + "; run them apart");
-  return items;
-}
-
 std::string json_text(const std::vector<JobResult>& results, ExitCode worst) {
   io::Json problems = io::Json::array();
   io::Json seconds = io::Json::object();
@@ -86,8 +74,8 @@ class Lines {
 };
 
 ExitCode run(const RunOptions& options) {
-  const std::vector<ProblemFile> items = items_of(options.problems);
-  for (const ProblemFile& item : items) refuse_overwriting(item.path.string(), {options.junit});
+  const std::vector<ProblemFile> items = problem_files(options.problems);
+  for (const ProblemFile& item : items) prepare_outputs(item.path.string(), {options.junit});
   JobOptions job = options.job;
   job.threads = options.threads;
   std::vector<JobResult> results(items.size());

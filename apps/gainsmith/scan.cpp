@@ -165,7 +165,7 @@ ExitCode exit_of_all(const std::vector<design::ScanRow>& rows) {
 }
 
 ExitCode scan(const ScanOptions& options) {
-  refuse_overwriting(options.problem, {options.output});
+  prepare_outputs(options.problem, {options.output});
   std::vector<RangeOption> ranges;
   for (const std::string& text : options.over) ranges.push_back(parse_range(text, "--over"));
   const model::Instance instance = load_problem(

@@ -10,9 +10,11 @@
 #include "base/number.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
+#include "gainsmith/notes.h"
 #include "gainsmith/output.h"
 #include "gainsmith/run_table.h"
 #include "gainsmith/terminal.h"
+#include "hybrid/idle.h"
 #include "io/json_text.h"
 
 namespace gainsmith::app {
@@ -31,6 +33,12 @@ struct SimulateOptions {
   bool json = false;
 };
 
+std::string step_error(const std::string& text) {
+  const auto value = parse_decimal(text);
+  if (value && *value > 0) return {};
+  return "expected a positive time between two points, such as 0.01, not '" + text + "'";
+}
+
 /// `early`: the run ends before its horizon for a reason that decides nothing.
 void say_claims(const std::vector<verify::ReplayedClaim>& claims, bool early) {
   for (const verify::ReplayedClaim& claim : claims) {
@@ -43,10 +51,26 @@ void say_claims(const std::vector<verify::ReplayedClaim>& claims, bool early) {
       continue;
     }
     const bool so_far = early && finding.judgement == claims::Judgement::held;
-    say(fmt::format("  {:<12} {}{}: {} against {} at (t, j) = ({}, {})\n", claim.name,
+    const std::string tolerance =
+        finding.tolerance > 0 ? ", tolerance " + brief(finding.tolerance) : "";
+    say(fmt::format("  {:<12} {}{}: {} against {} at (t, j) = ({}, {}){}\n", claim.name,
                     to_string(finding.judgement), so_far ? " so far" : "", brief(finding.value),
-                    brief(finding.bound), brief(finding.t), finding.j));
+                    brief(finding.bound), brief(finding.t), finding.j, tolerance));
   }
+}
+
+/// The design's, and events that do not happen in a run that came to its end.
+std::vector<std::string> notes_on_run(const model::Design& design, const hybrid::Trajectory& run) {
+  std::vector<std::string> notes = notes_on_observers(hybrid::idle_observers(*design.dynamics));
+  std::vector<char> happened(design.dynamics->events.size(), 0);
+  for (const auto& part : run.parts)
+    if (const auto* jump = std::get_if<hybrid::JumpPoint>(&part)) happened[jump->event] = 1;
+  std::vector<std::string> silent;
+  for (std::size_t e = 0; e < happened.size(); ++e)
+    if (happened[e] == 0) silent.push_back(design.dynamics->events[e].name);
+  if (!silent.empty() && is_complete(run.ending))
+    notes.push_back(note_on_events(silent) + " in this run");
+  return notes;
 }
 
 void write(const SimulateOptions& options, const std::string& text) {
@@ -81,7 +105,7 @@ ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std:
 }
 
 ExitCode simulate(const SimulateOptions& options) {
-  refuse_overwriting(options.gains, {options.output, options.plot});
+  prepare_outputs(options.gains, {options.output, options.plot});
   const LoadedGains loaded = load_run(options.gains);
   const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
   if (options.compare) return compare(options, loaded, seed);
@@ -103,6 +127,8 @@ ExitCode simulate(const SimulateOptions& options) {
                   to_string(replay.run.ending)));
   if (!replay.run.message.empty()) say("  " + replay.run.message + "\n");
   for (const std::string& note : replay.run.notes) say("  " + note + "\n");
+  for (const std::string& note : notes_on_run(*loaded.stated.design, replay.run))
+    say("  note: " + note + "\n");
   say_claims(replay.claims, !is_complete(replay.run.ending));
   if (stopped) return ExitCode::undecided;
   if (!options.judge) return ExitCode::yes;
@@ -125,7 +151,8 @@ Command simulate_command() {
        Option("--run", options->run, "the run's number"),
        Option("--seed", options->seed, "seed of the campaign (default: the problem's)"),
        Option("-o,--output", options->output, "write the table here (default: standard output)"),
-       Option("--step", options->step, "points of flows this far apart (default: as integrated)"),
+       Option("--step", options->step, "points of flows this far apart (default: as integrated)")
+           .checked(step_error),
        Option("--plot", options->plot, "draw states, estimates, errors and claims (SVG)"),
        Option("--compare", options->compare, "print the figures under 'compare' of all observers"),
        Option("--judge", options->judge,

@@ -151,6 +151,7 @@ std::string precision_error(const std::string& text) {
 }
 
 ExitCode solve(SolveOptions options) {
+  prepare_outputs(options.file, {options.output});
   const sdp::Problem problem = sdp::read_sdpa(read_text(options.file), options.file);
   if (!options.quiet && !options.json && is_terminal()) options.solver.progress = print_iteration;
   const sdp::Solution solution = sdp::solve(problem, options.solver);

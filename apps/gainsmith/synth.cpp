@@ -65,7 +65,7 @@ void write_program(const std::string& path, const model::Instance& instance) {
 }
 
 ExitCode synth(const SynthOptions& options) {
-  refuse_overwriting(options.problem, {options.output, options.sdpa});
+  prepare_outputs(options.problem, {options.output, options.sdpa});
   if (options.only_write && options.sdpa.empty())
     throw InputError({"--no-solve"}, "nothing to do: --sdpa FILE says where the program goes");
   const model::Instance instance = load_problem(options.problem, effort(options.effort));

@@ -66,7 +66,7 @@ std::optional<std::string> nearest(std::string_view word,
         std::string_view(candidate).substr(dot == std::string::npos ? 0 : dot + 1);
     const int distance = doubled_edit_distance(word, own);
     // Another letter is no misspelling of a letter.
-    if (word.size() == 1 && candidate.size() == 1 && distance > 1) continue;
+    if (word.size() == 1 && own.size() == 1 && distance > 1) continue;
     if (differs_in_case(word, candidate)) return candidate;
     if (distance < best_distance) {
       best_distance = distance;

@@ -155,7 +155,7 @@ bool is_run(const Binding& binding) {
 }
 
 /// A name stands for the state of each observer that has it. A state that starts nowhere is an
-/// error; beside a timer it starts in the box [-1, 1], unless it is symmetric or a mode.
+/// error of runs alone (hybrid/scenario.h).
 void bind_starts(Binding& binding) {
   auto& starts = binding.design->campaign.starts;
   for (const model::InitialValue& initial : binding.problem().campaign.initial) {
@@ -172,21 +172,6 @@ void bind_starts(Binding& binding) {
     throw InputError(binding.problem().campaign.place.line > 0 ? binding.problem().campaign.place
                                                                : Place{binding.problem().file},
                      "the campaign needs 'horizon: ...': how long a run is");
-  for (std::size_t k = 0; k < binding.design->states.size(); ++k) {
-    const bool drawn = std::any_of(starts.begin(), starts.end(),
-                                   [&](const model::Design::Start& one) { return one.state == k; });
-    const model::Design::State& state = binding.design->states[k];
-    const bool rests = binding.design->campaign.place.line == 0 && !is_run(binding);
-    const model::Dynamics::Variable& variable = binding.design->dynamics->variables[k];
-    const bool in_a_box = binding.design->dynamics->has_timer &&
-                          variable.kind == model::Dynamics::VariableKind::state &&
-                          variable.structure != model::Structure::symmetric;
-    if (!drawn && !state.start && state.shape.size() > 0 && !rests && !in_a_box)
-      throw InputError(binding.design->dynamics->variables[k].place,
-                       "the state '" + state.name +
-                           "' has no start: {shape: ..., start: ...}, or under campaign.initial of "
-                           "the problem");
-  }
 }
 
 }  // namespace

@@ -76,6 +76,7 @@ void add_claim(Binding& binding, const model::Claim& claim, const std::string& t
   if (claim.bound) bound.bound = constant_of_claim(binding, *claim.bound, "bound");
   if (claim.after) bound.after = constant_of_claim(binding, *claim.after, "after");
   bound.over = over;
+  bound.tolerance = claim.tolerance;
   bool estimated = estimate(*binding.design, bound.value.program) != expr::Estimate::none;
   for (const auto* part :
        {&bound.flow_cost, &bound.jump_cost, &bound.factor, &bound.bound, &bound.after})

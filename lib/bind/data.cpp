@@ -31,6 +31,8 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
 
 std::string declared(const model::Declaration& declaration, const model::Dimensions& dimensions) {
   std::string text = declaration.shape.text;
+  // "n*n" is one size.
+  if (declaration.shape.is_column() && text.find('*') != std::string::npos) text += " x 1";
   std::string known;
   for (const auto& part : {declaration.shape.rows, declaration.shape.cols}) {
     if (!part) continue;

@@ -6,6 +6,7 @@
 #include "base/nearest.h"
 #include "bind/binding.h"
 #include "bind/dynamics_binding.h"
+#include "bind/formulas.h"
 #include "expr/compile.h"
 #include "expr/rewrite.h"
 
@@ -111,8 +112,8 @@ std::vector<expr::Expression> DynamicsBinding::vertices_of(const model::Uncertai
       return vertices;
     }
   }
-  const bool column = shape.cols == 1 && shape.rows > 1;
-  for (const model::Value& value : text.vertices) vertices.push_back(oriented(value, column));
+  for (const model::Value& value : text.vertices)
+    vertices.push_back(oriented(value, is_proper_column(shape)));
   return vertices;
 }
 
@@ -126,8 +127,8 @@ model::Dynamics::Noise DynamicsBinding::varied_noise(const model::UncertainText&
   noise.place = text.place;
   if (text.corners) noise.kind = model::Dynamics::NoiseKind::corners;
   if (!text.vertices.empty()) noise.kind = model::Dynamics::NoiseKind::vertices;
-  const std::vector<expr::Expression> values =
-      text.vertices.empty() ? text.box : vertices_of(text, shape);
+  std::vector<expr::Expression> values = vertices_of(text, shape);
+  for (const model::Value& end : text.box) values.push_back(oriented(end, is_proper_column(shape)));
   for (const expr::Expression& value : values) noise.values.push_back(constant(value, shape));
   return noise;
 }

@@ -54,7 +54,7 @@ class DynamicsBinding {
   void bind_reaction(const model::ReactionText& text, const model::Component& component,
                      std::size_t at);
   model::Dynamics::Pass pass(const model::PassText& text, const model::Component& component,
-                             std::size_t at, const expr::Scope& scope, std::size_t event) const;
+                             std::size_t at, std::size_t event) const;
   void bind_flow_sets(const model::Component& component, std::size_t at);
   void bind_noise(const model::NoiseText& text);
   void bind_sinusoid(const model::NoiseText& text);

@@ -25,8 +25,9 @@ void DynamicsBinding::check_name(const Reader& reader, const expr::Expression& t
     const model::Dynamics::Component& of = result_.components[variable.component];
     if (of.name == reader.component->name) continue;
     if (!of.observer && states)
-      fail("'" + name + "' is a state of the plant, which the observer " + reader.component->name +
-           " does not know: it reads outputs, 'output: {y: ...}' of the plant");
+      fail("'" + name + "' is a state of the plant, which the observer " +
+           (reader.component->name == "observer" ? "" : reader.component->name + " ") +
+           "does not know: it reads outputs, 'output: {y: ...}' of the plant");
     if (of.observer)
       fail("'" + name + "' belongs to the observer " + of.name + "; an observer reads its own");
   }

@@ -32,8 +32,10 @@ void DynamicsBinding::add_events() {
       event.lost = text.lost;
       event.lost_in_a_row = text.lost_in_a_row;
       event.place = text.place;
-      if (!events_.emplace(event.name, 0).second)
-        throw InputError(text.place, "there already is an event '" + text.name + "'");
+      const auto [known, fresh] = events_.emplace(event.name, result_.events.size());
+      if (!fresh)
+        throw InputError(text.place, "there already is an event '" + text.name + "', in line " +
+                                         std::to_string(result_.events[known->second].place.line));
       result_.events.push_back(std::move(event));
       event_texts_.push_back(&text);
     }
@@ -204,19 +206,25 @@ void DynamicsBinding::bind_event(const model::EventText& text, const model::Comp
 
 model::Dynamics::Pass DynamicsBinding::pass(const model::PassText& text,
                                             const model::Component& component, std::size_t at,
-                                            const expr::Scope& scope, std::size_t event) const {
+                                            std::size_t event) const {
+  expr::Scope scope = *scope_;
+  model::Component names = component;  // the names of `let` hide those of the component
+  names.let.insert(names.let.end(), text.let.begin(), text.let.end());
+  for (const model::Let& let : text.let)
+    scope.definitions[names_->full(component, let.signature.name)] = {
+        let.signature.parameters, names_->within(names, let.body, let.signature.parameters)};
   model::Dynamics::Pass bound;
   bound.repeats = text.repeats;
   bound.go_on = text.go_on;
   bound.place = text.place;
   for (const model::Named& entry : text.map) {
     const std::size_t of = state(component, at, entry, "the jump");
-    const expr::Expression value = names_->within(component, entry.value);
+    const expr::Expression value = names_->within(names, entry.value);
     check_reads({&component, event}, value, scope);
     bound.map.push_back({of, formula(value, scope, result_.variables[of].shape), entry.place});
   }
   if (text.until)
-    bound.until = condition(names_->within(component, *text.until), &component, event, scope);
+    bound.until = condition(names_->within(names, *text.until), &component, event, scope);
   if (text.at_most)
     bound.at_most = constant(names_->within(component, *text.at_most), expr::Shape{});
   return bound;
@@ -228,14 +236,8 @@ void DynamicsBinding::bind_reaction(const model::ReactionText& text,
   bound.event = event(&component, text.event, text.place);
   bound.component = at;
   bound.place = text.place;
-  expr::Scope scope = *scope_;
-  model::Component names = component;  // the names of `let` hide those of the component
-  for (const model::Let& let : text.let) names.let.push_back(let);
-  for (const model::Let& let : text.let)
-    scope.definitions[names_->full(component, let.signature.name)] = {
-        let.signature.parameters, names_->within(names, let.body, let.signature.parameters)};
   for (const model::PassText& one : text.passes)
-    bound.passes.push_back(pass(one, names, at, scope, bound.event));
+    bound.passes.push_back(pass(one, component, at, bound.event));
   result_.reactions.push_back(std::move(bound));
 }
 

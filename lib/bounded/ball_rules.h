@@ -23,6 +23,8 @@ struct BallRules {
   using Value = Ball<Scalar>;
   using At = expr::Step<Value>;
   static constexpr double unit = unit_roundoff<Scalar>();
+  /// Of the rounding of singular values, times the number of elements and unit.
+  static constexpr double kFactorOfSvd = 100;
 
   /// out(e) = f(e) with the radius r(e), element by element.
   template <class F, class R>
@@ -317,7 +319,7 @@ struct BallRules {
     numbers::Real<Scalar>{}.apply(at.instruction, operands, result);
     out.mid = result;
     const bool vector = at[0].mid.rows() == 1 || at[0].mid.cols() == 1;
-    const double rounding = (vector ? 1 : 100) * (static_cast<double>(at[0].mid.size()) + 4);
+    const double rounding = (vector ? 1 : kFactorOfSvd) * (static_cast<double>(at[0].mid.size()) + 4);
     out.rad = Matrix::Constant(1, 1, at[0].rad.norm() + rounding * unit * size_of(result(0)));
   }
   void operator()(Is<Op::inverse>, const At& at, Value& out) const {
@@ -365,7 +367,15 @@ struct BallRules {
   }
   /// Perfectly conditioned in the 2-norm (Weyl).
   void operator()(Is<Op::singular_values>, const At& at, Value& out) const {
-    in_wide_digits(at.instruction, at[0], out);
+    if constexpr (std::is_same_v<Scalar, double>) {
+      const Matrix* operands[] = {&at[0].mid};
+      numbers::Real<double>{}.apply(at.instruction, operands, out.mid);
+      const double rounding = kFactorOfSvd * (static_cast<double>(at[0].mid.size()) + 4);
+      const double largest = out.mid.size() == 0 ? 0 : out.mid.maxCoeff();
+      out.rad = Matrix::Constant(out.mid.rows(), out.mid.cols(), rounding * unit * largest);
+    } else {
+      in_wide_digits(at.instruction, at[0], out);
+    }
     out.rad.array() += at[0].rad.norm();
   }
   template <Op op>

@@ -108,6 +108,7 @@ JudgedClaim judged_claim(const Claim& claim, const std::function<JudgedFunction(
   if (claim.bound) judged.bound = next();
   judged.after = claim.after;
   judged.over = claim.over;
+  judged.tolerance = claim.tolerance;
   return judged;
 }
 
@@ -127,6 +128,13 @@ ClaimCheck<Scalar>::ClaimCheck(const JudgedClaim& claim,
 
 template <class Scalar>
 Finding ClaimCheck<Scalar>::operator()(const Track& track) {
+  Finding finding = judged(track);
+  finding.tolerance = claim_->tolerance;
+  return finding;
+}
+
+template <class Scalar>
+Finding ClaimCheck<Scalar>::judged(const Track& track) {
   switch (claim_->kind) {
     case model::ClaimKind::nonincreasing:
       return nonincreasing(track);
@@ -139,6 +147,17 @@ Finding ClaimCheck<Scalar>::operator()(const Track& track) {
       return bounded(track);
   }
   return {};
+}
+
+/// What must not be exceeded, and what the tolerance forgives: a part of a size, known up to an
+/// error.
+template <class Scalar>
+Bounded<Scalar> ClaimCheck<Scalar>::eased(const Bounded& bound, double size, double error) const {
+  if (claim_->tolerance == 0) return bound;
+  const double forgiven = claim_->tolerance * size;
+  const double rounded = bounded::unit_roundoff<double>() * forgiven +
+                         bounded::unit_roundoff<Scalar>() * bounded::size_of(bound.value);
+  return {bound.value + Scalar(forgiven), bound.bound + claim_->tolerance * error + 2 * rounded};
 }
 
 /// Whether a sample is there for the sake of one value.
@@ -221,9 +240,9 @@ Finding ClaimCheck<Scalar>::nonincreasing(const Track& track) {
     const bool moves = may_change(track, last, k, v);
     last = k;
     if (!moves) continue;
-    Judgement judgement = compare(v[k], high);
+    Judgement judgement = compare(v[k], eased(high, bounded::size_of(high.value), high.bound));
     if (judgement != Judgement::violated) {
-      judgement = compare(v[k], low);
+      judgement = compare(v[k], eased(low, bounded::size_of(low.value), low.bound));
       if (judgement == Judgement::violated) judgement = Judgement::undecided;
     }
     if (judgement == Judgement::undecided && is_crowded(track, k) && is_number(v[k]) &&
@@ -297,7 +316,11 @@ Finding ClaimCheck<Scalar>::bounded(const Track& track) {
   };
   for (std::size_t k = 0; k < v.size(); ++k) {
     if (!counts(track, k)) continue;
-    const Judgement judgement = above ? compare(b, v[k]) : compare(v[k], b);
+    const bool zero = b.value == Scalar(0);
+    const double size = zero ? sizes[k] : scale;
+    const double error = zero ? 2 * v[k].bound : b.bound;
+    const Judgement judgement =
+        above ? compare(b, eased(v[k], size, error)) : compare(v[k], eased(b, size, error));
     Finding found = finding_at(track, k, above ? b : v[k], above ? v[k] : b, scale, judgement);
     if (above) std::swap(found.value, found.bound);
     const double part = largest > 0 ? sizes[k] / largest : 1;
@@ -359,6 +382,7 @@ template <class Scalar>
 Finding ClaimCheck<Scalar>::cost(const Track& track) {
   const std::vector<Bounded> c = running_cost(track);
   const Bounded bound = value_(track, 0);
+  const Bounded most = eased(bound, bounded::size_of(bound.value), bound.bound);
   const double scale = static_cast<double>(bound.value);
   std::optional<Finding> worst;
   const auto rank = [](const Finding& one) {
@@ -366,7 +390,7 @@ Finding ClaimCheck<Scalar>::cost(const Track& track) {
   };
   for (std::size_t k = 0; k < c.size(); ++k) {
     if (is_of_another(track, k)) continue;
-    const Finding found = finding_at(track, k, c[k], bound, scale, compare(c[k], bound));
+    const Finding found = finding_at(track, k, c[k], bound, scale, compare(c[k], most));
     if (!worst || rank(found) > rank(*worst)) worst = found;
   }
   return *worst;
@@ -383,11 +407,12 @@ Finding ClaimCheck<Scalar>::shrinks(const Track& track) {
   bound.bound = bounded::size_of(factor.value) * start.bound + factor.bound * (size + start.bound) +
                 bounded::unit_roundoff<Scalar>() * bounded::size_of(bound.value);
   const double scale = static_cast<double>(bound.value);
+  const Bounded most = eased(bound, bounded::size_of(bound.value), bound.bound);
   const bool nothing = start.value == Scalar(0) && start.bound == 0;
   const bool lost = track.termination == bounded::Termination::lost;
   const Judgement judgement = lost      ? Judgement::undecided
                               : nothing ? Judgement::held
-                                        : compare(end, bound);
+                                        : compare(end, most);
   return finding_at(track, last, end, bound, nothing ? 0 : scale, judgement);
 }
 

@@ -23,6 +23,10 @@
 //   held        value + its bound <= what it must not exceed - its bound, at every sample
 //   undecided   neither
 //
+// A claim with a tolerance d forgives excess as well, by d times the size of what must not be
+// exceeded: of b; of the least value so far; of v(0); of factor v(0). With b = 0 it is d times the
+// sum of the absolute values of the terms of v, at the sample itself.
+//
 // A value that cannot have changed since the sample before is not compared with itself: all that it
 // depends on is constant along flows, or unchanged by jumps. A value that has no number violates in
 // 31 digits and is undecided in double.
@@ -77,6 +81,7 @@ struct Finding {
   bool looked = true;          ///< false: the run has no sample at which the claim is made
   bool ended = false;      ///< the run ends at t, before its horizon, and the claim is left open
   bool estimated = false;  ///< `rounding` is an estimate, of the error of integration too
+  double tolerance = 0;    ///< the claim's, which `judgement` forgives and `score` does not
 
   bool violated() const { return judgement == Judgement::violated; }
   bool undecided() const { return judgement == Judgement::undecided; }
@@ -94,6 +99,7 @@ struct JudgedClaim {
   std::optional<JudgedFunction> terms;  ///< of the value: the sum of their absolute values
   double after = 0;                     ///< the time from which on samples count
   std::optional<std::size_t> over{};    ///< the event just after whose jumps alone they do
+  double tolerance = 0;                 ///< relative; 0: nothing is forgiven
   int sampled_for = -1;  ///< the coordinate that is the value, of samples made for its sake (Track)
   /// Which integrals of the step maps are those of the flow cost.
   std::optional<std::size_t> integral;
@@ -123,11 +129,13 @@ class ClaimCheck {
   std::vector<Bounded> running_cost(const Track& track);
 
  private:
+  Finding judged(const Track& track);
   Finding nonincreasing(const Track& track);
   Finding cost(const Track& track);
   Finding shrinks(const Track& track);
   Finding bounded(const Track& track);
   Finding nothing_counts(const Track& track) const;
+  Bounded eased(const Bounded& bound, double size, double error) const;
   std::vector<double> term_sizes(const Track& track, const std::vector<Bounded>& v);
   bool counts(const Track& track, std::size_t sample) const;
   bool is_own(const Track& track, std::size_t sample) const;

@@ -25,6 +25,7 @@ Claim claim_of(const model::Design::Claim& claim, const hybrid::System& system) 
   made.name = claim.name;
   made.kind = claim.kind;
   made.over = claim.over;
+  made.tolerance = claim.tolerance;
   add_missing(claim.value, system, made.missing);
   made.value = claim.value.program;
   const auto take = [&](const std::optional<model::Formula>& formula) {

@@ -25,6 +25,7 @@ struct Claim {
   std::optional<expr::Program> bound;
   double after = 0;                   ///< the time from which on it is claimed
   std::optional<std::size_t> over{};  ///< the event just after whose jumps alone it is
+  double tolerance = 0;               ///< relative to the bound (claim_check.h)
 
   bool stated() const { return missing.empty(); }
 };

@@ -145,6 +145,10 @@ void Binder::unknown_name(const Expression& expression, const Node& node) const 
     fail(expression, node, "unknown function '" + node.text + "': write A' for the transpose of A");
   std::vector<std::string> candidates = scope_.names();
   for (const auto& [name, value] : environment_) candidates.push_back(name);
+  // count(sample), observer.xh come after the names that the file gives.
+  std::stable_partition(candidates.begin(), candidates.end(), [](const std::string& name) {
+    return name.find_first_of("(.") == std::string::npos;
+  });
   if (node.kind == NodeKind::call) {
     const auto functions = function_names();
     candidates.insert(candidates.begin(), functions.begin(), functions.end());
@@ -221,8 +225,13 @@ int Binder::materialise(const Expression& expression, const Node& node, Bound va
   }
   if (shape(value.at) == wanted) return value.at;
   if (is_zero(value)) return emit(expression, node, Op::zeros, {}, wanted);
+  const Shape found = shape(value.at);
+  const bool turned = found.rows == wanted.cols && found.cols == wanted.rows;
   fail(expression, node,
-       describe(expression, node, value) + " has the wrong shape: expected " + to_string(wanted));
+       describe(expression, node, value) + " has the wrong shape: expected " + to_string(wanted) +
+           (turned && (found.rows == 1 || found.cols == 1)
+                ? "; a column is written [a; b], a row [a, b]"
+                : ""));
 }
 
 Bound Binder::subtract(const Expression& expression, const Node& node, Bound a, Bound b) {

@@ -66,6 +66,15 @@ StartRule default_box(const Dynamics::Variable& variable) {
   return {StartKind::box, {all(-1), all(1)}, {}, variable.place};
 }
 
+}  // namespace
+
+bool starts_in_a_box(const Dynamics& dynamics, const Dynamics::Variable& state) {
+  return dynamics.has_timer && state.kind == Dynamics::VariableKind::state &&
+         state.structure != model::Structure::symmetric;
+}
+
+namespace {
+
 /// Rules for all states, from those of a campaign and from where the dynamics say.
 std::vector<std::optional<StartRule>> rules_of(const std::vector<model::Design::Start>& starts,
                                                const System& system) {
@@ -81,12 +90,13 @@ std::vector<std::optional<StartRule>> rules_of(const std::vector<model::Design::
     } else if (variables[i].start) {
       rules.back() = rule_of(
           {i, StartKind::expression, {*variables[i].start}, variables[i].start->place}, system);
-    } else if (system.dynamics.has_timer && variables[i].kind == Dynamics::VariableKind::state &&
-               variables[i].structure != model::Structure::symmetric) {
+    } else if (variables[i].shape.size() == 0 || starts_in_a_box(system.dynamics, variables[i])) {
       rules.back() = default_box(variables[i]);
     } else {
-      throw InputError(variables[i].place, "the state " + variables[i].name +
-                                               " has no start: neither its own nor in `initial`");
+      throw InputError(variables[i].place,
+                       "the state '" + variables[i].name +
+                           "' has no start, and a run needs one: {shape: ..., start: ...}, or "
+                           "under campaign.initial of the problem");
     }
   }
   return rules;

@@ -42,6 +42,10 @@ struct Scenario {
   std::vector<std::pair<std::size_t, std::size_t>> differences;
 };
 
+/// Whether a state starts in the box [-1, 1] where nothing says so: beside a timer, unless it is
+/// symmetric or a mode.
+bool starts_in_a_box(const model::Dynamics& dynamics, const model::Dynamics::Variable& state);
+
 /// Laws and horizon of a campaign; `starts` of the campaign name variables of the dynamics. Every
 /// event with a range of lengths has the campaign's laws, by default those of law.h. InputError for
 /// laws and starts that do not fit, a state that starts nowhere, and a horizon that is not

@@ -31,8 +31,10 @@ void read_kind(const YamlFile& file, const YamlItem& item, YamlMap& map, model::
   if (below && !cost) ++kinds;
   if (kinds != 1) {
     map.finish();
-    throw InputError(item.place, "the claim '" + item.key +
-                                     "' needs one of nonincreasing, cost, shrinks, below, above");
+    throw InputError(item.place, "the claim '" + item.key + "' needs " +
+                                     (kinds > 1 ? "exactly " : "") +
+                                     "one of nonincreasing, cost, shrinks, below, above" +
+                                     (kinds > 1 ? "; found " + std::to_string(kinds) : ""));
   }
   const bool bounded = (below && !cost) || above;
   if (bound && !bounded) throw InputError(bound->place, "bound: of the claims below and above");
@@ -57,9 +59,16 @@ void read_kind(const YamlFile& file, const YamlItem& item, YamlMap& map, model::
 }  // namespace
 
 model::Claim claim(const YamlFile& file, const YamlItem& item) {
+  if (!item.value.IsMap())
+    throw InputError(item.place,
+                     "the claim '" + item.key +
+                         "': expected {nonincreasing: V}, {below: v, bound: b}, {above: "
+                         "v, bound: b}, {shrinks: v, to: s} or {cost: {flow: f}, below: "
+                         "V}");
   YamlMap map(file, item.value, item.key);
   const auto after = map.find("after");
   const auto over = map.find("over");
+  const auto tolerance = map.find("tolerance");
   model::Claim result;
   read_kind(file, item, map, result);
   map.finish();
@@ -74,6 +83,12 @@ model::Claim claim(const YamlFile& file, const YamlItem& item) {
     if (part && (result.kind == ClaimKind::cost || result.kind == ClaimKind::shrinks))
       throw InputError(part->place, part->key + ": of the claims nonincreasing, below and above");
   if (after) result.after = file.expression(after->value, "after");
+  if (tolerance) {
+    result.tolerance = file.positive(tolerance->value, "tolerance");
+    if (result.tolerance >= 1)
+      throw InputError(file.place(tolerance->value),
+                       "tolerance: a part of the bound, such as 1e-6, so below 1");
+  }
   if (over) {
     result.over = file.string(over->value, "over");
     result.over_place = file.place(over->value);

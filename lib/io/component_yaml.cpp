@@ -69,10 +69,9 @@ model::Declaration mode(const YamlFile& file, const YamlItem& item) {
 
 /// "y: C*x" or "y: {value: C*x + w, at: sample}".
 model::Output output(const YamlFile& file, const YamlItem& item) {
-  if (!item.value.IsMap()) return {{item.key, file.expression(item.value, item.key), item.place}};
+  if (!item.value.IsMap()) return {{item.key, matrix_of(file, item), item.place}};
   YamlMap map(file, item.value, item.key);
-  model::Output result{
-      {item.key, file.expression(map.require("value").value, item.key), item.place}};
+  model::Output result{{item.key, matrix_of(file, map.require("value")), item.place}};
   if (const auto at = map.find("at")) result.at = file.string(at->value, "at");
   map.finish();
   return result;
@@ -86,30 +85,48 @@ std::vector<model::Let> definitions(const YamlFile& file, const std::vector<Yaml
   return result;
 }
 
-std::vector<model::Named> assignments(const YamlFile& file, const std::vector<YamlItem>& items) {
-  std::vector<model::Named> result;
-  for (const YamlItem& item : items)
-    result.push_back({item.key, file.expression(item.value, item.key), item.place});
-  return result;
+model::Named assignment(const YamlFile& file, const YamlItem& item) {
+  return {item.key, matrix_of(file, item), item.place};
 }
 
-/// "{xh: ...}" or "{repeat: {xh: ...}, until: c, at_most: N, else: go on}".
+/// "{let: {K: ...}, xh: ...}": definitions, and new values of states.
+void read_map(const YamlFile& file, const YamlItem& item, const std::string& what,
+              model::PassText& pass) {
+  for (const YamlItem& entry : items_of(file, item, what)) {
+    if (entry.key != "let") {
+      pass.map.push_back(assignment(file, entry));
+      continue;
+    }
+    for (model::Let& let : definitions(file, items_of(file, entry, "let"))) {
+      for (const model::Let& known : pass.let)
+        if (known.signature.name == let.signature.name)
+          throw InputError(let.place, "'" + let.signature.name +
+                                          "' is defined twice here; first in line " +
+                                          std::to_string(known.place.line));
+      pass.let.push_back(std::move(let));
+    }
+  }
+}
+
+/// "{xh: ...}" or "{repeat: {xh: ...}, until: c, at_most: N, else: go on}", both with `let`.
 model::PassText pass(const YamlFile& file, const YamlItem& item) {
   model::PassText result;
   result.place = item.place;
   if (!item.value.IsMap() || !item.value["repeat"]) {
-    result.map = assignments(file, items_of(file, item, item.key));
+    read_map(file, item, item.key, result);
     return result;
   }
   YamlMap map(file, item.value, item.key);
   result.repeats = true;
   const YamlItem repeated = map.require("repeat");
-  result.map = assignments(file, items_of(file, repeated, "repeat"));
+  const auto let = map.find("let");
   const auto until = map.find("until");
   const auto at_most = map.find("at_most");
   const auto times = map.find("times");
   const auto otherwise = map.find("else");
   map.finish();
+  if (let) result.let = definitions(file, items_of(file, let, "let"));
+  read_map(file, repeated, "repeat", result);
   if (at_most.has_value() == times.has_value() || until.has_value() != at_most.has_value())
     throw InputError(item.place,
                      "a loop is {repeat: map, until: condition, at_most: N} or {repeat: map, "
@@ -127,33 +144,17 @@ model::PassText pass(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
-/// A map, with `let` before it, or a list of maps.
+/// A map or a list of maps.
 model::ReactionText reaction(const YamlFile& file, const YamlItem& item) {
   model::ReactionText result;
   result.event = item.key;
   result.place = item.place;
-  if (item.value.IsSequence()) {
-    for (const auto& entry : item.value)
-      result.passes.push_back(pass(file, {item.key, item.key_text, file.place(entry), entry}));
-    return result;
-  }
-  if (!item.value.IsMap() || !item.value["let"]) {
+  if (!item.value.IsSequence()) {
     result.passes.push_back(pass(file, item));
     return result;
   }
-  YamlMap map(file, item.value, item.key);
-  const YamlItem let = map.require("let");
-  result.let = definitions(file, items_of(file, let, "let"));
-  YAML::Node rest(YAML::NodeType::Map);
-  model::PassText own;
-  own.place = item.place;
-  for (const YamlItem& entry : map.items()) {
-    if (entry.key == "let") continue;
-    if (entry.key == "repeat")
-      throw InputError(entry.place, "with 'let' a loop is put in the component's own 'let'");
-    own.map.push_back({entry.key, file.expression(entry.value, entry.key), entry.place});
-  }
-  result.passes.push_back(std::move(own));
+  for (const auto& entry : item.value)
+    result.passes.push_back(pass(file, {item.key, item.key_text, file.place(entry), entry}));
   return result;
 }
 
@@ -253,9 +254,6 @@ Component component(const YamlFile& file, const YamlItem& item,
       own.push_back(one(file, entry));
     overlay(list, std::move(own), removed);
   };
-  const auto assigned = [](const YamlFile& from, const YamlItem& entry) {
-    return model::Named{entry.key, from.expression(entry.value, entry.key), entry.place};
-  };
   read("state", result.states, [](const YamlFile& from, const YamlItem& entry) {
     return declaration(from, entry, "start");
   });
@@ -266,8 +264,8 @@ Component component(const YamlFile& file, const YamlItem& item,
   });
   if (like && map.find("let"))
     require_replacing(file, item, *source, copied(file, source, before).let, result.let);
-  read("flow", result.flow, assigned);
-  read("jump", result.jump, assigned);
+  read("flow", result.flow, assignment);
+  read("jump", result.jump, assignment);
   read("at", result.at, reaction);
   Removed removed;
   const auto own_events = map.find("events");

@@ -41,9 +41,14 @@ model::Declaration declaration(const YamlFile& file, const YamlItem& item, const
     result.shape = model::parse_shape(file.scalar(item.value, item.key));
     return result;
   }
+  if (item.value.IsSequence())
+    throw InputError(file.place(item.value),
+                     item.key + ": expected a shape, such as n x p, or {shape: n x p, " + fallback +
+                         ": ...}; found a list");
   YamlMap map(file, item.value, item.key);
   result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
-  result.fallback = optional_expression(file, map.find(fallback));
+  if (const auto value = map.find(fallback))
+    result.fallback = matrix_of(file, *value, result.shape.is_column());
   result.help = optional_string(file, map.find("help"));
   if (std::string_view(fallback) == "default") result.indices = indices(file, map.find("for"));
   map.finish();

@@ -45,7 +45,7 @@ void read_jump(model::Component& component, bool has_timer) {
   model::PassText pass;
   pass.map = std::move(component.jump);
   pass.place = place;
-  component.at.insert(component.at.begin(), {model::kTimerEvent, {}, {std::move(pass)}, place});
+  component.at.insert(component.at.begin(), {model::kTimerEvent, {std::move(pass)}, place});
   component.jump.clear();
 }
 
@@ -67,6 +67,10 @@ void read_sinusoid(const YamlFile& file, const YamlItem& item, model::NoiseText&
 /// "w: {normal: 0.03, new at: sample}", "w: {uniform: [-1, 1], every: 0.1}".
 model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
   using Kind = model::Dynamics::NoiseKind;
+  constexpr const char* kForms =
+      "expected {normal: deviation}, {uniform: [low, high]} or {sinusoid: {amplitude: ..., "
+      "frequency: ..., phase: ...}}";
+  if (!item.value.IsMap()) throw InputError(item.place, "the noise '" + item.key + "': " + kForms);
   YamlMap map(file, item.value, item.key);
   model::NoiseText result;
   result.name = item.key;
@@ -80,15 +84,13 @@ model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
   if (static_cast<int>(normal.has_value()) + static_cast<int>(uniform.has_value()) +
           static_cast<int>(sinusoid.has_value()) !=
       1)
-    throw InputError(item.place,
-                     "noise: expected {normal: deviation}, {uniform: [low, high]} or {sinusoid: "
-                     "{amplitude: ..., frequency: ..., phase: ...}}");
+    throw InputError(item.place, std::string("noise: ") + kForms);
   if (sinusoid && (event || every))
     throw InputError((event ? event : every)->place, "noise: a sinusoid is drawn once a run");
   if (sinusoid) read_sinusoid(file, *sinusoid, result);
   if (event && every)
     throw InputError(every->place, "noise: drawn anew at an event or every so often, not both");
-  if (normal) result.values = {file.expression(normal->value, "normal")};
+  if (normal) result.values = {matrix_of(file, *normal)};
   if (uniform) {
     result.kind = Kind::uniform;
     result.values = one_or_two(file, *uniform);
@@ -141,7 +143,7 @@ void read_dynamics(const YamlFile& file, YamlMap& map, model::Method& method) {
     if (is_measured(item))
       method.measured.push_back(measured_input(file, item));
     else
-      method.inputs.push_back({item.key, file.expression(item.value, item.key), item.place});
+      method.inputs.push_back({item.key, matrix_of(file, item), item.place});
   for (const YamlItem& item : items_of(file, noises, "noise"))
     method.noise.push_back(noise(file, item));
 

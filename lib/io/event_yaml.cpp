@@ -91,7 +91,10 @@ std::vector<expr::Expression> one_or_two(const YamlFile& file, const YamlItem& i
   if (!item.value.IsSequence()) return {file.expression(item.value, item.key)};
   if (item.value.size() != 2)
     throw InputError(file.place(item.value), item.key + ": expected a value or [low, high]");
-  return {file.expression(item.value[0], item.key), file.expression(item.value[1], item.key)};
+  std::vector<expr::Expression> ends;
+  for (const auto& end : item.value)
+    ends.push_back(matrix_of(file, {item.key, item.key_text, file.place(end), end}));
+  return ends;
 }
 
 std::vector<model::EventText> events(const YamlFile& file, const std::optional<YamlItem>& item,

@@ -297,8 +297,13 @@ model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
   model::UncertainText result;
   result.name = item.key;
   result.place = item.place;
-  if (box) result.box = one_or_two(file, *box);
-  if (box && result.box.size() != 2) throw InputError(box->place, "box: expected [low, high]");
+  const auto value = [&](const YAML::Node& node) {
+    return value_of(file, {item.key, item.key_text, file.place(node), node});
+  };
+  if (box && (!box->value.IsSequence() || box->value.size() != 2))
+    throw InputError(box->place, "box: expected [low, high]");
+  if (box)
+    for (const auto& end : box->value) result.box.push_back(value(end));
   if (sampling) {
     const std::string word = file.string(sampling->value, "sampling");
     const Place place = file.place(sampling->value);
@@ -309,16 +314,13 @@ model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
     result.corners = word == "vertices";
   }
   if (!vertices) return result;
-  const auto add = [&](const YAML::Node& node) {
-    result.vertices.push_back(value_of(file, {item.key, item.key_text, file.place(node), node}));
-  };
   if (!vertices->value.IsSequence()) {
-    add(vertices->value);
+    result.vertices.push_back(value(vertices->value));
     return result;
   }
   if (vertices->value.size() == 0)
     throw InputError(vertices->place, "vertices: expected a value at least");
-  for (const auto& entry : vertices->value) add(entry);
+  for (const auto& entry : vertices->value) result.vertices.push_back(value(entry));
   return result;
 }
 

@@ -2,6 +2,8 @@
 // place.
 #pragma once
 
+#include <algorithm>
+#include <cctype>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,8 +29,13 @@ class TextComposer {
     }
   }
 
-  /// In brackets of its own a part cannot be torn apart by what stands around it.
+  /// In brackets of its own a part cannot be torn apart by what stands around it; a number or a name
+  /// needs none.
   void bracketed(const expr::Text& part) {
+    const auto is_one = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '.';
+    };
+    if (std::all_of(part.str().begin(), part.str().end(), is_one)) return text(part);
     punctuation("(", part.place(0));
     text(part);
     punctuation(")", part.place(part.str().size()));

@@ -304,13 +304,27 @@ double YamlFile::positive(const YAML::Node& node, const std::string& what) const
   return value;
 }
 
+namespace {
+
+/// The beginning of a text, to be shown in one line.
+std::string shortened(const std::string& text) {
+  constexpr std::size_t kMost = 40;
+  const std::size_t end = std::min(text.find('\n'), kMost);
+  if (text.size() <= end) return text;
+  std::size_t at = end;
+  while (at > 0 && is_continuation(text[at])) --at;
+  return text.substr(0, at) + "...";
+}
+
+}  // namespace
+
 YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what)
     : what_(std::move(what)), place_(file.place(node)) {
   if (!node.IsMap())
     throw InputError(place_, what_ + ": expected a mapping 'key: value', found " +
                                  (node.IsSequence() ? "a list"
                                   : node.IsNull()   ? "nothing"
-                                                    : "'" + node.Scalar() + "'"));
+                                                    : "'" + shortened(node.Scalar()) + "'"));
   for (const auto& entry : node) {
     const std::string key = file.string(entry.first, what_ + ": a key");
     const Place place = file.place(entry.first);
@@ -323,7 +337,7 @@ YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what)
 }
 
 std::optional<YamlItem> YamlMap::find(const std::string& key) {
-  asked_.push_back(key);
+  if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.push_back(key);
   for (const YamlItem& item : items_)
     if (item.key == key) return item;
   return std::nullopt;

@@ -94,6 +94,9 @@ std::vector<YamlItem> items_of(const YamlFile& file, const std::optional<YamlIte
 /// expressions.
 model::Value value_of(const YamlFile& file, const YamlItem& item);
 
+/// The same as an expression alone; a list of numbers is a column, or a row.
+expr::Expression matrix_of(const YamlFile& file, const YamlItem& item, bool column = true);
+
 /// The same of a datum, which may be a list of matrices: those of a family.
 model::Value datum_of(const YamlFile& file, const YamlItem& item);
 

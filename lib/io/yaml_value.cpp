@@ -36,9 +36,12 @@ void add_scalar(const YamlFile& file, const YAML::Node& node, const std::string&
   composer.bracketed(part);
 }
 
-}  // namespace
+std::string counted(std::size_t elements) {
+  return std::to_string(elements) + (elements == 1 ? " element" : " elements");
+}
 
-model::Value value_of(const YamlFile& file, const YamlItem& item) {
+/// `between`: the numbers of a list.
+model::Value matrix(const YamlFile& file, const YamlItem& item, const char* between) {
   const YAML::Node& node = item.value;
   if (!node.IsSequence())
     return {item.key, file.expression(node, item.key), false, file.place(node)};
@@ -51,7 +54,7 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
     const YAML::Node row = node[i];
     if (flat || !row.IsSequence()) {
       if (!flat) throw InputError(file.place(row), item.key + ": expected a row [a, b, ...] here");
-      if (i > 0) composer.punctuation(",", file.place(row));
+      if (i > 0) composer.punctuation(between, file.place(row));
       add_scalar(file, row, item.key, composer);
       continue;
     }
@@ -59,9 +62,8 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
     if (i == 0) width = row.size();
     if (width == 0) throw InputError(file.place(row), item.key + ": this row is empty");
     if (row.size() != width)
-      throw InputError(file.place(row), item.key + ": this row has " + std::to_string(row.size()) +
-                                            " elements, the first row has " +
-                                            std::to_string(width));
+      throw InputError(file.place(row), item.key + ": this row has " + counted(row.size()) +
+                                            ", the first row has " + counted(width));
     for (std::size_t j = 0; j < row.size(); ++j) {
       if (j > 0) composer.punctuation(",", file.place(row[j]));
       add_scalar(file, row[j], item.key, composer);
@@ -69,6 +71,16 @@ model::Value value_of(const YamlFile& file, const YamlItem& item) {
   }
   composer.punctuation("]", file.place(node));
   return {item.key, composer.parse(file.place(node)), flat, file.place(node), true};
+}
+
+}  // namespace
+
+model::Value value_of(const YamlFile& file, const YamlItem& item) {
+  return matrix(file, item, ",");
+}
+
+expr::Expression matrix_of(const YamlFile& file, const YamlItem& item, bool column) {
+  return matrix(file, item, column ? ";" : ",").value;
 }
 
 model::Value datum_of(const YamlFile& file, const YamlItem& item) {

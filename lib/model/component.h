@@ -35,8 +35,9 @@ struct EventText {
 /// The event of a timer.
 constexpr const char* kTimerEvent = "timer";
 
-/// New values of states, and how often the map runs.
+/// New values of states, what they are made of, and how often the map runs.
 struct PassText {
+  std::vector<Let> let;
   std::vector<Named> map;
   bool repeats = false;
   std::optional<expr::Expression> until;
@@ -48,7 +49,6 @@ struct PassText {
 /// What a component does at an event.
 struct ReactionText {
   std::string event;
-  std::vector<Let> let;
   std::vector<PassText> passes;
   Place place;
 };

@@ -173,6 +173,7 @@ struct Design {
     std::optional<Formula> bound{};     ///< below, above: of constants
     std::optional<Formula> after{};     ///< the time from which on it is claimed; none: the start
     std::optional<std::size_t> over{};  ///< the event of the dynamics just after whose jumps it is
+    double tolerance = 0;               ///< relative to the bound (claims/claim_check.h)
   };
 
   struct Law {

@@ -84,6 +84,7 @@ struct Claim {
   std::optional<expr::Expression> after{};  ///< the time from which on it is claimed
   std::string over{};                       ///< the event just after whose jumps alone it is
   Place over_place{};
+  double tolerance = 0;  ///< relative to the bound (claims/claim_check.h)
 };
 
 struct Method {

@@ -50,7 +50,7 @@ class NameCheck {
     if (found != known_.end() && found->second != "timer")
       throw InputError(forall.place, "'" + forall.variable +
                                          "' is a variable here, but it already names " +
-                                         with_article(found->second));
+                                         with_article(found->second) + line_of(forall.variable));
   }
 
   /// An index may be that of another family, nothing else.
@@ -64,7 +64,7 @@ class NameCheck {
       if (const auto found = known_.find(index.name); found != known_.end())
         throw InputError(index.place, "'" + index.name +
                                           "' is an index here, but it already names " +
-                                          with_article(found->second));
+                                          with_article(found->second) + line_of(index.name));
     }
   }
 
@@ -77,7 +77,8 @@ class NameCheck {
     const auto [found, fresh] = known_.emplace(name, what);
     if (!fresh)
       throw InputError(place, "'" + name + "' names " + with_article(what) +
-                                  " here, but it already names " + with_article(found->second));
+                                  " here, but it already names " + with_article(found->second) +
+                                  line_of(name));
     places_.emplace(name, place);
   }
 
@@ -111,6 +112,13 @@ class NameCheck {
   }
 
  private:
+  /// ", in line 7": where it got its name.
+  std::string line_of(const std::string& name) const {
+    const auto found = places_.find(name);
+    if (found == places_.end() || found->second.line == 0) return "";
+    return ", in line " + std::to_string(found->second.line);
+  }
+
   std::map<std::string, std::string> known_;
   std::map<std::string, Place> places_;
 };
@@ -143,10 +151,15 @@ void check_maps(const Component& component, const std::vector<Named>& map,
 using Add = void (NameCheck::*)(const std::string&, const std::string&, const Place&);
 
 void add_component(const Component& component, NameCheck& names, Add add = &NameCheck::add) {
-  for (const Declaration& state : component.states) (names.*add)(state.name, "state", state.place);
-  for (const Declaration& mode : component.modes) (names.*add)(mode.name, "mode", mode.place);
-  for (const Output& output : component.outputs) (names.*add)(output.name, "output", output.place);
-  for (const Let& let : component.let) (names.*add)(let.signature.name, "definition", let.place);
+  const std::string whose =
+      component.name == "plant" || component.name == "observer" ? " of the " : " of the observer ";
+  const auto add_one = [&](const std::string& name, const char* what, const Place& place) {
+    (names.*add)(name, what + whose + component.name, place);
+  };
+  for (const Declaration& state : component.states) add_one(state.name, "state", state.place);
+  for (const Declaration& mode : component.modes) add_one(mode.name, "mode", mode.place);
+  for (const Output& output : component.outputs) add_one(output.name, "output", output.place);
+  for (const Let& let : component.let) add_one(let.signature.name, "definition", let.place);
 }
 
 void add_gains(const Method& method, NameCheck& names) {

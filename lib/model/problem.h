@@ -113,9 +113,9 @@ struct Questions {
 /// Data of which the plant sees another value than the observers, chosen once a run.
 struct UncertainText {
   std::string name;
-  std::vector<expr::Expression> box;  ///< low, high
-  bool corners = false;               ///< of the box, one after the other; otherwise drawn in it
-  std::vector<Value> vertices;        ///< one after the other; one that names a family: its members
+  std::vector<Value> box;       ///< low, high
+  bool corners = false;         ///< of the box, one after the other; otherwise drawn in it
+  std::vector<Value> vertices;  ///< one after the other; one that names a family: its members
   Place place;
 };
 

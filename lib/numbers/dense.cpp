@@ -3,9 +3,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "numbers/small_svd.h"
 #include "numerics/balance.h"
 
 namespace gainsmith::numbers {
@@ -42,6 +44,8 @@ Matrix exponential(const Matrix& M) {
 
 Vector singular_values(const Matrix& M) {
   if (M.size() == 0) return Vector::Zero(0);
+  Vector small(std::min(M.rows(), M.cols()));
+  if (small_singular_values(M, small.data())) return small;
   return Eigen::JacobiSVD<Matrix>(M).singularValues();
 }
 

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "base/progress.h"
 #include "base/stop.h"
+#include "hybrid/idle.h"
 #include "verify/judge.h"
 #include "verify/statistics.h"
 
@@ -47,6 +48,7 @@ struct Tally {
   Termination unfinished_termination = Termination::horizon;
   std::string unfinished_message;
   std::vector<ClaimTally> claims;
+  std::vector<char> happened;  ///< by event: whether it did in any of them
 };
 
 int rank_of(claims::Judgement judgement) {
@@ -86,6 +88,8 @@ void add(const Tally& later, Tally& sum) {
   }
   Tally before = sum;
   if (is_worse(later, sum)) sum = later;
+  for (std::size_t e = 0; e < before.happened.size(); ++e)
+    sum.happened[e] = before.happened[e] != 0 || later.happened[e] != 0 ? 1 : 0;
   sum.runs = before.runs + later.runs;
   sum.violations = before.violations + later.violations;
   sum.undecided = before.undecided + later.undecided;
@@ -116,6 +120,7 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
   tally.unfinished = verdict.unfinished() ? 1 : 0;
   tally.close = tally.undecided > 0 && !verdict.unfinished() ? 1 : 0;
   tally.repeated = verdict.repeated ? 1 : 0;
+  tally.happened = verdict.happened;
   if (verdict.confirmed) tally.confirmed.push_back(run);
   tally.score = -std::numeric_limits<double>::infinity();
   for (const claims::Finding& finding : verdict.findings) {
@@ -224,11 +229,14 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
   const model::RunTexts& texts = setup.events->texts;
   require_a_claim(texts.method, setup.claims());
   Report report;
+  report.different = hybrid::different_runs(setup.events->system, setup.events->scenario);
   report.asked = options.runs.value_or(texts.campaign.runs);
+  if (report.different) report.asked = std::min(report.asked, *report.different);
   report.seed = options.seed.value_or(texts.campaign.seed);
   if (report.asked == 0)
     throw InputError(texts.campaign.place, "a campaign needs at least one run");
 
+  report.idle_observers = hybrid::idle_observers(setup.events->system.dynamics);
   const Tally tally = judge_all(setup, report.seed, report.asked, options);
   report.runs = tally.runs;
   report.horizon = setup.horizon();
@@ -245,8 +253,12 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
   report.unfinished_termination = tally.unfinished_termination;
   report.unfinished_message = tally.unfinished_message;
   report.close = tally.close;
-  report.violation_probability = violation_probability_bound(report.violations + report.undecided,
-                                                             report.runs, report.confidence);
+  if (!report.different)
+    report.violation_probability = violation_probability_bound(report.violations + report.undecided,
+                                                               report.runs, report.confidence);
+  for (std::size_t e = 0; e < tally.happened.size(); ++e)
+    if (tally.happened[e] == 0)
+      report.silent_events.push_back(setup.events->system.dynamics.events[e].name);
   report.checks = report_checks(setup, tally);
   if (report.interrupted()) return report;
   bool confirmed = false;

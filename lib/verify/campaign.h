@@ -39,7 +39,7 @@ struct CheckReport {
 struct Report {
   model::CampaignVerdict verdict = model::CampaignVerdict::held;
   std::uint64_t runs = 0;   ///< that were made
-  std::uint64_t asked = 0;  ///< that were to be made
+  std::uint64_t asked = 0;  ///< that were to be made: no run twice
   std::uint64_t seed = 0;
   std::uint64_t violations = 0;  ///< runs that violate a claim or do not reach the horizon
   std::uint64_t undecided = 0;   ///< runs of which neither is certain when repeated
@@ -58,10 +58,15 @@ struct Report {
   std::uint64_t worst_run = 0;
   double horizon = 0;
   bool integrated = false;  ///< errors are estimates, and "repeated" means more accurately
+  /// How many different runs there are, where nothing is drawn at random (hybrid/idle.h): then no
+  /// run says anything of another.
+  std::optional<std::uint64_t> different;
   double confidence = 0.95;
   /// With that confidence the probability that a run of this campaign violates is at most this;
-  /// undecided runs count as violating.
+  /// undecided runs count as violating. 1 where nothing is drawn.
   double violation_probability = 1;
+  std::vector<std::string> silent_events;   ///< that happened in no run
+  std::vector<std::string> idle_observers;  ///< that never change
   std::vector<CheckReport> checks;  ///< in the method's order; none when no run was made
 
   bool interrupted() const { return runs < asked; }

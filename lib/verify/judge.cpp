@@ -91,7 +91,7 @@ RunVerdict with_decided(const RunVerdict& before, RunVerdict again) {
 
 }  // namespace
 
-Judge::Judge(const Setup& setup) {
+Judge::Judge(const Setup& setup) : event_count_(setup.events->system.dynamics.events.size()) {
   if (!setup.sampled) {
     events_.emplace(setup.judged());
     checks_ = make_checks(setup.judged().judged, *setup.judged().narrow);
@@ -131,12 +131,18 @@ RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
 }
 
 RunVerdict Judge::operator()(std::uint64_t seed, std::uint64_t run) {
-  RunVerdict verdict = verdict_on(track(seed, run), checks_);
-  if (verdict.unfinished()) return confirm(seed, run);
+  const bounded::Track<double>& made = track(seed, run);
+  std::vector<char> happened(event_count_, 0);
+  for (const bounded::Move& move : made.moves)
+    if (move.jump) happened[move.event] = 1;
+  RunVerdict verdict = verdict_on(made, checks_);
+  verdict.happened = happened;
   const bool open = std::any_of(verdict.findings.begin(), verdict.findings.end(),
                                 [](const claims::Finding& one) { return one.undecided(); });
-  if (!open) return verdict;
-  return with_decided(verdict, confirm(seed, run));
+  if (!open && !verdict.unfinished()) return verdict;
+  RunVerdict again = with_decided(verdict, confirm(seed, run));
+  again.happened = std::move(happened);
+  return again;
 }
 
 }  // namespace gainsmith::verify

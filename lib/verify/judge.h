@@ -19,6 +19,7 @@ struct RunVerdict {
   std::vector<claims::Finding> findings;  ///< of the claims that are stated, in order
   bounded::Termination termination = bounded::Termination::horizon;
   std::string message;  ///< why it ended, when a jump map had no value
+  std::vector<char> happened;  ///< by event: whether it did in this run
   bool repeated = false;
   bool confirmed = false;  ///< violated when repeated
 
@@ -44,6 +45,7 @@ class Judge {
   std::vector<claims::ClaimCheck<double>>& checks() { return checks_; }
 
  private:
+  std::size_t event_count_;
   std::optional<EventTracks> events_;
   std::optional<bounded::ClockedSimulator> clocked_;
   std::optional<bounded::BoundedSimulator<double>> narrow_;

@@ -5,6 +5,8 @@
 #include <memory>
 #include <utility>
 
+#include "base/error.h"
+#include "base/number.h"
 #include "claims/run_values.h"
 #include "verify/judge.h"
 
@@ -170,6 +172,11 @@ std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const EventSe
 Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
                   bool judged) {
   const EventSetup& events = *setup.events;
+  constexpr double kMostPoints = 1e7;
+  if (step > 0 && setup.horizon() / step > kMostPoints)
+    throw InputError({}, "a step of " + brief(step) + " makes " +
+                             brief(setup.horizon() / step, 2) + " points of a run of length " +
+                             brief(setup.horizon()) + "; at most 1e7 are written");
   Replay result;
   result.run = simulate::Simulator(events.system, events.scenario)
                    .run(seed, run, events.accuracy(kAccuracyOfOne));

@@ -46,6 +46,7 @@ struct Replay {
 
 /// `step`: of the points of flows; 0: as the integration went. `judged`: whether the run is checked
 /// against the texts. After a stop (base/stop.h) the run as far as it came, without claims.
+/// InputError for a step that makes more than 1e7 points.
 Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
                   bool judged = false);
 

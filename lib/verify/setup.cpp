@@ -71,8 +71,12 @@ bool add_clocked_flows(SampledSetup& setup, const hybrid::Scenario& scenario) {
 std::unique_ptr<const SampledSetup> make_sampled_setup(const model::Instance& instance,
                                                        const model::Gains& gains,
                                                        const EventSetup& events) {
-  const auto is_over = [](const claims::Claim& claim) { return claim.over.has_value(); };
-  if (events.texts.campaign.accuracy || std::ranges::any_of(events.claims, is_over)) return nullptr;
+  // What only the careful run understands: an event, and a tolerance of a bound, which may be 0.
+  const auto is_careful = [](const claims::Claim& claim) {
+    return claim.over.has_value() || (claim.bound && claim.tolerance > 0);
+  };
+  if (events.texts.campaign.accuracy || std::ranges::any_of(events.claims, is_careful))
+    return nullptr;
   auto setup = std::make_unique<SampledSetup>();
   setup->system = bounded::make_sampled_system(events.system);
   if (!setup->system) return nullptr;

@@ -59,6 +59,22 @@ TEST_F(ProblemFiles, LinksThatLeadNowhereStopNothing) {
   EXPECT_EQ(names({root_.string()}), (Names{"a", "b", "below/c", "lost"}));
 }
 
+TEST_F(ProblemFiles, OfOneNameAreToldApartByTheirFolders) {
+  for (const char* folder : {"one/deep", "two/deep", "three"})
+    fs::create_directories(root_ / folder);
+  for (const char* name :
+       {"one/deep/x.yaml", "two/deep/x.yaml", "three/x.yaml", "three/x.yml", "three/y.yaml"})
+    std::ofstream(root_ / name) << "x";
+  EXPECT_EQ(names({path("one/deep/x.yaml"), path("three/y.yaml"), path("three/x.yaml")}),
+            (Names{"deep/x", "y", "three/x"}));
+  EXPECT_EQ(names({path("one/deep/x.yaml"), path("two/deep/x.yaml")}),
+            (Names{"one/deep/x", "two/deep/x"}));
+  EXPECT_EQ(names({path("three/x.yaml"), path("three/x.yml")}), (Names{"x.yaml", "x.yml"}));
+  // One that gets the name of a third.
+  EXPECT_EQ(names({path("one"), path("two/deep/x.yaml"), path("three/x.yaml")}),
+            (Names{"one/deep/x", "two/deep/x", "three/x"}));
+}
+
 TEST_F(ProblemFiles, AFolderWithoutThemIsRefused) {
   fs::create_directories(root_ / "empty");
   EXPECT_THROW(problem_files({path("empty")}), InputError);

@@ -104,6 +104,46 @@ TEST(ClaimsAlongRuns, AnEquationWithAClosedFormIsUndecided) {
   }
 }
 
+/// 1e-6 decides an equation; what is off by more stays violated.
+TEST(ClaimsAlongRuns, AToleranceHoldsAnEquation) {
+  const std::string method = "  plant: {state: {r: {shape: scalar, start: 1}}, flow: {r: -r^2}}\n";
+  const auto verdict = [&](const std::string& claim) {
+    const Report report =
+        report_of(instance_of(method, "{c: {" + claim + "}}", "{runs: 1, horizon: 4}"));
+    EXPECT_GT(report.checks[0].worst.tolerance, 0) << claim;
+    return report.verdict;
+  };
+  for (const std::string claim :
+       {"below: r*(1 + t), bound: 1", "above: r*(1 + t), bound: 1", "above: -r*(1 + t), bound: -1",
+        "below: rate(r) + 1/(1 + t)^2, bound: 0", "above: rate(r) + 1/(1 + t)^2, bound: 0",
+        "below: 1e9*(rate(r) + 1/(1 + t)^2), bound: 0", "nonincreasing: r*(1 + t)",
+        "nonincreasing: -r*(1 + t)", "cost: {flow: r^2}, below: r - 0.2", "shrinks: r, to: 0.2",
+        "shrinks: -r, to: 0.2", "below: r*(1 + 5e-7), bound: 1"})
+    EXPECT_EQ(verdict(claim + ", tolerance: 1e-6"), CampaignVerdict::held) << claim;
+  for (const std::string claim :
+       {"below: r*(1 + t)*(1 + 2e-6), bound: 1", "above: r*(1 + t)*(1 - 2e-6), bound: 1",
+        "above: -r*(1 + t)*(1 + 2e-6), bound: -1",
+        "below: rate(r) + (1 + 3e-6)/(1 + t)^2, bound: 0", "nonincreasing: r*(1 + t)*(1 + 1e-6*t)",
+        "nonincreasing: -r*(1 + t)*(1 - 1e-6*t)", "cost: {flow: r^2}, below: (r - 0.2)*(1 - 2e-6)",
+        "shrinks: r, to: 0.2*(1 - 2e-6)", "shrinks: -r, to: 0.2*(1 + 2e-6)"})
+    EXPECT_EQ(verdict(claim + ", tolerance: 1e-6"), CampaignVerdict::violated) << claim;
+}
+
+/// An LQR cost is x'*P*x in truth: x' = x + u, u = -(1 + sqrt(2)) x, P = 1 + sqrt(2).
+TEST(ClaimsAlongRuns, AToleranceHoldsAnOptimalCostOfBoundedRuns) {
+  const std::string method =
+      "  let: {k: 1 + sqrt(2)}\n  timer: {tau: {reset: [0.5, 1]}}\n"
+      "  plant: {state: {x: {shape: scalar, start: 1}}, flow: {x: x - k*x}}\n";
+  const std::string cost = "cost: {flow: (1 + k^2)*x^2}, below: k*x^2";
+  const auto verdict = [&](const std::string& claim) {
+    return report_of(instance_of(method, "{c: {" + claim + "}}", "{runs: 2, horizon: 30}")).verdict;
+  };
+  EXPECT_NE(verdict(cost), CampaignVerdict::held);
+  EXPECT_EQ(verdict(cost + ", tolerance: 1e-9"), CampaignVerdict::held);
+  EXPECT_EQ(verdict("cost: {flow: (1 + k^2)*x^2}, below: k*x^2*(1 - 1e-8), tolerance: 1e-9"),
+            CampaignVerdict::violated);
+}
+
 /// x = exp(-t), an exact flow: both runs round alike.
 TEST(ClaimsAlongRuns, AnEquationOfAnExactFlowIsNotViolated) {
   const std::string method = "  plant: {state: {x: {shape: scalar, start: 1}}, flow: {x: -x}}\n";

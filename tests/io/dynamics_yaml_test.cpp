@@ -106,7 +106,6 @@ TEST(Dynamics, MistakesAreNamedAtTheirPlace) {
       {"q: 1}", "r: 1}", "the jump of 'r', which is no state of careful"},
       {"q: 1}", "q: C}", "wrong shape"},
       {"norm(xh) >= 3", "norm(plain.xh) >= 3", "belongs to the observer plain"},
-      {"xh: {shape: 2, start: 0}", "xh: 2", "has no start"},
       {"every: [0.1, 0.2]", "every: x(1)", "changes along a run"},
       {"every: [0.1, 0.2]", "evry: 0.1", "every"},
       {"sampling: {sample: golden}", "sampling: {tick: golden}", "no event 'tick' with 'every'"},

@@ -1,7 +1,10 @@
 // The methods built into the program and the problems of the repository parse and check.
 #include <gtest/gtest.h>
+#include <yaml-cpp/yaml.h>
 
+#include <cctype>
 #include <filesystem>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,6 +33,39 @@ std::vector<fs::path> problem_files() {
   for (const auto& entry : fs::recursive_directory_iterator(GAINSMITH_PROBLEMS))
     if (entry.path().extension() == ".yaml") files.push_back(entry.path());
   return files;
+}
+
+/// Scalars without quotation marks that YAML 1.1 takes for true or false.
+void find_booleans(const YAML::Node& node, std::vector<std::string>& found) {
+  static const std::set<std::string> kWords = {"yes", "no", "on", "off", "true", "false"};
+  if (node.IsScalar()) {
+    std::string word = node.Scalar();
+    for (char& c : word) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (node.Tag() == "?" && kWords.contains(word)) found.push_back(node.Scalar());
+    return;
+  }
+  for (const auto& entry : node)
+    if (node.IsMap()) {
+      find_booleans(entry.first, found);
+      find_booleans(entry.second, found);
+    } else {
+      find_booleans(entry, found);
+    }
+}
+
+std::vector<std::string> booleans_of(const std::string& text) {
+  std::vector<std::string> found;
+  find_booleans(YAML::Load(text), found);
+  return found;
+}
+
+TEST(OurFiles, AreReadAlikeByToolsOfYaml11) {
+  using Words = std::vector<std::string>;
+  ASSERT_EQ(booleans_of("{verdict: no, shape: \"no\", on: [Yes]}"), (Words{"no", "on", "Yes"}));
+  for (const fs::path& path : problem_files())
+    EXPECT_EQ(booleans_of(read_text(path)), Words{}) << path;
+  for (const methods::Text& text : methods::all())
+    EXPECT_EQ(booleans_of(std::string(text.text)), Words{}) << text.name;
 }
 
 TEST(Problems, OfTheRepositoryParseAndCheck) {

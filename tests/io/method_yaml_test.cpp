@@ -94,7 +94,7 @@ TEST(NamedBlocks, AreTheBlockMatrixOfTheirRows) {
   EXPECT_EQ(place, (Place{"m.yaml", 6, 24}));
   // A column without a row of its own has one that is zero but for it.
   EXPECT_EQ(required("    blocks: {x: {x: P, y: b}}\n    is: \">= 0\"\n").that.text->str(),
-            "[(P),(b);*,0]>= 0");
+            "[P,b;*,0]>= 0");
 }
 
 TEST(NamedBlocks, MistakesAreShownWhereTheyAre) {

@@ -234,7 +234,7 @@ TEST(Values, MistakesAreShownAtTheElement) {
     EXPECT_EQ(error.place(), (Place{"f", line, column})) << yaml << ": " << error.what();
     EXPECT_NE(error.message().find(part), std::string::npos) << error.what();
   };
-  expect("A: [[1, 2], [3]]", 1, 13, "1 elements, the first row has 2");
+  expect("A: [[1, 2], [3]]", 1, 13, "1 element, the first row has 2");
   expect("A: [[1, 2],\n    [3, 4, 5]]", 2, 5, "3 elements, the first row has 2");
   expect("A: [[1, 2], 3]", 1, 13, "expected a row");
   expect("A: [1, [2, 3]]", 1, 8, "found a list");

@@ -1,0 +1,26 @@
+// Lines on what is allowed and perhaps not meant: they change no verdict and no exit code.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "verify/campaign.h"
+
+namespace gainsmith::app {
+
+std::vector<std::string> notes_on(const verify::Report& report);
+
+std::vector<std::string> notes_on_observers(const std::vector<std::string>& idle);
+
+/// Of events that do not happen: "the event 'far' never happens"; empty without any.
+std::string note_on_events(const std::vector<std::string>& events);
+
+/// Of a campaign with so many different runs (hybrid/idle.h); empty where its runs are drawn.
+std::string note_on_runs(const std::optional<std::uint64_t>& different);
+
+/// "the event 'far'", "the events 'far' and 'near'".
+std::string counted(const std::string& what, const std::vector<std::string>& names);
+
+}  // namespace gainsmith::app

@@ -1,0 +1,107 @@
+#include "hybrid/idle.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace gainsmith::hybrid {
+
+namespace {
+
+using model::Dynamics;
+
+/// How many values a draw takes in turn, run after run; 0: it is random.
+std::uint64_t values_of(const StartRule& rule) {
+  switch (rule.kind) {
+    case model::StartKind::expression:
+      return 1;
+    case model::StartKind::list:
+      return rule.values.size();
+    case model::StartKind::box:
+      return rule.values[0] == rule.values[1] ? 1 : 0;
+    case model::StartKind::ellipsoid:
+      break;
+  }
+  return 0;
+}
+
+std::uint64_t values_of(const Dynamics::Noise& noise, const System::NoiseValues& rule) {
+  switch (noise.kind) {
+    case Dynamics::NoiseKind::normal:
+      return rule.values[0].isZero(0) ? 1 : 0;
+    case Dynamics::NoiseKind::uniform:
+      return rule.values[0] == rule.values[1] ? 1 : 0;
+    case Dynamics::NoiseKind::vertices:
+    case Dynamics::NoiseKind::corners:
+      break;
+  }
+  return rule.stride * rule.values.size();
+}
+
+std::uint64_t values_of(const std::vector<Law>& laws) {
+  const bool drawn =
+      laws.empty() || std::any_of(laws.begin(), laws.end(), [](const Law& law) {
+        return law.kind == model::LawKind::uniform || law.kind == model::LawKind::extremes;
+      });
+  return drawn ? 0 : laws.size();
+}
+
+/// Of the clock of an event, and of its losses.
+std::uint64_t values_of_event(std::size_t event, const System& system, const Scenario& scenario) {
+  if (system.dynamics.events[event].lost > 0) return 0;
+  const auto& clock = system.clocks[event];
+  if (!clock) return 1;
+  const bool first_given = event < scenario.first.size() && scenario.first[event];
+  if (!first_given && clock->first && clock->first->first < clock->first->second) return 0;
+  return clock->low < clock->high ? values_of(scenario.laws[event]) : 1;
+}
+
+}  // namespace
+
+std::vector<std::string> idle_observers(const Dynamics& dynamics) {
+  std::vector<char> has_states(dynamics.components.size(), 0);
+  std::vector<char> changes(dynamics.components.size(), 0);
+  for (const Dynamics::Variable& variable : dynamics.variables)
+    if (variable.kind == Dynamics::VariableKind::state ||
+        variable.kind == Dynamics::VariableKind::mode)
+      has_states[variable.component] = 1;
+  for (const Dynamics::Assignment& flow : dynamics.flow)
+    changes[dynamics.variables[flow.variable].component] = 1;
+  for (const Dynamics::Reaction& reaction : dynamics.reactions) changes[reaction.component] = 1;
+  std::vector<std::string> idle;
+  for (std::size_t k = 0; k < dynamics.components.size(); ++k)
+    if (dynamics.components[k].observer && has_states[k] != 0 && changes[k] == 0)
+      idle.push_back(dynamics.components[k].name);
+  return idle;
+}
+
+std::vector<std::size_t> late_events(const System& system, const Scenario& scenario) {
+  std::vector<std::size_t> late;
+  for (std::size_t e = 0; e < system.dynamics.events.size(); ++e) {
+    std::optional<double> first;
+    if (!system.times[e].empty()) first = system.times[e].front();
+    if (const auto& clock = system.clocks[e])
+      first = e < scenario.first.size() && scenario.first[e] ? *scenario.first[e]
+              : clock->first                                 ? clock->first->first
+                                                             : clock->low;
+    if (first && *first > scenario.horizon) late.push_back(e);
+  }
+  return late;
+}
+
+std::optional<std::uint64_t> different_runs(const System& system, const Scenario& scenario) {
+  constexpr std::uint64_t kMost = 1000000000;
+  std::uint64_t all = 1;
+  const auto add = [&](std::uint64_t values) {
+    all = all == 0 || values == 0 || values > kMost ? 0 : std::lcm(all, values);
+    if (all > kMost) all = 0;  // none of them is made twice
+  };
+  for (const auto& start : scenario.starts)
+    if (start) add(values_of(*start));
+  for (std::size_t e = 0; e < system.dynamics.events.size(); ++e)
+    add(values_of_event(e, system, scenario));
+  for (std::size_t i = 0; i < system.noise.size(); ++i)
+    add(values_of(system.dynamics.noise[i], system.noise[i]));
+  return all > 0 ? std::optional(all) : std::nullopt;
+}
+
+}  // namespace gainsmith::hybrid

@@ -1,0 +1,196 @@
+// Mistakes as people make them: each message says where, what was expected, and how to mend it.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <ostream>
+#include <string>
+#include <vector>
+
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+const std::string kDesign = R"(problem: observer
+method:
+  method: observer
+  data: {A: n x n, C: p x n, T: {shape: scalar, default: 1}}
+  parameters: {a: {default: 0.5}}
+  unknowns: {P: symmetric n, Y: n x p}
+  require:
+    positive: P > I
+    decay: He(P*A - Y*C) < -2*a*P
+  minimize: trace(P)
+  gains: {L: inv(P)*Y}
+data:
+  A: [[0, 1], [-2, -1]]
+  C: [[1, 0]]
+synthesis: {gain_bound: 100}
+)";
+
+const std::string kRun = R"yaml(problem: filter
+method:
+  method: filter
+  let:      {f(x): "[x(2); -9.81*sin(x(1)) - 0.1*x(2)]", C: "[1, 0]"}
+  events:   {sample: {every: [0.05, 0.2]}}
+  noise:    {w: {normal: 0.03, new at: sample}}
+  plant:    {state: {x: {shape: 2, start: [1, 0]}}, output: {y: {value: x(1) + w, at: sample}}, flow: {x: f(x)}}
+  observer:
+    state:  {xh: {shape: 2, start: 0}, P: {shape: symmetric 2, start: I}}
+    flow:   {xh: f(xh), P: "He(jacobian(f(xh), xh)*P)"}
+    at:     {sample: {let: {K: P*C'/(C*P*C' + 0.001)}, xh: xh + K*(y - C*xh)}}
+  signals:  {e: x - xh}
+  claims:   {small: {shrinks: norm(e), to: 0.5}}
+campaign:   {horizon: 10, runs: 5}
+)yaml";
+
+struct Mistake {
+  const std::string* base;
+  const char* from;
+  const char* to;
+  int line, column;  ///< 0: of the whole file
+  const char* message;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.to; }
+
+class Mistakes : public testing::TestWithParam<Mistake> {};
+
+TEST_P(Mistakes, AreNamedWithTheirCure) {
+  const Mistake& mistake = GetParam();
+  const Folder folder;
+  std::string text = *mistake.base;
+  const std::size_t at = text.find(mistake.from);
+  ASSERT_NE(at, std::string::npos);
+  text.replace(at, std::string(mistake.from).size(), mistake.to);
+  const std::string file = folder.file("p.yaml", text);
+  const std::string place = mistake.line == 0 ? file + ": "
+                                              : file + ":" + std::to_string(mistake.line) + ":" +
+                                                    std::to_string(mistake.column) + ": ";
+  const Outcome outcome = gainsmith({"check", file});
+  EXPECT_EQ(outcome.exit, 2) << outcome.out;
+  EXPECT_EQ(outcome.err.find("gainsmith: " + place), 0U) << outcome.err;
+  EXPECT_NE(outcome.err.find(mistake.message), std::string::npos) << outcome.err;
+  EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1) << outcome.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Designs, Mistakes,
+    testing::Values(
+        Mistake{&kDesign, "gain_bound", "gainBound", 15, 13, "did you mean 'gain_bound'?"},
+        Mistake{&kDesign, "minimize:", "Minimize:", 10, 3, "did you mean 'minimize'?"},
+        Mistake{&kDesign, "data:\n  A: [[0, 1], [-2, -1]]", "A: [[0, 1], [-2, -1]]\ndata:", 12, 1,
+                "unknown key 'A'; it belongs under 'data'"},
+        Mistake{&kDesign, "  C: [[1, 0]]\n", "", 0, 0, "the datum C (p x n)"},
+        Mistake{&kDesign, "[[0, 1], [-2, -1]]", "[[0, 1, 2], [-2, -1, 3]]", 13, 3,
+                "declared n x n (n = 2); found 2 x 3"},
+        Mistake{&kDesign, "[[0, 1], [-2, -1]]", "[[0, 1], [-2]]", 13, 15,
+                "this row has 1 element, the first row has 2 elements"},
+        Mistake{&kDesign, "[[0, 1], [-2, -1]]", "[0 1; -2 -1]", 13, 7, "must be quoted"},
+        Mistake{&kDesign, "[[0, 1], [-2, -1]]", "\"[0 1; -2 -1]\"", 13, 10,
+                "a comma is missing between elements"},
+        Mistake{&kDesign, "[[0, 1], [-2, -1]]", "[[.nan, 1], [-2, -1]]", 13, 8,
+                "a number must be finite"},
+        Mistake{&kDesign, "A: n x n", "A: [n, n]", 4, 13, "expected a shape, such as n x p"},
+        Mistake{&kDesign, "A: n x n", "A: n*n", 13, 3, "declared n*n x 1"},
+        Mistake{&kDesign, "default: 1}}", "default: 5 ms}}", 4, 60, "for 5 ms write 5e-3"},
+        Mistake{&kDesign, "positive: P > I", "positive: P = I", 8, 17, "is written =="},
+        Mistake{&kDesign, "He(P*A - Y*C)", "A.'*P + P*A", 9, 13, "write ' for the transpose"},
+        Mistake{&kDesign, "-2*a*P", "-2a*P", 9, 30, "a product is written 2*a"},
+        Mistake{&kDesign, "  minimize: trace(P)", "  minimize: P", 10, 13, "expected 1 x 1"},
+        Mistake{&kDesign, "P*A - Y*C", "P*A - P*Y*C", 9, 21, "not affine in the unknowns"},
+        Mistake{&kDesign, "gain_bound: 100", "gain_bound: big", 15, 25,
+                "expected a number, found 'big'"},
+        Mistake{&kDesign, "    decay:", "    positive: P > 2*I\n    decay:", 9, 5,
+                "stands twice; first in line 8"}));
+
+INSTANTIATE_TEST_SUITE_P(
+    Runs, Mistakes,
+    testing::Values(
+        Mistake{&kRun, "runs: 5", "runs: 2.5", 14, 33, "expected a whole number from 1"},
+        Mistake{&kRun, "horizon: 10", "horizon: -10", 14, 23, "must be positive, not -10"},
+        Mistake{&kRun, "flow: {x: f(x)}", "flow: {z: f(x)}", 7, 104,
+                "the flow of 'z', which is no state; known: x"},
+        Mistake{&kRun, "start: [1, 0]", "start: [1, 0, 0]", 7, 42,
+                "[1;0;0] (3 x 1) has the wrong shape: expected 2 x 1"},
+        Mistake{&kRun, "start: [1, 0]", "start: \"[1, 0]\"", 7, 44,
+                "expected 2 x 1; a column is written [a; b]"},
+        Mistake{&kRun, "x(2); -9.81", "x[2]; -9.81", 4, 23, "an element is written x(1, 2)"},
+        Mistake{&kRun, "{shrinks: norm(e), to: 0.5}", "{below: norm(e)}", 13, 21,
+                "small: the key 'bound' is missing"},
+        Mistake{&kRun, "{shrinks: norm(e), to: 0.5}", "norm(e) < 1", 13, 14,
+                "the claim 'small': expected {nonincreasing: V}, {below: v, bound: b}"},
+        Mistake{&kRun, "{shrinks: norm(e), to: 0.5}", "{below: 1, above: 1, bound: 2}", 13, 14,
+                "needs exactly one of nonincreasing, cost, shrinks, below, above; found 2"},
+        Mistake{&kRun, "shrinks: norm(e)", "shrinks: norm(err)", 13, 36,
+                "unknown name 'err'; known: j, t, w, x, C, e, f, y"},
+        Mistake{&kRun, "to: 0.5", "to: 0.5, tolerance: -1", 13, 60, "expected a positive number"},
+        Mistake{&kRun, "{every: [0.05, 0.2]}", "0.1", 5, 14, "expected {when: condition}"},
+        Mistake{&kRun, "{normal: 0.03, new at: sample}", "0.03", 6, 14,
+                "the noise 'w': expected {normal: deviation}, {uniform: [low, high]}"},
+        Mistake{&kRun, "new at", "new_at", 6, 32, "did you mean 'new at'?"},
+        Mistake{&kRun, "y - C*xh", "x(1) - C*xh", 11, 69,
+                "which the observer does not know: it reads outputs"},
+        Mistake{&kRun, "runs: 5", "runs: 5, initial: {z: 0}", 14, 46,
+                "there is no state 'z'; known: x"},
+        Mistake{&kRun, "sin(x(1))", "sin(x(1), 2)", 4, 34, "'sin' is written sin(x)"},
+        Mistake{&kRun, "campaign:", "expect: {verdict: maybe}\ncampaign:", 14, 19,
+                "known: yes, no, undecided"}));
+
+TEST(WrongFiles, AreNamedForWhatTheyAre) {
+  const Folder folder;
+  struct Case {
+    std::string text;
+    const char* message;
+  };
+  for (const Case& wrong : std::vector<Case>{
+           {"", "the file is empty"},
+           {"# nothing\n", "the file is empty"},
+           {"- a\n- b\n", ":1:1: problem: expected a mapping 'key: value', found a list"},
+           {std::string("\x89PNG\r\n\x1a\n\0", 9), "this is no UTF-8 text"},
+           {std::string("a\0b", 3), "this is no text file"},
+           {"{\"problem\": \"x\"}", "the key 'method' is missing"},
+           {"t,x\n0,1\n", "found 't,x 0,1'"},
+           {std::string(1000000, 'x'), "found 'xxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxxx...'"}}) {
+    const Outcome outcome = gainsmith({"check", folder.file("p.yaml", wrong.text)});
+    EXPECT_EQ(outcome.exit, 2);
+    EXPECT_NE(outcome.err.find(wrong.message), std::string::npos) << outcome.err.substr(0, 500);
+    EXPECT_EQ(std::count(outcome.err.begin(), outcome.err.end(), '\n'), 1);
+  }
+}
+
+TEST(WrongCommandLines, AreNamedWithWhatWasExpected) {
+  const Folder folder;
+  const std::string file = folder.file("p.yaml", kRun);
+  struct Case {
+    std::vector<std::string> arguments;
+    const char* message;
+  };
+  for (const Case& wrong : std::vector<Case>{
+           {{"simulate", file, "--step", "-1"},
+            "--step: expected a positive time between two points, such as 0.01, not '-1'"},
+           {{"simulate", file, "--step", "0"}, "not '0'"},
+           {{"simulate", file, "--step", "nan"}, "not 'nan'"},
+           {{"simulate", file, "--step", "1e-9"}, "a step of 1e-09 makes 1e+10 points"},
+           {{"verify", file, "--runs", "1.5e0"},
+            "--runs: expected a whole number from 1 to 1000000000000000, not '1.5e0'"},
+           {{"verify", file, "--runs"}, "--runs: a value is missing"},
+           {{"verify", file, "--run", "5"}, "did you mean '--runs'?"},
+           {{"verify", file, "--seed", "1.5"}, "whole number"},
+           {{"simulate", file, "--compare"}, "names nothing to compare"},
+           {{"synth", file, folder.path("more.yaml")}, "unexpected argument"},
+           {{"verify", folder.path("none.yaml")}, "cannot open this file"},
+           {{"verify", folder.path("")}, "this is a folder; expected a file"},
+           {{"run", file, "-o", file}, "cannot make this folder"}}) {
+    const Outcome outcome = gainsmith(wrong.arguments);
+    EXPECT_EQ(outcome.exit, 2) << outcome.err;
+    const std::string said = outcome.err + outcome.out;
+    EXPECT_NE(said.find(wrong.message), std::string::npos) << said;
+    EXPECT_EQ(std::count(said.begin(), said.end(), '\n'), 1) << said;
+  }
+  const Outcome runs = gainsmith({"verify", file, "--runs", "1e1", "--json"});
+  EXPECT_EQ(runs.json()["runs"], 10);
+}
+
+}  // namespace
+}  // namespace gainsmith::tests
