@@ -19,10 +19,10 @@ std::string named_matrices(const std::string& title, const model::NamedMatrices&
   std::string text;
   for (const auto& [name, matrix] : matrices) {
     const auto estimate = gains.estimates.find(name);
-    text += fmt::format("{:<12}{} = {}{}\n", text.empty() ? title : "", name,
-                        gains.eigenvalues.contains(name) ? eigenvalues_text(matrix)
-                                                         : matrix_text(matrix),
-                        estimate == gains.estimates.end() ? "" : " (" + estimate->second + ")");
+    text += fmt::format(
+        "{:<12}{} = {}{}\n", text.empty() ? title : "", name,
+        gains.eigenvalues.contains(name) ? eigenvalues_text(matrix) : matrix_text(matrix),
+        estimate == gains.estimates.end() ? "" : " (" + estimate->second + ")");
   }
   return text;
 }

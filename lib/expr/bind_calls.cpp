@@ -75,7 +75,8 @@ void Binder::unknown_name(const Expression& expression, const Node& node) const 
   if (node.text == kEnd)
     fail(expression, node, "'end' stands only in an index, such as v(end) or A(:, n+1:end)");
   const std::string kind = node.kind == NodeKind::call ? "function" : "name";
-  if (const std::string advice = advice_on(node.text); !advice.empty() && node.kind == NodeKind::call)
+  if (const std::string advice = advice_on(node.text);
+      !advice.empty() && node.kind == NodeKind::call)
     fail(expression, node, "unknown function '" + node.text + "': " + advice);
   std::vector<std::string> candidates = scope_.names();
   for (const auto& [name, value] : environment_) candidates.push_back(name);

@@ -208,8 +208,8 @@ Bound Binder::riccati(const Expression& expression, const Node& node, Op op) {
   };
   const int q = shaped(2, {n, n});
   const int r = shaped(3, {m, m});
-  const int s = node.children.size() == 5 ? shaped(4, {n, m})
-                                          : emit(expression, node, Op::zeros, {}, {n, m});
+  const int s =
+      node.children.size() == 5 ? shaped(4, {n, m}) : emit(expression, node, Op::zeros, {}, {n, m});
   return {emit(expression, node, op, {a, b, q, r, s}, {n, n})};
 }
 

@@ -108,8 +108,7 @@ bool Binder::is_over_modes(const Node& node) const {
   switch (node.kind) {
     case NodeKind::name: {
       const auto bound = environment_.find(node.text);
-      const Instruction* at =
-          bound == environment_.end() ? nullptr : &assembly_[bound->second.at];
+      const Instruction* at = bound == environment_.end() ? nullptr : &assembly_[bound->second.at];
       if (at != nullptr && at->op != Op::input) return false;
       const std::string& name = at == nullptr ? node.text : assembly_.input_name(*at);
       const auto symbol = scope_.symbols.find(name);
@@ -163,16 +162,21 @@ std::optional<Bound> Binder::member_of_mode(const Expression& expression, const 
     chosen = chosen ? make(Op::where, {left, value, *chosen}) : value;
   }
   if (!chosen) fail(expression, node, "the family " + node.text + " has no members");
-  const int inside = make.multiply(make.subtract(q, number(low - 1)), make.subtract(number(high + 1), q));
+  const int inside =
+      make.multiply(make.subtract(q, number(low - 1)), make.subtract(number(high + 1), q));
   const int either = make(Op::minimum, {make(Op::maximum, {inside, number(0)}), number(1)});
   return Bound{make(Op::divide, {*chosen, either}, {},
-                    expression.quote(node) + ": the family has the members " +
-                        std::to_string(low) + " to " + std::to_string(high) + ", and '" +
-                        expression.quote(**over) + "' is none of them")};
+                    expression.quote(node) + ": the family has the members " + std::to_string(low) +
+                        " to " + std::to_string(high) + ", and '" + expression.quote(**over) +
+                        "' is none of them")};
 }
 
 std::optional<Bound> Binder::bind_member_call(const Expression& expression, const Node& node) {
-  const auto name = member(expression, *node.children[0]);
+  const Node& called = *node.children[0];
+  if (std::ranges::any_of(called.children,
+                          [&](const NodePtr& child) { return is_over_modes(*child); }))
+    return std::nullopt;
+  const auto name = member(expression, called);
   if (!name) return std::nullopt;
   const auto function = scope_.functions.find(*name);
   if (function == scope_.functions.end()) return std::nullopt;

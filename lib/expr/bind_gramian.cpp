@@ -28,8 +28,7 @@ int congruence(const Emitter& make, int a, int b) {
 /// t)]: it is expm(f t)' X.
 int integral(const Emitter& make, int f, int q, int t) {
   const int n = make.shape(f).rows;
-  const int block =
-      make.blocks({make.negate(make.transpose(f)), q, make.zeros({n, n}), f}, 2);
+  const int block = make.blocks({make.negate(make.transpose(f)), q, make.zeros({n, n}), f}, 2);
   const int both = make.exponential(block, t);
   const int x = make.part(both, 0, n, n, 2 * n);
   const int e = make.part(both, n, 2 * n, n, 2 * n);
@@ -65,8 +64,7 @@ Bound Binder::gramian(const Expression& expression, const Node& node, bool backw
   const int flow = backward ? make.negate(f) : f;
   const int jump =
       backward && count > 1
-          ? make(Op::inverse, {j}, {},
-                 node.text + ": the jump matrix J, which must be invertible,")
+          ? make(Op::inverse, {j}, {}, node.text + ": the jump matrix J, which must be invertible,")
           : j;
   // From the far end of the window to the end whose state is meant.
   const auto length = [&](int k) { return make.element(lengths, backward ? k : count - 1 - k); };

@@ -37,8 +37,9 @@ Bound Binder::interpolated(const Expression& expression, const Node& node) {
   for (const NodePtr& child : node.children) {
     arguments.push_back(sized(expression, *child, bind(expression, *child)));
     if (!is_vector(shape(arguments.back())))
-      fail(expression, *child,
-           "interp1 takes columns or rows, not " + describe(expression, *child, {arguments.back()}));
+      fail(
+          expression, *child,
+          "interp1 takes columns or rows, not " + describe(expression, *child, {arguments.back()}));
   }
   const int x = as_column(make, arguments[0]);
   const int y = as_column(make, arguments[1]);

@@ -67,8 +67,9 @@ constexpr auto kRows = std::to_array<Row>({
     {"logm", "there is no logarithm of a matrix; log(x) is element by element"},
     {"sqrtm", "there is no root of a matrix; sqrt(x) is element by element"},
     {"funm", "there is none; expm(M) is the matrix exponential"},
-    {"chol cholesky lu qr schur hess", "there are no factorisations; orth, null, svd and complement "
-                                       "give what is unique in them"},
+    {"chol cholesky lu qr schur hess",
+     "there are no factorisations; orth, null, svd and complement "
+     "give what is unique in them"},
     {"vec vectorize flatten ravel", "there is none; write [M(:, 1); M(:, 2); ...]"},
     {"reshape", "there is none; write a block of parts, such as [v(1:2), v(3:4)]"},
     {"hstack horzcat hcat", "write [A, B]"},
@@ -119,11 +120,13 @@ constexpr auto kRows = std::to_array<Row>({
     {"zoh cont2discrete discretize d2d", "write c2d(A, B, T), which is [Ad, Bd]"},
     {"d2c", "there is none; a plant is given in continuous time, or as jumps"},
     {"ss tf zpk", "there are no systems; state matrices A, B, C as data"},
-    {"ode45 odeint lsim initial", "there is none; state 'plant' with a 'flow', and "
-                                  "'gainsmith simulate' runs it"},
+    {"ode45 odeint lsim initial",
+     "there is none; state 'plant' with a 'flow', and "
+     "'gainsmith simulate' runs it"},
     {"rand randn random", "there is none; what is drawn stands under 'noise'"},
-    {"real imag conj", "values are real; eig(M) has real parts in its first column, imaginary parts "
-                       "in its second"},
+    {"real imag conj",
+     "values are real; eig(M) has real parts in its first column, imaginary parts "
+     "in its second"},
     {"isempty any all find", "there is none; conditions stand in where(...)"},
 });
 

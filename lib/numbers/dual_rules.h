@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "expr/evaluate.h"
+#include "numbers/determinant.h"
 #include "numbers/dual.h"
 #include "numbers/flow_map_rules.h"
-#include "numbers/determinant.h"
 #include "numbers/householder.h"
 #include "numbers/real_rules.h"
 #include "numbers/tangent.h"
@@ -295,10 +295,10 @@ struct DualRules {
   }
   static Columns<Tangent<Scalar>> tangents(const Value& x, Eigen::Index d) {
     const M slope = direction(x, d);
-    return columns_of<Tangent<Scalar>>(
-        slope.rows(), slope.cols(), [&](Eigen::Index i, Eigen::Index j) {
-          return Tangent<Scalar>{x.value(i, j), slope(i, j)};
-        });
+    return columns_of<Tangent<Scalar>>(slope.rows(), slope.cols(),
+                                       [&](Eigen::Index i, Eigen::Index j) {
+                                         return Tangent<Scalar>{x.value(i, j), slope(i, j)};
+                                       });
   }
   /// The slope of a block whose first element stands at (row, column).
   static void place(const Value& x, Value& out, Eigen::Index row, Eigen::Index column) {

@@ -7,9 +7,9 @@
 
 #include "base/stop.h"
 #include "numbers/ball_functions.h"
+#include "numbers/determinant.h"
 #include "numbers/enclosed_functions.h"
 #include "numbers/enclosure.h"
-#include "numbers/determinant.h"
 #include "numbers/householder.h"
 #include "numbers/shared_rules.h"
 

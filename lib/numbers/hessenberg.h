@@ -131,8 +131,7 @@ class Hessenberg {
       const W s = size(A_(last, last - 1)) + size(A_(last - 1, last - 2));
       return {W(s * W(0.75)), W(s * W(0.75)), W(s * s * W(-0.4375))};
     }
-    return {A_(last, last), A_(last - 1, last - 1),
-            W(A_(last, last - 1) * A_(last - 1, last))};
+    return {A_(last, last), A_(last - 1, last - 1), W(A_(last, last - 1) * A_(last - 1, last))};
   }
 
   /// The first column of (A - s)(A - t) from row m on, to a factor.

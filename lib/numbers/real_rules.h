@@ -110,8 +110,7 @@ struct RealRules {
     const Scalar least = at.attribute(0) == expr::kPoleWithinRounding
                              ? Scalar(kRoundings * std::numeric_limits<Scalar>::epsilon())
                              : Scalar(0);
-    if ((at[1].array() <= least && at[1].array() >= -least).any())
-      expr::fault::division_by_zero();
+    if ((at[1].array() <= least && at[1].array() >= -least).any()) expr::fault::division_by_zero();
     out = at[0].cwiseQuotient(at[1]);
   }
   void operator()(Is<Op::elementwise_power>, const At& at, Value& out) const {
@@ -219,11 +218,9 @@ struct RealRules {
   template <Op op>
   requires expr::OneOf<op, Op::continuous_riccati, Op::discrete_riccati>
   void operator()(Is<op>, const At& at, Value& out) const {
-    const Riccati equation =
-        op == Op::continuous_riccati ? Riccati::continuous : Riccati::discrete;
-    solve(at, [&] {
-      out = stabilising_solution<Scalar>(equation, at[0], at[1], at[2], at[3], at[4]);
-    });
+    const Riccati equation = op == Op::continuous_riccati ? Riccati::continuous : Riccati::discrete;
+    solve(at,
+          [&] { out = stabilising_solution<Scalar>(equation, at[0], at[1], at[2], at[3], at[4]); });
   }
   /// Of the first left singular vectors. An empty matrix has no decomposition.
   void operator()(Is<Op::range_basis>, const At& at, Value& out) const {

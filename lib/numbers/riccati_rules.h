@@ -46,9 +46,10 @@ class RiccatiSolver {
   /// `rounding`: of what the solution is rounded to.
   M solve(const W& rounding) const {
     const auto start = discrete_ ? std::optional(start_) : transformed();
-    const auto X = start ? doubled(*start) : std::nullopt;
-    if (!X || !is_solution(*X, rounding)) explain();
-    return *X;
+    if (!start) explain();
+    for (const W& size : {W(0), size_of_solution(*start)})
+      if (const auto X = found(*start, size); X && is_solution(*X, rounding)) return *X;
+    explain();
   }
 
  private:
@@ -61,9 +62,7 @@ class RiccatiSolver {
     W terms;  ///< the size of what adds up to the residual
   };
 
-  static W roundings(double count) {
-    return W(count) * std::numeric_limits<W>::epsilon();
-  }
+  static W roundings(double count) { return W(count) * std::numeric_limits<W>::epsilon(); }
   /// The part of |A - B K|, or of 1, within which an eigenvalue counts as one of the border: two of
   /// them meet there, so that half of the digits are left.
   static W border() {
@@ -107,6 +106,26 @@ class RiccatiSolver {
 
   static M symmetric(const M& matrix) { return numerics::symmetric_part<W>(matrix); }
 
+  /// Where H -> X has to come from above: of weights that do not see an unstable mode.
+  static W size_of_solution(const Doubling& at) {
+    const W G = norm_1<W>(at.G), H = norm_1<W>(at.H);
+    if (G == W(0)) return H == W(0) ? W(1) : H;
+    return std::max(H, W(W(1) / G));
+  }
+
+  /// X = Y + Z with Y = size I, of which Z solves an equation of the same form:
+  /// V = I + G Y, A <- V^-1 A, G <- V^-1 G, H <- H + A'Y V^-1 A - Y.
+  static std::optional<M> found(const Doubling& at, const W& size) {
+    if (size == W(0)) return doubled(at);
+    const M Y = size * identity(at.A.rows());
+    const auto inverse = inverted(identity(at.A.rows()) + size * at.G);
+    if (!inverse) return std::nullopt;
+    const M back = times<W>(*inverse, at.A);
+    const auto Z = doubled({back, symmetric(times<W>(*inverse, at.G)),
+                            symmetric(at.H + size * times<W>(at.A.transpose(), back) - Y)});
+    return Z ? std::optional<M>(Y + *Z) : std::nullopt;
+  }
+
   static std::optional<M> doubled(Doubling at) {
     constexpr int kMostSteps = 200;
     const Eigen::Index n = at.A.rows();
@@ -140,8 +159,8 @@ class RiccatiSolver {
     result.residual = moved - by_gain + Q_;
     if (discrete_) result.residual -= X;
     const W a = norm_1<W>(A_), x = norm_1<W>(X);
-    result.terms = (discrete_ ? W(a * a * x + x) : W(W(2) * a * x)) + norm_1<W>(by_gain) +
-                   norm_1<W>(Q_);
+    result.terms =
+        (discrete_ ? W(a * a * x + x) : W(W(2) * a * x)) + norm_1<W>(by_gain) + norm_1<W>(Q_);
     return result;
   }
 
@@ -199,9 +218,9 @@ class RiccatiSolver {
       if (excess(mode) >= -slack && excess(mode) <= slack && !reaches(A.transpose(), H, mode))
         throw NoSolution(none + "the weights do not see the mode at " + text(mode) + ", on the " +
                          (discrete_ ? "unit circle" : "imaginary axis"));
-    throw NoSolution(none + "no X leaves A - B*K with all eigenvalues " +
-                     (discrete_ ? "inside of the unit circle"
-                                : "on the left of the imaginary axis"));
+    throw NoSolution(
+        none + "no X leaves A - B*K with all eigenvalues " +
+        (discrete_ ? "inside of the unit circle" : "on the left of the imaginary axis"));
   }
 
   bool discrete_;

@@ -35,6 +35,8 @@ enum class Riccati { continuous, discrete };
 /// With A - B R^-1 S', Q - S R^-1 S' and G = B R^-1 B' in the discrete case, and their Cayley
 /// transform in the continuous one (Chu, Fan and Lin, Linear Algebra Appl. 396, 2005), by doubling:
 ///   W = I + G H,  A <- A W^-1 A,  G <- G + A W^-1 G A',  H <- H + A' H W^-1 A,   H -> X
+/// which is 2^k steps of X <- A'X (I + G X)^-1 A + H from X = 0; where that does not lead to the
+/// solution, from a multiple of I.
 /// What is found is checked: its residual is rounding, A - B K is stable. Otherwise NoSolution, with
 /// the mode that is not reached or not seen.
 template <class Scalar>

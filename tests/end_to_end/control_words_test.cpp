@@ -189,7 +189,8 @@ TEST(ControlWordsTest, ATableIsIntegratedFromKinkToKink) {
       "data: {points: [0, 1, 2], values: [0, 2, 0.5]}\n"
       "campaign: {runs: 1, horizon: 4}\n"
       "expect: {run: [{at: {t: 4}, value: x, is: 3.25, absolute: 1e-12}]}\n";
-  const Outcome outcome = gainsmith({"run", folder.file("valve.yaml", text), "-o", folder.path("g.json")});
+  const Outcome outcome =
+      gainsmith({"run", folder.file("valve.yaml", text), "-o", folder.path("g.json")});
   EXPECT_EQ(outcome.exit, 0) << outcome.out << outcome.err;
 }
 

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <Eigen/Eigenvalues>
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <random>
@@ -90,11 +91,11 @@ TEST_P(Control, EigenvaluesAreThoseOfEigen) {
   const auto expected = Eigen::EigenSolver<Matrix>(A, false).eigenvalues();
   ASSERT_EQ(found.rows(), n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (i > 0) EXPECT_GE(found(i - 1, 0), found(i, 0));
+    EXPECT_GE(found(std::max<Eigen::Index>(i - 1, 0), 0), found(i, 0));
     double nearest = 1;
     for (Eigen::Index j = 0; j < n; ++j)
-      nearest = std::min(nearest, std::abs(expected(j) -
-                                           std::complex<double>(found(i, 0), found(i, 1))));
+      nearest =
+          std::min(nearest, std::abs(expected(j) - std::complex<double>(found(i, 0), found(i, 1))));
     EXPECT_LT(nearest, 1e-12);
   }
   EXPECT_NEAR(found.col(0).sum(), A.trace(), 1e-13 * n);
@@ -157,16 +158,39 @@ TEST_F(ControlWords, RanksSaySizes) {
   expect("cond(zeros(2))", 1, "cond: a singular value is 0");
 }
 
+/// X = 0 solves the equation too, but does not stabilise.
+TEST_F(ControlWords, WeightsNeedNotSeeUnstableModes) {
+  EXPECT_EQ(world("dare(2, 1, 0, 1)")(0, 0), 3);
+  EXPECT_EQ(world("care(1, 1, 0, 1)")(0, 0), 2);
+  world.set("A", Matrix{{1, 1}, {0, -2}}).set("B", Matrix{{1}, {1}});
+  EXPECT_LT(world("eig(A - B*B'*care(A, B, 0, 1))")(0, 0), 0);
+  // Feedback without a weight on the state mirrors the unstable modes.
+  EXPECT_NEAR(world("eig(A - B*B'*care(A, B, 0, 1))")(0, 0), -1, 1e-14);
+  EXPECT_LT(world("eig(3*A - B*inv(1 + B'*dare(3*A, B, 0, 1)*B)*B'*dare(3*A, B, 0, 1)*3*A)")
+                .cwiseAbs()
+                .maxCoeff(),
+            1);
+}
+
+/// The game of H-infinity: R is indefinite.
+TEST_F(ControlWords, WeightsNeedNotBeDefinite) {
+  world.set("A", Matrix{{0, 1}, {-2, -1}}).set("B", Matrix{{0, 0}, {1, 0.5}});
+  world.define("X", "care(A, B, I, diag([1, -4]))");
+  EXPECT_LE(world("A'*X + X*A - X*B*diag([1, -0.25])*B'*X + I").cwiseAbs().maxCoeff(), 1e-14);
+  EXPECT_LT(world("eig(A - B*diag([1, -0.25])*B'*X)")(0, 0), 0);
+}
+
 TEST_F(ControlWords, EquationsWithoutASolutionSayWhy) {
   world.set("A", Matrix{{1, 0}, {0, -1}}).set("B", Matrix{{0}, {1}});
   world.set("S", Matrix{{0, 1}, {-4, 0}}).set("T", Matrix{{0.6, 0.8}, {-0.8, 0.6}});
-  expect("1 + lyap(A, I)(1)", 5, "two eigenvalues of A have the sum 0");
+  expect("1 + lyap(A, I)(1, 1)", 5, "two eigenvalues of A have the sum 0");
   expect("dlyap(A, I)", 1, "two eigenvalues of A have the product 1");
   expect("care(A, B, I, 1)", 1, "B does not reach the mode of A at 1, which is not stable");
   expect("dare(2*A, B, I, 1)", 1, "B does not reach the mode of A at 2, which is not stable");
   expect("care(S, B, 0, 1)", 1,
          "the weights do not see the mode at 0 +- 2i, on the imaginary axis");
-  expect("dare(T, B, 0, 1)", 1, "the weights do not see the mode at 0.6 +- 0.8i, on the unit circle");
+  expect("dare(T, B, 0, 1)", 1,
+         "the weights do not see the mode at 0.6 +- 0.8i, on the unit circle");
   expect("care(A, [1; 1], I, 0)", 1, "R is not invertible");
   expect("care(-eye(1), 1, -2, 1)", 1, "no X leaves A - B*K with all eigenvalues");
 }

@@ -115,12 +115,15 @@ TEST(ElementaryFunctions, WithoutAValueAreNamed) {
 }
 
 TEST(ElementaryFunctions, HaveTheirDerivatives) {
-  const std::vector<std::pair<std::string, std::string>> slopes = {
-      {"tan(x)", "1 + tan(x)^2"},      {"asin(x)", "1/sqrt(1 - x^2)"},
-      {"acos(x)", "-1/sqrt(1 - x^2)"}, {"atan(x)", "1/(1 + x^2)"},
-      {"sinh(x)", "cosh(x)"},          {"cosh(x)", "sinh(x)"},
-      {"log10(x)", "1/(x*log(10))"},   {"ceil(x)", "0"},
-      {"round(x)", "0"}};
+  const std::vector<std::pair<std::string, std::string>> slopes = {{"tan(x)", "1 + tan(x)^2"},
+                                                                   {"asin(x)", "1/sqrt(1 - x^2)"},
+                                                                   {"acos(x)", "-1/sqrt(1 - x^2)"},
+                                                                   {"atan(x)", "1/(1 + x^2)"},
+                                                                   {"sinh(x)", "cosh(x)"},
+                                                                   {"cosh(x)", "sinh(x)"},
+                                                                   {"log10(x)", "1/(x*log(10))"},
+                                                                   {"ceil(x)", "0"},
+                                                                   {"round(x)", "0"}};
   std::mt19937 random(2);
   std::uniform_real_distribution<double> point(0.01, 0.99);
   World world;

@@ -49,17 +49,66 @@ TEST_F(Messages, AnotherCaseIsNamed) {
 
 /// What is advised exists: each name before a bracket is a function, or an argument.
 TEST_F(Messages, FunctionsOfOtherLanguagesLeadToTheirNamesHere) {
-  for (const std::string word :
-       {"norm2", "eigs", "eigvals", "lqr", "dlqr", "kalman", "place", "inverse", "transpose", "arctan",
-        "arcsin", "arccos", "sqrtm", "logm", "max_eigenvalue", "vec", "reshape", "hstack", "vstack",
-        "horzcat", "block_diag", "solve", "dot", "outer", "cross", "matmul", "matrix_rank", "chol",
-        "fix", "rem", "saturate", "clamp", "interp", "spline", "observability", "lyapunov",
-        "solve_continuous_are", "icare", "idare", "zoh", "size", "length", "linspace", "mean", "prod",
-        "pow", "log2", "ln", "asinh", "atanh", "real", "rand", "ode45", "gram", "spectral_radius"}) {
+  for (const std::string word : {"norm2",
+                                 "eigs",
+                                 "eigvals",
+                                 "lqr",
+                                 "dlqr",
+                                 "kalman",
+                                 "place",
+                                 "inverse",
+                                 "transpose",
+                                 "arctan",
+                                 "arcsin",
+                                 "arccos",
+                                 "sqrtm",
+                                 "logm",
+                                 "max_eigenvalue",
+                                 "vec",
+                                 "reshape",
+                                 "hstack",
+                                 "vstack",
+                                 "horzcat",
+                                 "block_diag",
+                                 "solve",
+                                 "dot",
+                                 "outer",
+                                 "cross",
+                                 "matmul",
+                                 "matrix_rank",
+                                 "chol",
+                                 "fix",
+                                 "rem",
+                                 "saturate",
+                                 "clamp",
+                                 "interp",
+                                 "spline",
+                                 "observability",
+                                 "lyapunov",
+                                 "solve_continuous_are",
+                                 "icare",
+                                 "idare",
+                                 "zoh",
+                                 "size",
+                                 "length",
+                                 "linspace",
+                                 "mean",
+                                 "prod",
+                                 "pow",
+                                 "log2",
+                                 "ln",
+                                 "asinh",
+                                 "atanh",
+                                 "real",
+                                 "rand",
+                                 "ode45",
+                                 "gram",
+                                 "spectral_radius"}) {
     const std::string message = of("1 + " + word + "(A)").message();
     EXPECT_EQ(message.find("unknown function '" + word + "': "), 0U) << message;
     EXPECT_EQ(message.find("did you mean"), std::string::npos) << message;
-    for (std::size_t at = message.find(": "); (at = message.find('(', at)) != std::string::npos; ++at) {
+    for (std::size_t at = message.find(": "); (at = message.find('(', at)) != std::string::npos;
+         ++at) {
       std::size_t begin = at;
       while (begin > 0 && (std::isalnum(static_cast<unsigned char>(message[begin - 1])) != 0 ||
                            message[begin - 1] == '_'))

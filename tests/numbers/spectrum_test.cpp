@@ -30,9 +30,8 @@ class Spectrum : public testing::Test {
     return static_cast<double>(S(matrix.cwiseAbs().maxCoeff()));
   }
   static double rounding() {
-    return std::is_same_v<S, Decimal100>
-               ? 1e-100
-               : static_cast<double>(std::numeric_limits<S>::epsilon());
+    return std::is_same_v<S, Decimal100> ? 1e-100
+                                         : static_cast<double>(std::numeric_limits<S>::epsilon());
   }
 
  private:
@@ -122,7 +121,8 @@ TYPED_TEST(Spectrum, ScalarSolutionsAreThoseOfTheQuadraticEquation) {
     const TypeParam x = stabilising_solution<TypeParam>(Riccati::continuous, number(a), number(2),
                                                         number(3), number(0.5), number(0))(0, 0);
     const TypeParam A(a);
-    const TypeParam expected = (A + TypeParam(sqrt(TypeParam(A * A + TypeParam(24))))) / TypeParam(8);
+    const TypeParam expected =
+        (A + TypeParam(sqrt(TypeParam(A * A + TypeParam(24))))) / TypeParam(8);
     EXPECT_LE(static_cast<double>(TypeParam(x - expected)) / static_cast<double>(expected),
               8 * this->rounding());
     EXPECT_GE(static_cast<double>(TypeParam(x - expected)) / static_cast<double>(expected),
