@@ -19,8 +19,10 @@ std::string named_matrices(const std::string& title, const model::NamedMatrices&
   std::string text;
   for (const auto& [name, matrix] : matrices) {
     const auto estimate = gains.estimates.find(name);
-    text += fmt::format("{:<12}{} = {}{}\n", text.empty() ? title : "", name, matrix_text(matrix),
-                        estimate == gains.estimates.end() ? "" : " (" + estimate->second + ")");
+    text += fmt::format(
+        "{:<12}{} = {}{}\n", text.empty() ? title : "", name,
+        gains.eigenvalues.contains(name) ? eigenvalues_text(matrix) : matrix_text(matrix),
+        estimate == gains.estimates.end() ? "" : " (" + estimate->second + ")");
   }
   return text;
 }
@@ -139,6 +141,17 @@ std::string matrix_text(const numbers::Matrix& matrix) {
       text += (j > 0 ? ", " : "") + brief(matrix(i, j));
   }
   return text + "]";
+}
+
+std::string eigenvalues_text(const numbers::Matrix& rows) {
+  std::string text;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    const double imaginary = rows(i, 1);
+    if (imaginary < 0) continue;  // said with the one before
+    text += (text.empty() ? "" : ", ") + brief(rows(i, 0)) +
+            (imaginary > 0 ? " +- " + brief(imaginary) + "i" : "");
+  }
+  return text;
 }
 
 std::string verdict_line(const model::Gains& gains) {

@@ -12,6 +12,9 @@ namespace gainsmith::app {
 /// "[0.85, -0.84; 1, 0]", six significant digits; a 1 x 1 matrix without brackets.
 std::string matrix_text(const numbers::Matrix& matrix);
 
+/// "-1 +- 2i, -3": rows of real and imaginary parts as eig(M) has them, pairs once.
+std::string eigenvalues_text(const numbers::Matrix& rows);
+
 /// Verdict, objective with the price of the margin, gains, margins, bounds, certificate.
 std::string synthesis_summary(const model::Gains& gains);
 

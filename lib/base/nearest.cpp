@@ -15,11 +15,6 @@ int substitution_cost(char a, char b) {
   return lower(a) == lower(b) ? 1 : 2;
 }
 
-bool differs_in_case(std::string_view a, std::string_view b) {
-  return a != b && std::equal(a.begin(), a.end(), b.begin(), b.end(),
-                              [](char x, char y) { return substitution_cost(x, y) < 2; });
-}
-
 /// The words of four letters or more of a name with hyphens or underscores.
 std::set<std::string> words_of(std::string_view name) {
   constexpr std::size_t kShortest = 4;
@@ -33,6 +28,11 @@ std::set<std::string> words_of(std::string_view name) {
 }
 
 }  // namespace
+
+bool differs_in_case(std::string_view a, std::string_view b) {
+  return a != b && std::equal(a.begin(), a.end(), b.begin(), b.end(),
+                              [](char x, char y) { return substitution_cost(x, y) < 2; });
+}
 
 int doubled_edit_distance(std::string_view a, std::string_view b) {
   const std::size_t rows = a.size() + 1;

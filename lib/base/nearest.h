@@ -12,6 +12,9 @@ namespace gainsmith {
 /// and swaps of neighbours each cost 1. Case counts half (1 of 2), so the result is doubled.
 int doubled_edit_distance(std::string_view a, std::string_view b);
 
+/// Whether nothing but upper and lower case tells the words apart.
+bool differs_in_case(std::string_view a, std::string_view b);
+
 /// The candidate nearest to `word`, if one is near enough to be a likely misspelling (at most a
 /// third of its letters wrong, at least one allowed). Ties go to the candidate that comes first. A
 /// word without a point is compared with what follows the last point of a candidate.

@@ -252,14 +252,15 @@ void add_definitions(Binding& binding) {
 void add_assumption(Binding& binding, const model::Named& assumption) {
   model::Design::Assumption bound;
   bound.text = assumption.value.text->str();
-  for (const auto& relation : compile_relations(assumption.value, binding.names->known)) {
-    if (relation.equation)
-      throw InputError(assumption.place,
-                       "'==' is for requirements only; an assumption is an "
-                       "inequality of scalars, such as 0 < T1 <= T2");
-    refuse_estimate(*binding.design, relation.difference, "an assumption");
-    bound.differences.emplace_back(relation.difference, relation.strict);
-  }
+  for (const expr::Expression& part : conjuncts(assumption.value))
+    for (const auto& relation : compile_relations(part, binding.names->known)) {
+      if (relation.equation)
+        throw InputError(assumption.place,
+                         "'==' is for requirements only; an assumption is an "
+                         "inequality of scalars, such as 0 < T1 <= T2");
+      refuse_estimate(*binding.design, relation.difference, "an assumption");
+      bound.differences.emplace_back(relation.difference, relation.strict);
+    }
   for (const std::string& name : names_in(assumption.value)) {
     const auto value = binding.recorder->values.find(name);
     if (value == binding.recorder->values.end() || value->second.size() != 1) continue;

@@ -76,7 +76,7 @@ void DynamicsBinding::add_states(const model::Component& component, std::size_t 
       bound.shape = shape_of(state);
       bound.structure = state.shape.structure;
       bound.place = state.place;
-      scope_->symbols[bound.name] = {bound.shape, false, true};
+      scope_->symbols[bound.name] = {bound.shape, false, true, bound.kind == Kind::mode};
       result_.variables.push_back(std::move(bound));
     }
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <utility>
 
 #include "bind/bind.h"
 #include "bind/convex_terms.h"
@@ -122,8 +123,12 @@ void add_inequality(Binding& binding, const model::Requirement& requirement, con
     bound.domain.push_back(variable(binding, forall, member));
     scope.symbols[forall.variable] = {bound.domain.back().shape};
   }
-  add_comparisons(affine_comparisons(binding, that, scope, !requirement.forall.empty()), bound,
-                  requirement.name, member.label, scope);
+  std::vector<expr::Expression> comparisons;
+  for (const expr::Expression& part : expr::conjuncts(that))
+    for (expr::Expression& comparison :
+         affine_comparisons(binding, part, scope, !requirement.forall.empty()))
+      comparisons.push_back(std::move(comparison));
+  add_comparisons(comparisons, bound, requirement.name, member.label, scope);
   for (const auto& comparison : bound.comparisons)
     refuse_estimate(*binding.design, comparison.difference, "'" + requirement.name + "'");
   for (const model::Design::Variable& one : bound.domain)

@@ -379,7 +379,7 @@ struct BallRules {
     out.rad.array() += at[0].rad.norm();
   }
   template <Op op>
-  requires expr::OneOf<op, Op::pseudo_inverse, Op::range_basis, Op::kernel_basis>
+  requires expr::OneOf<op, Op::pseudo_inverse, Op::range_basis, Op::kernel_basis, Op::determinant>
   void operator()(Is<op>, const At& at, Value& out) const {
     const MatrixOf<Scalar>* operands[] = {&at[0].mid};
     numbers::Real<Scalar>{}.apply(at.instruction, operands, out.mid);
@@ -387,7 +387,8 @@ struct BallRules {
   }
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::flow_map, Op::extremum>
+                       Op::flow_map, Op::extremum, Op::eigenvalues, Op::continuous_riccati,
+                       Op::discrete_riccati>
   void operator()(Is<op>, const At&, Value&) const { expr::fault::no_error_bound(op); }
 };
 

@@ -124,9 +124,14 @@ void add_report(const model::Instance& instance, model::Gains& gains) {
     gains.estimates[name] = to_string(estimate);
   if (instance.design->report.empty()) return;
   const model::Stated stated = bind::state(instance, gains);
-  for (const model::NamedFormula& shown : instance.design->report)
-    if (const auto value = stated.value(shown.value.program))
-      gains.report.emplace_back(shown.name, *value);
+  for (const model::NamedFormula& shown : instance.design->report) {
+    const expr::Program& program = shown.value.program;
+    const auto value = stated.value(program);
+    if (!value) continue;
+    gains.report.emplace_back(shown.name, *value);
+    if (program.code[static_cast<std::size_t>(program.result)].op == expr::Op::eigenvalues)
+      gains.eigenvalues.insert(shown.name);
+  }
 }
 
 }  // namespace gainsmith::design

@@ -26,6 +26,10 @@ class Assembly {
     return program_.code[static_cast<std::size_t>(at)];
   }
   Shape shape(int at) const { return (*this)[at].shape; }
+  /// Of an instruction that reads one.
+  const std::string& input_name(const Instruction& input) const {
+    return program_.inputs[static_cast<std::size_t>(input.attributes[0])].name;
+  }
   int size() const { return static_cast<int>(program_.code.size()); }
 
   /// The program that computes `at`, without the instructions that it does not need.

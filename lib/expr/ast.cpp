@@ -1,5 +1,7 @@
 #include "expr/ast.h"
 
+#include <utility>
+
 namespace gainsmith::expr {
 
 std::string to_string(Relation relation) {
@@ -37,6 +39,14 @@ void collect(const Node& node, std::set<std::string>& names) {
 }
 
 }  // namespace
+
+std::vector<Expression> conjuncts(const Expression& expression) {
+  if (expression.root->kind != NodeKind::conjunction) return {expression};
+  std::vector<Expression> all;
+  for (const NodePtr& part : expression.root->children)
+    for (Expression& one : conjuncts({expression.text, part})) all.push_back(std::move(one));
+  return all;
+}
 
 std::set<std::string> names_in(const Expression& expression) {
   std::set<std::string> names;

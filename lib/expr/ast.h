@@ -66,6 +66,9 @@ struct Expression {
   Place place(const Node& node) const { return text->place(node.begin); }
 };
 
+/// The conditions that 'and' joins, in order; of another expression itself.
+std::vector<Expression> conjuncts(const Expression& expression);
+
 /// The names of values, functions and definitions that stand in an expression.
 std::set<std::string> names_in(const Expression& expression);
 

@@ -3,8 +3,10 @@
 #include <utility>
 #include <variant>
 
+#include "base/nearest.h"
 #include "expr/binder.h"
 #include "expr/chebyshev.h"
+#include "expr/foreign_words.h"
 
 namespace gainsmith::expr {
 
@@ -16,6 +18,7 @@ int value_of(const std::vector<int>& sizes, std::size_t at) { return sizes[at]; 
 
 Bound Binder::bind_call(const Expression& expression, const Node& node) {
   const std::string& name = node.text;
+  if (const auto found = member_of_mode(expression, node)) return *found;
   if (const auto found = member(expression, node)) {
     Node plain = node;
     plain.kind = NodeKind::name;
@@ -54,6 +57,42 @@ Bound Binder::bind_call(const Expression& expression, const Node& node) {
   if (const Op* op = std::get_if<Op>(&function->what))
     return bind_operation(expression, node, *function, *op);
   return bind_composed(expression, node, std::get<Composed>(function->what));
+}
+
+void Binder::unknown_name(const Expression& expression, const Node& node) const {
+  for (const std::string_view word : {"nan", "NaN", "NAN", "inf", "Inf", "INF", "infinity"})
+    if (node.text == word) fail(expression, node, "'" + node.text + "': a number must be finite");
+  const std::string& text = expression.text->str();
+  const std::size_t before = node.begin == 0 ? 0 : text.find_last_not_of(' ', node.begin - 1);
+  const bool is_exponent = before < node.begin && text[before] == '^';
+  for (const std::string_view word : {"T", "t", "H", "top"})
+    if (is_exponent && node.text == word)
+      fail(expression, node, "unexpected '^" + node.text + "': write ' for the transpose");
+  // Of a component it is a state, "in_z.T"; a foreign transpose otherwise.
+  if (constexpr std::string_view kTransposed = ".T"; node.text.ends_with(kTransposed))
+    throw InputError(expression.text->place(node.begin + node.text.size() - kTransposed.size()),
+                     "unexpected '.T': write ' for the transpose");
+  if (node.text == kEnd)
+    fail(expression, node, "'end' is only for an index, such as v(end) or A(:, n+1:end)");
+  const std::string kind = node.kind == NodeKind::call ? "function" : "name";
+  if (const std::string advice = advice_on(node.text);
+      !advice.empty() && node.kind == NodeKind::call)
+    fail(expression, node, "unknown function '" + node.text + "': " + advice);
+  std::vector<std::string> candidates = scope_.names();
+  for (const auto& [name, value] : environment_) candidates.push_back(name);
+  // count(sample), observer.xh come after the names that the file gives.
+  std::stable_partition(candidates.begin(), candidates.end(), [](const std::string& name) {
+    return name.find_first_of("(.") == std::string::npos;
+  });
+  if (node.kind == NodeKind::call) {
+    const auto functions = function_names();
+    candidates.insert(candidates.begin(), functions.begin(), functions.end());
+  }
+  const auto near = nearest(node.text, candidates);
+  const bool other_case = near && differs_in_case(node.text, *near);
+  fail(expression, node,
+       "unknown " + kind + " '" + node.text + "'" + (other_case ? "; case counts" : "") +
+           suggestion(node.text, candidates));
 }
 
 /// count(sample) is a name where the scope has it.
@@ -188,6 +227,33 @@ Bound Binder::bind_composed(const Expression& expression, const Node& node, Comp
       return extreme_eigenvalue(expression, node, function == Composed::lambda_max);
     case Composed::obsv:
       return observability(expression, node);
+    case Composed::ctrb:
+      return controllability(expression, node);
+    case Composed::rank:
+      return rank(expression, node);
+    case Composed::cond:
+      return condition_number(expression, node);
+    case Composed::c2d:
+      return sampled(expression, node);
+    case Composed::lyap:
+    case Composed::dlyap:
+      return lyapunov(expression, node, function == Composed::dlyap);
+    case Composed::care:
+      return riccati(expression, node, Op::continuous_riccati);
+    case Composed::dare:
+      return riccati(expression, node, Op::discrete_riccati);
+    case Composed::interp1:
+      return interpolated(expression, node);
+    case Composed::tan:
+    case Composed::asin:
+    case Composed::acos:
+    case Composed::atan:
+    case Composed::sinh:
+    case Composed::cosh:
+    case Composed::log10:
+    case Composed::ceil:
+    case Composed::round:
+      return elementary(expression, node, function);
     case Composed::chebyshev:
       return chebyshev(expression, node);
     case Composed::gramian:
@@ -284,85 +350,6 @@ Bound Binder::block_diagonal(const Expression& expression, const Node& node) {
                                : emit(expression, node, Op::zeros, {}, {heights[i], widths[j]}));
   return {assemble(expression, node, std::move(entries), static_cast<int>(blocks.size()), heights,
                    widths)};
-}
-
-Program Binder::known_program(const Expression& expression, const Node& node, int at,
-                              std::string_view why) {
-  Program program = extract(at);
-  const auto refuse = [&](const std::string& name) {
-    fail(expression, node,
-         std::string(why) + " must not depend on '" + name +
-             "', whose value is not known beforehand");
-  };
-  for (const Input& input : program.inputs)
-    if (const auto symbol = scope_.symbols.find(input.name);
-        !scope_.known || symbol == scope_.symbols.end() || !symbol->second.known)
-      refuse(input.name);
-  for (const Input& function : program.functions) refuse(function.name);
-  return program;
-}
-
-Bound Binder::basis(const Expression& expression, const Node& node, Op op) {
-  const Node& argument = *node.children[0];
-  const int at = sized(expression, argument, bind(expression, argument));
-  std::optional<Program> tolerance;
-  if (node.children.size() == 2) {
-    const Node& second = *node.children[1];
-    const int tolerance_at = materialise(expression, second, bind(expression, second), {});
-    tolerance = known_program(expression, second, tolerance_at, "the tolerance");
-  }
-  const Program matrix = known_program(expression, argument, at, "the argument of " + node.text);
-  if (!scope_.known) fail(expression, node, node.text + ": no value is known beforehand");
-  if (tolerance && scope_.known->number(*tolerance) < 0)
-    fail(expression, *node.children[1], "the tolerance must not be negative");
-  const int rank = scope_.known->rank(matrix, tolerance ? &*tolerance : nullptr);
-  const Shape from = shape(at);
-  const Shape result =
-      op == Op::range_basis ? Shape{from.rows, rank} : Shape{from.cols, from.cols - rank};
-  return {emit(expression, node, op, {at}, result)};
-}
-
-Bound Binder::complement(const Expression& expression, const Node& node) {
-  const Node& argument = *node.children[0];
-  const int at = sized(expression, argument, bind(expression, argument));
-  const int count = required_whole_number(expression, *node.children[1], "the number of columns");
-  const Shape from = shape(at);
-  if (count < 0 || from.cols + count > from.rows)
-    fail(expression, node,
-         "complement: of " + describe(expression, argument, {at}) + " there are " +
-             std::to_string(std::max(0, from.rows - from.cols)) + " columns, not " +
-             std::to_string(count));
-  return {emit(expression, node, Op::complement_basis, {at}, {from.rows, count})};
-}
-
-/// With c = |M|: the singular values of M + cI, c I - M are eigenvalues, the largest of them the
-/// one looked for but for c.
-Bound Binder::extreme_eigenvalue(const Expression& expression, const Node& node, bool largest) {
-  const int m = square_argument(expression, node, node.text);
-  const Shape square = shape(m);
-  if (square.rows == 0) fail(expression, node, "an empty matrix has no eigenvalues");
-  const int c = emit(expression, node, Op::norm, {m}, {});
-  const int shift = emit(expression, node, Op::identity, {c}, square);
-  const int shifted = largest ? emit(expression, node, Op::add, {m, shift}, square)
-                              : emit(expression, node, Op::subtract, {shift, m}, square);
-  const int values = emit(expression, node, Op::singular_values, {shifted}, {square.rows, 1});
-  const int first = emit(expression, node, Op::index, {values}, {}, {0, 1, 0, 1});
-  return {largest ? emit(expression, node, Op::subtract, {first, c}, {})
-                  : emit(expression, node, Op::subtract, {c, first}, {})};
-}
-
-Bound Binder::observability(const Expression& expression, const Node& node) {
-  const int a = square_argument(expression, node, "obsv");
-  const int c = sized(expression, *node.children[1], bind(expression, *node.children[1]));
-  if (shape(c).cols != shape(a).rows)
-    fail(expression, node,
-         "obsv(A, C) needs C with " + std::to_string(shape(a).rows) + " columns, not " +
-             describe(expression, *node.children[1], {c}));
-  std::vector<int> rows = {c};
-  for (int k = 1; k < shape(a).rows; ++k)
-    rows.push_back(emit(expression, node, Op::multiply, {rows.back(), a}, shape(c)));
-  const std::vector<int> heights(rows.size(), shape(c).rows);
-  return {assemble(expression, node, std::move(rows), 1, heights, {shape(c).cols})};
 }
 
 Bound Binder::chebyshev(const Expression& expression, const Node& node) {

@@ -1,12 +1,15 @@
 // Names with indices, sums over them, and Kronecker products.
+#include <algorithm>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/nearest.h"
-#include "expr/binder.h"
 #include "expr/compile.h"
+#include "expr/emitter.h"
 
 namespace gainsmith::expr {
 
@@ -89,8 +92,10 @@ std::optional<std::string> Binder::member(const Expression& expression, const No
   std::vector<int> indices;
   for (std::size_t k = 0; k < ranges.size(); ++k) {
     const Node& child = *node.children[k];
-    indices.push_back(required_whole_number(expression, child, "an index of " + node.text));
     const auto [low, high] = ranges[k];
+    ends_.push_back(high);
+    indices.push_back(required_whole_number(expression, child, "an index of " + node.text));
+    ends_.pop_back();
     if (indices.back() < low || indices.back() > high)
       fail(expression, child,
            "the family " + node.text + " has the members " + std::to_string(low) + " to " +
@@ -99,8 +104,79 @@ std::optional<std::string> Binder::member(const Expression& expression, const No
   return member_name(node.text, indices);
 }
 
+bool Binder::is_over_modes(const Node& node) const {
+  switch (node.kind) {
+    case NodeKind::name: {
+      const auto bound = environment_.find(node.text);
+      const Instruction* at = bound == environment_.end() ? nullptr : &assembly_[bound->second.at];
+      if (at != nullptr && at->op != Op::input) return false;
+      const std::string& name = at == nullptr ? node.text : assembly_.input_name(*at);
+      const auto symbol = scope_.symbols.find(name);
+      return symbol != scope_.symbols.end() && symbol->second.whole;
+    }
+    case NodeKind::negate:
+    case NodeKind::add:
+    case NodeKind::subtract:
+    case NodeKind::multiply: {
+      const auto is_whole = [](const NodePtr& child) {
+        return child->kind == NodeKind::number &&
+               child->text.find_first_not_of("0123456789") == std::string::npos;
+      };
+      const auto over = [&](const NodePtr& child) { return is_over_modes(*child); };
+      return std::ranges::any_of(node.children, over) &&
+             std::ranges::all_of(node.children, [&](const NodePtr& child) {
+               return over(child) || is_whole(child);
+             });
+    }
+    default:
+      return false;
+  }
+}
+
+/// With the members low .. high: where q <= low the first, elsewhere where q <= low + 1 the second,
+/// and so on; over min(max((q - low + 1)(high + 1 - q), 0), 1), which is 1 for each of the whole
+/// numbers and 0 beyond them.
+std::optional<Bound> Binder::member_of_mode(const Expression& expression, const Node& node) {
+  const auto family = scope_.families.find(node.text);
+  if (family == scope_.families.end() || environment_.contains(node.text) ||
+      family->second.size() != node.children.size())
+    return std::nullopt;
+  const auto over = std::ranges::find_if(
+      node.children, [&](const NodePtr& child) { return is_over_modes(*child); });
+  if (over == node.children.end()) return std::nullopt;
+  const auto k = static_cast<std::size_t>(over - node.children.begin());
+  const auto [low, high] = family->second[k];
+  const Emitter make(*this, expression, node);
+  const int q = materialise(expression, **over, bind(expression, **over), {});
+  const auto number = [&](int value) { return make.number(std::to_string(value)); };
+  std::optional<int> chosen;
+  for (int i = high; i >= low; --i) {
+    auto index = std::make_shared<Node>(**over);
+    index->kind = NodeKind::number;
+    index->text = std::to_string(i);
+    index->children.clear();
+    Node one = node;
+    one.children[k] = index;
+    const int value = sized(expression, one, bind_call(expression, one));
+    const int left = make.filled(make.subtract(number(i), q), shape(value));
+    chosen = chosen ? make(Op::where, {left, value, *chosen}) : value;
+  }
+  if (!chosen) fail(expression, node, "the family " + node.text + " has no members");
+  const int inside =
+      make.multiply(make.subtract(q, number(low - 1)), make.subtract(number(high + 1), q));
+  const int either = make(Op::minimum, {make(Op::maximum, {inside, number(0)}), number(1)});
+  return Bound{make(Op::divide, {*chosen, either}, {},
+                    expression.quote(node) + ": the family has the members " + std::to_string(low) +
+                        " to " + std::to_string(high) + ", and '" + expression.quote(**over) +
+                        "' is none of them")};
+}
+
 std::optional<Bound> Binder::bind_member_call(const Expression& expression, const Node& node) {
-  const auto name = member(expression, *node.children[0]);
+  const Node& called = *node.children[0];
+  if (std::ranges::any_of(called.children,
+                          [&](const NodePtr& child) { return is_over_modes(*child); }))
+    return std::nullopt;
+  const auto name = member(expression, called);
   if (!name) return std::nullopt;
   const auto function = scope_.functions.find(*name);
   if (function == scope_.functions.end()) return std::nullopt;

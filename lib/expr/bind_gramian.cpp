@@ -11,56 +11,29 @@
 // With M = E_N J ... J E_1:  backward = M^-T forward M^-1.
 //
 // They are bound to sums, products and exponentials, so that they may be used wherever these may.
-#include <functional>
 #include <utility>
 
-#include "expr/binder.h"
+#include "expr/emitter.h"
 
 namespace gainsmith::expr {
 
 namespace {
 
-/// Emits operations whose shapes follow from their operands, all at the place of one call.
-class Emitter {
- public:
-  using Emit = std::function<int(Op, std::vector<int>, Attributes, std::string)>;
+/// A' B A.
+int congruence(const Emitter& make, int a, int b) {
+  return make.multiply(make.multiply(make.transpose(a), b), a);
+}
 
-  Emitter(Emit emit, std::function<int(Shape)> zeros, std::function<Shape(int)> shape)
-      : emit_(std::move(emit)), zeros_(std::move(zeros)), shape_(std::move(shape)) {}
-
-  int add(int a, int b) const { return emit_(Op::add, {a, b}, {}, ""); }
-  int negate(int a) const { return emit_(Op::negate, {a}, {}, ""); }
-  int multiply(int a, int b) const { return emit_(Op::multiply, {a, b}, {}, ""); }
-  int transpose(int a) const { return emit_(Op::transpose, {a}, {}, ""); }
-  /// A' B A.
-  int congruence(int a, int b) const { return multiply(multiply(transpose(a), b), a); }
-  int exponential(int a, int t) const {
-    return emit_(Op::matrix_exponential, {emit_(Op::scale, {t, a}, {}, "")}, {}, "");
-  }
-  int inverse(int a, const std::string& what) const { return emit_(Op::inverse, {a}, {}, what); }
-  /// The k-th element of a row or column.
-  int element(int vector, int k) const {
-    const bool row = shape_(vector).rows == 1;
-    return emit_(Op::index, {vector}, row ? Attributes{0, 1, k, k + 1} : Attributes{k, k + 1, 0, 1},
-                 "");
-  }
-  /// int_0^t expm(f s)' q expm(f s) ds, from expm([-f', q; 0, f] t) = [expm(-f' t), X; 0, expm(f
-  /// t)]: it is expm(f t)' X.
-  int integral(int f, int q, int t) const {
-    const int n = shape_(f).rows;
-    const int zero = zeros_({n, n});
-    const int block = emit_(Op::blocks, {negate(transpose(f)), q, zero, f}, {2}, "");
-    const int both = exponential(block, t);
-    const int x = emit_(Op::index, {both}, {0, n, n, 2 * n}, "");
-    const int e = emit_(Op::index, {both}, {n, 2 * n, n, 2 * n}, "");
-    return multiply(transpose(e), x);
-  }
-
- private:
-  Emit emit_;
-  std::function<int(Shape)> zeros_;
-  std::function<Shape(int)> shape_;
-};
+/// int_0^t expm(f s)' q expm(f s) ds, from expm([-f', q; 0, f] t) = [expm(-f' t), X; 0, expm(f
+/// t)]: it is expm(f t)' X.
+int integral(const Emitter& make, int f, int q, int t) {
+  const int n = make.shape(f).rows;
+  const int block = make.blocks({make.negate(make.transpose(f)), q, make.zeros({n, n}), f}, 2);
+  const int both = make.exponential(block, t);
+  const int x = make.part(both, 0, n, n, 2 * n);
+  const int e = make.part(both, n, 2 * n, n, 2 * n);
+  return make.multiply(make.transpose(e), x);
+}
 
 }  // namespace
 
@@ -85,28 +58,22 @@ Bound Binder::gramian(const Expression& expression, const Node& node, bool backw
          node.text + " needs the lengths of the flows as a row or a column, not " +
              describe(expression, *node.children[4], {lengths}));
 
-  const Emitter make(
-      [&](Op op, std::vector<int> operands, Attributes attributes, std::string text) {
-        const Shape of = shape_of(op, operands, attributes).value();
-        return emit(expression, node, op, std::move(operands), of, attributes, std::move(text));
-      },
-      [&](Shape of) { return emit(expression, node, Op::zeros, {}, of); },
-      [&](int at) { return shape(at); });
+  const Emitter make(*this, expression, node);
   const int qc = make.multiply(make.transpose(hc), hc);
   const int qd = make.multiply(make.transpose(hd), hd);
   const int flow = backward ? make.negate(f) : f;
-  const int jump = backward && count > 1 ? make.inverse(j, node.text +
-                                                               ": the jump matrix J, which must be "
-                                                               "invertible,")
-                                         : j;
+  const int jump =
+      backward && count > 1
+          ? make(Op::inverse, {j}, {}, node.text + ": the jump matrix J, which must be invertible,")
+          : j;
   // From the far end of the window to the end whose state is meant.
   const auto length = [&](int k) { return make.element(lengths, backward ? k : count - 1 - k); };
-  int sum = make.integral(flow, qc, length(0));
+  int sum = integral(make, flow, qc, length(0));
   for (int k = 1; k < count; ++k) {
     const int t = length(k);
-    const int inner = backward ? make.congruence(jump, make.add(sum, qd))
-                               : make.add(qd, make.congruence(jump, sum));
-    sum = make.add(make.integral(flow, qc, t), make.congruence(make.exponential(flow, t), inner));
+    const int inner = backward ? congruence(make, jump, make.add(sum, qd))
+                               : make.add(qd, congruence(make, jump, sum));
+    sum = make.add(integral(make, flow, qc, t), congruence(make, make.exponential(flow, t), inner));
   }
   return {sum};
 }

@@ -39,6 +39,7 @@ std::optional<int> Binder::whole_number(const Expression& expression, const Node
   }
   if (node.kind == NodeKind::number) return whole(node.text);
   if (node.kind == NodeKind::name) {
+    if (node.text == kEnd && !ends_.empty()) return ends_.back();
     if (const auto found = environment_.find(node.text); found != environment_.end())
       return found->second.identity ? std::nullopt : whole_value(found->second.at);
     if (scope_.symbols.contains(node.text) || scope_.definitions.contains(node.text))
@@ -46,6 +47,8 @@ std::optional<int> Binder::whole_number(const Expression& expression, const Node
     const auto found = scope_.dimensions.find(node.text);
     return found == scope_.dimensions.end() ? std::nullopt : std::optional<int>(found->second);
   }
+  if (node.kind == NodeKind::call && node.text == "rank")
+    return whole_value(bind(expression, node).at);
   const auto op = node.kind == NodeKind::add        ? std::optional(Op::add)
                   : node.kind == NodeKind::subtract ? std::optional(Op::subtract)
                   : node.kind == NodeKind::multiply ? std::optional(Op::multiply)
@@ -70,13 +73,20 @@ std::optional<int> Binder::whole_value(int at) const {
   return combined(instruction.op, operand(0), operand(1));
 }
 
+std::optional<int> Binder::whole_index(const Expression& expression, const Node& node, int end) {
+  ends_.push_back(end);
+  const auto value = whole_number(expression, node);
+  ends_.pop_back();
+  return value;
+}
+
 std::pair<int, int> Binder::index_range(const Expression& expression, const Node& node, int size) {
   if (node.kind == NodeKind::range && node.children.empty()) return {0, size};
   const bool range = node.kind == NodeKind::range;
   const Node& from_node = range ? *node.children[0] : node;
   const Node& to_node = range ? *node.children[1] : node;
-  const auto from = whole_number(expression, from_node);
-  const auto to = whole_number(expression, to_node);
+  const auto from = whole_index(expression, from_node, size);
+  const auto to = whole_index(expression, to_node, size);
   if (!from || !to)
     fail(expression, from ? to_node : from_node,
          "an index must be a whole number known beforehand");

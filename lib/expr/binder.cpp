@@ -5,7 +5,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/nearest.h"
 #include "base/number.h"
 #include "expr/compile.h"
 #include "expr/work.h"
@@ -126,36 +125,6 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
       fail(expression, node, "'and', 'or' and 'not' join conditions: of events or in where(...)");
   }
   fail(expression, node, "unknown syntax");
-}
-
-void Binder::unknown_name(const Expression& expression, const Node& node) const {
-  for (const std::string_view word : {"nan", "NaN", "NAN", "inf", "Inf", "INF", "infinity"})
-    if (node.text == word) fail(expression, node, "'" + node.text + "': a number must be finite");
-  const std::string& text = expression.text->str();
-  const std::size_t before = node.begin == 0 ? 0 : text.find_last_not_of(' ', node.begin - 1);
-  const bool is_exponent = before < node.begin && text[before] == '^';
-  for (const std::string_view word : {"T", "t", "H", "top"})
-    if (is_exponent && node.text == word)
-      fail(expression, node, "unexpected '^" + node.text + "': write ' for the transpose");
-  // Of a component it is a state, "in_z.T"; a foreign transpose otherwise.
-  if (constexpr std::string_view kTransposed = ".T"; node.text.ends_with(kTransposed))
-    throw InputError(expression.text->place(node.begin + node.text.size() - kTransposed.size()),
-                     "unexpected '.T': write ' for the transpose");
-  if (node.text == "transpose" || node.text == "ctranspose")
-    fail(expression, node, "unknown function '" + node.text + "': write A' for the transpose of A");
-  std::vector<std::string> candidates = scope_.names();
-  for (const auto& [name, value] : environment_) candidates.push_back(name);
-  // count(sample), observer.xh come after the names that the file gives.
-  std::stable_partition(candidates.begin(), candidates.end(), [](const std::string& name) {
-    return name.find_first_of("(.") == std::string::npos;
-  });
-  if (node.kind == NodeKind::call) {
-    const auto functions = function_names();
-    candidates.insert(candidates.begin(), functions.begin(), functions.end());
-  }
-  fail(expression, node,
-       "unknown " + std::string(node.kind == NodeKind::call ? "function" : "name") + " '" +
-           node.text + "'" + suggestion(node.text, candidates));
 }
 
 Bound Binder::bind_name(const Expression& expression, const Node& node) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -25,6 +26,9 @@ struct Bound {
 /// What is said of != anywhere else.
 inline constexpr const char* kNotEqual =
     "'!=' compares indices only, as in forall: [i in 1..N, j in 1..N, i != j]";
+
+/// The last index, within an index.
+inline constexpr std::string_view kEnd = "end";
 
 /// Comparison k of a chain: its larger side and then the smaller one; of an equation as written.
 Node ordered_pair(const Node& chain, std::size_t k);
@@ -50,6 +54,7 @@ class Binder {
 
  private:
   friend class BlockBinding;
+  friend class Emitter;
   friend std::pair<int, int> range_of(const Index& index, const Scope& scope);
   friend bool whole_condition(const Expression& expression, const Scope& scope);
 
@@ -126,11 +131,16 @@ class Binder {
   Bound index(const Expression& expression, const Node& node, Bound base, std::size_t first);
   std::pair<int, int> index_range(const Expression& expression, const Node& node, int size);
   std::optional<int> whole_number(const Expression& expression, const Node& node);
+  /// Of an index, in which `end` is the last one.
+  std::optional<int> whole_index(const Expression& expression, const Node& node, int end);
   std::optional<int> whole_value(int at) const;
 
   // bind_families.cpp: names and sums with indices.
   /// "P_2" of P(2), P(i); nothing when the node is no member of a family.
   std::optional<std::string> member(const Expression& expression, const Node& node);
+  /// P(q) with a mode q, or whole numbers over modes: nothing without one.
+  std::optional<Bound> member_of_mode(const Expression& expression, const Node& node);
+  bool is_over_modes(const Node& node) const;
   /// P(i)(s) of a family of functions, or nothing.
   std::optional<Bound> bind_member_call(const Expression& expression, const Node& node);
   Bound sum(const Expression& expression, const Node& node);
@@ -162,11 +172,26 @@ class Binder {
   Bound constant_matrix(const Expression& expression, const Node& node, Composed function);
   Bound diagonal(const Expression& expression, const Node& node);
   Bound block_diagonal(const Expression& expression, const Node& node);
+  Bound chebyshev(const Expression& expression, const Node& node);
+  // bind_control.cpp
   Bound basis(const Expression& expression, const Node& node, Op op);
+  Bound rank(const Expression& expression, const Node& node);
+  /// Of the instruction `at`, the first argument of f(M, tol).
+  int known_rank(const Expression& expression, const Node& node, int at);
   Bound complement(const Expression& expression, const Node& node);
+  Bound condition_number(const Expression& expression, const Node& node);
   Bound extreme_eigenvalue(const Expression& expression, const Node& node, bool largest);
   Bound observability(const Expression& expression, const Node& node);
-  Bound chebyshev(const Expression& expression, const Node& node);
+  Bound controllability(const Expression& expression, const Node& node);
+  int input_matrix(const Expression& expression, const Node& node, int a);
+  Bound sampled(const Expression& expression, const Node& node);
+  Bound lyapunov(const Expression& expression, const Node& node, bool discrete);
+  Bound riccati(const Expression& expression, const Node& node, Op op);
+  // bind_elementary.cpp
+  Bound elementary(const Expression& expression, const Node& node, Composed function);
+  // bind_tables.cpp
+  Bound interpolated(const Expression& expression, const Node& node);
+  void require_rising(const Expression& expression, const Node& node, int steps);
   // bind_where.cpp
   Bound where(const Expression& expression, const Node& node);
   Bound chosen(const Expression& expression, const Node& node, const Node& condition, Bound yes,
@@ -208,6 +233,7 @@ class Binder {
   int open_sums_ = 0;                          ///< over indices, being bound now
   int varied_ = 0;                             ///< parameters and definitions that vary
   int extrema_ = 0;                            ///< bound so far
+  std::vector<int> ends_;                      ///< what `end` is in the indices being bound now
   Environment environment_;                    ///< parameters of the definition being bound
 };
 

@@ -48,7 +48,10 @@ class BranchCollector {
     switch (branch.op) {
       case Op::where:
       case Op::sign:
+        return keep(operands[0], true);
+      // It jumps where y changes its sign at an x < 0.
       case Op::atan2:
+        if (is_not_negative(operands[0]) || is_not_negative(operands[1])) return;
         return keep(operands[0], true);
       case Op::floor:
         return keep(whole(operands[0], branch), true, true);
@@ -64,6 +67,24 @@ class BranchCollector {
         return;
       default:
         return;
+    }
+  }
+
+  /// Whether the text of a value says so: asin, acos and atan are made of such angles.
+  bool is_not_negative(int at) const {
+    const Instruction& one = assembly_[at];
+    switch (one.op) {
+      case Op::sqrt:
+      case Op::abs:
+      case Op::exp:
+      case Op::norm:
+        return true;
+      case Op::constant:  // of the language: without a sign
+        return !one.text.starts_with('-');
+      case Op::fill:
+        return is_not_negative(one.operands[0]);
+      default:
+        return false;
     }
   }
 

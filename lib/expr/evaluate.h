@@ -74,7 +74,7 @@ class Evaluator {
       type_.apply(instruction, {operands_.data() + first_operand_[at], instruction.operands.size()},
                   registers_[at]);
     } catch (const EvaluationError& error) {
-      throw EvaluationError(instruction.place(), error.message());
+      throw EvaluationError(instruction.place(), fault::said_of(instruction, error.message()));
     }
   }
 

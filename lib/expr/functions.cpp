@@ -37,7 +37,8 @@ const Function* find_function(std::string_view name) {
 }
 
 bool is_reserved(std::string_view name) {
-  constexpr std::array<std::string_view, 6> kWords = {"I", "pi", "derivative", "and", "or", "not"};
+  constexpr std::array<std::string_view, 7> kWords = {"I",  "pi",  "derivative", "and",
+                                                      "or", "not", "end"};
   return std::find(kWords.begin(), kWords.end(), name) != kWords.end() ||
          find_function(name) != nullptr;
 }

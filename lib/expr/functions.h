@@ -46,8 +46,8 @@ std::span<const Operator> operators();
 /// nullptr when there is no function of that name.
 const Function* find_function(std::string_view name);
 
-/// Names that a definition, datum or unknown may not take: the functions, I, pi and
-/// derivative.
+/// Names that a definition, datum or unknown may not take: the functions, I, pi,
+/// derivative, end, and, or, not.
 bool is_reserved(std::string_view name);
 
 std::vector<std::string> function_names();

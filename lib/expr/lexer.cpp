@@ -88,7 +88,7 @@ constexpr auto kForeign = std::to_array<Foreign>({
     {"\xC2\xB3", "write ^3"},
     {"\xC2\xB5", "numbers have no units; for 5 \xC2\xB5s write 5e-6, with seconds everywhere"},
     {"\xCE\xBC", "names are letters of a to z, digits and _; write mu. Numbers have no units"},
-    {"&", "write two inequalities, a chain such as 0 < a <= b, or, in a condition, 'and'"},
+    {"&", "write 'and', or a chain such as 0 < a <= b"},
     {"\xE2\x88\x92", "this is a typographic minus; write -"},
     {"\xE2\x89\xA4", "write <="},
     {"\xE2\x89\xA5", "write >="},

@@ -28,6 +28,18 @@ void no_error_bound(Op op) {
                         " has no error bound, so nothing is proved with it");
 }
 
+std::string said_of(const Instruction& instruction, const std::string& found) {
+  switch (instruction.op) {
+    case Op::divide:
+    case Op::elementwise_quotient:
+    case Op::log:
+    case Op::sqrt:
+      return instruction.text.empty() ? found : instruction.text;
+    default:
+      return found;
+  }
+}
+
 void beyond_range(const Instruction& constant) {
   throw EvaluationError("the number " + constant.text + " is beyond the range of double");
 }

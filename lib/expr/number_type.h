@@ -73,6 +73,9 @@ namespace fault {
 [[noreturn]] void without_result(Op op, const std::string& why);
 /// Of an operation that a number type with error bounds does not have.
 [[noreturn]] void no_error_bound(Op op);
+/// What is said of an instruction without a result: its own text, where a function that is made of
+/// operations gave it one, and what the operation says otherwise.
+std::string said_of(const Instruction& instruction, const std::string& found);
 /// The decimal is finite, but not in double.
 [[noreturn]] void beyond_range(const Instruction& constant);
 

@@ -107,6 +107,14 @@ std::optional<Shape> result_shape(Op op, std::span<const Shape> operands,
       return when(a.is_square(), {a.rows, 1});
     case ShapeRule::singular_values:
       return Shape{least, 1};
+    case ShapeRule::eigenvalues:
+      return when(a.is_square(), {a.rows, 2});
+    case ShapeRule::riccati: {
+      const Shape weight{b.cols, b.cols};
+      return when(a.is_square() && std::ranges::equal(operands, std::array{a, b, a, weight, b}) &&
+                      b.rows == a.rows,
+                  a);
+    }
     case ShapeRule::range_basis:
       return when(wanted.cols <= least, {a.rows, wanted.cols});
     case ShapeRule::kernel_basis:

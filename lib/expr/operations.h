@@ -41,6 +41,8 @@ enum class ShapeRule {
   diagonal_matrix,   ///< A with r = 1 or c = 1 -> rc x rc
   diagonal_of,       ///< M -> r x 1
   singular_values,   ///< A -> min(r, c) x 1
+  eigenvalues,       ///< M -> r x 2
+  riccati,           ///< n x n, n x m, n x n, m x m, n x m -> n x n
   range_basis,       ///< A -> r x k, k <= min(r, c) given
   kernel_basis,      ///< A -> c x k, c - min(r, c) <= k <= c given
   nearest_to_rows,   ///< n x 1, n x n, m x n, m x 1 -> n x 1
@@ -51,6 +53,10 @@ enum class ShapeRule {
 };
 
 using Attributes = std::array<int, 4>;
+
+/// attributes[0] of an elementwise quotient by what is nothing but rounding where it should be 0: a
+/// real number divides by nothing of a few units in the last place of 1.
+inline constexpr int kPoleWithinRounding = 1;
 
 /// One row of the table.
 struct Operation {

@@ -20,7 +20,8 @@ struct Instruction {
   Shape shape;                ///< of the result
   Attributes attributes{};
   std::string text;  ///< constant: the decimal as written; inverse: of what; call: as written;
-                     ///< extremum: the names that run over the box
+                     ///< extremum: the names that run over the box; quotient, log, sqrt: what is
+                     ///< said where there is no result (number_type.h)
   std::shared_ptr<const Text> origin;
   std::size_t offset = 0;  ///< where in the origin it was written
   /// jacobian: what is differentiated; its inputs are the operands. flow_map: the rate. extremum:

@@ -19,6 +19,7 @@ struct Symbol {
   Shape shape;
   bool known = false;
   bool moves = false;  ///< a state, the time, noise: another value at another time of a run
+  bool whole = false;  ///< a mode: a whole number, which may pick a member of a family
 };
 
 /// "name: expression" or "name(a, b): expression" in `let`.

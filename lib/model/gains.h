@@ -1,8 +1,10 @@
 // What synth writes and verify reads: gains, the statement that was solved and how well it holds.
 #pragma once
 
+#include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -150,6 +152,9 @@ struct Gains {
   /// How unknown functions follow from `unknowns`.
   std::vector<StatedFunction> functions;
   NamedMatrices report;  ///< what the method asks to be shown
+  /// The reports whose rows are the real and imaginary parts of eigenvalues. A gain file does not
+  /// keep that.
+  std::set<std::string, std::less<>> eigenvalues;
   /// The gains, reports, data and parameters that are estimates, found by a search over a box:
   /// "estimate from below".
   std::map<std::string, std::string> estimates;

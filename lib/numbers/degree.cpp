@@ -56,7 +56,8 @@ struct DegreeRules {
                        Op::exp, Op::log, Op::sqrt, Op::sin, Op::cos, Op::tanh, Op::abs, Op::sign,
                        Op::minimum, Op::maximum, Op::norm, Op::range_basis, Op::kernel_basis,
                        Op::singular_values, Op::project_polytope, Op::project_ellipsoid,
-                       Op::project_affine, Op::flow_map, Op::extremum>
+                       Op::project_affine, Op::flow_map, Op::extremum, Op::determinant,
+                       Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
   void operator()(Is<op>, const At&, Degree& out) const { out = kNotAffine; }
 };
 

@@ -74,7 +74,10 @@ Vector symmetric_units(const Matrix& M) {
 Inverse inverse(const Matrix& M) {
   const Vector d = symmetric_units(M);
   const Eigen::PartialPivLU<Matrix> lu(d.asDiagonal() * M * d.asDiagonal());
-  return {d.asDiagonal() * lu.inverse() * d.asDiagonal(), lu.rcond()};
+  Inverse found{d.asDiagonal() * lu.inverse() * d.asDiagonal(), 0};
+  // The estimate passes over a pivot that is 0.
+  if (found.matrix.allFinite()) found.condition = lu.rcond();
+  return found;
 }
 
 ComplexMatrix complex_inverse(const ComplexMatrix& M) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "expr/evaluate.h"
+#include "numbers/determinant.h"
 #include "numbers/dual.h"
 #include "numbers/flow_map_rules.h"
 #include "numbers/householder.h"
@@ -253,7 +254,8 @@ struct DualRules {
   }
   template <Op op>
   requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::jacobian, Op::extremum,
-                       Op::project_polytope, Op::project_ellipsoid, Op::project_affine>
+                       Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
+                       Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
   void operator()(Is<op>, const At& at, Value& out) const {
     for (const Value* operand : at.operands) no_slope(*operand, out, op);
   }
@@ -261,15 +263,19 @@ struct DualRules {
   void operator()(Is<Op::flow_map>, const At& at, Value& out) const {
     flow_map_slope<Scalar>(at.instruction, at.operands, out);
   }
+  void operator()(Is<Op::determinant>, const At& at, Value& out) const {
+    const auto size = [](const Tangent<Scalar>& x) {
+      return x.value < Scalar(0) ? Scalar(-x.value) : x.value;
+    };
+    each_direction(out, [&](Eigen::Index d) {
+      const Tangent<Scalar> one{Scalar(1), Scalar(0)};
+      return M::Constant(1, 1, determinant(tangents(at[0], d), one, size).slope).eval();
+    });
+  }
   void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
     const M& A = at[0].value;
     each_direction(out, [&](Eigen::Index d) -> M {
-      const M slope = direction(at[0], d);
-      Columns<Tangent<Scalar>> columns(static_cast<std::size_t>(A.cols()));
-      for (Eigen::Index j = 0; j < A.cols(); ++j)
-        for (Eigen::Index i = 0; i < A.rows(); ++i)
-          columns[static_cast<std::size_t>(j)].push_back({A(i, j), slope(i, j)});
-      const auto basis = complement(std::move(columns), static_cast<std::size_t>(A.rows()),
+      const auto basis = complement(tangents(at[0], d), static_cast<std::size_t>(A.rows()),
                                     static_cast<std::size_t>(out.value.cols()),
                                     Tangent<Scalar>{Scalar(1), {}}, TangentNumbers<Scalar>{});
       M result(out.value.rows(), out.value.cols());
@@ -286,6 +292,13 @@ struct DualRules {
   static M direction(const Value& x, Eigen::Index d) {
     if (!x.moves()) return M::Zero(x.value.rows(), x.value.cols());
     return x.slope.col(d).reshaped(x.value.rows(), x.value.cols());
+  }
+  static Columns<Tangent<Scalar>> tangents(const Value& x, Eigen::Index d) {
+    const M slope = direction(x, d);
+    return columns_of<Tangent<Scalar>>(slope.rows(), slope.cols(),
+                                       [&](Eigen::Index i, Eigen::Index j) {
+                                         return Tangent<Scalar>{x.value(i, j), slope(i, j)};
+                                       });
   }
   /// The slope of a block whose first element stands at (row, column).
   static void place(const Value& x, Value& out, Eigen::Index row, Eigen::Index column) {

@@ -7,6 +7,7 @@
 
 #include "base/stop.h"
 #include "numbers/ball_functions.h"
+#include "numbers/determinant.h"
 #include "numbers/enclosed_functions.h"
 #include "numbers/enclosure.h"
 #include "numbers/householder.h"
@@ -218,6 +219,11 @@ struct EnclosureRules {
     out.mid = at[0].mid.diagonal();
     out.rad = at[0].rad.diagonal();
   }
+  void operator()(Is<Op::determinant>, const At& at, Value& out) const {
+    const auto size = [](const Ball<S>& x) { return x.is_zero() ? -1 : magnitude(x.mid); };
+    out.resize(1, 1);
+    out.set(0, determinant(columns(at[0]), Ball<S>{S(1), 0}, size));
+  }
   void operator()(Is<Op::singular_values>, const At& at, Value& out) const {
     out = enclosed::singular_values(at[0]);
   }
@@ -233,16 +239,13 @@ struct EnclosureRules {
   }
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::flow_map, Op::extremum>
+                       Op::flow_map, Op::extremum, Op::eigenvalues, Op::continuous_riccati,
+                       Op::discrete_riccati>
   void operator()(Is<op>, const At&, Value&) const { expr::fault::no_error_bound(op); }
   void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
     const Value& a = at[0];
-    Columns<Ball<S>> columns(static_cast<std::size_t>(a.cols()));
-    for (Eigen::Index j = 0; j < a.cols(); ++j)
-      for (Eigen::Index i = 0; i < a.rows(); ++i)
-        columns[static_cast<std::size_t>(j)].push_back(a.ball(i, j));
     const auto basis =
-        complement(std::move(columns), static_cast<std::size_t>(a.rows()),
+        complement(columns(a), static_cast<std::size_t>(a.rows()),
                    static_cast<std::size_t>(at.shape().cols), Ball<S>{S(1), 0}, BallNumbers<S>{});
     out = nothing_known<S>(MatrixOf<S>::Zero(at.shape().rows, at.shape().cols));
     if (!basis) return;
@@ -258,6 +261,11 @@ struct EnclosureRules {
   }
 
  private:
+  static Columns<Ball<S>> columns(const Value& a) {
+    return columns_of<Ball<S>>(a.rows(), a.cols(),
+                               [&](Eigen::Index i, Eigen::Index j) { return a.ball(i, j); });
+  }
+
   static void refuse_zeros(const Value& divisor) {
     for (Eigen::Index i = 0; i < divisor.mid.size(); ++i)
       if (divisor.ball(i).is_zero()) expr::fault::division_by_zero();

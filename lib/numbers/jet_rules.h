@@ -243,14 +243,16 @@ struct JetRules {
     lipschitz(enclosed::norm_upward(magnitudes<double>(at[0].derivative(1))), out);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::complement_basis, Op::jacobian>
+  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::complement_basis, Op::jacobian,
+                       Op::determinant>
   void operator()(Is<op>, const At& at, Jet& out) const {
     coefficient(at, 0, out);
     if (at[0].order > 0) lipschitz(kNothingKnown, out);
   }
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,
-                       Op::flow_map, Op::extremum>
+                       Op::flow_map, Op::extremum, Op::eigenvalues, Op::continuous_riccati,
+                       Op::discrete_riccati>
   void operator()(Is<op>, const At&, Jet&) const { expr::fault::no_error_bound(op); }
 
  private:

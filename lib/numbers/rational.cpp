@@ -2,6 +2,7 @@
 
 #include "base/stop.h"
 #include "expr/evaluate.h"
+#include "numbers/determinant.h"
 #include "numbers/rational_algebra.h"
 #include "numbers/shared_rules.h"
 
@@ -156,6 +157,12 @@ struct Rules {
     if (!inverse) expr::fault::singular(at.instruction);
     out = *inverse;
   }
+  void operator()(Is<Op::determinant>, const At& at, Value& out) const {
+    const auto size = [](const Rational& x) { return x < 0 ? Rational(-x) : x; };
+    auto columns = columns_of<Rational>(
+        at[0].rows(), at[0].cols(), [&](Eigen::Index i, Eigen::Index j) { return at[0](i, j); });
+    out = Value::Constant(1, 1, determinant(std::move(columns), Rational(1), size));
+  }
   void operator()(Is<Op::diagonal_matrix>, const At& at, Value& out) const {
     out = Value::Constant(at[0].size(), at[0].size(), Rational(0));
     for (Eigen::Index i = 0; i < at[0].size(); ++i) out(i, i) = at[0](i);
@@ -181,7 +188,8 @@ struct Rules {
   requires expr::OneOf<op, Op::real_power, Op::log, Op::sqrt, Op::atan2, Op::norm,
                        Op::pseudo_inverse, Op::singular_values, Op::range_basis, Op::kernel_basis,
                        Op::complement_basis, Op::jacobian, Op::project_polytope,
-                       Op::project_ellipsoid, Op::project_affine, Op::flow_map, Op::extremum>
+                       Op::project_ellipsoid, Op::project_affine, Op::flow_map, Op::extremum,
+                       Op::eigenvalues, Op::continuous_riccati, Op::discrete_riccati>
   void operator()(Is<op>, const At&, Value&) const { not_rational(op); }
 
  private:

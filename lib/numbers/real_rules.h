@@ -13,6 +13,7 @@
 #include "base/stop.h"
 #include "expr/number_type.h"
 #include "numbers/canonical.h"
+#include "numbers/determinant.h"
 #include "numbers/dual.h"
 #include "numbers/extremum.h"
 #include "numbers/flow_map.h"
@@ -20,6 +21,7 @@
 #include "numbers/real.h"
 #include "numbers/scalar_functions.h"
 #include "numbers/shared_rules.h"
+#include "numbers/spectrum.h"
 #include "numerics/projection.h"
 
 namespace gainsmith::numbers {
@@ -104,7 +106,11 @@ struct RealRules {
     out = at[0].cwiseProduct(at[1]);
   }
   void operator()(Is<Op::elementwise_quotient>, const At& at, Value& out) const {
-    if ((at[1].array() == Scalar(0)).any()) expr::fault::division_by_zero();
+    constexpr int kRoundings = 4;
+    const Scalar least = at.attribute(0) == expr::kPoleWithinRounding
+                             ? Scalar(kRoundings * std::numeric_limits<Scalar>::epsilon())
+                             : Scalar(0);
+    if ((at[1].array() <= least && at[1].array() >= -least).any()) expr::fault::division_by_zero();
     out = at[0].cwiseQuotient(at[1]);
   }
   void operator()(Is<Op::elementwise_power>, const At& at, Value& out) const {
@@ -202,6 +208,20 @@ struct RealRules {
   void operator()(Is<Op::singular_values>, const At& at, Value& out) const {
     out = Base::singular_values(at[0]);
   }
+  void operator()(Is<Op::determinant>, const At& at, Value& out) const {
+    const auto size = [](const Scalar& x) { return x < Scalar(0) ? Scalar(-x) : x; };
+    out = Value::Constant(1, 1, determinant(columns(at[0]), Scalar(1), size));
+  }
+  void operator()(Is<Op::eigenvalues>, const At& at, Value& out) const {
+    solve(at, [&] { out = real_eigenvalues<Scalar>(at[0]); });
+  }
+  template <Op op>
+  requires expr::OneOf<op, Op::continuous_riccati, Op::discrete_riccati>
+  void operator()(Is<op>, const At& at, Value& out) const {
+    const Riccati equation = op == Op::continuous_riccati ? Riccati::continuous : Riccati::discrete;
+    solve(at,
+          [&] { out = stabilising_solution<Scalar>(equation, at[0], at[1], at[2], at[3], at[4]); });
+  }
   /// Of the first left singular vectors. An empty matrix has no decomposition.
   void operator()(Is<Op::range_basis>, const At& at, Value& out) const {
     const int count = at.shape().cols;
@@ -232,13 +252,8 @@ struct RealRules {
     project(at, out, [&] { return numerics::project_affine<Scalar>(at[0], at[1], at[2], at[3]); });
   }
   void operator()(Is<Op::complement_basis>, const At& at, Value& out) const {
-    const Value& a = at[0];
-    Columns<Scalar> columns(static_cast<std::size_t>(a.cols()));
-    for (Eigen::Index j = 0; j < a.cols(); ++j)
-      for (Eigen::Index i = 0; i < a.rows(); ++i)
-        columns[static_cast<std::size_t>(j)].push_back(a(i, j));
     const auto basis =
-        complement(std::move(columns), static_cast<std::size_t>(a.rows()),
+        complement(columns(at[0]), static_cast<std::size_t>(at[0].rows()),
                    static_cast<std::size_t>(at.shape().cols), Scalar(1), PlainNumbers<Scalar>{});
     out.resize(at.shape().rows, at.shape().cols);
     for (Eigen::Index j = 0; j < out.cols(); ++j)
@@ -266,15 +281,28 @@ struct RealRules {
     return B;
   }
 
-  template <class Nearest>
-  static void project(const At& at, Value& out, const Nearest& nearest) {
+  /// What says by an exception why there is no result.
+  template <class Compute>
+  static void solve(const At& at, const Compute& compute) {
     for (const Value* operand : at.operands)
       if (!operand->allFinite()) expr::fault::not_finite(at.instruction.op);
     try {
-      out = nearest().point;
+      compute();
     } catch (const numerics::NoProjection& why) {
       expr::fault::without_result(at.instruction.op, why.what());
+    } catch (const NoSolution& why) {
+      expr::fault::without_result(at.instruction.op, why.what());
     }
+  }
+
+  template <class Nearest>
+  static void project(const At& at, Value& out, const Nearest& nearest) {
+    solve(at, [&] { out = nearest().point; });
+  }
+
+  static Columns<Scalar> columns(const Value& a) {
+    return columns_of<Scalar>(a.rows(), a.cols(),
+                              [&](Eigen::Index i, Eigen::Index j) { return a(i, j); });
   }
 
   template <class Function>

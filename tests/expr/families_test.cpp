@@ -36,6 +36,34 @@ TEST_F(Families, AMemberIsChosenByWholeNumbers) {
   EXPECT_EQ(world("A(3)'"), A(3).transpose());
 }
 
+TEST_F(Families, AModeChoosesAMember) {
+  world.scope.symbols["q"] = {{}, false, true, true};
+  world.define("V(i)", "A(i)*A(1)");
+  for (int q = 1; q <= 3; ++q) {
+    world.values["q"] = Matrix::Constant(1, 1, q);
+    EXPECT_EQ(world("A(q)"), A(q));
+    EXPECT_EQ(world("A(4 - q)"), A(4 - q));
+    EXPECT_EQ(world("V(q)"), A(q) * A(1));
+    EXPECT_EQ(world("A(q)(1, 2)")(0, 0), A(q)(0, 1));
+  }
+  world.values["q"] = Matrix::Constant(1, 1, 0);
+  EXPECT_EQ(world("B(q, 5)"), world.values.at("B_0_5"));
+  EXPECT_EQ(world("B(q, q + 4)"), world.values.at("B_0_4"));
+  for (const double outside : {0.0, 4.0, -7.0}) {
+    world.values["q"] = Matrix::Constant(1, 1, outside);
+    EXPECT_NE(message("A(q)").find("has the members 1 to 3, and 'q' is none of them"),
+              std::string::npos)
+        << message("A(q)");
+  }
+  world.set("s", 2);
+  EXPECT_NE(message("A(s)").find("whole number known beforehand"), std::string::npos);
+}
+
+TEST_F(Families, EndIsTheLastMember) {
+  EXPECT_EQ(world("A(end)"), A(3));
+  EXPECT_EQ(world("B(1, end - 1)"), world.values.at("B_1_4"));
+}
+
 TEST_F(Families, DefinitionsTakeIndices) {
   world.define("V(i)", "A(i)*A(i + 1)").define("W(k, i)", "k*V(i - 1)");
   EXPECT_EQ(world("V(2)"), A(2) * A(3));

@@ -44,6 +44,21 @@ TEST_F(Index, RangesHoldBothEnds) {
   EXPECT_EQ(world("v(n)")(0, 0), v(2));
 }
 
+TEST_F(Index, EndIsTheLastOne) {
+  EXPECT_EQ(world("A(end, :)"), A.row(2));
+  EXPECT_EQ(world("A(1:2, 2:end)"), A.block(0, 1, 2, 3));
+  EXPECT_EQ(world("v(end-1:end)"), v.bottomRows(2));
+  EXPECT_EQ(world("A(end, end)(end)")(0, 0), A(2, 3));
+  EXPECT_EQ(world("(2*A)'(end, 1)")(0, 0), 2 * A(0, 3));
+  EXPECT_EQ(world("A(:, end+1:end)"), Matrix(3, 0));
+  const auto message = [&](const char* text) {
+    return input_error([&] { world(text); }).message();
+  };
+  EXPECT_NE(message("1 + end").find("'end' is only for an index"), std::string::npos);
+  EXPECT_NE(message("A(1, end + 1)").find("outside 1:4"), std::string::npos);
+  EXPECT_NE(message("twice(end)").find("'end' is only for an index"), std::string::npos);
+}
+
 TEST_F(Index, WorksOnAnyExpression) {
   EXPECT_EQ(world("(2*A)(1, 1)")(0, 0), 2 * A(0, 0));
   EXPECT_EQ(world("A'(4, 3)")(0, 0), A(2, 3));

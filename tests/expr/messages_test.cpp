@@ -1,9 +1,11 @@
 // What a person reads when names, shapes or values do not fit.
 #include <gtest/gtest.h>
 
+#include <cctype>
 #include <string>
 #include <vector>
 
+#include "expr/functions.h"
 #include "expr/world.h"
 #include "support/input_error.h"
 
@@ -34,10 +36,88 @@ class Messages : public testing::Test {
 TEST_F(Messages, UnknownNamesComeWithTheNearest) {
   expect("1 + dleta", 5, {"unknown name 'dleta'", "did you mean 'delta'?"});
   expect("2*epx(1)", 3, {"unknown function 'epx'", "did you mean 'exp'?"});
-  expect("he(A)", 1, {"did you mean 'He'?"});
+  expect("he(A)", 1, {"case counts", "did you mean 'He'?"});
   expect("qqqqqq", 1, {"known: ", "A, B"});
   expect("Q", 1, {"known: "});
   expect("exp", 1, {"'exp' is a function: write exp(x)"});
+}
+
+TEST_F(Messages, AnotherCaseIsNamed) {
+  expect("1 + p", 5, {"unknown name 'p'; case counts; did you mean 'P'?"});
+  expect("2*Delta", 3, {"unknown name 'Delta'; case counts; did you mean 'delta'?"});
+}
+
+/// What is advised exists: each name before a bracket is a function, or an argument.
+TEST_F(Messages, FunctionsOfOtherLanguagesLeadToTheirNamesHere) {
+  for (const std::string word : {"norm2",
+                                 "eigs",
+                                 "eigvals",
+                                 "lqr",
+                                 "dlqr",
+                                 "kalman",
+                                 "place",
+                                 "inverse",
+                                 "transpose",
+                                 "arctan",
+                                 "arcsin",
+                                 "arccos",
+                                 "sqrtm",
+                                 "logm",
+                                 "max_eigenvalue",
+                                 "vec",
+                                 "reshape",
+                                 "hstack",
+                                 "vstack",
+                                 "horzcat",
+                                 "block_diag",
+                                 "solve",
+                                 "dot",
+                                 "outer",
+                                 "cross",
+                                 "matmul",
+                                 "matrix_rank",
+                                 "chol",
+                                 "fix",
+                                 "rem",
+                                 "saturate",
+                                 "clamp",
+                                 "interp",
+                                 "spline",
+                                 "observability",
+                                 "lyapunov",
+                                 "solve_continuous_are",
+                                 "icare",
+                                 "idare",
+                                 "zoh",
+                                 "size",
+                                 "length",
+                                 "linspace",
+                                 "mean",
+                                 "prod",
+                                 "pow",
+                                 "log2",
+                                 "ln",
+                                 "asinh",
+                                 "atanh",
+                                 "real",
+                                 "rand",
+                                 "ode45",
+                                 "gram",
+                                 "spectral_radius"}) {
+    const std::string message = of("1 + " + word + "(A)").message();
+    EXPECT_EQ(message.find("unknown function '" + word + "': "), 0U) << message;
+    EXPECT_EQ(message.find("did you mean"), std::string::npos) << message;
+    for (std::size_t at = message.find(": "); (at = message.find('(', at)) != std::string::npos;
+         ++at) {
+      std::size_t begin = at;
+      while (begin > 0 && (std::isalnum(static_cast<unsigned char>(message[begin - 1])) != 0 ||
+                           message[begin - 1] == '_'))
+        --begin;
+      const std::string name = message.substr(begin, at - begin);
+      EXPECT_TRUE(name.empty() || name == "M" || name == "v" || find_function(name) != nullptr)
+          << name << " in: " << message;
+    }
+  }
 }
 
 TEST_F(Messages, WhatOtherLanguagesWriteComesWithWhatToWriteHere) {

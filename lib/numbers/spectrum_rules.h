@@ -1,0 +1,65 @@
+// Internal to numbers: spectrum.h, instantiated by one source for double and one for more digits.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "numbers/ball.h"
+#include "numbers/hessenberg.h"
+#include "numbers/riccati_rules.h"
+#include "numbers/spectrum.h"
+#include "numerics/balance.h"
+#include "numerics/working.h"
+
+namespace gainsmith::numbers {
+
+template <class W>
+std::vector<Eigenvalue<W>> balanced_eigenvalues(const MatrixOf<W>& M) {
+  const auto scale = [](const W& x, int exponent) { return times_power_of_two(x, exponent); };
+  const std::vector<int> units =
+      numerics::balance(M.unaryExpr([](const W& x) { return std::abs(static_cast<double>(x)); }));
+  const MatrixOf<W> B = numerics::in_units(M, units, scale);
+  auto found = Hessenberg<W>(B).eigenvalues();
+  if (!found) throw NoSolution("an eigenvalue is not found");
+  constexpr double kRoundings = 64;
+  const W nothing = W(kRoundings * static_cast<double>(M.rows())) *
+                    std::numeric_limits<W>::epsilon() * (M.size() == 0 ? W(0) : norm_1<W>(B));
+  for (Eigenvalue<W>& one : *found)
+    for (W* part : {&one.real, &one.imaginary})
+      if (*part <= nothing && -*part <= nothing) *part = W(0);
+  return *std::move(found);
+}
+
+template <class Scalar>
+MatrixOf<Scalar> real_eigenvalues(const MatrixOf<Scalar>& M) {
+  using W = numerics::Working<Scalar>;
+  std::vector<Eigenvalue<Scalar>> all;
+  for (const Eigenvalue<W>& one : balanced_eigenvalues<W>(numerics::widened<Scalar>(M)))
+    all.push_back({as<Scalar>(one.real), as<Scalar>(one.imaginary)});
+  const auto size = [](const Scalar& x) { return x < Scalar(0) ? Scalar(-x) : x; };
+  std::ranges::sort(all, [&](const auto& a, const auto& b) {
+    if (a.real != b.real) return a.real > b.real;
+    const Scalar left = size(a.imaginary), right = size(b.imaginary);
+    return left != right ? left < right : a.imaginary > b.imaginary;
+  });
+  MatrixOf<Scalar> rows(M.rows(), 2);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+    rows(i, 0) = all[static_cast<std::size_t>(i)].real;
+    rows(i, 1) = all[static_cast<std::size_t>(i)].imaginary;
+  }
+  return rows;
+}
+
+template <class Scalar>
+MatrixOf<Scalar> stabilising_solution(Riccati equation, const MatrixOf<Scalar>& A,
+                                      const MatrixOf<Scalar>& B, const MatrixOf<Scalar>& Q,
+                                      const MatrixOf<Scalar>& R, const MatrixOf<Scalar>& S) {
+  const auto wide = [](const MatrixOf<Scalar>& M) { return numerics::widened<Scalar>(M); };
+  const RiccatiSolver<numerics::Working<Scalar>> solver(equation, wide(A), wide(B), wide(Q),
+                                                        wide(R), wide(S));
+  return numerics::narrowed<Scalar>(solver.solve(numerics::rounding<Scalar>()));
+}
+
+}  // namespace gainsmith::numbers
