@@ -16,7 +16,7 @@ Program all_commands() {
       "Each subcommand has --help with examples.",
       {synth_command(), bisect_command(), scan_command(), optimize_command(), explain_command(),
        verify_command(), simulate_command(), run_command(), check_command(), solve_command(),
-       methods_command()}};
+       methods_command(), init_command()}};
 }
 
 }  // namespace gainsmith::app

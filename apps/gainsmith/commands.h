@@ -16,6 +16,7 @@ Command run_command();
 Command check_command();
 Command solve_command();
 Command methods_command();
+Command init_command();
 
 /// "gainsmith 0.1.0".
 std::string version();

@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "bind/estimates.h"
 #include "bind/families.h"
+#include "bind/function_data.h"
 #include "bind/formulas.h"
 #include "expr/functions.h"
 
@@ -84,6 +85,9 @@ void refuse_unknown_names(const Binding& binding) {
         }
       };
   refuse(binding.problem().data, data, parameters, "datum", "parameters");
+  for (const model::Let& function : binding.problem().functions)
+    refuse({{function.signature.name, function.body, false, function.place}}, data, parameters,
+           "datum", "parameters");
   refuse(binding.problem().parameters, parameters, data, "parameter", "data");
 }
 
@@ -240,8 +244,12 @@ void add_definitions(Binding& binding) {
     definitions[let.signature.name] = {let.signature.parameters, let.body};
   for (const model::Let& let : binding.problem().let) {
     const std::string& name = let.signature.name;
-    if (binding.names->known.symbols.contains(name) || expr::is_reserved(name))
-      throw InputError(let.place, "'" + name + "' already has a meaning");
+    const bool datum = find_named(binding.method().data, name) != nullptr;
+    if (datum || binding.names->known.symbols.contains(name) || expr::is_reserved(name))
+      throw InputError(let.place, "'" + name + "' already has a meaning" +
+                                      (datum ? ": it is a datum of the method, which stands under "
+                                               "'data'"
+                                             : ""));
     definitions[name] = {let.signature.parameters, let.body};
   }
   if (binding.method().has_dynamics) return;  // signals come with the dynamics
@@ -353,11 +361,16 @@ void bind_data(Binding& binding) {
       throw InputError({binding.problem().file}, name + ": expected a finite number");
   }
   std::vector<Given> all;
-  for (const model::Declaration& datum : binding.method().data)
+  for (const model::Declaration& datum : binding.method().data) {
+    if (is_function(binding.problem(), datum)) {
+      add_function(binding, datum);
+      continue;
+    }
     for (Given& member : given(binding, datum)) {
       add_datum(binding, member);
       all.push_back(std::move(member));
     }
+  }
   for (const Given& datum : all) check_shape(binding, datum);
   for (const model::Parameter& parameter : binding.method().parameters)
     add_parameter(binding, parameter);

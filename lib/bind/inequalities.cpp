@@ -29,6 +29,18 @@ bool uses(const expr::Program& program, const model::Design::Unknown& unknown) {
          std::any_of(program.functions.begin(), program.functions.end(), is_named);
 }
 
+/// "vector(k)".
+expr::Expression element_of(const expr::Expression& vector, int k) {
+  auto number = std::make_shared<expr::Node>(*vector.root);
+  number->kind = expr::NodeKind::number;
+  number->text = std::to_string(k);
+  number->children.clear();
+  auto element = std::make_shared<expr::Node>(*vector.root);
+  element->kind = expr::NodeKind::index;
+  element->children = {vector.root, number};
+  return {vector.text, element};
+}
+
 /// The ends, elements or vertices as they are written, or the elements of a vector.
 std::vector<expr::Expression> points_of(const Binding& binding, const model::Forall& forall,
                                         const Member& member) {
@@ -45,16 +57,7 @@ std::vector<expr::Expression> points_of(const Binding& binding, const model::For
                          " runs over the elements of a vector, an interval "
                          "[low, high], or a set {a, b, ...}");
   std::vector<expr::Expression> elements;
-  for (int k = 1; k <= shape.size(); ++k) {
-    auto number = std::make_shared<expr::Node>(*vector.root);
-    number->kind = expr::NodeKind::number;
-    number->text = std::to_string(k);
-    number->children.clear();
-    auto element = std::make_shared<expr::Node>(*vector.root);
-    element->kind = expr::NodeKind::index;
-    element->children = {vector.root, number};
-    elements.push_back({vector.text, element});
-  }
+  for (int k = 1; k <= shape.size(); ++k) elements.push_back(element_of(vector, k));
   return elements;
 }
 
@@ -80,6 +83,46 @@ model::Design::Variable variable(const Binding& binding, const model::Forall& fo
       bound.points.back().text += "(" + std::to_string(bound.points.size()) + ")";
   }
   return bound;
+}
+
+/// "x in [lo, hi]" with columns: its elements are the variables x_1, x_2, ..., each in its interval,
+/// and x is the column of them. An end may be a number for all elements.
+void add_box(const Binding& binding, const model::Forall& forall, const Member& member,
+             int elements, model::Design::Inequality& bound, expr::Scope& scope) {
+  std::string column;
+  for (int k = 1; k <= elements; ++k) {
+    const std::string name = expr::member_name(forall.variable, {k});
+    if (scope.symbols.contains(name) || scope.definitions.contains(name))
+      throw InputError(forall.place, "'" + name + "' is an element of " + forall.variable +
+                                         " here, but it already has a meaning");
+    model::Design::Variable element{name, forall.over, {}, {}, forall.place};
+    for (const expr::Expression& point : forall.points) {
+      const expr::Expression end = instantiate(point, member, binding.names->known);
+      const bool number = expr::compile(end, binding.names->known).shape().size() == 1;
+      element.points.push_back(scalar(number ? end : element_of(end, k), binding.names->known));
+    }
+    bound.domain.push_back(std::move(element));
+    scope.symbols[name] = {bound.domain.back().shape};
+    column += (k == 1 ? "" : "; ") + name;
+  }
+  scope.definitions[forall.variable] = {
+      {}, expr::parse(expr::Text::generated("[" + column + "]", forall.place))};
+}
+
+/// How many elements the ends of an interval have, when it is one of columns; 0 otherwise.
+int elements_of_box(const Binding& binding, const model::Forall& forall, const Member& member) {
+  if (forall.over != model::Over::interval) return 0;
+  int rows = 1;
+  for (const expr::Expression& point : forall.points) {
+    const expr::Expression end = instantiate(point, member, binding.names->known);
+    const expr::Shape shape = expr::compile(end, binding.names->known).shape();
+    if (shape.cols != 1 || (shape.rows != 1 && rows != 1 && shape.rows != rows))
+      throw InputError(end.place(*end.root),
+                       "the ends of " + forall.variable +
+                           " are numbers, or columns of one length; found " + to_string(shape));
+    rows = std::max(rows, shape.rows);
+  }
+  return rows == 1 ? 0 : rows;
 }
 
 void bind_objective(Binding& binding, const expr::Expression& text) {
@@ -120,6 +163,10 @@ void add_inequality(Binding& binding, const model::Requirement& requirement, con
   const expr::Expression that = instantiate(requirement.that, member, scope);
   bound.that_place = that.place(*that.root);
   for (const model::Forall& forall : requirement.forall) {
+    if (const int elements = elements_of_box(binding, forall, member)) {
+      add_box(binding, forall, member, elements, bound, scope);
+      continue;
+    }
     bound.domain.push_back(variable(binding, forall, member));
     scope.symbols[forall.variable] = {bound.domain.back().shape};
   }

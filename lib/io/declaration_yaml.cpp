@@ -50,7 +50,16 @@ model::Declaration declaration(const YamlFile& file, const YamlItem& item, const
   if (const auto value = map.find(fallback))
     result.fallback = matrix_of(file, *value, result.shape.is_column());
   result.help = optional_string(file, map.find("help"));
-  if (std::string_view(fallback) == "default") result.indices = indices(file, map.find("for"));
+  if (std::string_view(fallback) == "default") {
+    result.indices = indices(file, map.find("for"));
+    const auto of = map.find("of");
+    for (const YamlItem& argument : items_of(file, of, "of"))
+      result.arguments.push_back({argument.key,
+                                  model::parse_shape(file.scalar(argument.value, argument.key)),
+                                  argument.place});
+    if (of && !result.indices.empty())
+      throw InputError(of->place, "of: a family of matrices has no arguments");
+  }
   map.finish();
   return result;
 }

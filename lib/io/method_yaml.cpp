@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "base/nearest.h"
 #include "io/blocks_yaml.h"
 #include "io/claim_yaml.h"
 #include "io/declaration_yaml.h"
@@ -129,6 +130,14 @@ model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+std::string task_of(const YamlFile& file, const YamlItem& item) {
+  std::string task = file.string(item.value, "task");
+  const std::vector<std::string>& known = model::tasks();
+  if (std::find(known.begin(), known.end(), task) == known.end())
+    throw InputError(file.place(item.value), "unknown task '" + task + "'" + suggestion(task, known));
+  return task;
+}
+
 void read_no_campaign(const YamlFile& file, const YamlItem& item, model::Method& method) {
   method.no_campaign = reason(file, item);
   const bool moves = method.has_dynamics || !method.claims.empty();
@@ -206,6 +215,8 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node,
   method.name = name ? file.string(name->value, "method") : problem;
   method.source = optional_string(file, map.find("source"));
   method.summary = optional_string(file, map.find("summary"));
+  if (const auto task = map.find("task")) method.task = task_of(file, *task);
+  method.example = optional_string(file, map.find("example"));
   method.data = declarations(file, map.find("data"), "data", "default");
   for (const YamlItem& item : items_of(file, map.find("parameters"), "parameters"))
     method.parameters.push_back(parameter(file, item));

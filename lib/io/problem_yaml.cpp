@@ -30,16 +30,24 @@ std::shared_ptr<const model::Method> method_of(const YamlFile& file, const YamlI
   return std::make_shared<model::Method>(parse_method(*text, "method " + name));
 }
 
-std::vector<model::Value> values(const YamlFile& file, const std::optional<YamlItem>& item,
-                                 const char* what,
-                                 model::Value (*read)(const YamlFile&, const YamlItem&)) {
-  std::vector<model::Value> result;
-  for (const YamlItem& entry : items_of(file, item, what)) {
-    model::Value value = read(file, entry);
-    value.place = entry.place;
-    result.push_back(std::move(value));
+void add(model::Value value, const YamlItem& item, std::vector<model::Value>& values) {
+  value.place = item.place;
+  values.push_back(std::move(value));
+}
+
+model::Let definition(const YamlFile& file, const YamlItem& item) {
+  return {expr::parse_signature(item.key_text), file.expression(item.value, item.key), item.place};
+}
+
+/// "A: ..." is a matrix, "f(x): ..." a function.
+void read_data(const YamlFile& file, const std::optional<YamlItem>& item, model::Problem& problem) {
+  for (const YamlItem& entry : items_of(file, item, "data")) {
+    if (entry.key.find('(') != std::string::npos) {
+      problem.functions.push_back(definition(file, entry));
+    } else {
+      add(datum_of(file, entry), entry, problem.data);
+    }
   }
-  return result;
 }
 
 std::uint64_t whole(const YamlFile& file, const YamlItem& item, double least) {
@@ -348,8 +356,9 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   problem.method_place = method.place;
   problem.method = method_of(yaml, method, problem.name, library);
   problem.method_name = problem.method->name;
-  problem.data = values(yaml, map.find("data"), "data", datum_of);
-  problem.parameters = values(yaml, map.find("parameters"), "parameters", value_of);
+  read_data(yaml, map.find("data"), problem);
+  for (const YamlItem& item : items_of(yaml, map.find("parameters"), "parameters"))
+    add(value_of(yaml, item), item, problem.parameters);
   problem.synthesis = synthesis(yaml, map.find("synthesis"));
   if (const auto search = map.find("search"))
     problem.search = search_from(yaml, *search, *problem.method);
@@ -366,8 +375,7 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   if (const auto expect = map.find("expect")) problem.expect = expectation_from(yaml, *expect);
   if (const auto compare = map.find("compare")) problem.compare = figures(yaml, *compare);
   for (const YamlItem& item : items_of(yaml, map.find("let"), "let"))
-    problem.let.push_back(
-        {expr::parse_signature(item.key_text), yaml.expression(item.value, item.key), item.place});
+    problem.let.push_back(definition(yaml, item));
   for (const YamlItem& item : items_of(yaml, map.find("uncertain"), "uncertain"))
     problem.uncertain.push_back(uncertain(yaml, item));
   map.finish(advice_on_keys(*problem.method));

@@ -11,8 +11,16 @@
 
 namespace gainsmith::model {
 
+/// An argument of a datum that is a function.
+struct Argument {
+  std::string name;
+  ShapeText shape;
+  Place place;
+};
+
 /// Something with a name and a shape: a datum, an unknown, a state. With indices it is a family:
-/// "for: i in 1..N".
+/// "for: i in 1..N". A datum with arguments is a function, "of: {x: n}"; its shape is that of its
+/// values.
 struct Declaration {
   std::string name;
   ShapeText shape;
@@ -21,6 +29,7 @@ struct Declaration {
   std::optional<expr::Expression> fallback;
   std::string help;
   Place place;
+  std::vector<Argument> arguments{};
 };
 
 /// A name and its expression, in the order of the file.

@@ -6,6 +6,13 @@
 
 namespace gainsmith::model {
 
+const std::vector<std::string>& tasks() {
+  static const std::vector<std::string> kTasks = {
+      "state feedback", "observers",         "output feedback", "nonlinear plants",
+      "analysis",       "sampled data",      "switched plants", "hybrid plants"};
+  return kTasks;
+}
+
 std::string timer_name(const Method& method) {
   for (const EventText& event : method.events)
     if (!event.left.empty()) return event.left;
@@ -15,7 +22,8 @@ std::string timer_name(const Method& method) {
 std::vector<std::string> scalar_names(const Method& method) {
   std::vector<std::string> names;
   for (const Declaration& datum : method.data)
-    if (datum.shape.structure == Structure::scalar && datum.indices.empty())
+    if (datum.shape.structure == Structure::scalar && datum.indices.empty() &&
+        datum.arguments.empty())
       names.push_back(datum.name);
   for (const Parameter& parameter : method.parameters) names.push_back(parameter.name);
   return names;

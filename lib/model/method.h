@@ -93,6 +93,8 @@ struct Method {
   std::string name;
   std::string source;   ///< paper, theorem, equations
   std::string summary;  ///< one line
+  std::string task;     ///< one of tasks()
+  std::string example;  ///< a problem to begin with, by its name: "everyday/lqr"
   std::string file;     ///< where it was read, for messages
   std::string text;     ///< the whole file
 
@@ -118,6 +120,9 @@ struct Method {
   std::vector<Claim> claims;
   std::string no_campaign;  ///< why nothing is simulated: nothing moves; empty: it may be
 };
+
+/// What methods are for, in the order in which they are listed.
+const std::vector<std::string>& tasks();
 
 /// Its name for what is left of the clock of its timer; empty: it has none.
 std::string timer_name(const Method& method);

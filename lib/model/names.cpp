@@ -42,12 +42,13 @@ class NameCheck {
         }
   }
 
-  /// The variable of a `forall` may be the timer's name or one of another `forall`, nothing else.
+  /// The variable of a `forall` may be the name of the timer, of a state, which no inequality has, or
+  /// of another `forall`, nothing else.
   void check_variable(const Forall& forall) const {
     const auto found = known_.find(forall.variable);
     if (expr::is_reserved(forall.variable))
       throw InputError(forall.place, "'" + forall.variable + "' is a word of the language");
-    if (found != known_.end() && found->second != "timer")
+    if (found != known_.end() && found->second != "timer" && found->second != "state")
       throw InputError(forall.place, "'" + forall.variable +
                                          "' is a variable here, but it already names " +
                                          with_article(found->second) + line_of(forall.variable));
@@ -227,7 +228,13 @@ void check_names(const Method& method) {
   for (const auto* list : declared)
     for (const Declaration& declaration : *list) names.add_dimensions(declaration.shape);
   for (const UnknownDeclaration& unknown : method.unknowns) names.add_dimensions(unknown.shape);
-  for (const Declaration& datum : method.data) names.add(datum.name, "datum", datum.place);
+  for (const Declaration& datum : method.data) {
+    names.add(datum.name, "datum", datum.place);
+    for (const Argument& argument : datum.arguments) {
+      names.add_dimensions(argument.shape);
+      names.check_parameter(argument.name, argument.place);
+    }
+  }
   for (const Parameter& parameter : method.parameters)
     names.add(parameter.name, "parameter", parameter.place);
   for (const UnknownDeclaration& unknown : method.unknowns)

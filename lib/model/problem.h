@@ -127,6 +127,7 @@ struct Problem {
   Place method_place;
   std::shared_ptr<const Method> method;
   std::vector<Value> data;
+  std::vector<Let> functions;  ///< data that are functions: "f(x): ..."
   std::vector<Value> parameters;
   SynthesisOptions synthesis;
   std::optional<Search> search;

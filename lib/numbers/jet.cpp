@@ -166,6 +166,37 @@ Jet exponential(const Jet& x) {
   return out;
 }
 
+/// With D^2 the second derivative of the body in a direction of its inputs, e_j that of an element of
+/// the variable and v that in which the inputs move, column j is (D^2[e_j + v] - D^2[e_j - v])/4.
+Enclosed<double> slope_of_jacobian(const expr::Instruction& instruction,
+                                   expr::Operands<Jet> operands) {
+  expr::Evaluator<JetAlgebra> evaluator(*instruction.body);
+  const auto bend = [&](Eigen::Index j, bool forward) {
+    for (std::size_t i = 0; i < operands.size(); ++i) {
+      Jet input = constant_jet(operands[i]->value());
+      input.order = 1;
+      input.derivatives[1] = operands[i]->derivative(1);
+      if (!forward) input.derivatives[1] = negative(input.derivatives[1]);
+      if (i == 0) {
+        Matrix unit = Matrix::Zero(input.value().rows(), input.value().cols());
+        unit(j) = 1;
+        input.derivatives[1] = numbers::sum(input.derivatives[1], exactly<double>(unit));
+      }
+      evaluator.set(i, input);
+    }
+    return evaluator.run().derivative(2);
+  };
+  Enclosed<double> result =
+      exactly<double>(Matrix::Zero(instruction.shape.rows, instruction.shape.cols));
+  for (Eigen::Index j = 0; j < operands[0]->value().mid.size(); ++j) {
+    const Enclosed<double> column =
+        scaled(Ball<double>{0.25, 0}, difference(bend(j, true), bend(j, false)));
+    result.mid.col(j) = column.mid.reshaped();
+    result.rad.col(j) = column.rad.reshaped();
+  }
+  return result;
+}
+
 }  // namespace jets
 
 Enclosed<double> enclosed_jacobian(const expr::Instruction& instruction,

@@ -28,6 +28,9 @@ Jet transposed_jet(const Jet& x);
 Jet inverse(const Jet& x, Enclosed<double> value);
 Jet exponential_of(const Jet::Ray& ray);
 Jet exponential(const Jet& x);
+/// The derivative of Op::jacobian, whose operands move.
+Enclosed<double> slope_of_jacobian(const expr::Instruction& instruction,
+                                   expr::Operands<Jet> operands);
 
 }  // namespace jets
 
@@ -243,11 +246,19 @@ struct JetRules {
     lipschitz(enclosed::norm_upward(magnitudes<double>(at[0].derivative(1))), out);
   }
   template <Op op>
-  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::complement_basis, Op::jacobian,
-                       Op::determinant>
+  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::complement_basis, Op::determinant>
   void operator()(Is<op>, const At& at, Jet& out) const {
     coefficient(at, 0, out);
     if (at[0].order > 0) lipschitz(kNothingKnown, out);
+  }
+  /// The second derivative would take a third one of the body.
+  void operator()(Is<Op::jacobian>, const At& at, Jet& out) const {
+    coefficient(at, 0, out);
+    const bool moves = std::any_of(at.operands.begin(), at.operands.end(),
+                                   [](const Jet* operand) { return operand->order > 0; });
+    if (!moves) return;
+    lipschitz(kNothingKnown, out);
+    out.derivatives[1] = jets::slope_of_jacobian(at.instruction, at.operands);
   }
   template <Op op>
   requires expr::OneOf<op, Op::project_polytope, Op::project_ellipsoid, Op::project_affine,

@@ -72,6 +72,23 @@ TEST(ProofTest, SpikesBumpsAndCuspsThatHold) {
   expect_holds("1.00001 - (1 + 2e-7*(exp(-1e6*t) - exp(-2e6*t)))", kUnit);
 }
 
+/// The variable stands in the jacobian's place, or beside it, or both; where its slope is known few
+/// pieces do.
+TEST(ProofTest, Jacobians) {
+  const numbers::Values known = {{"x0", number(0.5)}};
+  expect_fails("jacobian(x0*(t - 0.3)^2, x0) - 0.01", kUnit, known);
+  expect_fails("jacobian((t - 0.3)^3 + 0.01*t, t) - 0.02", kUnit);
+  expect_holds("jacobian(x0*(t - 0.3)^2, x0) + 0.01", kUnit, known);
+  const Domain box = {interval("t", -1, 1), interval("u", -1, 1)};
+  expect_fails("jacobian(t^3*u^2 + 0.001*t, t) - 0.002", box);
+  for (const std::string text :
+       {"jacobian(sin(t)*cos(u) + t^3*u^2, t) + 1e-2", "jacobian(t^3/(2 + cos(t*u)), t) + 1e-2"}) {
+    const DomainProof proof = prove(text, box);
+    EXPECT_EQ(proof.status, Status::holds) << text << ": " << proof.where << " " << proof.reason;
+    EXPECT_LE(proof.pieces, 1000U) << text;
+  }
+}
+
 /// (t - a)^2 + m: O(log 1/m) pieces.
 TEST(ProofTest, ParabolasOfKnownHeight) {
   for (const double a : {0.25, 0.3, 0.7131})
