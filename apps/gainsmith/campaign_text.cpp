@@ -120,9 +120,9 @@ std::string undecided_text(const verify::Report& report, const std::string& gain
   if (report.close == 0) return "";
   return fmt::format(
       "  {} of {} {} undecided: what {} lies closer together than the {}\n"
-      "  try         a shorter campaign.horizon, a claim that asks for a little less, or claims "
-      "written "
-      "in differences of states (z - zh); see\n"
+      "  try         a claim that asks for a little less (tolerance: 1e-6) or begins later (after: 1), a "
+      "shorter\n"
+      "              campaign.horizon, or claims written in differences of states (z - zh); see\n"
       "              gainsmith simulate {} --run {} --seed {}\n",
       report.close, runs_text(report.runs), report.close == 1 ? "is" : "are",
       report.close == 1 ? "it compares" : "they compare",

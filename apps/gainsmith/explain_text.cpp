@@ -65,8 +65,8 @@ std::string conflict_statement(const design::Conflict& conflict) {
 
 std::string certificate_brief(const model::CertificateRecord& certificate) {
   if (certificate.exact) return "exact";
-  return "excludes every solution, up to a relative change of the data by " +
-         brief(certificate.backward_error, 2);
+  return "excludes every solution (relative error " +
+         brief(certificate.backward_error, 2) + ")";
 }
 
 std::string conflict_text(const design::Conflict& conflict) {

@@ -76,7 +76,11 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
 void refuse_without_campaign(const model::Design& design, const std::string& file) {
   if (!design.no_campaign.empty())
     throw InputError({file}, "there is no campaign: " + design.no_campaign);
-  if (design.dynamics && !model::ends(design))
+  if (!design.dynamics)
+    throw InputError({file},
+                     "there is nothing to simulate: the method has no dynamics; a plant and an "
+                     "observer beside its gains make a simulation");
+  if (!model::ends(design))
     throw InputError({file},
                      "the problem gives no campaign; it needs 'campaign: {horizon: ...}': how long "
                      "a run is");

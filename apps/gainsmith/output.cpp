@@ -51,7 +51,11 @@ void write_result(const model::Gains& gains, const std::string& output, const st
     write_atomically(output, io::gains_text(gains));
   }
   print_report(report, to_stdout);
-  if (!output.empty() && !to_stdout && !quiet) say("wrote " + output + "\n");
+  if (!output.empty() && !to_stdout && !quiet) {
+    const bool empty = gains.gains.empty() && gains.gain_functions.empty();
+    say("wrote " + output + (empty && gains.verdict != model::Verdict::yes ? ", without gains" : "") +
+        "\n");
+  }
 }
 
 void print_report(const std::string& text, bool results_on_stdout) {

@@ -40,23 +40,25 @@ std::string step_error(const std::string& text) {
 }
 
 /// `early`: the run ends before its horizon for a reason that decides nothing.
-void say_claims(const std::vector<verify::ReplayedClaim>& claims, bool early) {
+std::string claims_text(const std::vector<verify::ReplayedClaim>& claims, bool early) {
+  std::string text;
   for (const verify::ReplayedClaim& claim : claims) {
     const claims::Finding& finding = claim.finding;
     if (!finding.looked) {
-      say(fmt::format("  {:<12} {}\n", claim.name,
+      text += fmt::format("  {:<12} {}\n", claim.name,
                       early ? "undecided: never checked, as the run ends before"
                             : "held: never checked, as the run does not reach the time or event "
-                              "of the claim"));
+                              "of the claim");
       continue;
     }
     const bool so_far = early && finding.judgement == claims::Judgement::held;
     const std::string tolerance =
         finding.tolerance > 0 ? ", tolerance " + brief(finding.tolerance) : "";
-    say(fmt::format("  {:<12} {}{}: {} against {} at (t, j) = ({}, {}){}\n", claim.name,
+    text += fmt::format("  {:<12} {}{}: {} against {} at (t, j) = ({}, {}){}\n", claim.name,
                     to_string(finding.judgement), so_far ? " so far" : "", brief(finding.value),
-                    brief(finding.bound), brief(finding.t), finding.j, tolerance));
+                    brief(finding.bound), brief(finding.t), finding.j, tolerance);
   }
+  return text;
 }
 
 /// The design's, and events that do not happen in a run that came to its end.
@@ -71,6 +73,15 @@ std::vector<std::string> notes_on_run(const model::Design& design, const hybrid:
   if (!silent.empty() && is_complete(run.ending))
     notes.push_back(note_on_events(silent) + " in this run");
   return notes;
+}
+
+std::string judged_text(const std::vector<judge::Fault>& faults) {
+  if (faults.empty()) return "  judged: the run satisfies the texts\n";
+  std::string text;
+  for (const judge::Fault& fault : faults)
+    text += fmt::format("  judged: t = {}: {} ({} > {})\n", brief(fault.t), fault.what,
+                        brief(fault.size), brief(fault.allowed));
+  return text;
 }
 
 void write(const SimulateOptions& options, const std::string& text) {
@@ -117,25 +128,24 @@ ExitCode simulate(const SimulateOptions& options) {
   if (!options.plot.empty())
     write_atomically(options.plot, run_figure(loaded.stated.design->name,
                                               for_plot(options, *setup, seed, replay)));
-  if (options.plot.empty() || !options.output.empty() || options.json)
+  const bool table = options.plot.empty() || !options.output.empty() || options.json;
+  const bool table_on_stdout = table && (options.output.empty() || options.output == "-");
+  if (table)
     write(options, options.json ? io::to_text(events_json(replay)) : events_csv(replay));
   const auto jumps = static_cast<std::size_t>(std::count_if(
       replay.run.parts.begin(), replay.run.parts.end(),
       [](const auto& part) { return std::holds_alternative<hybrid::JumpPoint>(part); }));
-  say(fmt::format("run {} of seed {}: {} samples, {} jumps, ended at t = {}: {}\n", options.run,
-                  seed, replay.table.rows(), jumps, brief(replay.run.end),
-                  to_string(replay.run.ending)));
-  if (!replay.run.message.empty()) say("  " + replay.run.message + "\n");
-  for (const std::string& note : replay.run.notes) say("  " + note + "\n");
+  std::string text = fmt::format("run {} of seed {}: {} points, {} jumps, ended at t = {}: {}\n",
+                                 options.run, seed, replay.table.rows(), jumps,
+                                 brief(replay.run.end), to_string(replay.run.ending));
+  if (!replay.run.message.empty()) text += "  " + replay.run.message + "\n";
+  for (const std::string& note : replay.run.notes) text += "  " + note + "\n";
   for (const std::string& note : notes_on_run(*loaded.stated.design, replay.run))
-    say("  note: " + note + "\n");
-  say_claims(replay.claims, !is_complete(replay.run.ending));
+    text += "  note: " + note + "\n";
+  text += claims_text(replay.claims, !is_complete(replay.run.ending));
+  if (options.judge && !stopped) text += judged_text(replay.faults);
+  print_report(text, table_on_stdout);
   if (stopped) return ExitCode::undecided;
-  if (!options.judge) return ExitCode::yes;
-  for (const judge::Fault& fault : replay.faults)
-    say(fmt::format("  judged: t = {}: {} ({} > {})\n", brief(fault.t), fault.what,
-                    brief(fault.size), brief(fault.allowed)));
-  if (replay.faults.empty()) say("  judged: the run satisfies the texts\n");
   return replay.faults.empty() ? ExitCode::yes : ExitCode::no;
 }
 

@@ -64,12 +64,12 @@ std::string objective_text(const model::Gains& gains) {
   if (gains.objective_lower_bound) {
     constexpr double kTells = 0.1;  // of the objective: a wider bracket says little of its upper end
     const std::string optimum =
-        gains.bounds.empty() ? "the optimum" : "the optimum within the gain bound";
+        gains.bounds.empty() ? "the optimum" : "with the condition on the gains the optimum";
     const std::string low = brief(*gains.objective_lower_bound, 10);
     const std::string high = brief(*gains.objective, 10);
     const double width = *gains.objective - *gains.objective_lower_bound;
     if (low == high)
-      text += fmt::format("  ({}, to these digits)", optimum);
+      text += fmt::format("  ({} is this to all digits shown)", optimum);
     else if (width < kTells * std::abs(*gains.objective))
       text += fmt::format("  ({} is between {} and {})", optimum, low, high);
     else
@@ -97,7 +97,7 @@ std::string bounds_text(const model::Gains& gains) {
   for (const model::GainBound& bound : gains.bounds)
     if (bound.active)
       text +=
-          fmt::format("gain bound  active on {}: {} of the bound {}; the bound limits this gain\n",
+          fmt::format("gain bound  active on {}: the bound of its norm is {}, {} is allowed; this limits the design\n",
                       bound.what, brief(bound.reached), brief(bound.bound));
   return text;
 }
@@ -117,7 +117,7 @@ std::string certificate_text(const model::Gains& gains) {
         c.digits, of);
   return fmt::format(
       "certificate multipliers Y >= 0, checked in {} digits on {}: they exclude every\n"
-      "            solution, up to a relative change of the data by {}\n",
+      "            solution (relative error {})\n",
       c.digits, of, brief(c.backward_error, 2));
 }
 

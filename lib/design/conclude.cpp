@@ -121,12 +121,14 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
       gains.verdict = model::Verdict::undecided;
       gains.bound_only = largest;
       gains.solver.add_message(climb.posed().choices().gain_bounds.empty()
-                                   ? "no gains within the gain bound " + brief(bounds.beta) +
-                                         " were found, but gains of " + brief(largest, 2) +
-                                         " exist: raise synthesis.gain_bound"
-                                   : "no gains within the gain bounds were found, but gains of " +
+                                   ? "no gains were found under the gain bound " + brief(bounds.beta) +
+                                         ", whose condition is sufficient only; there are gains "
+                                         "that need a bound of " + brief(largest, 2) +
+                                         ": raise synthesis.gain_bound"
+                                   : "no gains were found under the gain bounds, whose conditions are "
+                                     "sufficient only; there are gains that need " +
                                          brief(largest / bounds.beta, 2) +
-                                         " times the bounds exist: raise synthesis.gain_bound");
+                                         " times the bounds: raise synthesis.gain_bound");
       return;
     }
     if (!(point.reached_gain <= bounds.beta))

@@ -120,18 +120,19 @@ YamlError explained(const std::string& text, YamlError error) {
     const std::string_view line = lines[at];
     if (const auto tab = find_tab(line))
       return {at, *tab, "YAML takes no tab in the indentation: use spaces"};
-    if (const auto alias = find_value(line, "*&"); alias && at == last)
+    const auto list = find_value(line, "[{");
+    const bool in_list = list && line[*list] == '[' && is_formula(line.substr(*list));
+    if (const auto alias = find_value(line, "*&"); alias && at == last && !in_list)
       return {at, *alias,
               "a formula that begins with '" + std::string(1, line[*alias]) +
                   "' must be quoted: YAML takes it for the name of a node"};
-    const auto list = find_value(line, "[{");
     const bool nested = list && line.find_first_of("[{", *list + 1) != std::string_view::npos;
     if (nested && line.find(" in ") != std::string_view::npos)
       return {at, *list,
               said +
                   "; in { } and [ ] a text with a comma or a bracket must be quoted, such as "
                   "\"tau in [0, T]\""};
-    if (list && line[*list] == '[' && is_formula(line.substr(*list)))
+    if (in_list)
       return {
           at, *list,
           said + "; a formula that begins with '[' must be quoted, such as \"[P, Y; *, I] > 0\""};

@@ -266,7 +266,7 @@ TEST(Attempts, BoundsOnGainsMustNotDecide) {
   EXPECT_EQ(beyond.asked[2].blocks.size(), 1U);
   EXPECT_EQ(beyond.gains.verdict, Verdict::undecided);
   EXPECT_EQ(beyond.gains.bound_only, 16);
-  EXPECT_TRUE(beyond.says("no gains within the gain bound 10 were found, but gains of 16 exist"))
+  EXPECT_TRUE(beyond.says("no gains were found under the gain bound 10, whose condition is sufficient only; there are gains that need a bound of 16"))
       << beyond.message();
   EXPECT_FALSE(beyond.gains.certificate);
   // Found without the bound, but within it.

@@ -51,7 +51,7 @@ Simulated simulated(const std::string& campaign) {
   const Outcome outcome =
       gainsmith({"simulate", folder.file("tangent.yaml", tangent(campaign)), "--judge"});
   EXPECT_EQ(outcome.exit, 0) << outcome.err;
-  EXPECT_NE(outcome.err.find("judged: the run satisfies the texts"), std::string::npos)
+  EXPECT_NE((outcome.out + outcome.err).find("judged: the run satisfies the texts"), std::string::npos)
       << outcome.err;
   const std::vector<double> last = last_row(outcome.out);
   return {std::abs(last[3] - std::tan(1.5)), std::abs(1e6 * last[4] - std::tan(1.5)),

@@ -70,7 +70,7 @@ bool has_events(const std::string& file) {
 /// Its first run satisfies the texts.
 void judge_first_run(const std::string& gains) {
   const Outcome outcome = gainsmith({"simulate", gains, "--judge"});
-  EXPECT_NE(outcome.err.find("judged: the run satisfies the texts"), std::string::npos)
+  EXPECT_NE((outcome.out + outcome.err).find("judged: the run satisfies the texts"), std::string::npos)
       << outcome.err;
 }
 
