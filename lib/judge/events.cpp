@@ -36,7 +36,7 @@ EventCheck::EventCheck(Texts& texts, const hybrid::Trajectory& trajectory, Fault
     const EventKind kind = texts.dynamics.events[e].kind;
     if (kind == EventKind::every || kind == EventKind::at)
       memory_[e].clock.emplace(texts, e, jump_times(trajectory, e), trajectory.start, faults);
-    if (has_crossing(e)) forget_side(e, trajectory.start, rounding);
+    if (has_crossing(e)) forget_side(e, trajectory.start, rounding, is_zero(e, trajectory.start));
   }
 }
 
@@ -49,9 +49,9 @@ void EventCheck::remember_side(std::size_t event, const Eigen::VectorXd& x,
 }
 
 void EventCheck::forget_side(std::size_t event, const Eigen::VectorXd& x,
-                             const Eigen::VectorXd& rounding) {
+                             const Eigen::VectorXd& rounding, bool at_zero) {
   memory_[event].side = 0;
-  memory_[event].at_zero = (*texts_.events[event].crossing)(x)(0, 0) == 0;
+  memory_[event].at_zero = at_zero;
   remember_side(event, x, rounding);
 }
 
@@ -134,9 +134,8 @@ void EventCheck::jumped(std::size_t part, const hybrid::JumpPoint& jump) {
       rounding_at(texts_, jump.t, jump.after, texts_.by_variable(jump.after.cwiseAbs()));
   for (std::size_t e = 0; e < memory_.size(); ++e) {
     if (!has_crossing(e)) continue;
-    const auto value = [&](const Eigen::VectorXd& x) { return (*texts_.events[e].crossing)(x)(0, 0); };
-    if (e == jump.event || (value(jump.after) == 0 && value(jump.before) != 0))
-      forget_side(e, jump.after, rounding);
+    const bool comes_to_zero = is_zero(e, jump.after) && !is_zero(e, jump.before);
+    if (e == jump.event || comes_to_zero) forget_side(e, jump.after, rounding, comes_to_zero);
   }
   check_numbers(part, jump.t, jump.after);
 }

@@ -38,7 +38,8 @@ struct RootFunction {
 };
 
 struct Found {
-  /// False: after ten thousand points pairs of roots are no longer looked for.
+  /// False: there may be more, as so many parts have not sufficed or g changes with every rounding
+  /// of t.
   bool whole = true;
   std::vector<Root> roots;  ///< in rising order
   std::vector<TurningPoint> turning_points;
