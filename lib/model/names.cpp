@@ -48,7 +48,7 @@ class NameCheck {
     const auto found = known_.find(forall.variable);
     if (expr::is_reserved(forall.variable))
       throw InputError(forall.place, "'" + forall.variable + "' is a word of the language");
-    if (found != known_.end() && found->second != "timer" && found->second != "state")
+    if (found != known_.end() && found->second != "timer" && !found->second.starts_with("state "))
       throw InputError(forall.place, "'" + forall.variable +
                                          "' is a variable here, but it already names " +
                                          with_article(found->second) + line_of(forall.variable));
