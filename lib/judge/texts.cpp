@@ -12,15 +12,6 @@ namespace {
 using model::Dynamics;
 using Kind = expr::Condition::Kind;
 
-hybrid::StateLayout layout_of(const Dynamics& dynamics) {
-  hybrid::StateLayout layout;
-  for (const Dynamics::Variable& variable : dynamics.variables) {
-    layout.slots.push_back({variable.name, variable.shape, layout.size});
-    layout.size += variable.shape.size();
-  }
-  return layout;
-}
-
 std::unique_ptr<const expr::Program> linked(const expr::Program& program, const Place& place,
                                             const hybrid::StateLayout& layout,
                                             const model::Stated& stated) {
@@ -152,7 +143,7 @@ Texts::Texts(const Dynamics& dynamics_given, const model::Stated& stated_given,
     : dynamics(dynamics_given),
       stated(stated_given),
       question(question_given),
-      layout(layout_of(dynamics_given)) {
+      layout(hybrid::layout_of(dynamics_given)) {
   for (const Dynamics::Assignment& entry : dynamics.flow)
     flow_.emplace_back(entry.variable, Text(entry.value.program, entry.place, layout, stated));
   for (const Dynamics::Component& component : dynamics.components) {

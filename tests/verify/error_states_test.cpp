@@ -48,9 +48,9 @@ TEST(ErrorStates, AnObserverOfAGrowingPlantIsJudgedByItsError) {
 TEST(ErrorStates, RunsOfBothSystemsAreTheSame) {
   const model::Instance instance =
       two_sensors(kCopy, kCorrection, "{small: {shrinks: norm(z - zh), to: 1e-12}}");
-  const auto setup = make_setup(instance, {});
-  const auto& written = setup->events;
-  const auto& errors = setup->errors;
+  const auto both = make_setup(instance, {});
+  const auto& written = both->events;
+  const auto& errors = both->errors;
   ASSERT_NE(errors, nullptr);
   const auto end_of = [](const EventSetup& setup) {
     const hybrid::Trajectory run =

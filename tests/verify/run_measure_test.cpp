@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "bind/stated.h"
 #include "support/stop.h"
 #include "support/yaml_problem.h"
 #include "verify/bound_figure.h"
