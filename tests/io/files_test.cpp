@@ -12,6 +12,7 @@
 #include "bind/bind.h"
 #include "io/method_yaml.h"
 #include "io/problem_text.h"
+#include "io/starting_problem.h"
 
 namespace gainsmith::io {
 namespace {
@@ -25,6 +26,8 @@ TEST(BuiltInMethods, ParseUnderTheirOwnName) {
     EXPECT_EQ(method.name, text.name);
     EXPECT_FALSE(method.source.empty()) << text.name;
     EXPECT_FALSE(method.summary.empty()) << text.name;
+    EXPECT_FALSE(method.task.empty()) << text.name;
+    EXPECT_FALSE(text.example.empty()) << text.name;
   }
 }
 
@@ -81,13 +84,41 @@ TEST(Problems, OfTheRepositoryParseAndCheck) {
   }
 }
 
+/// Its comments name all that the method takes; its values are those of the example.
+TEST(Problems, EveryBuiltInMethodHasOneToBeginWith) {
+  for (const methods::Text& built_in : methods::all()) {
+    SCOPED_TRACE(built_in.name);
+    const model::Method method = parse_method(std::string(built_in.text), "method");
+    const std::string text = starting_problem(method, std::string(built_in.example));
+    const model::Problem example = read_problem(std::string(built_in.example));
+    EXPECT_EQ(example.method_name, method.name);
+    EXPECT_EQ(example.name, method.example);
+    const model::Problem problem = read_problem(text);
+    const model::Instance instance = bind::bind(problem);
+    EXPECT_EQ(instance.values, bind::bind(example).values);
+    EXPECT_EQ(problem.campaign.runs, example.campaign.runs);
+    EXPECT_FALSE(problem.expect);
+    for (const model::Declaration& datum : method.data)
+      EXPECT_NE(text.find("\n  # " + datum.shape.text), std::string::npos) << datum.name;
+    for (const model::Parameter& parameter : method.parameters)
+      EXPECT_TRUE(text.find("\n  " + parameter.name + ": ") != std::string::npos ||
+                  text.find("\n  # " + parameter.name + ": ") != std::string::npos)
+          << parameter.name;
+  }
+}
+
 TEST(Problems, EveryBuiltInMethodIsUsableWithItsDefaults) {
   for (const std::string& name : methods::names()) {
     SCOPED_TRACE(name);
     const model::Method method = parse_method(*methods::find(name), name);
     std::string text = "problem: a\nmethod: " + name + "\ndata:\n";
     for (const model::Declaration& datum : method.data)
-      if (!datum.fallback)
+      if (!datum.arguments.empty()) {
+        std::string arguments;
+        for (const model::Argument& argument : datum.arguments)
+          arguments += (arguments.empty() ? "" : ", ") + argument.name;
+        text += "  " + datum.name + "(" + arguments + "): " + datum.arguments.front().name + "\n";
+      } else if (!datum.fallback)
         // With Hc = 0 flows show nothing: that is what the methods for hidden parts are for.
         text += "  " + datum.name + ": " +
                 (datum.name == "T2"       ? "2"

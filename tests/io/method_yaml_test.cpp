@@ -204,5 +204,16 @@ TEST(Mistakes, InAMethodOfTheLibraryAreShownInItsText) {
   EXPECT_EQ(error.place(), (Place{"method a", 2, 17}));
 }
 
+TEST(Method, ATaskIsOneOfThoseThatAreListed) {
+  const auto method = [](const std::string& task) {
+    return replaced(kMethod, "method: small\n", "method: small\ntask: " + task + "\nexample: a/b\n");
+  };
+  EXPECT_EQ(parse_method(method("observers"), "m.yaml").task, "observers");
+  EXPECT_EQ(parse_method(method("observers"), "m.yaml").example, "a/b");
+  const InputError error = input_error([&] { parse_method(method("observer"), "m.yaml"); });
+  EXPECT_EQ(error.place(), (Place{"m.yaml", 2, 7}));
+  EXPECT_NE(error.message().find("did you mean 'observers'?"), std::string::npos) << error.what();
+}
+
 }  // namespace
 }  // namespace gainsmith::io

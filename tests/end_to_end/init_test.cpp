@@ -1,0 +1,69 @@
+// The methods by task, and a problem to begin with for each.
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <string>
+#include <vector>
+
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+std::vector<std::string> method_names() {
+  std::vector<std::string> names;
+  for (const auto& method : gainsmith({"methods", "--json"}).json()) names.push_back(method["method"]);
+  return names;
+}
+
+class Init : public ::testing::TestWithParam<std::string> {};
+
+/// As it is written it checks and has a solution.
+TEST_P(Init, WritesAProblemThatHasASolution) {
+  const Outcome written = gainsmith({"init", GetParam()});
+  ASSERT_EQ(written.exit, 0) << written.err;
+  const Folder folder;
+  const std::string file = folder.file("mine.yaml", written.out);
+  const Outcome checked = gainsmith({"check", file});
+  EXPECT_EQ(checked.exit, 0) << checked.err;
+  const Outcome found = gainsmith({"synth", file, "-o", folder.path("gains.json")});
+  EXPECT_EQ(found.exit, 0) << found.out << found.err;
+}
+
+std::string test_name(const ::testing::TestParamInfo<std::string>& method) {
+  std::string name = method.param;
+  for (char& c : name)
+    if (std::isalnum(static_cast<unsigned char>(c)) == 0) c = '_';
+  return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Init, ::testing::ValuesIn(method_names()), test_name);
+
+TEST(Init, AnUnknownMethodIsNamed) {
+  const Outcome outcome = gainsmith({"init", "lqt"});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.err.find("unknown method 'lqt'; did you mean 'lqr'?"), std::string::npos)
+      << outcome.err;
+}
+
+/// Each method stands once, below the task that it names, with the file to begin with.
+TEST(Methods, AreListedByTask) {
+  const std::string list = gainsmith({"methods"}).out;
+  for (const auto& method : gainsmith({"methods", "--json"}).json()) {
+    const std::string name = method["method"];
+    const std::size_t at = list.find("\n  " + name + " ");
+    ASSERT_NE(at, std::string::npos) << name;
+    const std::string line = list.substr(at + 1, list.find('\n', at + 1) - at - 1);
+    EXPECT_NE(line.find("(problems/" + method["example"].get<std::string>() + ".yaml)"),
+              std::string::npos)
+        << line;
+    std::size_t heading = list.rfind('\n', at - 1);
+    while (heading != std::string::npos && list[heading + 1] == ' ')
+      heading = list.rfind('\n', heading - 1);
+    const std::size_t begin = heading == std::string::npos ? 0 : heading + 1;
+    EXPECT_EQ(list.substr(begin, list.find('\n', begin) - begin), method["task"]) << name;
+  }
+}
+
+}  // namespace
+}  // namespace gainsmith::tests
