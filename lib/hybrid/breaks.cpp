@@ -48,10 +48,26 @@ class TermSizes {
       default:
         break;
     }
-    return made(Op::abs, {at}, here);
+    return is_never_negative(at) ? at : made(Op::abs, {at}, here);
   }
 
  private:
+  /// An abs of it would be one more branch.
+  bool is_never_negative(int at) const {
+    const Instruction& here = program_.code[static_cast<std::size_t>(at)];
+    switch (here.op) {
+      case Op::abs:
+      case Op::exp:
+      case Op::norm:
+      case Op::singular_values:
+      case Op::sqrt:
+        return true;
+      case Op::index:
+        return is_never_negative(here.operands[0]);
+      default:
+        return false;
+    }
+  }
   bool is_number(int at) const {
     return program_.code[static_cast<std::size_t>(at)].shape.is_scalar();
   }

@@ -89,11 +89,11 @@ std::vector<std::size_t> late_events(const System& system, const Scenario& scena
 }
 
 std::optional<std::uint64_t> different_runs(const System& system, const Scenario& scenario) {
-  constexpr std::uint64_t kMost = 1000000000;
+  constexpr std::uint64_t kMostRuns = 1000000000;
   std::uint64_t all = 1;
   const auto add = [&](std::uint64_t values) {
-    all = all == 0 || values == 0 || values > kMost ? 0 : std::lcm(all, values);
-    if (all > kMost) all = 0;  // none of them is made twice
+    all = all == 0 || values == 0 || values > kMostRuns ? 0 : std::lcm(all, values);
+    if (all > kMostRuns) all = 0;  // none of them is made twice
   };
   for (const auto& start : scenario.starts)
     if (start) add(values_of(*start));

@@ -8,6 +8,7 @@
 #include "numbers/real.h"
 #include "numbers/scalar_functions.h"
 #include "numbers/small_inverse.h"
+#include "numbers/small_svd.h"
 
 namespace gainsmith::numbers {
 
@@ -152,6 +153,18 @@ Tape::Tape(const ScalarGraph& graph, const std::vector<std::vector<int>>& result
   Maker(graph, *this).make(results, inputs);
 }
 
+/// Singular values, and the norm of a matrix, without the rules' allocations. False: for these.
+bool Tape::find_small_values(Block& block) {
+  const bool norm = block.instruction.op == expr::Op::norm;
+  if (!norm && block.instruction.op != expr::Op::singular_values) return false;
+  const Matrix& operand = block.operands[0];
+  block.out.resize(norm ? std::min(operand.rows(), operand.cols()) : block.instruction.shape.rows,
+                   1);
+  if (!small_singular_values(operand, block.out.data())) return false;
+  if (norm) block.out.conservativeResize(1, 1);
+  return true;
+}
+
 /// What a block made of the same operands last is its value still.
 bool Tape::run_block(Block& block, double* out) {
   for (std::size_t k = 0; k < block.from.size(); ++k) {
@@ -163,6 +176,7 @@ bool Tape::run_block(Block& block, double* out) {
   }
   if (block.instruction.op == expr::Op::inverse && small_inverse(block.operands[0], out))
     return true;
+  if (!block.is_known && find_small_values(block)) block.is_known = true;
   if (!block.is_known) {
     try {
       if (block.jacobian != nullptr) {

@@ -56,6 +56,7 @@ class Tape {
   };
 
   class Maker;
+  static bool find_small_values(Block& block);
   bool run_block(Block& block, double* out);
   bool is_finite() const;
 

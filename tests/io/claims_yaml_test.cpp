@@ -83,7 +83,7 @@ TEST(Claims, MistakesAreNamedAtTheirPlace) {
       {"nonincreasing: V, over: impact", "shrinks: V, to: 1, over: impact", 17, 32,
        "over: of the claims nonincreasing, below and above"},
       {"nonincreasing: V, over: impact", "above: V, below: V, bound: 1", 17, 5,
-       "needs one of nonincreasing, cost, shrinks, below, above"},
+       "needs exactly one of nonincreasing, cost, shrinks, below, above; found 2"},
       {"bound: 2*m", "bound: x(1)", 18, 40, "'x' changes along a run"},
       {"after: 5", "after: t", 18, 52, "'t' changes along a run"},
       {"rate(V)", "rate(x*x')", 18, 25, "rate(v) is of a number or a column, not x*x'"},

@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"A: n x n", "A: symmetric", 5, 6, "symmetric n"},
                     Mistake{"A: n x n", "A: scaler", 5, 6, "did you mean 'scalar'?"},
                     Mistake{"A: n x n", "A: symetric n", 5, 6, "did you mean 'symmetric'?"},
-                    Mistake{"A: n x n", "A: [n, n]", 5, 6, "expected a mapping"},
+                    Mistake{"A: n x n", "A: [n, n]", 5, 6, "expected a shape, such as n x p"},
                     Mistake{"A: n x n", "A:", 5, 5, "found nothing"},
                     Mistake{"A: n x n", "2A: n x n", 5, 3, "'2A' is no name"},
                     Mistake{"A: n x n", "A B: n x n", 5, 3, "'A B' is no name"},
@@ -171,7 +171,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"tau: {reset", "s: {reset: [1, 2]}\n  tau: {reset", 27, 1, "one timer"},
                     Mistake{"{nonincreasing: z'*P*z}", "{}", 32, 3, "needs one of"},
                     Mistake{"{nonincreasing: z'*P*z}", "{nonincreasing: 1, shrinks: 2}", 32, 3,
-                            "needs one of"}));
+                            "needs exactly one of"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Names, BrokenMethod,

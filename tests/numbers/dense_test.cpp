@@ -3,9 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <Eigen/SVD>
 #include <algorithm>
+#include <cmath>
 #include <complex>
+#include <functional>
 #include <random>
+
+#include "numbers/small_svd.h"
 
 namespace gainsmith::numbers {
 namespace {
@@ -62,6 +67,31 @@ TEST_P(Dense, SingularValues) {
   EXPECT_LT(
       (svd.s.array().square().matrix().reverse() - symmetric_eigenvalues(B.transpose() * B)).norm(),
       1e-12);
+}
+
+/// With and without allocation, symmetric or not, in any unit.
+TEST_P(Dense, SingularValuesOfSmallMatrices) {
+  for (const double unit : {1.0, 1e-160, 1e160})
+    for (const Matrix& A : {Matrix(unit * M), Matrix(unit * S), Matrix(unit * P), Matrix(unit * B),
+                            Matrix(unit * B.transpose()), Matrix(unit * M * M.transpose())}) {
+      Vector small(std::min(A.rows(), A.cols()));
+      ASSERT_TRUE(small_singular_values(A, small.data()));
+      const Vector expected = Eigen::JacobiSVD<Matrix>(A / unit).singularValues();
+      EXPECT_LT((small / unit - expected).norm(), 1e-14 * expected(0));
+      EXPECT_TRUE(std::is_sorted(small.begin(), small.end(), std::greater<>()));
+    }
+  Vector values(n);
+  ASSERT_TRUE(small_singular_values(Matrix::Zero(n, n), values.data()));
+  EXPECT_TRUE(values.isZero(0));
+  ASSERT_TRUE(small_singular_values(-3 * Matrix::Identity(n, n), values.data()));
+  EXPECT_EQ(values, Vector::Constant(n, 3));
+}
+
+TEST(SmallSingularValues, RefuseWhatTheyDoNotKnow) {
+  Vector values(9);
+  EXPECT_FALSE(small_singular_values(Matrix::Ones(9, 2), values.data()));
+  EXPECT_FALSE(small_singular_values(Matrix::Constant(2, 2, NAN), values.data()));
+  EXPECT_NEAR(singular_values(Matrix::Ones(9, 2))(0), std::sqrt(18), 1e-14);
 }
 
 TEST_P(Dense, InverseExponentialAndEigenvalues) {

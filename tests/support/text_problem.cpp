@@ -85,7 +85,7 @@ TextProblem& TextProblem::flow(const Pairs& entries) {
 TextProblem& TextProblem::jump(const Pairs& entries) {
   model::PassText pass;
   pass.map = named(entries);
-  method_.plant.at = {{model::kTimerEvent, {}, {pass}, {kFile, 1, 1}}};
+  method_.plant.at = {{model::kTimerEvent, {pass}, {kFile, 1, 1}}};
   return *this;
 }
 
