@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "base/nearest.h"
 #include "bind/bind.h"
 #include "bind/convex_terms.h"
 #include "bind/estimates.h"
@@ -39,6 +40,16 @@ expr::Expression element_of(const expr::Expression& vector, int k) {
   element->kind = expr::NodeKind::index;
   element->children = {vector.root, number};
   return {vector.text, element};
+}
+
+/// "; 'p' in 'flow' is another name, as case counts": where a dimension or a datum may have been
+/// meant for the unknown.
+std::string in_another_case(const model::Design& design, const std::string& unknown) {
+  for (const model::Requirement& requirement : design.source->method->require)
+    for (const std::string& name : expr::names_in(requirement.that))
+      if (differs_in_case(name, unknown))
+        return "; '" + name + "' in '" + requirement.name + "' is another name, as case counts";
+  return "";
 }
 
 /// The ends, elements or vertices as they are written, or the elements of a vector.
@@ -232,6 +243,7 @@ void refuse_free_unknowns(const model::Design& design) {
         unknown.place,
         "the unknown " + unknown.name +
             " is used by no inequality under 'require', so nothing determines it" +
+             in_another_case(design, unknown.name) +
             (user == design.gains.end() ? "" : "; the gain " + user->name + " needs it") +
             ": require something of it, or remove it");
   }

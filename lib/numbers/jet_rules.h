@@ -245,8 +245,27 @@ struct JetRules {
     if (at[0].order == 0) return;
     lipschitz(enclosed::norm_upward(magnitudes<double>(at[0].derivative(1))), out);
   }
+  /// With R = A^-1, d = det A: d' = d tr R A', d'' = d ((tr R A')^2 - tr R A' R A' + tr R A'').
+  void operator()(Is<Op::determinant>, const At& at, Jet& out) const {
+    coefficient(at, 0, out);
+    const Enclosed<double>& A = at[0].value();
+    if (at[0].order == 0 || A.mid.size() == 0) return;
+    const auto R = enclosed::inverse_around<double>(Foundation<double>::inverse(A.mid).matrix, A);
+    if (!R.is_known()) return lipschitz(kNothingKnown, out);
+    const auto trace = [](const Enclosed<double>& M) {
+      Number sum;
+      for (Eigen::Index i = 0; i < M.rows(); ++i) sum = sum + M.ball(i, i);
+      return sum;
+    };
+    const auto slope = product(R, at[0].derivative(1));
+    const Number d = out.value().ball(0), t = trace(slope);
+    const Number bend = trace(product(R, at[0].derivative(2))) - trace(product(slope, slope));
+    lipschitz(0, out);
+    out.derivatives[1].set(0, d * t);
+    out.derivatives[2].set(0, d * (t * t + bend));
+  }
   template <Op op>
-  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::complement_basis, Op::determinant>
+  requires expr::OneOf<op, Op::range_basis, Op::kernel_basis, Op::complement_basis>
   void operator()(Is<op>, const At& at, Jet& out) const {
     coefficient(at, 0, out);
     if (at[0].order > 0) lipschitz(kNothingKnown, out);

@@ -129,6 +129,24 @@ TEST(ControlWordsTest, ChainsOfMatricesHaveOneInequalityForEachSign) {
   EXPECT_NE(shown.find("\nbox.2 "), std::string::npos) << shown;
 }
 
+/// p is a dimension where P is the unknown.
+TEST(ControlWordsTest, ADimensionInThePlaceOfAnUnknownIsNamed) {
+  const Folder folder;
+  const std::string text =
+      "problem: case\n"
+      "method:\n"
+      "  method: case\n"
+      "  data: {A: n x n, C: p x n}\n"
+      "  unknowns: {P: symmetric n}\n"
+      "  require: {flow: He(p*A) < 0}\n"
+      "data: {A: [[-1, 1], [0, -2]], C: [1, 0]}\n";
+  const Outcome outcome = gainsmith({"synth", folder.file("case.yaml", text)});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE((outcome.out + outcome.err).find("'p' in 'flow' is another name, as case counts"),
+            std::string::npos)
+      << outcome.out << outcome.err;
+}
+
 /// Rotations by pi/2 a unit of time, then growth: x(3) by exponentials that are known.
 const std::string kSwitched = R"yaml(problem: switched
 method:

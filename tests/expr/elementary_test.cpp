@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "expr/branches.h"
 #include "expr/world.h"
 #include "support/input_error.h"
 
@@ -112,6 +113,21 @@ TEST(ElementaryFunctions, WithoutAValueAreNamed) {
   expect("log10(0)", 1, "log10 of a number that is not positive");
   expect("cosh(1000)", 1, "not a finite number");
   expect("tan(I)", 5, "size of the identity");
+}
+
+/// A simulation need not look for jumps of what is smooth.
+TEST(ElementaryFunctions, AreSmoothWhereTheyAre) {
+  World world;
+  world.set("x", 0.5).set("y", 0.5);
+  const auto branches = [&](const std::string& text) {
+    const Program program = compile(parse({text, "test"}), world.scope);
+    return branches_of(program, [](const std::string&) { return true; }).size();
+  };
+  for (const char* text : {"asin(x)", "acos(x)", "atan(x)", "tan(x)", "sinh(x)", "cosh(x)", "log10(x)"})
+    EXPECT_EQ(branches(text), 0U) << text;
+  EXPECT_EQ(branches("atan2(x, y)"), 1U);
+  EXPECT_EQ(branches("atan2(x, -1)"), 1U);
+  EXPECT_EQ(branches("ceil(x)"), 1U);
 }
 
 TEST(ElementaryFunctions, HaveTheirDerivatives) {
