@@ -229,8 +229,7 @@ Enclosed<double> slope_of_jacobian(const expr::Instruction& instruction,
     const Enclosed<double> own = bend.along(j, 1, 0);
     if (bend.is_along(j)) return own;
     const double a = balance(own.rad.maxCoeff(), bend.along(j, 0, 1).rad.maxCoeff());
-    return scaled(Ball<double>{0.25 / a, 0},
-                  difference(bend.along(j, a, 1), bend.along(j, a, -1)));
+    return scaled(Ball<double>{0.25 / a, 0}, difference(bend.along(j, a, 1), bend.along(j, a, -1)));
   };
   Enclosed<double> result =
       exactly<double>(Matrix::Zero(instruction.shape.rows, instruction.shape.cols));
