@@ -33,12 +33,8 @@ io::Json description(const model::Method& method) {
     parameters[parameter.name] = {
         {"default", parameter.fallback ? io::Json(parameter.fallback->text->str()) : io::Json()},
         {"help", parameter.help}};
-  return {{"method", method.name},
-          {"task", method.task},
-          {"summary", method.summary},
-          {"source", method.source},
-          {"example", method.example},
-          {"data", data},
+  return {{"method", method.name},   {"task", method.task},       {"summary", method.summary},
+          {"source", method.source}, {"example", method.example}, {"data", data},
           {"parameters", parameters}};
 }
 
@@ -53,8 +49,7 @@ void print_by_task() {
     for (const methods::Text& text : methods::all()) {
       const model::Method method = read(text);
       if (method.task == task)
-        fmt::print("  {:<30} {} (problems/{}.yaml)\n", method.name, method.summary,
-                   method.example);
+        fmt::print("  {:<30} {} (problems/{}.yaml)\n", method.name, method.summary, method.example);
     }
   }
   fmt::print("'gainsmith init METHOD > mine.yaml' writes a problem to begin with.\n");
@@ -88,8 +83,7 @@ ExitCode show_one(const MethodsOptions& options) {
 }
 
 ExitCode init(const MethodsOptions& options) {
-  const model::Method method =
-      io::parse_method(text_of(options.name), "method " + options.name);
+  const model::Method method = io::parse_method(text_of(options.name), "method " + options.name);
   const std::string text = io::starting_problem(method, methods::example(options.name));
   if (options.json) {
     fmt::print("{}", io::to_text({{"method", options.name}, {"problem", text}}));

@@ -7,8 +7,8 @@
 #include "base/number.h"
 #include "bind/estimates.h"
 #include "bind/families.h"
-#include "bind/function_data.h"
 #include "bind/formulas.h"
+#include "bind/function_data.h"
 #include "expr/functions.h"
 
 namespace gainsmith::bind {

@@ -44,10 +44,9 @@ expr::Definition definition(const Binding& binding, const model::Declaration& da
     return {let->signature.parameters, let->body};
   }
   if (!datum.fallback)
-    throw InputError({binding.problem().file}, "the datum " + declared(datum) + " of the method " +
-                                                   binding.method().name +
-                                                   " is missing under 'data'; it is a function: " +
-                                                   called(datum) + ": ...");
+    throw InputError({binding.problem().file},
+                     "the datum " + declared(datum) + " of the method " + binding.method().name +
+                         " is missing under 'data'; it is a function: " + called(datum) + ": ...");
   expr::Definition otherwise{{}, *datum.fallback};
   for (const model::Argument& argument : datum.arguments)
     otherwise.parameters.push_back(argument.name);

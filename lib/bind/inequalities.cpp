@@ -128,9 +128,9 @@ int elements_of_box(const Binding& binding, const model::Forall& forall, const M
     const expr::Expression end = instantiate(point, member, binding.names->known);
     const expr::Shape shape = expr::compile(end, binding.names->known).shape();
     if (shape.cols != 1 || (shape.rows != 1 && rows != 1 && shape.rows != rows))
-      throw InputError(end.place(*end.root),
-                       "the ends of " + forall.variable +
-                           " are numbers, or columns of one length; found " + to_string(shape));
+      throw InputError(end.place(*end.root), "the ends of " + forall.variable +
+                                                 " are numbers, or columns of one length; found " +
+                                                 to_string(shape));
     rows = std::max(rows, shape.rows);
   }
   return rows == 1 ? 0 : rows;

@@ -134,7 +134,8 @@ std::string task_of(const YamlFile& file, const YamlItem& item) {
   std::string task = file.string(item.value, "task");
   const std::vector<std::string>& known = model::tasks();
   if (std::find(known.begin(), known.end(), task) == known.end())
-    throw InputError(file.place(item.value), "unknown task '" + task + "'" + suggestion(task, known));
+    throw InputError(file.place(item.value),
+                     "unknown task '" + task + "'" + suggestion(task, known));
   return task;
 }
 

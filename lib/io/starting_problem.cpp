@@ -113,8 +113,8 @@ class Writer {
 
   /// The lines of the other keys as they stand there, without comments between them.
   void copy_others() {
-    const std::set<std::string> written = {"problem",    "method",     "data",
-                                           "parameters", "negotiable", "expect", "compare"};
+    const std::set<std::string> written = {"problem",    "method", "data",   "parameters",
+                                           "negotiable", "expect", "compare"};
     std::vector<std::string> lines;
     for (std::size_t at = 0, end; at < file_.text().size(); at = end + 1) {
       end = std::min(file_.text().find('\n', at), file_.text().size());
@@ -123,8 +123,8 @@ class Writer {
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       if (written.contains(keys_[k].Scalar())) continue;
       const auto first = static_cast<std::size_t>(keys_[k].Mark().line);
-      auto last = k + 1 < keys_.size() ? static_cast<std::size_t>(keys_[k + 1].Mark().line)
-                                       : lines.size();
+      auto last =
+          k + 1 < keys_.size() ? static_cast<std::size_t>(keys_[k + 1].Mark().line) : lines.size();
       while (last > first && (lines[last - 1].empty() || lines[last - 1].front() == '#')) --last;
       for (std::size_t at = first; at < last; ++at) text_ += lines[at] + "\n";
     }

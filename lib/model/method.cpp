@@ -8,8 +8,8 @@ namespace gainsmith::model {
 
 const std::vector<std::string>& tasks() {
   static const std::vector<std::string> kTasks = {
-      "state feedback", "observers",         "output feedback", "nonlinear plants",
-      "analysis",       "sampled data",      "switched plants", "hybrid plants"};
+      "state feedback", "observers",    "output feedback", "nonlinear plants",
+      "analysis",       "sampled data", "switched plants", "hybrid plants"};
   return kTasks;
 }
 

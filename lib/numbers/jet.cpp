@@ -166,33 +166,78 @@ Jet exponential(const Jet& x) {
   return out;
 }
 
-/// With D^2 the second derivative of the body in a direction of its inputs, e_j that of an element of
-/// the variable and v that in which the inputs move, column j is (D^2[e_j + v] - D^2[e_j - v])/4.
+namespace {
+
+/// D^2 of the body of a jacobian, its second derivative along straight lines through its inputs.
+class Bend {
+ public:
+  Bend(const expr::Instruction& instruction, expr::Operands<Jet> operands)
+      : evaluator_(*instruction.body), operands_(operands) {}
+
+  /// In the direction a*e_j + s*v, with e_j that of an element of the variable and v that in which
+  /// the operands move.
+  Enclosed<double> along(Eigen::Index j, double a, double s) {
+    for (std::size_t i = 0; i < operands_.size(); ++i) {
+      Jet input = constant_jet(operands_[i]->value());
+      input.order = 1;
+      input.derivatives[1] = scaled(Ball<double>{s, 0}, operands_[i]->derivative(1));
+      if (i == 0)
+        input.derivatives[1] = numbers::sum(input.derivatives[1], exactly<double>(a * unit(j)));
+      evaluator_.set(i, input);
+    }
+    return evaluator_.run().derivative(2);
+  }
+
+  /// Whether the operands move in the direction e_j.
+  bool is_along(Eigen::Index j) const {
+    for (std::size_t i = 0; i < operands_.size(); ++i) {
+      const Enclosed<double> v = operands_[i]->derivative(1);
+      const bool same = i == 0 ? v.mid == unit(j) : v.mid.isZero(0);
+      if (!same || !v.rad.isZero(0)) return false;
+    }
+    return true;
+  }
+
+ private:
+  Matrix unit(Eigen::Index j) const {
+    Matrix unit = Matrix::Zero(operands_[0]->value().rows(), operands_[0]->value().cols());
+    unit(j) = 1;
+    return unit;
+  }
+
+  expr::Evaluator<JetAlgebra> evaluator_;
+  expr::Operands<Jet> operands_;
+};
+
+/// The power of two nearest to sqrt(s/a), within 2^-20 and 2^20.
+double balance(double a, double s) {
+  constexpr double kMost = 0x1p20;
+  if (!(a > 0)) return s > 0 ? kMost : 1;
+  const double ratio = std::sqrt(s / a);
+  if (!std::isfinite(ratio)) return 1;
+  return std::exp2(std::round(std::log2(std::clamp(ratio, 1 / kMost, kMost))));
+}
+
+}  // namespace
+
+/// Column j is D^2(e_j, v) = (D^2[a e_j + v] - D^2[a e_j - v])/(4 a). What D^2[e_j] and D^2[v] are
+/// uncertain by does not cancel; a makes the sum of both small.
 Enclosed<double> slope_of_jacobian(const expr::Instruction& instruction,
                                    expr::Operands<Jet> operands) {
-  expr::Evaluator<JetAlgebra> evaluator(*instruction.body);
-  const auto bend = [&](Eigen::Index j, bool forward) {
-    for (std::size_t i = 0; i < operands.size(); ++i) {
-      Jet input = constant_jet(operands[i]->value());
-      input.order = 1;
-      input.derivatives[1] = operands[i]->derivative(1);
-      if (!forward) input.derivatives[1] = negative(input.derivatives[1]);
-      if (i == 0) {
-        Matrix unit = Matrix::Zero(input.value().rows(), input.value().cols());
-        unit(j) = 1;
-        input.derivatives[1] = numbers::sum(input.derivatives[1], exactly<double>(unit));
-      }
-      evaluator.set(i, input);
-    }
-    return evaluator.run().derivative(2);
+  Bend bend(instruction, operands);
+  const auto column = [&](Eigen::Index j) {
+    const Enclosed<double> own = bend.along(j, 1, 0);
+    if (bend.is_along(j)) return own;
+    const double a = balance(own.rad.maxCoeff(), bend.along(j, 0, 1).rad.maxCoeff());
+    return scaled(Ball<double>{0.25 / a, 0}, difference(bend.along(j, a, 1), bend.along(j, a, -1)));
   };
   Enclosed<double> result =
       exactly<double>(Matrix::Zero(instruction.shape.rows, instruction.shape.cols));
+  if (instruction.shape.rows == 0) return result;
   for (Eigen::Index j = 0; j < operands[0]->value().mid.size(); ++j) {
-    const Enclosed<double> column =
-        scaled(Ball<double>{0.25, 0}, difference(bend(j, true), bend(j, false)));
-    result.mid.col(j) = column.mid.reshaped();
-    result.rad.col(j) = column.rad.reshaped();
+    const Enclosed<double> found = column(j);
+    result.mid.col(j) = found.mid.reshaped();
+    result.rad.col(j) = found.rad.reshaped();
   }
   return result;
 }

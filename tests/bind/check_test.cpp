@@ -24,7 +24,7 @@ TEST(Check, MistakesInTheMethodAreFound) {
   const std::vector<Slip> slips = {{"He(P*A) + f", "He(P*b) + f", "square"},
                                    {"+ f(tau)*Q < g*I", "+ f(tau)*Q", "expected a comparison"},
                                    {"f(tau)*Q", "f(teu)*Q", "did you mean 'tau'?"},
-                                   {"[0, T2]\"", "[0, b]\"", "expected 1 x 1"},
+                                   {"[0, T2]\"", "[0, b']\"", "columns of one length"},
                                    {"minimize: g", "minimize: P", "expected 1 x 1"},
                                    {"minimize: g", "minimize: z", "unknown name 'z'"},
                                    {"K: b'*P", "K: b'*Q*q", "unknown name 'q'"},

@@ -12,7 +12,8 @@ namespace {
 
 std::vector<std::string> method_names() {
   std::vector<std::string> names;
-  for (const auto& method : gainsmith({"methods", "--json"}).json()) names.push_back(method["method"]);
+  for (const auto& method : gainsmith({"methods", "--json"}).json())
+    names.push_back(method["method"]);
   return names;
 }
 

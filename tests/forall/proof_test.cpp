@@ -82,7 +82,8 @@ TEST(ProofTest, Jacobians) {
   const Domain box = {interval("t", -1, 1), interval("u", -1, 1)};
   expect_fails("jacobian(t^3*u^2 + 0.001*t, t) - 0.002", box);
   for (const std::string text :
-       {"jacobian(sin(t)*cos(u) + t^3*u^2, t) + 1e-2", "jacobian(t^3/(2 + cos(t*u)), t) + 1e-2"}) {
+       {"jacobian(sin(t)*cos(u) + t^3*u^2, t) + 1e-2", "jacobian(t^3/(2 + cos(t*u)), t) + 1e-2",
+        "jacobian(sin(t) + 30*u, t) - 0.5"}) {
     const DomainProof proof = prove(text, box);
     EXPECT_EQ(proof.status, Status::holds) << text << ": " << proof.where << " " << proof.reason;
     EXPECT_LE(proof.pieces, 1000U) << text;

@@ -206,7 +206,8 @@ TEST(Mistakes, InAMethodOfTheLibraryAreShownInItsText) {
 
 TEST(Method, ATaskIsOneOfThoseThatAreListed) {
   const auto method = [](const std::string& task) {
-    return replaced(kMethod, "method: small\n", "method: small\ntask: " + task + "\nexample: a/b\n");
+    return replaced(kMethod, "method: small\n",
+                    "method: small\ntask: " + task + "\nexample: a/b\n");
   };
   EXPECT_EQ(parse_method(method("observers"), "m.yaml").task, "observers");
   EXPECT_EQ(parse_method(method("observers"), "m.yaml").example, "a/b");
