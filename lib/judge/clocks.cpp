@@ -81,7 +81,7 @@ void EventClock::jumped(std::size_t part, double t, const Eigen::VectorXd& after
   if (left_of_ && unseen_) {
     unseen_ = false;
     next_ = t + left(after);
-    const double rounding = time_rounding(texts_.high, texts_.high);
+    const double rounding = time_rounding(next_, texts_.high);
     if (!(texts_.low - rounding <= left(after) && left(after) <= texts_.high + rounding))
       faults_.add(part, t, "the length of the clock is not in its range: " + name_, left(after),
                   left(after) < texts_.low ? texts_.low : texts_.high);
