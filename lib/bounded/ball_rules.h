@@ -319,7 +319,8 @@ struct BallRules {
     numbers::Real<Scalar>{}.apply(at.instruction, operands, result);
     out.mid = result;
     const bool vector = at[0].mid.rows() == 1 || at[0].mid.cols() == 1;
-    const double rounding = (vector ? 1 : kFactorOfSvd) * (static_cast<double>(at[0].mid.size()) + 4);
+    const double rounding =
+        (vector ? 1 : kFactorOfSvd) * (static_cast<double>(at[0].mid.size()) + 4);
     out.rad = Matrix::Constant(1, 1, at[0].rad.norm() + rounding * unit * size_of(result(0)));
   }
   void operator()(Is<Op::inverse>, const At& at, Value& out) const {

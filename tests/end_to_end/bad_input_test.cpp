@@ -142,7 +142,7 @@ TEST(BadInputTest, GainFilesThatSayWhatNoProgramWrote) {
   const auto with = [&](const std::string& key) {
     return refusal("{" + key + "," + text.substr(1));
   };
-  EXPECT_NE(with("\"verdict\": \"no\"").find("edited.json:4:3: the key 'verdict' is given twice),
+  EXPECT_NE(with("\"verdict\": \"no\"").find("edited.json:4:3: the key 'verdict' is given twice"),
             std::string::npos);
   EXPECT_NE(with("\"comment\": 1").find("edited.json:1:2: unknown key 'comment'"),
             std::string::npos);

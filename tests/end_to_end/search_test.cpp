@@ -117,7 +117,7 @@ TEST(BisectTest, WrongCommandLinesAreNamed) {
       {{"scan", file, "--over", "T2=1:2:0"}, "number of points"},
       {{"scan", file, "--over", "T2=1:2:3:logg"}, "did you mean 'log'?"},
       {{"scan", file, "--over", "T2=0:2:3:log"}, "above 0"},
-      {{"scan", file, "--over", "T2=1:2", "--over", "T2=1:2"}, "is given twice},
+      {{"scan", file, "--over", "T2=1:2", "--over", "T2=1:2"}, "is given twice"},
       {{"scan", file, "--over", "delta=1:2:5000", "--over", "eta=1:2:5000"}, "1e7"},
       {{"optimize", file}, "nothing to optimise over"},
       {{"optimize", file, "--over", "dleta=1:2"}, "did you mean 'delta'?"},

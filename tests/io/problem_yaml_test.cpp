@@ -114,7 +114,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Mistake{"verdict:", "verdct:", 22, 3, "did you mean 'verdict'?"},
                     Mistake{"relative:", "realtive:", 27, 29, "did you mean 'relative'?"},
                     Mistake{"seed: 3", "runs: 3", 13, 3, "is given twice; first in line 12"},
-                    Mistake{"    zh:", "    z:", 19, 5, "is given twice}));
+                    Mistake{"    zh:", "    z:", 19, 5, "is given twice"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Values, BrokenProblem,
