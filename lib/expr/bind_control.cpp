@@ -28,29 +28,32 @@ int unstacked(const Emitter& make, int v, int n) {
   return make.blocks(std::move(columns), n);
 }
 
+/// n x n blocks entry(i, j).
+template <class Entry>
+int square_of_blocks(const Emitter& make, int n, const Entry& entry) {
+  std::vector<int> entries;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) entries.push_back(entry(i, j));
+  return make.blocks(std::move(entries), n);
+}
+
 /// X -> A X + X A' on the columns of X above each other: blocks A_ij I, and A on the diagonal.
 int continuous_operator(const Emitter& make, int a) {
   const int n = make.shape(a).rows;
-  std::vector<int> entries;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const int multiple = make.identity(make.element(a, i, j), n);
-      entries.push_back(i == j ? make.add(multiple, a) : multiple);
-    }
-  return make.blocks(std::move(entries), n);
+  return square_of_blocks(make, n, [&](int i, int j) {
+    const int multiple = make.identity(make.element(a, i, j), n);
+    return i == j ? make.add(multiple, a) : multiple;
+  });
 }
 
 /// X -> A X A' - X: blocks A_ij A, less I on the diagonal.
 int discrete_operator(const Emitter& make, int a) {
   const int n = make.shape(a).rows;
   const int one = make.identity(make.number("1"), n);
-  std::vector<int> entries;
-  for (int i = 0; i < n; ++i)
-    for (int j = 0; j < n; ++j) {
-      const int multiple = make.scale(make.element(a, i, j), a);
-      entries.push_back(i == j ? make.subtract(multiple, one) : multiple);
-    }
-  return make.blocks(std::move(entries), n);
+  return square_of_blocks(make, n, [&](int i, int j) {
+    const int multiple = make.scale(make.element(a, i, j), a);
+    return i == j ? make.subtract(multiple, one) : multiple;
+  });
 }
 
 }  // namespace
