@@ -60,7 +60,7 @@ TEST(FunctionData, HaveDefaults) {
 }
 
 TEST(FunctionData, WhatDoesNotFitIsSaid) {
-  const std::string low = "  low: [-1, -2]\n  R: 1\n";
+  const std::string low = "  low: [-1, -2]\n  R: I\n";
   expect_message(low,
                  "the datum f(x, u) (n; x: n; u: scalar) of the method m is missing under 'data'");
   expect_message(low + "  f: 2\n",
