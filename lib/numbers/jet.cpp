@@ -172,18 +172,20 @@ namespace {
 class Bend {
  public:
   Bend(const expr::Instruction& instruction, expr::Operands<Jet> operands)
-      : evaluator_(*instruction.body), operands_(operands) {}
+      : evaluator_(*instruction.body), operands_(operands), inputs_(operands.size()) {
+    for (std::size_t i = 0; i < inputs_.size(); ++i) evaluator_.set(i, inputs_[i]);
+  }
 
   /// In the direction a*e_j + s*v, with e_j that of an element of the variable and v that in which
   /// the operands move.
   Enclosed<double> along(Eigen::Index j, double a, double s) {
     for (std::size_t i = 0; i < operands_.size(); ++i) {
-      Jet input = constant_jet(operands_[i]->value());
+      Jet& input = inputs_[i];
+      input = constant_jet(operands_[i]->value());
       input.order = 1;
       input.derivatives[1] = scaled(Ball<double>{s, 0}, operands_[i]->derivative(1));
       if (i == 0)
         input.derivatives[1] = numbers::sum(input.derivatives[1], exactly<double>(a * unit(j)));
-      evaluator_.set(i, input);
     }
     return evaluator_.run().derivative(2);
   }
@@ -207,6 +209,7 @@ class Bend {
 
   expr::Evaluator<JetAlgebra> evaluator_;
   expr::Operands<Jet> operands_;
+  std::vector<Jet> inputs_;  ///< the evaluator reads them where they stand
 };
 
 /// The power of two nearest to sqrt(s/a), within 2^-20 and 2^20.

@@ -60,13 +60,14 @@ TEST(FunctionData, HaveDefaults) {
 }
 
 TEST(FunctionData, WhatDoesNotFitIsSaid) {
-  const std::string low = "  low: [-1, -2]\n  R: 1\n";
+  const std::string low = "  low: [-1, -2]\n  R: I\n";
   expect_message(low,
                  "the datum f(x, u) (n; x: n; u: scalar) of the method m is missing under 'data'");
   expect_message(low + "  f: 2\n",
                  "test.yaml:14:3: the datum f(x, u) (n; x: n; u: scalar) is a function");
   expect_message(low + "  f(x): x\n", "test.yaml:14:3: f has 2 arguments: f(x, u)");
-  expect_message(low + "  f(x, u): \"[x; 1]\"\n", "test.yaml:14:13: the values of f(x, u)");
+  expect_message(low + "  f(x, u): \"[x; 1]\"\n",
+                 "test.yaml:14:13: [x; 1] (3 x 1) has the wrong shape: expected 2 x 1");
   expect_message(low + "  f(x, u): A*x\n", "unknown name 'A'");
   expect_message(low + "  g(x): x\n  f(x, u): x\n", "the method m has no datum 'g'");
   expect_message("  low(x): x\n  f(x, u): x\n", "the datum low is declared n; found a function");
