@@ -21,6 +21,7 @@ std::optional<Whole> digits_only(const std::string& text) {
 std::optional<std::uint64_t> parse_whole(const std::string& text) {
   const std::size_t mark = text.find_first_of("eE");
   std::string digits = text.substr(0, mark);
+  if (digits.empty()) return std::nullopt;
   // A larger exponent fits no number but 0.
   int exponent = 0;
   if (mark != std::string::npos) {

@@ -55,7 +55,7 @@ TEST(Refusal, AnUnknownThatNothingDetermines) {
   const InputError unused =
       refusal("unknowns: {P: symmetric n, X: n x m, g: scalar}", "K: b'*P, A: A");
   EXPECT_EQ(unused.place().line, 13) << unused.what();
-  EXPECT_NE(unused.message().find("unknown X stands in no inequality"), std::string::npos);
+  EXPECT_NE(unused.message().find("unknown X is used by no inequality"), std::string::npos);
   const InputError gain =
       refusal("unknowns: {P: symmetric n, X: n x m, g: scalar}", "K: b'*P, A: A, F: X");
   EXPECT_NE(gain.message().find("the gain F needs it"), std::string::npos) << gain.what();

@@ -262,7 +262,7 @@ TEST(ConvexFunctions, MistakesAreNamed) {
       input_error([&] {
         solve(head + "  require: {a: {forall: \"t in [0, 1]\", that: norm(X) + s <= t}}\n", data);
       }).message();
-  EXPECT_NE(quantified.find("stands alone on its side"), std::string::npos) << quantified;
+  EXPECT_NE(quantified.find("must be alone on its side"), std::string::npos) << quantified;
 }
 
 }  // namespace

@@ -113,8 +113,8 @@ TEST(FirstSteps, WhatNeverHappensIsNamed) {
   EXPECT_FALSE(has(verify.out, "'sample' never happens")) << verify.out;
   const Outcome simulate = gainsmith({"simulate", file, "-o", folder.path("r.csv")});
   EXPECT_EQ(simulate.exit, 0);
-  EXPECT_TRUE(has(simulate.err, idle)) << simulate.err;
-  EXPECT_TRUE(has(simulate.err, "note: the event 'far' never happens in this run")) << simulate.err;
+  EXPECT_TRUE(has(simulate.out, idle)) << simulate.out;
+  EXPECT_TRUE(has(simulate.out, "note: the event 'far' never happens in this run")) << simulate.out;
   const std::string late = folder.file("q.yaml", replaced(kDecay, "every: 0.5", "every: 5"));
   const Outcome check = gainsmith({"check", late});
   EXPECT_EQ(check.exit, 0);

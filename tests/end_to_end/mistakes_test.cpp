@@ -102,7 +102,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{&kDesign, "gain_bound: 100", "gain_bound: big", 15, 25,
                 "expected a number, found 'big'"},
         Mistake{&kDesign, "    decay:", "    positive: P > 2*I\n    decay:", 9, 5,
-                "stands twice; first in line 8"}));
+                "is given twice; first in line 8"}));
 
 INSTANTIATE_TEST_SUITE_P(
     Runs, Mistakes,

@@ -26,7 +26,7 @@ TEST(YamlErrors, ATabInTheIndentation) {
 
 TEST(YamlErrors, AFormulaThatMustBeQuoted) {
   expect("a:\n  b: *x\n", 2, 6, "begins with '*' must be quoted");
-  expect("a: [He(P*A), B; *, I]\n", 1, 4, "begins with '[' must be quoted");
+  expect("a: [P, *, I] > 0\n", 1, 4, "begins with '[' must be quoted");
   expect("a: *\n", 1, 4, "begins with '*' must be quoted");
   expect("a: {b: 1, c: *x}\n", 1, 14, "begins with '*' must be quoted");
   expect("a: &\nb: &\n", 1, 4, "begins with '&' must be quoted");
