@@ -190,7 +190,11 @@ Program absolute_terms(Program program) {
 Breaks::Breaks(const Program& program, const StateLayout& layout, const numbers::Values& constants,
                const std::function<bool(const std::string&)>& moves) {
   for (expr::Branch& text : expr::branches_of(program, moves)) {
-    auto terms = std::make_unique<const Program>(absolute_terms(text.difference));
+    Program terms_of = text.difference;
+    // A sine rounds as its argument does.
+    if (text.waves)
+      terms_of.result = terms_of.code[static_cast<std::size_t>(terms_of.result)].operands[0];
+    auto terms = std::make_unique<const Program>(absolute_terms(std::move(terms_of)));
     auto own = std::make_unique<const Program>(std::move(text.difference));
     PointFunction value(*own, layout, constants);
     PointFunction sizes(*terms, layout, constants);

@@ -25,8 +25,6 @@ constexpr std::array<double, 2> check_points = {-0.617, 0.443};
 constexpr double unit = std::numeric_limits<double>::epsilon();
 /// After them an interval is a rounding of itself.
 constexpr int most_halvings = 60;
-/// So many intervals that end there are no corners.
-constexpr int most_rough = 100;
 
 /// sum_k |c_k|, k > 0.
 double swing(const Matrix& c) { return c.rightCols(c.cols() - 1).cwiseAbs().sum(); }
@@ -58,7 +56,8 @@ class RootSearch {
 
   /// Roots of g on [a, b].
   void interval(double a, double b, int halvings) {
-    if (++intervals_ > kPatience || rough_ > most_rough) {
+    points_ += degree + 1;
+    if (points_ > kPatience) {
       found_.whole = false;
       between(a, b);
       return;
@@ -73,7 +72,6 @@ class RootSearch {
     const double largest = values.cwiseAbs().maxCoeff();
     if (halvings == 0) scale_ = largest;
     const bool short_enough = b - a <= 4 * resolution(a, b) || halvings >= most_halvings;
-    rough_ += short_enough ? 1 : 0;
     if (largest <= function_.noise || short_enough) {
       by_sides(times);
       return;
@@ -162,8 +160,7 @@ class RootSearch {
   const RootFunction& function_;
   double from_, to_;
   double scale_ = 0;  ///< the largest |g| on the step
-  int intervals_ = 0;
-  int rough_ = 0;  ///< of them those that end at rounding
+  int points_ = 0;      ///< of all intervals
   Found found_;
 };
 

@@ -38,8 +38,7 @@ struct RootFunction {
 };
 
 struct Found {
-  /// False: there may be more, as so many parts have not sufficed or g changes with every rounding
-  /// of t.
+  /// False: there may be more, for which kPatience points have not sufficed.
   bool whole = true;
   std::vector<Root> roots;  ///< in rising order
   std::vector<TurningPoint> turning_points;

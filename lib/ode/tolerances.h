@@ -14,7 +14,7 @@ constexpr double kTurnsNear = 1e-10;  ///< of the largest value on a step
 ///< | turning points as near to 0 as that are reported
 ///< | Roots.WhatComesNearWithoutReachingIsNoted
 constexpr int kPatience = 10000;  ///< attempts at one place
-///< | parts of a step for the roots of a function, steps of one flow, steps that hardly advance,
+///< | points of a function on a step, steps of one flow, steps that hardly advance,
 ///< draws: more are not made
 ///< | Roots.OfMoreThanCanBeSearchedNotAllAreSought
 constexpr double kEscape = 1e4;  ///< times the start, and what the flow does at its first rate
