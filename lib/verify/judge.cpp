@@ -117,7 +117,7 @@ RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
   if (events_) {
     constexpr double sharper = kAccuracyOfOne / kAccuracyOfMany;
     RunVerdict verdict = last_verdict(events_->run(seed, run, sharper), checks_);
-    if (verdict.judgement != claims::Judgement::undecided || verdict.unfinished() ||
+    if (verdict.judgement != claims::Judgement::undecided ||
         !events_->can_decide_more(sharper * sharper))
       return verdict;
     return with_decided(verdict,

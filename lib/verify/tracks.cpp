@@ -270,6 +270,7 @@ void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory
   const bool same = certain && coarse.ending == fine.ending &&
                     std::abs(coarse.end - fine.end) <= claims::kInstantOfRun * fine.end;
   const bool complete = is_complete(fine.ending);
+  ended_early_ = same && !complete;
   const bool breaks = fine.ending == Ending::escaped || fine.ending == Ending::undefined ||
                       fine.ending == Ending::stuck;
   if (same && complete) {
@@ -287,7 +288,7 @@ void EventTracks::end(const hybrid::Trajectory& coarse, const hybrid::Trajectory
 }
 
 bool EventTracks::can_decide_more(double factor) const {
-  return !setup_->system.affine &&
+  return !setup_->system.affine && !ended_early_ &&
          setup_->accuracy(kAccuracyOfMany, factor).relative > ode::kFinest &&
          std::find(parted_.begin(), parted_.end(), 1) == parted_.end();
 }

@@ -40,7 +40,7 @@ class EventTracks {
   const bounded::Track<double>& run(std::uint64_t seed, std::uint64_t run, double factor);
 
   /// Whether a smaller factor may decide what the last run left open: its two runs differ by errors
-  /// of integration, and have not parted.
+  /// of integration, and have not parted. Two runs that end early alike do so at any accuracy.
   bool can_decide_more(double factor) const;
 
  private:
@@ -81,6 +81,7 @@ class EventTracks {
   std::vector<Range> ranges_;  ///< by function
   std::vector<double> sizes_;  ///< by claim, at its first function: of values and their terms
   std::vector<char> parted_;   ///< the same: whether the two runs have
+  bool ended_early_ = false;   ///< the last run, both times alike, before its horizon
   std::size_t next_turn_ = 0;  ///< of the turning points of the twin
   std::string doubt_;          ///< why the run is lost
   double rounded_ = 0;         ///< steps and jumps so far
