@@ -116,6 +116,9 @@ ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std:
 }
 
 ExitCode simulate(const SimulateOptions& options) {
+  if (!options.plot.empty() && !options.plot.ends_with(".svg"))
+    throw InputError({"--plot"}, "a picture is written as SVG: expected a name that ends with "
+                                 "'.svg', not '" + options.plot + "'");
   prepare_outputs(options.gains, {options.output, options.plot});
   const LoadedGains loaded = load_run(options.gains);
   const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);

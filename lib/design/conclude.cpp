@@ -120,15 +120,16 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
     if (!(largest <= bounds.beta) && climb.posed().choices().gain_bound_stated) {
       gains.verdict = model::Verdict::undecided;
       gains.bound_only = largest;
+      gains.objective_lower_bound.reset();  // it is that of the inequalities without the bound
       gains.solver.add_message(climb.posed().choices().gain_bounds.empty()
                                    ? "no gains were found under the gain bound " + brief(bounds.beta) +
-                                         ", whose condition is sufficient only; there are gains "
-                                         "that need a bound of " + brief(largest, 2) +
-                                         ": raise synthesis.gain_bound"
+                                         ", whose condition is sufficient only; the gains that were found "
+                                         "without it need a bound of " + brief(largest, 2) +
+                                         ", a smaller one may do: raise synthesis.gain_bound"
                                    : "no gains were found under the gain bounds, whose conditions are "
-                                     "sufficient only; there are gains that need " +
+                                     "sufficient only; the gains that were found without them need " +
                                          brief(largest / bounds.beta, 2) +
-                                         " times the bounds: raise synthesis.gain_bound");
+                                         " times the bounds, less may do: raise synthesis.gain_bound");
       return;
     }
     if (!(point.reached_gain <= bounds.beta))

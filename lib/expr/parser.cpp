@@ -51,14 +51,22 @@ class Parser : TokenCursor {
  public:
   using TokenCursor::TokenCursor;
 
-  NodePtr whole() {
+  NodePtr whole() { return to_end(&Parser::condition); }
+
+  NodePtr whole_element() { return to_end(&Parser::element); }
+
+ private:
+  NodePtr element() { return sum(true); }
+
+  NodePtr to_end(NodePtr (Parser::*read)()) {
     if (peek() == TokenKind::end) fail("expected an expression, found nothing");
-    NodePtr root = condition();
+    NodePtr root = (this->*read)();
     refuse_decimal_comma();
     expect(TokenKind::end, "the end of the expression or an operator");
     return root;
   }
 
+ public:
   Signature signature() {
     Signature result;
     result.name = expect(TokenKind::name, "a name").text;
@@ -187,10 +195,23 @@ class Parser : TokenCursor {
     return node;
   }
 
-  NodePtr sum() {
+  /// "1 -1" in a block is two elements in MATLAB: it is refused, and so is no other spacing.
+  void refuse_tight_sign() const {
+    const Token& sign = here();
+    if (sign.kind != TokenKind::plus && sign.kind != TokenKind::minus) return;
+    const Token& after = here(1);
+    const bool operand = after.kind != TokenKind::close_bracket && after.kind != TokenKind::end;
+    if (operand && after.begin == sign.end && text()->str()[sign.begin - 1] == ' ')
+      fail("a comma is missing before '" + sign.text + "', or a space behind it: write [a, " +
+           sign.text + "b] for two elements, [a " + sign.text + " b] for one");
+  }
+
+  /// `element`: of a block.
+  NodePtr sum(bool element = false) {
     const std::size_t begin = here().begin;
     NodePtr left = term();
     for (;;) {
+      if (element) refuse_tight_sign();
       if (accept(TokenKind::plus)) {
         NodePtr right = term();
         left = make(NodeKind::add, begin, {left, right});
@@ -364,7 +385,7 @@ class Parser : TokenCursor {
       const std::size_t begin = next().begin;
       return make(NodeKind::mirror, begin, {});
     }
-    return sum();
+    return element();
   }
 
   int depth_ = 0;
@@ -376,6 +397,13 @@ Expression parse(Text text) {
   count_parsed();
   auto shared = std::make_shared<const Text>(std::move(text));
   NodePtr root = Parser(shared).whole();
+  return {shared, root};
+}
+
+Expression parse_element(Text text) {
+  count_parsed();
+  auto shared = std::make_shared<const Text>(std::move(text));
+  NodePtr root = Parser(shared).whole_element();
   return {shared, root};
 }
 

@@ -25,6 +25,9 @@ namespace gainsmith::expr {
 /// expected there.
 Expression parse(Text text);
 
+/// The same of one element of a matrix: "1 -1", two elements in MATLAB, is refused.
+Expression parse_element(Text text);
+
 /// "i in 1..N": whole numbers that count the members of a family.
 struct Index {
   std::string name;

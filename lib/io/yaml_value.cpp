@@ -32,7 +32,7 @@ void add_scalar(const YamlFile& file, const YAML::Node& node, const std::string&
   if (part.str().find(';') != std::string::npos && !is_quoted_matrix(node))
     throw InputError(file.place(node),
                      what + ": a matrix with ';' must be quoted: \"[a, b; c, d]\"");
-  expr::parse(part);
+  expr::parse_element(part);
   composer.bracketed(part);
 }
 

@@ -266,8 +266,11 @@ TEST(Attempts, BoundsOnGainsMustNotDecide) {
   EXPECT_EQ(beyond.asked[2].blocks.size(), 1U);
   EXPECT_EQ(beyond.gains.verdict, Verdict::undecided);
   EXPECT_EQ(beyond.gains.bound_only, 16);
-  EXPECT_TRUE(beyond.says("no gains were found under the gain bound 10, whose condition is sufficient only; there are gains that need a bound of 16"))
+  EXPECT_TRUE(beyond.says("no gains were found under the gain bound 10, whose condition is "
+                          "sufficient only; the gains that were found without it need a bound of "
+                          "16"))
       << beyond.message();
+  EXPECT_FALSE(beyond.gains.objective_lower_bound) << "that of the inequalities without the bound";
   EXPECT_FALSE(beyond.gains.certificate);
   // Found without the bound, but within it.
   const Case low(kFreeGain);

@@ -193,6 +193,39 @@ TEST(FirstSteps, EqualNamesInPlantAndObserverAreShownAtBothPlaces) {
       << outcome.err;
 }
 
+TEST(FirstSteps, AMissingCommaBeforeASignIsSeen) {
+  const Folder folder;
+  for (const char* written : {"A: \"[1 -1; 2 -1]\"", "A: [[-1 -2, 1], [0, -3]]"}) {
+    const Outcome outcome =
+        gainsmith({"synth", folder.file("p.yaml", "problem: p\nmethod: {data: {A: n x k}, report: "
+                                                  "{a: A}}\ndata:\n  " +
+                                                      std::string(written) + "\n")});
+    EXPECT_EQ(outcome.exit, 2) << written;
+    EXPECT_TRUE(has(outcome.err, "a comma is missing before '-'")) << outcome.err;
+  }
+}
+
+TEST(FirstSteps, AGainBeyondItsStatedBoundIsNamed) {
+  const Folder folder;
+  const std::string file = folder.file(
+      "p.yaml",
+      "problem: p\nmethod:\n  unknowns: {P: symmetric 2, g: scalar}\n  require: {p: P > I, g: "
+      "g > 20}\n  minimize: trace(P) + g\n  gains: {K: g^2*inv(P)}\nsynthesis: {gain_bound: "
+      "100}\n");
+  const Outcome outcome = gainsmith({"synth", file});
+  EXPECT_TRUE(has(outcome.out, "the gain K has the norm 400, beyond the gain bound 100"))
+      << outcome.out << outcome.err;
+}
+
+TEST(FirstSteps, APictureIsSvgByItsName) {
+  const Folder folder;
+  const Outcome outcome = gainsmith(
+      {"simulate", folder.file("p.yaml", kDecay), "--plot", folder.path("run.png")});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_TRUE(has(outcome.err, "expected a name that ends with '.svg'")) << outcome.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path("run.png")));
+}
+
 TEST(FirstSteps, FoldersOfOutputsAreMade) {
   const Folder folder;
   const std::string file = folder.file("p.yaml", kDecay);

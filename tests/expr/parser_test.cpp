@@ -130,6 +130,17 @@ TEST(Parser, CallsIndicesAndRanges) {
   EXPECT_EQ(tree("where(a > b, x, y)"), "(where() (compare a > b) x y)");
 }
 
+TEST(Parser, ATightSignAfterASpaceIsNoDifferenceInABlock) {
+  for (const char* text : {"[1 -1; 2, 3]", "[a +b]", "[f(x) -1]"})
+    EXPECT_NE(input_error([&] { parse({text, "f"}); }).message().find("a comma is missing before"),
+              std::string::npos)
+        << text;
+  for (const char* text : {"[1 - 1; 2]", "[1-1]", "[1, -1]", "[(a -b)]", "[f(a -b)]", "[1 -\n1]", "a -b"})
+    EXPECT_NO_THROW(parse({text, "f"})) << text;
+  EXPECT_NE(input_error([&] { parse_element({"-1 -2", "f"}); }).message().find("a comma is missing"),
+            std::string::npos);
+}
+
 TEST(Parser, BlocksNestAndMirror) {
   EXPECT_EQ(tree("[a, b; *, c]"), "(block2 a b * c)");
   EXPECT_EQ(tree("[a*b, *; c, *]"), "(block2 (* a b) * c *)");
