@@ -54,10 +54,10 @@ CostIntegrals::CostIntegrals(const std::vector<FlowCost>& costs, const hybrid::S
 }
 
 void CostIntegrals::add_to(std::vector<DenseStep>& steps, Integral& integral, bool moved) {
-  constexpr double kAgreement = 1e-12;
+  constexpr double agreement = 1e-12;
   std::vector<DenseStep> all;
   for (DenseStep& step : steps) {
-    std::vector<SmoothPart> parts = smooth_parts(integral.rate, step, nullptr, kAgreement);
+    std::vector<SmoothPart> parts = smooth_parts(integral.rate, step, nullptr, agreement);
     // Breaks lie between two numbers that are next to each other.
     for (std::size_t k = 0; k + 1 < parts.size(); ++k) parts[k].to = parts[k + 1].from;
     parts.back().to = step.to;

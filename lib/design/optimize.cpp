@@ -135,12 +135,12 @@ class OuterSearch {
   /// How far a point is from feasible: the smallest sum of slacks. Infinite where the values are
   /// refused or the slacks are not decided.
   double violation(const ByInequality& scales, const search::Point& point) const {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    constexpr double none = std::numeric_limits<double>::infinity();
     try {
       const auto plain = without_gains(bind::evaluate(own_.design, at_easy_end(point)));
-      return estimated_violation(plain, scales, solver_).value_or(kInfinity);
+      return estimated_violation(plain, scales, solver_).value_or(none);
     } catch (const InputError&) {
-      return kInfinity;
+      return none;
     }
   }
 
