@@ -37,10 +37,12 @@ std::string test_case(const JobResult& result) {
                   escaped(result.name), result.seconds);
   if (result.exit == ExitCode::yes) return text + "/>\n";
   const std::string element = result.exit == ExitCode::no ? "failure" : "error";
+  const std::string& cause =
+      result.differences.empty() ? result.line : result.differences.front();
   std::string details = result.line;
   for (const std::string& difference : result.differences) details += "\n" + difference;
   return text + fmt::format(">\n      <{0} message=\"{1}\">{2}</{0}>\n    </testcase>\n", element,
-                            escaped(mark_of(result.exit)), escaped(details));
+                            escaped(mark_of(result.exit) + ": " + cause), escaped(details));
 }
 
 }  // namespace

@@ -89,6 +89,21 @@ void add_rates(Binding& binding) {
   for (const model::Component& observer : binding.method().observers) add_flows(observer);
 }
 
+/// What the method asks to be shown, and the problem besides.
+void bind_report(Binding& binding, const expr::Scope& scope) {
+  std::vector<model::NamedFormula>& report = binding.design->report;
+  report = named(binding.method().report, scope);
+  for (model::NamedFormula& shown : named(binding.problem().report, scope)) {
+    for (const model::NamedFormula& known : report)
+      if (known.name == shown.name)
+        throw InputError(shown.place, "report: '" + shown.name +
+                                          "' is in the report of the method; choose another name");
+    report.push_back(std::move(shown));
+  }
+  for (const model::NamedFormula& shown : report)
+    note_estimate(*binding.design, shown.name, shown.value.program);
+}
+
 /// Plant, observers and events; outputs and signals by the names under which they are shown.
 void bind_dynamics(Binding& binding) {
   expr::Scope& scope = binding.names->running;
@@ -121,9 +136,7 @@ void bind_dynamics(Binding& binding) {
       scope.definitions[name] = {{}, reading.texts.front()};
       dynamics.signals.push_back({name, formula(reading.texts.front(), scope), std::nullopt});
     }
-  binding.design->report = named(binding.method().report, scope);
-  for (const model::NamedFormula& shown : binding.design->report)
-    note_estimate(*binding.design, shown.name, shown.value.program);
+  bind_report(binding, scope);
   binding.names->results = scope;
   binding.names->results.symbols["objective"] = {};
 }
@@ -153,9 +166,7 @@ std::size_t state_of(const model::Design& design, const std::string& name) {
 void bind_components(Binding& binding) {
   binding.dynamics_names = std::make_unique<DynamicsNames>(binding.method(), varied(binding));
   if (binding.method().has_dynamics) return bind_dynamics(binding);
-  binding.design->report = named(binding.method().report, binding.names->running);
-  for (const model::NamedFormula& shown : binding.design->report)
-    note_estimate(*binding.design, shown.name, shown.value.program);
+  bind_report(binding, binding.names->running);
 }
 
 void finish_dynamics(Binding& binding) {

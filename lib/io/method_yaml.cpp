@@ -206,6 +206,8 @@ model::Forall parse_forall(const expr::Text& text) {
   return forall;
 }
 
+constexpr const char* kOfProblem = "it belongs to the problem, beside 'method'";
+
 model::Method method_from(const YamlFile& file, const YAML::Node& node,
                           const std::string& problem) {
   YamlMap map(file, node, "method");
@@ -240,7 +242,13 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node,
   if (const auto reason = map.find("no campaign")) read_no_campaign(file, *reason, method);
   map.finish({{"maximize", "write minimize: -(...)"},
               {"maximise", "write minimize: -(...)"},
-              {"objective", "write minimize: ..."}});
+              {"objective", "write minimize: ..."},
+              {"campaign", kOfProblem},
+              {"compare", kOfProblem},
+              {"expect", kOfProblem},
+              {"negotiable", kOfProblem},
+              {"search", kOfProblem},
+              {"synthesis", kOfProblem}});
   if (method.require.empty() && !method.minimize && !method.has_dynamics && method.report.empty())
     throw InputError(map.place(), "the method '" + method.name +
                                       "' has no inequality under 'require' and no dynamics");

@@ -335,6 +335,11 @@ model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
 /// What to do with keys that stand at the wrong level.
 std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
   std::map<std::string, std::string> advice;
+  for (const char* key : {"assume", "unknowns", "require", "minimize", "gains", "plant", "observer",
+                          "observers", "events", "order", "inputs", "noise", "timer", "signals",
+                          "claims"})
+    advice[key] =
+        "it belongs to the method; 'gainsmith methods NAME' prints one, to be put under 'method'";
   for (const auto& datum : method.data) advice[datum.name] = "it belongs under 'data'";
   for (const auto& parameter : method.parameters)
     advice[parameter.name] = "it belongs under 'parameters'";
@@ -376,6 +381,8 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
   if (const auto compare = map.find("compare")) problem.compare = figures(yaml, *compare);
   for (const YamlItem& item : items_of(yaml, map.find("let"), "let"))
     problem.let.push_back(definition(yaml, item));
+  for (const YamlItem& item : items_of(yaml, map.find("report"), "report"))
+    problem.report.push_back({item.key, yaml.expression(item.value, item.key), item.place});
   for (const YamlItem& item : items_of(yaml, map.find("uncertain"), "uncertain"))
     problem.uncertain.push_back(uncertain(yaml, item));
   map.finish(advice_on_keys(*problem.method));

@@ -137,6 +137,7 @@ struct Problem {
   std::optional<Expectation> expect;
   std::vector<FigureText> compare;  ///< figures shown for all observers side by side
   std::vector<Let> let;             ///< definitions of the problem, beside those of the method
+  std::vector<Named> report;        ///< what is shown beside the method's report
   std::vector<UncertainText> uncertain;
   Questions questions;
 };

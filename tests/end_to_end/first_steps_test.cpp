@@ -217,6 +217,32 @@ TEST(FirstSteps, AGainBeyondItsStatedBoundIsNamed) {
       << outcome.out << outcome.err;
 }
 
+TEST(FirstSteps, AProblemReportsBesideItsMethod) {
+  const Folder folder;
+  const std::string text =
+      "problem: p\nmethod: lqr\ndata: {A: [[0, 1], [0, 0]], B: [[0], [1]]}\n"
+      "no campaign: a number\nreport: {riccati: \"trace(care(A, B, Q, R))\"}\n";
+  const Outcome outcome = gainsmith({"synth", folder.file("p.yaml", text)});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  EXPECT_TRUE(has(outcome.out, "riccati = 3.4641")) << outcome.out;  // 2 sqrt(3), by hand
+  EXPECT_TRUE(has(outcome.out, "poles = ")) << outcome.out;
+  const Outcome twice =
+      gainsmith({"synth", folder.file("p.yaml", replaced(text, "riccati:", "poles:"))});
+  EXPECT_EQ(twice.exit, 2);
+  EXPECT_TRUE(has(twice.err, "p.yaml:5:10: report: 'poles' is in the report of the method"))
+      << twice.err;
+}
+
+TEST(FirstSteps, KeysAtTheWrongLevelAreToldWhereTheyBelong) {
+  const Folder folder;
+  const auto said = [&](const std::string& text) {
+    return gainsmith({"check", folder.file("p.yaml", text)}).err;
+  };
+  EXPECT_TRUE(has(said(kDecay + "observers: {second: {}}\n"), "it belongs to the method"));
+  EXPECT_TRUE(has(said(replaced(kDecay, "  claims:", "  compare: []\n  claims:")),
+                  "it belongs to the problem, beside 'method'"));
+}
+
 TEST(FirstSteps, APictureIsSvgByItsName) {
   const Folder folder;
   const Outcome outcome = gainsmith(
