@@ -122,6 +122,7 @@ TEST(Problems, EveryBuiltInMethodIsUsableWithItsDefaults) {
         // With Hc = 0 flows show nothing: that is what the methods for hidden parts are for.
         text += "  " + datum.name + ": " +
                 (datum.name == "T2"       ? "2"
+                 : datum.name == "low"    ? "-1"
                  : datum.name == "Hc"     ? "0"
                  : !datum.indices.empty() ? "[[[1]], [[1]]]"
                                           : "1") +
