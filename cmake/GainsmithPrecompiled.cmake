@@ -17,6 +17,7 @@ function(gainsmith_precompiled target set)
     target_precompile_headers(${headers} PRIVATE
       <Eigen/Core> <boost/multiprecision/mpfr.hpp> <algorithm> <functional> <map> <memory> <optional> <set> <string> <vector>)
     if(set STREQUAL "tests")
+      target_compile_options(${headers} PRIVATE -O1)
       target_link_libraries(${headers} PRIVATE GTest::gtest GTest::gmock)
       target_precompile_headers(${headers} PRIVATE <gtest/gtest.h> <gmock/gmock.h> <Eigen/Dense> <random>)
     endif()

@@ -31,13 +31,14 @@ function(gainsmith_room name)
 endfunction()
 
 # gainsmith_test(NAME SOURCES a_test.cpp ... LINK target ...)
-#   The test program NAME_test; every TEST in it is a test of its own for ctest.
+#   The test program NAME_test, part of the target `tests`; every TEST in it is a test of its own for ctest.
 function(gainsmith_test name)
   cmake_parse_arguments(T "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name}_test ${T_SOURCES})
   target_include_directories(${name}_test PRIVATE "${PROJECT_SOURCE_DIR}/tests")
   target_link_libraries(${name}_test PRIVATE ${T_LINK} GTest::gtest GTest::gmock GTest::gtest_main)
   gainsmith_precompiled(${name}_test tests)
+  add_dependencies(tests ${name}_test)
   gtest_discover_tests(${name}_test TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
                        PROPERTIES TIMEOUT 600)
 endfunction()
