@@ -26,7 +26,8 @@ std::optional<std::string> scalar_of(const model::Formula& formula,
   return name;
 }
 
-/// As one word of a shell.
+}  // namespace
+
 std::string quoted(const std::string& word) {
   const bool plain = word.find_first_not_of(
                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
@@ -36,8 +37,6 @@ std::string quoted(const std::string& word) {
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
 }
-
-}  // namespace
 
 std::vector<std::string> next_commands(const model::Instance& instance, const model::Gains& gains,
                                        const std::string& file) {
