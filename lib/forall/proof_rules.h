@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -76,7 +77,7 @@ class Search {
       return halve(piece, widest(piece), kNotDecided);
     }
     const auto spread = function_.over(piece);
-    if (!spread.fault.empty()) return halve(piece, widest(piece), spread.fault);
+    if (!spread.fault.empty()) return halve(piece, most_telling(piece), spread.fault);
     const Matrix error = error_of(spread);
     if (above_sags(corners, spread) || at_corners(corners, error) ||
         (spread.value.is_known() && holds(spread.value, Matrix())))
@@ -164,7 +165,7 @@ class Search {
 
   /// The variable whose error weighs most against the first corner, among those that can be halved.
   std::size_t steepest(const Piece& piece, const typename Function<S>::Spread& spread,
-                       const std::vector<const Corner*>& corners) const {
+                       const std::vector<const Corner*>& corners) {
     std::size_t along = 0;
     double most = -1;
     const auto& B = corners.front()->value;
@@ -176,13 +177,36 @@ class Search {
       double weight = 0;
       for (Eigen::Index k = 0; k < std::min(B.rows(), spread.errors[i].rows()); ++k)
         weight += (spread.errors[i].col(k).array() / (size.array() * size[k])).sum();
-      if (!std::isfinite(weight)) return widest(piece);
+      if (!std::isfinite(weight)) return most_telling(piece);
       if (weight > most) {
         along = i;
         most = weight;
       }
     }
     return most < 0 ? widest(piece) : along;
+  }
+
+  /// Where nothing is known over the piece: the variable of which one value alone leaves least
+  /// unknown, of equal ones the widest.
+  std::size_t most_telling(const Piece& piece) {
+    std::size_t along = widest(piece);
+    if (piece.low.size() == 1) return along;
+    const auto unknown = [&](std::size_t i) {
+      Piece part = piece;
+      part.low[i] = part.high[i] = piece.low[i] + (piece.high[i] - piece.low[i]) / 2;
+      const auto spread = function_.over(part);
+      if (!spread.fault.empty()) return Eigen::Index{std::numeric_limits<Eigen::Index>::max()};
+      return spread.value.rad.size() - error_of(spread).array().isFinite().count();
+    };
+    Eigen::Index least = unknown(along);
+    for (std::size_t i = 0; i < piece.low.size(); ++i) {
+      if (!(piece.low[i] < piece.high[i])) continue;
+      const Eigen::Index left = unknown(i);
+      if (left >= least) continue;
+      along = i;
+      least = left;
+    }
+    return along;
   }
 
   /// Against the whole domain.
