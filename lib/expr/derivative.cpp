@@ -111,8 +111,11 @@ class Direction {
       }
       case Op::exp:
         return along(value, d(0), shape);
-      case Op::log:
-        return Slope{apply(Op::elementwise_quotient, {d(0).at, x(0)}, shape)};
+      case Op::log: {
+        // 1/x = exp(-log(x)): without a value where the logarithm has none.
+        const int opposite = apply(Op::negate, {value}, shape);
+        return along(apply(Op::exp, {opposite}, shape), d(0), shape);
+      }
       case Op::sqrt: {
         const int twice = apply(Op::add, {value, value}, shape);
         return Slope{apply(Op::elementwise_quotient, {d(0).at, twice}, shape)};
@@ -128,11 +131,10 @@ class Direction {
       case Op::atan2: {
         const Slope up = d(0).is_zero() ? d(0) : along(x(1), d(0), shape);
         const Slope down = d(1).is_zero() ? d(1) : along(x(0), d(1), shape);
-        const int squares =
-            apply(Op::add,
-                  {apply(Op::elementwise_power, {x(0)}, shape, {2}),
-                   apply(Op::elementwise_power, {x(1)}, shape, {2})},
-                  shape);
+        const int squares = apply(Op::add,
+                                  {apply(Op::elementwise_power, {x(0)}, shape, {2}),
+                                   apply(Op::elementwise_power, {x(1)}, shape, {2})},
+                                  shape);
         return Slope{
             apply(Op::elementwise_quotient, {difference(up, down, shape).at, squares}, shape)};
       }
@@ -146,8 +148,7 @@ class Direction {
         {op, std::move(operands), shape, attributes, {}, like_->origin, like_->offset});
   }
   int number(const std::string& decimal) {
-    return assembly_.add(
-        {Op::constant, {}, {1, 1}, {}, decimal, like_->origin, like_->offset});
+    return assembly_.add({Op::constant, {}, {1, 1}, {}, decimal, like_->origin, like_->offset});
   }
   int ones(Shape shape) {
     return shape.is_scalar() ? number("1") : apply(Op::fill, {number("1")}, shape);
@@ -198,8 +199,7 @@ class Direction {
     const int exponent = one.attributes[0];
     if (exponent == 0) return {};
     if (exponent == 1) return slope;
-    const int lower =
-        exponent == 2 ? x : apply(one.op, {x}, one.shape, {exponent - 1});
+    const int lower = exponent == 2 ? x : apply(one.op, {x}, one.shape, {exponent - 1});
     const int factor = apply(Op::scale, {number(std::to_string(exponent)), lower}, one.shape);
     return along(factor, slope, one.shape);
   }
@@ -227,7 +227,12 @@ std::optional<int> add_columns(Assembly& assembly, const Instruction& jacobian,
   }
   if (columns.size() == 1) return columns.front();
   const int count = static_cast<int>(columns.size());
-  return assembly.add({Op::blocks, std::move(columns), jacobian.shape, {count}, {}, jacobian.origin,
+  return assembly.add({Op::blocks,
+                       std::move(columns),
+                       jacobian.shape,
+                       {count},
+                       {},
+                       jacobian.origin,
                        jacobian.offset});
 }
 

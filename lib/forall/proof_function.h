@@ -11,7 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "expr/derivative.h"
 #include "expr/evaluate.h"
 #include "forall/domain.h"
 #include "numbers/definite.h"
@@ -79,16 +78,12 @@ class Function {
 
   Function(const expr::Program& program, const numbers::EnclosedValues<S>& known, bool strict,
            const std::vector<const Variable*>& axes)
-      : axes_(axes),
-        strict_(strict),
-        program_(expr::with_derivatives(program)),
-        points_(program_),
-        at_(axes.size()) {
+      : axes_(axes), strict_(strict), points_(program), at_(axes.size()) {
     for (std::size_t i = 0; i < axes.size(); ++i) {
-      along_.emplace_back(program_);
+      along_.emplace_back(program);
       variables_.emplace_back(axes.size());
     }
-    for (const expr::Input& input : program_.inputs) {
+    for (const expr::Input& input : program.inputs) {
       const auto value = known.find(input.name);
       if (value == known.end()) continue;
       points_.fix(input.name, constants_.emplace_back(value->second));
@@ -181,7 +176,6 @@ class Function {
 
   const std::vector<const Variable*>& axes_;
   bool strict_;
-  const expr::Program program_;
   expr::Evaluator<numbers::Enclosure<S>> points_;
   std::vector<Enclosed<S>> at_;
   std::deque<expr::Evaluator<numbers::JetAlgebra>> along_;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/number.h"
+#include "expr/derivative.h"
 #include "forall/proof.h"
 #include "forall/proof_function.h"
 
@@ -79,7 +80,7 @@ class Search {
     const auto spread = function_.over(piece);
     if (!spread.fault.empty()) return halve(piece, most_telling(piece), spread.fault);
     const Matrix error = error_of(spread);
-    if (above_sags(corners, spread) || at_corners(corners, error) ||
+    if (at_corners(corners, error) || above_sags(corners, spread) ||
         (spread.value.is_known() && holds(spread.value, Matrix())))
       return;
     if (piece.low.size() == 1 && error.allFinite()) return cut(piece, corners, spread, error);
@@ -97,14 +98,15 @@ class Search {
   /// 1. What a corner is nearly singular along then counts only by its own second derivative.
   bool above_sags(const std::vector<const Corner*>& corners,
                   const typename Function<S>::Spread& spread) const {
-    const std::size_t count = spread.sags.size();
-    if (count != spread.errors.size()) return false;
+    if (spread.sags.size() != spread.errors.size()) return false;
+    std::vector<Enclosed<S>> sags;
+    for (const auto& sag : spread.sags)
+      if (!sag.is_zero()) sags.push_back(numbers::converted<S>(sag));
     return std::all_of(corners.begin(), corners.end(), [&](const Corner* corner) {
-      for (std::size_t chosen = 1; chosen < (std::size_t{1} << count); ++chosen) {
+      for (std::size_t chosen = 1; chosen < (std::size_t{1} << sags.size()); ++chosen) {
         Enclosed<S> B = corner->value;
-        for (std::size_t i = 0; i < count; ++i)
-          if (((chosen >> i) & 1U) != 0)
-            B = numbers::difference(B, numbers::converted<S>(spread.sags[i]));
+        for (std::size_t i = 0; i < sags.size(); ++i)
+          if (((chosen >> i) & 1U) != 0) B = numbers::difference(B, sags[i]);
         if (!holds(B, Matrix())) return false;
       }
       return true;
@@ -304,22 +306,26 @@ DomainProof prove_on_domain(const expr::Program& difference, const Domain& domai
                             const EnclosedElements<S>& elements, const ProofOptions& options) {
   using Status = DomainProof::Status;
   DomainProof result;
-  const auto axes = intervals(domain);
+  const expr::Program program = expr::with_derivatives(difference);
+  std::vector<const Variable*> axes;
+  for (const Variable* axis : intervals(domain))
+    if (program.uses(axis->name)) axes.push_back(axis);
   proof::Piece whole;
   for (const Variable* axis : axes) {
     whole.low.push_back(axis->low);
     whole.high.push_back(axis->high);
   }
   for (const auto& choice : proof::choices(domain, known, elements)) {
-    proof::Function<S> function(difference, choice.known, strict, axes);
+    proof::Function<S> function(program, choice.known, strict, axes);
     proof::Search<S> search(function, whole, options.most_pieces - result.pieces);
     search.run();
     result.pieces += search.pieces;
     result.margin = std::min(result.margin, search.margin);
     if (search.failed) {
       Point point = choice.point;
-      for (std::size_t i = 0; i < axes.size(); ++i)
-        point = extended(point, axes[i]->name, search.failed->first[i]);
+      auto found = search.failed->first.begin();
+      for (const Variable* axis : intervals(domain))
+        point = extended(point, axis->name, program.uses(axis->name) ? *found++ : axis->low);
       result.status = Status::fails;
       result.point = std::move(point);
       result.direction = search.failed->second;
