@@ -26,6 +26,15 @@ std::optional<std::string> scalar_of(const model::Formula& formula,
   return name;
 }
 
+/// Whether an inequality holds the scalar, and not only its domain.
+bool is_compared(const model::Design& design, const std::string& scalar) {
+  return std::any_of(
+      design.inequalities.begin(), design.inequalities.end(), [&](const auto& inequality) {
+        return std::any_of(inequality.comparisons.begin(), inequality.comparisons.end(),
+                           [&](const auto& each) { return each.difference.uses(scalar); });
+      });
+}
+
 /// As one word of a shell.
 std::string quoted(const std::string& word) {
   const bool plain = word.find_first_not_of(
@@ -56,6 +65,8 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
       if (variable.over != model::Over::interval) continue;
       const auto end = scalar_of(variable.points[1], instance);
       if (!end || !ends.insert(*end).second) continue;
+      // Of an input between -limit and limit a larger limit is no harder.
+      if (variable.points[0].program.uses(*end) && is_compared(*instance.design, *end)) continue;
       const double high = instance.values.at(*end)(0, 0);
       const auto begin = scalar_of(variable.points[0], instance);
       const double low = begin ? instance.values.at(*begin)(0, 0) : kShortest * high;

@@ -180,6 +180,13 @@ void add_claims(const Replay& replay, report::Figure& figure) {
     if (!panel->curves.empty()) figure.panels.push_back(std::move(*panel));
 }
 
+/// A tick at each jump.
+void add_marks(const Replay& replay, report::Figure& figure) {
+  for (std::size_t row = 0; row < replay.events.size(); ++row)
+    if (!replay.events[row].empty())
+      figure.marks.push_back(replay.table(static_cast<Eigen::Index>(row), 0));
+}
+
 }  // namespace
 
 std::string run_figure(const std::string& title, const Replay& replay) {
@@ -189,6 +196,7 @@ std::string run_figure(const std::string& title, const Replay& replay) {
   add_states(replay, figure);
   add_errors(replay, figure);
   add_claims(replay, figure);
+  add_marks(replay, figure);
   return report::svg(figure);
 }
 

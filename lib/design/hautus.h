@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "forall/domain.h"
 #include "model/instance.h"
 #include "numbers/matrix.h"
 
@@ -26,5 +27,10 @@ std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::M
 /// The same for the data A (n x n) and C (p x n) of a design that declares them so, as a sentence;
 /// empty without one.
 std::string hidden_mode_text(const model::Instance& instance);
+
+/// The same of the plant's linearisation by its state x, where its output y = h(x) is one of the
+/// design's signals, at a point of the box x_1, x_2, ... of a domain. A search: none found does not
+/// say that there is none.
+std::string hidden_mode_text(const model::Instance& instance, const forall::Domain& domain);
 
 }  // namespace gainsmith::design

@@ -125,7 +125,7 @@ std::string EventCondition::differences(const VectorXd& values) {
     const numbers::Matrix& difference = one.function(values);
     if (difference.size() == 0) continue;
     if (!result.empty()) result += ", ";
-    result += one.text + ": " + brief(difference.minCoeff(), 17);
+    result += one.text + ": " + brief(difference.minCoeff(), 4);
   }
   return result;
 }

@@ -8,6 +8,7 @@
 #include "report/axis.h"
 #include "report/drawing.h"
 #include "report/legend.h"
+#include "report/marks.h"
 #include "report/panel.h"
 #include "report/text.h"
 
@@ -97,7 +98,7 @@ std::string svg(const Figure& figure) {
     const Legend above = legend(figure.panels[k], box.width);
     text += drawn(above, box.left, y);
     box.top = y + above.height;
-    text += drawn(figure.panels[k], time, values[k], box);
+    text += drawn(figure.panels[k], time, values[k], box) + marks(figure.marks, time, box);
     y = box.bottom() + margin;
   }
   if (!figure.panels.empty()) {

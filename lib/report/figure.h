@@ -31,6 +31,7 @@ struct Figure {
   std::string title;
   std::string axis;  ///< below: the time and its unit
   std::vector<Panel> panels;
+  std::vector<double> marks{};  ///< moments with a tick in each panel; they do not decrease
 };
 
 /// The figure, 900 wide and as high as its panels need, in colours that colour-blind people tell
