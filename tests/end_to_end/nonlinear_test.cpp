@@ -50,13 +50,13 @@ TEST(NonlinearObserver, APoleInTheBoxIsNamedWithPlaceAndPoint) {
     const char *low, *high, *f, *column, *message, *point;
   };
   for (const Case& one :
-       {Case{"[-1, -1]", "[1, 1]", "[x(2); 1/x(1) - x(2)]", ":6:16", "division by zero",
+       {Case{"[-1, -1]", "[1, 1]", "[x(2); 1/x(1) - x(2)]", ":6:17", "division by zero",
              "x_1 = 0, "},
-        Case{"[-1, -1]", "[1, 1]", "[x(2); x(1)/(0.25 - x(2))]", ":6:19", "division by zero",
+        Case{"[-1, -1]", "[1, 1]", "[x(2); x(1)/(0.25 - x(2))]", ":6:17", "division by zero",
              "x_2 = 0.25"},
-        Case{"[-0.5, 0.2]", "[2, 2]", "[0.5 - sqrt(x(1)); sqrt(x(1)) - sqrt(x(2))]", ":6:16",
+        Case{"[-0.5, 0.2]", "[2, 2]", "[0.5 - sqrt(x(1)); sqrt(x(1)) - sqrt(x(2))]", ":6:17",
              "sqrt of -0.75", "x_1 = -0.75"},
-        Case{"[-1, -1]", "[1, 1]", "[inv(x(1) + 0.3)*x(2); -x(2)]", ":6:10", "singular",
+        Case{"[-1, -1]", "[1, 1]", "[inv(x(1) + 0.3)*x(2); -x(2)]", ":6:11", "singular",
              "x_1 = -0.3"}}) {
     const Outcome outcome = synth(observer(one.low, one.high, one.f, "x(1)"));
     EXPECT_NE(outcome.exit, 0) << one.f;
