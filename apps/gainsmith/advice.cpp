@@ -35,7 +35,8 @@ bool is_compared(const model::Design& design, const std::string& scalar) {
       });
 }
 
-/// As one word of a shell.
+}  // namespace
+
 std::string quoted(const std::string& word) {
   const bool plain = word.find_first_not_of(
                          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789"
@@ -45,8 +46,6 @@ std::string quoted(const std::string& word) {
   for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
   return text + "'";
 }
-
-}  // namespace
 
 std::vector<std::string> next_commands(const model::Instance& instance, const model::Gains& gains,
                                        const std::string& file) {

@@ -9,6 +9,9 @@
 
 namespace gainsmith::app {
 
+/// A text as one word of a shell.
+std::string quoted(const std::string& word);
+
 /// Command lines that can be pasted: an explanation where the verdict is undecided, and the longest
 /// interval with gains for each interval that ends at a scalar of the problem, by a search of the
 /// scalars that were searched too. None for a yes.

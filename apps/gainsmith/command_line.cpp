@@ -8,7 +8,6 @@
 
 #include "base/nearest.h"
 #include "base/number.h"
-#include "gainsmith/terminal.h"
 #include "gainsmith/whole_number.h"
 
 namespace gainsmith::app {
@@ -66,6 +65,7 @@ void add_checks(CLI::Option& added, const Option& option) {
           added.check(validator(range));
       },
       option.range);
+  if (!option.value_name.empty()) added.type_name(option.value_name);
   if (!option.choices.empty()) added.check(CLI::IsMember(option.choices));
   if (option.check) added.check(option.check);
 }
@@ -105,7 +105,7 @@ ExitCode work_of(const Command& command) {
 
 void add_command(CLI::App& program, const Command& command, Patience& patience, ExitCode& exit) {
   CLI::App& added = *program.add_subcommand(command.name, command.text);
-  for (const Option& option : command.options) {
+  for (const Option& option : options_of(command, patience)) {
     CLI::Option& one =
         std::visit([&](auto* value) -> CLI::Option& { return add_option(added, option, *value); },
                    option.target);
@@ -115,15 +115,6 @@ void add_command(CLI::App& program, const Command& command, Patience& patience, 
     for (const std::string& name : option.excluded) one.excludes(added.get_option(name));
   }
   added.footer(command.footer);
-  if (command.computes) {
-    added
-        .add_option("--time", patience.seconds,
-                    "stop after so many seconds with what is known; no limit without it")
-        ->type_name("SECONDS")
-        ->check(seconds_error, "");
-    added.add_flag("--progress", patience.progress,
-                   "say every 10 s on standard error what is being done");
-  }
   added.callback([&command, &patience, &exit] {
     if (command.computes) begin_work(patience);
     exit = work_of(command);
@@ -176,6 +167,18 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
 }
 
 }  // namespace
+
+std::vector<Option> options_of(const Command& command, Patience& patience) {
+  std::vector<Option> options = command.options;
+  if (!command.computes) return options;
+  options.push_back(Option("--time", patience.seconds,
+                           "stop after so many seconds with what is known; no limit without it")
+                        .named("SECONDS")
+                        .checked(seconds_error));
+  options.emplace_back("--progress", patience.progress,
+                       "say every 10 s on standard error what is being done");
+  return options;
+}
 
 ExitCode run(const Program& program, int argc, char** argv) {
   ExitCode exit = ExitCode::yes;

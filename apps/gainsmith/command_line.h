@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "gainsmith/terminal.h"
 
 namespace gainsmith::app {
 
@@ -43,6 +44,12 @@ struct Option {
   Option& checked(Check find_error) { return check = std::move(find_error), *this; }
   /// This many values in a row, for a vector.
   Option& values(int number) { return count = number, *this; }
+  /// What completion offers for a value that may be others too.
+  Option& suggests(std::vector<std::string> words) {
+    return choices_offered = std::move(words), *this;
+  }
+  /// What help calls the value.
+  Option& named(std::string word) { return value_name = std::move(word), *this; }
   /// Not together with these options, which stand above this one.
   Option& excludes(std::vector<std::string> names) { return excluded = std::move(names), *this; }
 
@@ -52,6 +59,8 @@ struct Option {
   bool is_required = false;
   std::variant<std::monostate, Range<int>, Range<std::uint64_t>, Range<double>> range;
   std::vector<std::string> choices;
+  std::vector<std::string> choices_offered;
+  std::string value_name;
   Check check;
   std::optional<int> count;
   std::vector<std::string> excluded;
@@ -65,6 +74,9 @@ struct Command {
   std::function<ExitCode()> work;  ///< holds what the options' targets point to
   bool computes = true;            ///< it may be stopped: --time, --progress
 };
+
+/// Its options and, where it may be stopped, those of all such commands.
+std::vector<Option> options_of(const Command& command, Patience& patience);
 
 struct Program {
   std::string name;

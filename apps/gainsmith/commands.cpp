@@ -16,7 +16,8 @@ Program all_commands() {
       "Each subcommand has --help with examples.",
       {synth_command(), bisect_command(), scan_command(), optimize_command(), explain_command(),
        verify_command(), simulate_command(), run_command(), check_command(), solve_command(),
-       methods_command(), init_command()}};
+       methods_command(), init_command(), schema_command(), completions_command(),
+       manual_command()}};
 }
 
 }  // namespace gainsmith::app

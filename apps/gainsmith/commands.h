@@ -17,6 +17,9 @@ Command check_command();
 Command solve_command();
 Command methods_command();
 Command init_command();
+Command schema_command();
+Command completions_command();
+Command manual_command();
 
 /// "gainsmith 0.1.0".
 std::string version();

@@ -99,7 +99,7 @@ Command methods_command() {
   auto options = std::make_shared<MethodsOptions>();
   return {"methods",
           "List the methods by task, or print one as text",
-          {Option("name", options->name, "print this method"),
+          {Option("name", options->name, "print this method").suggests(methods::names()),
            Option("--json", options->json, "print as JSON")},
           "Examples:\n"
           "  gainsmith methods\n"
@@ -112,7 +112,9 @@ Command init_command() {
   auto options = std::make_shared<MethodsOptions>();
   return {"init",
           "Write a problem of a method to begin with: data with comments, and it runs as it is",
-          {Option("method", options->name, "the method; 'gainsmith methods' lists them").required(),
+          {Option("method", options->name, "the method; 'gainsmith methods' lists them")
+               .required()
+               .suggests(methods::names()),
            Option("--json", options->json, "print as JSON")},
           "Examples:\n"
           "  gainsmith init lqr > mine.yaml\n"

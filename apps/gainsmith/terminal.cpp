@@ -111,8 +111,8 @@ void begin_work(const Patience& patience) {
   telling_now = 0;
   handle(SIGINT, on_interrupt);
   handle(SIGALRM, on_timer);
-  patience_seconds = patience.seconds;
-  if (patience.seconds > 0) set_timer(patience.seconds);
+  patience_seconds = patience.seconds.value_or(0);
+  if (patience.seconds) set_timer(*patience.seconds);
   if (patience.progress || is_terminal()) show_progress(is_terminal());
 }
 

@@ -1,6 +1,7 @@
 // The standard files, what is shown only to a person at a terminal, and Ctrl-C.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "base/stop.h"
@@ -24,8 +25,8 @@ bool is_terminal();
 
 /// How long a command may take, and how it says what it does.
 struct Patience {
-  double seconds = 0;     ///< 0: as long as it takes
-  bool progress = false;  ///< a line every 10 s, where standard error is no terminal
+  std::optional<double> seconds;  ///< none: as long as it takes
+  bool progress = false;          ///< a line every 10 s, where standard error is no terminal
 };
 
 /// From now on Ctrl-C, or the end of the patience, requests a stop (base/stop.h). Where the command

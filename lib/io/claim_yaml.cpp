@@ -10,7 +10,7 @@ using model::ClaimKind;
 
 void read_cost(const YamlFile& file, const YamlItem& cost, const YamlItem& below,
                model::Claim& claim) {
-  YamlMap parts(file, cost.value, "cost");
+  YamlMap parts(file, cost.value, "cost", keys::cost);
   if (const auto flow = parts.find("flow")) claim.flow_cost = file.expression(flow->value, "flow");
   if (const auto jump = parts.find("jump")) claim.jump_cost = file.expression(jump->value, "jump");
   parts.finish();
@@ -65,7 +65,7 @@ model::Claim claim(const YamlFile& file, const YamlItem& item) {
                          "': expected {nonincreasing: V}, {below: v, bound: b}, {above: "
                          "v, bound: b}, {shrinks: v, to: s} or {cost: {flow: f}, below: "
                          "V}");
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::claim);
   const auto after = map.find("after");
   const auto over = map.find("over");
   const auto tolerance = map.find("tolerance");

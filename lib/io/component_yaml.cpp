@@ -70,7 +70,7 @@ model::Declaration mode(const YamlFile& file, const YamlItem& item) {
 /// "y: C*x" or "y: {value: C*x + w, at: sample}".
 model::Output output(const YamlFile& file, const YamlItem& item) {
   if (!item.value.IsMap()) return {{item.key, matrix_of(file, item), item.place}};
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::output);
   model::Output result{{item.key, matrix_of(file, map.require("value")), item.place}};
   if (const auto at = map.find("at")) result.at = file.string(at->value, "at");
   map.finish();
@@ -116,7 +116,7 @@ model::PassText pass(const YamlFile& file, const YamlItem& item) {
     read_map(file, item, item.key, result);
     return result;
   }
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::loop);
   result.repeats = true;
   const YamlItem repeated = map.require("repeat");
   const auto let = map.find("let");
@@ -162,7 +162,7 @@ std::vector<model::FlowSetText> flow_sets(const YamlFile& file,
                                           const std::optional<YamlItem>& item) {
   std::vector<model::FlowSetText> result;
   if (!item) return result;
-  YamlMap map(file, item->value, "while");
+  YamlMap map(file, item->value, "while", keys::flow_set);
   model::FlowSetText flow_set;
   flow_set.place = item->place;
   flow_set.condition = file.expression(map.require("c").value, "c");
@@ -239,8 +239,9 @@ Component copied(const YamlFile& file, const std::optional<YamlItem>& like,
 Component component(const YamlFile& file, const YamlItem& item,
                     const std::vector<Component>& before,
                     std::vector<model::MeasuredText>* measured) {
-  YamlMap map(file, item.value, item.key);
-  if (measured != nullptr && item.value["log"]) return logged(file, item, map, *measured);
+  const bool is_log = measured != nullptr && item.value.IsMap() && item.value["log"];
+  YamlMap map(file, item.value, item.key, is_log ? keys::log_plant : keys::component);
+  if (is_log) return logged(file, item, map, *measured);
   const auto source = map.find("like");
   const bool like = source.has_value();
   Component result = copied(file, source, before);

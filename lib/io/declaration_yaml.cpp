@@ -45,12 +45,13 @@ model::Declaration declaration(const YamlFile& file, const YamlItem& item, const
     throw InputError(file.place(item.value),
                      item.key + ": expected a shape, such as n x p, or {shape: n x p, " + fallback +
                          ": ...}; found a list");
-  YamlMap map(file, item.value, item.key);
+  const bool has_default = std::string_view(fallback) == "default";
+  YamlMap map(file, item.value, item.key, has_default ? keys::declaration : keys::state);
   result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
   if (const auto value = map.find(fallback))
     result.fallback = matrix_of(file, *value, result.shape.is_column());
   result.help = optional_string(file, map.find("help"));
-  if (std::string_view(fallback) == "default") {
+  if (has_default) {
     result.indices = indices(file, map.find("for"));
     const auto of = map.find("of");
     for (const YamlItem& argument : items_of(file, of, "of"))

@@ -16,7 +16,7 @@ model::EventText timer(const YamlFile& file, const YamlItem& item) {
   const auto items = items_of(file, item, "timer");
   if (items.size() != 1)
     throw InputError(item.place, "timer: expected one timer, such as 'tau: {reset: [T1, T2]}'");
-  YamlMap map(file, items.front().value, items.front().key);
+  YamlMap map(file, items.front().value, items.front().key, keys::timer);
   const auto range = [&](const YamlItem& ends) {
     if (!ends.value.IsSequence() || ends.value.size() != 2)
       throw InputError(file.place(ends.value), ends.key + ": expected [low, high]");
@@ -51,7 +51,7 @@ void read_jump(model::Component& component, bool has_timer) {
 
 /// "{amplitude: 0.1, frequency: [1, 2], phase: [0, 2*pi]}", each a value or [low, high].
 void read_sinusoid(const YamlFile& file, const YamlItem& item, model::NoiseText& noise) {
-  YamlMap map(file, item.value, "sinusoid");
+  YamlMap map(file, item.value, "sinusoid", keys::sinusoid);
   const YamlItem amplitude = map.require("amplitude");
   const YamlItem frequency = map.require("frequency");
   const auto phase = map.find("phase");
@@ -71,7 +71,7 @@ model::NoiseText noise(const YamlFile& file, const YamlItem& item) {
       "expected {normal: deviation}, {uniform: [low, high]} or {sinusoid: {amplitude: ..., "
       "frequency: ..., phase: ...}}";
   if (!item.value.IsMap()) throw InputError(item.place, "the noise '" + item.key + "': " + kForms);
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::noise);
   model::NoiseText result;
   result.name = item.key;
   result.place = item.place;

@@ -31,7 +31,7 @@ void read_lost(const YamlFile& file, const YamlItem& item, model::EventText& eve
     event.lost = probability(file, item);
     return;
   }
-  YamlMap map(file, item.value, "lost");
+  YamlMap map(file, item.value, "lost", keys::lost);
   event.lost = probability(file, map.require("probability"));
   if (const auto most = map.find("in_a_row")) {
     const double value = file.number(most->value, most->key);
@@ -47,7 +47,7 @@ model::EventText event(const YamlFile& file, const YamlItem& item) {
     throw InputError(item.place, "the event '" + item.key +
                                      "': expected {when: condition}, {rises: e}, {falls: e}, "
                                      "{crosses: e}, {every: T} or {at: [t1, t2]}");
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::event);
   model::EventText result;
   result.name = item.key;
   result.place = item.place;

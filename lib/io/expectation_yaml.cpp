@@ -21,7 +21,7 @@ std::optional<std::string> word(const YamlFile& file, const std::optional<YamlIt
 }
 
 model::ExpectedValue expected_value(const YamlFile& file, const YamlItem& item) {
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::expected_value);
   model::ExpectedValue result;
   result.name = item.key;
   result.what = expr::parse(item.key_text);
@@ -46,7 +46,7 @@ std::optional<double> tolerance(const YamlFile& file, const std::optional<YamlIt
 }
 
 model::Expectation expectation_from(const YamlFile& file, const YamlItem& item) {
-  YamlMap map(file, item.value, "expect");
+  YamlMap map(file, item.value, "expect", keys::expectation);
   model::Expectation result;
   result.place = item.place;
   result.verdict = word(file, map.find("verdict"), {"yes", "no", "undecided"});

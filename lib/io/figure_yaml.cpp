@@ -19,9 +19,11 @@ constexpr const char* kForms =
     "value: v}, {peak: v}, {least: v}, {settles: v, below: b}, {rms: v, over: [a, b]}, {count: "
     "event}, {passes: event}, {lost: event}, {ended: why}";
 
+constexpr const char* kOfRun = "it belongs in expect.run alone: all observers end with the run";
+
 /// "at: {event: leave, count: 1, side: before}" or "at: {t: 10}".
 void read_moment(const YamlFile& file, const YamlItem& item, FigureText& figure) {
-  YamlMap map(file, item.value, "at");
+  YamlMap map(file, item.value, "at", keys::moment);
   const auto event = map.find("event");
   const auto t = map.find("t");
   const auto count = map.find("count");
@@ -53,7 +55,8 @@ void read_moment(const YamlFile& file, const YamlItem& item, FigureText& figure)
                  std::to_string(figure.count);
 }
 
-/// The figure of a mapping of which `expect` takes other keys besides.
+/// The figure of a mapping. `ending`: where its word goes, of a mapping of `expect`, which takes
+/// other keys besides; null for others.
 FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
   static const std::array<std::pair<const char*, FigureKind>, 7> kOfValues = {
       {{"peak", FigureKind::peak},
@@ -90,13 +93,11 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
         result.value = file.expression(item->value, key);
       result.title = std::string(key) + " " + (of_event ? result.event : result.value->text->str());
     }
-  if (const auto ended = map.find("ended")) {
+  const auto ended = ending == nullptr ? std::nullopt : map.find("ended");
+  if (ended) {
     ++found;
     result.kind = FigureKind::ended;
     result.title = "ended";
-    if (ending == nullptr)
-      throw InputError(ended->place,
-                       "ended: belongs in expect.run alone: all observers end with the run");
     *ending = file.string(ended->value, "ended");
     const std::vector<std::string> known = {"horizon", "escaped", "undefined",   "left",
                                             "stuck",   "zeno",    "chattering",  "sliding",
@@ -105,7 +106,8 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
       throw InputError(file.place(ended->value),
                        "ended: unknown word '" + *ending + "'" + suggestion(*ending, known));
   }
-  if (found == 0) {
+  if (ending == nullptr) map.finish({{"ended", kOfRun}});
+  if (found == 0 && ending != nullptr) {
     for (const char* key : {"is", "relative", "absolute"}) map.find(key);
     map.finish();  // names what was misspelt
   }
@@ -127,7 +129,7 @@ FigureText figure(const YamlFile& file, YamlMap& map, std::string* ending) {
 }
 
 model::ExpectedFigureText expected(const YamlFile& file, const YAML::Node& node) {
-  YamlMap map(file, node, "run");
+  YamlMap map(file, node, "run", keys::expected_figure);
   model::ExpectedFigureText result;
   result.figure = figure(file, map, &result.ending);
   const auto is = map.find("is");
@@ -157,18 +159,15 @@ const YAML::Node& list_of(const YamlItem& item) {
 std::vector<FigureText> figures(const YamlFile& file, const YamlItem& item) {
   std::vector<FigureText> result;
   for (const auto& entry : list_of(item)) {
-    YamlMap map(file, entry, item.key);
+    YamlMap map(file, entry, item.key, keys::figure);
     result.push_back(figure(file, map, nullptr));
-    map.finish();
   }
   return result;
 }
 
 FigureText figure_of(const YamlFile& file, const YamlItem& item) {
-  YamlMap map(file, item.value, item.key);
-  FigureText result = figure(file, map, nullptr);
-  map.finish();
-  return result;
+  YamlMap map(file, item.value, item.key, keys::figure);
+  return figure(file, map, nullptr);
 }
 
 std::vector<model::ExpectedFigureText> expected_figures(const YamlFile& file,

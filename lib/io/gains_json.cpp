@@ -309,7 +309,7 @@ std::string gains_text(const model::Gains& gains) { return to_text(to_json(gains
 
 model::Gains parse_gains(const std::string& text, const std::string& file) {
   const Json document = parse_json(text, file);
-  const JsonReader reader(document, file, text);
+  const JsonReader reader(document, file, text, gain_file_levels());
   model::Gains gains;
   gains.file = file;
   gains.version = version_of(reader.at("gainsmith"));

@@ -9,28 +9,53 @@
 
 namespace gainsmith::io {
 
-JsonReader::JsonReader(const Json& document, std::string file, std::string text)
+namespace {
+
+/// "[margin]" and '[': "margin"; nothing for other forms.
+std::string_view inner(std::string_view form, char bracket) {
+  if (form.empty() || form.front() != bracket) return {};
+  return form.substr(1, form.find_last_of("]}") - 1);
+}
+
+}  // namespace
+
+JsonReader::JsonReader(const Json& document, std::string file, std::string text,
+                       std::span<const Level* const> levels)
     : value_(document),
       file_(std::move(file)),
       text_(std::make_shared<const std::string>(std::move(text))),
+      levels_(levels),
+      form_(levels.empty() ? "" : levels.front()->name),
       asked_(std::make_shared<Asked>()) {}
 
-JsonReader::JsonReader(const Json& value, const JsonReader& parent, std::string path)
+JsonReader::JsonReader(const Json& value, const JsonReader& parent, std::string path,
+                       std::string_view form)
     : value_(value),
       file_(parent.file_),
       text_(parent.text_),
       path_(std::move(path)),
+      levels_(parent.levels_),
+      form_(form),
       asked_(parent.asked_) {}
+
+const Level* JsonReader::level() const {
+  for (const Level* level : levels_)
+    if (level->name == form_) return level;
+  return nullptr;
+}
 
 std::string JsonReader::path_to(const std::string& key) const {
   return path_.empty() ? key : path_ + "." + key;
 }
 
 JsonReader JsonReader::below(const std::string& key, const Json& value) const {
-  return {value, *this, path_to(key)};
+  const Level* here = level();
+  const Key* known = here == nullptr ? nullptr : here->find(key);
+  return {value, *this, path_to(key), known == nullptr ? inner(form_, '{') : known->form};
 }
 
 JsonReader JsonReader::at(const std::string& key) const {
+  if (const Level* here = level()) require_known(*here, key);
   if (!value_.is_object()) fail("expected an object");
   auto& asked = (*asked_)[&value_];
   asked.insert(key);
@@ -42,6 +67,7 @@ JsonReader JsonReader::at(const std::string& key) const {
 }
 
 bool JsonReader::has(const std::string& key) const {
+  if (const Level* here = level()) require_known(*here, key);
   (*asked_)[&value_].insert(key);
   return value_.is_object() && value_.contains(key);
 }
@@ -77,7 +103,7 @@ std::vector<JsonReader> JsonReader::items() const {
   if (!value_.is_array()) fail("expected a list");
   std::vector<JsonReader> result;
   for (std::size_t i = 0; i < value_.size(); ++i)
-    result.push_back({value_[i], *this, path_ + "[" + std::to_string(i) + "]"});
+    result.push_back({value_[i], *this, path_ + "[" + std::to_string(i) + "]", inner(form_, '[')});
   return result;
 }
 

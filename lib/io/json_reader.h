@@ -4,11 +4,14 @@
 #include <map>
 #include <memory>
 #include <set>
+#include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "io/json_text.h"
+#include "io/keys.h"
 #include "model/gains.h"
 
 namespace gainsmith::io {
@@ -18,8 +21,11 @@ namespace gainsmith::io {
 /// its readers, which note together which keys were asked for.
 class JsonReader {
  public:
-  /// `text`: what the document was read from; errors then name line and column too.
-  JsonReader(const Json& document, std::string file, std::string text = {});
+  /// `text`: what the document was read from; errors then name line and column too. `levels`: the
+  /// tables of the keys, the first that of the document: asking for another key is
+  /// std::logic_error.
+  JsonReader(const Json& document, std::string file, std::string text = {},
+             std::span<const Level* const> levels = {});
 
   /// The value of a key that must be there. Of a missing key the message names a misspelling.
   JsonReader at(const std::string& key) const;
@@ -54,8 +60,10 @@ class JsonReader {
   /// The keys that were asked for, by the object that was asked.
   using Asked = std::map<const Json*, std::set<std::string>>;
 
-  JsonReader(const Json& value, const JsonReader& parent, std::string path);
+  JsonReader(const Json& value, const JsonReader& parent, std::string path, std::string_view form);
   JsonReader below(const std::string& key, const Json& value) const;
+  /// The table of the keys here; null where there is none.
+  const Level* level() const;
   std::string path_to(const std::string& key) const;
   [[noreturn]] void fail_with(const std::string& place, const std::string& message) const;
 
@@ -63,6 +71,8 @@ class JsonReader {
   std::string file_;
   std::shared_ptr<const std::string> text_;
   std::string path_;
+  std::span<const Level* const> levels_;
+  std::string_view form_;  ///< as in Key
   std::shared_ptr<Asked> asked_;
 };
 

@@ -161,7 +161,7 @@ model::MeasuredText output(const YamlFile& file, const Source& source, const Yam
     result.series = series(source, file.string(item.value, item.key), file.place(item.value));
     return result;
   }
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::log_output);
   const YamlItem column = map.require("column");
   result.between = between(file, map, otherwise);
   if (const auto at = map.find("at")) result.at = file.string(at->value, "at");
@@ -176,7 +176,7 @@ model::MeasuredText output(const YamlFile& file, const Source& source, const Yam
 bool is_measured(const YamlItem& input) { return input.value.IsMap(); }
 
 model::MeasuredText measured_input(const YamlFile& file, const YamlItem& item) {
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::measured_input);
   model::MeasuredText result;
   result.name = item.key;
   result.place = item.place;
@@ -190,7 +190,7 @@ model::MeasuredText measured_input(const YamlFile& file, const YamlItem& item) {
 }
 
 std::vector<double> measured_times(const YamlFile& file, const YamlItem& at) {
-  YamlMap map(file, at.value, at.key);
+  YamlMap map(file, at.value, at.key, keys::measured_times);
   const YamlItem csv = map.require("csv");
   const YamlItem column = map.require("column");
   const Source rows = source(file, csv, map);
@@ -228,7 +228,7 @@ void read_log(const YamlFile& file, YamlMap& plant, model::Component& component,
     read(rows, Between::hold);
     return;
   }
-  YamlMap map(file, log.value, "log");
+  YamlMap map(file, log.value, "log", keys::log);
   const Source rows = source(file, map.require("csv"), map);
   const Between otherwise = between(file, map, Between::hold);
   map.finish();

@@ -27,7 +27,7 @@ model::UnknownDeclaration unknown(const YamlFile& file, const YamlItem& item) {
     result.shape = model::parse_shape(file.scalar(item.value, item.key));
     return result;
   }
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::unknown);
   result.shape = model::parse_shape(file.scalar(map.require("shape").value, "shape"));
   result.help = optional_string(file, map.find("help"));
   result.variable = optional_string(file, map.find("of"));
@@ -64,7 +64,7 @@ model::Parameter parameter(const YamlFile& file, const YamlItem& item) {
     result.fallback = file.expression(item.value, item.key);
     return result;
   }
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::parameter);
   result.fallback = optional_expression(file, map.find("default"));
   result.help = optional_string(file, map.find("help"));
   if (const auto search = map.find("search"))
@@ -110,7 +110,7 @@ model::Requirement requirement(const YamlFile& file, const YamlItem& item) {
     result.that = file.expression(item.value, item.key);
     return result;
   }
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::requirement);
   const auto blocks = map.find("blocks");
   const auto is = map.find("is");
   if (blocks && is)
@@ -210,7 +210,7 @@ constexpr const char* kOfProblem = "it belongs to the problem, beside 'method'";
 
 model::Method method_from(const YamlFile& file, const YAML::Node& node,
                           const std::string& problem) {
-  YamlMap map(file, node, "method");
+  YamlMap map(file, node, "method", keys::method);
   model::Method method;
   method.file = file.file();
   const auto name =

@@ -80,7 +80,7 @@ void read_way(const YamlFile& file, const YamlItem& item, model::SynthesisOption
     options.way = way_of(file, item);
     return;
   }
-  YamlMap parts(file, item.value, "forall");
+  YamlMap parts(file, item.value, "forall", keys::way);
   options.way = way_of(file, parts.require("way"));
   if (const auto slices = parts.find("slices")) {
     options.slices = static_cast<int>(whole(file, *slices, 1));
@@ -116,7 +116,7 @@ void read_gain_bound(const YamlFile& file, const YamlItem& item, model::Synthesi
 model::SynthesisOptions synthesis(const YamlFile& file, const std::optional<YamlItem>& item) {
   model::SynthesisOptions options;
   if (!item) return options;
-  YamlMap map(file, item->value, "synthesis");
+  YamlMap map(file, item->value, "synthesis", keys::synthesis);
   if (const auto margin = map.find("margin")) {
     options.margin = file.positive(margin->value, "margin");
     if (options.margin >= 1)
@@ -155,7 +155,7 @@ model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
     throw InputError(result.place,
                      "sampling: unknown law '" + word + "'" + suggestion(word, kWords));
   }
-  YamlMap map(file, node, "sampling");
+  YamlMap map(file, node, "sampling", keys::law);
   const auto constant = map.find("constant");
   const auto list = map.find("list");
   map.finish();
@@ -175,7 +175,7 @@ model::SamplingLaw law(const YamlFile& file, const YAML::Node& node) {
 
 /// "{center: [1, 0], matrix: P, level: 2}": center, matrix, level.
 std::vector<model::Value> ellipsoid_of(const YamlFile& file, const YamlItem& item) {
-  YamlMap map(file, item.value, "ellipsoid");
+  YamlMap map(file, item.value, "ellipsoid", keys::ellipsoid);
   const auto center = map.find("center");
   const auto level = map.find("level");
   const YamlItem matrix = map.require("matrix");
@@ -195,7 +195,7 @@ model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
     result.values.push_back(value_of(file, item));
     return result;
   }
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::start);
   const auto box = map.find("box");
   const auto list = map.find("list");
   const auto ellipsoid = map.find("ellipsoid");
@@ -226,7 +226,7 @@ void read_sampling(const YamlFile& file, const YAML::Node& node, const std::stri
                    const model::Method& method, model::Campaign& result) {
   const bool by_event = event.empty() && node.IsMap() && !node["constant"] && !node["list"];
   if (by_event) {
-    YamlMap map(file, node, "sampling");
+    const YamlMap map(file, node, "sampling");
     for (const YamlItem& item : map.items())
       read_sampling(file, item.value, item.key, method, result);
     return;
@@ -255,7 +255,7 @@ model::RunAccuracy accuracy(const YamlFile& file, const YamlItem& item) {
   constexpr double kMostAbsolute = 1e100;
   model::RunAccuracy result;
   result.place = item.place;
-  YamlMap map(file, item.value, "accuracy");
+  YamlMap map(file, item.value, "accuracy", keys::accuracy);
   if (const auto relative = map.find("relative"))
     result.relative = tolerance(file, *relative, kLeastRelative, kMostRelative);
   if (const auto absolute = map.find("absolute")) {
@@ -275,7 +275,7 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
                          const model::Method& method) {
   model::Campaign result;
   if (!item) return result;
-  YamlMap map(file, item->value, "campaign");
+  YamlMap map(file, item->value, "campaign", keys::campaign);
   result.place = item->place;
   if (const auto runs = map.find("runs")) result.runs = whole(file, *runs, 1);
   if (const auto seed = map.find("seed")) result.seed = whole(file, *seed, 0);
@@ -294,7 +294,7 @@ model::Campaign campaign(const YamlFile& file, const std::optional<YamlItem>& it
 /// "cf: {box: [0.08, 0.12]}", "cf: {box: [0.08, 0.12], sampling: vertices}", "A: {vertices: [A1,
 /// A2]}", or of a family "A: {vertices: As}".
 model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
-  YamlMap map(file, item.value, item.key);
+  YamlMap map(file, item.value, item.key, keys::uncertain);
   const auto box = map.find("box");
   const auto vertices = map.find("vertices");
   const auto sampling = map.find("sampling");
@@ -335,9 +335,9 @@ model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
 /// What to do with keys that stand at the wrong level.
 std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
   std::map<std::string, std::string> advice;
-  for (const char* key : {"assume", "unknowns", "require", "minimize", "gains", "plant", "observer",
-                          "observers", "events", "order", "inputs", "noise", "timer", "signals",
-                          "claims"})
+  for (const char* key :
+       {"assume", "unknowns", "require", "minimize", "gains", "plant", "observer", "observers",
+        "events", "order", "inputs", "noise", "timer", "signals", "claims"})
     advice[key] =
         "it belongs to the method; 'gainsmith methods NAME' prints one, to be put under 'method'";
   for (const auto& datum : method.data) advice[datum.name] = "it belongs under 'data'";
@@ -352,7 +352,7 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
                              const MethodLibrary& library) {
   expr::count_problem();
   const YamlFile yaml(text, file);
-  YamlMap map(yaml, yaml.root(), "problem");
+  YamlMap map(yaml, yaml.root(), "problem", keys::problem);
   model::Problem problem;
   problem.file = file;
   problem.text = text;

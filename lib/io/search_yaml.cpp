@@ -50,7 +50,7 @@ std::vector<model::ScalarRange> scalar_ranges(const YamlFile& file,
 }
 
 model::Search search_from(const YamlFile& file, const YamlItem& item, const model::Method& method) {
-  YamlMap map(file, item.value, "search");
+  YamlMap map(file, item.value, "search", keys::search);
   model::Search search;
   search.place = item.place;
   const auto largest = map.find("largest");

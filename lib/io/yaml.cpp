@@ -336,7 +336,13 @@ YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what)
   }
 }
 
+YamlMap::YamlMap(const YamlFile& file, const YAML::Node& node, std::string what, const Level& level)
+    : YamlMap(file, node, std::move(what)) {
+  level_ = &level;
+}
+
 std::optional<YamlItem> YamlMap::find(const std::string& key) {
+  if (level_ != nullptr) require_known(*level_, key);
   if (std::find(asked_.begin(), asked_.end(), key) == asked_.end()) asked_.push_back(key);
   for (const YamlItem& item : items_)
     if (item.key == key) return item;

@@ -11,6 +11,7 @@
 
 #include "expr/ast.h"
 #include "expr/text.h"
+#include "io/keys.h"
 #include "model/problem.h"
 
 namespace gainsmith::io {
@@ -69,6 +70,8 @@ class YamlMap {
  public:
   /// InputError when the node is no mapping or a key stands twice. `what` names it in messages.
   YamlMap(const YamlFile& file, const YAML::Node& node, std::string what);
+  /// One whose keys stand in a table: asking for another key is std::logic_error.
+  YamlMap(const YamlFile& file, const YAML::Node& node, std::string what, const Level& level);
 
   const std::vector<YamlItem>& items() const { return items_; }
   std::optional<YamlItem> find(const std::string& key);
@@ -84,6 +87,7 @@ class YamlMap {
   Place place_;
   std::vector<YamlItem> items_;
   std::vector<std::string> asked_;
+  const Level* level_ = nullptr;
 };
 
 /// The items of an optional mapping; empty when the node is absent or null.

@@ -185,6 +185,14 @@ TEST(YamlMap, MistakesInKeysAreShownWithASuggestion) {
   expect("name: a\n[1]: b\n", {"f", 2, 1}, "thing: a key: expected a text, found a list");
 }
 
+TEST(YamlMap, AReaderAsksForKeysOfItsTableAlone) {
+  const YamlFile file("reset: [1, 2]\n", "f");
+  YamlMap map(file, file.root(), "tau", keys::timer);
+  EXPECT_TRUE(map.find("reset"));
+  EXPECT_FALSE(map.find("first"));
+  EXPECT_THROW(map.find("last"), std::logic_error);
+}
+
 TEST(YamlMap, AMissingValueIsShownBehindItsKey) {
   const YamlFile file("a: 1\nb:\n\nc: 2\n", "f");
   YamlMap map(file, file.root(), "m");

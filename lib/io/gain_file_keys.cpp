@@ -1,0 +1,116 @@
+// The keys of gain files.
+#include <array>
+
+#include "io/keys.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+constexpr std::array kKeysOfDocument = {
+    Key{"gainsmith", "text", "the version that wrote the file", kRequired},
+    Key{"problem", "text", "the name of the problem", kRequired},
+    Key{"verdict", "'yes' | 'no' | 'undecided'", "whether there are gains", kRequired},
+    Key{"status", "text", "of the solver"},
+    Key{"cause", "text", "why the solver stopped"},
+    Key{"objective", "number", "the objective at the unknowns"},
+    Key{"objective_lower_bound", "number", "a bound on the objective, without margins"},
+    Key{"gains", "{rows}", "the constant gains", kRequired},
+    Key{"gain_functions", "{gain function}", "gains that are functions of a scalar"},
+    Key{"unknowns", "{rows}", "the unknowns", kRequired},
+    Key{"functions", "{text}", "unknown functions over the unknowns"},
+    Key{"report", "{rows}", "what method and problem show"},
+    Key{"estimates", "{text}", "what is only an estimate"},
+    Key{"parameters", "{rows}", "the method's parameters", kRequired},
+    Key{"bases", "{rows}", "data that choose a basis"},
+    Key{"searched", "{number}", "scalars that a search set"},
+    Key{"search", "search", "how the search ended"},
+    Key{"margins", "[margin]", "how well each inequality holds", kRequired},
+    Key{"bounds", "[bound]", "the bounds on the gains", kRequired},
+    Key{"certificate", "certificate", "of a no"},
+    Key{"solver", "solver", "what the solver says", kRequired},
+    Key{"statement", "statement", "the problem that was solved", kRequired},
+    Key{"timings", "{number}", "seconds", kRequired}};
+
+constexpr std::array kKeysOfGainFunction = {
+    Key{"of", "text", "the variable", kRequired},
+    Key{"kind", "'polynomial' | 'vertices' | 'formula'", "", kRequired},
+    Key{"formula", "text", "", kRequired}, Key{"coefficients", "[rows]", "of a polynomial"}};
+
+constexpr std::array kKeysOfMargin = {
+    Key{"name", "text", "of the inequality", kRequired},
+    Key{"strict", "truth", "", kRequired},
+    Key{"holds", "truth", "", kRequired},
+    Key{"reached", "number", "the smallest eigenvalue, relative", kRequired},
+    Key{"required", "number", "wished for", kRequired},
+    Key{"smallest_eigenvalue", "number", "in the data's units", kRequired},
+    Key{"worst_point", "text", "of 'forall'", kRequired}};
+
+constexpr std::array kKeysOfBound = {
+    Key{"gain", "text", "", kRequired}, Key{"bound", "number", "", kRequired},
+    Key{"reached", "number | nothing", "", kRequired}, Key{"active", "truth", "", kRequired}};
+
+constexpr std::array kKeysOfCertificate = {
+    Key{"exact", "truth", "no solution, shown", kRequired}, Key{"about", "text"},
+    Key{"backward_error", "number", "", kRequired}, Key{"digits", "whole", "", kRequired},
+    Key{"multipliers", "{rows}", "", kRequired}};
+
+constexpr std::array kKeysOfRefinement = {
+    Key{"before", "number", "", kRequired}, Key{"after", "number | nothing", "", kRequired},
+    Key{"kept", "truth", "", kRequired}, Key{"cause", "text", "", kRequired}};
+
+constexpr std::array kKeysOfSearch = {
+    Key{"figure", "text", "what was searched", kRequired},
+    Key{"value", "number | nothing", "of the figure", kRequired},
+    Key{"beyond", "number | nothing", "the nearest value that is excluded", kRequired},
+    Key{"open", "[number]", "undecided values", kRequired},
+    Key{"breaks", "[number]", "excluded values inside", kRequired},
+    Key{"over", "[text]", "scalars that were optimised", kRequired},
+    Key{"at_end", "[text]", "those at an end of their range"},
+    Key{"evaluations", "whole", "", kRequired},
+    Key{"feasible", "whole", "", kRequired},
+    Key{"finished", "truth", "", kRequired},
+    Key{"joint_refinement", "refinement"},
+    Key{"certificate", "certificate", "at 'beyond'"}};
+
+constexpr std::array kKeysOfSolver = {Key{"status", "text", "", kRequired},
+                                      Key{"cause", "text", "", kRequired},
+                                      Key{"message", "text", "", kRequired},
+                                      Key{"iterations", "whole", "", kRequired},
+                                      Key{"relative_gap", "number", "", kRequired},
+                                      Key{"primal_infeasibility", "number", "", kRequired},
+                                      Key{"dual_infeasibility", "number", "", kRequired},
+                                      Key{"precision", "text", "", kRequired}};
+
+constexpr std::array kKeysOfStatement = {
+    Key{"method", "text", "its name", kRequired}, Key{"method_text", "text", "", kRequired},
+    Key{"problem_file", "text", "", kRequired}, Key{"problem_text", "text", "", kRequired},
+    Key{"sha256", "text", "of both texts", kRequired}};
+
+const Level kDocumentLevel = {"gain file", "A gain file of gainsmith", kKeysOfDocument};
+const Level kGainFunctionLevel = {"gain function", "A gain that is a function",
+                                  kKeysOfGainFunction};
+const Level kMarginLevel = {"margin", "How well an inequality holds", kKeysOfMargin};
+const Level kBoundLevel = {"bound", "A bound on a gain", kKeysOfBound};
+const Level kCertificateLevel = {"certificate", "The certificate of a no", kKeysOfCertificate};
+const Level kRefinementLevel = {"refinement", "Scalars and unknowns moved together",
+                                kKeysOfRefinement};
+const Level kSearchLevel = {"search", "How a search ended", kKeysOfSearch};
+const Level kSolverLevel = {"solver", "What the solver says", kKeysOfSolver};
+const Level kStatementLevel = {"statement", "The problem that was solved", kKeysOfStatement};
+
+}  // namespace
+
+std::span<const Level* const> gain_file_levels() {
+  static constexpr std::array kLevels = {&kDocumentLevel, &kGainFunctionLevel, &kMarginLevel,
+                                         &kBoundLevel,    &kCertificateLevel,  &kRefinementLevel,
+                                         &kSearchLevel,   &kSolverLevel,       &kStatementLevel};
+  return kLevels;
+}
+
+std::span<const NamedForm> gain_file_forms() {
+  static constexpr std::array kNamedForms = {NamedForm{"rows", "number | [[number]]"}};
+  return kNamedForms;
+}
+
+}  // namespace gainsmith::io
