@@ -12,9 +12,12 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
+#include "gainsmith/picture_file.h"
 #include "gainsmith/range_option.h"
+#include "gainsmith/search_figure.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
+#include "gainsmith/units.h"
 #include "io/gains_json.h"
 
 namespace gainsmith::app {
@@ -28,22 +31,9 @@ struct BisectOptions {
   std::vector<std::string> range;
   std::optional<double> tolerance;
   std::string output;
+  std::string plot;
   bool json = false;
 };
-
-const char* word(search::Answer answer) {
-  switch (answer) {
-    case search::Answer::yes:
-      return "yes";
-    case search::Answer::no:
-      return "no";
-    case search::Answer::refused:
-      return "refused";
-    case search::Answer::undecided:
-      break;
-  }
-  return "undecided";
-}
 
 /// The range of a scalar that the command line names: --in, or what the problem says of it.
 model::ScalarRange range_of(const BisectOptions& options, const model::Problem& problem,
@@ -94,7 +84,7 @@ design::BisectChoices choices_of(const BisectOptions& options, const model::Inst
 io::Json json_of(const design::BisectResult& result, const design::BisectChoices& choices) {
   io::Json samples = io::Json::array();
   for (const search::Sample& sample : result.found.samples)
-    samples.push_back({{"value", sample.value}, {"answer", word(sample.answer)}});
+    samples.push_back({{"value", sample.value}, {"answer", word_of(sample.answer)}});
   return {{"scalar", choices.scalar.name},
           {"goal", choices.largest ? "largest" : "smallest"},
           {"tolerance", choices.tolerance.width},
@@ -106,22 +96,26 @@ io::Json json_of(const design::BisectResult& result, const design::BisectChoices
 std::string table(const design::BisectResult& result, const std::string& name) {
   std::string text = fmt::format("{:<20}{}\n", name, "feasible");
   for (const search::Sample& sample : result.found.samples)
-    text += fmt::format("{:<20}{}\n", brief(sample.value, 12), word(sample.answer));
+    text += fmt::format("{:<20}{}\n", brief(sample.value, 12), word_of(sample.answer));
   return text;
 }
 
 ExitCode bisect(const BisectOptions& options) {
-  prepare_outputs(options.problem, {options.output});
+  check_picture_name(options.plot);
+  prepare_outputs(options.problem, {options.output, options.plot});
   check_positive(options.tolerance, "--tolerance");
   const model::Instance instance =
       load_problem(options.problem, [&](model::Problem& problem) { add_range(options, problem); });
   const design::BisectChoices choices = choices_of(options, instance);
   const design::BisectResult result = design::bisect(instance, {}, choices, {});
   const Telling telling;
-  const std::string report = options.json ? io::to_text(json_of(result, choices))
-                                          : table(result, choices.scalar.name) + "\n" +
-                                                synthesis_summary(result.gains) +
-                                                held_line(instance, {choices.scalar.name});
+  const std::string name = with_unit(*instance.design, choices.scalar.name);
+  if (!options.plot.empty())
+    write_picture(options.plot, bisect_figure(instance.design->name, name, result.found, choices));
+  const std::string report = options.json
+                                 ? io::to_text(json_of(result, choices))
+                                 : table(result, name) + "\n" + synthesis_summary(result.gains) +
+                                       held_line(instance, {choices.scalar.name});
   write_result(result.gains, options.output, report, options.json);
   return exit_of_search(result.gains);
 }
@@ -143,6 +137,8 @@ Command bisect_command() {
               "value on a logarithmic scale)"),
        Option("-o,--output", options->output,
               "write the gains of the feasible end here; - for standard output"),
+       Option("--plot", options->plot,
+              "draw the values that were tried and the bracket here (.svg, .pdf, .png)"),
        Option("--json", options->json, "print the result as JSON")},
       "Both ends of the bracket are checked: gains whose recomputed margins hold, and a\n"
       "certificate that excludes others. The other scalars keep the problem's values.\n"

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/number.h"
+#include "gainsmith/run_figure.h"
 #include "io/csv.h"
 
 namespace gainsmith::app {
@@ -46,7 +47,7 @@ std::string events_csv(const verify::Replay& replay) {
   return text;
 }
 
-io::Json events_json(const verify::Replay& replay) {
+io::Json events_json(const verify::Replay& replay, const RunView& view) {
   io::Json rows = io::Json::array();
   for (Eigen::Index row = 0; row < replay.table.rows(); ++row) {
     io::Json cells = io::Json::array();
@@ -61,6 +62,9 @@ io::Json events_json(const verify::Replay& replay) {
   if (!replay.run.message.empty()) document["message"] = replay.run.message;
   if (!replay.run.notes.empty()) document["notes"] = replay.run.notes;
   document["columns"] = names_of(replay);
+  for (const verify::Column& column : replay.columns)
+    if (const std::string unit = unit_of(view, column); !unit.empty())
+      document["units"][column.name] = unit;
   document["rows"] = rows;
   return document;
 }

@@ -10,6 +10,7 @@
 #include "bind/gains.h"
 #include "bind/inequalities.h"
 #include "bind/search.h"
+#include "bind/shown.h"
 #include "bind/simulation.h"
 #include "expr/work.h"
 #include "model/gains.h"
@@ -64,6 +65,7 @@ model::Instance bound(Binding binding) {
   bind_campaign(binding);
   bind_expectation(binding);
   bind_comparison(binding);
+  check_shown(binding);
   finish_dynamics(binding);
   binding.design->ranks = binding.recorder->ranks;
   binding.design->names = binding.names;

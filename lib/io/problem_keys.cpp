@@ -33,6 +33,8 @@ constexpr std::array kProblem = {
     Key{"campaign", "campaign", "the runs that check the claims"},
     Key{"no campaign", "text", "why there is none"},
     Key{"report", "{text}?", "expressions to be shown beside the gains"},
+    Key{"units", "{text | [text]+}?", "units of states and signals, for pictures and tables"},
+    Key{"covariance", "{text}?", "for an estimate: the state that is the covariance of its error"},
     Key{"compare", "[figure]", "figures of runs, side by side for each observer"},
     Key{"expect", "expectation", "what gainsmith run compares the results with"}};
 constexpr std::array kProblemRules = {Rule::at_most_one("campaign,no campaign")};

@@ -332,6 +332,22 @@ model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// "x: [rad, rad/s]", "u: V".
+model::UnitText unit(const YamlFile& file, const YamlItem& item) {
+  model::UnitText result{item.key, {}, item.place};
+  const auto add = [&](const YAML::Node& node) {
+    result.units.push_back(file.string(node, item.key));
+  };
+  if (!item.value.IsSequence()) {
+    add(item.value);
+    return result;
+  }
+  if (item.value.size() == 0)
+    throw InputError(item.place, item.key + ": expected a unit, or one for each element");
+  for (const auto& entry : item.value) add(entry);
+  return result;
+}
+
 /// What to do with keys that stand at the wrong level.
 std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
   std::map<std::string, std::string> advice;
@@ -385,6 +401,11 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
     problem.report.push_back({item.key, yaml.expression(item.value, item.key), item.place});
   for (const YamlItem& item : items_of(yaml, map.find("uncertain"), "uncertain"))
     problem.uncertain.push_back(uncertain(yaml, item));
+  for (const YamlItem& item : items_of(yaml, map.find("units"), "units"))
+    problem.units.push_back(unit(yaml, item));
+  for (const YamlItem& item : items_of(yaml, map.find("covariance"), "covariance"))
+    problem.covariances.push_back(
+        {item.key, yaml.string(item.value, item.key), item.place, yaml.place(item.value)});
   map.finish(advice_on_keys(*problem.method));
   return problem;
 }
