@@ -21,6 +21,10 @@ io::Json events_json(const verify::Replay& replay);
 /// States with their estimates, errors and claims over time (SVG).
 std::string run_figure(const std::string& title, const verify::Replay& replay);
 
+/// The same of a run of a campaign, with what lies between the ends of its steps.
+std::string run_picture(const std::string& title, const verify::Setup& setup, std::uint64_t seed,
+                        std::uint64_t run);
+
 /// Figures of observers side by side.
 std::string comparison_text(const std::vector<verify::FoundFigure>& figures);
 
