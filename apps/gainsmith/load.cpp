@@ -161,13 +161,17 @@ model::Instance load_problem(const std::filesystem::path& path,
   return instance;
 }
 
-LoadedGains load_gains(const std::filesystem::path& path) {
+model::Gains read_gains(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (begin != std::string::npos && text[begin] != '{')
     throw InputError({path.string()},
                      "this is no gain file; expected the JSON that 'gainsmith synth -o' writes");
-  model::Gains gains = io::parse_gains(text, path.string());
+  return io::parse_gains(text, path.string());
+}
+
+LoadedGains load_gains(const std::filesystem::path& path) {
+  model::Gains gains = read_gains(path);
   check_searched(gains, path.string());
   model::Instance stated = bind::bind(io::stated_problem(gains, path.string()), gains.searched);
   check_complete(gains, stated, path.string());

@@ -28,6 +28,9 @@ struct LoadedGains {
   model::Instance stated;
 };
 
+/// Reads a gain file, not the problem in it. InputError for what is no gain file.
+model::Gains read_gains(const std::filesystem::path& path);
+
 /// InputError for what is no gain file, and for one without gains: its verdict is no, or undecided.
 LoadedGains load_gains(const std::filesystem::path& path);
 

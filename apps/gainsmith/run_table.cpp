@@ -30,6 +30,12 @@ std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_
   return events_csv(verify::replay_run(setup, seed, run, 0));
 }
 
+std::string run_picture(const std::string& title, const verify::Setup& setup, std::uint64_t seed,
+                        std::uint64_t run) {
+  constexpr double kPoints = 1500;
+  return run_figure(title, verify::replay_run(setup, seed, run, setup.horizon() / kPoints));
+}
+
 std::string events_csv(const verify::Replay& replay) {
   std::string text;
   io::add_csv_line(names_of(replay), text);

@@ -25,6 +25,10 @@ io::Json events_json(const verify::Replay& replay, const RunView& view);
 /// run_figure.h for these. What `replay.rounding` says to be rounding is 0.
 std::string run_figure(const std::string& title, const verify::Replay& replay);
 
+/// The same of a run of a campaign, with what lies between the ends of its steps.
+std::string run_picture(const std::string& title, const verify::Setup& setup, std::uint64_t seed,
+                        std::uint64_t run);
+
 /// Figures of observers side by side.
 std::string comparison_text(const std::vector<verify::FoundFigure>& figures);
 

@@ -15,6 +15,12 @@ std::string matrix_text(const numbers::Matrix& matrix);
 /// "-1 +- 2i, -3": rows of real and imaginary parts as eig(M) has them, pairs once.
 std::string eigenvalues_text(const numbers::Matrix& rows);
 
+/// "688.572  (the optimum is at least 688.571)": with the price of margins; empty without objective.
+std::string objective_line(const model::Gains& gains);
+
+/// Why the solver stopped, as far as a verdict has to do with it.
+std::string solver_line(const model::Gains& gains);
+
 /// Verdict, objective with the price of the margin, gains, margins, bounds, certificate.
 std::string synthesis_summary(const model::Gains& gains);
 

@@ -9,6 +9,7 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/terminal.h"
+#include "io/campaign_json.h"
 
 namespace gainsmith::app {
 
@@ -28,8 +29,10 @@ ExitCode verify_gains(const VerifyOptions& options) {
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
   const verify::Report report = verify::run_campaign(*setup, campaign);
   const Telling telling;
-  fmt::print("{}", options.json ? io::to_text(campaign_json(report))
-                                : campaign_summary(report, options.gains));
+  fmt::print("{}",
+             options.json
+                 ? io::to_text(io::to_json(campaign_record(report, io::gains_hash(loaded.gains))))
+                 : campaign_summary(report, options.gains));
   return campaign_exit(report.verdict);
 }
 

@@ -1,10 +1,7 @@
 #include "io/gains_json.h"
 
-#include <array>
-#include <charconv>
 #include <utility>
 
-#include "base/version.h"
 #include "io/json_reader.h"
 
 namespace gainsmith::io {
@@ -119,32 +116,6 @@ Json statement_json(const model::Statement& statement) {
           {"problem_file", statement.problem_file},
           {"problem_text", statement.problem_text},
           {"sha256", statement.hash}};
-}
-
-/// Three numbers of "0.1.0".
-std::array<int, 3> parts_of(const std::string& version, const JsonReader& reader) {
-  std::array<int, 3> parts{};
-  const char* at = version.data();
-  const char* const end = at + version.size();
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const auto number = std::from_chars(at, end, parts[k]);
-    const bool last = k + 1 == parts.size();
-    if (number.ec != std::errc() ||
-        (last ? number.ptr != end : number.ptr == end || *number.ptr != '.'))
-      reader.fail("expected the version of gainsmith that wrote this file, such as " +
-                  std::string(kVersion) + ", not '" + version + "'");
-    at = number.ptr + (last ? 0 : 1);
-  }
-  return parts;
-}
-
-/// A later version may say things that this one would not understand.
-std::string version_of(const JsonReader& reader) {
-  const std::string version = reader.text();
-  if (parts_of(version, reader) > parts_of(kVersion, reader))
-    reader.fail("gainsmith " + version + " wrote this file, this is " + kVersion +
-                ": take that version, or synthesize again");
-  return version;
 }
 
 model::Verdict verdict_of(const JsonReader& reader) {

@@ -1,6 +1,7 @@
 // Reads a JSON document whose keys are known, and says where it is when something is wrong.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
@@ -38,6 +39,7 @@ class JsonReader {
   /// null stands for infinity.
   double number_or_infinity() const;
   int whole() const;
+  std::uint64_t count() const;
   bool truth() const;
   std::vector<JsonReader> items() const;
   /// All keys, whatever they are, with their values.
@@ -75,5 +77,9 @@ class JsonReader {
   std::string_view form_;  ///< as in Key
   std::shared_ptr<Asked> asked_;
 };
+
+/// The version that wrote a file, "0.1.0". InputError for a later one than this: it may say things
+/// that this one would not understand.
+std::string version_of(const JsonReader& reader);
 
 }  // namespace gainsmith::io
