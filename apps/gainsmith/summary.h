@@ -21,6 +21,9 @@ std::string synthesis_summary(const model::Gains& gains);
 /// What the verdict rests on, and what stopped it, indented; empty when there is nothing to say.
 std::string message_lines(const model::Gains& gains);
 
+/// The objective with the bracket of the optimum; empty without one.
+std::string objective_line(const model::Gains& gains);
+
 /// One line: "yes, objective 688.572".
 std::string verdict_line(const model::Gains& gains);
 

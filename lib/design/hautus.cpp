@@ -39,6 +39,21 @@ std::string known_part(double value, double accuracy) {
   return brief(value, static_cast<int>(std::min<double>(digits, kDigits)));
 }
 
+/// "0.25 +- 3i".
+std::string eigenvalue_text(const HiddenMode& mode) {
+  const double imaginary = mode.eigenvalue.imag();
+  return known_part(mode.eigenvalue.real(), mode.accuracy) +
+         (imaginary > 0 ? " +- " + known_part(imaginary, mode.accuracy) + "i" : "");
+}
+
+/// "[1; 0; -0.5]".
+std::string direction_text(const HiddenMode& mode) {
+  std::string text;
+  for (const double element : mode.direction)
+    text += (text.empty() ? "[" : "; ") + brief(std::abs(element) < kRank ? 0 : element, 4);
+  return text + "]";
+}
+
 bool is_declared(const model::Design& design, const std::string& name, bool square) {
   return std::any_of(design.data.begin(), design.data.end(), [&](const auto& datum) {
     return datum.name == name && (!square || datum.shape.rows == datum.shape.cols);
@@ -47,7 +62,8 @@ bool is_declared(const model::Design& design, const std::string& name, bool squa
 
 }  // namespace
 
-std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C) {
+std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C,
+                                      Modes modes) {
   constexpr double kStable = 1e-12;  // of |A|: an eigenvalue on the axis is known to that
   const Eigen::Index n = A.rows();
   const double size = A.cwiseAbs().rowwise().sum().maxCoeff();
@@ -60,7 +76,8 @@ std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::M
   std::optional<HiddenMode> found;
   const numbers::ComplexVector eigenvalues = numbers::eigenvalues(A / size);
   for (const std::complex<double>& lambda : eigenvalues) {
-    if (lambda.real() < -kStable || lambda.imag() < 0) continue;
+    if (lambda.imag() < 0) continue;
+    if (modes == Modes::not_decaying && lambda.real() < -kStable) continue;
     const numbers::Svd svd = numbers::full_svd(hautus_matrix(A / size, rows, lambda));
     const double residual = svd.s.tail(1)(0) / svd.s(0);
     if (!(residual <= kRank)) continue;
@@ -85,17 +102,33 @@ std::string hidden_mode_text(const model::Instance& instance) {
     return "";
   const auto mode = hidden_mode(A->second, C->second);
   if (!mode) return "";
-  std::string direction;
-  for (const double element : mode->direction)
-    direction +=
-        (direction.empty() ? "" : "; ") + brief(std::abs(element) < kRank ? 0 : element, 4);
-  const double imaginary = mode->eigenvalue.imag();
   return "the output does not show a mode of the plant that does not decay: eigenvalue " +
-         known_part(mode->eigenvalue.real(), mode->accuracy) +
-         (imaginary > 0 ? " +- " + known_part(imaginary, mode->accuracy) + "i" : "") +
-         " in the direction [" + direction +
-         "], where [A - lambda*I; C] loses rank (Hautus); no gain changes it, so another "
+         eigenvalue_text(*mode) + " in the direction " + direction_text(*mode) +
+         ", where [A - lambda*I; C] loses rank (Hautus); no gain changes it, so another "
          "output is needed";
+}
+
+std::vector<std::string> fixed_mode_texts(const model::Instance& instance) {
+  std::vector<std::string> texts;
+  const auto a = instance.values.find("A");
+  if (a == instance.values.end() || !is_declared(*instance.design, "A", true)) return texts;
+  const numbers::Matrix& A = a->second;
+  for (const char* name : {"C", "C2"}) {
+    const auto c = instance.values.find(name);
+    if (c == instance.values.end() || c->second.cols() != A.cols()) continue;
+    if (const auto mode = hidden_mode(A, c->second, Modes::all))
+      texts.push_back("no gain moves the mode " + eigenvalue_text(*mode) + ": " + name +
+                      " does not show the direction " + direction_text(*mode));
+  }
+  for (const char* name : {"B", "B2"}) {
+    const auto b = instance.values.find(name);
+    if (b == instance.values.end() || b->second.rows() != A.rows()) continue;
+    if (const auto mode = hidden_mode(A.transpose(), b->second.transpose(), Modes::all))
+      texts.push_back("no gain moves the mode " + eigenvalue_text(*mode) + ": " + name +
+                      " does not reach the combination " + direction_text(*mode) +
+                      " of the states");
+  }
+  return texts;
 }
 
 }  // namespace gainsmith::design
