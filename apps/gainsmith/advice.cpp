@@ -56,6 +56,8 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
     commands.push_back("gainsmith synth " + quoted(file) + " --effort full");
   if (gains.verdict == model::Verdict::undecided)
     commands.push_back("gainsmith explain " + quoted(file));
+  if (gains.bound_only)
+    commands.push_back("gainsmith bisect " + quoted(file) + " --smallest gain_bound");
   // What the output does not show no interval shows.
   if (!design::hidden_mode_text(instance).empty()) return commands;
   std::set<std::string> ends;
@@ -98,7 +100,7 @@ std::string held_line(const model::Instance& instance, const std::vector<std::st
   for (const design::SearchedScalar& scalar : design::request_of(instance).over)
     if (std::find(varied.begin(), varied.end(), scalar.name) == varied.end())
       held += (held.empty() ? "" : ", ") + scalar.name + " = " +
-              brief(instance.values.at(scalar.name)(0, 0));
+              brief(model::scalar_named(instance, scalar.name).value_or(0));
   if (held.empty()) return "";
   return fmt::format("{:<12}{}; synth and optimize search what this keeps\n", "held", held);
 }

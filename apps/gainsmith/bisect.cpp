@@ -19,6 +19,7 @@
 #include "gainsmith/terminal.h"
 #include "gainsmith/units.h"
 #include "io/gains_json.h"
+#include "model/names.h"
 
 namespace gainsmith::app {
 
@@ -35,6 +36,16 @@ struct BisectOptions {
   bool json = false;
 };
 
+/// A factor of a thousand to both sides of the bound that the problem states.
+model::ScalarRange range_of_gain_bound(const model::Problem& problem) {
+  constexpr double kFactor = 1000;
+  const double bound = problem.synthesis.gain_bound.value_or(1);
+  return {model::kGainBound,
+          parse_expression(decimal17(bound / kFactor), "--in"),
+          parse_expression(decimal17(bound * kFactor), "--in"),
+          {"--in"}};
+}
+
 /// The range of a scalar that the command line names: --in, or what the problem says of it.
 model::ScalarRange range_of(const BisectOptions& options, const model::Problem& problem,
                             const std::string& name) {
@@ -48,6 +59,7 @@ model::ScalarRange range_of(const BisectOptions& options, const model::Problem& 
     return *problem.search->extreme;
   for (const model::ScalarRange& range : problem.negotiable)
     if (range.name == name) return range;
+  if (name == model::kGainBound) return range_of_gain_bound(problem);
   throw InputError({options.problem}, "no range for " + name + "; give --in LOW HIGH");
 }
 
@@ -143,6 +155,8 @@ Command bisect_command() {
       "Both ends of the bracket are checked: gains whose recomputed margins hold, and a\n"
       "certificate that excludes others. The other scalars keep the problem's values.\n"
       "Values that the assumptions exclude are 'refused'.\n"
+      "The scalar 'gain_bound' is the bound on the gains (its range: a thousand times less to "
+      "more).\n"
       "Exit code: 0 a feasible value was found, 2 wrong input, 3 none was found (which says\n"
       "nothing of the values between those tried).\n"
       "Examples:\n"

@@ -55,6 +55,8 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
   known.clear();
   for (const auto& shown : instance.design->report) known.push_back(shown.name);
   refuse_unknown(gains.report, known, "report", file);
+  for (const auto& [shown, reason] : gains.not_computed)
+    refuse_unknown(shown, known, "not_computed", file);
   if (gains.verdict == model::Verdict::yes) {
     for (const auto& unknown : stated.unknowns) require(unknown.name, unknown.shape);
     for (const auto& wanted : instance.design->gains) {

@@ -27,6 +27,15 @@ std::string named_matrices(const std::string& title, const model::NamedMatrices&
   return text;
 }
 
+/// What the report asks for, and what of it has no value at these gains.
+std::string report_text(const model::Gains& gains) {
+  std::string text = named_matrices("report", gains.report, gains);
+  for (const auto& [name, reason] : gains.not_computed)
+    text +=
+        fmt::format("{:<12}{} is not computed: {}\n", text.empty() ? "report" : "", name, reason);
+  return text;
+}
+
 /// The scalars that a search found.
 std::string searched_text(const model::Gains& gains) {
   if (gains.search && !gains.search->value) return "";
@@ -58,10 +67,6 @@ std::string functions_text(const model::Gains& gains) {
   return text;
 }
 
-std::string objective_text(const model::Gains& gains) {
-  return gains.objective ? "objective   " + objective_line(gains) + "\n" : "";
-}
-
 std::string margins_text(const model::Gains& gains) {
   if (gains.margins.empty()) return "";
   std::size_t width = 10;
@@ -69,10 +74,13 @@ std::string margins_text(const model::Gains& gains) {
   std::string text = fmt::format("{:<{}}  {:>12}  {:>10}  {:>12}  {}\n", "inequality", width,
                                  "margin", "asked", "eigenvalue", "worst at");
   for (const model::Margin& margin : gains.margins)
-    text += fmt::format(
-        "{:<{}}  {:>12}  {:>10}  {:>12}  {}{}\n", margin.name, width, brief(margin.reached, 3),
-        margin.strict ? brief(margin.required, 3) : ">= 0", brief(margin.smallest_eigenvalue, 3),
-        margin.worst_point, margin.holds ? "" : "  DOES NOT HOLD");
+    text +=
+        fmt::format("{:<{}}  {:>12}  {:>10}  {:>12}  {}{}\n", margin.name, width,
+                    brief(margin.reached, 3), margin.strict ? brief(margin.required, 3) : ">= 0",
+                    brief(margin.smallest_eigenvalue, 3), margin.worst_point,
+                    margin.holds   ? ""
+                    : margin.fails ? "  DOES NOT HOLD"
+                                   : "  not shown");
   return text;
 }
 
@@ -172,6 +180,10 @@ std::string verdict_line(const model::Gains& gains) {
   return text;
 }
 
+std::string objective_text(const model::Gains& gains) {
+  return gains.objective ? "objective   " + objective_line(gains) + "\n" : "";
+}
+
 std::string message_lines(const model::Gains& gains) {
   return gains.solver.message.empty() ? "" : "            " + gains.solver.message + "\n";
 }
@@ -194,7 +206,7 @@ std::string synthesis_summary(const model::Gains& gains) {
                   gains.statement.method_name, to_string(gains.verdict), solver_line(gains));
   text += message_lines(gains);
   text += objective_text(gains) + named_matrices("gains", gains.gains, gains) +
-          functions_text(gains) + named_matrices("report", gains.report, gains) +
+          functions_text(gains) + report_text(gains) +
           named_matrices("parameters", gains.parameters, gains) + searched_text(gains) +
           search_text(gains);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);

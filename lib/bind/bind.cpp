@@ -69,6 +69,7 @@ model::Instance bound(Binding binding) {
   finish_dynamics(binding);
   binding.design->ranks = binding.recorder->ranks;
   binding.design->names = binding.names;
+  override_gain_bound(*binding.design, binding.overrides, binding.recorder->values);
   return {binding.design, binding.overrides, binding.recorder->values};
 }
 

@@ -172,6 +172,19 @@ void define(Binding& binding, model::Design::Datum datum, std::vector<model::Des
   list.push_back(std::move(datum));
 }
 
+/// How a column or a row is written, where its transpose was given: what does not fit would.
+std::string transpose_hint(const model::ShapeText& declared, expr::Shape shape,
+                           model::Dimensions known) {
+  if ((shape.rows == 1) == (shape.cols == 1)) return "";
+  const auto expected = resolve(declared, known);
+  const bool fits = expected ? (expected->rows == shape.rows || expected->rows == shape.cols) &&
+                                   (expected->cols == shape.cols || expected->cols == shape.rows)
+                             : learn(declared, {shape.cols, shape.rows}, known);
+  if (!fits) return "";
+  return shape.rows == 1 ? "; a column is written [[1], [2]], or \"[1; 2]\" as a formula"
+                         : "; a row is written [1, 2]";
+}
+
 void add_datum(Binding& binding, const Given& given) {
   const model::Declaration& datum = given.declaration;
   model::Dimensions& dimensions = binding.design->dimensions;
@@ -201,7 +214,8 @@ void add_datum(Binding& binding, const Given& given) {
     throw InputError(value.place, "the datum " + datum.name + " is declared " +
                                       declared(datum, dimensions) + "; found " +
                                       to_string(bound.shape) +
-                                      (datum.indices.empty() ? "" : kFamilyTakes));
+                                      (datum.indices.empty() ? "" : kFamilyTakes) +
+                                      transpose_hint(datum.shape, bound.shape, dimensions));
   bound.elements = element_places(value, bound.shape);
   define(binding, std::move(bound), binding.design->data);
 }

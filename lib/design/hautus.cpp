@@ -44,6 +44,21 @@ std::string known_part(double value, double accuracy) {
   return brief(value, static_cast<int>(std::min<double>(digits, kDigits)));
 }
 
+/// "0.25 +- 3i".
+std::string eigenvalue_text(const HiddenMode& mode) {
+  const double imaginary = mode.eigenvalue.imag();
+  return known_part(mode.eigenvalue.real(), mode.accuracy) +
+         (imaginary > 0 ? " +- " + known_part(imaginary, mode.accuracy) + "i" : "");
+}
+
+/// "[1; 0; -0.5]": what is below `nothing` is 0.
+std::string direction_text(const HiddenMode& mode, double nothing = kRank) {
+  std::string text;
+  for (const double element : mode.direction)
+    text += (text.empty() ? "[" : "; ") + brief(std::abs(element) < nothing ? 0 : element, 4);
+  return text + "]";
+}
+
 bool is_declared(const model::Design& design, const std::string& name, bool square) {
   return std::any_of(design.data.begin(), design.data.end(), [&](const auto& datum) {
     return datum.name == name && (!square || datum.shape.rows == datum.shape.cols);
@@ -56,10 +71,10 @@ numbers::Vector row_sizes(const numbers::Matrix& C) {
                        : numbers::Vector(C.cwiseAbs().rowwise().maxCoeff());
 }
 
-/// All eigenvalues Re lambda >= 0 of A, in the upper half plane, with what the output shows of them;
-/// the rows of C in units of `sizes`.
-std::vector<HiddenMode> lasting_modes(const numbers::Matrix& A, const numbers::Matrix& C,
-                                      const numbers::Vector& sizes) {
+/// All eigenvalues of A in the upper half plane, or those of Re lambda >= 0 alone, with what the
+/// output shows of them; the rows of C in units of `sizes`.
+std::vector<HiddenMode> modes_of(const numbers::Matrix& A, const numbers::Matrix& C,
+                                 const numbers::Vector& sizes, Modes which) {
   constexpr double kStable = 1e-12;  // of |A|: an eigenvalue on the axis is known to that
   const Eigen::Index n = A.rows();
   if (n == 0 || !A.allFinite() || !C.allFinite()) return {};
@@ -71,7 +86,8 @@ std::vector<HiddenMode> lasting_modes(const numbers::Matrix& A, const numbers::M
   std::vector<HiddenMode> modes;
   const numbers::ComplexVector eigenvalues = numbers::eigenvalues(A / size);
   for (const std::complex<double>& lambda : eigenvalues) {
-    if (lambda.real() < -kStable || lambda.imag() < 0) continue;
+    if (lambda.imag() < 0) continue;
+    if (which == Modes::not_decaying && lambda.real() < -kStable) continue;
     const numbers::Svd svd = numbers::full_svd(hautus_matrix(A / size, rows, lambda));
     numbers::Vector v = svd.V.col(2 * n - 1).head(n);
     const numbers::Vector imaginary = svd.V.col(2 * n - 1).tail(n);
@@ -90,18 +106,6 @@ std::optional<HiddenMode> hidden_among(const std::vector<HiddenMode>& modes, dou
     if (mode.residual <= tells && (!found || mode.eigenvalue.real() > found->eigenvalue.real()))
       found = mode;
   return found;
-}
-
-/// "eigenvalue 1 in the direction [0; 1]".
-std::string described(const HiddenMode& mode, double tells) {
-  std::string direction;
-  for (const double element : mode.direction)
-    direction +=
-        (direction.empty() ? "" : "; ") + brief(std::abs(element) < tells ? 0 : element, 4);
-  const double imaginary = mode.eigenvalue.imag();
-  return "eigenvalue " + known_part(mode.eigenvalue.real(), mode.accuracy) +
-         (imaginary > 0 ? " +- " + known_part(imaginary, mode.accuracy) + "i" : "") +
-         " in the direction [" + direction + "]";
 }
 
 /// A formula of the plant and its slope by the state, everything else that moves being 0.
@@ -175,7 +179,7 @@ class Linearisation {
   std::vector<HiddenMode> modes(const std::vector<double>& at) {
     const numbers::Matrix A = plant_.slope(column(at)), C = output_.slope(column(at));
     if (A.size() == 0 || C.rows() != sizes_.size()) return {};
-    return lasting_modes(A, C, sizes_);
+    return modes_of(A, C, sizes_, Modes::not_decaying);
   }
 
  private:
@@ -189,8 +193,9 @@ class Linearisation {
 
 }  // namespace
 
-std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C) {
-  return hidden_among(lasting_modes(A, C, row_sizes(C)), kRank);
+std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C,
+                                      Modes modes) {
+  return hidden_among(modes_of(A, C, row_sizes(C), modes), kRank);
 }
 
 std::string hidden_mode_text(const model::Instance& instance) {
@@ -203,8 +208,8 @@ std::string hidden_mode_text(const model::Instance& instance) {
     return "";
   const auto mode = hidden_mode(A->second, C->second);
   if (!mode) return "";
-  return "the output does not show a mode of the plant that does not decay: " +
-         described(*mode, kRank) +
+  return "the output does not show a mode of the plant that does not decay: eigenvalue " +
+         eigenvalue_text(*mode) + " in the direction " + direction_text(*mode) +
          ", where [A - lambda*I; C] loses rank (Hautus); no gain changes it, so another "
          "output is needed";
 }
@@ -245,11 +250,35 @@ std::string hidden_mode_text(const model::Instance& instance, const forall::Doma
                brief(nothing ? 0 : at[k]);
     }
     return "the output does not show a mode of the plant that does not decay, linearised at " +
-           label + ": " + described(*mode, kTells) +
+           label + ": eigenvalue " + eigenvalue_text(*mode) + " in the direction " +
+           direction_text(*mode, kTells) +
            " (Hautus); no gain changes it, so another output is needed, or a box without this "
            "point";
   }
   return "";
+}
+
+std::vector<std::string> fixed_mode_texts(const model::Instance& instance) {
+  std::vector<std::string> texts;
+  const auto a = instance.values.find("A");
+  if (a == instance.values.end() || !is_declared(*instance.design, "A", true)) return texts;
+  const numbers::Matrix& A = a->second;
+  for (const char* name : {"C", "C2"}) {
+    const auto c = instance.values.find(name);
+    if (c == instance.values.end() || c->second.cols() != A.cols()) continue;
+    if (const auto mode = hidden_mode(A, c->second, Modes::all))
+      texts.push_back("no gain moves the mode " + eigenvalue_text(*mode) + ": " + name +
+                      " does not show the direction " + direction_text(*mode));
+  }
+  for (const char* name : {"B", "B2"}) {
+    const auto b = instance.values.find(name);
+    if (b == instance.values.end() || b->second.rows() != A.rows()) continue;
+    if (const auto mode = hidden_mode(A.transpose(), b->second.transpose(), Modes::all))
+      texts.push_back("no gain moves the mode " + eigenvalue_text(*mode) + ": " + name +
+                      " does not reach the combination " + direction_text(*mode) +
+                      " of the states");
+  }
+  return texts;
 }
 
 }  // namespace gainsmith::design

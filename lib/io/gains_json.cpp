@@ -257,6 +257,10 @@ Json to_json(const model::Gains& gains) {
       document["functions"][function.signature] = function.text;
   }
   if (!gains.report.empty()) document["report"] = matrices_json(gains, "report", gains.report);
+  for (const auto& [name, reason] : gains.not_computed) {
+    document["report"][name] = nullptr;
+    document["not_computed"][name] = reason;
+  }
   if (!gains.estimates.empty()) document["estimates"] = gains.estimates;
   document["parameters"] = matrices_json(gains, "parameters", gains.parameters);
   if (!gains.bases.empty()) document["bases"] = matrices_json(gains, "bases", gains.bases);
@@ -297,7 +301,13 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   if (reader.has("functions"))
     for (const auto& [name, item] : reader.at("functions").members())
       gains.functions.push_back({name, item.text(), std::nullopt});
-  if (reader.has("report")) gains.report = matrices_of(reader.at("report"), gains);
+  if (reader.has("not_computed"))
+    for (const auto& [name, item] : reader.at("not_computed").members())
+      gains.not_computed[name] = item.text();
+  if (reader.has("report"))
+    for (const auto& [name, item] : reader.at("report").members())
+      if (!item.is_null() || !gains.not_computed.contains(name))
+        gains.report.emplace_back(name, matrix_of(item, gains));
   if (reader.has("estimates"))
     for (const auto& [name, item] : reader.at("estimates").members())
       gains.estimates[name] = item.text();
