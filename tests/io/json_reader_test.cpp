@@ -21,6 +21,18 @@ std::string message_of(const std::string& text, Read read) {
   return error.message();
 }
 
+TEST(JsonReaderTest, AsksForKeysOfItsTablesAlone) {
+  const Json document = Json::parse(R"({"margins": [{"name": "jump"}], "gains": {"L": 2}})");
+  const JsonReader reader(document, "d.json", "", gain_file_levels());
+  EXPECT_THROW(reader.has("gians"), std::logic_error);
+  const JsonReader margin = reader.at("margins").items().at(0);
+  EXPECT_EQ(margin.at("name").text(), "jump");
+  EXPECT_FALSE(margin.has("holds"));
+  EXPECT_THROW(margin.has("problem"), std::logic_error);
+  // Names of the user's are in no table.
+  EXPECT_TRUE(reader.at("gains").has("L"));
+}
+
 TEST(JsonReaderTest, ReadsWhatIsThere) {
   const Json document = Json::parse(
       R"({"a": {"b": [1, 2.5]}, "t": "x", "yes": true, "M": [[1, 2], [3, 4]], "s": 7, "n": null})");
