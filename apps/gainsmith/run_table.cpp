@@ -26,7 +26,7 @@ std::vector<std::string> names_of(const verify::Replay& replay) {
 }  // namespace
 
 std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run) {
-  return events_csv(verify::replay_run(setup, seed, run, 0));
+  return events_csv(verify::table_of_run(setup, seed, run, 0));
 }
 
 std::string events_csv(const verify::Replay& replay) {

@@ -97,7 +97,7 @@ verify::Replay for_plot(const SimulateOptions& options, const verify::Setup& set
   constexpr double kPoints = 1500;
   if (options.step > 0 || replay.run.end <= 0 || replay.run.ending == hybrid::Ending::interrupted)
     return replay;
-  return verify::replay_run(setup, seed, options.run, replay.run.end / kPoints);
+  return verify::table_of_run(setup, seed, options.run, replay.run.end / kPoints);
 }
 
 ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std::uint64_t seed) {

@@ -44,9 +44,13 @@ struct Replay {
   std::vector<judge::Fault> faults;   ///< that the judge of runs found
 };
 
-/// `step`: of the points of flows; 0: as the integration went. `judged`: whether the run is checked
-/// against the texts. After a stop (base/stop.h) the run as far as it came, without claims.
-/// InputError for a step that makes more than 1e7 points.
+/// The run and its table alone. `step`: of the points of flows; 0: as the integration went. After a
+/// stop (base/stop.h) the run as far as it came. InputError for a step that makes more than 1e7
+/// points.
+Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step);
+
+/// The same with the claims, which a stop leaves out. `judged`: whether the run is checked against
+/// the texts.
 Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
                   bool judged = false);
 
