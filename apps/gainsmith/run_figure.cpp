@@ -87,10 +87,10 @@ std::string unit_of(const RunView& view, const Column& column) {
 
 DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run, double step) {
   constexpr double kPoints = 1500;
-  verify::Replay replay = verify::replay_run(setup, seed, run, step, false, true);
+  verify::Replay replay = verify::table_of_run(setup, seed, run, step, true);
   if (step > 0 || replay.run.end <= 0 || replay.run.ending == hybrid::Ending::interrupted)
     return {run, std::move(replay)};
-  return {run, verify::replay_run(setup, seed, run, replay.run.end / kPoints, false, true)};
+  return {run, verify::table_of_run(setup, seed, run, replay.run.end / kPoints, true)};
 }
 
 std::vector<double> values_of(const Replay& replay, std::size_t column) {

@@ -27,13 +27,13 @@ std::vector<std::string> names_of(const verify::Replay& replay) {
 }  // namespace
 
 std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run) {
-  return events_csv(verify::replay_run(setup, seed, run, 0));
+  return events_csv(verify::table_of_run(setup, seed, run, 0));
 }
 
 std::string run_picture(const std::string& title, const verify::Setup& setup, std::uint64_t seed,
                         std::uint64_t run) {
   constexpr double kPoints = 1500;
-  return run_figure(title, verify::replay_run(setup, seed, run, setup.horizon() / kPoints));
+  return run_figure(title, verify::table_of_run(setup, seed, run, setup.horizon() / kPoints, true));
 }
 
 std::string events_csv(const verify::Replay& replay) {

@@ -214,8 +214,8 @@ std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const EventSe
 
 }  // namespace
 
-Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
-                  bool judged, bool with_rounding) {
+Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
+                    bool with_rounding) {
   const EventSetup& events = *setup.events;
   constexpr double kMostPoints = 1e7;
   if (step > 0 && setup.horizon() / step > kMostPoints)
@@ -225,12 +225,17 @@ Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, dou
   Replay result;
   result.run = simulate::Simulator(events.system, events.scenario)
                    .run(seed, run, events.accuracy(kAccuracyOfOne));
-  if (result.run.ending == hybrid::Ending::interrupted) {
-    const Concluding concluding;
-    EventTable(events).fill(step, with_rounding, result);
-    return result;
-  }
+  std::optional<Concluding> concluding;
+  if (result.run.ending == hybrid::Ending::interrupted) concluding.emplace();
   EventTable(events).fill(step, with_rounding, result);
+  return result;
+}
+
+Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
+                  bool judged) {
+  const EventSetup& events = *setup.events;
+  Replay result = table_of_run(setup, seed, run, step);
+  if (result.run.ending == hybrid::Ending::interrupted) return result;
   if (judged) result.faults = faults_of(result.run, events, seed, run);
   if (events.judged.empty()) return result;
   const std::vector<claims::Finding> findings = Judge(setup)(seed, run).findings;

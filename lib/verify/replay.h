@@ -50,10 +50,15 @@ struct Replay {
   std::vector<judge::Fault> faults;   ///< that the judge of runs found
 };
 
-/// `step`: of the points of flows; 0: as the integration went. `judged`: whether the run is checked
-/// against the texts. `with_rounding`: for pictures, which do not show what is rounding. After a stop (base/stop.h) the run as far as it came, without claims.
-/// InputError for a step that makes more than 1e7 points.
+/// The run and its table alone. `step`: of the points of flows; 0: as the integration went.
+/// `with_rounding`: what is rounding in each value, for pictures. After a stop (base/stop.h) the run
+/// as far as it came. InputError for a step that makes more than 1e7 points.
+Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
+                    bool with_rounding = false);
+
+/// The same with the claims, which a stop leaves out. `judged`: whether the run is checked against
+/// the texts.
 Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
-                  bool judged = false, bool with_rounding = false);
+                  bool judged = false);
 
 }  // namespace gainsmith::verify
