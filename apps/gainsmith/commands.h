@@ -14,6 +14,7 @@ Command verify_command();
 Command simulate_command();
 Command run_command();
 Command check_command();
+Command export_command();
 Command solve_command();
 Command methods_command();
 Command init_command();
