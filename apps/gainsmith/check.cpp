@@ -182,20 +182,22 @@ ExitCode check(const CheckOptions& options) {
 
 Command check_command() {
   auto options = std::make_shared<CheckOptions>();
-  return {"check",
-          "Validate problem files; prove the inequalities at the gains of gain files",
-          {Option("files", options->problems,
-                  "problem files (YAML), gain files (JSON), or folders of problems; - for a problem on "
-                  "standard input")
-               .required(),
-           Option("--json", options->json, "print the result as JSON")},
-          "A problem is read, not solved. A gain file is taken as it stands, edited or not.\n"
-          "Exit code: 0 all valid and proved, 1 the inequalities do not hold at the gains of a file, 2 wrong\n"
-          "input, 3 whether they hold is not known.\n"
-          "Examples:\n"
-          "  gainsmith check problems/ferrante-seuret-2021\n"
-          "  gainsmith check gains.json",
-          [options] { return check(*options); }};
+  return {
+      "check",
+      "Validate problem files; prove the inequalities at the gains of gain files",
+      {Option("files", options->problems,
+              "problem files (YAML), gain files (JSON), or folders of problems; - for a problem on "
+              "standard input")
+           .required(),
+       Option("--json", options->json, "print the result as JSON")},
+      "A problem is read, not solved. A gain file is taken as it stands, edited or not.\n"
+      "Exit code: 0 all valid and proved, 1 the inequalities do not hold at the gains of a file, 2 "
+      "wrong\n"
+      "input, 3 whether they hold is not known.\n"
+      "Examples:\n"
+      "  gainsmith check problems/ferrante-seuret-2021\n"
+      "  gainsmith check gains.json",
+      [options] { return check(*options); }};
 }
 
 }  // namespace gainsmith::app

@@ -85,11 +85,11 @@ std::optional<model::Gains> rounded(const LoadedGains& loaded, ExitCode& exit) {
     return std::move(single.gains);
   }
   const std::string which = not_shown_text(check);
-  say(fmt::format("gainsmith: {}: at single precision {}{}{}; nothing is written\n", loaded.gains.file,
-                  check.verdict == model::Verdict::no ? "the inequalities do not hold"
-                                                      : "the inequalities are not shown",
-                  which.empty() ? "" : ": " + which,
-                  check.message.empty() ? "" : " (" + check.message + ")"));
+  say(fmt::format(
+      "gainsmith: {}: at single precision {}{}{}; nothing is written\n", loaded.gains.file,
+      check.verdict == model::Verdict::no ? "the inequalities do not hold"
+                                          : "the inequalities are not shown",
+      which.empty() ? "" : ": " + which, check.message.empty() ? "" : " (" + check.message + ")"));
   exit = exit_of(check.verdict);
   return std::nullopt;
 }
@@ -97,15 +97,17 @@ std::optional<model::Gains> rounded(const LoadedGains& loaded, ExitCode& exit) {
 void check_output(const ExportOptions& options) {
   const bool to_stdout = options.output.empty() || options.output == "-";
   if (to_stdout && (options.target == "csv" || options.target == "mat"))
-    throw InputError({"-o"}, options.target == "csv"
-                                 ? "each matrix has a file of its own: -o gains.csv gives gains-L.csv"
-                                 : "a MAT-file is no text: -o gains.mat says where it goes");
+    throw InputError({"-o"},
+                     options.target == "csv"
+                         ? "each matrix has a file of its own: -o gains.csv gives gains-L.csv"
+                         : "a MAT-file is no text: -o gains.mat says where it goes");
   if (options.target == "matlab" && !to_stdout) {
     const std::string stem = std::filesystem::path(options.output).stem().string();
     if (exports::Identifiers(exports::Language::matlab)(stem) != stem)
-      throw InputError({options.output}, "MATLAB calls a function by the name of its file, and '" + stem +
-                                             "' cannot be one: choose a name of letters, digits and "
-                                             "underscores, none of MATLAB's own");
+      throw InputError({options.output},
+                       "MATLAB calls a function by the name of its file, and '" + stem +
+                           "' cannot be one: choose a name of letters, digits and "
+                           "underscores, none of MATLAB's own");
   }
 }
 
@@ -166,7 +168,8 @@ Command export_command() {
            Option("--float", options->single,
                   "round the gains to single precision and show every inequality again there")},
           "C, MATLAB and Python have the maps of the observers too.\n"
-          "Exit code: 0 written, 2 wrong input; with --float 1 or 3 where the inequalities do not hold at the\n"
+          "Exit code: 0 written, 2 wrong input; with --float 1 or 3 where the inequalities do not "
+          "hold at the\n"
           "rounded gains, or are not shown: nothing is written then.\n"
           "Examples:\n"
           "  gainsmith export gains.json --to c -o observer.h\n"

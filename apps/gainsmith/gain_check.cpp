@@ -21,7 +21,8 @@ std::string listed_names(const std::vector<std::string>& names) {
 std::string sentence(const design::GainCheck& check) {
   switch (check.verdict) {
     case model::Verdict::yes:
-      if (check.margins.empty()) return "there is no inequality: the gains are formulas of the data";
+      if (check.margins.empty())
+        return "there is no inequality: the gains are formulas of the data";
       return std::string("every inequality holds at the gains of the file, shown with ") +
              (check.own_unknowns ? "the unknowns of the file" : "unknowns that were solved anew");
     case model::Verdict::no:
@@ -41,8 +42,7 @@ design::GainCheck check_gains(const LoadedGains& loaded) {
 std::string not_shown_text(const design::GainCheck& check) { return listed_names(check.not_shown); }
 
 std::string gain_check_text(const std::string& path, const design::GainCheck& check) {
-  std::string text =
-      fmt::format("{}: {}: {}\n", path, to_string(check.verdict), sentence(check));
+  std::string text = fmt::format("{}: {}: {}\n", path, to_string(check.verdict), sentence(check));
   if (!check.edited.empty())
     text += "  edited      " + listed_names(check.edited) +
             ": other than the formulas give at the unknowns of the file\n";

@@ -93,7 +93,7 @@ void refuse_without_gains(const model::Gains& gains, const model::Design& design
       !gains.gain_functions.empty())
     return;
   throw InputError({file}, "the verdict is " + std::string(to_string(gains.verdict)) +
-                               ": the file has no gains to simulate; 'gainsmith explain' of its "
+                               ": the file has no gains; 'gainsmith explain' of its "
                                "problem says why");
 }
 

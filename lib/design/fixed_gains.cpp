@@ -22,8 +22,8 @@ namespace {
 /// Relative to the largest element: gains that differ by less are the same computation, rounded.
 constexpr double kSameGain = 1e-12;
 
-/// The input that stands for a gain while its formula is turned around.
-const std::string kValue = "value of the gain";
+/// The datum that a gain becomes: no other has this name.
+std::string datum_name(const std::string& gain) { return "value of " + gain; }
 
 /// A matrix of decimals as a formula.
 model::Formula decimals_formula(const model::Decimals& decimals, const Place& place) {
@@ -136,9 +136,8 @@ class Fixing {
       if (function->formula != gain.formula.text) stick(gain);
       return;
     }
-    const auto matrix =
-        std::find_if(gains_.gains.begin(), gains_.gains.end(),
-                     [&](const auto& one) { return one.first == gain.name; });
+    const auto matrix = std::find_if(gains_.gains.begin(), gains_.gains.end(),
+                                     [&](const auto& one) { return one.first == gain.name; });
     if (!is_function && matrix == gains_.gains.end()) return;  // it has no value
     const bool edited = is_edited(gain);
     if (edited) result_.edited.push_back(gain.name);
@@ -183,25 +182,24 @@ class Fixing {
     return false;
   }
 
-  /// What the gain is: the datum of its name, or the polynomial over its coefficients.
+  /// What the gain is: a datum, or the polynomial over its coefficients, which are data.
   expr::Program value_of(const model::Design::Gain& gain, const model::GainFunction* function) {
+    const std::string name = datum_name(gain.name);
     if (function == nullptr) {
-      const auto matrix =
-          std::find_if(gains_.gains.begin(), gains_.gains.end(),
-                       [&](const auto& one) { return one.first == gain.name; });
-      set_datum(decimals_at(gains_, "gains." + gain.name, matrix->second), gain.name);
+      set_datum(decimals_at(gains_, "gains." + gain.name, *gains_.find(gain.name)), name);
       expr::Composer compose(place_);
-      return compose.take(compose.input(gain.name, gain.shape));
+      return compose.take(compose.input(name, gain.shape));
     }
     const auto& coefficients = function->coefficients;
     for (std::size_t k = 0; k < coefficients.size(); ++k)
       set_datum(decimals_at(gains_, model::coefficient_key(gain.name, k), coefficients[k]),
-                model::coefficient_name(gain.name, k));
-    return model::Function{gain.name,
+                model::coefficient_name(name, k));
+    const int degree = static_cast<int>(coefficients.size()) - 1;
+    return model::Function{name,
                            gain.variable,
                            gain.shape,
                            model::Structure::full,
-                           model::monomials(gain.variable, static_cast<int>(coefficients.size()) - 1, place_),
+                           model::monomials(gain.variable, degree, place_),
                            place_}
         .body()
         .program;
@@ -217,16 +215,16 @@ class Fixing {
     return false;
   }
 
-  /// The unknown that a formula is solved for and what it is there, over `kValue`; with as few inverses
-  /// as can be, as what has an inverse of an unknown is not affine in it. None: nothing is.
+  /// The unknown that a formula is solved for and what it is there, over the gain's datum; with as few
+  /// inverses as can be, as what has an inverse of an unknown is not affine in it. None: nothing is.
   std::optional<std::pair<std::string, expr::Program>> simplest(
       const std::vector<std::string>& unknowns, const model::Design::Gain& gain,
       const expr::Program& formula) const {
     std::optional<std::pair<std::string, expr::Program>> best;
     const auto inverses = [](const expr::Program& program) {
-      return std::count_if(program.code.begin(), program.code.end(), [](const expr::Instruction& one) {
-        return one.op == expr::Op::inverse;
-      });
+      return std::count_if(
+          program.code.begin(), program.code.end(),
+          [](const expr::Instruction& one) { return one.op == expr::Op::inverse; });
     };
     for (const std::string& name : unknowns) {
       // Values of a formula have no structure, unless they are the gain itself.
@@ -234,7 +232,7 @@ class Fixing {
       const bool free = unknown(name).structure == model::Structure::full ||
                         (itself != nullptr && *itself == name);
       if (!free || is_differentiated(name)) continue;
-      auto found = expr::isolated(formula, name, gain.variable, kValue);
+      auto found = expr::isolated(formula, name, gain.variable, datum_name(gain.name));
       if (found && (!best || inverses(*found) < inverses(best->second)))
         best = std::pair(name, std::move(*found));
     }
@@ -246,10 +244,10 @@ class Fixing {
                          [&](const model::Design::Unknown& one) { return one.name == name; });
   }
 
-  void replace(const std::string& name, const expr::Program& solution, const model::Design::Gain& gain,
-               const model::GainFunction* function) {
+  void replace(const std::string& name, const expr::Program& solution,
+               const model::Design::Gain& gain, const model::GainFunction* function) {
     Replaced given;
-    given.inputs.emplace(kValue, value_of(gain, function));
+    given.inputs.emplace(datum_name(gain.name), value_of(gain, function));
     const expr::Program program = expr::substitute(solution, given);
     Replaced one;
     if (unknown(name).variable.empty())
@@ -274,7 +272,8 @@ class Fixing {
 };
 
 /// The unknowns of the file as one vector; none when one is missing or has another shape.
-std::optional<std::vector<double>> packed(const lmi::Unknowns& unknowns, const model::Gains& gains) {
+std::optional<std::vector<double>> packed(const lmi::Unknowns& unknowns,
+                                          const model::Gains& gains) {
   std::vector<double> x(static_cast<std::size_t>(unknowns.size()), 0.0);
   for (const lmi::Unknown& unknown : unknowns.list()) {
     const numbers::Matrix* matrix = gains.find(unknown.name);
@@ -334,6 +333,10 @@ GainCheck check_gains(const model::Instance& instance, const model::Gains& gains
   const FixedGains fixed = fix_gains(instance, gains);
   GainCheck check;
   check.edited = fixed.edited;
+  if (instance.design->inequalities.empty()) {
+    check.verdict = model::Verdict::yes;
+    return check;
+  }
   if (!fixed.stuck.empty()) {
     for (const std::string& gain : fixed.stuck)
       check.message += (check.message.empty() ? "" : "; ") + gain;

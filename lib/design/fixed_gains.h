@@ -24,7 +24,8 @@ struct FixedGains {
   std::vector<std::string> edited;  ///< gains that are not what their formulas give at the unknowns
   /// Edited gains whose formulas cannot be turned around, "K: inv(Q)*Y*R'": nothing is shown of them.
   std::vector<std::string> stuck;
-  bool solvable = true;  ///< false: a gain is a formula over the unknowns, so these are given as well
+  bool solvable =
+      true;  ///< false: a gain is a formula over the unknowns, so these are given as well
 };
 
 /// `gains`: of a file that states `instance`. InputError as bind::state.
@@ -32,11 +33,11 @@ FixedGains fix_gains(const model::Instance& instance, const model::Gains& gains)
 
 struct GainCheck {
   model::Verdict verdict = model::Verdict::undecided;
-  bool own_unknowns = false;            ///< a yes that the unknowns of the file show
-  std::vector<std::string> edited;      ///< as FixedGains
-  std::vector<std::string> not_shown;   ///< inequalities that the unknowns of the file do not show
-  std::vector<model::Margin> margins;   ///< of what the verdict rests on
-  std::string message;                  ///< why it is undecided, or what a no rests on
+  bool own_unknowns = false;           ///< a yes that the unknowns of the file show
+  std::vector<std::string> edited;     ///< as FixedGains
+  std::vector<std::string> not_shown;  ///< inequalities that the unknowns of the file do not show
+  std::vector<model::Margin> margins;  ///< of what the verdict rests on
+  std::string message;                 ///< why it is undecided, or what a no rests on
 };
 
 /// Whether every inequality holds at the gains: yes shown, no by a checked certificate or, where

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "export/files.h"
+#include "export/observer_writer.h"
 #include "export/shared_text.h"
 
 namespace gainsmith::exports {
@@ -36,30 +37,34 @@ std::vector<std::string> flat_elements(const std::string& name, expr::Shape shap
 }
 
 /// A function that returns a number, or writes a matrix to `out`.
-std::string function(const std::string& comment, const std::string& name, const std::string& parameters,
-                     expr::Shape shape, const Code& made, const Dialect& dialect,
+std::string function(const std::string& comment, const std::string& name,
+                     const std::string& parameters, expr::Shape shape, const Code& made,
+                     const Dialect& dialect,
                      const std::function<std::string(const std::string& body)>& before) {
   std::string body = lines_text(made.lines, "  ");
   const std::string type = type_of(dialect);
   if (shape.is_scalar()) {
     body += "  return " + made.results[0][0] + ";\n";
-    return fmt::format("/* {} */\nstatic inline {} {}({})\n{{\n{}{}}}\n\n", comment, type, name, parameters,
-                       before(body), body);
+    return fmt::format("/* {} */\nstatic inline {} {}({})\n{{\n{}{}}}\n\n", comment, type, name,
+                       parameters, before(body), body);
   }
   const auto to = c_elements("out", shape);
   for (std::size_t e = 0; e < to.size(); ++e)
     body += fmt::format("  {} = {};\n", to[e], made.results[0][e]);
-  return fmt::format("/* {} */\nstatic inline void {}({}, {} out{})\n{{\n{}{}}}\n\n", comment, name, parameters,
-                     type, extent(shape), before(body), body);
+  return fmt::format("/* {} */\nstatic inline void {}({}, {} out{})\n{{\n{}{}}}\n\n", comment, name,
+                     parameters, type, extent(shape), before(body), body);
 }
 
 /// A statement for each parameter that a body does not read: folding may have left out all of it.
 std::string unread(const std::vector<std::string>& parameters, const std::string& body) {
-  const auto is_part = [](char c) { return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0; };
+  const auto is_part = [](char c) {
+    return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+  };
   std::string text;
   for (const std::string& name : parameters) {
     bool read = false;
-    for (std::size_t k = 0; !read && (k = body.find(name, k)) != std::string::npos; k += name.size())
+    for (std::size_t k = 0; !read && (k = body.find(name, k)) != std::string::npos;
+         k += name.size())
       read = !is_part(body[k + name.size()]) && (k == 0 || !is_part(body[k - 1]));
     if (!read) text += "  (void)" + name + ";\n";
   }
@@ -67,23 +72,18 @@ std::string unread(const std::vector<std::string>& parameters, const std::string
 }
 
 /// One observer, under a name of its own.
-class CObserver {
+class CObserver : public ObserverWriter {
  public:
-  CObserver(const Content& content, const Observer& observer, const std::string& prefix,
-            const ElementNames& gains, const Dialect& dialect, std::set<std::string>& helpers,
-            Identifiers& names, std::vector<std::string>& notes)
-      : content_(content),
-        observer_(observer),
-        prefix_(prefix),
-        names_(gains),
-        dialect_(dialect),
-        helpers_(helpers),
-        taken_(names),
-        notes_(notes) {
+  CObserver(const Content& content, const Observer& observer, std::string prefix,
+            const ElementNames& gains, const Dialect& dialect, Identifiers& names, Remarks& remarks)
+      : ObserverWriter(content, observer, dialect, gains, remarks),
+        prefix_(std::move(prefix)),
+        taken_(names) {
     Identifiers fields(Language::c);
     for (const State& state : observer.states) fields_.push_back(fields(state.name));
-    Identifiers parameters(Language::c, {"state", "rate", "dt", "out", "z", "d", "w", "s", "k", "i",
-                                         "j", "h", "steps", "M", "Phi", "Psi", "c"});
+    Identifiers parameters(
+        Language::c, {"state", "rate", "dt", "out", "now", "term", "next", "rest", "row", "col",
+                      "order", "count", "step", "steps", "M", "Phi", "Psi"});
     for (const Variable& input : observer.inputs) {
       parameters_[input.key] = parameters(input.name);
       names_[input.key] = flat_elements(parameters_[input.key], input.shape);
@@ -92,29 +92,9 @@ class CObserver {
       names_[observer.states[k].key] = c_elements("state->" + fields_[k], observer.states[k].shape);
   }
 
-  std::string text() {
-    std::string text = structure() + start();
-    if (!observer_.rate.empty()) text += attempt("the flow", [&] { return rate(); });
-    if (observer_.linear && !observer_.rate.empty())
-      text += attempt("the exact flow", [&] { return flow(); });
-    for (const Jump& jump : observer_.jumps)
-      text += attempt("the map at " + jump.event, [&] { return this->jump(jump); });
-    for (const Output& output : observer_.outputs)
-      text += attempt("the output " + output.name, [&] { return this->output(output); });
-    return text;
-  }
+  std::string text() { return structure() + start() + maps(); }
 
  private:
-  template <class Work>
-  std::string attempt(const std::string& what, const Work& work) {
-    try {
-      return work();
-    } catch (const NoCode& none) {
-      notes_.push_back("observer " + observer_.name + ": " + what + " is left out: " + none.what());
-      return "";
-    }
-  }
-
   std::string type() const { return type_of(dialect_); }
   std::string state_type() const { return prefix_ + "state"; }
 
@@ -127,7 +107,8 @@ class CObserver {
 
   std::string start() const {
     std::string text = fmt::format(
-        "/* Where it starts: 0 where the problem does not say. */\nstatic inline void {}start({} *state)\n{{\n",
+        "/* Where it starts: 0 where the problem does not say. */\nstatic inline void {}start({} "
+        "*state)\n{{\n",
         prefix_, state_type());
     for (const State& state : observer_.states)
       for (int k = 0; k < state.shape.size(); ++k)
@@ -153,24 +134,6 @@ class CObserver {
     return unread(parameters, body);
   }
 
-  Code code(const std::vector<expr::Program>& programs, const ElementNames& names) {
-    Code made = scalar_code(programs, names, content_.values, dialect_);
-    helpers_.insert(made.helpers.begin(), made.helpers.end());
-    return made;
-  }
-
-  static std::vector<expr::Program> programs_of(const std::vector<Assigned>& list) {
-    std::vector<expr::Program> programs;
-    for (const Assigned& one : list) programs.push_back(one.value);
-    return programs;
-  }
-
-  static std::vector<const expr::Program*> pointers(const std::vector<expr::Program>& programs) {
-    std::vector<const expr::Program*> list;
-    for (const expr::Program& program : programs) list.push_back(&program);
-    return list;
-  }
-
   /// target = value, for the states of a list.
   std::string assignments(const std::vector<Assigned>& list, const Code& made,
                           const std::string& target) const {
@@ -184,16 +147,17 @@ class CObserver {
     return text;
   }
 
-  std::string rate() {
+  std::string rate() override {
     const auto programs = programs_of(observer_.rate);
-    const auto inputs = inputs_read(observer_, pointers(programs));
-    const Code made = code(programs, names_);
+    const auto inputs = inputs_read(programs);
+    const Code made = code(programs);
     std::string body;
     for (std::size_t k = 0; k < fields_.size(); ++k) {
       const bool flows = std::any_of(observer_.rate.begin(), observer_.rate.end(),
                                      [&](const Assigned& one) { return one.state == k; });
       if (flows) continue;
-      for (const std::string& element : c_elements("rate->" + fields_[k], observer_.states[k].shape))
+      for (const std::string& element :
+           c_elements("rate->" + fields_[k], observer_.states[k].shape))
         body += fmt::format("  {} = {};\n", element, number_text(0, dialect_));
     }
     body += lines_text(made.lines, "  ") + assignments(observer_.rate, made, "rate->");
@@ -204,7 +168,8 @@ class CObserver {
   }
 
   std::string matrix(const std::string& name, const numbers::Matrix& M) const {
-    std::string text = fmt::format("  static const {} {}[{}][{}] = {{\n", type(), name, M.rows(), M.cols());
+    std::string text =
+        fmt::format("  static const {} {}[{}][{}] = {{\n", type(), name, M.rows(), M.cols());
     for (Eigen::Index i = 0; i < M.rows(); ++i) {
       text += "    {";
       for (Eigen::Index j = 0; j < M.cols(); ++j)
@@ -214,22 +179,16 @@ class CObserver {
     return text;
   }
 
-  /// c = the rate where the states are 0, and z = the states.
+  /// rest = the rate where the states are 0, and now = the states.
   std::string constant_part(const Code& made) const {
     std::string text;
     int first = 0;
     for (const State& state : observer_.states)
       for (const std::string& element : names_.at(state.key))
-        text += fmt::format("  z[{}] = {};\n", first++, element);
+        text += fmt::format("  now[{}] = {};\n", first++, element);
     text += lines_text(made.lines, "  ");
-    for (std::size_t k = 0; k < observer_.rate.size(); ++k) {
-      int at = 0;
-      for (std::size_t s = 0; s < observer_.rate[k].state; ++s) at += observer_.states[s].shape.size();
-      for (const std::string& value : made.results[k]) {
-        if (value != number_text(0, dialect_)) text += fmt::format("  c[{}] = {};\n", at, value);
-        ++at;
-      }
-    }
+    for (const auto& [element, value] : nonzero_elements(made))
+      text += fmt::format("  rest[{}] = {};\n", element, value);
     return text;
   }
 
@@ -238,41 +197,43 @@ class CObserver {
     int first = 0;
     for (const State& state : observer_.states)
       for (const std::string& element : names_.at(state.key))
-        text += fmt::format("  {} = z[{}];\n", element, first++);
+        text += fmt::format("  {} = now[{}];\n", element, first++);
     return text;
   }
 
-  std::string flow() {
-    const auto still = rate_at_rest(observer_);
-    const auto inputs = inputs_read(observer_, pointers(still));
-    const Code made = code(still, names_);
-    const numbers::Matrix& M = observer_.linear->M;
+  std::string flow() override {
+    const auto still = rate_at_rest();
+    const auto inputs = inputs_read(still);
+    const Code made = code(still);
     const int n = observer_.size();
     std::string text = fmt::format(
-        "/* The exact flow over the time dt >= 0{}: x' = M x + c, by Taylor's series over\n"
-        "   steps h with |M| h <= 1. */\nstatic inline void {}flow({} *state{}, {} dt)\n{{\n",
+        "/* The exact flow over the time dt >= 0{}: x' = M x + rest, by Taylor's series over\n"
+        "   steps with |M| step <= 1. */\nstatic inline void {}flow({} *state{}, {} dt)\n{{\n",
         inputs.empty() ? "" : " while the inputs are held", prefix_, state_type(),
         parameters(inputs), type());
-    text += matrix("M", M);
+    text += matrix("M", observer_.linear->M);
     text += fmt::format(
-        "  const int steps = 1 + (int)({} * dt);\n  const {} h = dt / ({})steps;\n  {} z[{}], d[{}], w[{}];\n"
-        "  {} c[{}] = {{{}}};\n",
-        number_text(one_norm(M), dialect_), type(), type(), type(), n, n, n, type(), n,
-        number_text(0, dialect_));
+        "  const int steps = 1 + (int)({} * dt);\n  const {} step = dt / ({})steps;\n"
+        "  {} now[{}], term[{}], next[{}];\n  {} rest[{}] = {{{}}};\n",
+        number_text(one_norm(observer_.linear->M), dialect_), type(), type(), type(), n, n, n,
+        type(), n, number_text(0, dialect_));
     const std::string constant = constant_part(made);
     text += unread_of(inputs, constant) + constant;
     text += fmt::format(
-        "  for (int s = 0; s < steps; ++s) {{\n"
-        "    for (int i = 0; i < {0}; ++i) {{\n      d[i] = c[i];\n"
-        "      for (int j = 0; j < {0}; ++j) d[i] += M[i][j] * z[j];\n      d[i] *= h;\n    }}\n"
-        "    for (int k = 2; k <= {1}; ++k) {{\n"
-        "      for (int i = 0; i < {0}; ++i) {{\n        z[i] += d[i];\n        w[i] = 0;\n"
-        "        for (int j = 0; j < {0}; ++j) w[i] += M[i][j] * d[j];\n      }}\n"
-        "      for (int i = 0; i < {0}; ++i) d[i] = w[i] * h / ({2})k;\n    }}\n"
-        "    for (int i = 0; i < {0}; ++i) z[i] += d[i];\n  }}\n",
+        "  for (int count = 0; count < steps; ++count) {{\n"
+        "    for (int row = 0; row < {0}; ++row) {{\n      term[row] = rest[row];\n"
+        "      for (int col = 0; col < {0}; ++col) term[row] += M[row][col] * now[col];\n"
+        "      term[row] *= step;\n    }}\n"
+        "    for (int order = 2; order <= {1}; ++order) {{\n"
+        "      for (int row = 0; row < {0}; ++row) {{\n        now[row] += term[row];\n        "
+        "next[row] = 0;\n"
+        "        for (int col = 0; col < {0}; ++col) next[row] += M[row][col] * term[col];\n      "
+        "}}\n"
+        "      for (int row = 0; row < {0}; ++row) term[row] = next[row] * step / ({2})order;\n    "
+        "}}\n"
+        "    for (int row = 0; row < {0}; ++row) now[row] += term[row];\n  }}\n",
         n, terms_of_series(dialect_.single), type());
-    text += put_back() + "}\n\n";
-    return text + flow_period(made, inputs);
+    return text + put_back() + "}\n\n" + flow_period(made, inputs);
   }
 
   std::string flow_period(const Code& made, const std::vector<const Variable*>& inputs) const {
@@ -282,68 +243,62 @@ class CObserver {
     const auto [Phi, Psi] = step_matrices(observer_.linear->M, *jump->period);
     const int n = observer_.size();
     std::string text = fmt::format(
-        "/* The same from one {} to the next, {} later. */\nstatic inline void {}flow_period({} *state{})\n{{\n",
+        "/* The same from one {} to the next, {} later. */\nstatic inline void {}flow_period({} "
+        "*state{})\n{{\n",
         jump->event, model::printed(*jump->period), prefix_, state_type(), parameters(inputs));
-    const std::string constant = constant_part(made);
-    const bool still = constant.find("  c[") == std::string::npos;
+    const bool moved = !nonzero_elements(made).empty();
     text += matrix("Phi", Phi);
-    if (!still) text += matrix("Psi", Psi);
-    text += fmt::format("  {} z[{}], w[{}];\n", type(), n, n);
-    if (!still) text += fmt::format("  {} c[{}] = {{{}}};\n", type(), n, number_text(0, dialect_));
+    if (moved) text += matrix("Psi", Psi);
+    text += fmt::format("  {} now[{}], next[{}];\n", type(), n, n);
+    if (moved)
+      text += fmt::format("  {} rest[{}] = {{{}}};\n", type(), n, number_text(0, dialect_));
+    const std::string constant = constant_part(made);
     text += unread_of(inputs, constant) + constant;
     text += fmt::format(
-        "  for (int i = 0; i < {0}; ++i) {{\n    w[i] = 0;\n"
-        "    for (int j = 0; j < {0}; ++j) w[i] += Phi[i][j] * z[j]{1};\n  }}\n"
-        "  for (int i = 0; i < {0}; ++i) z[i] = w[i];\n",
-        n, still ? "" : " + Psi[i][j] * c[j]");
+        "  for (int row = 0; row < {0}; ++row) {{\n    next[row] = 0;\n"
+        "    for (int col = 0; col < {0}; ++col) next[row] += Phi[row][col] * now[col]{1};\n  }}\n"
+        "  for (int row = 0; row < {0}; ++row) now[row] = next[row];\n",
+        n, moved ? " + Psi[row][col] * rest[col]" : "");
     return text + put_back() + "}\n\n";
   }
 
-  std::string jump(const Jump& jump) {
-    std::vector<expr::Program> all;
-    for (const auto& pass : jump.passes)
-      for (const Assigned& one : pass) all.push_back(one.value);
+  std::string jump(const Jump& jump) override {
     std::string body;
     for (const auto& pass : jump.passes) {
-      const Code made = code(programs_of(pass), names_);
+      const Code made = code(programs_of(pass));
       body += "  {\n" + lines_text(made.lines, "    ");
       std::vector<std::string> stores;
       for (std::size_t k = 0; k < pass.size(); ++k) {
         const auto& to = names_.at(observer_.states[pass[k].state].key);
         for (std::size_t e = 0; e < to.size(); ++e) {
           if (to[e] == made.results[k][e]) continue;
-          body += fmt::format("    const {} next_{} = {};\n", type(), stores.size(), made.results[k][e]);
+          body += fmt::format("    const {} next_{} = {};\n", type(), stores.size(),
+                              made.results[k][e]);
           stores.push_back(fmt::format("    {} = next_{};\n", to[e], stores.size()));
         }
       }
       for (const std::string& store : stores) body += store;
       body += "  }\n";
     }
-    const std::string name =
-        observer_.jumps.size() == 1 ? taken_(prefix_ + "jump") : taken_(prefix_ + "jump_" + jump.event);
-    const auto inputs = inputs_read(observer_, pointers(all));
-    return fmt::format("/* What happens at the event {}. */\nstatic inline void {}({} *state{})\n{{\n{}{}}}\n\n",
-                       jump.event, name, state_type(), parameters(inputs), unread_of(inputs, body), body);
+    const std::string name = observer_.jumps.size() == 1 ? taken_(prefix_ + "jump")
+                                                         : taken_(prefix_ + "jump_" + jump.event);
+    const auto inputs = inputs_read(programs_of(jump));
+    return fmt::format(
+        "/* What happens at the event {}. */\nstatic inline void {}({} *state{})\n{{\n{}{}}}\n\n",
+        jump.event, name, state_type(), parameters(inputs), unread_of(inputs, body), body);
   }
 
-  std::string output(const Output& output) {
-    const Code made = code({output.value}, names_);
-    const auto inputs = inputs_read(observer_, {&output.value});
+  std::string output(const Output& output) override {
+    const Code made = code({output.value});
+    const auto inputs = inputs_read({output.value});
     return function(output.name, taken_(prefix_ + output.name),
-                    "const " + state_type() + " *state" + parameters(inputs), output.value.shape(), made,
-                    dialect_, [&](const std::string& body) { return unread_of(inputs, body); });
+                    "const " + state_type() + " *state" + parameters(inputs), output.value.shape(),
+                    made, dialect_,
+                    [&](const std::string& body) { return unread_of(inputs, body); });
   }
 
-  const Content& content_;
-  const Observer& observer_;
   std::string prefix_;
-  ElementNames names_;
-  Dialect dialect_;
-  std::set<std::string>& helpers_;
   Identifiers& taken_;
-  std::vector<std::string>& notes_;
-  std::vector<std::string> fields_;
-  std::map<std::string, std::string> parameters_;
 };
 
 std::string constant_text(const std::string& name, const numbers::Matrix& value,
@@ -364,14 +319,13 @@ std::string constant_text(const std::string& name, const numbers::Matrix& value,
 
 /// A gain that is a function of a scalar.
 std::string function_text(const Content& content, const GainFunction& gain, const std::string& name,
-                          const ElementNames& gains, const Dialect& dialect,
-                          std::set<std::string>& helpers) {
+                          const ElementNames& gains, const Dialect& dialect, Remarks& remarks) {
   Identifiers parameters(Language::c, {"out"});
   const std::string variable = parameters(gain.variable);
   ElementNames names = gains;
   names[gain.variable] = {variable};
   const Code made = scalar_code({gain.program}, names, content.values, dialect);
-  helpers.insert(made.helpers.begin(), made.helpers.end());
+  remarks.helpers.insert(made.helpers.begin(), made.helpers.end());
   return function(fmt::format("{}({}) = {}", gain.name, gain.variable, gain.text), name,
                   type_of(dialect) + " " + variable, gain.program.shape(), made, dialect,
                   [&](const std::string& body) { return unread({variable}, body); });
@@ -391,9 +345,10 @@ std::string commented(const std::vector<std::string>& lines) {
 std::string c_file(Content& content, const std::string& name) {
   const std::string prefix = Identifiers(Language::c)(name) + "_";
   const Dialect dialect{Language::c, content.single, prefix};
-  Identifiers taken(Language::c, {prefix + "state", prefix + "start", prefix + "rate", prefix + "flow",
-                                  prefix + "flow_period", prefix + "min", prefix + "max", prefix + "mod",
-                                  prefix + "sign", prefix + "inverse", prefix + "product"});
+  Identifiers taken(Language::c,
+                    {prefix + "state", prefix + "start", prefix + "rate", prefix + "flow",
+                     prefix + "flow_period", prefix + "min", prefix + "max", prefix + "mod",
+                     prefix + "sign", prefix + "inverse", prefix + "product"});
   std::string constants;
   ElementNames gains;
   for (const GainMatrix& gain : content.gains) {
@@ -407,27 +362,30 @@ std::string c_file(Content& content, const std::string& name) {
                  constant_text(own, gain.value, dialect) + "\n";
     gains[gain.name] = c_elements(own, shape);
   }
-  std::set<std::string> helpers;
+  Remarks remarks;
   std::string maps;
   for (const GainFunction& gain : content.functions) {
     try {
-      maps += function_text(content, gain, taken(prefix + gain.name), gains, dialect, helpers);
+      maps += function_text(content, gain, taken(prefix + gain.name), gains, dialect, remarks);
     } catch (const NoCode& none) {
-      content.notes.push_back("the gain " + gain.name + " is left out: " + none.what());
+      remarks.notes.push_back("the gain " + gain.name + " is left out: " + none.what());
     }
   }
   for (const Observer& observer : content.observers) {
     const std::string own =
         content.observers.size() == 1 ? prefix : taken(prefix + observer.name) + "_";
-    maps += CObserver(content, observer, own, gains, dialect, helpers, taken, content.notes).text();
+    maps += CObserver(content, observer, own, gains, dialect, taken, remarks).text();
   }
   const std::string guard = Identifiers(Language::c)(prefix + "gains_h");
+  content.notes.insert(content.notes.end(), remarks.notes.begin(), remarks.notes.end());
   std::vector<std::string> lines = head_lines(content, name);
-  lines.emplace_back("C99; no memory is allocated. Maps hold the numbers of the problem: export again after a change.");
+  lines.emplace_back(
+      "C99; no memory is allocated. Maps hold the numbers of the problem: export again after a "
+      "change.");
   for (const std::string& note : content.notes) lines.push_back("Note: " + note);
   return commented(lines) +
-         fmt::format("#ifndef {0}\n#define {0}\n\n#include <math.h>\n\n{1}{2}{3}#endif\n", guard, constants,
-                     helper_text(helpers, dialect), maps);
+         fmt::format("#ifndef {0}\n#define {0}\n\n#include <math.h>\n\n{1}{2}{3}#endif\n", guard,
+                     constants, helper_text(remarks.helpers, dialect), maps);
 }
 
 }  // namespace gainsmith::exports

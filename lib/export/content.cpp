@@ -30,6 +30,13 @@ std::string signal_name(const std::string& component, const std::string& name) {
 
 bool is_own(Kind kind) { return kind == Kind::state || kind == Kind::mode; }
 
+/// A formula on one line.
+std::string flat(std::string text) {
+  for (char& c : text)
+    if (c == '\n') c = ' ';
+  return text;
+}
+
 /// A map that is left out, and why.
 struct LeftOut {
   std::string why;
@@ -42,11 +49,13 @@ class Collector {
     for (const Dynamics::Variable& variable : dynamics_.variables)
       variables_[variable.name] = &variable;
     for (const Dynamics::Signal& signal : dynamics_.signals)
-      if (is_measured(signal.value.program)) measured_.emplace_back(signal.name, signal.value.program);
+      if (is_measured(signal.value.program))
+        measured_.emplace_back(signal.name, signal.value.program);
   }
 
   void add(std::size_t component) {
     observer_ = {};
+    place_.clear();
     component_ = component;
     observer_.name = dynamics_.components[component].name;
     add_states();
@@ -67,8 +76,7 @@ class Collector {
       const auto found = variables_.find(input.name);
       if (found == variables_.end()) continue;
       moves = true;
-      if (is_own(found->second->kind) &&
-          dynamics_.components[found->second->component].observer)
+      if (is_own(found->second->kind) && dynamics_.components[found->second->component].observer)
         return false;
     }
     return moves;
@@ -81,8 +89,8 @@ class Collector {
       work();
     } catch (const LeftOut& left) {
       observer_ = before;
-      content_.notes.push_back("observer " + observer_.name + ": " + what + " is left out: " +
-                               left.why);
+      content_.notes.push_back("observer " + observer_.name + ": " + what +
+                               " is left out: " + left.why);
     }
   }
 
@@ -95,9 +103,9 @@ class Collector {
       numbers::Matrix start = numbers::Matrix::Zero(variable.shape.rows, variable.shape.cols);
       if (variable.start && model::has_values(variable.start->program, values_))
         start = numbers::evaluate(variable.start->program, values_);
-      observer_.states.push_back({{variable.name, own_name(observer_.name, variable.name),
-                                   variable.shape},
-                                  std::move(start)});
+      observer_.states.push_back(
+          {{variable.name, own_name(observer_.name, variable.name), variable.shape},
+           std::move(start)});
     }
   }
 
@@ -272,13 +280,13 @@ Content content_of(const model::Gains& gains, const model::Design& design,
   content.values = stated.values;
   for (const auto& [name, value] : gains.gains) content.gains.push_back({name, value});
   for (const model::Design::Gain& gain : design.gains) {
-    const auto function = std::find_if(
-        gains.gain_functions.begin(), gains.gain_functions.end(),
-        [&](const model::GainFunction& one) { return one.name == gain.name; });
+    const auto function =
+        std::find_if(gains.gain_functions.begin(), gains.gain_functions.end(),
+                     [&](const model::GainFunction& one) { return one.name == gain.name; });
     if (function == gains.gain_functions.end()) continue;
     const expr::Body& body = stated.bodies.body(gain.name, {});
     content.functions.push_back(
-        {gain.name, body.variable, stated.bodies.link(body.program), function->formula});
+        {gain.name, body.variable, stated.bodies.link(body.program), flat(function->formula)});
   }
   if (!texts) return content;
   Collector collector(*texts, content);

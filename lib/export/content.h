@@ -64,7 +64,8 @@ struct Output {
 
 /// x' = M x + (a function of the inputs): its flow is known exactly while the inputs are held.
 struct LinearFlow {
-  numbers::Matrix M;  ///< over all elements of the states in order, columns of each below each other
+  numbers::Matrix
+      M;  ///< over all elements of the states in order, columns of each below each other
 };
 
 struct Observer {

@@ -8,17 +8,25 @@ namespace gainsmith::exports {
 namespace {
 
 constexpr std::string_view kCWords =
-    " auto break case char const continue default do double else enum extern float for goto if inline int long"
-    " register restrict return short signed sizeof static struct switch typedef union unsigned void volatile"
-    " while asm class new delete this template private public protected operator true false bool catch throw"
+    " auto break case char const continue default do double else enum extern float for goto if "
+    "inline int long"
+    " register restrict return short signed sizeof static struct switch typedef union unsigned "
+    "void volatile"
+    " while asm class new delete this template private public protected operator true false bool "
+    "catch throw"
     " try namespace using virtual friend export typename and or not xor main errno NULL ";
 constexpr std::string_view kMatlabWords =
-    " break case catch classdef continue else elseif end for function global if otherwise parfor persistent"
-    " return spmd switch try while until do unwind_protect endfunction endif endfor endwhile pi eps Inf NaN i j"
-    " ans eye zeros ones expm inv reshape struct min max abs sign mod floor exp log sqrt sin cos tanh atan2 ";
+    " break case catch classdef continue else elseif end for function global if otherwise parfor "
+    "persistent"
+    " return spmd switch try while until do unwind_protect endfunction endif endfor endwhile pi "
+    "eps Inf NaN"
+    " ans eye zeros ones expm inv reshape struct min max abs sign mod floor exp log sqrt sin cos "
+    "tanh atan2 ";
 constexpr std::string_view kPythonWords =
-    " False None True and as assert async await break class continue def del elif else except finally for from"
-    " global if import in is lambda nonlocal not or pass raise return try while with yield match case type"
+    " False None True and as assert async await break class continue def del elif else except "
+    "finally for from"
+    " global if import in is lambda nonlocal not or pass raise return try while with yield match "
+    "case type"
     " self np math abs min max float int print ";
 
 std::string_view words_of(Language language) {

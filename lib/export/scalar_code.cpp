@@ -101,7 +101,8 @@ class Writer {
     if (dialect_.language == Language::c)
       code_.lines.push_back("const " + type_of(dialect_) + " " + name + " = " + value + ";");
     else
-      code_.lines.push_back(name + " = " + value + (dialect_.language == Language::matlab ? ";" : ""));
+      code_.lines.push_back(name + " = " + value +
+                            (dialect_.language == Language::matlab ? ";" : ""));
   }
 
   Term binary(const Node& one, const char* sign, Term::Binding own) const {
@@ -230,22 +231,23 @@ class Writer {
       throw NoCode("'" + expr::to_string(block.instruction.op) + "' has no formula on numbers");
     std::vector<std::string> names;
     for (std::size_t i = 0; i < block.operands.size(); ++i)
-      names.push_back(add_operand(fmt::format("gsb{}_{}", k, i), block.operands[i], block.shapes[i]));
+      names.push_back(
+          add_operand(fmt::format("gsb{}_{}", k, i), block.operands[i], block.shapes[i]));
     const std::string name = "gsb" + std::to_string(k);
     if (dialect_.language == Language::c) {
       code_.helpers.insert(inverse ? "inverse" : "product");
       code_.lines.push_back(
           fmt::format("{} {}[{}];", type_of(dialect_), name, block.instruction.shape.size()));
-      code_.lines.push_back(
-          inverse ? fmt::format("{}inverse({}, {}, {});", dialect_.prefix, block.shapes[0].rows,
-                                names[0], name)
-                  : fmt::format("{}product({}, {}, {}, {}, {}, {});", dialect_.prefix,
-                                block.shapes[0].rows, block.shapes[0].cols, block.shapes[1].cols,
-                                names[0], names[1], name));
+      code_.lines.push_back(inverse
+                                ? fmt::format("{}inverse({}, {}, {});", dialect_.prefix,
+                                              block.shapes[0].rows, names[0], name)
+                                : fmt::format("{}product({}, {}, {}, {}, {}, {});", dialect_.prefix,
+                                              block.shapes[0].rows, block.shapes[0].cols,
+                                              block.shapes[1].cols, names[0], names[1], name));
     } else if (dialect_.language == Language::python) {
-      code_.lines.push_back(name + " = " +
-                            (inverse ? "np.linalg.inv(" + names[0] + ")" : names[0] + " @ " + names[1]) +
-                            "");
+      code_.lines.push_back(
+          name + " = " +
+          (inverse ? "np.linalg.inv(" + names[0] + ")" : names[0] + " @ " + names[1]) + "");
       code_.lines.push_back(name + " = " + name + ".ravel(order='F')");
     } else {
       code_.lines.push_back(name + " = " +
@@ -261,8 +263,8 @@ class Writer {
       code_.lines.push_back(
           fmt::format("{} {}[{}] = {{{}}};", type_of(dialect_), name, nodes.size(), list));
     else if (dialect_.language == Language::python)
-      code_.lines.push_back(fmt::format("{} = np.array([{}]).reshape(({}, {}), order='F')", name, list,
-                                        shape.rows, shape.cols));
+      code_.lines.push_back(fmt::format("{} = np.array([{}]).reshape(({}, {}), order='F')", name,
+                                        list, shape.rows, shape.cols));
     else
       code_.lines.push_back(
           fmt::format("{} = reshape([{}], {}, {});", name, list, shape.rows, shape.cols));
@@ -291,7 +293,8 @@ Code scalar_code(const std::vector<expr::Program>& programs, const ElementNames&
     const auto [place, fresh] = first.emplace(named.name, static_cast<int>(inputs.size()));
     if (fresh) inputs.insert(inputs.end(), found->second.begin(), found->second.end());
     numbers::TracedMatrix made{named.shape, {}};
-    for (int k = 0; k < named.shape.size(); ++k) made.value.push_back(graph.input(place->second + k));
+    for (int k = 0; k < named.shape.size(); ++k)
+      made.value.push_back(graph.input(place->second + k));
     return made;
   };
   std::vector<std::vector<int>> results;
@@ -306,8 +309,9 @@ std::string number_text(double value, const Dialect& dialect) {
   if (dialect.language != Language::c) return model::printed(value);
   // Nine digits are read back as the same number of single precision.
   constexpr int kSingleDigits = 9;
-  std::string text = dialect.single ? brief(static_cast<double>(static_cast<float>(value)), kSingleDigits)
-                                    : model::printed(value);
+  std::string text = dialect.single
+                         ? brief(static_cast<double>(static_cast<float>(value)), kSingleDigits)
+                         : model::printed(value);
   if (text.find_first_of(".e") == std::string::npos) text += ".0";
   return dialect.single ? text + "f" : text;
 }
@@ -331,7 +335,8 @@ std::string helper_text(const std::set<std::string>& helpers, const Dialect& dia
        "      for (int l = 0; l < m; ++l) sum += a[i + n * l] * b[l + m * j];\n"
        "      c[i + n * j] = sum;\n    }\n}\n"},
       {"inverse",
-       "/* The inverse of the n x n matrix a, which is overwritten, by Gauss and Jordan with pivots in the\n"
+       "/* The inverse of the n x n matrix a, which is overwritten, by Gauss and Jordan with "
+       "pivots in the\n"
        "   columns. Of a singular matrix it is not finite. */\n"
        "static inline void $Ninverse(int n, $T *a, $T *inverse)\n{\n"
        "  for (int i = 0; i < n * n; ++i) inverse[i] = i % (n + 1) == 0 ? ($T)1 : ($T)0;\n"
@@ -341,9 +346,11 @@ std::string helper_text(const std::set<std::string>& helpers, const Dialect& dia
        "    for (int j = 0; j < n; ++j) {\n"
        "      const $T one = a[k + n * j], other = inverse[k + n * j];\n"
        "      a[k + n * j] = a[pivot + n * j];\n      a[pivot + n * j] = one;\n"
-       "      inverse[k + n * j] = inverse[pivot + n * j];\n      inverse[pivot + n * j] = other;\n    }\n"
+       "      inverse[k + n * j] = inverse[pivot + n * j];\n      inverse[pivot + n * j] = "
+       "other;\n    }\n"
        "    const $T scale = ($T)1 / a[k + n * k];\n"
-       "    for (int j = 0; j < n; ++j) {\n      a[k + n * j] *= scale;\n      inverse[k + n * j] *= scale;\n    }\n"
+       "    for (int j = 0; j < n; ++j) {\n      a[k + n * j] *= scale;\n      inverse[k + n * j] "
+       "*= scale;\n    }\n"
        "    for (int i = 0; i < n; ++i) {\n      const $T factor = a[i + n * k];\n"
        "      if (i == k) continue;\n"
        "      for (int j = 0; j < n; ++j) {\n        a[i + n * j] -= factor * a[k + n * j];\n"

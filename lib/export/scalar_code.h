@@ -24,9 +24,10 @@ struct Dialect {
 using ElementNames = std::map<std::string, std::vector<std::string>, std::less<>>;
 
 struct Code {
-  std::vector<std::string> lines;                 ///< statements, without indentation
-  std::vector<std::vector<std::string>> results;  ///< of each program the elements, column by column
-  std::set<std::string> helpers;                  ///< functions of helper_text() that they use
+  std::vector<std::string> lines;  ///< statements, without indentation
+  std::vector<std::vector<std::string>>
+      results;                    ///< of each program the elements, column by column
+  std::set<std::string> helpers;  ///< functions of helper_text() that they use
 };
 
 /// A program holds an operation on matrices that has no formula on numbers, such as svd.

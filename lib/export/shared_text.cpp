@@ -7,7 +7,6 @@
 
 #include "base/number.h"
 #include "expr/rewrite.h"
-#include "expr/substitute.h"
 
 namespace gainsmith::exports {
 
@@ -19,7 +18,8 @@ std::vector<std::string> head_lines(const Content& content, const std::string& n
       "SHA-256 of method and problem " + content.statement_hash};
   if (content.single)
     lines.emplace_back(
-        "The gains are rounded to single precision; the inequalities were shown at the rounded gains.");
+        "The gains are rounded to single precision; the inequalities were shown at the rounded "
+        "gains.");
   if (!content.margins.empty()) lines.emplace_back("Margins of the inequalities, from 0 to 1:");
   for (const model::Margin& margin : content.margins)
     lines.push_back("  " + margin.name + " " + brief(margin.reached, 3) +
@@ -34,33 +34,12 @@ std::string lines_text(const std::vector<std::string>& lines, const std::string&
   return text;
 }
 
-std::vector<std::string> elements_of(
-    expr::Shape shape, const std::function<std::string(int row, int column)>& name) {
+std::vector<std::string> elements_of(expr::Shape shape,
+                                     const std::function<std::string(int row, int column)>& name) {
   std::vector<std::string> names;
   for (int column = 0; column < shape.cols; ++column)
     for (int row = 0; row < shape.rows; ++row) names.push_back(name(row, column));
   return names;
-}
-
-std::vector<const Variable*> inputs_read(const Observer& observer,
-                                         const std::vector<const expr::Program*>& programs) {
-  std::vector<const Variable*> read;
-  for (const Variable& input : observer.inputs)
-    if (std::any_of(programs.begin(), programs.end(),
-                    [&](const expr::Program* program) { return program->uses(input.key); }))
-      read.push_back(&input);
-  return read;
-}
-
-std::vector<expr::Program> rate_at_rest(const Observer& observer) {
-  expr::Replacements zero;
-  for (const State& state : observer.states) {
-    expr::Composer compose({});
-    zero.inputs.emplace(state.key, compose.take(compose.apply(expr::Op::zeros, {}, state.shape)));
-  }
-  std::vector<expr::Program> rates;
-  for (const Assigned& one : observer.rate) rates.push_back(expr::substitute(one.value, zero));
-  return rates;
 }
 
 std::pair<numbers::Matrix, numbers::Matrix> step_matrices(const numbers::Matrix& M, double T) {

@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "export/content.h"
@@ -17,15 +18,8 @@ std::vector<std::string> head_lines(const Content& content, const std::string& n
 std::string lines_text(const std::vector<std::string>& lines, const std::string& before);
 
 /// The names of the elements of a matrix, column by column.
-std::vector<std::string> elements_of(
-    expr::Shape shape, const std::function<std::string(int row, int column)>& name);
-
-/// The inputs that programs read, in the order of the observer.
-std::vector<const Variable*> inputs_read(const Observer& observer,
-                                         const std::vector<const expr::Program*>& programs);
-
-/// The constant part of a linear flow: the rate of the states where all of them are 0.
-std::vector<expr::Program> rate_at_rest(const Observer& observer);
+std::vector<std::string> elements_of(expr::Shape shape,
+                                     const std::function<std::string(int row, int column)>& name);
 
 /// [Phi, Psi] of x+ = Phi x + Psi c after the time T, where x' = M x + c.
 std::pair<numbers::Matrix, numbers::Matrix> step_matrices(const numbers::Matrix& M, double T);

@@ -29,7 +29,8 @@ std::string latex_name(const std::string& name) {
   std::string text = base.size() == 1 ? base : "\\mathit{" + base + "}";
   if (bar == std::string::npos) return text;
   std::string index;
-  for (const char c : name.substr(bar + 1)) index += c == '_' ? std::string(",") : std::string(1, c);
+  for (const char c : name.substr(bar + 1))
+    index += c == '_' ? std::string(",") : std::string(1, c);
   return text + "_{" + index + "}";
 }
 
@@ -52,13 +53,15 @@ std::string element(std::uint32_t type, const std::string& bytes) {
 }
 
 std::string mat_element(const std::string& name, const numbers::Matrix& value) {
-  constexpr std::uint32_t kInt8 = 1, kInt32 = 5, kUint32 = 6, kDouble = 9, kMatrix = 14, kDoubleClass = 6;
+  constexpr std::uint32_t kInt8 = 1, kInt32 = 5, kUint32 = 6, kDouble = 9, kMatrix = 14,
+                          kDoubleClass = 6;
   std::string flags, size, numbers;
   append(flags, kDoubleClass);
   append(flags, std::uint32_t{0});
   append(size, static_cast<std::uint32_t>(value.rows()));
   append(size, static_cast<std::uint32_t>(value.cols()));
-  for (Eigen::Index k = 0; k < value.size(); ++k) append(numbers, std::bit_cast<std::uint64_t>(value(k)));
+  for (Eigen::Index k = 0; k < value.size(); ++k)
+    append(numbers, std::bit_cast<std::uint64_t>(value(k)));
   return element(kMatrix, element(kUint32, flags) + element(kInt32, size) + element(kInt8, name) +
                               element(kDouble, numbers));
 }

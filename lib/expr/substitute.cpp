@@ -77,7 +77,8 @@ class Algebra {
 };
 
 /// Gives what stands for an input or a call, whose argument it has; none: it stays.
-using Special = std::function<std::optional<int>(const std::string& name, std::optional<int> argument)>;
+using Special =
+    std::function<std::optional<int>(const std::string& name, std::optional<int> argument)>;
 
 /// Adds a program; what each of its instructions became.
 std::vector<int> add_all(Algebra& algebra, const Program& program, const Special& special = {}) {
@@ -91,8 +92,7 @@ std::vector<int> add_all(Algebra& algebra, const Program& program, const Special
       const std::string& name =
           input ? program.inputs[index(one.attributes[0])].name : called_by(program, one);
       std::optional<int> found;
-      if (special)
-        found = special(name, input ? std::nullopt : std::optional(operands.front()));
+      if (special) found = special(name, input ? std::nullopt : std::optional(operands.front()));
       if (!found)
         found = input ? algebra.assembly.add_input(name, one.shape, one)
                       : algebra.assembly.add_call(name, one.shape, operands.front(), one);

@@ -14,7 +14,8 @@ namespace {
 
 /// e' = (A - L C) e with A = [0, 1; -1, 0], C = [1, 0]: every L with L1 > 0, L2 > -1 is stable.
 const std::string kObserver =
-    "problem: p\nmethod:\n  method: m\n  data: {A: n x n, C: p x n}\n  unknowns: {P: symmetric n, Y: n x p}\n"
+    "problem: p\nmethod:\n  method: m\n  data: {A: n x n, C: p x n}\n  unknowns: {P: symmetric n, "
+    "Y: n x p}\n"
     "  require: {positive: P > I, decay: He(P*A - Y*C) < 0}\n  gains: {L: inv(P)*Y}\n"
     "data: {A: [[0, 1], [-1, 0]], C: [[1, 0]]}\n";
 
@@ -43,7 +44,7 @@ TEST(FixedGains, TheUnknownFollowsFromTheGain) {
   const Solved solved(kObserver);
   const FixedGains fixed = fix_gains(solved.yaml.instance, solved.gains);
   EXPECT_EQ(fixed.instance.design->unknowns.size(), 1U);
-  EXPECT_EQ(fixed.instance.values.at("L"), solved.gains.gains[0].second);
+  EXPECT_EQ(fixed.instance.values.at("value of L"), solved.gains.gains[0].second);
   EXPECT_TRUE(fixed.solvable);
 }
 
@@ -69,8 +70,9 @@ TEST(FixedGains, GainsThatAreUnstableAreRefuted) {
 
 TEST(FixedGains, DecimalsOfTheFileCount) {
   // x > 0 with the gain K = x - 0.1: at the decimal 0.1 x is 0.2 exactly, and at less it is below.
-  Solved solved("problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar}\n"
-                "  require: {low: \"x >= 0.2\", high: x < 1}\n  gains: {K: x - 0.1}\n");
+  Solved solved(
+      "problem: p\nmethod:\n  method: m\n  unknowns: {x: scalar}\n"
+      "  require: {low: \"x >= 0.2\", high: x < 1}\n  gains: {K: x - 0.1}\n");
   solved.set("K", numbers::Matrix::Constant(1, 1, 0.1));
   EXPECT_EQ(solved.check().verdict, model::Verdict::yes);
   solved.gains.decimals["gains.K"] = {"0.09999999999999999999999999999"};
@@ -79,7 +81,8 @@ TEST(FixedGains, DecimalsOfTheFileCount) {
 
 TEST(FixedGains, GainsThatAreDataReplaceThem) {
   Solved solved(
-      "problem: p\nmethod:\n  method: m\n  data: {A: n x n, K: n x n}\n  unknowns: {P: symmetric n}\n"
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n, K: n x n}\n  unknowns: {P: symmetric "
+      "n}\n"
       "  require: {positive: P > I, decay: He(P*(A + K)) < 0}\n  gains: {K: K}\n"
       "data: {A: [[1]], K: [[-2]]}\n");
   EXPECT_EQ(solved.check().verdict, model::Verdict::yes);
@@ -89,12 +92,37 @@ TEST(FixedGains, GainsThatAreDataReplaceThem) {
   EXPECT_EQ(check.edited, std::vector<std::string>{"K"});
 }
 
+/// A datum of the same name is another thing.
+TEST(FixedGains, ADatumOfTheSameNameStays) {
+  Solved solved(
+      "problem: p\nmethod:\n  method: m\n  data: {K: n x n}\n  unknowns: {X: n x n}\n"
+      "  require: {low: He(X + K) < 2*I, high: He(X + K) > -2*I}\n  gains: {K: X - K}\ndata: {K: "
+      "[[5]]}\n");
+  ASSERT_EQ(solved.gains.verdict, model::Verdict::yes);
+  // X + K = (gain + 5) + 5 must lie between -1 and 1.
+  solved.set("K", numbers::Matrix{{-9.5}});
+  EXPECT_EQ(solved.check().verdict, model::Verdict::yes);
+  solved.set("K", numbers::Matrix{{-8.5}});
+  EXPECT_EQ(solved.check().verdict, model::Verdict::no);
+}
+
+TEST(FixedGains, WithoutInequalitiesThereIsNothingToShow) {
+  Solved solved(
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  gains: {K: 2*A}\ndata: {A: "
+      "[[1]]}\n");
+  solved.set("K", numbers::Matrix{{3}});
+  const GainCheck check = solved.check();
+  EXPECT_EQ(check.verdict, model::Verdict::yes);
+  EXPECT_EQ(check.edited, std::vector<std::string>{"K"});
+}
+
 /// Two gains, one of which stands in the formula of the other.
 TEST(FixedGains, GainsInFormulasOfOthersAreThoseOfTheFile) {
   const std::string text =
       "problem: p\nmethod:\n  method: m\n  data: {C: p x n}\n"
       "  unknowns: {P: symmetric n, R: symmetric p, Y: n x p, X: p x p}\n"
-      "  require: {positive: P > I, other: R > I, low: \"He(X) - 2*R < 0\", size: \"He(Y*C) - P < 0\"}\n"
+      "  require: {positive: P > I, other: R > I, low: \"He(X) - 2*R < 0\", size: \"He(Y*C) - P < "
+      "0\"}\n"
       "  gains: {H: inv(R)*X - C*inv(P)*Y, L: inv(P)*Y}\ndata: {C: [[1, 0]]}\n";
   Solved solved(text);
   ASSERT_EQ(solved.gains.verdict, model::Verdict::yes);
@@ -111,7 +139,8 @@ TEST(FixedGains, GainsInFormulasOfOthersAreThoseOfTheFile) {
 
 TEST(FixedGains, WhatCannotBeTurnedAroundIsUndecidedOnceEdited) {
   Solved solved(
-      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n, Y: n x n}\n"
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  unknowns: {P: symmetric n, Y: n x "
+      "n}\n"
       "  require: {positive: P > I, decay: He(P*A - Y) < 0}\n  gains: {L: \"inv(P)*Y*[1; 0]\"}\n"
       "data: {A: [[0, 1], [-1, 0]]}\n");
   EXPECT_EQ(solved.check().verdict, model::Verdict::yes);
@@ -125,7 +154,8 @@ TEST(FixedGains, PolynomialGainsAreFunctions) {
   Solved solved(
       "problem: p\nmethod:\n  method: m\n  data: {C: p x n}\n"
       "  unknowns: {P: symmetric n, Z: {shape: n x p, of: s, degree: 1}}\n"
-      "  require: {positive: P > I, close: {forall: \"s in [0, 1]\", that: \"He(Z(s)*C - s*P) < P\"},\n"
+      "  require: {positive: P > I, close: {forall: \"s in [0, 1]\", that: \"He(Z(s)*C - s*P) < "
+      "P\"},\n"
       "            far: {forall: \"s in [0, 1]\", that: \"He(Z(s)*C - s*P) > -8*P\"}}\n"
       "  gains: {F(s): inv(P)*Z(s)}\ndata: {C: [[1]]}\n");
   ASSERT_EQ(solved.gains.verdict, model::Verdict::yes);

@@ -104,10 +104,14 @@ double difference(const std::string& output, const std::vector<Row>& rows) {
 /// A firmware that reads its steps.
 std::string follower(const std::string& number) {
   return "#include <stdio.h>\n#include \"observer.h\"\n"
-         "int main(void)\n{\n  observer_state s;\n  int jump;\n  double dt, y;\n  observer_start(&s);\n"
+         "int main(void)\n{\n  observer_state s;\n  int jump;\n  double dt, y;\n  "
+         "observer_start(&s);\n"
          "  while (scanf(\"%d %lf %lf\", &jump, &dt, &y) == 3) {\n"
-         "    if (jump) observer_jump(&s, (" + number + ")y);\n    else observer_flow(&s, (" + number + ")dt);\n"
-         "    printf(\"%.17g %.17g %.17g\\n\", (double)s.xh[0], (double)s.xh[1], (double)s.th);\n  }\n  return 0;\n}\n";
+         "    if (jump) observer_jump(&s, (" +
+         number + ")y);\n    else observer_flow(&s, (" + number +
+         ")dt);\n"
+         "    printf(\"%.17g %.17g %.17g\\n\", (double)s.xh[0], (double)s.xh[1], (double)s.th);\n  "
+         "}\n  return 0;\n}\n";
 }
 
 class Export : public testing::Test {
@@ -117,7 +121,8 @@ class Export : public testing::Test {
     ASSERT_EQ(gainsmith({"synth", folder.file("p.yaml", kOscillator), "-o", gains}).exit, 0);
   }
   std::vector<Row> run() {
-    EXPECT_EQ(gainsmith({"simulate", gains, "--step", "0.1", "-o", folder.path("run.csv")}).exit, 0);
+    EXPECT_EQ(gainsmith({"simulate", gains, "--step", "0.1", "-o", folder.path("run.csv")}).exit,
+              0);
     std::vector<Row> rows = rows_of(folder.path("run.csv"));
     EXPECT_GT(rows.size(), 1000U);
     folder.file("steps", steps_of(rows));
@@ -126,12 +131,13 @@ class Export : public testing::Test {
   /// Compiles main.c beside the header and follows the steps.
   void run_c(const std::string& number) {
     folder.file("main.c", follower(number));
-    ASSERT_EQ(shell("gcc -std=c99 -O1 -Wall -Wextra -Wconversion -Wpedantic -Werror " + folder.path("main.c") +
-                        " -o " + folder.path("follower") + " -lm",
+    ASSERT_EQ(shell("gcc -std=c99 -O1 -Wall -Wextra -Wconversion -Wpedantic -Werror " +
+                        folder.path("main.c") + " -o " + folder.path("follower") + " -lm",
                     folder.path("compiled")),
               0)
         << text_of(folder.path("compiled")) << text_of(folder.path("observer.h"));
-    ASSERT_EQ(shell(folder.path("follower") + " < " + folder.path("steps"), folder.path("output")), 0);
+    ASSERT_EQ(shell(folder.path("follower") + " < " + folder.path("steps"), folder.path("output")),
+              0);
   }
 
   const Folder folder;
@@ -141,7 +147,8 @@ class Export : public testing::Test {
 TEST_F(Export, TheCodeInCIsTheSimulatorToRounding) {
   if (!is_there("gcc")) GTEST_SKIP() << "there is no gcc";
   const auto rows = run();
-  const Outcome outcome = gainsmith({"export", gains, "--to", "c", "-o", folder.path("observer.h")});
+  const Outcome outcome =
+      gainsmith({"export", gains, "--to", "c", "-o", folder.path("observer.h")});
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
   run_c("double");
   EXPECT_LE(difference(folder.path("output"), rows), 1e-12);
@@ -163,13 +170,17 @@ TEST_F(Export, SinglePrecisionIsShownAndRuns) {
 TEST_F(Export, PythonLoadsWhatIsWrittenForIt) {
   if (shell("python3 -c 'import numpy'") != 0) GTEST_SKIP() << "Python has no numpy";
   const auto rows = run();
-  ASSERT_EQ(gainsmith({"export", gains, "--to", "python", "-o", folder.path("observer.py")}).exit, 0);
+  ASSERT_EQ(gainsmith({"export", gains, "--to", "python", "-o", folder.path("observer.py")}).exit,
+            0);
   folder.file("main.py",
-              "import sys\nimport observer\no = observer.Observer()\nassert observer.lambda_.shape == (2, 1)\n"
+              "import sys\nimport observer\no = observer.Observer()\nassert observer.lambda_.shape "
+              "== (2, 1)\n"
               "for line in sys.stdin:\n    jump, dt, y = map(float, line.split())\n"
               "    if jump:\n        o.jump(y)\n    else:\n        o.flow(dt)\n"
               "    print(repr(float(o.xh[0])), repr(float(o.xh[1])), repr(float(o.th)))\n");
-  ASSERT_EQ(shell("python3 -B " + folder.path("main.py") + " < " + folder.path("steps"), folder.path("output")), 0)
+  ASSERT_EQ(shell("python3 -B " + folder.path("main.py") + " < " + folder.path("steps"),
+                  folder.path("output")),
+            0)
       << text_of(folder.path("output"));
   EXPECT_LE(difference(folder.path("output"), rows), 1e-12);
 }
@@ -183,13 +194,15 @@ TEST_F(Export, OctaveLoadsWhatIsWrittenForMatlab) {
   std::ostringstream code;
   code.precision(17);
   // After 0.3 x' = A x + lambda th, th' = -th from th = 1, against expm of the whole.
-  code << "cd " << folder.path("") << "; s = motor(); m = load('motor.mat'); assert(s.lambda, m.lambda);"
+  code << "cd " << folder.path("")
+       << "; s = motor(); m = load('motor.mat'); assert(s.lambda, m.lambda);"
        << "assert(m.lambda(1), " << first << "); x = s.observer.jump(s.observer.start, 1);"
        << "assert(x.th, 1); assert(x.xh, 0.1*m.lambda); x = s.observer.flow(x, 0.3);"
        << "M = [0, 1, m.lambda(1); -4, -0.2, m.lambda(2); 0, 0, -1];"
        << "assert([x.xh; x.th], expm(0.3*M)*[0.1*m.lambda; 1], 1e-14); r = s.observer.rate(x);"
        << "assert([r.xh; r.th], M*[x.xh; x.th], 1e-14)";
-  EXPECT_EQ(shell("octave-cli --no-init-file --eval \"" + code.str() + "\"", folder.path("output")), 0)
+  EXPECT_EQ(shell("octave-cli --no-init-file --eval \"" + code.str() + "\"", folder.path("output")),
+            0)
       << text_of(folder.path("output"));
 }
 
@@ -204,8 +217,11 @@ TEST_F(Export, TextsHoldTheGains) {
   const Outcome latex = gainsmith({"export", gains, "--to", "latex"});
   EXPECT_TRUE(has(latex.out, "\\begin{bmatrix}")) << latex.out;
   if (!is_there("pdflatex")) GTEST_SKIP() << "there is no pdflatex";
-  folder.file("gains.tex", "\\documentclass{article}\\usepackage{amsmath}\\begin{document}\n" + latex.out + "\\end{document}\n");
-  EXPECT_EQ(shell("cd " + folder.path("") + " && pdflatex -halt-on-error gains.tex", folder.path("tex")), 0)
+  folder.file("gains.tex", "\\documentclass{article}\\usepackage{amsmath}\\begin{document}\n" +
+                               latex.out + "\\end{document}\n");
+  EXPECT_EQ(
+      shell("cd " + folder.path("") + " && pdflatex -halt-on-error gains.tex", folder.path("tex")),
+      0)
       << text_of(folder.path("tex"));
 }
 
@@ -219,11 +235,15 @@ std::string edited(const std::string& gains, const std::string& number) {
 TEST_F(Export, CheckProvesTheGainsOfTheFile) {
   const Outcome fresh = gainsmith({"check", gains});
   EXPECT_EQ(fresh.exit, 0) << fresh.err;
-  EXPECT_TRUE(has(fresh.out, "every inequality holds at the gains of the file, shown with the unknowns of the file")) << fresh.out;
+  EXPECT_TRUE(
+      has(fresh.out,
+          "every inequality holds at the gains of the file, shown with the unknowns of the file"))
+      << fresh.out;
   const Outcome better = gainsmith({"check", folder.file("edited.json", edited(gains, "40"))});
   EXPECT_EQ(better.exit, 0) << better.out;
   EXPECT_TRUE(has(better.out, "edited      lambda")) << better.out;
-  const Outcome worse = gainsmith({"check", folder.file("edited.json", edited(gains, "-40")), "--json"});
+  const Outcome worse =
+      gainsmith({"check", folder.file("edited.json", edited(gains, "-40")), "--json"});
   EXPECT_EQ(worse.exit, 1);
   EXPECT_EQ(worse.json()[0]["verdict"], "no");
   EXPECT_EQ(worse.json()[0]["edited"][0], "lambda");
@@ -232,16 +252,18 @@ TEST_F(Export, CheckProvesTheGainsOfTheFile) {
 /// x > 1e-9 above 2/3: what single precision rounds away.
 TEST(ExportFloat, GainsThatDoNotHoldThereAreRefused) {
   const Folder folder;
-  const std::string problem = folder.file(
-      "p.yaml",
-      "problem: close\nmethod:\n  method: close\n  unknowns: {x: scalar}\n"
-      "  require: {low: 3*x > 2 + 1e-10, high: 3*x < 2 + 2e-10}\n  gains: {K: x}\n");
+  const std::string problem =
+      folder.file("p.yaml",
+                  "problem: close\nmethod:\n  method: close\n  unknowns: {x: scalar}\n"
+                  "  require: {low: 3*x > 2 + 1e-10, high: 3*x < 2 + 2e-10}\n  gains: {K: x}\n");
   const std::string gains = folder.path("g.json");
   ASSERT_EQ(gainsmith({"synth", problem, "-o", gains}).exit, 0);
   EXPECT_EQ(gainsmith({"export", gains, "--to", "c"}).exit, 0);
-  const Outcome outcome = gainsmith({"export", gains, "--to", "c", "--float", "-o", folder.path("k.h")});
+  const Outcome outcome =
+      gainsmith({"export", gains, "--to", "c", "--float", "-o", folder.path("k.h")});
   EXPECT_EQ(outcome.exit, 1);
-  EXPECT_TRUE(has(outcome.err, "at single precision the inequalities do not hold: ")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "at single precision the inequalities do not hold: "))
+      << outcome.err;
   EXPECT_TRUE(has(outcome.err, "high") || has(outcome.err, "low")) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(folder.path("k.h")));
 }
@@ -256,20 +278,23 @@ TEST_F(Export, WrongInputIsNamed) {
   fails({"export", gains, "--to", "pyhton"}, "did you mean 'python'?");
   fails({"export", gains, "--to", "mat"}, "a MAT-file is no text");
   fails({"export", gains, "--to", "csv"}, "each matrix has a file of its own");
-  fails({"export", gains, "--to", "matlab", "-o", folder.path("my-gains.m")}, "'my-gains' cannot be one");
+  fails({"export", gains, "--to", "matlab", "-o", folder.path("my-gains.m")},
+        "'my-gains' cannot be one");
   fails({"export", gains, "--to", "c", "-o", gains}, "this is the input file");
   fails({"export", gains, "--to", "c", "-o", "/proc/none/x.h"}, "/proc/none");
   std::string later = text_of(gains);
   const std::string key = "\"gainsmith\": \"";
   const std::size_t at = later.find(key) + key.size();
   later.replace(at, later.find('"', at) - at, "99.0.0");
-  fails({"export", folder.file("later.json", later), "--to", "c"}, "gainsmith 99.0.0 wrote this file");
+  fails({"export", folder.file("later.json", later), "--to", "c"},
+        "gainsmith 99.0.0 wrote this file");
   EXPECT_FALSE(std::filesystem::exists(folder.path("my-gains.m")));
 }
 
 TEST_F(Export, TheSameFileGivesTheSameBytes) {
   for (const std::string target : {"c", "matlab", "python", "json", "latex"})
-    EXPECT_EQ(gainsmith({"export", gains, "--to", target}).out, gainsmith({"export", gains, "--to", target}).out);
+    EXPECT_EQ(gainsmith({"export", gains, "--to", target}).out,
+              gainsmith({"export", gains, "--to", target}).out);
 }
 
 }  // namespace

@@ -21,10 +21,14 @@ bool has(const std::string& text, const std::string& part) {
 
 /// An observer with samples, and one that reads the output all the time; the gains are data.
 std::string problem(const std::string& events, const std::string& observers) {
-  return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, C: p x n, K: n x p}\n  gains: {K: K}\n"
-         "  events: {sample: " + events + "}\n  inputs: {u: cos(t)}\n"
+  return "problem: p\nmethod:\n  method: m\n  data: {A: n x n, C: p x n, K: n x p}\n  gains: {K: "
+         "K}\n"
+         "  events: {sample: " +
+         events +
+         "}\n  inputs: {u: cos(t)}\n"
          "  plant: {state: {x: {shape: n, start: [1, 0]}}, output: {y: C*x}, flow: {x: A*x}}\n" +
-         observers + "data: {A: [[0, 1], [-4, -0.2]], C: [[1, 0]], K: [[0.5], [0.2]]}\n"
+         observers +
+         "data: {A: [[0, 1], [-4, -0.2]], C: [[1, 0]], K: [[0.5], [0.2]]}\n"
          "campaign: {horizon: 5}\n";
 }
 
@@ -64,7 +68,9 @@ TEST(ExportContent, AnAffineFlowHasItsMatrix) {
   ASSERT_TRUE(made.observers[0].linear);
   EXPECT_EQ(made.observers[0].linear->M, (numbers::Matrix{{0, 1}, {-4, -0.2}}));
   EXPECT_EQ(made.observers[0].jumps[0].period, 0.1);
-  const Content held = content(problem("{every: 0.1}", "  observer: {state: {xh: {shape: n, start: 0}}, flow: {xh: \"A*xh + K*(y - C*xh) + [0; u]\"}}\n"));
+  const Content held = content(problem("{every: 0.1}",
+                                       "  observer: {state: {xh: {shape: n, start: 0}}, flow: {xh: "
+                                       "\"A*xh + K*(y - C*xh) + [0; u]\"}}\n"));
   ASSERT_TRUE(held.observers[0].linear);
   EXPECT_EQ(held.observers[0].linear->M, (numbers::Matrix{{-0.5, 1}, {-4.2, -0.2}}));
   EXPECT_EQ(held.observers[0].inputs.size(), 2U);
@@ -72,16 +78,19 @@ TEST(ExportContent, AnAffineFlowHasItsMatrix) {
 
 TEST(ExportContent, OthersHaveNone) {
   for (const std::string flow : {"A*xh + [0; sin(xh(1))]", "A*xh*t", "A*xh*y", "A*xh + [t; 0]"})
-    EXPECT_FALSE(content(problem("{every: 0.1}", "  observer: {state: {xh: {shape: n, start: 0}}, flow: {xh: \"" + flow + "\"}}\n"))
+    EXPECT_FALSE(content(problem("{every: 0.1}",
+                                 "  observer: {state: {xh: {shape: n, start: 0}}, flow: {xh: \"" +
+                                     flow + "\"}}\n"))
                      .observers[0]
                      .linear)
         << flow;
 }
 
 TEST(ExportContent, LoopsAreLeftOutAndSaid) {
-  const Content made = content(
-      problem("{every: 0.1}",
-              "  observer: {state: {xh: {shape: n, start: 0}}, at: {sample: {repeat: {xh: xh/2}, until: norm(xh) < 1, at_most: 9}}}\n"));
+  const Content made =
+      content(problem("{every: 0.1}",
+                      "  observer: {state: {xh: {shape: n, start: 0}}, at: {sample: {repeat: {xh: "
+                      "xh/2}, until: norm(xh) < 1, at_most: 9}}}\n"));
   EXPECT_TRUE(made.observers[0].jumps.empty());
   ASSERT_EQ(made.notes.size(), 1U);
   EXPECT_TRUE(has(made.notes[0], "loop")) << made.notes[0];
@@ -91,10 +100,12 @@ TEST(ExportFiles, AHeaderHasGainsAndMaps) {
   Content made = content(problem("{every: 0.1}", kSampled));
   const std::string text = c_file(made, "motor");
   for (const std::string part :
-       {"static const double motor_K[2] = {0.5, 0.2};", "} motor_state;", "void motor_rate(const motor_state *state, motor_state *rate)",
-        "void motor_flow(motor_state *state, double dt)", "void motor_flow_period(motor_state *state)",
-        "void motor_jump(motor_state *state, double y)", "double motor_out(const motor_state *state)",
-        "motor_K[0]*(y - state->xh[0])"})
+       {"static const double motor_K[2] = {0.5, 0.2};", "} motor_state;",
+        "void motor_rate(const motor_state *state, motor_state *rate)",
+        "void motor_flow(motor_state *state, double dt)",
+        "void motor_flow_period(motor_state *state)",
+        "void motor_jump(motor_state *state, double y)",
+        "double motor_out(const motor_state *state)", "y - state->xh[0];", "state->xh[0] + motor_K[0]*"})
     EXPECT_TRUE(has(text, part)) << part << "\n" << text;
 }
 
@@ -106,7 +117,9 @@ TEST(ExportFiles, NamesOfTheProblemEndNoComment) {
 }
 
 TEST(ExportFiles, AHeldInputIsAParameter) {
-  Content made = content(problem("{every: 0.1}", "  observer: {state: {xh: {shape: n, start: 0}}, flow: {xh: \"A*xh + K*(y - C*xh) + [0; u]\"}}\n"));
+  Content made = content(problem("{every: 0.1}",
+                                 "  observer: {state: {xh: {shape: n, start: 0}}, flow: {xh: "
+                                 "\"A*xh + K*(y - C*xh) + [0; u]\"}}\n"));
   EXPECT_TRUE(has(c_file(made, "m"), "void m_flow(m_state *state, double u, double y, double dt)"));
 }
 
@@ -118,9 +131,11 @@ TEST(ExportFiles, StepMatricesSolveTheFlow) {
 }
 
 TEST(ExportFiles, LatexHasBracketsAndPowers) {
-  const std::string text =
-      latex_file({}, {{"K", numbers::Matrix{{1, -2.5e-7}, {3, 1.23456789}}}, {"Ldno_1", numbers::Matrix{{2}}}});
-  EXPECT_TRUE(has(text, "K = \\begin{bmatrix}\n    1 & -2.5 \\times 10^{-7} \\\\\n    3 & 1.23457\n")) << text;
+  const std::string text = latex_file({}, {{"K", numbers::Matrix{{1, -2.5e-7}, {3, 1.23456789}}},
+                                           {"Ldno_1", numbers::Matrix{{2}}}});
+  EXPECT_TRUE(
+      has(text, "K = \\begin{bmatrix}\n    1 & -2.5 \\times 10^{-7} \\\\\n    3 & 1.23457\n"))
+      << text;
   EXPECT_TRUE(has(text, "\\mathit{Ldno}_{1} = 2")) << text;
   EXPECT_FALSE(has(text, "MaxMatrixCols"));
   EXPECT_TRUE(has(latex_file({}, {{"K", numbers::Matrix::Zero(1, 11)}}), "{MaxMatrixCols}{11}"));
@@ -154,7 +169,8 @@ TEST(ExportFiles, AMatFileIsLaidOutAsItsFormatSays) {
 }
 
 TEST(ExportFiles, CsvHasAllDigits) {
-  EXPECT_EQ(csv_text(numbers::Matrix{{0.1, 1.0 / 3}, {2, -0.0}}), "0.1,0.3333333333333333\n2,-0.0\n");
+  EXPECT_EQ(csv_text(numbers::Matrix{{0.1, 1.0 / 3}, {2, -0.0}}),
+            "0.1,0.3333333333333333\n2,-0.0\n");
 }
 
 }  // namespace

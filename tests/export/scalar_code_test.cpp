@@ -20,13 +20,12 @@ class ScalarCode : public testing::Test {
  protected:
   Code code(const std::string& text, const Dialect& dialect) const {
     expr::Scope scope;
-    scope.symbols = {{"a", {{1, 1}}}, {"b", {{1, 1}}}, {"v", {{2, 1}}}, {"k", {{1, 1}}}, {"S", {{2, 2}}}};
-    return scalar_code({expr::compile(expr::parse({text, "test"}), scope)},
-                       {{"a", {"a"}},
-                        {"b", {"b"}},
-                        {"v", {"v[0]", "v[1]"}},
-                        {"S", {"s1", "s2", "s3", "s4"}}},
-                       {{"k", numbers::Matrix::Constant(1, 1, 0.5)}}, dialect);
+    scope.symbols = {
+        {"a", {{1, 1}}}, {"b", {{1, 1}}}, {"v", {{2, 1}}}, {"k", {{1, 1}}}, {"S", {{2, 2}}}};
+    return scalar_code(
+        {expr::compile(expr::parse({text, "test"}), scope)},
+        {{"a", {"a"}}, {"b", {"b"}}, {"v", {"v[0]", "v[1]"}}, {"S", {"s1", "s2", "s3", "s4"}}},
+        {{"k", numbers::Matrix::Constant(1, 1, 0.5)}}, dialect);
   }
   std::string number(const std::string& text, const Dialect& dialect) const {
     const Code made = code(text, dialect);
@@ -50,7 +49,7 @@ TEST_F(ScalarCode, NumbersAreReadBack) {
   EXPECT_EQ(number_text(1e-30, kC), "1e-30");
   EXPECT_EQ(number_text(0.1F, kSingle), "0.100000001f");
   EXPECT_EQ(std::stof(number_text(16777217.0 / 3, kSingle)), static_cast<float>(16777217.0 / 3));
-  EXPECT_EQ(number("k*a", kSingle), number("a*k", kSingle));
+  EXPECT_EQ(number("k*a", kSingle), "0.5f*a");
 }
 
 TEST_F(ScalarCode, EachLanguageHasItsFunctions) {
@@ -78,7 +77,8 @@ TEST_F(ScalarCode, HelpersAreThoseThatAreUsed) {
   EXPECT_EQ(inverse.helpers, std::set<std::string>{"inverse"});
   EXPECT_EQ(inverse.results[0].size(), 2U);
   const std::string text = helper_text(inverse.helpers, kSingle);
-  EXPECT_NE(text.find("void m_inverse(int n, float *a, float *inverse)"), std::string::npos) << text;
+  EXPECT_NE(text.find("void m_inverse(int n, float *a, float *inverse)"), std::string::npos)
+      << text;
   EXPECT_NE(text.find("fabsf("), std::string::npos);
   EXPECT_EQ(text.find('$'), std::string::npos);
 }

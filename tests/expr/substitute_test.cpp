@@ -80,9 +80,8 @@ TEST_F(Substitution, TheLargestPartIsRead) {
 
 /// The value at which the formula has the given one.
 TEST_F(Substitution, FormulasAreTurnedAround) {
-  for (const std::string formula :
-       {"inv(P)*Y", "Y*inv(P)", "-inv(P)*Y*Q", "inv(P)*Y - A*inv(Q)*L", "A - Y", "(w*Y)'", "Y/w",
-        "P*A + inv(Y*P)", "Y"}) {
+  for (const std::string formula : {"inv(P)*Y", "Y*inv(P)", "-inv(P)*Y*Q", "inv(P)*Y - A*inv(Q)*L",
+                                    "A - Y", "(w*Y)'", "Y/w", "P*A + inv(Y*P)", "Y"}) {
     World at = world;
     at.set("G", value(compile(formula)));
     const auto found = isolated(compile(formula), "Y", "", "G");
