@@ -95,7 +95,7 @@ void refuse_without_gains(const model::Gains& gains, const model::Design& design
       !gains.gain_functions.empty())
     return;
   throw InputError({file}, "the verdict is " + std::string(to_string(gains.verdict)) +
-                               ": the file has no gains to simulate; 'gainsmith explain' of its "
+                               ": the file has no gains; 'gainsmith explain' of its "
                                "problem says why");
 }
 
@@ -130,8 +130,7 @@ void check_searched(const model::Gains& gains, const std::string& file) {
   }
 }
 
-/// Whether a text is what synth writes, or was: it need not be whole.
-bool is_gain_file(const std::string& text) {
+bool is_gain_text(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (begin == std::string::npos || text[begin] != '{') return false;
   return text.find("\"gainsmith\"", begin) < begin + 20;  // its first key
@@ -143,6 +142,10 @@ io::MethodLibrary built_in_methods() {
   return {[](const std::string& name) { return methods::find(name); }, methods::names()};
 }
 
+bool is_gain_file(const std::filesystem::path& path) {
+  return path != "-" && is_gain_text(read_text(path));
+}
+
 std::function<void(model::Problem&)> effort(const std::string& word) {
   return [word](model::Problem& problem) {
     if (!word.empty()) problem.synthesis.full_effort = word == "full";
@@ -152,7 +155,7 @@ std::function<void(model::Problem&)> effort(const std::string& word) {
 model::Instance load_problem(const std::filesystem::path& path,
                              const std::function<void(model::Problem&)>& add) {
   const std::string text = read_text(path);
-  if (is_gain_file(text))
+  if (is_gain_text(text))
     throw InputError({path.string()},
                      "this is a gain file; expected a problem in YAML. 'gainsmith verify' and "
                      "'gainsmith simulate' read gain files");

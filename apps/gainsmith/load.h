@@ -19,6 +19,9 @@ io::MethodLibrary built_in_methods();
 model::Instance load_problem(const std::filesystem::path& path,
                              const std::function<void(model::Problem&)>& add = {});
 
+/// Whether a file is what synth writes, or was: it need not be whole. Standard input is none.
+bool is_gain_file(const std::filesystem::path& path);
+
 /// What `--effort` says of a problem, for load_problem().
 std::function<void(model::Problem&)> effort(const std::string& word);
 
