@@ -68,6 +68,9 @@ target_compile_features(gainsmith_archive INTERFACE cxx_std_17)
 target_include_directories(gainsmith_archive INTERFACE $<INSTALL_INTERFACE:${CMAKE_INSTALL_INCLUDEDIR}>)
 target_link_libraries(gainsmith_archive INTERFACE
   $<INSTALL_INTERFACE:yaml-cpp> $<INSTALL_INTERFACE:PkgConfig::GAINSMITH_NEEDS> $<INSTALL_INTERFACE:Threads::Threads>)
+if(GAINSMITH_SANITIZE)
+  target_link_options(gainsmith_archive INTERFACE -fsanitize=address,undefined)
+endif()
 install(TARGETS gainsmith_archive EXPORT gainsmithTargets COMPONENT development)
 install(FILES lib/api/gainsmith.h DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/gainsmith" COMPONENT development)
 install(EXPORT gainsmithTargets NAMESPACE gainsmith:: DESTINATION "${package}" COMPONENT development)
@@ -106,6 +109,9 @@ set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
     "It designs observers and controllers by matrix inequalities that are
 written as text, proves the inequalities for the numbers that it writes, and
 checks the closed loop in simulated runs.")
+if(GAINSMITH_NATIVE)
+  string(APPEND CPACK_COMPONENT_PROGRAM_DESCRIPTION "\nThis build is tuned for the processor of the machine that made it.")
+endif()
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
     "Archive, header and CMake package of gainsmith: semidefinite programs,
 gains from the text of a problem, gain files.")
