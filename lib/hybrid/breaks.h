@@ -28,9 +28,9 @@ class Breaks {
   /// value nothing is found. None where there are more than can be searched (Found::whole).
   /// `near` takes the places where a difference comes near 0, by a 50th of its largest size on the
   /// step, and turns back.
-  std::optional<std::vector<ode::Break>> on(
-      const std::function<const Eigen::VectorXd&(double)>& x, double from, double to,
-      std::vector<double>* near = nullptr);
+  std::optional<std::vector<ode::Break>> on(const std::function<const Eigen::VectorXd&(double)>& x,
+                                            double from, double to,
+                                            std::vector<double>* near = nullptr);
 
   /// What is 0 at a break.
   std::vector<const expr::Program*> differences() const;

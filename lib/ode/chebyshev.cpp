@@ -18,13 +18,12 @@ namespace {
 struct Transform {
   VectorXd points;
   Matrix matrix;  ///< values * matrix = coefficients
-  Matrix transposed;
 };
 
 /// c_j = (2/n) sum'' f_k cos(j theta_k), theta_k = pi (n - k)/n; halves at both ends of k and j.
 Transform make_transform(int degree) {
   const Index n = degree;
-  Transform made{VectorXd::Ones(n + 1), Matrix::Ones(n + 1, n + 1), Matrix::Ones(n + 1, n + 1)};
+  Transform made{VectorXd::Ones(n + 1), Matrix::Ones(n + 1, n + 1)};
   if (n == 0) return made;
   const auto size = static_cast<double>(n);
   const auto half_at_end = [&](Index k) { return k == 0 || k == n ? 0.5 : 1.0; };
@@ -36,7 +35,6 @@ Transform make_transform(int degree) {
       made.matrix(k, j) = 2 / size * half_at_end(k) * half_at_end(j) * wave;
     }
   }
-  made.transposed = made.matrix.transpose();
   return made;
 }
 
@@ -54,6 +52,10 @@ const Transform& transform(Index degree) {
 
 const VectorXd& points(int degree) { return transform(degree).points; }
 
+Matrix coefficients(const Matrix& values) {
+  return values.lazyProduct(transform(values.cols() - 1).matrix);
+}
+
 namespace {
 
 /// sum_k c_k w_k of `rows` functions whose coefficients of one k stand together, those of the next
@@ -66,33 +68,10 @@ void combine(const double* c, Index stride, const double* weights, std::size_t t
   std::copy(sum.begin(), sum.end(), out);
 }
 
-/// sum_k weights[k] (column k of c), to `out`.
-void combine(const Matrix& c, const double* weights, double* out) {
-  const Index rows = c.rows();
-  const auto terms = static_cast<std::size_t>(c.cols());
-  const double* const from = c.data();
-  Index row = 0;
-  for (; row + 32 <= rows; row += 32) combine<32>(from + row, rows, weights, terms, out + row);
-  for (; row + 8 <= rows; row += 8) combine<8>(from + row, rows, weights, terms, out + row);
-  for (; row + 2 <= rows; row += 2) combine<2>(from + row, rows, weights, terms, out + row);
-  if (row < rows) combine<1>(from + row, rows, weights, terms, out + row);
-}
-
 }  // namespace
 
-Matrix coefficients(const Matrix& values) {
-  const Transform& made = transform(values.cols() - 1);
-  Matrix result(values.rows(), values.cols());
-  if (values.rows() == 1) {
-    combine(made.transposed, values.data(), result.data());
-    return result;
-  }
-  for (Index j = 0; j < values.cols(); ++j)
-    combine(values, made.matrix.col(j).data(), result.col(j).data());
-  return result;
-}
-
 void at(const Matrix& coefficients, double x, double* out) {
+  const Index rows = coefficients.rows();
   const auto terms = static_cast<std::size_t>(coefficients.cols());
   std::array<double, largest_degree + 1> usual;
   std::vector<double> more(terms > usual.size() ? terms : 0);
@@ -100,7 +79,12 @@ void at(const Matrix& coefficients, double x, double* out) {
   weights[0] = 1;
   if (terms > 1) weights[1] = x;
   for (std::size_t k = 2; k < terms; ++k) weights[k] = 2 * x * weights[k - 1] - weights[k - 2];
-  combine(coefficients, weights, out);
+  const double* const c = coefficients.data();
+  Index row = 0;
+  for (; row + 32 <= rows; row += 32) combine<32>(c + row, rows, weights, terms, out + row);
+  for (; row + 8 <= rows; row += 8) combine<8>(c + row, rows, weights, terms, out + row);
+  for (; row + 2 <= rows; row += 2) combine<2>(c + row, rows, weights, terms, out + row);
+  if (row < rows) combine<1>(c + row, rows, weights, terms, out + row);
 }
 
 VectorXd at(const Matrix& coefficients, double x) {
