@@ -73,8 +73,9 @@ void prepare(const fs::path& folder) {
 
 class Job {
  public:
-  Job(const fs::path& file, fs::path folder, const JobOptions& options)
-      : instance_(load_problem(file)), folder_(std::move(folder)), options_(options) {}
+  /// `hash`: of the gains, as soon as they are written.
+  Job(const fs::path& file, fs::path folder, const JobOptions& options, std::string& hash)
+      : instance_(load_problem(file)), folder_(std::move(folder)), options_(options), hash_(hash) {}
 
   void run(JobResult& result) {
     const design::SearchRequest request = wanted_search(instance_);
@@ -96,7 +97,6 @@ class Job {
                   (campaign ? campaign_line(campaign_record(*campaign, hash_))
                             : "no campaign: " + why_no_campaign(gains));
     result.report = report(gains, campaign, result);
-    result.gains_hash = hash_;
     write_atomically(folder_ / "summary.txt", summary(gains, campaign, result));
   }
 
@@ -177,13 +177,14 @@ class Job {
   model::Instance instance_;
   fs::path folder_;
   const JobOptions& options_;
-  std::string hash_;  ///< of the gains that were written
+  std::string& hash_;
 };
 
-/// The last file of the folder. A folder that cannot be written to is a result too.
+/// The last file of the folder; without gains the only one. A folder that cannot be written to is a
+/// result too.
 void write_result(const fs::path& folder, JobResult& result) {
   try {
-    if (result.report.contains("error")) prepare(folder);
+    if (result.gains_hash.empty()) prepare(folder);
     write_atomically(
         folder / "result.json",
         io::to_text(io::result_json(result.report, result.gains_hash, result.seconds)));
@@ -219,7 +220,7 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
   result.name = name;
   try {
     if (is_stopping()) throw Interrupted("interrupted before it began");
-    Job(problem, folder, options).run(result);
+    Job(problem, folder, options, result.gains_hash).run(result);
   } catch (const Interrupted& stop) {
     set_interrupted(stop.what(), result);
   } catch (const Stopped&) {

@@ -31,7 +31,7 @@ struct JobResult {
 
 /// Synthesizes, verifies when there are gains, compares with `expect:` and writes gains.json,
 /// campaign.json, worst-run.svg, summary.txt and, of a violated campaign, worst-run.csv into
-/// `folder`; at last result.json, of wrong input too, which then is all that the folder holds. What
+/// `folder`; at last result.json, of wrong input too, which may be all that the folder then holds. What
 /// `expect:` does not name must be as usual: the verdict yes, the campaign held. Throws nothing but
 /// OptimizersNeeded, before anything is written: a wrong input is a result too.
 JobResult run_job(const std::filesystem::path& problem, const std::string& name,

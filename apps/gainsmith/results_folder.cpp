@@ -136,7 +136,7 @@ std::vector<fs::path> folders_below(const fs::path& root) {
   std::error_code error;
   fs::recursive_directory_iterator entry(root, error);
   for (; !error && entry != fs::recursive_directory_iterator(); entry.increment(error))
-    if (entry->is_directory() && holds_results(entry->path())) found.push_back(entry->path());
+    if (entry->is_directory(error) && holds_results(entry->path())) found.push_back(entry->path());
   if (error)
     throw InputError({root.string()}, "cannot read all of this folder: " + error.message());
   std::sort(found.begin(), found.end());
@@ -152,7 +152,7 @@ page::Results read_folder(const fs::path& folder, const std::string& name) {
     run = io::parse_result(read_text(path), path);
   }
   page::Results results;
-  if (!run || run->error.empty()) {
+  if (!run || !run->gains_hash.empty()) {
     results = results_of_gains(folder / kGains);
     if (run) {
       results.no_campaign = run->no_campaign;
@@ -180,6 +180,8 @@ std::string title_of(const fs::path& path) {
 }
 
 std::vector<page::Results> read_results(const fs::path& path) {
+  if (path == "-")
+    throw InputError({"-"}, "expected a gain file or a folder of results, not standard input");
   std::error_code none;
   if (!fs::is_directory(path, none)) {
     page::Results results = results_of_gains(path);

@@ -85,7 +85,7 @@ void write_report(const RunOptions& options, const std::vector<JobResult>& resul
   std::vector<page::Results> all;
   for (const JobResult& result : results) {
     page::Results one;
-    if (!result.interrupted && !result.report.contains("error"))
+    if (!result.interrupted && !result.gains_hash.empty())
       one = read_folder(fs::path(options.output) / result.name, result.name);
     else
       one.error = result.line;

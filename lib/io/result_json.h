@@ -12,10 +12,10 @@ namespace gainsmith::io {
 
 struct RunResult {
   int exit = 0;
-  std::string error;                     ///< why there are no results; empty: there are
+  std::string error;                     ///< why it did not end; empty: it did
   std::string no_campaign;               ///< why there is none; empty: there is one
   std::vector<std::string> differences;  ///< from `expect:`
-  std::string gains_hash;                ///< of the gains that were written (campaign_json.h)
+  std::string gains_hash;  ///< of the gains that were written (campaign_json.h); empty: none
   double seconds = 0;
 };
 

@@ -31,10 +31,6 @@ std::string preformatted(std::string_view text, std::string_view attributes) {
 
 std::string formula(std::string_view mathml) { return element("math", mathml); }
 
-std::string display(std::string_view mathml) {
-  return element("math", mathml, R"(display="block")");
-}
-
 std::string section(std::string_view title, const std::string& content) {
   if (content.empty()) return "";
   return "<section>" + text_element("h3", title) + content + "</section>\n";

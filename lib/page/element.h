@@ -18,9 +18,7 @@ std::string text_element(std::string_view tag, std::string_view text,
 /// A text with its lines, as a file or a terminal shows it.
 std::string preformatted(std::string_view text, std::string_view attributes = {});
 
-/// A formula in a line of text, or on lines of its own where it is to be read at leisure.
 std::string formula(std::string_view mathml);
-std::string display(std::string_view mathml);
 
 /// A heading and what stands below it; nothing without content.
 std::string section(std::string_view title, const std::string& content);

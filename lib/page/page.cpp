@@ -90,7 +90,7 @@ std::string whole(const std::vector<Results>& all, const std::string& title) {
          element("body", body) + "\n</html>\n";
 }
 
-/// The largest pictures go until the page is small enough.
+/// The largest pictures go until the page is smaller by `excess` bytes.
 void leave_out_pictures(std::vector<Results>& all, std::size_t excess) {
   std::vector<Results*> order;
   for (Results& one : all) order.push_back(&one);
@@ -99,7 +99,8 @@ void leave_out_pictures(std::vector<Results>& all, std::size_t excess) {
   });
   for (Results* one : order) {
     if (excess == 0 || one->picture.empty()) return;
-    excess -= std::min(excess, one->picture.size());
+    constexpr std::size_t kSentence = 300;  // that says so
+    excess -= std::min(excess, one->picture.size() - std::min(one->picture.size(), kSentence));
     one->picture.clear();
   }
 }

@@ -307,10 +307,12 @@ std::string picture_of(const Results& results) {
 }  // namespace
 
 std::string sections(const Results& results) {
+  std::string failed;
   if (!results.error.empty())
-    return section("Verdict", preformatted(results.error, "class=\"verdict no\""));
+    failed = section("No result", preformatted(results.error, "class=\"verdict no\""));
+  if (results.gains.version.empty()) return failed;  // nor gains
   const Notation notation = results.problem ? notation_of(*results.problem) : Notation{};
-  return verdict_section(results) + gains_section(results) + margins_section(results) +
+  return failed + verdict_section(results) + gains_section(results) + margins_section(results) +
          certificate_section(results, notation) + campaign_section(results) + picture_of(results) +
          problem_section(results, notation) + provenance_section(results);
 }

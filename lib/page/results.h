@@ -16,7 +16,7 @@ namespace gainsmith::page {
 /// Everything that a page says of one problem. Sentences are plain text.
 struct Results {
   std::string name;   ///< in the table: the folder, or the name of the problem
-  std::string error;  ///< why there are none; then all else is empty
+  std::string error;  ///< why there are none, or no more than the gains; empty: there are
   model::Gains gains;
   std::optional<model::Problem> problem;  ///< as stated
   std::string unreadable;                 ///< why the statement is shown as text alone

@@ -8,8 +8,9 @@ namespace gainsmith::page {
 
 std::string formula_row(std::string_view name, const std::string& mathml,
                         const std::string& remark) {
-  std::string cells = text_element("span", name, R"(class="name")");
-  if (!mathml.empty()) cells += element("div", display(mathml), R"(class="wide")");
+  std::string cells;
+  if (!name.empty()) cells += text_element("span", name, R"(class="name")");
+  if (!mathml.empty()) cells += element("div", formula(mathml), R"(class="wide")");
   if (!remark.empty()) cells += element("span", remark, R"(class="remark")");
   return element("div", cells, R"(class="row")") + "\n";
 }

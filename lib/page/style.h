@@ -19,8 +19,8 @@ p{margin:.4rem 0;max-width:46rem}a{color:var(--link)}
 .verdict{font-weight:bold;font-size:1.15rem;white-space:pre-wrap}.yes{color:var(--yes)}.no,.warning{color:var(--no)}.undecided{color:var(--open)}
 .wide{overflow-x:auto;max-width:100%}
 .row{display:flex;flex-wrap:wrap;align-items:center;gap:.1rem 1rem;padding:.15rem 0 .15rem .8rem;border-left:2px solid var(--line)}
-.row .name{min-width:4rem}.row .name:empty{display:none}
-math{font-size:1.08rem;font-family:"STIX Two Math","Latin Modern Math","Cambria Math","Libertinus Math","DejaVu Math TeX Gyre",math}math[display=block]{margin:.2rem 0;text-align:left;width:max-content}
+.row .name{min-width:4rem}
+math{font-size:1.08rem;font-family:"STIX Two Math","Latin Modern Math","Cambria Math","Libertinus Math","DejaVu Math TeX Gyre",math}.wide>math{display:block math;math-style:normal;margin:.2rem 0;text-align:left;width:max-content}
 mtable.m{margin:.1em .15em;border:solid;border-width:0 1.5px;background:linear-gradient(currentColor,currentColor) 0 0/.3em 1.5px,linear-gradient(currentColor,currentColor) 0 100%/.3em 1.5px,linear-gradient(currentColor,currentColor) 100% 0/.3em 1.5px,linear-gradient(currentColor,currentColor) 100% 100%/.3em 1.5px;background-repeat:no-repeat;print-color-adjust:exact;-webkit-print-color-adjust:exact}
 mtable.c{border:solid;border-width:0 0 0 1.5px;border-radius:.5em;padding-left:.2em}
 mtd{padding:.15em .4em}mtd.l{text-align:left}

@@ -51,6 +51,21 @@ Parts parts(std::string_view name) {
   return {name.substr(0, end), name.substr(end)};
 }
 
+/// Whether markup is one element and nothing beside it.
+bool is_one_element(std::string_view markup) {
+  int depth = 0;
+  for (std::size_t at = markup.find('<'); at != std::string_view::npos;
+       at = markup.find('<', at + 1)) {
+    const std::size_t end = markup.find('>', at);
+    if (markup[at + 1] == '/')
+      --depth;
+    else if (markup[end - 1] != '/')
+      ++depth;
+    if (depth == 0) return end + 1 == markup.size();
+  }
+  return false;
+}
+
 std::string stem_markup(std::string_view stem) {
   const Letter* letter = greek(stem);
   return text_element("mi", letter == nullptr ? stem : letter->second);
@@ -74,7 +89,9 @@ std::string with_indices(const std::string& base, std::vector<std::string> below
 
 std::string mo(std::string_view text) { return text_element("mo", text); }
 
-std::string row(std::string_view markup) { return element("mrow", markup); }
+std::string row(std::string_view markup) {
+  return is_one_element(markup) ? std::string(markup) : element("mrow", markup);
+}
 
 std::string fenced(const std::string& markup, std::string_view open, std::string_view close) {
   return row(mo(open) + markup + mo(close));

@@ -13,7 +13,7 @@ namespace gainsmith::page {
 /// An operator: "<mo>+</mo>".
 std::string mo(std::string_view text);
 
-/// Markup as one operand.
+/// Markup as one operand: an element alone is one as it is.
 std::string row(std::string_view markup);
 
 /// Markup between "(" and ")", or other fences, which grow with it.

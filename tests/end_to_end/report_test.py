@@ -196,6 +196,16 @@ class Pages(unittest.TestCase):
         self.assertEqual(os.listdir(os.path.join(folder, "p")), ["result.json"])
         self.assertIn("requires", text_of(run("report", folder).stdout))
 
+    def test_gains_without_a_campaign_that_could_be_made_are_shown(self):
+        problem = write(self.at("nostart.yaml"), ODD.replace(", initial: {x: {box: [-1, 1]}, xh: 0}", ""))
+        folder = self.at("nostart")
+        self.assertEqual(run("run", problem, "-o", folder, "--report").returncode, 2)
+        self.assertEqual(sorted(os.listdir(os.path.join(folder, "nostart"))), ["gains.json", "result.json"])
+        text = text_of(read(os.path.join(folder, "report.html")))
+        self.assertIn("nostart.yaml:", text)
+        self.assertIn("is a proof for the decimals", text)
+        self.assertEqual(read(os.path.join(folder, "report.html")), run("report", folder).stdout)
+
 
 @unittest.skipUnless(CHROMIUM, "chromium is not installed")
 class InABrowser(unittest.TestCase):

@@ -102,6 +102,11 @@ TEST(ResultJson, IsReadAsItWasWritten) {
   const Json failed = {{"folder", "p"}, {"exit", 2}, {"error", "p.yaml:1:1: bad"}};
   EXPECT_EQ(parse_result(to_text(result_json(failed, "", 0)), "result.json").error,
             "p.yaml:1:1: bad");
+  Json without_hash = result_json(report, "", 1);
+  EXPECT_NE(
+      std::string(input_error([&] { parse_result(to_text(without_hash), "result.json"); }).what())
+          .find("gains_sha256"),
+      std::string::npos);
   const InputError error =
       input_error([] { parse_result("{\"gainsmith\": \"0.1.0\"}", "result.json"); });
   EXPECT_EQ(error.place().file, "result.json");
