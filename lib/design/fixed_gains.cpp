@@ -159,6 +159,9 @@ class Fixing {
   /// Whether the gain is something else than its formula at the unknowns of the file.
   bool is_edited(const model::Design::Gain& gain) const {
     numbers::Values values = stated_.values;
+    // Where the gain is a datum, this is the problem's.
+    const auto datum = result_.instance.values.find(gain.name);
+    if (datum != result_.instance.values.end()) values[gain.name] = datum->second;
     const expr::Program formula = stated_.bodies.link(gain.formula.program);
     const expr::Program* given = nullptr;
     expr::Program body;
@@ -230,7 +233,7 @@ class Fixing {
       // Values of a formula have no structure, unless they are the gain itself.
       const std::string* itself = only_input(formula);
       const bool free = unknown(name).structure == model::Structure::full ||
-                        (itself != nullptr && *itself == name);
+                        unknown(name).shape.is_scalar() || (itself != nullptr && *itself == name);
       if (!free || is_differentiated(name)) continue;
       auto found = expr::isolated(formula, name, gain.variable, datum_name(gain.name));
       if (found && (!best || inverses(*found) < inverses(best->second)))

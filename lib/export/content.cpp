@@ -118,7 +118,7 @@ class Collector {
   expr::Program taken(const expr::Program& program) {
     expr::Program made = expr::with_inputs(program, measured_);
     for (const expr::Input& input : made.inputs) {
-      if (is_state(input.name)) continue;
+      if (is_state(input.name) || input.shape.size() == 0) continue;
       const auto variable = variables_.find(input.name);
       const bool named = std::any_of(measured_.begin(), measured_.end(),
                                      [&](const auto& one) { return one.first == input.name; });

@@ -288,6 +288,7 @@ Code scalar_code(const std::vector<expr::Program>& programs, const ElementNames&
   std::vector<std::string> inputs;
   std::map<std::string, int, std::less<>> first;
   const auto input = [&](const expr::Input& named) -> numbers::TracedMatrix {
+    if (named.shape.size() == 0) return {named.shape, {}};
     const auto found = names.find(named.name);
     if (found == names.end()) return numbers::traced(values.at(named.name), graph);
     const auto [place, fresh] = first.emplace(named.name, static_cast<int>(inputs.size()));

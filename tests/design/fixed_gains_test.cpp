@@ -92,23 +92,10 @@ TEST(FixedGains, GainsThatAreDataReplaceThem) {
   EXPECT_EQ(check.edited, std::vector<std::string>{"K"});
 }
 
-/// A datum of the same name is another thing.
-TEST(FixedGains, ADatumOfTheSameNameStays) {
-  Solved solved(
-      "problem: p\nmethod:\n  method: m\n  data: {K: n x n}\n  unknowns: {X: n x n}\n"
-      "  require: {low: He(X + K) < 2*I, high: He(X + K) > -2*I}\n  gains: {K: X - K}\ndata: {K: "
-      "[[5]]}\n");
-  ASSERT_EQ(solved.gains.verdict, model::Verdict::yes);
-  // X + K = (gain + 5) + 5 must lie between -1 and 1.
-  solved.set("K", numbers::Matrix{{-9.5}});
-  EXPECT_EQ(solved.check().verdict, model::Verdict::yes);
-  solved.set("K", numbers::Matrix{{-8.5}});
-  EXPECT_EQ(solved.check().verdict, model::Verdict::no);
-}
-
 TEST(FixedGains, WithoutInequalitiesThereIsNothingToShow) {
   Solved solved(
-      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  gains: {K: 2*A}\ndata: {A: "
+      "problem: p\nmethod:\n  method: m\n  data: {A: n x n}\n  gains: {K: 2*A}\n  plant: {state: "
+      "{x: n}, flow: {x: A*x}}\ndata: {A: "
       "[[1]]}\n");
   solved.set("K", numbers::Matrix{{3}});
   const GainCheck check = solved.check();

@@ -63,6 +63,18 @@ TEST(ExportContent, MeasurementsAreInputs) {
   EXPECT_TRUE(made.notes.empty());
 }
 
+TEST(ExportContent, WhatHasNoElementsIsNoInput) {
+  const std::string text = problem(
+      "{every: 0.1}",
+      "  observer: {state: {xh: {shape: n, start: 0}}, at: {sample: {xh: \"xh + K*(y - C*xh) + "
+      "zeros(2, 0)*none\"}}}\n");
+  const std::string output = "output: {y: C*x}";
+  Content made = content(std::string(text).replace(text.find(output), output.size(),
+                                                   "output: {y: C*x, none: \"zeros(0, 2)*x\"}"));
+  ASSERT_EQ(made.observers[0].inputs.size(), 1U);
+  EXPECT_TRUE(has(c_file(made, "m"), "void m_jump(m_state *state, double y)"));
+}
+
 TEST(ExportContent, AnAffineFlowHasItsMatrix) {
   const Content made = content(problem("{every: 0.1}", kSampled));
   ASSERT_TRUE(made.observers[0].linear);
@@ -99,13 +111,13 @@ TEST(ExportContent, LoopsAreLeftOutAndSaid) {
 TEST(ExportFiles, AHeaderHasGainsAndMaps) {
   Content made = content(problem("{every: 0.1}", kSampled));
   const std::string text = c_file(made, "motor");
-  for (const std::string part :
-       {"static const double motor_K[2] = {0.5, 0.2};", "} motor_state;",
-        "void motor_rate(const motor_state *state, motor_state *rate)",
-        "void motor_flow(motor_state *state, double dt)",
-        "void motor_flow_period(motor_state *state)",
-        "void motor_jump(motor_state *state, double y)",
-        "double motor_out(const motor_state *state)", "y - state->xh[0];", "state->xh[0] + motor_K[0]*"})
+  for (const std::string part : {"static const double motor_K[2] = {0.5, 0.2};", "} motor_state;",
+                                 "void motor_rate(const motor_state *state, motor_state *rate)",
+                                 "void motor_flow(motor_state *state, double dt)",
+                                 "void motor_flow_period(motor_state *state)",
+                                 "void motor_jump(motor_state *state, double y)",
+                                 "double motor_out(const motor_state *state)", "y - state->xh[0];",
+                                 "state->xh[0] + motor_K[0]*"})
     EXPECT_TRUE(has(text, part)) << part << "\n" << text;
 }
 
