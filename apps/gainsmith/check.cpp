@@ -23,6 +23,7 @@ namespace {
 
 struct CheckOptions {
   std::vector<std::string> problems;
+  std::vector<std::string> set;
   bool json = false;
 };
 
@@ -137,7 +138,7 @@ ExitCode check(const CheckOptions& options) {
   for (const ProblemFile& problem : problem_files(options.problems)) {
     const std::string path = problem.path.string();
     try {
-      const model::Instance instance = load_problem(path);
+      const model::Instance instance = load_problem(path, options.set);
       io::Json found = description(instance, check_runs(instance));
       if (!options.json) print(path, found);
       found["file"] = path;
@@ -165,7 +166,7 @@ Command check_command() {
           {Option("problems", options->problems,
                   "problem files (YAML), or folders of them; - for standard input")
                .required(),
-           Option("--json", options->json, "print the result as JSON")},
+           set_option(options->set), Option("--json", options->json, "print the result as JSON")},
           "Exit code: 0 all valid, 2 otherwise.\n"
           "Example:\n"
           "  gainsmith check problems/ferrante-seuret-2021",

@@ -57,7 +57,7 @@ void set_interrupted(const std::string& line, JobResult& result) {
 class Job {
  public:
   Job(const std::filesystem::path& file, std::filesystem::path folder, const JobOptions& options)
-      : instance_(load_problem(file)), folder_(std::move(folder)), options_(options) {}
+      : instance_(load_problem(file, options.set)), folder_(std::move(folder)), options_(options) {}
 
   void run(JobResult& result) {
     const design::SearchRequest request = wanted_search(instance_);

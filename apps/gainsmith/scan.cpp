@@ -25,6 +25,7 @@ namespace {
 
 struct ScanOptions {
   std::string problem;
+  std::vector<std::string> set;
   std::vector<std::string> over;
   std::vector<std::string> show;
   unsigned threads = 0;
@@ -58,12 +59,16 @@ Grid grid_of(const std::vector<RangeOption>& ranges, const model::Instance& inst
   double count = 1;
   for (std::size_t k = 0; k < ranges.size(); ++k) {
     const RangeOption& option = ranges[k];
+    grid.names.push_back(option.range.name);
+    if (option.is_value) {
+      grid.values.push_back({model::scalar_value(instance.design->asked[k].low, instance.values)});
+      continue;
+    }
     search::Axis axis = design::searched_scalar(instance, instance.design->asked[k]).axis;
     axis.logarithmic = option.logarithmic.value_or(axis.logarithmic);
     if (axis.logarithmic && !(axis.low > 0))
       throw InputError({"--over"},
                        option.range.name + ": a logarithmic scale needs a low end above 0");
-    grid.names.push_back(option.range.name);
     grid.values.push_back(points_on(axis, option.count.value_or(kDefault)));
     count *= static_cast<double>(grid.values.back().size());
   }
@@ -168,8 +173,9 @@ ExitCode scan(const ScanOptions& options) {
   prepare_outputs(options.problem, {options.output});
   std::vector<RangeOption> ranges;
   for (const std::string& text : options.over) ranges.push_back(parse_range(text, "--over"));
-  const model::Instance instance = load_problem(
-      options.problem, [&](model::Problem& problem) { add_questions(options, ranges, problem); });
+  const model::Instance instance =
+      load_problem(options.problem, options.set,
+                   [&](model::Problem& problem) { add_questions(options, ranges, problem); });
   const Grid grid = grid_of(ranges, instance);
   const auto rows =
       design::scan(instance.design, grid.names, search::grid(grid.values), options.threads, {});
@@ -183,10 +189,10 @@ ExitCode scan(const ScanOptions& options) {
     return exit_of_all(rows);
   }
   if (!options.output.empty()) write_atomically(options.output, file);
-  fmt::print("{}", options.json ? json(rows, grid, options.show)
-                                : aligned(table_of(rows, grid.names, options.show, minimizes,
-                                                 kForPeople)) +
-                                      held_line(instance, grid.names));
+  fmt::print("{}", options.json
+                       ? json(rows, grid, options.show)
+                       : aligned(table_of(rows, grid.names, options.show, minimizes, kForPeople)) +
+                             held_line(instance, grid.names));
   return exit_of_all(rows);
 }
 
@@ -198,9 +204,10 @@ Command scan_command() {
       "scan",
       "Solve a problem at every point of a grid of scalars",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       set_option(options->set),
        Option("--over", options->over,
-              "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT; may be repeated for "
-              "a grid")
+              "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT, or NAME=VALUE; may be "
+              "repeated for a grid")
            .required(),
        Option("--show", options->show,
               "a column more: an expression such as trace(P1) or norm(L); may be repeated"),

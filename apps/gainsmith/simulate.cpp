@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/file.h"
 #include "base/number.h"
@@ -23,6 +24,7 @@ namespace {
 
 struct SimulateOptions {
   std::string gains;
+  std::vector<std::string> set;
   std::uint64_t run = 0;
   std::optional<std::uint64_t> seed;
   std::string output;
@@ -120,7 +122,7 @@ ExitCode simulate(const SimulateOptions& options) {
     throw InputError({"--plot"}, "a picture is written as SVG: expected a name that ends with "
                                  "'.svg', not '" + options.plot + "'");
   prepare_outputs(options.gains, {options.output, options.plot});
-  const LoadedGains loaded = load_run(options.gains);
+  const LoadedGains loaded = load_run(options.gains, options.set);
   const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
   if (options.compare) return compare(options, loaded, seed);
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
@@ -161,6 +163,7 @@ Command simulate_command() {
       "Replay one run of a campaign as CSV",
       {Option("gains", options->gains, "gain file (JSON), or a problem (YAML) without unknowns")
            .required(),
+       set_option(options->set),
        Option("--run", options->run, "the run's number"),
        Option("--seed", options->seed, "seed of the campaign (default: the problem's)"),
        Option("-o,--output", options->output, "write the table here (default: standard output)"),

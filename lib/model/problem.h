@@ -12,6 +12,7 @@
 #include "expr/ast.h"
 #include "model/figure.h"
 #include "model/method.h"
+#include "model/stated_file.h"
 
 namespace gainsmith::model {
 
@@ -140,6 +141,8 @@ struct Problem {
   std::vector<Named> report;        ///< what is shown beside the method's report
   std::vector<UncertainText> uncertain;
   Questions questions;
+  std::vector<Setting> settings;  ///< of the command line
+  std::vector<StatedFile> files;  ///< what was read besides the text
 };
 
 }  // namespace gainsmith::model
