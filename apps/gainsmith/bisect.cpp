@@ -27,6 +27,7 @@ namespace {
 
 struct BisectOptions {
   std::string problem;
+  std::vector<std::string> set;
   std::string largest;
   std::string smallest;
   std::vector<std::string> range;
@@ -116,8 +117,8 @@ ExitCode bisect(const BisectOptions& options) {
   check_picture_name(options.plot);
   prepare_outputs(options.problem, {options.output, options.plot});
   check_positive(options.tolerance, "--tolerance");
-  const model::Instance instance =
-      load_problem(options.problem, [&](model::Problem& problem) { add_range(options, problem); });
+  const model::Instance instance = load_problem(
+      options.problem, options.set, [&](model::Problem& problem) { add_range(options, problem); });
   const design::BisectChoices choices = choices_of(options, instance);
   const design::BisectResult result = design::bisect(instance, {}, choices, {});
   const Telling telling;
@@ -140,6 +141,7 @@ Command bisect_command() {
       "bisect",
       "Find the largest or smallest value of a scalar for which there are gains",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       set_option(options->set),
        Option("--largest", options->largest,
               "this scalar (default: what the problem's search says)"),
        Option("--smallest", options->smallest, "this scalar").excludes({"--largest"}),

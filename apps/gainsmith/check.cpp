@@ -25,6 +25,7 @@ namespace {
 
 struct CheckOptions {
   std::vector<std::string> problems;
+  std::vector<std::string> set;
   bool json = false;
 };
 
@@ -134,14 +135,15 @@ void print(const std::string& path, const io::Json& found) {
 }
 
 /// One file: its result as JSON, printed where JSON is not asked for.
-ExitCode check_file(const std::string& path, bool prints, io::Json& found) {
+ExitCode check_file(const std::string& path, const std::vector<std::string>& set, bool prints,
+                    io::Json& found) {
   if (is_gain_file(path)) {
     const design::GainCheck checked = check_gains(load_gains(path));
     found = gain_check_json(path, checked);
     if (prints) fmt::print("{}", gain_check_text(path, checked));
     return exit_of(checked.verdict);
   }
-  const model::Instance instance = load_problem(path);
+  const model::Instance instance = load_problem(path, set);
   found = description(instance, check_runs(instance));
   if (prints) print(path, found);
   found["file"] = path;
@@ -162,7 +164,7 @@ ExitCode check(const CheckOptions& options) {
     const std::string path = problem.path.string();
     try {
       io::Json found;
-      exit = worse(exit, check_file(path, !options.json, found));
+      exit = worse(exit, check_file(path, options.set, !options.json, found));
       results.push_back(std::move(found));
     } catch (const InputError& error) {
       exit = ExitCode::bad_input;
@@ -189,7 +191,7 @@ Command check_command() {
               "problem files (YAML), gain files (JSON), or folders of problems; - for a problem on "
               "standard input")
            .required(),
-       Option("--json", options->json, "print the result as JSON")},
+       set_option(options->set), Option("--json", options->json, "print the result as JSON")},
       "A problem is read, not solved. A gain file is taken as it stands, edited or not.\n"
       "Exit code: 0 all valid and proved, 1 the inequalities do not hold at the gains of a file, 2 "
       "wrong\n"

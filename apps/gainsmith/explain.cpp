@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
@@ -19,6 +20,7 @@ namespace {
 
 struct ExplainOptions {
   std::string problem;
+  std::vector<std::string> set;
   std::string effort;
   bool json = false;
 };
@@ -49,7 +51,8 @@ std::string better_lines(const model::Instance& instance, const design::Explanat
 }
 
 ExitCode explain(const ExplainOptions& options) {
-  const model::Instance instance = load_problem(options.problem, effort(options.effort));
+  const model::Instance instance =
+      load_problem(options.problem, options.set, effort(options.effort));
   const design::Explanation explanation = design::explain(instance, {});
   const Telling telling;
   fmt::print("{}", options.json
@@ -71,6 +74,7 @@ Command explain_command() {
       "explain",
       "Say why a problem has no solution, or why it has no better one",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       set_option(options->set),
        Option("--effort", options->effort,
               "what double does not decide: ordinary (an allowance of work) or full (any)")
            .one_of({"ordinary", "full"}),

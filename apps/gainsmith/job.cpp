@@ -75,7 +75,10 @@ class Job {
  public:
   /// `hash`: of the gains, as soon as they are written.
   Job(const fs::path& file, fs::path folder, const JobOptions& options, std::string& hash)
-      : instance_(load_problem(file)), folder_(std::move(folder)), options_(options), hash_(hash) {}
+      : instance_(load_problem(file, options.set)),
+        folder_(std::move(folder)),
+        options_(options),
+        hash_(hash) {}
 
   void run(JobResult& result) {
     const design::SearchRequest request = wanted_search(instance_);

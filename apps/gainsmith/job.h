@@ -15,7 +15,8 @@ namespace gainsmith::app {
 struct JobOptions {
   std::optional<std::uint64_t> runs;
   std::optional<std::uint64_t> seed;
-  unsigned threads = 1;  ///< of the search and of the campaign
+  std::vector<std::string> set{};  ///< "NAME=VALUE", in each problem
+  unsigned threads = 1;            ///< of the search and of the campaign
 };
 
 struct JobResult {

@@ -136,7 +136,27 @@ bool is_gain_text(const std::string& text) {
   return text.find("\"gainsmith\"", begin) < begin + 20;  // its first key
 }
 
+/// "T2=0.8": T2 and 0.8.
+std::vector<model::Setting> settings(const std::vector<std::string>& set) {
+  std::vector<model::Setting> result;
+  for (const std::string& text : set) {
+    const std::size_t equals = text.find('=');
+    const std::size_t begin = text.find_first_not_of(' ');
+    if (equals == std::string::npos || begin == equals)
+      throw InputError({"--set"}, "expected NAME=VALUE, not '" + text + "'");
+    const std::size_t end = text.find_last_not_of(' ', equals - 1);
+    result.push_back({text.substr(begin, end + 1 - begin), text.substr(equals + 1)});
+  }
+  return result;
+}
+
 }  // namespace
+
+Option set_option(std::vector<std::string>& set) {
+  return Option("--set", set,
+                "NAME=VALUE: this value for a datum, a parameter or a definition of the problem, "
+                "spelt as there; may be repeated");
+}
 
 io::MethodLibrary built_in_methods() {
   return {[](const std::string& name) { return methods::find(name); }, methods::names()};
@@ -152,14 +172,15 @@ std::function<void(model::Problem&)> effort(const std::string& word) {
   };
 }
 
-model::Instance load_problem(const std::filesystem::path& path,
+model::Instance load_problem(const std::filesystem::path& path, const std::vector<std::string>& set,
                              const std::function<void(model::Problem&)>& add) {
   const std::string text = read_text(path);
   if (is_gain_text(text))
     throw InputError({path.string()},
                      "this is a gain file; expected a problem in YAML. 'gainsmith verify' and "
                      "'gainsmith simulate' read gain files");
-  model::Problem problem = io::parse_problem(text, path.string(), built_in_methods());
+  model::Problem problem =
+      io::parse_problem(text, path.string(), built_in_methods(), settings(set));
   if (add) add(problem);
   model::Instance instance = bind::bind(problem);
   bind::refuse_free_unknowns(*instance.design);
@@ -184,15 +205,19 @@ LoadedGains load_gains(const std::filesystem::path& path) {
   return {std::move(gains), std::move(stated)};
 }
 
-LoadedGains load_run(const std::filesystem::path& path) {
+LoadedGains load_run(const std::filesystem::path& path, const std::vector<std::string>& set) {
   const std::string text = read_text(path);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (begin == std::string::npos || text[begin] == '{') {
+    if (!set.empty())
+      throw InputError({"--set"},
+                       "the problem of a gain file stays as it was solved; set values "
+                       "when it is synthesized, or in a problem without unknowns");
     LoadedGains loaded = load_gains(path);
     refuse_without_campaign(*loaded.stated.design, path.string());
     return loaded;
   }
-  const model::Instance instance = load_problem(path);
+  const model::Instance instance = load_problem(path, set);
   if (!instance.design->inequalities.empty() || !instance.design->unknowns.empty() ||
       !instance.design->open.empty())
     throw InputError({path.string()},

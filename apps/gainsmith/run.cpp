@@ -140,6 +140,7 @@ Command run_command() {
       {Option("problems", options->problems,
               "problem files, or folders of them; - for standard input")
            .required(),
+       set_option(options->job.set),
        Option("-o,--output", options->output, "folder for the results, one folder a problem in it"),
        Option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
            .within<std::uint64_t>(1, 1000000000000000),

@@ -28,6 +28,7 @@ namespace {
 
 struct ScanOptions {
   std::string problem;
+  std::vector<std::string> set;
   std::vector<std::string> over;
   std::vector<std::string> show;
   unsigned threads = 0;
@@ -63,12 +64,17 @@ Grid grid_of(const std::vector<RangeOption>& ranges, const model::Instance& inst
   double count = 1;
   for (std::size_t k = 0; k < ranges.size(); ++k) {
     const RangeOption& option = ranges[k];
+    grid.names.push_back(option.range.name);
+    if (option.is_value) {
+      grid.values.push_back({model::scalar_value(instance.design->asked[k].low, instance.values)});
+      grid.logarithmic.push_back(false);
+      continue;
+    }
     search::Axis axis = design::searched_scalar(instance, instance.design->asked[k]).axis;
     axis.logarithmic = option.logarithmic.value_or(axis.logarithmic);
     if (axis.logarithmic && !(axis.low > 0))
       throw InputError({"--over"},
                        option.range.name + ": a logarithmic scale needs a low end above 0");
-    grid.names.push_back(option.range.name);
     grid.logarithmic.push_back(axis.logarithmic);
     grid.values.push_back(points_on(axis, option.count.value_or(kDefault)));
     count *= static_cast<double>(grid.values.back().size());
@@ -191,8 +197,9 @@ ExitCode scan(const ScanOptions& options) {
   prepare_outputs(options.problem, {options.output, options.plot});
   std::vector<RangeOption> ranges;
   for (const std::string& text : options.over) ranges.push_back(parse_range(text, "--over"));
-  const model::Instance instance = load_problem(
-      options.problem, [&](model::Problem& problem) { add_questions(options, ranges, problem); });
+  const model::Instance instance =
+      load_problem(options.problem, options.set,
+                   [&](model::Problem& problem) { add_questions(options, ranges, problem); });
   const Grid grid = grid_of(ranges, instance);
   const auto rows =
       design::scan(instance.design, grid.names, search::grid(grid.values), options.threads, {});
@@ -225,9 +232,10 @@ Command scan_command() {
       "scan",
       "Solve a problem at every point of a grid of scalars",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       set_option(options->set),
        Option("--over", options->over,
-              "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT; may be repeated for "
-              "a grid")
+              "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT, or NAME=VALUE; may be "
+              "repeated for a grid")
            .required(),
        Option("--show", options->show,
               "a column more: an expression such as trace(P1) or norm(L); may be repeated"),

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/file.h"
 #include "base/number.h"
@@ -26,6 +27,7 @@ namespace {
 
 struct SimulateOptions {
   std::string gains;
+  std::vector<std::string> set;
   std::uint64_t run = 0;
   std::optional<std::uint64_t> seed;
   std::string output;
@@ -155,7 +157,7 @@ bool is_stopped(const verify::Replay& replay) {
 ExitCode simulate(const SimulateOptions& options) {
   check(options);
   prepare_outputs(options.gains, {options.output, options.picture.file});
-  const LoadedGains loaded = load_run(options.gains);
+  const LoadedGains loaded = load_run(options.gains, options.set);
   const model::Design& design = *loaded.stated.design;
   const std::uint64_t seed = options.seed.value_or(design.campaign.seed);
   if (options.compare) return compare(options, loaded, seed);
@@ -195,6 +197,7 @@ Command simulate_command() {
       "Replay one run of a campaign as CSV",
       {Option("gains", options->gains, "gain file (JSON), or a problem (YAML) without unknowns")
            .required(),
+       set_option(options->set),
        Option("--run", options->run, "the run's number"),
        Option("--seed", options->seed, "seed of the campaign (default: the problem's)"),
        Option("-o,--output", options->output, "write the table here (default: standard output)"),

@@ -47,7 +47,8 @@ Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Ove
   design->synthesis = source->synthesis;
   design->source = source;
   design->statement = {method().name, method().text,
-                       std::filesystem::path(source->file).filename().string(), source->text, ""};
+                       std::filesystem::path(source->file).filename().string(), source->text, "",
+                       source->settings, source->files};
   design->statement.hash = statement_hash(design->statement);
   names->known.known = recorder;
 }

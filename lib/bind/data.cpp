@@ -252,20 +252,27 @@ void add_parameter(Binding& binding, const model::Parameter& parameter) {
   define(binding, std::move(bound), binding.design->parameters);
 }
 
-void add_definitions(Binding& binding) {
-  auto& definitions = binding.names->known.definitions;
-  for (const model::Let& let : binding.method().let)
-    definitions[let.signature.name] = {let.signature.parameters, let.body};
+/// The definitions of the problem, which its data may use, too.
+void add_problem_definitions(Binding& binding) {
   for (const model::Let& let : binding.problem().let) {
     const std::string& name = let.signature.name;
     const bool datum = find_named(binding.method().data, name) != nullptr;
-    if (datum || binding.names->known.symbols.contains(name) || expr::is_reserved(name))
+    const bool parameter = find_named(binding.method().parameters, name) != nullptr;
+    if (datum || parameter || binding.names->known.symbols.contains(name) ||
+        expr::is_reserved(name))
       throw InputError(let.place, "'" + name + "' already has a meaning" +
                                       (datum ? ": it is a datum of the method, which stands under "
                                                "'data'"
                                              : ""));
-    definitions[name] = {let.signature.parameters, let.body};
+    binding.names->known.definitions[name] = {let.signature.parameters, let.body};
   }
+}
+
+void add_definitions(Binding& binding) {
+  auto& definitions = binding.names->known.definitions;
+  for (const model::Let& let : binding.method().let)
+    definitions[let.signature.name] = {let.signature.parameters, let.body};
+  add_problem_definitions(binding);
   if (binding.method().has_dynamics) return;  // signals come with the dynamics
   for (const model::Named& signal : binding.method().signals)
     definitions[signal.name] = {{}, signal.value};
@@ -374,6 +381,7 @@ void bind_data(Binding& binding) {
     if (!std::isfinite(value))
       throw InputError({binding.problem().file}, name + ": expected a finite number");
   }
+  add_problem_definitions(binding);
   std::vector<Given> all;
   for (const model::Declaration& datum : binding.method().data) {
     if (is_function(binding.problem(), datum)) {

@@ -101,6 +101,11 @@ double JsonReader::number() const {
   return number_of(value_);
 }
 
+std::string JsonReader::decimal() const {
+  number();
+  return decimal_of(value_);
+}
+
 double JsonReader::number_or_infinity() const {
   return value_.is_null() ? std::numeric_limits<double>::infinity() : number();
 }

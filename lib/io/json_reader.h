@@ -33,9 +33,12 @@ class JsonReader {
   /// Whether the optional key is there.
   bool has(const std::string& key) const;
   bool is_null() const { return value_.is_null(); }
+  bool is_list() const { return value_.is_array(); }
 
   std::string text() const;
   double number() const;
+  /// The decimal of a number.
+  std::string decimal() const;
   /// null stands for infinity.
   double number_or_infinity() const;
   int whole() const;

@@ -212,7 +212,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node,
                           const std::string& problem) {
   YamlMap map(file, node, "method", keys::method);
   model::Method method;
-  method.file = file.file();
+  method.file = file.file(node);
   const auto name =
       problem.empty() ? std::optional<YamlItem>(map.require("method")) : map.find("method");
   method.name = name ? file.string(name->value, "method") : problem;

@@ -7,11 +7,15 @@
 #include "base/number.h"
 #include "expr/work.h"
 #include "io/component_yaml.h"
+#include "io/data_file_yaml.h"
 #include "io/expectation_yaml.h"
 #include "io/figure_yaml.h"
 #include "io/method_node.h"
 #include "io/method_yaml.h"
 #include "io/search_yaml.h"
+#include "io/setting.h"
+#include "io/sources.h"
+#include "io/variant_yaml.h"
 
 namespace gainsmith::io {
 
@@ -191,7 +195,7 @@ std::vector<model::Value> ellipsoid_of(const YamlFile& file, const YamlItem& ite
 model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
   using Kind = model::StartKind;
   model::InitialValue result{item.key, Kind::expression, {}, item.place};
-  if (!item.value.IsMap()) {
+  if (!item.value.IsMap() || names_file(item.value)) {
     result.values.push_back(value_of(file, item));
     return result;
   }
@@ -365,10 +369,18 @@ std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
 }  // namespace
 
 model::Problem parse_problem(const std::string& text, const std::string& file,
-                             const MethodLibrary& library) {
+                             const MethodLibrary& library,
+                             const std::vector<model::Setting>& settings) {
+  Sources sources(file);
+  return parse_problem(text, file, library, settings, sources);
+}
+
+model::Problem parse_problem(const std::string& text, const std::string& file,
+                             const MethodLibrary& library,
+                             const std::vector<model::Setting>& settings, Sources& sources) {
   expr::count_problem();
-  const YamlFile yaml(text, file);
-  YamlMap map(yaml, yaml.root(), "problem", keys::problem);
+  YamlFile yaml(text, file, &sources);
+  YamlMap map(yaml, with_what_it_is_like(yaml), "problem", keys::problem);
   model::Problem problem;
   problem.file = file;
   problem.text = text;
@@ -407,6 +419,8 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
     problem.covariances.push_back(
         {item.key, yaml.string(item.value, item.key), item.place, yaml.place(item.value)});
   map.finish(advice_on_keys(*problem.method));
+  set_values(settings, sources, problem);
+  problem.files = sources.files();
   return problem;
 }
 

@@ -108,7 +108,8 @@ struct SearchRecord {
   std::optional<RefinementRecord> joint_refinement;
 };
 
-/// sha256 of the method's text, a zero byte and the problem's text.
+/// sha256 of the method's text, a zero byte and the problem's text; where there are settings or
+/// files, their parts follow, each behind a zero byte (docs/gain-file.md).
 std::string statement_hash(const Statement& statement);
 
 /// A gain that is a function of a scalar.

@@ -12,6 +12,7 @@
 #include "expr/ast.h"
 #include "model/figure.h"
 #include "model/method.h"
+#include "model/stated_file.h"
 
 namespace gainsmith::model {
 
@@ -157,6 +158,8 @@ struct Problem {
   std::vector<UnitText> units;
   std::vector<CovarianceText> covariances;
   Questions questions;
+  std::vector<Setting> settings;  ///< of the command line
+  std::vector<StatedFile> files;  ///< what was read besides the text
 };
 
 }  // namespace gainsmith::model
