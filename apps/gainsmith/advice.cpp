@@ -26,6 +26,15 @@ std::optional<std::string> scalar_of(const model::Formula& formula,
   return name;
 }
 
+/// Whether an inequality holds the scalar, and not only its domain.
+bool is_compared(const model::Design& design, const std::string& scalar) {
+  return std::any_of(
+      design.inequalities.begin(), design.inequalities.end(), [&](const auto& inequality) {
+        return std::any_of(inequality.comparisons.begin(), inequality.comparisons.end(),
+                           [&](const auto& each) { return each.difference.uses(scalar); });
+      });
+}
+
 }  // namespace
 
 std::string quoted(const std::string& word) {
@@ -47,6 +56,8 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
     commands.push_back("gainsmith synth " + quoted(file) + " --effort full");
   if (gains.verdict == model::Verdict::undecided)
     commands.push_back("gainsmith explain " + quoted(file));
+  if (gains.bound_only)
+    commands.push_back("gainsmith bisect " + quoted(file) + " --smallest gain_bound");
   // What the output does not show no interval shows.
   if (!design::hidden_mode_text(instance).empty()) return commands;
   std::set<std::string> ends;
@@ -55,6 +66,8 @@ std::vector<std::string> next_commands(const model::Instance& instance, const mo
       if (variable.over != model::Over::interval) continue;
       const auto end = scalar_of(variable.points[1], instance);
       if (!end || !ends.insert(*end).second) continue;
+      // Of an input between -limit and limit a larger limit is no harder.
+      if (variable.points[0].program.uses(*end) && is_compared(*instance.design, *end)) continue;
       const double high = instance.values.at(*end)(0, 0);
       const auto begin = scalar_of(variable.points[0], instance);
       const double low = begin ? instance.values.at(*begin)(0, 0) : kShortest * high;
@@ -87,7 +100,7 @@ std::string held_line(const model::Instance& instance, const std::vector<std::st
   for (const design::SearchedScalar& scalar : design::request_of(instance).over)
     if (std::find(varied.begin(), varied.end(), scalar.name) == varied.end())
       held += (held.empty() ? "" : ", ") + scalar.name + " = " +
-              brief(instance.values.at(scalar.name)(0, 0));
+              brief(model::scalar_named(instance, scalar.name).value_or(0));
   if (held.empty()) return "";
   return fmt::format("{:<12}{}; synth and optimize search what this keeps\n", "held", held);
 }

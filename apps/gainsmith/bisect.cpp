@@ -12,10 +12,14 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
+#include "gainsmith/picture_file.h"
 #include "gainsmith/range_option.h"
+#include "gainsmith/search_figure.h"
 #include "gainsmith/summary.h"
 #include "gainsmith/terminal.h"
+#include "gainsmith/units.h"
 #include "io/gains_json.h"
+#include "model/names.h"
 
 namespace gainsmith::app {
 
@@ -23,26 +27,24 @@ namespace {
 
 struct BisectOptions {
   std::string problem;
+  std::vector<std::string> set;
   std::string largest;
   std::string smallest;
   std::vector<std::string> range;
   std::optional<double> tolerance;
   std::string output;
+  std::string plot;
   bool json = false;
 };
 
-const char* word(search::Answer answer) {
-  switch (answer) {
-    case search::Answer::yes:
-      return "yes";
-    case search::Answer::no:
-      return "no";
-    case search::Answer::refused:
-      return "refused";
-    case search::Answer::undecided:
-      break;
-  }
-  return "undecided";
+/// A factor of a thousand to both sides of the bound that the problem states.
+model::ScalarRange range_of_gain_bound(const model::Problem& problem) {
+  constexpr double kFactor = 1000;
+  const double bound = problem.synthesis.gain_bound.value_or(1);
+  return {model::kGainBound,
+          parse_expression(decimal17(bound / kFactor), "--in"),
+          parse_expression(decimal17(bound * kFactor), "--in"),
+          {"--in"}};
 }
 
 /// The range of a scalar that the command line names: --in, or what the problem says of it.
@@ -58,6 +60,7 @@ model::ScalarRange range_of(const BisectOptions& options, const model::Problem& 
     return *problem.search->extreme;
   for (const model::ScalarRange& range : problem.negotiable)
     if (range.name == name) return range;
+  if (name == model::kGainBound) return range_of_gain_bound(problem);
   throw InputError({options.problem}, "no range for " + name + "; give --in LOW HIGH");
 }
 
@@ -94,7 +97,7 @@ design::BisectChoices choices_of(const BisectOptions& options, const model::Inst
 io::Json json_of(const design::BisectResult& result, const design::BisectChoices& choices) {
   io::Json samples = io::Json::array();
   for (const search::Sample& sample : result.found.samples)
-    samples.push_back({{"value", sample.value}, {"answer", word(sample.answer)}});
+    samples.push_back({{"value", sample.value}, {"answer", word_of(sample.answer)}});
   return {{"scalar", choices.scalar.name},
           {"goal", choices.largest ? "largest" : "smallest"},
           {"tolerance", choices.tolerance.width},
@@ -106,22 +109,26 @@ io::Json json_of(const design::BisectResult& result, const design::BisectChoices
 std::string table(const design::BisectResult& result, const std::string& name) {
   std::string text = fmt::format("{:<20}{}\n", name, "feasible");
   for (const search::Sample& sample : result.found.samples)
-    text += fmt::format("{:<20}{}\n", brief(sample.value, 12), word(sample.answer));
+    text += fmt::format("{:<20}{}\n", brief(sample.value, 12), word_of(sample.answer));
   return text;
 }
 
 ExitCode bisect(const BisectOptions& options) {
-  prepare_outputs(options.problem, {options.output});
+  check_picture_name(options.plot);
+  prepare_outputs(options.problem, {options.output, options.plot});
   check_positive(options.tolerance, "--tolerance");
-  const model::Instance instance =
-      load_problem(options.problem, [&](model::Problem& problem) { add_range(options, problem); });
+  const model::Instance instance = load_problem(
+      options.problem, options.set, [&](model::Problem& problem) { add_range(options, problem); });
   const design::BisectChoices choices = choices_of(options, instance);
   const design::BisectResult result = design::bisect(instance, {}, choices, {});
   const Telling telling;
-  const std::string report = options.json ? io::to_text(json_of(result, choices))
-                                          : table(result, choices.scalar.name) + "\n" +
-                                                synthesis_summary(result.gains) +
-                                                held_line(instance, {choices.scalar.name});
+  const std::string name = with_unit(*instance.design, choices.scalar.name);
+  if (!options.plot.empty())
+    write_picture(options.plot, bisect_figure(instance.design->name, name, result.found, choices));
+  const std::string report = options.json
+                                 ? io::to_text(json_of(result, choices))
+                                 : table(result, name) + "\n" + synthesis_summary(result.gains) +
+                                       held_line(instance, {choices.scalar.name});
   write_result(result.gains, options.output, report, options.json);
   return exit_of_search(result.gains);
 }
@@ -134,6 +141,7 @@ Command bisect_command() {
       "bisect",
       "Find the largest or smallest value of a scalar for which there are gains",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       set_option(options->set),
        Option("--largest", options->largest,
               "this scalar (default: what the problem's search says)"),
        Option("--smallest", options->smallest, "this scalar").excludes({"--largest"}),
@@ -143,10 +151,14 @@ Command bisect_command() {
               "value on a logarithmic scale)"),
        Option("-o,--output", options->output,
               "write the gains of the feasible end here; - for standard output"),
+       Option("--plot", options->plot,
+              "draw the values that were tried and the bracket here (.svg, .pdf, .png)"),
        Option("--json", options->json, "print the result as JSON")},
       "Both ends of the bracket are checked: gains whose recomputed margins hold, and a\n"
       "certificate that excludes others. The other scalars keep the problem's values.\n"
       "Values that the assumptions exclude are 'refused'.\n"
+      "The scalar 'gain_bound' is the bound on the gains (its range: a thousand times less to "
+      "more).\n"
       "Exit code: 0 a feasible value was found, 2 wrong input, 3 none was found (which says\n"
       "nothing of the values between those tried).\n"
       "Examples:\n"

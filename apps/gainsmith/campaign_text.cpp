@@ -6,6 +6,7 @@
 
 #include "base/number.h"
 #include "base/scalars.h"
+#include "base/version.h"
 #include "gainsmith/notes.h"
 
 namespace gainsmith::app {
@@ -28,26 +29,30 @@ std::string kind_text(model::ClaimKind kind) {
   return "?";
 }
 
-io::Json check_json(const verify::CheckReport& check) {
-  io::Json result = {
-      {"claim", check.name}, {"kind", kind_text(check.kind)}, {"stated", check.stated}};
-  if (!check.stated) {
-    result["missing"] = check.missing;
-    return result;
-  }
-  result["looked_at"] = check.worst.looked;
-  result["violations"] = check.violations;
-  result["undecided"] = check.undecided;
-  result["worst_run"] = check.worst_run;
-  result["worst"] = {{"score", io::finite_or_null(check.worst.score)},
-                     {"value", io::finite_or_null(check.worst.value)},
-                     {"bound", io::finite_or_null(check.worst.bound)},
-                     {"rounding", io::finite_or_null(check.worst.rounding)},
-                     {"t", check.worst.t},
-                     {"j", check.worst.j}};
-  if (check.worst.tolerance > 0) result["tolerance"] = check.worst.tolerance;
-  if (check.floor > 0) result["checked_down_to"] = check.floor;
-  return result;
+/// What JSON has no number for has no value.
+std::optional<double> finite(double value) {
+  return std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
+model::ClaimRecord claim_record(const verify::CheckReport& check) {
+  model::ClaimRecord record;
+  record.name = check.name;
+  record.kind = kind_text(check.kind);
+  record.stated = check.stated;
+  record.missing = check.missing;
+  record.looked_at = check.worst.looked;
+  record.violations = check.violations;
+  record.undecided = check.undecided;
+  record.worst_run = check.worst_run;
+  record.worst = {finite(check.worst.score),
+                  finite(check.worst.value),
+                  finite(check.worst.bound),
+                  finite(check.worst.rounding),
+                  check.worst.t,
+                  check.worst.j};
+  record.tolerance = check.worst.tolerance;
+  record.checked_down_to = check.floor;
+  return record;
 }
 
 std::string runs_text(std::uint64_t runs) {
@@ -58,7 +63,8 @@ std::string runs_text(std::uint64_t runs) {
 std::string uncertainty_text(model::ClaimKind kind, const claims::Finding& worst) {
   if (worst.estimated && !std::isfinite(worst.rounding))
     return "               nothing is certain: two runs that differ in accuracy and in their last "
-           "places have parted by then,\n               or the text branches more often than can be "
+           "places have parted by then,\n               or the text branches more often than can "
+           "be "
            "searched\n";
   const std::string how =
       worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits);
@@ -120,7 +126,8 @@ std::string undecided_text(const verify::Report& report, const std::string& gain
   if (report.close == 0) return "";
   return fmt::format(
       "  {} of {} {} undecided: what {} lies closer together than the {}\n"
-      "  try         a claim that asks for a little less (tolerance: 1e-6) or begins later (after: 1), a "
+      "  try         a claim that asks for a little less (tolerance: 1e-6) or begins later (after: "
+      "1), a "
       "shorter\n"
       "              campaign.horizon, or claims written in differences of states (z - zh); see\n"
       "              gainsmith simulate {} --run {} --seed {}\n",
@@ -145,32 +152,33 @@ ExitCode campaign_exit(model::CampaignVerdict verdict) {
   return ExitCode::fault;
 }
 
-io::Json campaign_json(const verify::Report& report) {
-  io::Json checks = io::Json::array();
-  for (const verify::CheckReport& check : report.checks) checks.push_back(check_json(check));
-  io::Json document = {
-      {"verdict", to_string(report.verdict)},
-      {"runs", report.runs},
-      {"seed", report.seed},
-      {"horizon", report.horizon},
-      {"status", to_string(report.verdict)},
-      {"violations", report.violations},
-      {"undecided", report.undecided},
-      {"unfinished", report.unfinished},
-      {"worst_run", report.worst_run},
-      {report.integrated ? "repeated" : "repeated_in_31_digits", report.repeated},
-      {report.integrated ? "confirmed" : "confirmed_in_31_digits", report.confirmed},
-      {"different_runs", report.different ? io::Json(*report.different) : io::Json()},
-      {"confidence", report.different ? io::Json() : io::Json(report.confidence)},
-      {"violation_probability_at_most",
-       report.different ? io::Json() : io::Json(report.violation_probability)},
-      {"notes", notes_on(report)},
-      {"checks", checks}};
-  if (report.interrupted()) {
-    document["runs_asked"] = report.asked;
-    document["message"] = interruption_text(report);
+model::CampaignRecord campaign_record(const verify::Report& report, const std::string& gains_hash) {
+  model::CampaignRecord record;
+  record.verdict = report.verdict;
+  record.runs = report.runs;
+  record.seed = report.seed;
+  record.horizon = report.horizon;
+  record.violations = report.violations;
+  record.undecided = report.undecided;
+  record.unfinished = report.unfinished;
+  if (report.unfinished > 0) record.first_unfinished = {report.unfinished_run, ending_text(report)};
+  record.worst_run = report.worst_run;
+  record.repeated = report.repeated;
+  record.integrated = report.integrated;
+  record.confirmed = report.confirmed;
+  record.different_runs = report.different;
+  if (!report.different) {
+    record.confidence = report.confidence;
+    record.violation_probability = report.violation_probability;
   }
-  return document;
+  record.notes = notes_on(report);
+  for (const verify::CheckReport& check : report.checks)
+    record.checks.push_back(claim_record(check));
+  record.runs_asked = report.asked;
+  if (report.interrupted()) record.message = interruption_text(report);
+  record.version = kVersion;
+  record.gains_hash = gains_hash;
+  return record;
 }
 
 std::string interruption_text(const verify::Report& report) {
@@ -182,23 +190,24 @@ std::string interruption_text(const verify::Report& report) {
   return text + fmt::format("; --runs {} gives a verdict in the time that was spent", report.runs);
 }
 
-std::string campaign_line(const verify::Report& report) {
-  if (report.interrupted()) return "undecided: " + interruption_text(report);
-  if (report.verdict == model::CampaignVerdict::held)
-    return fmt::format("held in {}{}", runs_text(report.runs),
-                       report.different ? " (nothing is drawn)" : "");
-  if (report.verdict == model::CampaignVerdict::violated)
+std::string campaign_line(const model::CampaignRecord& record) {
+  if (record.runs < record.runs_asked) return "undecided: " + record.message;
+  if (record.verdict == model::CampaignVerdict::held)
+    return fmt::format("held in {}{}", runs_text(record.runs),
+                       record.different_runs ? " (nothing is drawn)" : "");
+  if (record.verdict == model::CampaignVerdict::violated)
     return fmt::format(
-        "violated in {} of {}, worst {}, confirmed {}", report.violations, runs_text(report.runs),
-        report.worst_run,
-        report.integrated ? "more accurately" : fmt::format("in {} digits", kQuadDigits));
-  return fmt::format("undecided in {} of {}", report.undecided + report.violations,
-                     runs_text(report.runs));
+        "violated in {} of {}, worst {}, confirmed {}", record.violations, runs_text(record.runs),
+        record.worst_run,
+        record.integrated ? "more accurately" : fmt::format("in {} digits", kQuadDigits));
+  return fmt::format("undecided in {} of {}", record.undecided + record.violations,
+                     runs_text(record.runs));
 }
 
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file) {
-  std::string text = fmt::format("campaign    {} (seed {}, horizon {})\n", campaign_line(report),
-                                 report.seed, brief(report.horizon));
+  std::string text =
+      fmt::format("campaign    {} (seed {}, horizon {})\n",
+                  campaign_line(campaign_record(report, "")), report.seed, brief(report.horizon));
   if (report.runs == 0) return text;
   std::size_t width = 12;
   for (const verify::CheckReport& check : report.checks) width = std::max(width, check.name.size());

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/error.h"
-#include "io/json_text.h"
+#include "model/campaign_record.h"
 #include "verify/campaign.h"
 
 namespace gainsmith::app {
@@ -12,7 +12,9 @@ namespace gainsmith::app {
 /// yes of a campaign that held, no of a violated one.
 ExitCode campaign_exit(model::CampaignVerdict verdict);
 
-io::Json campaign_json(const verify::Report& report);
+/// `gains_hash`: of the gains that were verified (io/campaign_json.h).
+model::CampaignRecord campaign_record(const verify::Report& report,
+                                      const std::string& gains_hash);
 
 /// Verdict, checks and how to replay the worst run; `gains_file` is named in the command.
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file);
@@ -21,6 +23,6 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
 std::string interruption_text(const verify::Report& report);
 
 /// One line: "held in 1000 runs".
-std::string campaign_line(const verify::Report& report);
+std::string campaign_line(const model::CampaignRecord& record);
 
 }  // namespace gainsmith::app

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
@@ -19,6 +20,7 @@ namespace {
 
 struct ExplainOptions {
   std::string problem;
+  std::vector<std::string> set;
   std::string effort;
   bool json = false;
 };
@@ -31,13 +33,32 @@ std::string plant_line(const model::Instance& instance, const design::Explanatio
   return stands ? "" : hidden_line(instance);
 }
 
+/// What is said of gains that could be better.
+std::string better_lines(const model::Instance& instance, const design::Explanation& explanation) {
+  if (explanation.gains.verdict != model::Verdict::yes) return "";
+  std::string text;
+  for (const std::string& fixed : design::fixed_mode_texts(instance))
+    text += fmt::format("{:<12}{}\n", "plant", fixed);
+  if (explanation.limits || !explanation.reaches.empty()) return text;
+  const std::vector<std::string> scalars = design::scalars_in_use(*instance.design);
+  text +=
+      "limited by  nothing is minimised, so one solution is as good as another; state what is to "
+      "be\n"
+      "            best, 'minimize', or how far a scalar goes, 'negotiable: {NAME: [low, high]}'";
+  for (std::size_t k = 0; k < scalars.size(); ++k)
+    text += (k == 0 ? ";\n            the scalars are " : ", ") + scalars[k];
+  return text + "\n";
+}
+
 ExitCode explain(const ExplainOptions& options) {
-  const model::Instance instance = load_problem(options.problem, effort(options.effort));
+  const model::Instance instance =
+      load_problem(options.problem, options.set, effort(options.effort));
   const design::Explanation explanation = design::explain(instance, {});
   const Telling telling;
-  fmt::print("{}", options.json ? io::to_text(explanation_json(explanation))
-                                : explanation_text(explanation) +
-                                      plant_line(instance, explanation) + held_line(instance));
+  fmt::print("{}", options.json
+                       ? io::to_text(explanation_json(explanation))
+                       : explanation_text(explanation) + plant_line(instance, explanation) +
+                             better_lines(instance, explanation) + held_line(instance));
   if (!explanation.finished) {
     say("not finished: what is undecided or missing here was not examined to its end\n");
     return ExitCode::undecided;
@@ -51,15 +72,17 @@ Command explain_command() {
   auto options = std::make_shared<ExplainOptions>();
   return {
       "explain",
-      "Say why a problem has no solution and what would have to give",
+      "Say why a problem has no solution, or why it has no better one",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       set_option(options->set),
        Option("--effort", options->effort,
               "what double does not decide: ordinary (an allowance of work) or full (any)")
            .one_of({"ordinary", "full"}),
        Option("--json", options->json, "print as JSON")},
       "The problem is taken at its own values: what it wants searched is not searched.\n"
-      "Exit code: 0 there is nothing to explain: it is feasible, 1 infeasible, 2 wrong input,\n"
-      "3 undecided.\n"
+      "Of a problem with gains it says what limits the optimum: what each requirement, each bound\n"
+      "and each scalar costs, and how far the scalars under 'negotiable' go.\n"
+      "Exit code: 0 feasible, 1 infeasible, 2 wrong input, 3 undecided.\n"
       "Examples:\n"
       "  gainsmith explain problems/ferrante-seuret-2021/published-theorem.yaml\n"
       "  gainsmith explain problem.yaml --json | jq .conflict.requirements",

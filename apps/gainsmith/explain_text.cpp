@@ -24,7 +24,8 @@ std::string listed(const std::vector<std::string>& names) {
 /// feasible side.
 std::string settled(const design::Reach& reach) {
   const double value = *reach.feasible;
-  const double width = reach.beyond ? std::abs(*reach.beyond - value) : 0;
+  const auto next = reach.beyond ? reach.beyond : reach.open;
+  const double width = next ? std::abs(*next - value) : 0;
   if (!(width > 0) || value == 0) return brief(value, 10);
   const double digits = std::floor(std::log10(std::abs(value))) - 2;
   const double unit = std::pow(10.0, std::min(std::ceil(std::log10(width)), digits));
@@ -40,6 +41,17 @@ std::string reach_text(const design::Reach& reach) {
 io::Json side_of(const design::Reach& reach) {
   if (!reach.feasible) return nullptr;
   return reach.at_most ? "at most" : "at least";
+}
+
+std::string conflict_statement(const design::Conflict& conflict);
+
+/// What stops a scalar that has room.
+std::string stop_text(const design::Reach& reach) {
+  if (!reach.beyond && reach.feasible == reach.end)
+    return "            that is the end of its range: nothing nearer stops it\n";
+  if (!reach.conflict) return reach.beyond ? "" : "            what lies beyond is undecided\n";
+  return fmt::format("            at {}: {}\n", brief(reach.conflict_at, 5),
+                     conflict_statement(*reach.conflict));
 }
 
 std::string negotiable_text(const design::Reach& reach) {
@@ -65,8 +77,7 @@ std::string conflict_statement(const design::Conflict& conflict) {
 
 std::string certificate_brief(const model::CertificateRecord& certificate) {
   if (certificate.exact) return "exact";
-  return "excludes every solution (relative error " +
-         brief(certificate.backward_error, 2) + ")";
+  return "excludes every solution (relative error " + brief(certificate.backward_error, 2) + ")";
 }
 
 std::string conflict_text(const design::Conflict& conflict) {
@@ -100,6 +111,115 @@ std::string relaxations_text(const std::vector<design::Relaxation>& relaxations)
   return text;
 }
 
+/// "1.29", or why there is no number.
+std::string minimum_text(const std::optional<design::Changed>& changed) {
+  if (!changed) return "-";
+  if (changed->homogeneous) return "0 or none";
+  if (!changed->minimum) return changed->unbounded ? "unbounded" : "not found";
+  const std::string high = brief(*changed->minimum, 4);
+  const std::string low = brief(changed->lower_bound.value_or(*changed->minimum), 4);
+  return low == high ? brief(*changed->minimum) : low + " to " + high;
+}
+
+/// "tau = 0.7 (83 %), tau = 0 (17 %)": where an inequality is active.
+std::string places_text(const design::Limit& limit) {
+  constexpr std::size_t kMost = 3;
+  constexpr double kTells = 0.01;
+  std::string text;
+  for (std::size_t k = 0; k < std::min(kMost, limit.points.size()); ++k) {
+    const auto& [point, price] = limit.points[k];
+    if (price < kTells * limit.price) break;
+    text +=
+        fmt::format("{}{} ({:.0f} %)", text.empty() ? "" : ", ", point, 100 * price / limit.price);
+  }
+  return text;
+}
+
+/// The minimum is no less where a requirement is relaxed by this part of its scale.
+constexpr double kRelaxed = 0.01;
+
+double relaxed_minimum(const design::Limit& limit, const model::Gains& gains) {
+  return gains.objective_lower_bound.value_or(*gains.objective) -
+         kRelaxed * limit.scale * limit.price;
+}
+
+std::string limits_text(const design::Limits& limits, const model::Gains& gains) {
+  std::size_t width = 10;
+  for (const auto& limit : limits.active) width = std::max(width, limit.name.size());
+  std::string text =
+      fmt::format("{:<{}}  {:>11}  {:>10}  {:>16}  {:>11}  {}\n", "limited by", width, "price",
+                  "of scale", "1 % relaxed", "without it", "most at");
+  for (const auto& limit : limits.active) {
+    text += fmt::format("{:<{}}  {:>11}  {:>10}  {:>16}  {:>11}  {}", limit.name, width,
+                        brief(limit.price, 3), brief(limit.scale, 3),
+                        "at least " + brief(relaxed_minimum(limit, gains), 5),
+                        minimum_text(limit.without), places_text(limit));
+    text.erase(text.find_last_not_of(' ') + 1);
+    text += "\n";
+  }
+  if (!limits.inactive.empty())
+    text += "no limit    " + listed(limits.inactive) +
+            (limits.inactive.size() == 1 ? " costs" : " cost") + " nothing\n";
+  if (limits.wider_gains)
+    text += fmt::format(
+        "gain bound  it costs: the optimum with ten times the bound is {}, without a bound {}\n",
+        minimum_text(limits.wider_gains), minimum_text(limits.any_gains));
+  for (const auto& scalar : limits.scalars) {
+    const double change = *scalar.changed.minimum - *gains.objective;
+    text += fmt::format("{:<12}{} = {} instead of {} gives {} ({}{} %)\n",
+                        &scalar == limits.scalars.data() ? "scalars" : "", scalar.name,
+                        brief(scalar.other), brief(scalar.value), brief(*scalar.changed.minimum, 6),
+                        change < 0 ? "" : "+", brief(100 * change / std::abs(*gains.objective), 2));
+  }
+  return text;
+}
+
+io::Json number(const std::optional<double>& value) {
+  return value ? io::Json(*value) : io::Json();
+}
+
+io::Json changed_json(const std::optional<design::Changed>& changed) {
+  if (!changed) return nullptr;
+  return {{"minimum", number(changed->minimum)},
+          {"lower_bound", number(changed->lower_bound)},
+          {"unbounded", changed->unbounded},
+          {"homogeneous", changed->homogeneous}};
+}
+
+io::Json limits_json(const design::Limits& limits) {
+  io::Json document = {{"active", io::Json::array()},
+                       {"inactive", limits.inactive},
+                       {"ten_times_the_gain_bound", changed_json(limits.wider_gains)},
+                       {"without_gain_bound", changed_json(limits.any_gains)},
+                       {"scalars", io::Json::array()}};
+  for (const auto& limit : limits.active) {
+    io::Json points = io::Json::array();
+    for (const auto& [point, price] : limit.points)
+      points.push_back({{"at", point}, {"price", price}});
+    document["active"].push_back({{"requirement", limit.name},
+                                  {"price", limit.price},
+                                  {"scale", limit.scale},
+                                  {"points", points},
+                                  {"without", changed_json(limit.without)}});
+  }
+  for (const auto& scalar : limits.scalars)
+    document["scalars"].push_back({{"scalar", scalar.name},
+                                   {"value", scalar.value},
+                                   {"other", scalar.other},
+                                   {"minimum", *scalar.changed.minimum}});
+  return document;
+}
+
+io::Json conflict_json(const design::Conflict& conflict) {
+  return {{"requirements", conflict.names},
+          {"undecided", conflict.undecided},
+          {"gain_bound", conflict.gain_bound},
+          {"within_gain_bound", conflict.within_gain_bound},
+          {"exact", conflict.certificate.exact},
+          {"about", conflict.certificate.about},
+          {"backward_error", conflict.certificate.backward_error}};
+}
+
 }  // namespace
 
 std::string explanation_line(const design::Conflict& conflict,
@@ -114,30 +234,24 @@ std::string explanation_line(const design::Conflict& conflict,
 std::string explanation_text(const design::Explanation& explanation) {
   std::string text = fmt::format("problem     {}\nverdict     {}\n", explanation.gains.problem_name,
                                  verdict_line(explanation.gains));
+  const bool yes = explanation.gains.verdict == model::Verdict::yes;
   if (!explanation.conflict) text += message_lines(explanation.gains);
+  if (yes) text += objective_text(explanation.gains);
   if (explanation.conflict) text += conflict_text(*explanation.conflict);
   text += relaxations_text(explanation.relaxations);
-  for (const design::Reach& reach : explanation.reaches) text += negotiable_text(reach);
+  if (explanation.limits) text += limits_text(*explanation.limits, explanation.gains);
+  for (const design::Reach& reach : explanation.reaches)
+    text += negotiable_text(reach) + (yes ? stop_text(reach) : "");
   return text;
 }
 
 io::Json explanation_json(const design::Explanation& explanation) {
-  const auto number = [](const std::optional<double>& value) {
-    return value ? io::Json(*value) : io::Json();
-  };
   io::Json document = {{"problem", explanation.gains.problem_name},
                        {"verdict", to_string(explanation.gains.verdict)},
                        {"conflict", nullptr},
                        {"relaxations", io::Json::array()},
                        {"negotiable", io::Json::array()}};
-  if (const auto& conflict = explanation.conflict)
-    document["conflict"] = {{"requirements", conflict->names},
-                            {"undecided", conflict->undecided},
-                            {"gain_bound", conflict->gain_bound},
-                            {"within_gain_bound", conflict->within_gain_bound},
-                            {"exact", conflict->certificate.exact},
-                            {"about", conflict->certificate.about},
-                            {"backward_error", conflict->certificate.backward_error}};
+  if (const auto& conflict = explanation.conflict) document["conflict"] = conflict_json(*conflict);
   for (const auto& relaxation : explanation.relaxations)
     document["relaxations"].push_back({{"requirement", relaxation.name},
                                        {"scale", relaxation.scale},
@@ -153,7 +267,11 @@ io::Json explanation_json(const design::Explanation& explanation) {
          {"side", side_of(reach)},
          {"feasible", number(reach.feasible)},
          {"beyond", number(reach.beyond)},
-         {"beyond_about", reach.certificate ? io::Json(reach.certificate->about) : io::Json()}});
+         {"beyond_about", reach.certificate ? io::Json(reach.certificate->about) : io::Json()},
+         {"conflict", reach.conflict ? conflict_json(*reach.conflict) : io::Json()},
+         {"conflict_at", reach.conflict ? io::Json(reach.conflict_at) : io::Json()}});
+  if (explanation.gains.objective) document["objective"] = *explanation.gains.objective;
+  document["limits"] = explanation.limits ? limits_json(*explanation.limits) : io::Json();
   return document;
 }
 

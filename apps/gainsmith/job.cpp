@@ -1,5 +1,6 @@
 #include "gainsmith/job.h"
 
+#include <array>
 #include <chrono>
 #include <exception>
 #include <memory>
@@ -16,13 +17,17 @@
 #include "gainsmith/run_table.h"
 #include "gainsmith/search_wanted.h"
 #include "gainsmith/summary.h"
+#include "io/campaign_json.h"
 #include "io/gains_json.h"
+#include "io/result_json.h"
 #include "verify/campaign.h"
 #include "verify/expected_run.h"
 
 namespace gainsmith::app {
 
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Thrown out of work that Ctrl-C ended; what() says what was done.
 class Interrupted : public std::runtime_error {
@@ -54,10 +59,26 @@ void set_interrupted(const std::string& line, JobResult& result) {
       {"folder", result.name}, {"exit", static_cast<int>(result.exit)}, {"interrupted", line}};
 }
 
+/// What a run writes into the folder of a problem.
+constexpr std::array kWritten = {"gains.json",    "campaign.json", "summary.txt",
+                                 "worst-run.csv", "worst-run.svg", "result.json"};
+
+/// Makes the folder and removes what an earlier run left in it.
+void prepare(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw InputError({folder.string()}, "cannot make this folder: " + error.message());
+  for (const char* name : kWritten) fs::remove(folder / name, error);
+}
+
 class Job {
  public:
-  Job(const std::filesystem::path& file, std::filesystem::path folder, const JobOptions& options)
-      : instance_(load_problem(file)), folder_(std::move(folder)), options_(options) {}
+  /// `hash`: of the gains, as soon as they are written.
+  Job(const fs::path& file, fs::path folder, const JobOptions& options, std::string& hash)
+      : instance_(load_problem(file, options.set)),
+        folder_(std::move(folder)),
+        options_(options),
+        hash_(hash) {}
 
   void run(JobResult& result) {
     const design::SearchRequest request = wanted_search(instance_);
@@ -76,26 +97,19 @@ class Job {
     for (const std::string& open : run.undecided)
       result.differences.push_back(open + ": the digits do not decide");
     result.line = verdict_line(gains) + "; " +
-                  (campaign ? campaign_line(*campaign) : "no campaign: " + why_no_campaign(gains));
+                  (campaign ? campaign_line(campaign_record(*campaign, hash_))
+                            : "no campaign: " + why_no_campaign(gains));
     result.report = report(gains, campaign, result);
     write_atomically(folder_ / "summary.txt", summary(gains, campaign, result));
   }
 
  private:
-  /// Makes the folder and removes what an earlier run left in it.
-  void prepare_folder() const {
-    std::error_code error;
-    std::filesystem::create_directories(folder_, error);
-    if (error) throw InputError({folder_.string()}, "cannot make this folder: " + error.message());
-    for (const char* name : {"gains.json", "campaign.json", "summary.txt", "worst-run.csv"})
-      std::filesystem::remove(folder_ / name, error);
-  }
-
   /// The gains are written when the campaign is over, or cannot be run: not when it is interrupted.
   std::optional<verify::Report> verify_and_write(const model::Gains& gains) {
     const auto write = [&] {
-      prepare_folder();
+      prepare(folder_);
       write_atomically(folder_ / "gains.json", io::gains_text(gains));
+      hash_ = io::gains_hash(gains);
     };
     std::unique_ptr<const verify::Setup> setup;
     std::optional<verify::Report> campaign;
@@ -130,7 +144,10 @@ class Job {
   }
 
   void write_campaign(const verify::Setup& setup, const verify::Report& report) const {
-    write_atomically(folder_ / "campaign.json", io::to_text(campaign_json(report)));
+    write_atomically(folder_ / "campaign.json",
+                     io::to_text(io::to_json(campaign_record(report, hash_))));
+    write_atomically(folder_ / "worst-run.svg",
+                     run_picture(instance_.design->name, setup, report.seed, report.worst_run));
     if (report.verdict != model::CampaignVerdict::held)
       write_atomically(folder_ / "worst-run.csv", run_csv(setup, report.seed, report.worst_run));
   }
@@ -161,9 +178,25 @@ class Job {
   }
 
   model::Instance instance_;
-  std::filesystem::path folder_;
+  fs::path folder_;
   const JobOptions& options_;
+  std::string& hash_;
 };
+
+/// The last file of the folder; without gains the only one. A folder that cannot be written to is a
+/// result too.
+void write_result(const fs::path& folder, JobResult& result) {
+  try {
+    if (result.gains_hash.empty()) prepare(folder);
+    write_atomically(
+        folder / "result.json",
+        io::to_text(io::result_json(result.report, result.gains_hash, result.seconds)));
+  } catch (const InputError& error) {
+    if (result.report.contains("error")) return;  // which says more
+    result.exit = ExitCode::bad_input;
+    result.line = error.what();
+  }
+}
 
 }  // namespace
 
@@ -190,7 +223,7 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
   result.name = name;
   try {
     if (is_stopping()) throw Interrupted("interrupted before it began");
-    Job(problem, folder, options).run(result);
+    Job(problem, folder, options, result.gains_hash).run(result);
   } catch (const Interrupted& stop) {
     set_interrupted(stop.what(), result);
   } catch (const Stopped&) {
@@ -206,6 +239,7 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
     result.report = {
         {"folder", name}, {"exit", static_cast<int>(result.exit)}, {"error", result.line}};
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  if (!result.interrupted) write_result(folder, result);
   return result;
 }
 

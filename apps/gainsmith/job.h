@@ -15,7 +15,8 @@ namespace gainsmith::app {
 struct JobOptions {
   std::optional<std::uint64_t> runs;
   std::optional<std::uint64_t> seed;
-  unsigned threads = 1;  ///< of the search and of the campaign
+  std::vector<std::string> set{};  ///< "NAME=VALUE", in each problem
+  unsigned threads = 1;            ///< of the search and of the campaign
 };
 
 struct JobResult {
@@ -24,12 +25,14 @@ struct JobResult {
   std::string line;                      ///< "yes, objective 688.572; held in 1000 runs"
   std::vector<std::string> differences;  ///< from `expect:`
   io::Json report;                       ///< without timings
+  std::string gains_hash;  ///< of the gains that were written (io/campaign_json.h)
   double seconds = 0;
   bool interrupted = false;  ///< by Ctrl-C, before it was decided; then nothing was written
 };
 
 /// Synthesizes, verifies when there are gains, compares with `expect:` and writes gains.json,
-/// campaign.json, summary.txt and, of a violated campaign, worst-run.csv into `folder`. What
+/// campaign.json, worst-run.svg, summary.txt and, of a violated campaign, worst-run.csv into
+/// `folder`; at last result.json, of wrong input too, which may be all that the folder then holds. What
 /// `expect:` does not name must be as usual: the verdict yes, the campaign held. Throws nothing but
 /// OptimizersNeeded, before anything is written: a wrong input is a result too.
 JobResult run_job(const std::filesystem::path& problem, const std::string& name,

@@ -55,6 +55,8 @@ void check_complete(const model::Gains& gains, const model::Instance& instance,
   known.clear();
   for (const auto& shown : instance.design->report) known.push_back(shown.name);
   refuse_unknown(gains.report, known, "report", file);
+  for (const auto& [shown, reason] : gains.not_computed)
+    refuse_unknown(shown, known, "not_computed", file);
   if (gains.verdict == model::Verdict::yes) {
     for (const auto& unknown : stated.unknowns) require(unknown.name, unknown.shape);
     for (const auto& wanted : instance.design->gains) {
@@ -93,7 +95,7 @@ void refuse_without_gains(const model::Gains& gains, const model::Design& design
       !gains.gain_functions.empty())
     return;
   throw InputError({file}, "the verdict is " + std::string(to_string(gains.verdict)) +
-                               ": the file has no gains to simulate; 'gainsmith explain' of its "
+                               ": the file has no gains; 'gainsmith explain' of its "
                                "problem says why");
 }
 
@@ -128,17 +130,40 @@ void check_searched(const model::Gains& gains, const std::string& file) {
   }
 }
 
-/// Whether a text is what synth writes, or was: it need not be whole.
-bool is_gain_file(const std::string& text) {
+bool is_gain_text(const std::string& text) {
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (begin == std::string::npos || text[begin] != '{') return false;
   return text.find("\"gainsmith\"", begin) < begin + 20;  // its first key
 }
 
+/// "T2=0.8": T2 and 0.8.
+std::vector<model::Setting> settings(const std::vector<std::string>& set) {
+  std::vector<model::Setting> result;
+  for (const std::string& text : set) {
+    const std::size_t equals = text.find('=');
+    const std::size_t begin = text.find_first_not_of(' ');
+    if (equals == std::string::npos || begin == equals)
+      throw InputError({"--set"}, "expected NAME=VALUE, not '" + text + "'");
+    const std::size_t end = text.find_last_not_of(' ', equals - 1);
+    result.push_back({text.substr(begin, end + 1 - begin), text.substr(equals + 1)});
+  }
+  return result;
+}
+
 }  // namespace
+
+Option set_option(std::vector<std::string>& set) {
+  return Option("--set", set,
+                "NAME=VALUE: this value for a datum, a parameter or a definition of the problem, "
+                "spelt as there; may be repeated");
+}
 
 io::MethodLibrary built_in_methods() {
   return {[](const std::string& name) { return methods::find(name); }, methods::names()};
+}
+
+bool is_gain_file(const std::filesystem::path& path) {
+  return path != "-" && is_gain_text(read_text(path));
 }
 
 std::function<void(model::Problem&)> effort(const std::string& word) {
@@ -147,27 +172,32 @@ std::function<void(model::Problem&)> effort(const std::string& word) {
   };
 }
 
-model::Instance load_problem(const std::filesystem::path& path,
+model::Instance load_problem(const std::filesystem::path& path, const std::vector<std::string>& set,
                              const std::function<void(model::Problem&)>& add) {
   const std::string text = read_text(path);
-  if (is_gain_file(text))
+  if (is_gain_text(text))
     throw InputError({path.string()},
                      "this is a gain file; expected a problem in YAML. 'gainsmith verify' and "
                      "'gainsmith simulate' read gain files");
-  model::Problem problem = io::parse_problem(text, path.string(), built_in_methods());
+  model::Problem problem =
+      io::parse_problem(text, path.string(), built_in_methods(), settings(set));
   if (add) add(problem);
   model::Instance instance = bind::bind(problem);
   bind::refuse_free_unknowns(*instance.design);
   return instance;
 }
 
-LoadedGains load_gains(const std::filesystem::path& path) {
+model::Gains read_gains(const std::filesystem::path& path) {
   const std::string text = read_text(path);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (begin != std::string::npos && text[begin] != '{')
     throw InputError({path.string()},
                      "this is no gain file; expected the JSON that 'gainsmith synth -o' writes");
-  model::Gains gains = io::parse_gains(text, path.string());
+  return io::parse_gains(text, path.string());
+}
+
+LoadedGains load_gains(const std::filesystem::path& path) {
+  model::Gains gains = read_gains(path);
   check_searched(gains, path.string());
   model::Instance stated = bind::bind(io::stated_problem(gains, path.string()), gains.searched);
   check_complete(gains, stated, path.string());
@@ -175,15 +205,19 @@ LoadedGains load_gains(const std::filesystem::path& path) {
   return {std::move(gains), std::move(stated)};
 }
 
-LoadedGains load_run(const std::filesystem::path& path) {
+LoadedGains load_run(const std::filesystem::path& path, const std::vector<std::string>& set) {
   const std::string text = read_text(path);
   const std::size_t begin = text.find_first_not_of(" \t\r\n\xEF\xBB\xBF");
   if (begin == std::string::npos || text[begin] == '{') {
+    if (!set.empty())
+      throw InputError({"--set"},
+                       "the problem of a gain file stays as it was solved; set values "
+                       "when it is synthesized, or in a problem without unknowns");
     LoadedGains loaded = load_gains(path);
     refuse_without_campaign(*loaded.stated.design, path.string());
     return loaded;
   }
-  const model::Instance instance = load_problem(path);
+  const model::Instance instance = load_problem(path, set);
   if (!instance.design->inequalities.empty() || !instance.design->unknowns.empty() ||
       !instance.design->open.empty())
     throw InputError({path.string()},

@@ -20,6 +20,7 @@ namespace {
 
 struct OptimizeOptions {
   std::string problem;
+  std::vector<std::string> set;
   std::vector<std::string> over;
   std::string largest;
   std::string smallest;
@@ -69,8 +70,8 @@ void add_search(const OptimizeOptions& options, model::Problem& problem) {
 ExitCode optimize(const OptimizeOptions& options) {
   prepare_outputs(options.problem, {options.output});
   check_positive(options.tolerance, "--tolerance");
-  const model::Instance instance =
-      load_problem(options.problem, [&](model::Problem& problem) { add_search(options, problem); });
+  const model::Instance instance = load_problem(
+      options.problem, options.set, [&](model::Problem& problem) { add_search(options, problem); });
   design::SearchRequest request = wanted_search(instance);
   request.refine = options.refine;
   if (request.over.empty())
@@ -93,6 +94,7 @@ Command optimize_command() {
       "optimize",
       "Find the best values of a few scalars outside the inequalities",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       set_option(options->set),
        Option("--over", options->over,
               "NAME=LOW:HIGH, once for each scalar (default: the problem's search)"),
        Option("--largest", options->largest,

@@ -42,14 +42,17 @@ bool scale_of(const std::string& text, const std::string& option) {
 RangeOption parse_range(const std::string& text, const std::string& option) {
   const std::size_t equals = text.find('=');
   const auto parts = split(equals == std::string::npos ? "" : text.substr(equals + 1), ':');
-  if (equals == 0 || parts.size() < 2 || parts.size() > 4)
-    throw InputError({option},
-                     "expected NAME=LOW:HIGH or NAME=LOW:HIGH:COUNT[:log], not '" + text + "'");
+  if (equals == 0 || parts[0].empty() || parts.size() > 4)
+    throw InputError(
+        {option},
+        "expected NAME=LOW:HIGH, NAME=LOW:HIGH:COUNT[:log] or NAME=VALUE, not '" + text + "'");
   RangeOption result;
+  result.is_value = parts.size() == 1;
   result.range = {text.substr(0, equals),
                   parse_expression(parts[0], option),
-                  parse_expression(parts[1], option),
+                  parse_expression(parts.size() > 1 ? parts[1] : parts[0], option),
                   {option}};
+  if (result.is_value) result.count = 1;
   if (parts.size() > 2) result.count = count_of(parts[2], option);
   if (parts.size() > 3) result.logarithmic = scale_of(parts[3], option);
   return result;

@@ -1,4 +1,5 @@
-// Ranges of scalars on the command line: "T2=0.5:0.8", "T2=0.5:0.8:13", "delta=1e-3:10:20:log".
+// Ranges of scalars on the command line: "T2=0.5:0.8", "T2=0.5:0.8:13", "delta=1e-3:10:20:log"; or one
+// value, "T2=0.5".
 #pragma once
 
 #include <optional>
@@ -10,11 +11,12 @@ namespace gainsmith::app {
 
 struct RangeOption {
   model::ScalarRange range;
-  std::optional<int> count;         ///< of the points of a grid
+  bool is_value = false;            ///< both ends are the value
+  std::optional<int> count;         ///< of the points of a grid; 1 of a value
   std::optional<bool> logarithmic;  ///< "log" or "lin"; none: by the range
 };
 
-/// Parses "NAME=LOW:HIGH[:COUNT[:log|lin]]". LOW and HIGH are expressions. InputError, with
+/// Parses "NAME=LOW:HIGH[:COUNT[:log|lin]]" or "NAME=VALUE". LOW, HIGH and VALUE are expressions. InputError, with
 /// `option` as its place, for anything else.
 RangeOption parse_range(const std::string& text, const std::string& option);
 

@@ -16,7 +16,9 @@
 #include "gainsmith/output.h"
 #include "gainsmith/problem_files.h"
 #include "gainsmith/progress_line.h"
+#include "gainsmith/results_folder.h"
 #include "gainsmith/terminal.h"
+#include "page/page.h"
 
 namespace gainsmith::app {
 
@@ -30,6 +32,7 @@ struct RunOptions {
   std::string junit;
   unsigned threads = 0;
   bool json = false;
+  bool report = false;
   JobOptions job;
 };
 
@@ -73,9 +76,31 @@ class Lines {
   std::size_t width_ = 10;
 };
 
+std::string report_file(const RunOptions& options) {
+  return (fs::path(options.output) / "report.html").string();
+}
+
+/// The page of the results, beside their folders.
+void write_report(const RunOptions& options, const std::vector<JobResult>& results) {
+  std::vector<page::Results> all;
+  for (const JobResult& result : results) {
+    page::Results one;
+    if (!result.interrupted && !result.gains_hash.empty())
+      one = read_folder(fs::path(options.output) / result.name, result.name);
+    else
+      one.error = result.line;
+    one.name = result.name;
+    one.mark = mark_of(result.exit);
+    all.push_back(std::move(one));
+  }
+  const std::string title = all.size() == 1 ? all.front().name : title_of(options.output);
+  write_atomically(report_file(options), page::page(all, title));
+}
+
 ExitCode run(const RunOptions& options) {
   const std::vector<ProblemFile> items = problem_files(options.problems);
-  for (const ProblemFile& item : items) prepare_outputs(item.path.string(), {options.junit});
+  const std::string page = options.report ? report_file(options) : "";
+  for (const ProblemFile& item : items) prepare_outputs(item.path.string(), {options.junit, page});
   JobOptions job = options.job;
   job.threads = options.threads;
   std::vector<JobResult> results(items.size());
@@ -96,6 +121,7 @@ ExitCode run(const RunOptions& options) {
   ExitCode worst = ExitCode::yes;
   for (const JobResult& result : results) worst = std::max(worst, result.exit);
   if (options.json) fmt::print("{}", json_text(results, worst));
+  if (options.report) write_report(options, results);
   if (!options.junit.empty()) write_atomically(options.junit, junit_text(results));
   const auto open = std::count_if(results.begin(), results.end(),
                                   [](const JobResult& result) { return result.interrupted; });
@@ -114,6 +140,7 @@ Command run_command() {
       {Option("problems", options->problems,
               "problem files, or folders of them; - for standard input")
            .required(),
+       set_option(options->job.set),
        Option("-o,--output", options->output, "folder for the results, one folder a problem in it"),
        Option("--runs", options->job.runs, "runs of each campaign (default: the problem's)")
            .within<std::uint64_t>(1, 1000000000000000),
@@ -121,6 +148,7 @@ Command run_command() {
        Option("--threads", options->threads, "threads, 0: one a core; results do not depend on it")
            .within(0, 1024),
        Option("--junit", options->junit, "write JUnit XML here"),
+       Option("--report", options->report, "write report.html into the folder of the results"),
        Option("--json", options->json, "print the results as JSON")},
       "Prints one line a problem; the exit code is the worst of all.\n"
       "Examples:\n"

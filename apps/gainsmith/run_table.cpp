@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/number.h"
+#include "gainsmith/run_figure.h"
 #include "io/csv.h"
 
 namespace gainsmith::app {
@@ -26,7 +27,13 @@ std::vector<std::string> names_of(const verify::Replay& replay) {
 }  // namespace
 
 std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run) {
-  return events_csv(verify::replay_run(setup, seed, run, 0));
+  return events_csv(verify::table_of_run(setup, seed, run, 0));
+}
+
+std::string run_picture(const std::string& title, const verify::Setup& setup, std::uint64_t seed,
+                        std::uint64_t run) {
+  constexpr double kPoints = 1500;
+  return run_figure(title, verify::table_of_run(setup, seed, run, setup.horizon() / kPoints, true));
 }
 
 std::string events_csv(const verify::Replay& replay) {
@@ -46,7 +53,7 @@ std::string events_csv(const verify::Replay& replay) {
   return text;
 }
 
-io::Json events_json(const verify::Replay& replay) {
+io::Json events_json(const verify::Replay& replay, const RunView& view) {
   io::Json rows = io::Json::array();
   for (Eigen::Index row = 0; row < replay.table.rows(); ++row) {
     io::Json cells = io::Json::array();
@@ -61,6 +68,9 @@ io::Json events_json(const verify::Replay& replay) {
   if (!replay.run.message.empty()) document["message"] = replay.run.message;
   if (!replay.run.notes.empty()) document["notes"] = replay.run.notes;
   document["columns"] = names_of(replay);
+  for (const verify::Column& column : replay.columns)
+    if (const std::string unit = unit_of(view, column); !unit.empty())
+      document["units"][column.name] = unit;
   document["rows"] = rows;
   return document;
 }

@@ -11,15 +11,23 @@
 
 namespace gainsmith::app {
 
+struct RunView;  // run_figure.h
+
 /// One run of a campaign as CSV, with points of its flows as the integration went.
 std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run);
 
 /// Columns t, j, event, variables, signals, claims; what is no number is an empty cell.
 std::string events_csv(const verify::Replay& replay);
-io::Json events_json(const verify::Replay& replay);
+/// With the units of the columns, where some are stated.
+io::Json events_json(const verify::Replay& replay, const RunView& view);
 
-/// States with their estimates, errors and claims over time (SVG).
+/// States with their estimates, errors and claims over time (SVG), without units and bands: see
+/// run_figure.h for these. What `replay.rounding` says to be rounding is 0.
 std::string run_figure(const std::string& title, const verify::Replay& replay);
+
+/// The same of a run of a campaign, with what lies between the ends of its steps.
+std::string run_picture(const std::string& title, const verify::Setup& setup, std::uint64_t seed,
+                        std::uint64_t run);
 
 /// Figures of observers side by side.
 std::string comparison_text(const std::vector<verify::FoundFigure>& figures);

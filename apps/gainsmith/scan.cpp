@@ -14,8 +14,11 @@
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
+#include "gainsmith/picture_file.h"
 #include "gainsmith/range_option.h"
+#include "gainsmith/search_figure.h"
 #include "gainsmith/terminal.h"
+#include "gainsmith/units.h"
 #include "io/csv.h"
 #include "io/json_text.h"
 
@@ -25,16 +28,19 @@ namespace {
 
 struct ScanOptions {
   std::string problem;
+  std::vector<std::string> set;
   std::vector<std::string> over;
   std::vector<std::string> show;
   unsigned threads = 0;
   std::string output;
+  std::string plot;
   bool json = false;
 };
 
 struct Grid {
   std::vector<std::string> names;
   std::vector<std::vector<double>> values;
+  std::vector<bool> logarithmic;
 };
 
 /// Adds the ranges and columns of the command line to what the problem is asked.
@@ -58,12 +64,18 @@ Grid grid_of(const std::vector<RangeOption>& ranges, const model::Instance& inst
   double count = 1;
   for (std::size_t k = 0; k < ranges.size(); ++k) {
     const RangeOption& option = ranges[k];
+    grid.names.push_back(option.range.name);
+    if (option.is_value) {
+      grid.values.push_back({model::scalar_value(instance.design->asked[k].low, instance.values)});
+      grid.logarithmic.push_back(false);
+      continue;
+    }
     search::Axis axis = design::searched_scalar(instance, instance.design->asked[k]).axis;
     axis.logarithmic = option.logarithmic.value_or(axis.logarithmic);
     if (axis.logarithmic && !(axis.low > 0))
       throw InputError({"--over"},
                        option.range.name + ": a logarithmic scale needs a low end above 0");
-    grid.names.push_back(option.range.name);
+    grid.logarithmic.push_back(axis.logarithmic);
     grid.values.push_back(points_on(axis, option.count.value_or(kDefault)));
     count *= static_cast<double>(grid.values.back().size());
   }
@@ -71,16 +83,13 @@ Grid grid_of(const std::vector<RangeOption>& ranges, const model::Instance& inst
   return grid;
 }
 
+bool has_objective(const model::Design& design) { return design.objective || design.quotient; }
+
 /// Columns and cells, for the table and the CSV file.
 struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 };
-
-std::string verdict_of(const design::ScanRow& row) {
-  if (row.interrupted) return "interrupted";
-  return row.refused.empty() ? to_string(row.verdict) : "refused";
-}
 
 /// `digits`: as many as reading back needs (17), or fewer for people.
 Table table_of(const std::vector<design::ScanRow>& rows, const std::vector<std::string>& names,
@@ -164,28 +173,53 @@ ExitCode exit_of_all(const std::vector<design::ScanRow>& rows) {
   return has(model::Verdict::undecided) ? ExitCode::undecided : ExitCode::no;
 }
 
+ScanPicture picture_of(const ScanOptions& options, const Grid& grid, const model::Design& design) {
+  ScanPicture picture;
+  picture.title = design.name;
+  for (std::size_t k = 0; k < grid.names.size(); ++k)
+    picture.axes.push_back({with_unit(design, grid.names[k]), grid.values[k], grid.logarithmic[k]});
+  picture.has_objective = has_objective(design);
+  if (picture.has_objective) picture.quantities.push_back(with_unit(design, "objective"));
+  for (const std::string& text : options.show)
+    picture.quantities.push_back(with_unit(design, text));
+  return picture;
+}
+
+void check_picture(const ScanOptions& options) {
+  check_picture_name(options.plot);
+  if (!options.plot.empty() && options.over.size() > 2)
+    throw InputError({"--plot"}, "a picture shows a grid of one scalar or two, not of " +
+                                     std::to_string(options.over.size()));
+}
+
 ExitCode scan(const ScanOptions& options) {
-  prepare_outputs(options.problem, {options.output});
+  check_picture(options);
+  prepare_outputs(options.problem, {options.output, options.plot});
   std::vector<RangeOption> ranges;
   for (const std::string& text : options.over) ranges.push_back(parse_range(text, "--over"));
-  const model::Instance instance = load_problem(
-      options.problem, [&](model::Problem& problem) { add_questions(options, ranges, problem); });
+  const model::Instance instance =
+      load_problem(options.problem, options.set,
+                   [&](model::Problem& problem) { add_questions(options, ranges, problem); });
   const Grid grid = grid_of(ranges, instance);
   const auto rows =
       design::scan(instance.design, grid.names, search::grid(grid.values), options.threads, {});
   const Telling telling;
   constexpr int kForPeople = 8;
   constexpr int kExact = 17;
-  const bool minimizes = instance.design->objective || instance.design->quotient;
+  const bool minimizes = has_objective(*instance.design);
+  if (!options.plot.empty())
+    write_picture(options.plot, scan_figure(picture_of(options, grid, *instance.design), rows));
   const std::string file = csv(table_of(rows, grid.names, options.show, minimizes, kExact));
   if (options.output == "-") {
     fmt::print("{}", file);
     return exit_of_all(rows);
   }
   if (!options.output.empty()) write_atomically(options.output, file);
+  std::vector<std::string> titles, shown;
+  for (const std::string& name : grid.names) titles.push_back(with_unit(*instance.design, name));
+  for (const std::string& text : options.show) shown.push_back(with_unit(*instance.design, text));
   fmt::print("{}", options.json ? json(rows, grid, options.show)
-                                : aligned(table_of(rows, grid.names, options.show, minimizes,
-                                                 kForPeople)) +
+                                : aligned(table_of(rows, titles, shown, minimizes, kForPeople)) +
                                       held_line(instance, grid.names));
   return exit_of_all(rows);
 }
@@ -198,9 +232,10 @@ Command scan_command() {
       "scan",
       "Solve a problem at every point of a grid of scalars",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       set_option(options->set),
        Option("--over", options->over,
-              "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT; may be repeated for "
-              "a grid")
+              "NAME=LOW:HIGH[:COUNT[:log|lin]], 11 points without COUNT, or NAME=VALUE; may be "
+              "repeated for a grid")
            .required(),
        Option("--show", options->show,
               "a column more: an expression such as trace(P1) or norm(L); may be repeated"),
@@ -208,6 +243,9 @@ Command scan_command() {
               "threads, 0: one a core; the table does not depend on it")
            .within(0, 1024),
        Option("-o,--output", options->output, "write the table as CSV here; - for standard output"),
+       Option("--plot", options->plot,
+              "draw the table here: what it shows over one scalar, or a map of two (.svg, .pdf, "
+              ".png)"),
        Option("--json", options->json, "print the table as JSON")},
       "A point that the method's assumptions exclude is 'refused'.\n"
       "Exit code: 0 some point is feasible, 1 all are excluded by certificates, 2 wrong input, 3 "
@@ -215,7 +253,8 @@ Command scan_command() {
       "and when interrupted.\n"
       "Examples:\n"
       "  gainsmith scan problem.yaml --over T2=0.5:0.8:13\n"
-      "  gainsmith scan problem.yaml --over delta=1e-3:10:20:log --over eta=1e-6:1:7 -o table.csv",
+      "  gainsmith scan problem.yaml --over delta=1e-3:10:20:log --over eta=1e-6:1:7 -o table.csv\n"
+      "  gainsmith scan problem.yaml --over T2=0.5:0.8 --show norm(L) --plot scan.svg",
       [options] { return scan(*options); }};
 }
 

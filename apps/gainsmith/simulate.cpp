@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "base/file.h"
 #include "base/number.h"
@@ -12,6 +13,9 @@
 #include "gainsmith/load.h"
 #include "gainsmith/notes.h"
 #include "gainsmith/output.h"
+#include "gainsmith/picture_file.h"
+#include "gainsmith/picture_options.h"
+#include "gainsmith/run_figure.h"
 #include "gainsmith/run_table.h"
 #include "gainsmith/terminal.h"
 #include "hybrid/idle.h"
@@ -23,10 +27,11 @@ namespace {
 
 struct SimulateOptions {
   std::string gains;
+  std::vector<std::string> set;
   std::uint64_t run = 0;
   std::optional<std::uint64_t> seed;
   std::string output;
-  std::string plot;
+  PictureOptions picture;
   double step = 0;
   bool compare = false;
   bool judge = false;
@@ -45,7 +50,8 @@ std::string claims_text(const std::vector<verify::ReplayedClaim>& claims, bool e
   for (const verify::ReplayedClaim& claim : claims) {
     const claims::Finding& finding = claim.finding;
     if (!finding.looked) {
-      text += fmt::format("  {:<12} {}\n", claim.name,
+      text +=
+          fmt::format("  {:<12} {}\n", claim.name,
                       early ? "undecided: never checked, as the run ends before"
                             : "held: never checked, as the run does not reach the time or event "
                               "of the claim");
@@ -55,8 +61,8 @@ std::string claims_text(const std::vector<verify::ReplayedClaim>& claims, bool e
     const std::string tolerance =
         finding.tolerance > 0 ? ", tolerance " + brief(finding.tolerance) : "";
     text += fmt::format("  {:<12} {}{}: {} against {} at (t, j) = ({}, {}){}\n", claim.name,
-                    to_string(finding.judgement), so_far ? " so far" : "", brief(finding.value),
-                    brief(finding.bound), brief(finding.t), finding.j, tolerance);
+                        to_string(finding.judgement), so_far ? " so far" : "", brief(finding.value),
+                        brief(finding.bound), brief(finding.t), finding.j, tolerance);
   }
   return text;
 }
@@ -91,17 +97,31 @@ void write(const SimulateOptions& options, const std::string& text) {
     write_atomically(options.output, text);
 }
 
-/// Steps of exact flows are long: a picture shows what lies between their ends.
-verify::Replay for_plot(const SimulateOptions& options, const verify::Setup& setup,
-                        std::uint64_t seed, const verify::Replay& replay) {
-  constexpr double kPoints = 1500;
-  if (options.step > 0 || replay.run.end <= 0 || replay.run.ending == hybrid::Ending::interrupted)
-    return replay;
-  return verify::replay_run(setup, seed, options.run, replay.run.end / kPoints);
+/// Points of the picture lie closer than those of a table, so the runs are made anew.
+void draw(const SimulateOptions& options, const model::Design& design, const verify::Setup& setup,
+          std::uint64_t seed, const std::vector<std::uint64_t>& runs) {
+  std::vector<DrawnRun> drawn;
+  for (const std::uint64_t run : runs) drawn.push_back(drawn_run(setup, seed, run, options.step));
+  write_picture(options.picture.file,
+                run_figure(design.name, drawn, view_of(options.picture, design)));
+}
+
+/// What has no effect, or none together.
+void check(const SimulateOptions& options) {
+  check_picture_name(options.picture.file);
+  if (options.picture.any() && options.picture.file.empty())
+    throw InputError({options.gains},
+                     "--phase, --panels, --band and --runs say what --plot draws: "
+                     "give --plot FILE");
+  if (!options.picture.runs.empty() &&
+      (!options.output.empty() || options.json || options.judge || options.run != 0))
+    throw InputError({options.gains},
+                     "--runs draws several runs: without --run, -o, --json and "
+                     "--judge, which are about one");
 }
 
 ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std::uint64_t seed) {
-  if (options.json || options.judge || !options.plot.empty() || options.step > 0)
+  if (options.json || options.judge || !options.picture.file.empty() || options.step > 0)
     throw InputError({options.gains},
                      "--compare prints figures alone, without --json, --plot, --judge or --step");
   const verify::Comparison comparison =
@@ -115,41 +135,57 @@ ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std:
   return ExitCode::yes;
 }
 
-ExitCode simulate(const SimulateOptions& options) {
-  if (!options.plot.empty() && !options.plot.ends_with(".svg"))
-    throw InputError({"--plot"}, "a picture is written as SVG: expected a name that ends with "
-                                 "'.svg', not '" + options.plot + "'");
-  prepare_outputs(options.gains, {options.output, options.plot});
-  const LoadedGains loaded = load_run(options.gains);
-  const std::uint64_t seed = options.seed.value_or(loaded.stated.design->campaign.seed);
-  if (options.compare) return compare(options, loaded, seed);
-  const auto setup = verify::make_setup(loaded.stated, loaded.gains);
-  const verify::Replay replay =
-      verify::replay_run(*setup, seed, options.run, options.step, options.judge);
-  const bool stopped = replay.run.ending == hybrid::Ending::interrupted;
-  const Telling telling;
-  if (!options.plot.empty())
-    write_atomically(options.plot, run_figure(loaded.stated.design->name,
-                                              for_plot(options, *setup, seed, replay)));
-  const bool table = options.plot.empty() || !options.output.empty() || options.json;
-  const bool table_on_stdout = table && (options.output.empty() || options.output == "-");
-  if (table)
-    write(options, options.json ? io::to_text(events_json(replay)) : events_csv(replay));
-  const auto jumps = static_cast<std::size_t>(std::count_if(
+/// How a run ended, and its claims.
+std::string run_text(const model::Design& design, std::uint64_t seed, std::uint64_t run,
+                     const verify::Replay& replay) {
+  const auto jumps = std::count_if(
       replay.run.parts.begin(), replay.run.parts.end(),
-      [](const auto& part) { return std::holds_alternative<hybrid::JumpPoint>(part); }));
-  std::string text = fmt::format("run {} of seed {}: {} points, {} jumps, ended at t = {}: {}\n",
-                                 options.run, seed, replay.table.rows(), jumps,
-                                 brief(replay.run.end), to_string(replay.run.ending));
+      [](const auto& part) { return std::holds_alternative<hybrid::JumpPoint>(part); });
+  std::string text =
+      fmt::format("run {} of seed {}: {} points, {} jumps, ended at t = {}: {}\n", run, seed,
+                  replay.table.rows(), jumps, brief(replay.run.end), to_string(replay.run.ending));
   if (!replay.run.message.empty()) text += "  " + replay.run.message + "\n";
   for (const std::string& note : replay.run.notes) text += "  " + note + "\n";
-  for (const std::string& note : notes_on_run(*loaded.stated.design, replay.run))
-    text += "  note: " + note + "\n";
-  text += claims_text(replay.claims, !is_complete(replay.run.ending));
-  if (options.judge && !stopped) text += judged_text(replay.faults);
+  for (const std::string& note : notes_on_run(design, replay.run)) text += "  note: " + note + "\n";
+  return text + claims_text(replay.claims, !is_complete(replay.run.ending));
+}
+
+bool is_stopped(const verify::Replay& replay) {
+  return replay.run.ending == hybrid::Ending::interrupted;
+}
+
+ExitCode simulate(const SimulateOptions& options) {
+  check(options);
+  prepare_outputs(options.gains, {options.output, options.picture.file});
+  const LoadedGains loaded = load_run(options.gains, options.set);
+  const model::Design& design = *loaded.stated.design;
+  const std::uint64_t seed = options.seed.value_or(design.campaign.seed);
+  if (options.compare) return compare(options, loaded, seed);
+  const auto setup = verify::make_setup(loaded.stated, loaded.gains);
+  const std::vector<std::uint64_t> runs =
+      runs_of(options.picture, options.run, design.campaign.runs);
+  std::vector<verify::Replay> replays;
+  for (const std::uint64_t run : runs) {
+    replays.push_back(verify::replay_run(*setup, seed, run, options.step, options.judge));
+    if (is_stopped(replays.back())) break;
+  }
+  const verify::Replay& first = replays.front();
+  const bool stopped = is_stopped(replays.back());
+  const Telling telling;
+  if (!options.picture.file.empty())
+    draw(options, design, *setup, seed, {runs.begin(), runs.begin() + std::ssize(replays)});
+  const bool table = options.picture.file.empty() || !options.output.empty() || options.json;
+  const bool table_on_stdout = table && (options.output.empty() || options.output == "-");
+  if (table)
+    write(options,
+          options.json ? io::to_text(events_json(first, view_of(design))) : events_csv(first));
+  std::string text;
+  for (std::size_t k = 0; k < replays.size(); ++k)
+    text += run_text(design, seed, runs[k], replays[k]);
+  if (options.judge && !stopped) text += judged_text(first.faults);
   print_report(text, table_on_stdout);
   if (stopped) return ExitCode::undecided;
-  return replay.faults.empty() ? ExitCode::yes : ExitCode::no;
+  return first.faults.empty() ? ExitCode::yes : ExitCode::no;
 }
 
 }  // namespace
@@ -161,12 +197,24 @@ Command simulate_command() {
       "Replay one run of a campaign as CSV",
       {Option("gains", options->gains, "gain file (JSON), or a problem (YAML) without unknowns")
            .required(),
+       set_option(options->set),
        Option("--run", options->run, "the run's number"),
        Option("--seed", options->seed, "seed of the campaign (default: the problem's)"),
        Option("-o,--output", options->output, "write the table here (default: standard output)"),
        Option("--step", options->step, "points of flows this far apart (default: as integrated)")
            .checked(step_error),
-       Option("--plot", options->plot, "draw states, estimates, errors and claims (SVG)"),
+       Option("--plot", options->picture.file,
+              "draw states, estimates, inputs, errors and claims here (.svg, .pdf, .png)"),
+       Option("--panels", options->picture.panels,
+              "with --plot: these alone, such as x1,e,claims: names of quantities and claims, "
+              "states, inputs, errors, claims"),
+       Option("--phase", options->picture.planes,
+              "with --plot: x1,x2: a plane of two quantities; may be repeated"),
+       Option("--band", options->picture.bands,
+              "with --plot: xh:P: +-2 sigma around an estimate, from its covariance (default: "
+              "'covariance' of the problem); may be repeated"),
+       Option("--runs", options->picture.runs,
+              "with --plot: several runs over each other, 0,3,17 or 0:9"),
        Option("--compare", options->compare, "print the figures under 'compare' of all observers"),
        Option("--judge", options->judge,
               "check the run against the texts, by computations of its own; exit code 1 if it "
@@ -176,7 +224,8 @@ Command simulate_command() {
       "claim.\n"
       "Examples:\n"
       "  gainsmith simulate gains.json --run 17 -o run-17.csv\n"
-      "  gainsmith simulate problem.yaml --plot run.svg --step 0.01",
+      "  gainsmith simulate problem.yaml --plot run.svg --step 0.01\n"
+      "  gainsmith simulate gains.json --plot plane.pdf --phase x1,x2 --runs 0:9",
       [options] { return simulate(*options); }};
 }
 

@@ -27,6 +27,15 @@ std::string named_matrices(const std::string& title, const model::NamedMatrices&
   return text;
 }
 
+/// What the report asks for, and what of it has no value at these gains.
+std::string report_text(const model::Gains& gains) {
+  std::string text = named_matrices("report", gains.report, gains);
+  for (const auto& [name, reason] : gains.not_computed)
+    text +=
+        fmt::format("{:<12}{} is not computed: {}\n", text.empty() ? "report" : "", name, reason);
+  return text;
+}
+
 /// The scalars that a search found.
 std::string searched_text(const model::Gains& gains) {
   if (gains.search && !gains.search->value) return "";
@@ -58,26 +67,6 @@ std::string functions_text(const model::Gains& gains) {
   return text;
 }
 
-std::string objective_text(const model::Gains& gains) {
-  if (!gains.objective) return "";
-  std::string text = fmt::format("objective   {}", brief(*gains.objective, 10));
-  if (gains.objective_lower_bound) {
-    constexpr double kTells = 0.1;  // of the objective: a wider bracket says little of its upper end
-    const std::string optimum =
-        gains.bounds.empty() ? "the optimum" : "with the condition on the gains the optimum";
-    const std::string low = brief(*gains.objective_lower_bound, 10);
-    const std::string high = brief(*gains.objective, 10);
-    const double width = *gains.objective - *gains.objective_lower_bound;
-    if (low == high)
-      text += fmt::format("  ({} is this to all digits shown)", optimum);
-    else if (width < kTells * std::abs(*gains.objective))
-      text += fmt::format("  ({} is between {} and {})", optimum, low, high);
-    else
-      text += fmt::format("  ({} is at least {})", optimum, low);
-  }
-  return text + "\n";
-}
-
 std::string margins_text(const model::Gains& gains) {
   if (gains.margins.empty()) return "";
   std::size_t width = 10;
@@ -85,10 +74,13 @@ std::string margins_text(const model::Gains& gains) {
   std::string text = fmt::format("{:<{}}  {:>12}  {:>10}  {:>12}  {}\n", "inequality", width,
                                  "margin", "asked", "eigenvalue", "worst at");
   for (const model::Margin& margin : gains.margins)
-    text += fmt::format(
-        "{:<{}}  {:>12}  {:>10}  {:>12}  {}{}\n", margin.name, width, brief(margin.reached, 3),
-        margin.strict ? brief(margin.required, 3) : ">= 0", brief(margin.smallest_eigenvalue, 3),
-        margin.worst_point, margin.holds ? "" : "  DOES NOT HOLD");
+    text +=
+        fmt::format("{:<{}}  {:>12}  {:>10}  {:>12}  {}{}\n", margin.name, width,
+                    brief(margin.reached, 3), margin.strict ? brief(margin.required, 3) : ">= 0",
+                    brief(margin.smallest_eigenvalue, 3), margin.worst_point,
+                    margin.holds   ? ""
+                    : margin.fails ? "  DOES NOT HOLD"
+                                   : "  not shown");
   return text;
 }
 
@@ -96,9 +88,10 @@ std::string bounds_text(const model::Gains& gains) {
   std::string text;
   for (const model::GainBound& bound : gains.bounds)
     if (bound.active)
-      text +=
-          fmt::format("gain bound  active on {}: the bound of its norm is {}, {} is allowed; this limits the design\n",
-                      bound.what, brief(bound.reached), brief(bound.bound));
+      text += fmt::format(
+          "gain bound  active on {}: the bound of its norm is {}, {} is allowed; this limits the "
+          "design\n",
+          bound.what, brief(bound.reached), brief(bound.bound));
   return text;
 }
 
@@ -112,7 +105,8 @@ std::string certificate_text(const model::Gains& gains) {
     return fmt::format("certificate exact steps on {}, as above: no solution exists\n", of);
   if (c.exact)
     return fmt::format(
-        "certificate multipliers Y > 0, checked in {} digits on {}: an exact certificate lies near\n"
+        "certificate multipliers Y > 0, checked in {} digits on {}: an exact certificate lies "
+        "near\n"
         "            them, so no solution exists\n",
         c.digits, of);
   return fmt::format(
@@ -154,6 +148,27 @@ std::string eigenvalues_text(const numbers::Matrix& rows) {
   return text;
 }
 
+std::string objective_line(const model::Gains& gains) {
+  if (!gains.objective) return "";
+  std::string text = brief(*gains.objective, 10);
+  if (gains.objective_lower_bound) {
+    constexpr double kTells =
+        0.1;  // of the objective: a wider bracket says little of its upper end
+    const std::string optimum =
+        gains.bounds.empty() ? "the optimum" : "with the condition on the gains the optimum";
+    const std::string low = brief(*gains.objective_lower_bound, 10);
+    const std::string high = brief(*gains.objective, 10);
+    const double width = *gains.objective - *gains.objective_lower_bound;
+    if (low == high)
+      text += fmt::format("  ({} is this to all digits shown)", optimum);
+    else if (width < kTells * std::abs(*gains.objective))
+      text += fmt::format("  ({} is between {} and {})", optimum, low, high);
+    else
+      text += fmt::format("  ({} is at least {})", optimum, low);
+  }
+  return text;
+}
+
 std::string verdict_line(const model::Gains& gains) {
   std::string text = to_string(gains.verdict);
   if (gains.verdict == model::Verdict::no)
@@ -165,12 +180,16 @@ std::string verdict_line(const model::Gains& gains) {
   return text;
 }
 
+std::string objective_text(const model::Gains& gains) {
+  return gains.objective ? "objective   " + objective_line(gains) + "\n" : "";
+}
+
 std::string message_lines(const model::Gains& gains) {
   return gains.solver.message.empty() ? "" : "            " + gains.solver.message + "\n";
 }
 
-/// What the solver has to do with the verdict: a yes rests on the check of the point alone.
-std::string solver_text(const model::Gains& gains) {
+/// A yes rests on the check of the point alone.
+std::string solver_line(const model::Gains& gains) {
   const model::SolverRecord& solver = gains.solver;
   const std::string ended =
       solver.cause == to_string(sdp::Cause::enough)
@@ -184,10 +203,10 @@ std::string solver_text(const model::Gains& gains) {
 std::string synthesis_summary(const model::Gains& gains) {
   std::string text =
       fmt::format("problem     {}\nmethod      {}\nverdict     {} ({})\n", gains.problem_name,
-                  gains.statement.method_name, to_string(gains.verdict), solver_text(gains));
+                  gains.statement.method_name, to_string(gains.verdict), solver_line(gains));
   text += message_lines(gains);
   text += objective_text(gains) + named_matrices("gains", gains.gains, gains) +
-          functions_text(gains) + named_matrices("report", gains.report, gains) +
+          functions_text(gains) + report_text(gains) +
           named_matrices("parameters", gains.parameters, gains) + searched_text(gains) +
           search_text(gains);
   text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/file.h"
 #include "base/stop.h"
@@ -29,6 +30,7 @@ namespace {
 
 struct SynthOptions {
   std::string problem;
+  std::vector<std::string> set;
   std::string effort;
   std::string output;
   std::string sdpa;
@@ -68,7 +70,8 @@ ExitCode synth(const SynthOptions& options) {
   prepare_outputs(options.problem, {options.output, options.sdpa});
   if (options.only_write && options.sdpa.empty())
     throw InputError({"--no-solve"}, "nothing to do: --sdpa FILE says where the program goes");
-  const model::Instance instance = load_problem(options.problem, effort(options.effort));
+  const model::Instance instance =
+      load_problem(options.problem, options.set, effort(options.effort));
   const design::SearchRequest request = wanted_search(instance);
   // What is searched has no values before the search.
   const bool write_first = !options.sdpa.empty() && (request.empty() || options.only_write);
@@ -107,6 +110,7 @@ Command synth_command() {
       "synth",
       "Synthesize gains from a problem file",
       {Option("problem", options->problem, "problem file (YAML); - for standard input").required(),
+       set_option(options->set),
        Option("-o,--output", options->output, "write the gain file here; - for standard output"),
        Option("--sdpa", options->sdpa,
               "write the semidefinite program here, for other solvers, before it is solved"),

@@ -4,11 +4,13 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/load.h"
 #include "gainsmith/terminal.h"
+#include "io/campaign_json.h"
 
 namespace gainsmith::app {
 
@@ -16,6 +18,7 @@ namespace {
 
 struct VerifyOptions {
   std::string gains;
+  std::vector<std::string> set;
   std::optional<std::uint64_t> runs;
   std::optional<std::uint64_t> seed;
   unsigned threads = 0;
@@ -23,13 +26,15 @@ struct VerifyOptions {
 };
 
 ExitCode verify_gains(const VerifyOptions& options) {
-  const LoadedGains loaded = load_run(options.gains);
+  const LoadedGains loaded = load_run(options.gains, options.set);
   const verify::CampaignOptions campaign{options.runs, options.seed, options.threads};
   const auto setup = verify::make_setup(loaded.stated, loaded.gains);
   const verify::Report report = verify::run_campaign(*setup, campaign);
   const Telling telling;
-  fmt::print("{}", options.json ? io::to_text(campaign_json(report))
-                                : campaign_summary(report, options.gains));
+  fmt::print("{}",
+             options.json
+                 ? io::to_text(io::to_json(campaign_record(report, io::gains_hash(loaded.gains))))
+                 : campaign_summary(report, options.gains));
   return campaign_exit(report.verdict);
 }
 
@@ -41,6 +46,7 @@ Command verify_command() {
           "Check a gain file's claims by Monte-Carlo simulation",
           {Option("gains", options->gains, "gain file (JSON), or a problem (YAML) without unknowns")
                .required(),
+           set_option(options->set),
            Option("--runs", options->runs, "number of runs (default: the problem's)")
                .within<std::uint64_t>(1, 1000000000000000),
            Option("--seed", options->seed, "seed of the random streams (default: the problem's)"),

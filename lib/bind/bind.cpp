@@ -10,6 +10,7 @@
 #include "bind/gains.h"
 #include "bind/inequalities.h"
 #include "bind/search.h"
+#include "bind/shown.h"
 #include "bind/simulation.h"
 #include "expr/work.h"
 #include "model/gains.h"
@@ -46,7 +47,8 @@ Binding::Binding(std::shared_ptr<const model::Problem> problem, const model::Ove
   design->synthesis = source->synthesis;
   design->source = source;
   design->statement = {method().name, method().text,
-                       std::filesystem::path(source->file).filename().string(), source->text, ""};
+                       std::filesystem::path(source->file).filename().string(), source->text, "",
+                       source->settings, source->files};
   design->statement.hash = statement_hash(design->statement);
   names->known.known = recorder;
 }
@@ -64,9 +66,11 @@ model::Instance bound(Binding binding) {
   bind_campaign(binding);
   bind_expectation(binding);
   bind_comparison(binding);
+  check_shown(binding);
   finish_dynamics(binding);
   binding.design->ranks = binding.recorder->ranks;
   binding.design->names = binding.names;
+  override_gain_bound(*binding.design, binding.overrides, binding.recorder->values);
   return {binding.design, binding.overrides, binding.recorder->values};
 }
 

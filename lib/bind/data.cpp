@@ -172,6 +172,19 @@ void define(Binding& binding, model::Design::Datum datum, std::vector<model::Des
   list.push_back(std::move(datum));
 }
 
+/// How a column or a row is written, where its transpose was given: what does not fit would.
+std::string transpose_hint(const model::ShapeText& declared, expr::Shape shape,
+                           model::Dimensions known) {
+  if ((shape.rows == 1) == (shape.cols == 1)) return "";
+  const auto expected = resolve(declared, known);
+  const bool fits = expected ? (expected->rows == shape.rows || expected->rows == shape.cols) &&
+                                   (expected->cols == shape.cols || expected->cols == shape.rows)
+                             : learn(declared, {shape.cols, shape.rows}, known);
+  if (!fits) return "";
+  return shape.rows == 1 ? "; a column is written [[1], [2]], or \"[1; 2]\" as a formula"
+                         : "; a row is written [1, 2]";
+}
+
 void add_datum(Binding& binding, const Given& given) {
   const model::Declaration& datum = given.declaration;
   model::Dimensions& dimensions = binding.design->dimensions;
@@ -201,7 +214,8 @@ void add_datum(Binding& binding, const Given& given) {
     throw InputError(value.place, "the datum " + datum.name + " is declared " +
                                       declared(datum, dimensions) + "; found " +
                                       to_string(bound.shape) +
-                                      (datum.indices.empty() ? "" : kFamilyTakes));
+                                      (datum.indices.empty() ? "" : kFamilyTakes) +
+                                      transpose_hint(datum.shape, bound.shape, dimensions));
   bound.elements = element_places(value, bound.shape);
   define(binding, std::move(bound), binding.design->data);
 }
@@ -238,20 +252,27 @@ void add_parameter(Binding& binding, const model::Parameter& parameter) {
   define(binding, std::move(bound), binding.design->parameters);
 }
 
-void add_definitions(Binding& binding) {
-  auto& definitions = binding.names->known.definitions;
-  for (const model::Let& let : binding.method().let)
-    definitions[let.signature.name] = {let.signature.parameters, let.body};
+/// The definitions of the problem, which its data may use, too.
+void add_problem_definitions(Binding& binding) {
   for (const model::Let& let : binding.problem().let) {
     const std::string& name = let.signature.name;
     const bool datum = find_named(binding.method().data, name) != nullptr;
-    if (datum || binding.names->known.symbols.contains(name) || expr::is_reserved(name))
+    const bool parameter = find_named(binding.method().parameters, name) != nullptr;
+    if (datum || parameter || binding.names->known.symbols.contains(name) ||
+        expr::is_reserved(name))
       throw InputError(let.place, "'" + name + "' already has a meaning" +
                                       (datum ? ": it is a datum of the method, which stands under "
                                                "'data'"
                                              : ""));
-    definitions[name] = {let.signature.parameters, let.body};
+    binding.names->known.definitions[name] = {let.signature.parameters, let.body};
   }
+}
+
+void add_definitions(Binding& binding) {
+  auto& definitions = binding.names->known.definitions;
+  for (const model::Let& let : binding.method().let)
+    definitions[let.signature.name] = {let.signature.parameters, let.body};
+  add_problem_definitions(binding);
   if (binding.method().has_dynamics) return;  // signals come with the dynamics
   for (const model::Named& signal : binding.method().signals)
     definitions[signal.name] = {{}, signal.value};
@@ -360,6 +381,7 @@ void bind_data(Binding& binding) {
     if (!std::isfinite(value))
       throw InputError({binding.problem().file}, name + ": expected a finite number");
   }
+  add_problem_definitions(binding);
   std::vector<Given> all;
   for (const model::Declaration& datum : binding.method().data) {
     if (is_function(binding.problem(), datum)) {

@@ -57,8 +57,6 @@ expr::Definition definition(const Binding& binding, const model::Declaration& da
 expr::Scope inside(const Binding& binding, const model::Declaration& datum,
                    const std::vector<std::string>& parameters) {
   expr::Scope scope = binding.names->known;
-  for (const model::Let& let : binding.problem().let)
-    scope.definitions[let.signature.name] = {let.signature.parameters, let.body};
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const model::Argument& argument = datum.arguments[k];
     const auto shape = resolve(argument.shape, binding.design->dimensions);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "bind/binding.h"
+#include "model/names.h"
 
 namespace gainsmith::bind {
 
@@ -62,7 +63,13 @@ bool has_same_shapes(const model::Design& design, const numbers::Values& values)
 model::Instance evaluate(const model::DesignPtr& design, const model::Overrides& overrides) {
   try {
     numbers::Values values = Evaluation(*design, overrides).run();
-    if (has_same_shapes(*design, values)) return {design, overrides, std::move(values)};
+    if (has_same_shapes(*design, values)) {
+      const model::Instance instance{design, overrides, std::move(values)};
+      if (!overrides.contains(model::kGainBound)) return instance;
+      return with_design(instance, [&](model::Design& changed) {
+        override_gain_bound(changed, overrides, instance.values);
+      });
+    }
   } catch (const InputError&) {
     // The programs may be those of another rank.
     if (design->ranks.empty()) throw;

@@ -90,9 +90,12 @@ std::optional<std::size_t> find_event(const Binding& binding, const std::string&
 }
 
 void bind_search(Binding& binding) {
-  const auto checked = [&](const model::ScalarRange& text) {
+  const auto named = [&](const model::ScalarRange& text) {
     check_scalar_name(*binding.design, text.name, text.place);
-    model::Range bound = range(text, binding.names->known);
+    return range(text, binding.names->known);
+  };
+  const auto checked = [&](const model::ScalarRange& text) {
+    model::Range bound = named(text);
     if (binding.checks == Checks::all) ends_of(bound, binding.recorder->values);
     return bound;
   };
@@ -106,7 +109,7 @@ void bind_search(Binding& binding) {
     if (parameter.search && !is_given(parameter.name))
       binding.design->open.push_back(checked(*parameter.search));
   for (const model::ScalarRange& text : binding.problem().questions.ranges)
-    binding.design->asked.push_back(checked(text));
+    binding.design->asked.push_back(named(text));  // of a grid, which may have one point
   for (const expr::Expression& figure : binding.problem().questions.figures)
     binding.design->figures.push_back({figure.text->str(), scalar_figure(binding, figure), {}});
   if (!binding.problem().search) return;

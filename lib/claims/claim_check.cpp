@@ -413,7 +413,9 @@ Finding ClaimCheck<Scalar>::shrinks(const Track& track) {
   const Judgement judgement = lost      ? Judgement::undecided
                               : nothing ? Judgement::held
                                         : compare(end, most);
-  return finding_at(track, last, end, bound, nothing ? 0 : scale, judgement);
+  Finding found = finding_at(track, last, end, bound, nothing ? 0 : scale, judgement);
+  found.ended = lost;
+  return found;
 }
 
 template class ClaimCheck<double>;

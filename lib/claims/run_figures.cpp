@@ -87,8 +87,8 @@ std::optional<double> FigureOf::at_time(const Trajectory& run) {
     }
     const auto& flow = std::get<FlowPiece>(part);
     if (flow.from() > t) break;
-    const auto step = std::find_if(flow.steps.begin(), flow.steps.end(),
-                                   [&](const DenseStep& one) { return t <= one.to; });
+    const auto step = std::partition_point(flow.steps.begin(), flow.steps.end(),
+                                           [&](const DenseStep& one) { return one.to < t; });
     value = value_->number(step == flow.steps.end() ? flow.end : (*step)(t));
   }
   return value;
@@ -97,7 +97,7 @@ std::optional<double> FigureOf::at_time(const Trajectory& run) {
 /// The largest of `most` and the values of a step times `sign`: where a top of a series may lie
 /// above it, by golden section.
 double FigureOf::extreme(const DenseStep& step, double sign, double most) {
-  const auto at = [&](double t) { return sign * value_->number(step(t)); };
+  const auto at = [&](double t) { return sign * value_->at(t); };
   std::vector<Top> tops;
   for (const SmoothPart& part : smooth_parts(*value_, step)) {
     if (part.undefined) return std::numeric_limits<double>::quiet_NaN();
@@ -127,7 +127,7 @@ double FigureOf::extreme(const Trajectory& run, double sign) {
 
 /// The last time of a step at which the value is not below a level; minus infinity: never.
 double FigureOf::last_above(const DenseStep& step, double level) {
-  const auto above = [&](double t) { return !(value_->number(step(t)) < level); };
+  const auto above = [&](double t) { return !(value_->at(t) < level); };
   const auto last_between = [&](double high, double below) {
     while (true) {
       const double middle = high + (below - high) / 2;
@@ -135,7 +135,7 @@ double FigureOf::last_above(const DenseStep& step, double level) {
       (above(middle) ? high : below) = middle;
     }
   };
-  const auto at = [&](double t) { return value_->number(step(t)); };
+  const auto at = [&](double t) { return value_->at(t); };
   std::vector<SmoothPart> parts = smooth_parts(*value_, step);
   for (; !parts.empty(); parts.pop_back()) {
     const SmoothPart& part = parts.back();

@@ -43,13 +43,6 @@ const Eigen::VectorXd& RunValue::point(double t) {
   return point_;
 }
 
-Eigen::VectorXd RunValue::sizes() const {
-  Eigen::VectorXd result = Eigen::VectorXd::Zero(point_.size());
-  for (std::size_t k = 0; k < used_.size(); ++k)
-    result(used_[k]) = followed_.row(static_cast<Eigen::Index>(k)).cwiseAbs().sum();
-  return result;
-}
-
 namespace {
 
 void visit_flow(const hybrid::FlowPiece& flow, double step,

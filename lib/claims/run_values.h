@@ -32,8 +32,10 @@ class RunValue {
   double at(double t) { return number(point(t)); }
   /// At t all variables that it uses; others are 0.
   const Eigen::VectorXd& point(double t);
-  /// Of each of the variables that it uses, the sum of the sizes of its coefficients; others are 0.
-  Eigen::VectorXd sizes() const;
+  /// The elements of the variables that it uses.
+  const std::vector<Eigen::Index>& used() const { return used_; }
+  /// Of each of them, the sum of the sizes of its coefficients.
+  Eigen::VectorXd sizes() const { return followed_.cwiseAbs().rowwise().sum(); }
 
   /// Whether it is smooth along every flow.
   bool is_smooth() const { return breaks_.none(); }
@@ -55,7 +57,7 @@ class RunValue {
   numbers::StackedFunctions function_;
   hybrid::Breaks breaks_;
   numbers::Matrix none_;
-  std::vector<Eigen::Index> used_;  ///< elements of the variables
+  std::vector<Eigen::Index> used_;
   double from_ = 0, to_ = 0;
   numbers::Matrix followed_;  ///< coefficients of what is used
   Eigen::VectorXd used_values_, point_;

@@ -19,8 +19,8 @@ using hybrid::DenseStep;
 using hybrid::FlowPiece;
 
 Eigen::VectorXd state_at_time(const FlowPiece& flow, double t) {
-  const auto step = std::find_if(flow.steps.begin(), std::prev(flow.steps.end()),
-                                 [&](const DenseStep& one) { return t <= one.to; });
+  const auto step = std::partition_point(flow.steps.begin(), std::prev(flow.steps.end()),
+                                         [&](const DenseStep& one) { return one.to < t; });
   return (*step)(t);
 }
 

@@ -78,14 +78,18 @@ class Halving {
 
   /// In some directions.
   double noise_at(double t) {
-    const Eigen::VectorXd x = value_.point(t);
-    const Eigen::VectorXd sizes = value_.sizes();
+    const Eigen::VectorXd& x = value_.point(t);
     const double value = value_.number(x);
+    const Eigen::VectorXd sizes = value_.sizes();
+    const std::vector<Index>& used = value_.used();
+    Eigen::VectorXd rounded = x;
     double result = 0;
-    for (const Index period : {1, 2, 4}) {
-      Eigen::VectorXd rounded = x;
-      for (Index e = 0; e < x.size(); ++e)
-        rounded(e) += (e / period % 2 == 0 ? kValueRounding : -kValueRounding) * sizes(e);
+    for (const int period : {1, 2, 4}) {
+      for (std::size_t k = 0; k < used.size(); ++k) {
+        const Index e = used[k];
+        const double rounding = e / period % 2 == 0 ? kValueRounding : -kValueRounding;
+        rounded(e) = x(e) + rounding * sizes(static_cast<Index>(k));
+      }
       result = std::fmax(result, std::abs(value_.number(rounded) - value));
     }
     return result;

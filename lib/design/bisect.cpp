@@ -110,7 +110,7 @@ BisectResult bisect(const model::Instance& own, const model::Overrides& fixed,
   search::BisectOptions options;
   options.largest = choices.largest;
   options.tolerance = choices.tolerance;
-  options.known = own.values.at(choices.scalar.name)(0, 0);
+  options.known = model::scalar_named(own, choices.scalar.name);
   options.guess = choices.guess;
   BisectResult result;
   result.found = search::bisect(question, choices.scalar.axis, options);

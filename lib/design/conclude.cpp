@@ -33,23 +33,29 @@ model::SolverRecord record_of(const Attempt& attempt, bool has_objective) {
 void note_wishes(const Attempt& point, model::Gains& gains) {
   // A minimum has its margin in the solver's units, within this of the margin in its own diagonal.
   constexpr double kSame = 0.5;
+  std::string small;
   for (const model::Margin& margin : point.margins.margins)
     if (margin.strict && margin.reached < kSame * margin.required)
-      gains.solver.add_message(margin.name + " holds with the margin " + brief(margin.reached, 2) +
-                               ", less than the " + brief(margin.required, 2) + " asked for");
+      small += (small.empty() ? "" : ", ") + margin.name + " " + brief(margin.reached, 2) +
+               " instead of " + brief(margin.required, 2);
+  if (!small.empty())
+    gains.solver.add_message(
+        "every inequality holds, but with less margin than asked for (" + small +
+        "): the gains are proved for these data, and leave little room for others");
 }
 
 /// What a point that does not hold falls short of.
 void note_failures(const Attempt& point, model::Gains& gains) {
-  std::string failed;
-  for (const model::Margin& margin : point.margins.margins)
-    if (!margin.holds)
-      failed += (failed.empty() ? "" : ", ") + margin.name + " (margin " +
-                brief(margin.reached, 2) +
-                (margin.worst_point.empty() ? "" : " at " + margin.worst_point) + ")";
-  if (!failed.empty())
-    gains.solver.add_message("the best point found does not hold for certain at its decimals in " +
-                             failed);
+  std::string violated, open;
+  for (const model::Margin& margin : point.margins.margins) {
+    if (margin.holds) continue;
+    std::string& list = margin.fails ? violated : open;
+    list += (list.empty() ? "" : ", ") + margin.name + " (margin " + brief(margin.reached, 2) +
+            (margin.worst_point.empty() ? "" : " at " + margin.worst_point) + ")";
+  }
+  if (!violated.empty()) gains.solver.add_message("the best point found violates " + violated);
+  if (!open.empty())
+    gains.solver.add_message("the best point found is not shown to satisfy " + open);
   if (!point.margins.open.empty()) gains.solver.add_message("for all values " + point.margins.open);
 }
 
@@ -71,6 +77,40 @@ void mark_free_gains(const Attempt& tighter, const lmi::Lmi& lmi, model::Gains& 
   }
 }
 
+std::string name_of(const lmi::Block& block) {
+  return block.name + (block.point.empty() ? "" : " at " + block.point);
+}
+
+/// Those of the bounds on gains come last.
+const lmi::Block& block_at(const lmi::Lmi& lmi, const lmi::GainBounds& bounds, std::size_t k) {
+  return k < lmi.blocks.size() ? lmi.blocks[k] : bounds.blocks[k - lmi.blocks.size()];
+}
+
+/// The multipliers by the name and point of their block.
+model::NamedMatrices named_multipliers(const Climb& climb, const Attempt& attempt) {
+  const lmi::Lmi& lmi = climb.posed().lmi;
+  const lmi::GainBounds& bounds = attempt.question.bounds;
+  const auto list = lmi::multipliers(lmi, bounds, attempt.formulation, attempt.solution);
+  model::NamedMatrices result;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    result.emplace_back(name_of(block_at(lmi, bounds, k)), list[k]);
+  }
+  return result;
+}
+
+/// What each inequality and each bound on gains costs the minimum, in the units of the objective.
+std::vector<model::Multiplier> multipliers_of(const Climb& climb, const Attempt& minimum) {
+  const lmi::Lmi& lmi = climb.posed().lmi;
+  const lmi::GainBounds& bounds = minimum.question.bounds;
+  const auto list = lmi::multipliers(lmi, bounds, minimum.formulation, minimum.solution);
+  std::vector<model::Multiplier> result;
+  for (std::size_t k = 0; k < list.size(); ++k) {
+    const lmi::Block& block = block_at(lmi, bounds, k);
+    result.push_back({block.name, block.point, list[k].trace() / minimum.formulation.cost_unit});
+  }
+  return result;
+}
+
 void note_objective(const Climb& climb, const Attempt& point, model::Gains& gains) {
   const lmi::Lmi& lmi = climb.posed().lmi;
   if (!lmi.has_objective) return;
@@ -90,10 +130,13 @@ void note_objective(const Climb& climb, const Attempt& point, model::Gains& gain
                              : lmi::objective_lower_bound(lmi, point.question.bounds,
                                                           point.formulation, point.solution);
     gains.objective_lower_bound = std::min(*gains.objective, least);
+    if (!point.on_face) gains.multipliers = multipliers_of(climb, point);
     return;
   }
   const Attempt* minimum = climb.find(AttemptKind::minimum);
-  if (minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible)
+  gains.solver.unbounded =
+      minimum != nullptr && minimum->solution.status == sdp::Status::dual_infeasible;
+  if (gains.solver.unbounded)
     gains.solver.add_message(
         "the objective is that of a point inside: the solver finds it unbounded below");
   else
@@ -121,15 +164,16 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
       gains.verdict = model::Verdict::undecided;
       gains.bound_only = largest;
       gains.objective_lower_bound.reset();  // it is that of the inequalities without the bound
-      gains.solver.add_message(climb.posed().choices().gain_bounds.empty()
-                                   ? "no gains were found under the gain bound " + brief(bounds.beta) +
-                                         ", whose condition is sufficient only; the gains that were found "
-                                         "without it need a bound of " + brief(largest, 2) +
-                                         ", a smaller one may do: raise synthesis.gain_bound"
-                                   : "no gains were found under the gain bounds, whose conditions are "
-                                     "sufficient only; the gains that were found without them need " +
-                                         brief(largest / bounds.beta, 2) +
-                                         " times the bounds, less may do: raise synthesis.gain_bound");
+      gains.solver.add_message(
+          climb.posed().choices().gain_bounds.empty()
+              ? "no gains were found under the gain bound " + brief(bounds.beta) +
+                    ", whose condition is sufficient only; the gains that were found "
+                    "without it need a bound of " +
+                    brief(largest, 2) + ", a smaller one may do: raise synthesis.gain_bound"
+              : "no gains were found under the gain bounds, whose conditions are "
+                "sufficient only; the gains that were found without them need " +
+                    brief(largest / bounds.beta, 2) +
+                    " times the bounds, less may do: raise synthesis.gain_bound");
       return;
     }
     if (!(point.reached_gain <= bounds.beta))
@@ -140,24 +184,6 @@ void accept_point(const Climb& climb, const Attempt& point, model::Gains& gains)
   note_wishes(point, gains);
   if (const Attempt* tighter = climb.find(AttemptKind::tighter))
     mark_free_gains(*tighter, lmi, gains);
-}
-
-std::string name_of(const lmi::Block& block) {
-  return block.name + (block.point.empty() ? "" : " at " + block.point);
-}
-
-/// The multipliers by the name and point of their block.
-model::NamedMatrices named_multipliers(const Climb& climb, const Attempt& attempt) {
-  const lmi::Lmi& lmi = climb.posed().lmi;
-  const lmi::GainBounds& bounds = attempt.question.bounds;
-  const auto list = lmi::multipliers(lmi, bounds, attempt.formulation, attempt.solution);
-  model::NamedMatrices result;
-  for (std::size_t k = 0; k < list.size(); ++k) {
-    const lmi::Block& block =
-        k < lmi.blocks.size() ? lmi.blocks[k] : bounds.blocks[k - lmi.blocks.size()];
-    result.emplace_back(name_of(block), list[k]);
-  }
-  return result;
 }
 
 void accept_refutation(const Climb& climb, const Attempt& refuted, model::Gains& gains) {

@@ -1,9 +1,11 @@
 #include "design/explain.h"
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "base/stop.h"
+#include "bind/instance.h"
 #include "design/bisect.h"
 #include "design/elastic.h"
 #include "design/synthesize.h"
@@ -142,12 +144,14 @@ Reach reach(const model::Instance& instance, const SearchedScalar& scalar, doubl
   // A fine bracket: the number is what people remember.
   constexpr double kFine = 0.1;
   Reach found{scalar.name, value, at_most, {}, {}, {}};
+  found.end = at_most ? scalar.axis.high : scalar.axis.low;
   try {
     const BisectResult result =
         bisect(instance, {}, {scalar, at_most, default_tolerance(scalar.axis) * kFine, {}}, solver);
     check_stop();
     found.feasible = result.found.yes;
     found.beyond = result.found.no;
+    if (result.found.open) found.open = result.found.open->near_yes;
     if (found.beyond) found.certificate = result.gains.search->certificate;
   } catch (const InputError&) {
     // The assumptions refuse the whole side: nothing there is feasible.
@@ -155,22 +159,61 @@ Reach reach(const model::Instance& instance, const SearchedScalar& scalar, doubl
   return found;
 }
 
-/// In both directions along a scalar.
+/// In both directions along a scalar: towards what is feasible, or where its own value `holds` as
+/// far as it stays so.
 std::vector<Reach> reaches_along(const model::Instance& instance, const model::Range& range,
-                                 const sdp::Options& solver) {
+                                 bool holds, const sdp::Options& solver) {
   std::vector<Reach> reaches;
   const SearchedScalar whole = searched_scalar(instance, range);
-  const double value = instance.values.at(range.name)(0, 0);
+  const double value = model::scalar_named(instance, range.name).value_or(whole.axis.high);
   for (const bool at_most : {true, false}) {
     SearchedScalar side = whole;
-    (at_most ? side.axis.high : side.axis.low) =
-        at_most ? std::min(value, whole.axis.high) : std::max(value, whole.axis.low);
+    if (at_most == holds)
+      side.axis.low = std::max(value, whole.axis.low);
+    else
+      side.axis.high = std::min(value, whole.axis.high);
     if (!(side.axis.low < side.axis.high)) continue;
     const Reach found = reach(instance, side, value, at_most, solver);
     if (found.feasible) reaches.push_back(found);
   }
-  if (reaches.empty()) reaches.push_back({range.name, value, true, {}, {}, {}});
+  if (reaches.empty() && !holds) reaches.push_back({range.name, value, true, {}, {}, {}});
   return reaches;
+}
+
+/// What excludes more of the scalar than the reach says, a little further out.
+void find_what_stops(const model::Instance& instance, const sdp::Options& solver, Reach& reach) {
+  constexpr double kFurther = 0.01;  // of the way to the end of the range
+  const double limit = reach.beyond.value_or(*reach.feasible);
+  if (limit == reach.end) return;
+  reach.conflict_at = limit + kFurther * (reach.end - limit);
+  model::Overrides overrides = instance.overrides;
+  overrides[reach.name] = reach.conflict_at;
+  try {
+    const model::Instance there = bind::evaluate(instance.design, overrides);
+    const model::Gains gains = synthesize(there, solver, Depth::verdict);
+    reach.conflict = find_conflict(there, gains, solver);
+    if (gains.bound_only) reach.conflict.emplace().gain_bound = true;
+  } catch (const InputError&) {
+    // The assumptions refuse it.
+  }
+}
+
+/// The smallest bound on gains that is found to be enough, from that which is not up to what gains
+/// without it need; none where it is not the bound that excludes them.
+std::optional<Reach> sufficient_gain_bound(const model::Instance& instance,
+                                           const Explanation& explanation,
+                                           const sdp::Options& solver) {
+  constexpr double kMost = 1e6;  // times the bound
+  constexpr double kRoom = 1.001;
+  const auto& needed = explanation.gains.bound_only;
+  const auto& conflict = explanation.conflict;
+  if (!needed && !(conflict && conflict->gain_bound)) return std::nullopt;
+  const double bound = instance.design->synthesis.gain_bound.value();
+  const double largest = needed && std::isfinite(*needed) ? kRoom * *needed : kMost * bound;
+  if (!(bound < largest)) return std::nullopt;
+  Reach found = reach(instance, {"gain_bound", search::axis(bound, largest)}, bound, false, solver);
+  if (!found.feasible) return std::nullopt;
+  return found;
 }
 
 }  // namespace
@@ -240,9 +283,33 @@ std::vector<Reach> find_reaches(const model::Instance& instance, const sdp::Opti
   std::vector<Reach> reaches;
   try {
     for (const model::Range& range : instance.design->negotiable) {
-      const std::vector<Reach> found = reaches_along(instance, range, solver);
+      const std::vector<Reach> found = reaches_along(instance, range, false, solver);
       reaches.insert(reaches.end(), found.begin(), found.end());
     }
+  } catch (const Stopped&) {
+    // Of those that it reached nothing is known.
+  }
+  return reaches;
+}
+
+std::vector<Reach> find_room(const model::Instance& instance, const sdp::Options& solver) {
+  const model::Design& design = *instance.design;
+  std::vector<Reach> reaches;
+  const auto add = [&](const model::Range& range, std::optional<bool> at_most) {
+    for (Reach& found : reaches_along(instance, range, true, solver)) {
+      if (at_most && found.at_most != *at_most) continue;
+      find_what_stops(instance, solver, found);
+      reaches.push_back(std::move(found));
+    }
+  };
+  try {
+    for (const model::Range& range : design.negotiable) add(range, {});
+    const auto is_negotiable = [&](const std::string& name) {
+      return std::any_of(design.negotiable.begin(), design.negotiable.end(),
+                         [&](const model::Range& range) { return range.name == name; });
+    };
+    if (design.search && design.search->extreme && !is_negotiable(design.search->extreme->name))
+      add(*design.search->extreme, design.search->largest);
   } catch (const Stopped&) {
     // Of those that it reached nothing is known.
   }
@@ -252,12 +319,20 @@ std::vector<Reach> find_reaches(const model::Instance& instance, const sdp::Opti
 Explanation explain(const model::Instance& instance, const sdp::Options& solver) {
   Explanation explanation;
   explanation.gains = synthesize(instance, solver);
-  if (explanation.gains.verdict == model::Verdict::yes) return explanation;
   try {
-    explanation.conflict = find_conflict(instance, explanation.gains, solver);
-    if (explanation.conflict && !explanation.conflict->gain_bound)
-      find_relaxations(instance, solver, explanation.relaxations);
-    explanation.reaches = find_reaches(instance, solver);
+    if (explanation.gains.verdict == model::Verdict::yes) {
+      if (!explanation.gains.multipliers.empty())
+        explanation.limits = find_limits(instance, explanation.gains, solver);
+      explanation.reaches = find_room(instance, solver);
+    } else {
+      explanation.conflict = find_conflict(instance, explanation.gains, solver);
+      if (explanation.conflict && !explanation.conflict->gain_bound)
+        find_relaxations(instance, solver, explanation.relaxations);
+      if (const auto bound = sufficient_gain_bound(instance, explanation, solver))
+        explanation.reaches.push_back(*bound);
+      const std::vector<Reach> found = find_reaches(instance, solver);
+      explanation.reaches.insert(explanation.reaches.end(), found.begin(), found.end());
+    }
   } catch (const Stopped&) {
     // What was found before stays.
   }

@@ -1,10 +1,12 @@
 // Why a problem has no solution: what conflicts, how much would have to give, how far one must go.
+// And of one that has a solution: what keeps it from being better.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "design/limits.h"
 #include "model/gains.h"
 #include "model/instance.h"
 #include "sdp/solver.h"
@@ -37,7 +39,8 @@ struct Relaxation {
   bool together_at_most = false;   ///< these sums are enough, and less may be
 };
 
-/// How far one must go along a scalar from the problem's value.
+/// How far one must go along a scalar from the problem's value; where that has gains, how far one
+/// may go.
 struct Reach {
   std::string name;
   double value = 0;     ///< the problem's
@@ -46,13 +49,19 @@ struct Reach {
   std::optional<double> feasible;
   std::optional<double> beyond;                         ///< next to it, excluded
   std::optional<model::CertificateRecord> certificate;  ///< there
+  std::optional<double> open = {};  ///< next to it where none is excluded, undecided
+  double end = 0;                   ///< of the range, in this direction
+  /// What cannot hold together a little further, at `conflict_at`.
+  std::optional<Conflict> conflict = {};
+  double conflict_at = 0;
 };
 
 struct Explanation {
   model::Gains gains;  ///< the problem's own result
   std::optional<Conflict> conflict;
   std::vector<Relaxation> relaxations;  ///< one a requirement, in the order of the method
-  std::vector<Reach> reaches;           ///< of `negotiable`
+  std::vector<Reach> reaches;           ///< of `negotiable`, and of what the problem searches
+  std::optional<Limits> limits;         ///< of a minimum
   bool finished = true;                 ///< not stopped (base/stop.h)
 };
 
@@ -73,8 +82,14 @@ std::optional<Conflict> guess_conflict(const model::Instance& instance, const mo
 /// scalar that does not help. After a stop those that are found.
 std::vector<Reach> find_reaches(const model::Instance& instance, const sdp::Options& solver);
 
-/// All of it, or what was found before a stop. With another verdict than no there is no conflict
-/// and no relaxation.
+/// The same where the problem's own values have gains: the largest and the smallest feasible value
+/// of every negotiable scalar, and the extreme one that the problem searches, each with what
+/// excludes more.
+std::vector<Reach> find_room(const model::Instance& instance, const sdp::Options& solver);
+
+/// All of it, or what was found before a stop. With the verdict no: the conflict, relaxations and
+/// reaches; with yes: limits and room. Where only the bound on gains excludes them, its smallest
+/// value that does not is one of the reaches.
 Explanation explain(const model::Instance& instance, const sdp::Options& solver);
 
 }  // namespace gainsmith::design

@@ -126,7 +126,12 @@ void add_report(const model::Instance& instance, model::Gains& gains) {
   const model::Stated stated = bind::state(instance, gains);
   for (const model::NamedFormula& shown : instance.design->report) {
     const expr::Program& program = shown.value.program;
-    const auto value = stated.value(program);
+    std::optional<numbers::Matrix> value;
+    try {
+      value = stated.value(program);
+    } catch (const expr::EvaluationError& error) {
+      gains.not_computed[shown.name] = error.message();
+    }
     if (!value) continue;
     gains.report.emplace_back(shown.name, *value);
     if (program.code[static_cast<std::size_t>(program.result)].op == expr::Op::eigenvalues)

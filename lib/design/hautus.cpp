@@ -2,10 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <deque>
+#include <utility>
 #include <vector>
 
 #include "base/number.h"
+#include "expr/evaluate.h"
+#include "forall/minima.h"
 #include "numbers/dense.h"
+#include "numbers/dual.h"
 
 namespace gainsmith::design {
 
@@ -39,40 +44,158 @@ std::string known_part(double value, double accuracy) {
   return brief(value, static_cast<int>(std::min<double>(digits, kDigits)));
 }
 
+/// "0.25 +- 3i".
+std::string eigenvalue_text(const HiddenMode& mode) {
+  const double imaginary = mode.eigenvalue.imag();
+  return known_part(mode.eigenvalue.real(), mode.accuracy) +
+         (imaginary > 0 ? " +- " + known_part(imaginary, mode.accuracy) + "i" : "");
+}
+
+/// "[1; 0; -0.5]": what is below `nothing` is 0.
+std::string direction_text(const HiddenMode& mode, double nothing = kRank) {
+  std::string text;
+  for (const double element : mode.direction)
+    text += (text.empty() ? "[" : "; ") + brief(std::abs(element) < nothing ? 0 : element, 4);
+  return text + "]";
+}
+
 bool is_declared(const model::Design& design, const std::string& name, bool square) {
   return std::any_of(design.data.begin(), design.data.end(), [&](const auto& datum) {
     return datum.name == name && (!square || datum.shape.rows == datum.shape.cols);
   });
 }
 
-}  // namespace
+/// The largest element of each row.
+numbers::Vector row_sizes(const numbers::Matrix& C) {
+  return C.cols() == 0 ? numbers::Vector::Zero(C.rows())
+                       : numbers::Vector(C.cwiseAbs().rowwise().maxCoeff());
+}
 
-std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C) {
+/// All eigenvalues of A in the upper half plane, or those of Re lambda >= 0 alone, with what the
+/// output shows of them; the rows of C in units of `sizes`.
+std::vector<HiddenMode> modes_of(const numbers::Matrix& A, const numbers::Matrix& C,
+                                 const numbers::Vector& sizes, Modes which) {
   constexpr double kStable = 1e-12;  // of |A|: an eigenvalue on the axis is known to that
   const Eigen::Index n = A.rows();
+  if (n == 0 || !A.allFinite() || !C.allFinite()) return {};
   const double size = A.cwiseAbs().rowwise().sum().maxCoeff();
-  if (n == 0 || !A.allFinite() || !C.allFinite() || size == 0) return std::nullopt;
+  if (size == 0) return {};
   numbers::Matrix rows = C;
-  for (Eigen::Index i = 0; i < rows.rows(); ++i) {
-    const double largest = rows.row(i).cwiseAbs().maxCoeff();
-    if (largest > 0) rows.row(i) /= largest;
-  }
-  std::optional<HiddenMode> found;
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    if (sizes(i) > 0) rows.row(i) /= sizes(i);
+  std::vector<HiddenMode> modes;
   const numbers::ComplexVector eigenvalues = numbers::eigenvalues(A / size);
   for (const std::complex<double>& lambda : eigenvalues) {
-    if (lambda.real() < -kStable || lambda.imag() < 0) continue;
+    if (lambda.imag() < 0) continue;
+    if (which == Modes::not_decaying && lambda.real() < -kStable) continue;
     const numbers::Svd svd = numbers::full_svd(hautus_matrix(A / size, rows, lambda));
-    const double residual = svd.s.tail(1)(0) / svd.s(0);
-    if (!(residual <= kRank)) continue;
-    if (found && found->eigenvalue.real() >= lambda.real() * size) continue;
     numbers::Vector v = svd.V.col(2 * n - 1).head(n);
     const numbers::Vector imaginary = svd.V.col(2 * n - 1).tail(n);
     if (imaginary.norm() > v.norm()) v = imaginary;
     Eigen::Index at = 0;
     v.cwiseAbs().maxCoeff(&at);
-    found = HiddenMode{lambda * size, v / v(at), residual, kStable * size};
+    modes.push_back({lambda * size, v / v(at), svd.s.tail(1)(0) / svd.s(0), kStable * size});
   }
+  return modes;
+}
+
+/// The one farthest right of those that the output does not show.
+std::optional<HiddenMode> hidden_among(const std::vector<HiddenMode>& modes, double tells) {
+  std::optional<HiddenMode> found;
+  for (const HiddenMode& mode : modes)
+    if (mode.residual <= tells && (!found || mode.eigenvalue.real() > found->eigenvalue.real()))
+      found = mode;
   return found;
+}
+
+/// A formula of the plant and its slope by the state, everything else that moves being 0.
+class Linearised {
+ public:
+  Linearised(Linearised&&) = delete;  // the evaluator reads the members
+
+  Linearised(const expr::Program& program, const std::string& state, const model::Instance& of)
+      : evaluator_(program), state_(state) {
+    for (const expr::Input& input : program.inputs) {
+      if (input.name == state) continue;
+      const auto value = of.values.find(input.name);
+      const numbers::Matrix fixed = value != of.values.end()
+                                        ? value->second
+                                        : numbers::Matrix::Zero(input.shape.rows, input.shape.cols);
+      evaluator_.fix(input.name, others_.emplace_back(numbers::constant_dual<double>(fixed)));
+    }
+    evaluator_.set(state_, at_);
+  }
+
+  /// Empty where there is none.
+  numbers::Matrix slope(const numbers::Vector& x) {
+    at_ = numbers::variable_dual<double>(x);
+    try {
+      const numbers::Matrix slope = evaluator_.run().slope;
+      return slope.cols() == x.size() && slope.allFinite() ? slope : numbers::Matrix();
+    } catch (const expr::EvaluationError&) {
+      return {};
+    }
+  }
+
+ private:
+  expr::Evaluator<numbers::DualNumbers<double>> evaluator_;
+  std::string state_;
+  numbers::Dual<double> at_;
+  std::deque<numbers::Dual<double>> others_;
+};
+
+/// The box of a state in a domain; empty ends where the domain does not give it.
+struct StateBox {
+  std::vector<double> low, high;
+
+  StateBox(const forall::Domain& domain, const std::string& state, int size) {
+    for (int k = 1; k <= size; ++k)
+      for (const forall::Variable* axis : forall::intervals(domain))
+        if (axis->name == state + "_" + std::to_string(k)) {
+          low.push_back(axis->low);
+          high.push_back(axis->high);
+        }
+    if (std::ssize(low) != size) low = high = {};
+  }
+
+  std::vector<double> at(double part) const {
+    std::vector<double> x = low;
+    for (std::size_t k = 0; k < x.size(); ++k) x[k] += part * (high[k] - low[k]);
+    return x;
+  }
+};
+
+/// A plant x' = f(x), y = h(x), linearised at points of a box.
+class Linearisation {
+ public:
+  Linearisation(const expr::Program& f, const expr::Program& h, const std::string& state,
+                const model::Instance& of, const StateBox& box)
+      : plant_(f, state, of), output_(h, state, of) {
+    for (const double part : {0.0, 0.25, 0.5, 0.75, 1.0})
+      if (const auto C = output_.slope(column(box.at(part))); C.size() > 0)
+        sizes_ = sizes_.size() == 0 ? row_sizes(C) : sizes_.cwiseMax(row_sizes(C)).eval();
+  }
+
+  std::vector<HiddenMode> modes(const std::vector<double>& at) {
+    const numbers::Matrix A = plant_.slope(column(at)), C = output_.slope(column(at));
+    if (A.size() == 0 || C.rows() != sizes_.size()) return {};
+    return modes_of(A, C, sizes_, Modes::not_decaying);
+  }
+
+ private:
+  static numbers::Vector column(const std::vector<double>& at) {
+    return numbers::Vector::Map(at.data(), std::ssize(at));
+  }
+
+  Linearised plant_, output_;
+  numbers::Vector sizes_;  ///< of the rows of C
+};
+
+}  // namespace
+
+std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C,
+                                      Modes modes) {
+  return hidden_among(modes_of(A, C, row_sizes(C), modes), kRank);
 }
 
 std::string hidden_mode_text(const model::Instance& instance) {
@@ -85,17 +208,77 @@ std::string hidden_mode_text(const model::Instance& instance) {
     return "";
   const auto mode = hidden_mode(A->second, C->second);
   if (!mode) return "";
-  std::string direction;
-  for (const double element : mode->direction)
-    direction +=
-        (direction.empty() ? "" : "; ") + brief(std::abs(element) < kRank ? 0 : element, 4);
-  const double imaginary = mode->eigenvalue.imag();
   return "the output does not show a mode of the plant that does not decay: eigenvalue " +
-         known_part(mode->eigenvalue.real(), mode->accuracy) +
-         (imaginary > 0 ? " +- " + known_part(imaginary, mode->accuracy) + "i" : "") +
-         " in the direction [" + direction +
-         "], where [A - lambda*I; C] loses rank (Hautus); no gain changes it, so another "
+         eigenvalue_text(*mode) + " in the direction " + direction_text(*mode) +
+         ", where [A - lambda*I; C] loses rank (Hautus); no gain changes it, so another "
          "output is needed";
+}
+
+std::string hidden_mode_text(const model::Instance& instance, const forall::Domain& domain) {
+  constexpr double kTells = 1e-8;  // points come from a search
+  const model::Design& design = *instance.design;
+  if (!design.dynamics || design.states.empty()) return "";
+  const model::Dynamics& dynamics = *design.dynamics;
+  const std::string& state = design.states.front().name;
+  const expr::Shape shape = design.states.front().shape;
+  const auto flow = std::find_if(dynamics.flow.begin(), dynamics.flow.end(), [&](const auto& each) {
+    return dynamics.variables[each.variable].name == state;
+  });
+  const auto output = std::find_if(dynamics.signals.begin(), dynamics.signals.end(),
+                                   [](const auto& signal) { return signal.name == "y"; });
+  if (shape.cols != 1 || flow == dynamics.flow.end() || output == dynamics.signals.end()) return "";
+  if (!flow->value.program.functions.empty() || !output->value.program.functions.empty()) return "";
+  const StateBox box(domain, state, shape.rows);
+  if (box.low.empty()) return "";
+  Linearisation plant(flow->value.program, output->value.program, state, instance, box);
+  std::vector<std::vector<double>> points = {box.at(0.5), box.at(0), box.at(1)};
+  const auto residual = [&](const std::vector<double>& at) {
+    double least = 1;
+    for (const HiddenMode& mode : plant.modes(at)) least = std::min(least, mode.residual);
+    return least;
+  };
+  if (box.low.size() > 1)
+    for (auto& found : forall::local_minima(residual, box.low, box.high))
+      points.push_back(std::move(found.at));
+  for (const std::vector<double>& at : points) {
+    const auto mode = hidden_among(plant.modes(at), kTells);
+    if (!mode) continue;
+    std::string label;
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const bool nothing = std::abs(at[k]) <= kTells * (box.high[k] - box.low[k]);
+      label += (k > 0 ? ", " : "") + state + "_" + std::to_string(k + 1) + " = " +
+               brief(nothing ? 0 : at[k]);
+    }
+    return "the output does not show a mode of the plant that does not decay, linearised at " +
+           label + ": eigenvalue " + eigenvalue_text(*mode) + " in the direction " +
+           direction_text(*mode, kTells) +
+           " (Hautus); no gain changes it, so another output is needed, or a box without this "
+           "point";
+  }
+  return "";
+}
+
+std::vector<std::string> fixed_mode_texts(const model::Instance& instance) {
+  std::vector<std::string> texts;
+  const auto a = instance.values.find("A");
+  if (a == instance.values.end() || !is_declared(*instance.design, "A", true)) return texts;
+  const numbers::Matrix& A = a->second;
+  for (const char* name : {"C", "C2"}) {
+    const auto c = instance.values.find(name);
+    if (c == instance.values.end() || c->second.cols() != A.cols()) continue;
+    if (const auto mode = hidden_mode(A, c->second, Modes::all))
+      texts.push_back("no gain moves the mode " + eigenvalue_text(*mode) + ": " + name +
+                      " does not show the direction " + direction_text(*mode));
+  }
+  for (const char* name : {"B", "B2"}) {
+    const auto b = instance.values.find(name);
+    if (b == instance.values.end() || b->second.rows() != A.rows()) continue;
+    if (const auto mode = hidden_mode(A.transpose(), b->second.transpose(), Modes::all))
+      texts.push_back("no gain moves the mode " + eigenvalue_text(*mode) + ": " + name +
+                      " does not reach the combination " + direction_text(*mode) +
+                      " of the states");
+  }
+  return texts;
 }
 
 }  // namespace gainsmith::design

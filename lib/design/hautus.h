@@ -4,7 +4,9 @@
 #include <complex>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "forall/domain.h"
 #include "model/instance.h"
 #include "numbers/matrix.h"
 
@@ -19,12 +21,24 @@ struct HiddenMode {
   double accuracy = 0;        ///< how far the eigenvalue may be from that of A
 };
 
-/// The hidden mode that is farthest right, in balanced units; none when (A, C) is detectable as far
-/// as double tells.
-std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C);
+enum class Modes { not_decaying, all };
+
+/// The hidden mode that is farthest right, in balanced units; none when (A, C) is detectable, or of
+/// all modes observable, as far as double tells.
+std::optional<HiddenMode> hidden_mode(const numbers::Matrix& A, const numbers::Matrix& C,
+                                      Modes modes = Modes::not_decaying);
 
 /// The same for the data A (n x n) and C (p x n) of a design that declares them so, as a sentence;
 /// empty without one.
 std::string hidden_mode_text(const model::Instance& instance);
+
+/// The same of the plant's linearisation by its state x, where its output y = h(x) is one of the
+/// design's signals, at a point of the box x_1, x_2, ... of a domain. A search: none found does not
+/// say that there is none.
+std::string hidden_mode_text(const model::Instance& instance, const forall::Domain& domain);
+
+/// Of a design with the data A and C or C2, or A and B or B2: the slowest modes that no gain moves,
+/// as sentences; empty without one.
+std::vector<std::string> fixed_mode_texts(const model::Instance& instance);
 
 }  // namespace gainsmith::design

@@ -58,8 +58,11 @@ class SmoothDesign {
     }
     Vector start;
     const model::Instance instance = bind::evaluate(design_, gains.searched);
-    for (const SearchedScalar& scalar : scalars_)
-      start.push_back(scalar.axis.fraction(instance.values.at(scalar.name)(0, 0)));
+    for (const SearchedScalar& scalar : scalars_) {
+      const auto value = instance.values.find(scalar.name);
+      if (value == instance.values.end()) throw NotSmooth{"the gain bound is in no inequality"};
+      start.push_back(scalar.axis.fraction(value->second(0, 0)));
+    }
     const SmoothBlocks& blocks = at(start);
     if (extreme_ < 0 && blocks.cost.empty()) throw NotSmooth{"the margin is no smooth figure"};
     add_unknowns(packed(blocks, gains), start);

@@ -81,8 +81,8 @@ class OuterSearch {
   search::Point own_values() const {
     search::Point point;
     for (const SearchedScalar& scalar : request_.over)
-      point.push_back(
-          std::clamp(own_.values.at(scalar.name)(0, 0), scalar.axis.low, scalar.axis.high));
+      point.push_back(std::clamp(model::scalar_named(own_, scalar.name).value_or(scalar.axis.high),
+                                 scalar.axis.low, scalar.axis.high));
     return point;
   }
 

@@ -16,6 +16,7 @@
 #include "design/gain_values.h"
 #include "design/hautus.h"
 #include "design/quotient.h"
+#include "forall/faults.h"
 #include "numbers/dense.h"
 
 namespace gainsmith::design {
@@ -222,6 +223,10 @@ class Synthesis {
       while (climbs_again()) ++round_;
     } catch (const Stopped&) {
       stopped = true;
+    } catch (const expr::EvaluationError&) {
+      if (const auto fault = fault_in_a_domain())
+        throw InputError(fault->place, fault->message + " at " + fault->point.label);
+      throw;
     }
     const Concluding concluding;
     if (climb_ && climb_->has_begun()) {
@@ -233,9 +238,7 @@ class Synthesis {
         (gains.verdict == model::Verdict::undecided || gains.solver.status == "feasible"))
       note_stop(climb_ ? climb_->doing() : "", iterations_, gains);
     add_gains(inequalities_, gains);
-    if (gains.verdict != model::Verdict::yes)
-      if (const std::string hidden = hidden_mode_text(inequalities_.instance); !hidden.empty())
-        gains.solver.add_message(hidden);
+    if (gains.verdict != model::Verdict::yes) note_causes(gains);
     gains.timings = {
         {"compile", compile_seconds_}, {"solve", solve_seconds_}, {"total", seconds_since(start_)}};
     return gains;
@@ -248,6 +251,33 @@ class Synthesis {
     bounds_ = lmi::gain_bounds(inequalities_, lmi_);
     refuse_zero_solution(inequalities_.design(), lmi_);
     compile_seconds_ = seconds_since(start_);
+  }
+
+  /// Where an inequality has no value on its domain.
+  std::optional<forall::Fault> fault_in_a_domain() const {
+    for (const lmi::Statement& statement : inequalities_.statements)
+      for (const expr::Program& difference : statement.differences)
+        if (auto fault =
+                forall::find_fault(difference, statement.domain, inequalities_.instance.values))
+          return fault;
+    return std::nullopt;
+  }
+
+  /// What keeps any gains from being found, where it can be seen.
+  void note_causes(model::Gains& gains) const {
+    std::string hidden = hidden_mode_text(inequalities_.instance);
+    std::optional<forall::Fault> fault;
+    try {
+      if (depth_ == Depth::thorough) fault = fault_in_a_domain();
+      for (const lmi::Statement& statement : inequalities_.statements)
+        if (depth_ == Depth::thorough && !fault && hidden.empty())
+          hidden = hidden_mode_text(inequalities_.instance, statement.domain);
+    } catch (const Stopped&) {
+    }
+    if (!hidden.empty()) gains.solver.add_message(hidden);
+    if (fault)
+      gains.solver.add_message("an inequality has no value at " + fault->point.label + ": " +
+                               to_string(fault->place) + ": " + fault->message);
   }
 
   /// All attempts on the plan; whether it has grown by what they showed.

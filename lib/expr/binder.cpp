@@ -114,7 +114,8 @@ Bound Binder::bind_kind(const Expression& expression, const Node& node) {
     case NodeKind::each:
       fail(expression, node, "an index is allowed only in a sum, such as sum(i in 1..N, P(i))");
     case NodeKind::within:
-      fail(expression, node, "a box is allowed only in maximum(f, x in [a, b]) and in minimum(...)");
+      fail(expression, node,
+           "a box is allowed only in maximum(f, x in [a, b]) and in minimum(...)");
     case NodeKind::mirror:
       fail(expression, node, "'*' alone is allowed only in a block");
     case NodeKind::compare:
@@ -332,6 +333,23 @@ Program compile(const Expression& expression, const Scope& scope, std::optional<
   return binder.extract(at);
 }
 
+namespace {
+
+bool is_eigenvalues(const Node& node) {
+  return node.kind == NodeKind::call && node.text == "eig" && node.children.size() == 1;
+}
+
+/// A side of eig(P) < 3 as one of P < 3*I.
+std::string of_matrices(const Expression& expression, const Node& side) {
+  if (is_eigenvalues(side)) return expression.quote(*side.children[0]);
+  const std::string text = expression.quote(side);
+  if (text == "0") return text;
+  const bool plain = side.kind == NodeKind::number || side.kind == NodeKind::name;
+  return (plain ? text : "(" + text + ")") + "*I";
+}
+
+}  // namespace
+
 std::vector<CompiledRelation> compile_relations(const Expression& expression, const Scope& scope) {
   count_bound();
   const Node& root = *expression.root;
@@ -352,6 +370,11 @@ std::vector<CompiledRelation> compile_relations(const Expression& expression, co
     pair.begin = root.children[i]->begin;
     pair.end = root.children[i + 1]->end;
     pair.children = {root.children[large], root.children[small]};
+    if (is_eigenvalues(*pair.children[0]) || is_eigenvalues(*pair.children[1]))
+      throw InputError(expression.place(pair),
+                       "eig has rows of two numbers; for a symmetric matrix write " +
+                           of_matrices(expression, *pair.children[1]) + " < " +
+                           of_matrices(expression, *pair.children[0]));
     const Bound difference = binder.subtract(expression, pair, sides[large], sides[small]);
     const int at = binder.sized(expression, pair, difference);
     if (relation == Relation::not_equal) throw InputError(expression.place(pair), kNotEqual);

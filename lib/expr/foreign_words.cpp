@@ -4,12 +4,22 @@
 #include <array>
 #include <utility>
 
+#include "expr/functions.h"
+
 namespace gainsmith::expr {
 
 namespace {
 
 constexpr std::string_view kByGain =
     "there is none; state it as a design: 'gainsmith methods' lists those that are ready";
+constexpr std::string_view kUnknown =
+    "declare it under 'unknowns', such as 'P: symmetric n' or 'Y: n x p'";
+constexpr std::string_view kInequality =
+    "write each inequality under 'require', such as 'flow: He(P*A) < 0'";
+constexpr std::string_view kSolve =
+    "there is none; 'minimize' and 'require' state the program, 'gainsmith synth FILE' solves it";
+constexpr std::string_view kNonlinear =
+    "there is none; 'gainsmith optimize' searches over scalars outside of the inequalities";
 
 /// A word, or several with spaces between them, and the advice.
 using Row = std::pair<std::string_view, std::string_view>;
@@ -116,7 +126,26 @@ constexpr auto kRows = std::to_array<Row>({
     {"lqe kalman", "write X*C'*inv(R) with X: care(A', C', Q, R)"},
     {"dlqe", "write X*C'*inv(R + C*X*C') with X: dare(A', C', Q, R)"},
     {"place acker", kByGain},
-    {"h2syn hinfsyn hinfnorm h2norm normhinf", kByGain},
+    {"h2syn hinfsyn hinfnorm h2norm normhinf hinfstruct systune musyn hinfric ncfsyn", kByGain},
+    {"sdpvar lmivar Variable symvar intvar binvar Semidef HermitianSemidef", kUnknown},
+    {"semidefinite PSD isposdef", "write P > 0, or P >= 0 for positive semidefinite"},
+    {"setlmis newlmi lmiterm getlmis lmiedit lmi set constraint", kInequality},
+    {"feasp mincx solvesdp sdpsettings optimize optimise sedumi sdpt3 mosek scs Problem", kSolve},
+    {"Minimize minimize Maximize maximize",
+     "write 'minimize: ...', for the largest value 'minimize: -(...)'"},
+    {"gevp", "write 'minimize: lambda_max(M, N)', the smallest l with M <= l*N"},
+    {"quadprog linprog lsqlin coneprog qp", kSolve},
+    {"fmincon fminsearch fminunc fminbnd lsqnonlin fsolve fzero patternsearch ga bmibnb",
+     kNonlinear},
+    {"dec2mat mat2dec decinfo matnbr", "the unknowns have their values in the gain file"},
+    {"value double", "write the formula itself: gains and reports have the values of the unknowns"},
+    {"quad_form", "write x'*P*x"},
+    {"sum_squares sumsqr", "write v'*v"},
+    {"sum_entries", "write sum(M)"},
+    {"bmat block", "write [A, B; C, D]"},
+    {"normNuc norm_nuc nuclear", "there is none; norm(M) is the largest singular value"},
+    {"logdet log_det geomean",
+     "there is none that a program of inequalities minimises; trace(M) is affine"},
     {"zoh cont2discrete discretize d2d", "write c2d(A, B, T), which is [Ad, Bd]"},
     {"d2c", "there is none; a plant is given in continuous time, or as jumps"},
     {"ss tf zpk", "there are no systems; state matrices A, B, C as data"},
@@ -133,6 +162,11 @@ constexpr auto kRows = std::to_array<Row>({
 }  // namespace
 
 std::string advice_on(std::string_view function) {
+  if (const std::size_t dot = function.rfind('.'); dot != std::string_view::npos) {
+    const std::string_view own = function.substr(dot + 1);
+    if (find_function(own) != nullptr) return "write " + std::string(own) + "(...)";
+    return advice_on(own);
+  }
   for (const auto& [words, advice] : kRows)
     for (std::size_t begin = 0; begin < words.size();) {
       const std::size_t end = std::min(words.find(' ', begin), words.size());

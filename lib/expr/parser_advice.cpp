@@ -5,6 +5,8 @@
 #include <string_view>
 #include <utility>
 
+#include "expr/foreign_words.h"
+
 namespace gainsmith::expr {
 
 namespace {
@@ -66,6 +68,8 @@ std::string missing_between(std::span<const Token> tokens, std::size_t at) {
   if (left.kind == TokenKind::number && right.kind == TokenKind::name &&
       (touches || unit || right.text.ends_with("Hz")))
     return in_base_units(left.text, right.text);
+  if (right.kind == TokenKind::name)
+    if (const std::string advice = advice_on(right.text); !advice.empty()) return "; " + advice;
   if (left.kind == TokenKind::name && right.kind == TokenKind::open_bracket && touches)
     return "; an element is written " + left.text + "(1, 2)";
   return "; a comma is missing between elements, or * in a product";

@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <utility>
 
 #include "base/number.h"
+#include "expr/derivative.h"
 #include "forall/proof.h"
 #include "forall/proof_function.h"
 
@@ -76,9 +78,9 @@ class Search {
       return halve(piece, widest(piece), kNotDecided);
     }
     const auto spread = function_.over(piece);
-    if (!spread.fault.empty()) return halve(piece, widest(piece), spread.fault);
+    if (!spread.fault.empty()) return halve(piece, most_telling(piece), spread.fault);
     const Matrix error = error_of(spread);
-    if (above_sags(corners, spread) || at_corners(corners, error) ||
+    if (at_corners(corners, error) || above_sags(corners, spread) ||
         (spread.value.is_known() && holds(spread.value, Matrix())))
       return;
     if (piece.low.size() == 1 && error.allFinite()) return cut(piece, corners, spread, error);
@@ -96,14 +98,15 @@ class Search {
   /// 1. What a corner is nearly singular along then counts only by its own second derivative.
   bool above_sags(const std::vector<const Corner*>& corners,
                   const typename Function<S>::Spread& spread) const {
-    const std::size_t count = spread.sags.size();
-    if (count != spread.errors.size()) return false;
+    if (spread.sags.size() != spread.errors.size()) return false;
+    std::vector<Enclosed<S>> sags;
+    for (const auto& sag : spread.sags)
+      if (!sag.is_zero()) sags.push_back(numbers::converted<S>(sag));
     return std::all_of(corners.begin(), corners.end(), [&](const Corner* corner) {
-      for (std::size_t chosen = 1; chosen < (std::size_t{1} << count); ++chosen) {
+      for (std::size_t chosen = 1; chosen < (std::size_t{1} << sags.size()); ++chosen) {
         Enclosed<S> B = corner->value;
-        for (std::size_t i = 0; i < count; ++i)
-          if (((chosen >> i) & 1U) != 0)
-            B = numbers::difference(B, numbers::converted<S>(spread.sags[i]));
+        for (std::size_t i = 0; i < sags.size(); ++i)
+          if (((chosen >> i) & 1U) != 0) B = numbers::difference(B, sags[i]);
         if (!holds(B, Matrix())) return false;
       }
       return true;
@@ -164,7 +167,7 @@ class Search {
 
   /// The variable whose error weighs most against the first corner, among those that can be halved.
   std::size_t steepest(const Piece& piece, const typename Function<S>::Spread& spread,
-                       const std::vector<const Corner*>& corners) const {
+                       const std::vector<const Corner*>& corners) {
     std::size_t along = 0;
     double most = -1;
     const auto& B = corners.front()->value;
@@ -176,13 +179,36 @@ class Search {
       double weight = 0;
       for (Eigen::Index k = 0; k < std::min(B.rows(), spread.errors[i].rows()); ++k)
         weight += (spread.errors[i].col(k).array() / (size.array() * size[k])).sum();
-      if (!std::isfinite(weight)) return widest(piece);
+      if (!std::isfinite(weight)) return most_telling(piece);
       if (weight > most) {
         along = i;
         most = weight;
       }
     }
     return most < 0 ? widest(piece) : along;
+  }
+
+  /// Where nothing is known over the piece: the variable of which one value alone leaves least
+  /// unknown, of equal ones the widest.
+  std::size_t most_telling(const Piece& piece) {
+    std::size_t along = widest(piece);
+    if (piece.low.size() == 1) return along;
+    const auto unknown = [&](std::size_t i) {
+      Piece part = piece;
+      part.low[i] = part.high[i] = piece.low[i] + (piece.high[i] - piece.low[i]) / 2;
+      const auto spread = function_.over(part);
+      if (!spread.fault.empty()) return Eigen::Index{std::numeric_limits<Eigen::Index>::max()};
+      return spread.value.rad.size() - error_of(spread).array().isFinite().count();
+    };
+    Eigen::Index least = unknown(along);
+    for (std::size_t i = 0; i < piece.low.size(); ++i) {
+      if (!(piece.low[i] < piece.high[i])) continue;
+      const Eigen::Index left = unknown(i);
+      if (left >= least) continue;
+      along = i;
+      least = left;
+    }
+    return along;
   }
 
   /// Against the whole domain.
@@ -280,22 +306,26 @@ DomainProof prove_on_domain(const expr::Program& difference, const Domain& domai
                             const EnclosedElements<S>& elements, const ProofOptions& options) {
   using Status = DomainProof::Status;
   DomainProof result;
-  const auto axes = intervals(domain);
+  const expr::Program program = expr::with_derivatives(difference);
+  std::vector<const Variable*> axes;
+  for (const Variable* axis : intervals(domain))
+    if (program.uses(axis->name)) axes.push_back(axis);
   proof::Piece whole;
   for (const Variable* axis : axes) {
     whole.low.push_back(axis->low);
     whole.high.push_back(axis->high);
   }
   for (const auto& choice : proof::choices(domain, known, elements)) {
-    proof::Function<S> function(difference, choice.known, strict, axes);
+    proof::Function<S> function(program, choice.known, strict, axes);
     proof::Search<S> search(function, whole, options.most_pieces - result.pieces);
     search.run();
     result.pieces += search.pieces;
     result.margin = std::min(result.margin, search.margin);
     if (search.failed) {
       Point point = choice.point;
-      for (std::size_t i = 0; i < axes.size(); ++i)
-        point = extended(point, axes[i]->name, search.failed->first[i]);
+      auto found = search.failed->first.begin();
+      for (const Variable* axis : intervals(domain))
+        point = extended(point, axis->name, program.uses(axis->name) ? *found++ : axis->low);
       result.status = Status::fails;
       result.point = std::move(point);
       result.direction = search.failed->second;

@@ -230,7 +230,7 @@ double Breaks::distance(std::size_t k, const VectorXd& x, const VectorXd& r) {
   return least;
 }
 
-std::optional<std::vector<ode::Break>> Breaks::on(const std::function<VectorXd(double)>& x,
+std::optional<std::vector<ode::Break>> Breaks::on(const std::function<const VectorXd&(double)>& x,
                                                   double from, double to,
                                                   std::vector<double>* near) {
   std::vector<ode::Break> breaks;

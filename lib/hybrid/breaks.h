@@ -28,7 +28,7 @@ class Breaks {
   /// value nothing is found. None where there are more than can be searched (Found::whole).
   /// `near` takes the places where a difference comes near 0, by a 50th of its largest size on the
   /// step, and turns back.
-  std::optional<std::vector<ode::Break>> on(const std::function<Eigen::VectorXd(double)>& x,
+  std::optional<std::vector<ode::Break>> on(const std::function<const Eigen::VectorXd&(double)>& x,
                                             double from, double to,
                                             std::vector<double>* near = nullptr);
 

@@ -44,6 +44,7 @@ EventFunction::EventFunction(const expr::Program& program, const System& system)
     : size_(program.shape().size()),
       waves_(may_wave(program)),
       value_(program, system),
+      elements_(value_.elements()),
       terms_program_(std::make_unique<const expr::Program>(absolute_terms(program))),
       terms_(*terms_program_, system),
       breaks_(program, system.layout, system.constants,
@@ -125,7 +126,7 @@ std::string EventCondition::differences(const VectorXd& values) {
     const numbers::Matrix& difference = one.function(values);
     if (difference.size() == 0) continue;
     if (!result.empty()) result += ", ";
-    result += one.text + ": " + brief(difference.minCoeff(), 17);
+    result += one.text + ": " + brief(difference.minCoeff(), 4);
   }
   return result;
 }

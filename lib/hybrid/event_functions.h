@@ -29,6 +29,8 @@ class SystemFunction {
   bool rests() const { return rests_; }
   /// Whether it is affine in t and other variables of steady rate, and uses no other that move.
   bool is_line() const { return is_line_; }
+  /// The elements of the values that it uses.
+  std::vector<Eigen::Index> elements() const { return function_.elements(); }
 
  private:
   bool rests_ = true;
@@ -54,11 +56,14 @@ class EventFunction {
   /// may_wave (breaks.h) of it.
   bool waves() const { return waves_; }
   Eigen::Index size() const { return size_; }
+  /// The elements of the values that it uses; its terms and breaks use no others.
+  const std::vector<Eigen::Index>& elements() const { return elements_; }
 
  private:
   Eigen::Index size_;
   bool waves_;
   SystemFunction value_;
+  std::vector<Eigen::Index> elements_;
   std::unique_ptr<const expr::Program> terms_program_;
   SystemFunction terms_;
   Breaks breaks_;

@@ -24,7 +24,7 @@ class NamedBlocks {
     const char* const kExpected = "is: expected a comparison with 0, < 0 or \"> 0\"";
     if (relation.str().find_first_of("<>") != relation.str().find_first_not_of(' '))
       throw InputError(relation.place(0), kExpected);
-    TextComposer composer(file_.file());
+    TextComposer composer(place_.file);
     composer.punctuation("[", place_);
     for (std::size_t i = 0; i < names_.size(); ++i)
       for (std::size_t j = 0; j < names_.size(); ++j) {

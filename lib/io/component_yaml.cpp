@@ -1,24 +1,19 @@
 #include "io/component_yaml.h"
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <utility>
 
 #include "base/nearest.h"
 #include "io/declaration_yaml.h"
 #include "io/measured_yaml.h"
+#include "io/yaml_names.h"
 
 namespace gainsmith::io {
 
 namespace {
 
 using model::Component;
-
-/// One `like` another takes "none" for what it does not have.
-bool is_none(const YamlItem& item) {
-  return item.value.IsScalar() && item.value.Scalar() == "none";
-}
 
 /// The names of a mapping that stand for nothing.
 using Removed = std::set<std::string>;
@@ -28,7 +23,7 @@ std::vector<YamlItem> items_without(const YamlFile& file, const std::optional<Ya
   // A YAML::Node that is assigned to changes what it stood for: items are copied, never moved.
   std::vector<YamlItem> items;
   for (const YamlItem& one : items_of(file, item, what))
-    if (like && is_none(one))
+    if (like && is_none(one.value))
       removed.insert(one.key);
     else
       items.push_back(one);
@@ -185,23 +180,6 @@ Component logged(const YamlFile& file, const YamlItem& item, YamlMap& map,
     advice[key] = "a plant that is a log has outputs and events, and nothing else";
   map.finish(advice);
   return result;
-}
-
-/// Whether a name stands in a text of a mapping.
-bool is_read(const YAML::Node& node, const std::string& name) {
-  if (node.IsMap() || node.IsSequence())
-    return std::any_of(node.begin(), node.end(), [&](const auto& entry) {
-      return is_read(node.IsMap() ? YAML::Node(entry.second) : YAML::Node(entry), name);
-    });
-  if (!node.IsScalar()) return false;
-  const std::string& text = node.Scalar();
-  const auto is_part = [&](std::size_t at) {
-    return at < text.size() && (std::isalnum(static_cast<unsigned char>(text[at])) != 0 ||
-                                text[at] == '_' || text[at] == '.');
-  };
-  for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name, at + 1))
-    if (!is_part(at - 1) && !is_part(at + name.size())) return true;
-  return false;
 }
 
 /// InputError for a definition that takes the place of none, is read by nothing, and is likely to

@@ -1,10 +1,10 @@
 #include "io/csv_table.h"
 
 #include <algorithm>
-#include <filesystem>
+#include <cctype>
+#include <string_view>
 #include <utility>
 
-#include "base/file.h"
 #include "base/nearest.h"
 #include "base/number.h"
 
@@ -12,41 +12,33 @@ namespace gainsmith::io {
 
 namespace {
 
-constexpr std::uintmax_t kLargestFile = std::uintmax_t{1} << 28U;
-
-std::string read_bounded(const std::string& path) {
-  std::error_code none;
-  const std::uintmax_t size = std::filesystem::file_size(path, none);
-  if (!none && size > kLargestFile)
-    throw InputError({path, 0, 0}, "the file has " + std::to_string(size >> 20U) +
-                                       " MB; a log may have " +
-                                       std::to_string(kLargestFile >> 20U));
-  return read_text(path);
-}
-
 bool is_blank_cell(char c) { return c == ' ' || c == '\t'; }
 
 }  // namespace
 
-CsvTable::CsvTable(const std::string& path) : CsvTable(read_bounded(path), path) {}
-
-CsvTable::CsvTable(std::string text, std::string path)
+CsvTable::CsvTable(std::string text, std::string path, FirstLine first)
     : text_(std::move(text)), path_(std::move(path)) {
   if (text_.starts_with("\xEF\xBB\xBF")) text_.erase(0, 3);
-  read();
+  read(first);
 }
 
-void CsvTable::read() {
+void CsvTable::read(FirstLine first) {
+  bool is_first = true;
   std::size_t at = 0;
   int number = 1;
   while (at < text_.size()) {
     const Line start{number, at};
     const std::vector<Cell> cells = line(at, number);
     if (cells.size() == 1 && cells[0].begin == cells[0].end && !cells[0].quoted) continue;
-    if (names_.empty()) {
+    const bool skipped = first == FirstLine::row && is_first && !has_number(cells);
+    is_first = false;
+    if (skipped) continue;
+    if (names_.empty() && first == FirstLine::names) {
       read_header(cells);
       continue;
     }
+    while (lines_.empty() && first == FirstLine::row && names_.size() < cells.size())
+      names_.push_back(std::to_string(names_.size() + 1));
     if (cells.size() != names_.size())
       throw InputError({path_, start.number, 1}, "the row has " + std::to_string(cells.size()) +
                                                      " cells, the first line " +
@@ -55,7 +47,9 @@ void CsvTable::read() {
     cells_.insert(cells_.end(), cells.begin(), cells.end());
   }
   if (names_.empty())
-    throw InputError({path_, 1, 1}, "the file is empty; expected a line of column names");
+    throw InputError({path_, 1, 1}, first == FirstLine::names
+                                        ? "the file is empty; expected a line of column names"
+                                        : "the file has no numbers; expected a row in each line");
   if (lines_.empty()) throw InputError({path_, 1, 1}, "there is no row below the column names");
 }
 
@@ -111,6 +105,17 @@ void CsvTable::read_header(const std::vector<Cell>& cells) {
   }
   if (names_.size() == 1 && names_[0].find(';') != std::string::npos)
     throw InputError({path_, 1, 1}, "the columns are separated by semicolons; expected commas");
+}
+
+bool CsvTable::has_number(const std::vector<Cell>& cells) const {
+  return std::any_of(cells.begin(), cells.end(), [&](const Cell& one) {
+    constexpr std::string_view kBegins = "0123456789+-.";
+    std::string word = text(one);
+    std::transform(word.begin(), word.end(), word.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return word == "nan" || word == "inf" ||
+           (!word.empty() && kBegins.find(word.front()) != std::string_view::npos);
+  });
 }
 
 std::string CsvTable::text(const Cell& cell) const {

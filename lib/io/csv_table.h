@@ -1,4 +1,4 @@
-// Reading tables of CSV (RFC 4180): a line of column names, then rows of cells.
+// Reading tables of CSV (RFC 4180): a line of column names, then rows of cells; or rows alone.
 //
 // Lines end with LF or CRLF; cells are separated by commas, may be quoted, and spaces around them
 // do not count. Empty lines are left out. Errors name file, line and column of the CSV itself.
@@ -14,14 +14,17 @@ namespace gainsmith::io {
 
 class CsvTable {
  public:
-  /// InputError when the file cannot be read, is empty or too large, has no rows, two columns of
-  /// one name, a row of another length than the first, or a quotation mark that is not closed.
-  explicit CsvTable(const std::string& path);
-  /// Of a text, for tests; `path` stands in messages.
-  CsvTable(std::string text, std::string path);
+  /// `row`: the first line is a row, the columns are called 1, 2, ...; but it is left out when
+  /// no cell of it begins like a number.
+  enum class FirstLine { names, row };
+
+  /// `path` stands in messages. InputError when the text is empty, has no rows, two columns of one
+  /// name, a row of another length than the first, or a quotation mark that is not closed.
+  CsvTable(std::string text, std::string path, FirstLine first = FirstLine::names);
 
   const std::string& path() const { return path_; }
   std::size_t rows() const { return lines_.size(); }
+  std::size_t columns() const { return names_.size(); }
   /// The position of a column; none.
   std::optional<std::size_t> find(const std::string& column) const;
   /// InputError at `place`, which names the column, when there is none, with the nearest spelling.
@@ -42,11 +45,12 @@ class CsvTable {
     std::size_t begin = 0;
   };
 
-  void read();
+  void read(FirstLine first);
   /// The cells of the line that begins at `at`, which is moved behind it.
   std::vector<Cell> line(std::size_t& at, int& number) const;
   Cell cell(std::size_t& at, int& number, std::size_t line_begin) const;
   void read_header(const std::vector<Cell>& cells);
+  bool has_number(const std::vector<Cell>& cells) const;
   std::string text(const Cell& cell) const;
   const Cell& cell(std::size_t row, std::size_t column) const {
     return cells_[row * names_.size() + column];

@@ -19,7 +19,8 @@ constexpr std::array kKeysOfDocument = {
     Key{"gain_functions", "{gain function}", "gains that are functions of a scalar"},
     Key{"unknowns", "{rows}", "the unknowns", kRequired},
     Key{"functions", "{text}", "unknown functions over the unknowns"},
-    Key{"report", "{rows}", "what method and problem show"},
+    Key{"report", "{rows | nothing}", "what method and problem show; null: not computed"},
+    Key{"not_computed", "{text}", "why an entry of report has no value"},
     Key{"estimates", "{text}", "what is only an estimate"},
     Key{"parameters", "{rows}", "the method's parameters", kRequired},
     Key{"bases", "{rows}", "data that choose a basis"},
@@ -85,7 +86,14 @@ constexpr std::array kKeysOfSolver = {Key{"status", "text", "", kRequired},
 constexpr std::array kKeysOfStatement = {
     Key{"method", "text", "its name", kRequired}, Key{"method_text", "text", "", kRequired},
     Key{"problem_file", "text", "", kRequired}, Key{"problem_text", "text", "", kRequired},
+    Key{"set", "{text}", "values that the command line gave"},
+    Key{"files", "[file]", "what was read besides"},
     Key{"sha256", "text", "of both texts", kRequired}};
+
+constexpr std::array kKeysOfFile = {
+    Key{"file", "text", "relative to the problem", kRequired}, Key{"sha256", "text", "", kRequired},
+    Key{"text", "text", "of a problem"}, Key{"matrix", "row or rows", "of a file with one matrix"},
+    Key{"matrices", "{row or rows}", "of a file with several"}};
 
 const Level kDocumentLevel = {"gain file", "A gain file of gainsmith", kKeysOfDocument};
 const Level kGainFunctionLevel = {"gain function", "A gain that is a function",
@@ -98,18 +106,21 @@ const Level kRefinementLevel = {"refinement", "Scalars and unknowns moved togeth
 const Level kSearchLevel = {"search", "How a search ended", kKeysOfSearch};
 const Level kSolverLevel = {"solver", "What the solver says", kKeysOfSolver};
 const Level kStatementLevel = {"statement", "The problem that was solved", kKeysOfStatement};
+const Level kFileLevel = {"file", "A file that was read", kKeysOfFile};
 
 }  // namespace
 
 std::span<const Level* const> gain_file_levels() {
   static constexpr std::array kLevels = {&kDocumentLevel, &kGainFunctionLevel, &kMarginLevel,
                                          &kBoundLevel,    &kCertificateLevel,  &kRefinementLevel,
-                                         &kSearchLevel,   &kSolverLevel,       &kStatementLevel};
+                                         &kSearchLevel,   &kSolverLevel,       &kStatementLevel,
+                                         &kFileLevel};
   return kLevels;
 }
 
 std::span<const NamedForm> gain_file_forms() {
-  static constexpr std::array kNamedForms = {NamedForm{"rows", "number | [[number]]"}};
+  static constexpr std::array kNamedForms = {NamedForm{"rows", "number | [[number]]"},
+                                           NamedForm{"row or rows", "[number]+ | [[number]+]+"}};
   return kNamedForms;
 }
 

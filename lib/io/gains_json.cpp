@@ -1,11 +1,9 @@
 #include "io/gains_json.h"
 
-#include <array>
-#include <charconv>
 #include <utility>
 
-#include "base/version.h"
 #include "io/json_reader.h"
+#include "io/sources.h"
 
 namespace gainsmith::io {
 
@@ -113,38 +111,39 @@ Json search_json(const model::Gains& gains, const model::SearchRecord& search) {
   return result;
 }
 
-Json statement_json(const model::Statement& statement) {
-  return {{"method", statement.method_name},
-          {"method_text", statement.method_text},
-          {"problem_file", statement.problem_file},
-          {"problem_text", statement.problem_text},
-          {"sha256", statement.hash}};
-}
-
-/// Three numbers of "0.1.0".
-std::array<int, 3> parts_of(const std::string& version, const JsonReader& reader) {
-  std::array<int, 3> parts{};
-  const char* at = version.data();
-  const char* const end = at + version.size();
-  for (std::size_t k = 0; k < parts.size(); ++k) {
-    const auto number = std::from_chars(at, end, parts[k]);
-    const bool last = k + 1 == parts.size();
-    if (number.ec != std::errc() ||
-        (last ? number.ptr != end : number.ptr == end || *number.ptr != '.'))
-      reader.fail("expected the version of gainsmith that wrote this file, such as " +
-                  std::string(kVersion) + ", not '" + version + "'");
-    at = number.ptr + (last ? 0 : 1);
+Json stated_matrix_json(const model::StatedMatrix& matrix) {
+  Json rows = Json::array();
+  auto element = matrix.elements.begin();
+  for (int i = 0; i < matrix.rows; ++i) {
+    Json row = Json::array();
+    for (int j = 0; j < matrix.cols; ++j) row.push_back(decimal_json(*element++));
+    if (matrix.flat) return row;
+    rows.push_back(std::move(row));
   }
-  return parts;
+  return rows;
 }
 
-/// A later version may say things that this one would not understand.
-std::string version_of(const JsonReader& reader) {
-  const std::string version = reader.text();
-  if (parts_of(version, reader) > parts_of(kVersion, reader))
-    reader.fail("gainsmith " + version + " wrote this file, this is " + kVersion +
-                ": take that version, or synthesize again");
-  return version;
+Json stated_file_json(const model::StatedFile& file) {
+  Json result = {{"file", file.name}, {"sha256", file.sha256}};
+  if (!file.text.empty()) result["text"] = file.text;
+  for (const model::StatedMatrix& matrix : file.matrices)
+    if (matrix.key.empty())
+      result["matrix"] = stated_matrix_json(matrix);
+    else
+      result["matrices"][matrix.key] = stated_matrix_json(matrix);
+  return result;
+}
+
+Json statement_json(const model::Statement& statement) {
+  Json result = {{"method", statement.method_name},
+                 {"method_text", statement.method_text},
+                 {"problem_file", statement.problem_file},
+                 {"problem_text", statement.problem_text}};
+  for (const model::Setting& setting : statement.settings)
+    result["set"][setting.name] = setting.value;
+  if (!statement.files.empty()) result["files"] = list_json(statement.files, stated_file_json);
+  result["sha256"] = statement.hash;
+  return result;
 }
 
 model::Verdict verdict_of(const JsonReader& reader) {
@@ -244,12 +243,49 @@ model::SearchRecord search_of(const JsonReader& reader, model::Gains& gains) {
   return search;
 }
 
+model::StatedMatrix stated_matrix_of(const std::string& key, const JsonReader& reader) {
+  const std::vector<JsonReader> rows = reader.items();
+  const bool flat = rows.empty() || !rows.front().is_list();
+  const std::size_t cols = flat ? rows.size() : rows.front().items().size();
+  model::StatedMatrix matrix{
+      key, flat ? 1 : static_cast<int>(rows.size()), static_cast<int>(cols), {}, flat};
+  const auto add = [&](const std::vector<JsonReader>& row, const JsonReader& place) {
+    if (row.size() != cols) place.fail("a row of another length");
+    for (const JsonReader& element : row) matrix.elements.push_back(element.decimal());
+  };
+  if (flat) add(rows, reader);
+  for (const JsonReader& row : rows)
+    if (!flat) add(row.items(), row);
+  if (matrix.elements.empty()) reader.fail("this matrix has no elements");
+  return matrix;
+}
+
+model::StatedFile stated_file_of(const JsonReader& reader) {
+  model::StatedFile file{reader.at("file").text(), reader.at("sha256").text(), "", {}};
+  if (reader.has("text")) file.text = reader.at("text").text();
+  if (reader.has("matrix")) file.matrices.push_back(stated_matrix_of("", reader.at("matrix")));
+  if (reader.has("matrices"))
+    for (const auto& [key, item] : reader.at("matrices").members())
+      file.matrices.push_back(stated_matrix_of(key, item));
+  return file;
+}
+
 model::Statement statement_of(const JsonReader& reader) {
-  model::Statement statement{reader.at("method").text(), reader.at("method_text").text(),
-                             reader.at("problem_file").text(), reader.at("problem_text").text(),
-                             reader.at("sha256").text()};
+  model::Statement statement{reader.at("method").text(),
+                             reader.at("method_text").text(),
+                             reader.at("problem_file").text(),
+                             reader.at("problem_text").text(),
+                             reader.at("sha256").text(),
+                             {},
+                             {}};
+  if (reader.has("set"))
+    for (const auto& [name, value] : reader.at("set").members())
+      statement.settings.push_back({name, value.text()});
+  if (reader.has("files"))
+    for (const JsonReader& item : reader.at("files").items())
+      statement.files.push_back(stated_file_of(item));
   if (model::statement_hash(statement) != statement.hash)
-    reader.fail("the method or problem text does not match its sha256: the file was edited");
+    reader.fail("the method, problem or data do not match their sha256: the file was edited");
   return statement;
 }
 
@@ -286,6 +322,10 @@ Json to_json(const model::Gains& gains) {
       document["functions"][function.signature] = function.text;
   }
   if (!gains.report.empty()) document["report"] = matrices_json(gains, "report", gains.report);
+  for (const auto& [name, reason] : gains.not_computed) {
+    document["report"][name] = nullptr;
+    document["not_computed"][name] = reason;
+  }
   if (!gains.estimates.empty()) document["estimates"] = gains.estimates;
   document["parameters"] = matrices_json(gains, "parameters", gains.parameters);
   if (!gains.bases.empty()) document["bases"] = matrices_json(gains, "bases", gains.bases);
@@ -326,7 +366,13 @@ model::Gains parse_gains(const std::string& text, const std::string& file) {
   if (reader.has("functions"))
     for (const auto& [name, item] : reader.at("functions").members())
       gains.functions.push_back({name, item.text(), std::nullopt});
-  if (reader.has("report")) gains.report = matrices_of(reader.at("report"), gains);
+  if (reader.has("not_computed"))
+    for (const auto& [name, item] : reader.at("not_computed").members())
+      gains.not_computed[name] = item.text();
+  if (reader.has("report"))
+    for (const auto& [name, item] : reader.at("report").members())
+      if (!item.is_null() || !gains.not_computed.contains(name))
+        gains.report.emplace_back(name, matrix_of(item, gains));
   if (reader.has("estimates"))
     for (const auto& [name, item] : reader.at("estimates").members())
       gains.estimates[name] = item.text();
@@ -364,7 +410,9 @@ model::Problem stated_problem(const model::Gains& gains, const std::string& file
         return name == statement.method_name ? std::optional(statement.method_text) : std::nullopt;
       },
       {statement.method_name}};
-  return parse_problem(statement.problem_text, file + " (" + statement.problem_file + ")", library);
+  Sources sources(file, statement.files);
+  return parse_problem(statement.problem_text, sources.shown(statement.problem_file), library,
+                       statement.settings, sources);
 }
 
 }  // namespace gainsmith::io

@@ -1,10 +1,12 @@
 #include "io/json_reader.h"
 
-#include <cstdint>
+#include <array>
+#include <charconv>
 #include <limits>
 
 #include "base/error.h"
 #include "base/nearest.h"
+#include "base/version.h"
 #include "io/json_place.h"
 
 namespace gainsmith::io {
@@ -15,6 +17,23 @@ namespace {
 std::string_view inner(std::string_view form, char bracket) {
   if (form.empty() || form.front() != bracket) return {};
   return form.substr(1, form.find_last_of("]}") - 1);
+}
+
+/// Three numbers of "0.1.0".
+std::array<int, 3> parts_of(const std::string& version, const JsonReader& reader) {
+  std::array<int, 3> parts{};
+  const char* at = version.data();
+  const char* const end = at + version.size();
+  for (std::size_t k = 0; k < parts.size(); ++k) {
+    const auto number = std::from_chars(at, end, parts[k]);
+    const bool last = k + 1 == parts.size();
+    if (number.ec != std::errc() ||
+        (last ? number.ptr != end : number.ptr == end || *number.ptr != '.'))
+      reader.fail("expected the version of gainsmith that wrote this file, such as " +
+                  std::string(kVersion) + ", not '" + version + "'");
+    at = number.ptr + (last ? 0 : 1);
+  }
+  return parts;
 }
 
 }  // namespace
@@ -82,6 +101,11 @@ double JsonReader::number() const {
   return number_of(value_);
 }
 
+std::string JsonReader::decimal() const {
+  number();
+  return decimal_of(value_);
+}
+
 double JsonReader::number_or_infinity() const {
   return value_.is_null() ? std::numeric_limits<double>::infinity() : number();
 }
@@ -92,6 +116,11 @@ int JsonReader::whole() const {
                                                 : std::in_range<int>(value_.get<std::int64_t>());
   if (!fits) fail("this whole number is too large");
   return value_.get<int>();
+}
+
+std::uint64_t JsonReader::count() const {
+  if (!value_.is_number_unsigned()) fail("expected a whole number from 0 on");
+  return value_.get<std::uint64_t>();
 }
 
 bool JsonReader::truth() const {
@@ -160,6 +189,14 @@ void JsonReader::fail_at(const std::string& key, const std::string& message) con
 
 void JsonReader::fail_with(const std::string& place, const std::string& message) const {
   throw InputError(place_in(*text_, file_, place), (path_.empty() ? "" : path_ + ": ") + message);
+}
+
+std::string version_of(const JsonReader& reader) {
+  const std::string version = reader.text();
+  if (parts_of(version, reader) > parts_of(kVersion, reader))
+    reader.fail("gainsmith " + version + " wrote this file, this is " + kVersion +
+                ": take that version, or synthesize again");
+  return version;
 }
 
 }  // namespace gainsmith::io

@@ -1,6 +1,7 @@
 // Reads a JSON document whose keys are known, and says where it is when something is wrong.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <set>
@@ -32,12 +33,16 @@ class JsonReader {
   /// Whether the optional key is there.
   bool has(const std::string& key) const;
   bool is_null() const { return value_.is_null(); }
+  bool is_list() const { return value_.is_array(); }
 
   std::string text() const;
   double number() const;
+  /// The decimal of a number.
+  std::string decimal() const;
   /// null stands for infinity.
   double number_or_infinity() const;
   int whole() const;
+  std::uint64_t count() const;
   bool truth() const;
   std::vector<JsonReader> items() const;
   /// All keys, whatever they are, with their values.
@@ -75,5 +80,9 @@ class JsonReader {
   std::string_view form_;  ///< as in Key
   std::shared_ptr<Asked> asked_;
 };
+
+/// The version that wrote a file, "0.1.0". InputError for a later one than this: it may say things
+/// that this one would not understand.
+std::string version_of(const JsonReader& reader);
 
 }  // namespace gainsmith::io

@@ -2,15 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <memory>
-#include <system_error>
 #include <utility>
 
 #include "base/nearest.h"
 #include "base/number.h"
 #include "expr/parser.h"
 #include "io/csv_table.h"
+#include "io/sources.h"
 
 namespace gainsmith::io {
 
@@ -18,22 +17,11 @@ namespace {
 
 using model::Between;
 
-/// Relative to the file of the problem; a gain file, whose problem is called "gains.json (p.yaml)",
-/// stands for it. InputError when nothing is there.
-std::string path_of(const YamlFile& file, const YamlItem& item) {
-  const std::filesystem::path named = file.string(item.value, item.key);
-  std::string holder = file.file();
-  const bool is_gain_file = holder.ends_with(')');
-  if (is_gain_file) holder.erase(std::min(holder.find(" ("), holder.size()));
-  const auto path = (std::filesystem::path(holder).parent_path() / named).lexically_normal();
-  std::error_code error;
-  if (!std::filesystem::exists(path, error))
-    throw InputError(file.place(item.value),
-                     item.key + ": there is no file " + path.string() +
-                         (is_gain_file ? "; the data of a gain file's problem are expected beside "
-                                         "itself: copy them there, or take the problem instead"
-                                       : ""));
-  return path.string();
+std::shared_ptr<const CsvTable> table_of(const YamlFile& file, const YamlItem& item) {
+  const std::string name = file.named_by(item.value, file.string(item.value, item.key));
+  Sources& sources = file.sources(item.value);
+  std::string text = sources.log({name, item.key, file.place(item.value)});
+  return std::make_shared<const CsvTable>(std::move(text), sources.path_of(name));
 }
 
 /// Which rows of which file, and when they are.
@@ -68,7 +56,7 @@ void require_word(const CsvTable& table, const std::pair<std::size_t, std::strin
 /// `path`: the item with the name of the file; the rest is taken from `map`.
 Source source(const YamlFile& file, const YamlItem& path, YamlMap& map) {
   Source result;
-  result.table = std::make_shared<const CsvTable>(path_of(file, path));
+  result.table = table_of(file, path);
   result.time_place = path.place;
   if (const auto time = map.find("time")) {
     result.time = file.string(time->value, "time");
@@ -223,7 +211,7 @@ void read_log(const YamlFile& file, YamlMap& plant, model::Component& component,
   };
   if (!log.value.IsMap()) {
     Source rows;
-    rows.table = std::make_shared<const CsvTable>(path_of(file, log));
+    rows.table = table_of(file, log);
     rows.time_place = log.place;
     read(rows, Between::hold);
     return;

@@ -212,7 +212,7 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node,
                           const std::string& problem) {
   YamlMap map(file, node, "method", keys::method);
   model::Method method;
-  method.file = file.file();
+  method.file = file.file(node);
   const auto name =
       problem.empty() ? std::optional<YamlItem>(map.require("method")) : map.find("method");
   method.name = name ? file.string(name->value, "method") : problem;
@@ -243,6 +243,13 @@ model::Method method_from(const YamlFile& file, const YAML::Node& node,
   map.finish({{"maximize", "write minimize: -(...)"},
               {"maximise", "write minimize: -(...)"},
               {"objective", "write minimize: ..."},
+              {"cost", "write minimize: ..."},
+              {"variables", "write unknowns: {P: symmetric n, ...}"},
+              {"decision variables", "write unknowns: {P: symmetric n, ...}"},
+              {"constraints", "write require: {name: inequality, ...}"},
+              {"inequalities", "write require: {name: inequality, ...}"},
+              {"lmis", "write require: {name: inequality, ...}"},
+              {"subject to", "write require: {name: inequality, ...}"},
               {"campaign", kOfProblem},
               {"compare", kOfProblem},
               {"expect", kOfProblem},

@@ -33,11 +33,21 @@ constexpr std::array kProblem = {
     Key{"campaign", "campaign", "the runs that check the claims"},
     Key{"no campaign", "text", "why there is none"},
     Key{"report", "{text}?", "expressions to be shown beside the gains"},
+    Key{"units", "{text | [text]+}?", "units of states and signals, for pictures and tables"},
+    Key{"covariance", "{text}?", "for an estimate: the state that is the covariance of its error"},
     Key{"compare", "[figure]", "figures of runs, side by side for each observer"},
     Key{"expect", "expectation", "what gainsmith run compares the results with"}};
 constexpr std::array kProblemRules = {Rule::at_most_one("campaign,no campaign")};
 
 constexpr std::array kData = {Key{"f(x)", "text", "a function of the method: its formula"}};
+
+constexpr std::array kDataFile = {
+    Key{"csv", "text", "a file of numbers, separated by commas"},
+    Key{"npy", "text", "a file of NumPy"}, Key{"mat", "text", "a file of MATLAB"},
+    Key{"json", "text", "a file of JSON"},
+    Key{"name", "text", "of the matrix in a file that may hold several"}};
+constexpr std::array kDataFileRules = {Rule::exactly_one("csv,npy,mat,json"),
+                                       Rule::excludes("name", "csv,npy")};
 
 constexpr std::array kSynthesis = {
     Key{"margin", "number", "the margin of strict inequalities, relative to the data's scale"},
@@ -154,6 +164,7 @@ namespace keys {
 
 const Level problem = {"problem", "A problem file of gainsmith", kProblem, kProblemRules};
 const Level data = {"data", "Data by name", kData, {}, "datum"};
+const Level data_file = {"data file", "A matrix in a file", kDataFile, kDataFileRules};
 const Level synthesis = {"synthesis", "How gains are searched", kSynthesis};
 const Level way = {"way", "How 'for all' is imposed", kWay};
 const Level campaign = {"campaign", "Runs that check the claims", kCampaign};
@@ -174,6 +185,7 @@ const Level uncertain = {"uncertain", "A datum that differs from run to run", kU
 
 constexpr std::array kProblemLevels = {&problem,
                                        &data,
+                                       &data_file,
                                        &synthesis,
                                        &way,
                                        &campaign,
@@ -231,7 +243,7 @@ std::span<const Level* const> problem_levels() { return keys::kProblemLevels; }
 
 std::span<const NamedForm> problem_forms() {
   static constexpr std::array kNamedForms = {
-      NamedForm{"matrix", "text | [text]+ | [[text]+]+"},
+      NamedForm{"matrix", "text | [text]+ | [[text]+]+ | data file"},
       NamedForm{"datum", "matrix | matrices"},
       NamedForm{"range", "[text, text]"},
       NamedForm{"ends", "text | [matrix, matrix]"},

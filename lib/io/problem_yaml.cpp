@@ -7,11 +7,15 @@
 #include "base/number.h"
 #include "expr/work.h"
 #include "io/component_yaml.h"
+#include "io/data_file_yaml.h"
 #include "io/expectation_yaml.h"
 #include "io/figure_yaml.h"
 #include "io/method_node.h"
 #include "io/method_yaml.h"
 #include "io/search_yaml.h"
+#include "io/setting.h"
+#include "io/sources.h"
+#include "io/variant_yaml.h"
 
 namespace gainsmith::io {
 
@@ -191,7 +195,7 @@ std::vector<model::Value> ellipsoid_of(const YamlFile& file, const YamlItem& ite
 model::InitialValue initial(const YamlFile& file, const YamlItem& item) {
   using Kind = model::StartKind;
   model::InitialValue result{item.key, Kind::expression, {}, item.place};
-  if (!item.value.IsMap()) {
+  if (!item.value.IsMap() || names_file(item.value)) {
     result.values.push_back(value_of(file, item));
     return result;
   }
@@ -332,6 +336,22 @@ model::UncertainText uncertain(const YamlFile& file, const YamlItem& item) {
   return result;
 }
 
+/// "x: [rad, rad/s]", "u: V".
+model::UnitText unit(const YamlFile& file, const YamlItem& item) {
+  model::UnitText result{item.key, {}, item.place};
+  const auto add = [&](const YAML::Node& node) {
+    result.units.push_back(file.string(node, item.key));
+  };
+  if (!item.value.IsSequence()) {
+    add(item.value);
+    return result;
+  }
+  if (item.value.size() == 0)
+    throw InputError(item.place, item.key + ": expected a unit, or one for each element");
+  for (const auto& entry : item.value) add(entry);
+  return result;
+}
+
 /// What to do with keys that stand at the wrong level.
 std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
   std::map<std::string, std::string> advice;
@@ -349,10 +369,18 @@ std::map<std::string, std::string> advice_on_keys(const model::Method& method) {
 }  // namespace
 
 model::Problem parse_problem(const std::string& text, const std::string& file,
-                             const MethodLibrary& library) {
+                             const MethodLibrary& library,
+                             const std::vector<model::Setting>& settings) {
+  Sources sources(file);
+  return parse_problem(text, file, library, settings, sources);
+}
+
+model::Problem parse_problem(const std::string& text, const std::string& file,
+                             const MethodLibrary& library,
+                             const std::vector<model::Setting>& settings, Sources& sources) {
   expr::count_problem();
-  const YamlFile yaml(text, file);
-  YamlMap map(yaml, yaml.root(), "problem", keys::problem);
+  YamlFile yaml(text, file, &sources);
+  YamlMap map(yaml, with_what_it_is_like(yaml), "problem", keys::problem);
   model::Problem problem;
   problem.file = file;
   problem.text = text;
@@ -385,7 +413,14 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
     problem.report.push_back({item.key, yaml.expression(item.value, item.key), item.place});
   for (const YamlItem& item : items_of(yaml, map.find("uncertain"), "uncertain"))
     problem.uncertain.push_back(uncertain(yaml, item));
+  for (const YamlItem& item : items_of(yaml, map.find("units"), "units"))
+    problem.units.push_back(unit(yaml, item));
+  for (const YamlItem& item : items_of(yaml, map.find("covariance"), "covariance"))
+    problem.covariances.push_back(
+        {item.key, yaml.string(item.value, item.key), item.place, yaml.place(item.value)});
   map.finish(advice_on_keys(*problem.method));
+  set_values(settings, sources, problem);
+  problem.files = sources.files();
   return problem;
 }
 

@@ -17,9 +17,18 @@ struct MethodLibrary {
   std::vector<std::string> names;
 };
 
-/// Parses a problem and the method that it names or holds. `file` is used in messages. InputError
-/// with the place for every mistake.
+class Sources;
+
+/// Parses a problem, the method that it names or holds, the problems that it is `like`, and the files
+/// that it names by paths relative to `file`. `settings` take the place of its values. InputError with
+/// the place for every mistake.
 model::Problem parse_problem(const std::string& text, const std::string& file,
-                             const MethodLibrary& library);
+                             const MethodLibrary& library,
+                             const std::vector<model::Setting>& settings = {});
+
+/// The same with files from elsewhere: those that a gain file states.
+model::Problem parse_problem(const std::string& text, const std::string& file,
+                             const MethodLibrary& library,
+                             const std::vector<model::Setting>& settings, Sources& sources);
 
 }  // namespace gainsmith::io

@@ -68,7 +68,10 @@ class SchemaWriter {
   static Json matrices() {
     const Json row = {{"type", "array"}};
     const Json rows = {{"type", "array"}, {"minItems", 1}, {"items", Json::array({row})}};
-    return {{"type", "array"}, {"items", reference("datum")}, {"contains", rows}};
+    const Json files = {{"type", "object"}};
+    return {{"type", "array"},
+            {"items", reference("datum")},
+            {"contains", {{"anyOf", Json::array({rows, files})}}}};
   }
 
   Json level(const Level& level) const {
@@ -210,11 +213,38 @@ class SchemaWriter {
   bool is_yaml_;
 };
 
+/// Of a problem that is like another one. What replaces a part of that one may be a part of a
+/// part, or `none`, so only keys are checked.
+Json variant_schema(const Json& whole) {
+  Json variant = {{"description", "A problem that replaces parts of another one"},
+                  {"type", "object"},
+                  {"additionalProperties", false},
+                  {"required", {"problem"}}};
+  for (const auto& [key, form] : whole["properties"].items())
+    variant["properties"][key] = {{"description", form.value("description", "")}};
+  for (const char* own : {"problem", "expect"})
+    variant["properties"][own] = whole["properties"][own];
+  variant["properties"]["like"] = {{"type", "string"}, {"description", "the file of the other one"}};
+  return variant;
+}
+
 }  // namespace
 
 Json problem_schema() {
-  return SchemaWriter(problem_levels(), problem_forms(), true)
-      .document(keys::problem, "gainsmith problem");
+  Json schema = SchemaWriter(problem_levels(), problem_forms(), true)
+                    .document(keys::problem, "gainsmith problem");
+  Json whole = Json::object();
+  for (const char* part :
+       {"description", "type", "properties", "additionalProperties", "required", "allOf"}) {
+    whole[part] = std::move(schema[part]);
+    schema.erase(part);
+  }
+  schema["definitions"]["variant"] = variant_schema(whole);
+  schema["definitions"]["problem"] = std::move(whole);
+  schema["if"] = has("like");
+  schema["then"] = reference("variant");
+  schema["else"] = reference("problem");
+  return schema;
 }
 
 Json method_schema() {

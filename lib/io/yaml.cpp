@@ -14,6 +14,7 @@
 #include "base/number.h"
 #include "base/stop.h"
 #include "expr/parser.h"
+#include "io/sources.h"
 #include "io/yaml_error.h"
 
 namespace gainsmith::io {
@@ -98,7 +99,7 @@ class DocumentStarts : public YAML::EventHandler {
 /// Walks along the text of a file, counting lines and characters.
 class Cursor {
  public:
-  Cursor(const std::string& text, std::size_t at, expr::Position position)
+  Cursor(std::string_view text, std::size_t at, expr::Position position)
       : text_(text), at_(at), position_(position) {}
 
   /// The byte here or further on; 0 past the end.
@@ -121,7 +122,7 @@ class Cursor {
   }
 
  private:
-  const std::string& text_;
+  std::string_view text_;
   std::size_t at_;
   expr::Position position_;
 };
@@ -142,38 +143,82 @@ std::size_t escape_length(const Cursor& cursor) {
 
 }  // namespace
 
-YamlFile::YamlFile(std::string text, std::string file)
-    : text_(without_byte_order_mark(std::move(text))),
-      file_(std::move(file)),
-      line_starts_(starts_of_lines(text_)) {
-  refuse_non_text(text_, file_);
+YamlFile::YamlFile(std::string text, std::string file, Sources* sources)
+    : sources_(sources), root_(add(std::move(text), file, "")) {}
+
+YAML::Node YamlFile::add(std::string text, const std::string& file, const std::string& name) {
+  text = without_byte_order_mark(std::move(text));
+  refuse_non_text(text, file);
+  // A value that is left out at the end of a file stands before the next one.
+  if (!parts_.empty()) text_ += '\n';
+  const std::size_t first_line = parts_.empty() ? 0 : starts_of_lines(text_).size() - 1;
+  parts_.push_back({file, name, first_line, text_.size()});
+  text_ += text;
+  line_starts_ = starts_of_lines(text_);
+  characters_.clear();
   for (std::size_t at = 0; at <= text_.size(); at += kStep) {
     const auto before =
         std::string_view(text_).substr(at < kStep ? 0 : at - kStep, std::min(at, kStep));
     characters_.push_back(count_characters(before) +
                           (characters_.empty() ? 0 : characters_.back()));
   }
+  // So its marks are those in the text of all.
+  text.insert(0, first_line, '\n');
   // YAML::LoadAll never ends on some broken files, so at most two documents are looked at.
   DocumentStarts starts;
+  YAML::Node root;
   try {
-    std::istringstream stream(text_);
+    std::istringstream stream(text);
     YAML::Parser parser(stream);
     while (starts.marks.size() < 2 && parser.HandleNextDocument(starts)) {
     }
-    root_ = YAML::Load(text_);
+    root.reset(YAML::Load(text));
   } catch (const YAML::DeepRecursion& error) {
     throw InputError(place(error.mark), "YAML: lists or mappings are nested too deeply");
   } catch (const YAML::Exception& error) {
-    if (error.mark.line < 0) throw InputError({file_}, "YAML: " + error.msg);
+    if (error.mark.line < 0) throw InputError({file}, "YAML: " + error.msg);
     const auto line = static_cast<std::size_t>(error.mark.line);
     const YamlError cause =
-        explained(text_, {line, static_cast<std::size_t>(error.mark.column), error.msg});
+        explained(text, {line, static_cast<std::size_t>(error.mark.column), error.msg});
     throw InputError(place(offset(cause.line, cause.column)), cause.message);
   }
   if (starts.marks.size() > 1)
     throw InputError(place(starts.marks[1]), "expected one YAML document, found a second one");
-  if (starts.marks.empty() || root_.IsNull())
-    throw InputError({file_}, "the file is empty; expected a mapping such as 'problem: NAME'");
+  if (starts.marks.empty() || root.IsNull())
+    throw InputError({file}, "the file is empty; expected a mapping such as 'problem: NAME'");
+  return root;
+}
+
+YAML::Node YamlFile::mapping(const std::vector<std::pair<YAML::Node, YAML::Node>>& entries,
+                             const Place& place) {
+  YAML::Node result(YAML::NodeType::Map);
+  for (const auto& [key, value] : entries) result.force_insert(key, value);
+  mappings_.emplace_back(result, place);
+  return result;
+}
+
+const YamlFile::Part& YamlFile::part_at(std::size_t offset) const {
+  const auto next = std::ranges::upper_bound(parts_, offset, {}, &Part::begin);
+  return next == parts_.begin() ? parts_.front() : *std::prev(next);
+}
+
+const YamlFile::Part& YamlFile::part(const YAML::Node& node) const {
+  return node.Mark().line < 0 ? parts_.front() : part_at(offset(node.Mark()));
+}
+
+std::size_t YamlFile::end_of(const Part& part) const {
+  const auto next = static_cast<std::size_t>(&part - parts_.data()) + 1;
+  return next < parts_.size() ? parts_[next].begin : text_.size();
+}
+
+std::string YamlFile::named_by(const YAML::Node& node, const std::string& path) const {
+  return Sources::name_of(path, part(node).name);
+}
+
+Sources& YamlFile::sources(const YAML::Node& node) const {
+  if (sources_ == nullptr)
+    throw InputError(place(node), "a file may be named in a problem, not here");
+  return *sources_;
 }
 
 std::size_t YamlFile::offset(std::size_t line, std::size_t column) const {
@@ -187,7 +232,7 @@ std::size_t YamlFile::offset(const YAML::Mark& mark) const {
 }
 
 Place YamlFile::place(const YAML::Mark& mark) const {
-  if (mark.line < 0) return {file_};
+  if (mark.line < 0) return {file()};
   return place(offset(mark));
 }
 
@@ -200,12 +245,17 @@ int YamlFile::characters_to(std::size_t offset) const {
 Place YamlFile::place(std::size_t offset) const {
   const auto next = std::ranges::upper_bound(line_starts_, offset);
   const std::size_t start = *std::prev(next);
-  return {file_, static_cast<int>(next - line_starts_.begin()),
+  const Part& part = part_at(offset);
+  return {part.file,
+          static_cast<int>(next - line_starts_.begin()) - static_cast<int>(part.first_line),
           1 + characters_to(offset) - characters_to(start)};
 }
 
 Place YamlFile::place(const YAML::Node& node) const {
   const YAML::Mark mark = node.Mark();
+  if (mark.line < 0)
+    for (const auto& [mapping, place] : mappings_)
+      if (mapping.is(node)) return place;
   if (!node.IsNull() || mark.line < 0) return place(mark);
   // The mark of a value that is left out stands at what comes next; show where it is missing.
   std::size_t at = offset(mark);
@@ -234,7 +284,9 @@ std::string YamlFile::string(const YAML::Node& node, const std::string& what) co
 expr::Text YamlFile::scalar(const YAML::Node& node, const std::string& what) const {
   const std::string value = string(node, what);
   const Place start = place(node.Mark());
-  Cursor cursor(text_, offset(node.Mark()), {start.line, start.column});
+  const Part& part = this->part(node);
+  const std::string_view text = std::string_view(text_).substr(0, end_of(part));
+  Cursor cursor(text, offset(node.Mark()), {start.line, start.column});
   // Properties: !!str and &anchor.
   while (cursor.peek() == '!' || cursor.peek() == '&') {
     while (!cursor.at_end() && !is_space(cursor.peek())) cursor.advance();
@@ -271,7 +323,7 @@ expr::Text YamlFile::scalar(const YAML::Node& node, const std::string& what) con
     if (cursor.at_end()) throw InputError(start, what + ": the quotation mark is not closed");
   }
   positions.push_back(cursor.position());
-  return {value, file_, std::move(positions)};
+  return {value, part.file, std::move(positions)};
 }
 
 expr::Expression YamlFile::expression(const YAML::Node& node, const std::string& what) const {

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "expr/ast.h"
@@ -16,15 +17,30 @@
 
 namespace gainsmith::io {
 
-/// A parsed file. InputError with the place for bytes that are no text in UTF-8, a YAML error, an
-/// empty file or several documents.
+class Sources;
+
+/// A parsed file, with those that it is `like` (variant_yaml.h).
 class YamlFile {
  public:
-  YamlFile(std::string text, std::string file);
+  /// InputError with the place for bytes that are no text in UTF-8, a YAML error, an empty file or
+  /// several documents. `sources`: of a problem, which may name files; it must outlive this.
+  YamlFile(std::string text, std::string file, Sources* sources = nullptr);
 
   const YAML::Node& root() const { return root_; }
   const std::string& text() const { return text_; }
-  const std::string& file() const { return file_; }
+  const std::string& file() const { return parts_.front().file; }
+
+  /// The root of another file, whose nodes have places in that file. `name`: of it in the sources.
+  YAML::Node add(std::string text, const std::string& file, const std::string& name);
+  /// A mapping of entries that stand in several files; `place` is its own.
+  YAML::Node mapping(const std::vector<std::pair<YAML::Node, YAML::Node>>& entries,
+                     const Place& place);
+  /// The file that the node stands in.
+  const std::string& file(const YAML::Node& node) const { return part(node).file; }
+  /// The name in the sources of the file `path` that the node names.
+  std::string named_by(const YAML::Node& node, const std::string& path) const;
+  /// InputError at the node when no file can be named here.
+  Sources& sources(const YAML::Node& node) const;
 
   /// Where a node starts; just behind its key when it is left out.
   Place place(const YAML::Node& node) const;
@@ -38,6 +54,17 @@ class YamlFile {
   double positive(const YAML::Node& node, const std::string& what) const;
 
  private:
+  /// A file within the text of all: after the first one they follow each other, from new lines on.
+  struct Part {
+    std::string file;
+    std::string name;
+    std::size_t first_line = 0;
+    std::size_t begin = 0;  ///< byte
+  };
+
+  const Part& part(const YAML::Node& node) const;
+  const Part& part_at(std::size_t offset) const;
+  std::size_t end_of(const Part& part) const;
   /// yaml-cpp counts lines and columns from 0, and columns in bytes.
   std::size_t offset(const YAML::Mark& mark) const;
   std::size_t offset(std::size_t line, std::size_t column) const;
@@ -51,9 +78,11 @@ class YamlFile {
   static constexpr std::size_t kStep = 256;
 
   std::string text_;
-  std::string file_;
+  std::vector<Part> parts_;
   std::vector<std::size_t> line_starts_;
   std::vector<int> characters_;  ///< before each kStep-th byte
+  std::vector<std::pair<YAML::Node, Place>> mappings_;
+  Sources* sources_;
   YAML::Node root_;
 };
 

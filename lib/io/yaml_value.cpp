@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "expr/parser.h"
+#include "io/data_file_yaml.h"
 #include "io/text_composer.h"
 #include "io/yaml.h"
 
@@ -11,10 +12,12 @@ namespace gainsmith::io {
 
 namespace {
 
-/// A list of matrices is one of lists of rows.
+/// A list of matrices is one of lists of rows, or of files.
 bool is_list_of_matrices(const YAML::Node& node) {
   for (const auto& element : node)
-    if (element.IsSequence() && element.size() > 0 && element[0].IsSequence()) return true;
+    if (names_file(element) ||
+        (element.IsSequence() && element.size() > 0 && element[0].IsSequence()))
+      return true;
   return false;
 }
 
@@ -43,11 +46,12 @@ std::string counted(std::size_t elements) {
 /// `between`: the numbers of a list.
 model::Value matrix(const YamlFile& file, const YamlItem& item, const char* between) {
   const YAML::Node& node = item.value;
+  if (names_file(node)) return matrix_of_file(file, item);
   if (!node.IsSequence())
     return {item.key, file.expression(node, item.key), false, file.place(node)};
   if (node.size() == 0) throw InputError(file.place(node), item.key + ": the list is empty");
   const bool flat = !node[0].IsSequence();
-  TextComposer composer(file.file());
+  TextComposer composer(file.file(node));
   composer.punctuation("[", file.place(node));
   std::size_t width = 0;
   for (std::size_t i = 0; i < node.size(); ++i) {

@@ -62,9 +62,9 @@ class Rules {
     const auto times = [&](const AffineForm& a, const AffineForm& b) {
       AffineForm both = product(a, b, form.shape, by);
       if (both.terms.size() <= kMostFunctions) return both;
-      throw expr::EvaluationError("the power expands to more than " +
-                                  std::to_string(kMostFunctions) +
-                                  " functions of the 'forall' variables; use synthesis: {forall: exchange}");
+      throw expr::EvaluationError(
+          "the power expands to more than " + std::to_string(kMostFunctions) +
+          " functions of the 'forall' variables; use synthesis: {forall: exchange}");
     };
     AffineForm result = constant_form(one);
     AffineForm square = form;
@@ -136,11 +136,22 @@ class Rules {
     return result;
   }
 
+  /// What says nearly the same and is affine.
+  static std::string affine_form_of(expr::Op op) {
+    if (op == expr::Op::eigenvalues)
+      return "; for a symmetric P all eigenvalues are below 3 where P < 3*I, and above 1 where P > "
+             "I";
+    if (op == expr::Op::inverse)
+      return "; by a Schur complement A - B*inv(C)*B' > 0 with C > 0 is [A, B; *, C] > 0";
+    return "";
+  }
+
   [[noreturn]] void refuse(expr::Op op, const AffineForm& form) const {
     int which = 0;
     if (form.has_unknown(&which))
       throw expr::EvaluationError("not affine in the unknowns: the " + to_string(op) +
-                                  " depends on " + unknowns_.scalar_name(which));
+                                  " depends on " + unknowns_.scalar_name(which) +
+                                  affine_form_of(op));
     throw expr::EvaluationError(
         "the " + to_string(op) +
         " of a function of a 'forall' variable: 'hull' takes sums and products of powers, "

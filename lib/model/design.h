@@ -29,6 +29,7 @@
 #include "model/dynamics.h"
 #include "model/figure.h"
 #include "model/formula.h"
+#include "model/stated_file.h"
 #include "model/words.h"
 
 namespace gainsmith::bind {
@@ -46,6 +47,8 @@ struct Statement {
   std::string problem_file;  ///< its name only, no folders of the machine
   std::string problem_text;
   std::string hash;  ///< statement_hash
+  std::vector<Setting> settings{};    ///< of the command line
+  std::vector<StatedFile> files{};    ///< what the problem reads besides its text
 };
 
 /// A scalar and the range in which it is looked for.

@@ -35,7 +35,20 @@ std::string limits_of(const CertificateRecord& certificate) {
 }
 
 std::string statement_hash(const Statement& statement) {
-  return sha256(statement.method_text + '\0' + statement.problem_text);
+  std::string text = statement.method_text + '\0' + statement.problem_text;
+  const auto add = [&](const std::string& part) { (text += '\0') += part; };
+  for (const Setting& setting : statement.settings)
+    for (const std::string& part : {std::string("set"), setting.name, setting.value}) add(part);
+  for (const StatedFile& file : statement.files) {
+    for (const std::string& part : {std::string("file"), file.name, file.sha256, file.text})
+      add(part);
+    for (const StatedMatrix& matrix : file.matrices) {
+      add(matrix.key);
+      add(matrix.flat ? "list" : std::to_string(matrix.rows) + " x " + std::to_string(matrix.cols));
+      for (const std::string& element : matrix.elements) add(element);
+    }
+  }
+  return sha256(text);
 }
 
 std::string coefficient_key(const std::string& gain, std::size_t k) {

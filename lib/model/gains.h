@@ -27,7 +27,8 @@ struct Margin {
   double required = 0;             ///< wished for
   double smallest_eigenvalue = 0;  ///< of M, in the data's units
   std::string worst_point;         ///< "tau = 0"; empty without forall
-  bool holds = false;
+  bool holds = false;              ///< shown
+  bool fails = false;              ///< shown; neither: not shown
 };
 
 /// A bound on a gain, so that an infimum that is not attained gives finite gains.
@@ -44,7 +45,7 @@ struct CertificateRecord {
   bool exact =
       false;  ///< no solution, shown; otherwise none survives a relative change of that size
   double backward_error = 1;  ///< rounded upward
-  int digits = 0;      ///< of the arithmetic that it was checked in
+  int digits = 0;             ///< of the arithmetic that it was checked in
   /// One multiplier matrix for each inequality and point, and for the bounds on gains that it
   /// needs: its name and the matrix.
   NamedMatrices multipliers;
@@ -58,6 +59,14 @@ struct CertificateRecord {
 /// What is added to "excluded": "", " for the hull only", " for the vertex test only".
 std::string limits_of(const CertificateRecord& certificate);
 
+/// The multiplier of an inequality at a point of its domain, or of a bound on gains, at a minimum:
+/// adding t*I to its larger side there lowers the minimum by at most `trace` times t.
+struct Multiplier {
+  std::string name;   ///< of the comparison, or "bound on inv(P)*Y"
+  std::string point;  ///< as that of a margin
+  double trace = 0;
+};
+
 struct SolverRecord {
   std::string status;  ///< optimal, infeasible, undecided
   std::string cause;
@@ -68,6 +77,7 @@ struct SolverRecord {
   double dual_infeasibility = 0;
   std::string precision;
   bool out_of_allowance = false;  ///< more work might decide (base/stop.h)
+  bool unbounded = false;         ///< the solver finds the objective unbounded below
 
   void add_message(const std::string& text) { message += (message.empty() ? "" : "; ") + text; }
 };
@@ -98,7 +108,8 @@ struct SearchRecord {
   std::optional<RefinementRecord> joint_refinement;
 };
 
-/// sha256 of the method's text, a zero byte and the problem's text.
+/// sha256 of the method's text, a zero byte and the problem's text; where there are settings or
+/// files, their parts follow, each behind a zero byte (docs/gain-file.md).
 std::string statement_hash(const Statement& statement);
 
 /// A gain that is a function of a scalar.
@@ -146,12 +157,15 @@ struct Gains {
   /// Gains beyond the gain bound were found, of this size, and none within it.
   std::optional<double> bound_only;
   std::optional<double> objective_lower_bound;  ///< of the problem without margins, by weak duality
+  std::vector<Multiplier> multipliers;          ///< of a minimum; a gain file does not keep them
   NamedMatrices gains;                          ///< constant ones
   std::vector<GainFunction> gain_functions;     ///< the others
   NamedMatrices unknowns;
   /// How unknown functions follow from `unknowns`.
   std::vector<StatedFunction> functions;
   NamedMatrices report;  ///< what the method asks to be shown
+  /// The reports that have no value at these gains, each with the reason.
+  std::map<std::string, std::string> not_computed;
   /// The reports whose rows are the real and imaginary parts of eigenvalues. A gain file does not
   /// keep that.
   std::set<std::string, std::less<>> eigenvalues;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/number.h"
+#include "model/names.h"
 #include "model/structure.h"
 
 namespace gainsmith::model {
@@ -89,6 +90,21 @@ bool has_values(const expr::Program& program, const numbers::Values& values,
 
 double scalar_value(const Formula& formula, const numbers::Values& values) {
   return numbers::evaluate(formula.program, values)(0, 0);
+}
+
+std::optional<double> scalar_named(const Instance& instance, const std::string& name) {
+  const auto found = instance.values.find(name);
+  if (found != instance.values.end()) return found->second(0, 0);
+  return instance.design->synthesis.gain_bound;
+}
+
+void override_gain_bound(Design& design, const Overrides& overrides,
+                         const numbers::Values& values) {
+  const auto bound = overrides.find(kGainBound);
+  if (bound == overrides.end() || values.contains(kGainBound)) return;
+  if (!(bound->second > 0))
+    throw InputError({design.file}, std::string(kGainBound) + ": expected a positive number");
+  design.synthesis.set_gain_bound(bound->second);
 }
 
 std::pair<double, double> ends_of(const Range& range, const numbers::Values& values) {

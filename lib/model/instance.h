@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -65,6 +66,13 @@ bool has_values(const expr::Program& program, const numbers::Values& values,
 
 /// The value of a 1 x 1 formula.
 double scalar_value(const Formula& formula, const numbers::Values& values);
+
+/// The value of a scalar datum or parameter, or of the bound on the gains (kGainBound); none where
+/// gains have no bound.
+std::optional<double> scalar_named(const Instance& instance, const std::string& name);
+
+/// Sets the bound on the gains where `overrides` has one and no scalar of `values` is meant.
+void override_gain_bound(Design& design, const Overrides& overrides, const numbers::Values& values);
 
 /// The ends of a range as numbers. InputError at its place unless low < high and both are finite.
 std::pair<double, double> ends_of(const Range& range, const numbers::Values& values);

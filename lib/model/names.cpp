@@ -217,6 +217,7 @@ void check_scalar_name(const std::string& method, const std::vector<std::string>
   if (const auto matrix = shapes.find(name); matrix != shapes.end())
     throw InputError(place, "'" + name + "' is a matrix (" + matrix->second +
                                 "); expected a scalar datum or parameter");
+  if (name == kGainBound) return;
   throw InputError(place, "the method " + method + " has no scalar datum or parameter '" + name +
                               "'" + suggestion(name, scalars));
 }

@@ -16,8 +16,12 @@ void check_names(const Method& method);
 /// Whether the name is `owner` with numbers: "P_1", "P_1_0" of P.
 bool is_numbered(const std::string& name, const std::string& owner);
 
-/// InputError at `place` when `name` is none of the method's scalars, with the nearest that is.
-/// `shapes`: of all data, as they are declared.
+/// The bound on the gains, `synthesis.gain_bound`: it is searched and overridden like a scalar of
+/// the method, unless one has this name.
+inline constexpr const char* kGainBound = "gain_bound";
+
+/// InputError at `place` when `name` is none of the method's scalars and not kGainBound, with the
+/// nearest that is. `shapes`: of all data, as they are declared.
 void check_scalar_name(const std::string& method, const std::vector<std::string>& scalars,
                        const std::map<std::string, std::string>& shapes, const std::string& name,
                        const Place& place);

@@ -12,6 +12,7 @@
 #include "expr/ast.h"
 #include "model/figure.h"
 #include "model/method.h"
+#include "model/stated_file.h"
 
 namespace gainsmith::model {
 
@@ -119,6 +120,21 @@ struct UncertainText {
   Place place;
 };
 
+/// Units as they are shown: one, or one for each element, column by column.
+struct UnitText {
+  std::string name;
+  std::vector<std::string> units;
+  Place place;
+};
+
+/// What the covariance of the error of an estimate is.
+struct CovarianceText {
+  std::string estimate;
+  std::string covariance;
+  Place place;
+  Place covariance_place;
+};
+
 struct Problem {
   std::string name;
   std::string file;
@@ -139,7 +155,11 @@ struct Problem {
   std::vector<Let> let;             ///< definitions of the problem, beside those of the method
   std::vector<Named> report;        ///< what is shown beside the method's report
   std::vector<UncertainText> uncertain;
+  std::vector<UnitText> units;
+  std::vector<CovarianceText> covariances;
   Questions questions;
+  std::vector<Setting> settings;  ///< of the command line
+  std::vector<StatedFile> files;  ///< what was read besides the text
 };
 
 }  // namespace gainsmith::model

@@ -8,6 +8,7 @@
 
 #include "base/nearest.h"
 #include "expr/compile.h"
+#include "expr/foreign_words.h"
 #include "expr/parser.h"
 #include "numbers/real.h"
 
@@ -96,6 +97,9 @@ ShapeText parse_shape(const expr::Text& text) {
     shape.rows = size(words[1].offset, length);
     return shape;
   }
+  if (const std::size_t bracket = shape.text.find('(');
+      bracket != std::string::npos && !expr::advice_on(shape.text.substr(0, bracket)).empty())
+    throw InputError(shape.place, "'" + shape.text + "' is no shape" + kShapes);
   if (words.size() == 1 && is_glued_product(words[0].text))
     throw InputError(shape.place, "'" + shape.text + "' is one word; a matrix is written " +
                                       spaced_product(words[0].text));

@@ -95,4 +95,10 @@ std::optional<double> SynthesisOptions::share_of_bound(const std::string& gain) 
   return std::nullopt;
 }
 
+void SynthesisOptions::set_gain_bound(double bound) {
+  for (BoundOfGain& one : gain_bounds) one.bound *= bound / gain_bound.value();
+  gain_bound = bound;
+  gain_bound_stated = true;
+}
+
 }  // namespace gainsmith::model

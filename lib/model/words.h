@@ -87,6 +87,8 @@ struct SynthesisOptions {
   std::vector<BoundOfGain> gain_bounds;
   /// The bound of a gain, as a part of `gain_bound`; none where it has none.
   std::optional<double> share_of_bound(const std::string& gain) const;
+  /// States the bound; bounds of single gains keep their ratios, the largest becomes this one.
+  void set_gain_bound(double bound);
   /// Whether the problem states it: one that does not guides the search and decides nothing, since
   /// it is a number in units.
   bool gain_bound_stated = false;

@@ -4,7 +4,11 @@
 #include <Eigen/LU>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <limits>
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "numbers/small_svd.h"
@@ -32,9 +36,21 @@ Matrix Cholesky::solve(const Matrix& B) const {
   return result;
 }
 
+namespace {
+
+/// x 2^exponent: a product, where the factor is a normal number.
+double scale(double x, int exponent) {
+  using Limits = std::numeric_limits<double>;
+  constexpr int bias = Limits::max_exponent - 1;
+  if (std::abs(exponent) >= bias) return std::ldexp(x, exponent);
+  const auto bits = static_cast<std::uint64_t>(bias + exponent) << (Limits::digits - 1);
+  return x * std::bit_cast<double>(bits);
+}
+
+}  // namespace
+
 Matrix exponential(const Matrix& M) {
   if (M.size() == 0) return M;
-  const auto scale = [](double x, int exponent) { return std::ldexp(x, exponent); };
   std::vector<int> units = numerics::balance(M.cwiseAbs());
   const Matrix B = numerics::in_units(M, units, scale);
   const Matrix result = B.exp();

@@ -14,7 +14,8 @@ constexpr Eigen::Index kLargest = 8;
 constexpr int kMostSweeps = 30;
 /// Columns count as orthogonal up to this cosine: the rounding of a product of 8 rows.
 constexpr double kOrthogonal = 8 * std::numeric_limits<double>::epsilon();
-/// Of elements up to 2: the square of this over a gap, or this itself, is less than their rounding.
+/// Of elements up to 2: one moves no eigenvalue by more than rounding when it, or its square over
+/// the gap of its two diagonal elements, is not above this.
 constexpr double kNothing = 0x1p-54;
 
 using Column = std::array<double, kLargest>;
@@ -77,7 +78,8 @@ bool diagonalize(Square& A, std::size_t n) {
     bool rotated = false;
     for (std::size_t p = 0; p < n; ++p)
       for (std::size_t q = p + 1; q < n; ++q) {
-        if (!(std::abs(A[p][q]) > kNothing)) continue;
+        const double gap = std::abs(A[p][p] - A[q][q]);
+        if (!(A[p][q] * A[p][q] > kNothing * std::max(gap, kNothing))) continue;
         rotate(A, p, q, n);
         rotated = true;
       }

@@ -131,6 +131,8 @@ class Tape::Maker {
     for (const Matrix& operand : made->operands) made->pointers.push_back(&operand);
     if (block.instruction.op == expr::Op::jacobian)
       made->jacobian = std::make_unique<JacobianEvaluator<double>>(made->instruction);
+    if (block.instruction.op == expr::Op::flow_map)
+      made->flow_map = std::make_unique<FlowMapEvaluator>(made->instruction);
     Step step{ScalarOp::block, static_cast<std::uint32_t>(tape_.registers_.size()),
               static_cast<std::uint32_t>(tape_.blocks_.size()), 0, 0};
     for (int k = 0; k < block.instruction.shape.size(); ++k)
@@ -181,6 +183,8 @@ bool Tape::run_block(Block& block, double* out) {
     try {
       if (block.jacobian != nullptr) {
         block.out = (*block.jacobian)(block.pointers);
+      } else if (block.flow_map != nullptr) {
+        block.out = (*block.flow_map)(block.pointers);
       } else {
         RealAlgebra{}.apply(block.instruction, block.pointers, block.out);
       }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "numbers/dual.h"
+#include "numbers/flow_map_evaluator.h"
 #include "numbers/scalar_trace.h"
 
 namespace gainsmith::numbers {
@@ -53,6 +54,7 @@ class Tape {
     Matrix out;
     bool is_known = false;  ///< `out` is the value for these operands
     std::unique_ptr<JacobianEvaluator<double>> jacobian;
+    std::unique_ptr<FlowMapEvaluator> flow_map;
   };
 
   class Maker;

@@ -44,6 +44,23 @@ int shared_factor(const Ticks& shown) {
   return 3 * static_cast<int>(std::floor(decade_below(size) / 3.0));
 }
 
+/// "200" or "2x10" with its power.
+Tick multiple_of_power(double share, int digit, int decade) {
+  const Ticks number{digit, digit, 1, decade};
+  if (decade >= -3 && decade < 5) return {share, number.label(digit), {}};
+  const std::string times = digit == 1 ? "10" : std::to_string(digit) + "\xC3\x97" + "10";
+  return {share, times, Ticks().label(decade)};
+}
+
+/// Of a logarithmic axis that holds hardly a decade.
+Axis with_linear_ticks(Axis axis, int most) {
+  const Ticks shown = ticks(std::pow(10, axis.low), std::pow(10, axis.high), most);
+  axis.ticks.clear();
+  for (auto k = shown.first; k <= shown.last; ++k)
+    axis.ticks.push_back({axis.share(shown.value(k)), shown.label(k), {}});
+  return axis;
+}
+
 }  // namespace
 
 void Extent::add(double value) {
@@ -67,6 +84,33 @@ Axis linear_axis(const Extent& values, double margin, int most) {
   for (auto k = shown.first; k <= shown.last; ++k)
     axis.ticks.push_back({axis.share(shown.value(k)), shown.label(k, axis.factor), {}});
   return axis;
+}
+
+Axis close_axis(const Extent& values, bool logarithmic, double margin, int most) {
+  if (!logarithmic || values.empty()) return linear_axis(values, margin, most);
+  constexpr double least_width = 1e-9;  // decades
+  Axis axis;
+  axis.logarithmic = true;
+  const double low = std::log10(values.low), high = std::log10(values.high);
+  double half = (high - low) / 2 * (1 + margin);
+  if (half < least_width) half = 0.1;
+  axis.low = (low + high) / 2 - half;
+  axis.high = (low + high) / 2 + half;
+  const Ticks decades = ticks(axis.low, axis.high, most, 0);
+  constexpr std::int64_t few = 3;
+  if (decades.count() >= few) {
+    for (auto k = decades.first; k <= decades.last; ++k)
+      axis.ticks.push_back(
+          {(decades.value(k) - axis.low) / (axis.high - axis.low), "10", decades.label(k)});
+    return axis;
+  }
+  for (int decade = static_cast<int>(std::floor(axis.low)); decade <= axis.high; ++decade)
+    for (const int digit : {1, 2, 5}) {
+      const double value = Ticks{digit, digit, 1, decade}.value(digit);
+      const double share = axis.share(value);
+      if (share >= 0 && share <= 1) axis.ticks.push_back(multiple_of_power(share, digit, decade));
+    }
+  return axis.ticks.size() < 2 ? with_linear_ticks(axis, most) : axis;
 }
 
 Axis logarithmic_axis(const Extent& values, int most) {

@@ -42,6 +42,10 @@ struct Axis {
 /// labelled with whole numbers. Without values: from 0 to 1.
 Axis linear_axis(const Extent& values, double margin, int most);
 
+/// The same with a logarithmic axis where it is wanted: its ends are those of the values too, not
+/// whole decades. Powers of ten are labelled, or 1, 2 and 5 times them where fewer than three fit.
+Axis close_axis(const Extent& values, bool logarithmic, double margin, int most);
+
 /// Whole decades that hold the positive values, labelled with at most `most` >= 5 powers of ten.
 Axis logarithmic_axis(const Extent& values, int most);
 

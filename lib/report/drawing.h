@@ -3,7 +3,9 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
+#include "report/figure.h"
 #include "report/thinning.h"
 
 namespace gainsmith::report {
@@ -13,11 +15,24 @@ namespace gainsmith::report {
 constexpr double label_size = 12, power_size = 9, panel_title_size = 13, title_size = 15;
 constexpr double bold_widening = 1.1;  ///< of a bold text beside a plain one
 
+/// Of a figure, and what is left free at its sides, below its title and for the name of an axis.
+constexpr double figure_width = 900, figure_margin = 12, right_margin = 24, title_height = 28,
+                 axis_name_width = 18;
+
+/// The first elements of a figure of this height: the picture with its white ground.
+std::string head(const std::string& title, double height);
+/// The title at its top; nothing for an empty one.
+std::string heading(const std::string& title);
+
 /// How a curve looks.
 struct Style {
   int colour = 0;
   bool dashed = false;
   bool short_lines = false;  ///< dashes that fit between many jumps
+  bool beneath = false;      ///< wide and pale, under dashed ones
+  bool limit = false;        ///< thin, in short dashes
+  int turn = 0;              ///< of the dashed ones in a panel: where they agree, each is seen
+  int turns = 1;
 };
 
 /// "#0072b2"
@@ -25,6 +40,15 @@ std::string_view colour_name(int colour);
 
 /// Attributes of its lines.
 std::string stroke(const Style& style);
+
+/// Attributes of a band.
+std::string shade(int colour);
+
+/// How each curve of a panel looks.
+std::vector<Style> styles_of(const Panel& panel);
+
+/// A mark with its middle at a place; nothing for Mark::none.
+std::string mark_at(Mark mark, double x, double y, int colour);
 
 /// Tenths of a pixel as pixels: "12", "12.3".
 std::string pixels(int tenths);

@@ -8,6 +8,7 @@
 #include "report/axis.h"
 #include "report/drawing.h"
 #include "report/legend.h"
+#include "report/marks.h"
 #include "report/panel.h"
 #include "report/text.h"
 
@@ -15,96 +16,138 @@ namespace gainsmith::report {
 
 namespace {
 
-constexpr double figure_width = 900, margin = 12, right_margin = 24;
-constexpr double title_height = 28, axis_name = 18;
-
-void check(const Figure& figure) {
-  for (const Panel& panel : figure.panels)
-    for (const Curve& curve : panel.curves)
-      if (curve.t.size() != curve.value.size())
-        throw std::logic_error(
-            fmt::format("a curve with {} times and {} values", curve.t.size(), curve.value.size()));
+void check(const std::vector<double>& t, std::size_t values) {
+  if (t.size() != values)
+    throw std::logic_error(fmt::format("a curve with {} times and {} values", t.size(), values));
 }
 
-double height_of_panels(std::size_t panels) {
-  constexpr double heights[] = {320, 220, 180, 150};
-  return heights[std::clamp<std::size_t>(panels, 1, 4) - 1];
+void check(const Figure& figure) {
+  for (const Panel& panel : figure.panels) {
+    for (const Curve& curve : panel.curves) check(curve.t, curve.value.size());
+    for (const Band& band : panel.bands) {
+      check(band.t, band.low.size());
+      check(band.t, band.high.size());
+    }
+  }
+}
+
+double height_of(const Panel& panel, std::size_t panels) {
+  constexpr double heights[] = {320, 220, 180, 150}, of_row = 24, of_plane = 440;
+  if (!panel.rows.empty()) return of_row * static_cast<double>(panel.rows.size());
+  return panel.across ? of_plane : heights[std::clamp<std::size_t>(panels, 1, 4) - 1];
+}
+
+bool has_marks(const Panel& panel) {
+  return std::any_of(panel.curves.begin(), panel.curves.end(),
+                     [](const Curve& curve) { return curve.mark != Mark::none; });
 }
 
 /// With fewer ticks where labels of all would not fit side by side.
-Axis time_axis(const Figure& figure, double room) {
-  Extent times;
-  times.whole = false;  // a duration may begin and end at whole numbers
-  for (const Panel& panel : figure.panels)
-    for (const Curve& curve : panel.curves)
-      for (const double t : curve.t)
-        if (Axis().shows(t)) times.add(t);
+Axis axis_below(const Extent& values, bool logarithmic, double margin, double room) {
   for (int most = 10;; --most) {
-    Axis axis = linear_axis(times, 0, most);
+    Axis axis = close_axis(values, logarithmic, margin, most);
     if (most == 5 || static_cast<double>(axis.ticks.size()) * (label_width(axis) + 12) <= room)
       return axis;
   }
 }
 
+/// That of all panels but planes; marks at its ends are whole.
+Axis time_axis(const Figure& figure, double room) {
+  constexpr double margin_of_marks = 0.03;
+  Axis shown;
+  shown.logarithmic = figure.logarithmic;
+  Extent times;
+  times.whole = false;  // a duration may begin and end at whole numbers
+  double margin_at_ends = 0;
+  for (const Panel& panel : figure.panels) {
+    if (panel.across) continue;
+    if (has_marks(panel)) margin_at_ends = margin_of_marks;
+    for (const Curve& curve : panel.curves)
+      for (const double t : curve.t)
+        if (shown.shows(t)) times.add(t);
+    for (const Band& band : panel.bands)
+      for (const double t : band.t)
+        if (shown.shows(t)) times.add(t);
+  }
+  return axis_below(times, figure.logarithmic, margin_at_ends, room);
+}
+
+Axis across_axis(const Panel& plane, double room) {
+  constexpr double margin_of_plane = 0.05;
+  Extent values;
+  for (const Curve& curve : plane.curves)
+    for (std::size_t k = 0; k < curve.t.size(); ++k)
+      if (Axis().shows(curve.t[k]) && Axis().shows(curve.value[k])) values.add(curve.t[k]);
+  return axis_below(values, false, margin_of_plane, room);
+}
+
+/// With the bands, as far as they do not make the curves small.
+Extent with_bands(const Panel& panel, const Axis& shown, const Extent& curves) {
+  Extent all = curves;
+  for (const Band& band : panel.bands)
+    for (const std::vector<double>* ends : {&band.low, &band.high})
+      for (const double value : *ends)
+        if (shown.shows(value)) all.add(value);
+  const double extent = curves.high - curves.low;
+  if (curves.empty() || panel.logarithmic || !(extent > 0)) return all;
+  all.low = std::max(all.low, curves.low - extent);
+  all.high = std::min(all.high, curves.high + extent);
+  return all;
+}
+
 Axis value_axis(const Panel& panel, double height) {
+  if (!panel.rows.empty()) return axis_of_rows(panel.rows);
   Axis shown;
   shown.logarithmic = panel.logarithmic;
   Extent values;
   for (const Curve& curve : panel.curves)
     for (std::size_t k = 0; k < curve.value.size(); ++k)
       if (shown.shows(curve.value[k]) && Axis().shows(curve.t[k])) values.add(curve.value[k]);
+  if (!panel.bands.empty()) values = with_bands(panel, shown, values);
   const int most = std::clamp(static_cast<int>(height / 22), 5, 10);
   return panel.logarithmic ? logarithmic_axis(values, most) : linear_axis(values, 0.1, most);
-}
-
-std::string head(const Figure& figure, double height) {
-  return fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} "
-      "{1}\" "
-      "font-family=\"Helvetica, Arial, 'Liberation Sans', 'DejaVu Sans', sans-serif\" "
-      "font-size=\"{2}\" "
-      "fill=\"#202020\" role=\"img\" aria-label=\"{3}\">\n"
-      "<rect width=\"{0}\" height=\"{1}\" fill=\"white\"/>\n",
-      figure_width, pixels(height), label_size, escaped(figure.title));
 }
 
 }  // namespace
 
 std::string svg(const Figure& figure) {
   check(figure);
-  const double height = height_of_panels(figure.panels.size());
+  const auto planes = static_cast<std::size_t>(
+      std::count_if(figure.panels.begin(), figure.panels.end(),
+                    [](const Panel& panel) { return panel.across || !panel.rows.empty(); }));
   std::vector<Axis> values;
+  std::vector<double> heights;
   double beside = 30;
   bool named = false;
   for (const Panel& panel : figure.panels) {
-    values.push_back(value_axis(panel, height));
+    heights.push_back(height_of(panel, figure.panels.size() - planes));
+    values.push_back(value_axis(panel, heights.back()));
     beside = std::max(beside, label_width(values.back()));
     named = named || !panel.axis.empty();
   }
-  Box box{margin + beside + (named ? axis_name : 0), margin, 0, height};
+  Box box{figure_margin + beside + (named ? axis_name_width : 0), figure_margin, 0, 0};
   box.width = figure_width - right_margin - box.left;
   const Axis time = time_axis(figure, box.width);
 
-  std::string text;
-  double y = margin;
-  if (!figure.title.empty()) {
-    text += text_at(margin, y + title_size,
-                    shortened(figure.title, bold_widening * title_size, figure_width - 2 * margin),
-                    fmt::format(R"( font-size="{}" font-weight="bold")", title_size));
-    y += title_height;
-  }
+  std::string text = heading(figure.title);
+  double y = figure_margin + (figure.title.empty() ? 0 : title_height);
   for (std::size_t k = 0; k < figure.panels.size(); ++k) {
-    const Legend above = legend(figure.panels[k], box.width);
+    const Panel& panel = figure.panels[k];
+    const Axis below = panel.across ? across_axis(panel, box.width) : time;
+    const Legend above = legend(panel, box.width);
     text += drawn(above, box.left, y);
     box.top = y + above.height;
-    text += drawn(figure.panels[k], time, values[k], box);
-    y = box.bottom() + margin;
+    box.height = heights[k];
+    text += drawn(panel, below, values[k], box);
+    if (!panel.across) text += marks(figure.marks, time, box);
+    y = box.bottom() + figure_margin;
+    const bool last = k + 1 == figure.panels.size();
+    if (!panel.across && !last && !figure.panels[k + 1].across) continue;
+    const std::string& name = panel.across ? *panel.across : figure.axis;
+    text += drawn_below(below, name, box);
+    y = box.bottom() + (name.empty() && below.factor == 0 ? 26 : 46);
   }
-  if (!figure.panels.empty()) {
-    text += drawn_below(time, figure.axis, box);
-    y = box.bottom() + (figure.axis.empty() && time.factor == 0 ? 26 : 46);
-  }
-  return head(figure, y) + text + "</svg>\n";
+  return head(figure.title, y) + text + "</svg>\n";
 }
 
 }  // namespace gainsmith::report

@@ -1,11 +1,16 @@
-// Figures of signals over hybrid time, as SVG pictures that stand alone or inside of a page.
+// Figures of signals over hybrid time, over a scalar, and in planes, as SVG pictures that stand alone or
+// inside of a page.
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
 namespace gainsmith::report {
+
+/// What stands at each sample.
+enum class Mark { none, dot, ring, cross, triangle };
 
 /// A signal: value[k] at the time t[k]. The times do not decrease. From sample k to k + 1 leads a
 /// flow, drawn as a line, or a jump, drawn as a thin dotted vertical.
@@ -17,6 +22,18 @@ struct Curve {
   bool dashed = false;             ///< an estimate, in the colour of what it estimates
   int colour =
       0;  ///< 0 to 7: blue, vermilion, green, purple, orange, sky blue, black, grey; they repeat
+  Mark mark = Mark::none;
+  bool joined = true;  ///< false: marks alone, without lines between the samples
+  bool limit = false;  ///< what the curve of its colour must not pass: thin, in short dashes
+};
+
+/// What lies between two signals of the same times, such as x - 2 sigma and x + 2 sigma, shaded.
+struct Band {
+  std::string label;
+  std::vector<double> t;
+  std::vector<double> low, high;   ///< what is not finite leaves a gap
+  std::vector<std::size_t> jumps;  ///< as of a curve
+  int colour = 0;
 };
 
 struct Panel {
@@ -24,21 +41,32 @@ struct Panel {
   std::string axis;          ///< beside it: quantity and unit
   bool logarithmic = false;  ///< values that are not positive leave gaps then
   std::vector<Curve> curves;
+  /// Behind the curves. The axis grows for them by the extent of the curves at most; what is beyond
+  /// is cut off.
+  std::vector<Band> bands{};
+  /// Words instead of numbers at the axis, from the top: value k stands in row k.
+  std::vector<std::string> rows{};
+  /// A plane: t of its curves is another quantity of this name, in any order, with an axis of its
+  /// own. A dot stands at the start of each curve, a ring at its end.
+  std::optional<std::string> across{};
 };
 
-/// Panels one above the other with one time axis.
+/// Panels one above the other. Those that are no planes stand first and share one axis.
 struct Figure {
   std::string title;
   std::string axis;  ///< below: the time and its unit
   std::vector<Panel> panels;
+  std::vector<double> marks{};  ///< moments with a tick in each panel; they do not decrease
+  bool logarithmic = false;  ///< the axis below
 };
 
 /// The figure, 900 wide and as high as its panels need, in colours that colour-blind people tell
 /// apart (Okabe and Ito), on white. All texts are UTF-8 and become well-formed XML, whatever they
 /// hold. The same figure gives the same bytes. Curves are drawn to a tenth of a pixel: of dense
 /// ones each column of pixels shows the first, least, greatest and last value, a few thousand
-/// points in all. No ids and no style sheets, so that several figures fit in one page.
-/// std::logic_error for a curve with as many values as times not.
+/// points in all. Where estimates agree with the only curve that is none, it shows below them
+/// as a wider line, and dashes of several take turns. No ids and no style sheets, so that several figures fit in one page.
+/// std::logic_error for a curve or band with as many values as times not.
 std::string svg(const Figure& figure);
 
 }  // namespace gainsmith::report

@@ -17,6 +17,18 @@ double width_of(const LegendEntry& entry) {
   return sample_width + to_label + text_width(entry.label, label_size);
 }
 
+/// What the entry looks like on the panel.
+std::string sample_of(const LegendEntry& entry, double x, double y) {
+  if (entry.curve == nullptr)
+    return fmt::format("<rect x=\"{}\" y=\"{}\" width=\"{}\" height=\"10\" {}/>\n", pixels(x),
+                       pixels(y - 5), pixels(sample_width), shade(entry.style.colour));
+  std::string text;
+  if (entry.curve->joined)
+    text += fmt::format("<path {} d=\"M{},{}h{}\"/>\n", stroke(entry.style), pixels(x), pixels(y),
+                        pixels(sample_width));
+  return text + mark_at(entry.curve->mark, x + sample_width / 2, y, entry.curve->colour);
+}
+
 /// Entries into rows from left to right; the middle of the first row at y. The last row_height's
 /// middle.
 double fill_rows(double y, double width, std::vector<LegendEntry>& entries) {
@@ -39,12 +51,21 @@ Legend legend(const Panel& panel, double width) {
   Legend made;
   made.title = shortened(panel.title, panel_title_size * bold_widening, width);
   double total = 0;
-  for (const Curve& curve : panel.curves)
-    if (!curve.label.empty()) {
-      const double room = width - sample_width - to_label;
-      made.entries.push_back({0, 0, shortened(curve.label, label_size, room), &curve});
-      total += width_of(made.entries.back()) + to_next;
-    }
+  const auto add = [&](const std::string& label, const Curve* curve, const Style& style) {
+    if (label.empty()) return;
+    const double room = width - sample_width - to_label;
+    made.entries.push_back({0, 0, shortened(label, label_size, room), curve, style});
+    total += width_of(made.entries.back()) + to_next;
+  };
+  const std::vector<Style> styles = styles_of(panel);
+  for (std::size_t k = 0; k < panel.curves.size(); ++k) {
+    Style style = styles[k];
+    style.short_lines = false;
+    style.turn = 0;
+    style.turns = 1;
+    add(panel.curves[k].label, &panel.curves[k], style);
+  }
+  for (const Band& band : panel.bands) add(band.label, nullptr, {band.colour});
   const double beside =
       made.title.empty() ? 0 : text_width(made.title, panel_title_size * bold_widening) + to_next;
   const bool one_row = total - to_next + beside <= width;
@@ -64,9 +85,7 @@ std::string drawn(const Legend& legend, double left, double top) {
                     fmt::format(R"( font-size="{}" font-weight="bold")", panel_title_size));
   for (const LegendEntry& entry : legend.entries) {
     const double x = left + entry.x, y = top + entry.y;
-    text += fmt::format("<path {} d=\"M{},{}h{}\"/>\n",
-                        stroke({entry.curve->colour, entry.curve->dashed, false}), pixels(x),
-                        pixels(y), pixels(sample_width));
+    text += sample_of(entry, x, y);
     text += text_at(x + sample_width + to_label, y + 4, entry.label, "");
   }
   return text;

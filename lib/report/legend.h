@@ -4,15 +4,17 @@
 #include <string>
 #include <vector>
 
+#include "report/drawing.h"
 #include "report/figure.h"
 
 namespace gainsmith::report {
 
 struct LegendEntry {
-  double x = 0;       ///< from the left end of the head
-  double y = 0;       ///< of the middle of its row, from the top of the head
-  std::string label;  ///< shortened to the width where it is longer
-  const Curve* curve = nullptr;
+  double x = 0;                  ///< from the left end of the head
+  double y = 0;                  ///< of the middle of its row, from the top of the head
+  std::string label;             ///< shortened to the width where it is longer
+  const Curve* curve = nullptr;  ///< none: of a band
+  Style style{};
 };
 
 struct Legend {

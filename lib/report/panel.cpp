@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
+#include "report/band.h"
 #include "report/drawing.h"
 #include "report/text.h"
 
@@ -45,6 +47,9 @@ std::string grid(const Axis& time, const Axis& values, const Box& box) {
            pixels(box.width);
   };
   for (const double share : values.between) light += across(share);
+  for (const double share : time.between)
+    light += "M" + pixels(box.left + share * box.width) + "," + pixels(box.top) + "v" +
+             pixels(box.height);
   for (const Tick& tick : values.ticks) strong += across(tick.share);
   for (const Tick& tick : time.ticks)
     strong += "M" + pixels(box.left + tick.share * box.width) + "," + pixels(box.top) + "v" +
@@ -62,14 +67,14 @@ std::string frame(const Box& box) {
       pixels(box.left), pixels(box.top), pixels(box.width), pixels(box.height));
 }
 
-std::string beside(const Panel& panel, const Axis& values, const Box& box) {
+std::string beside(const std::string& quantity, const Axis& values, const Box& box) {
   std::string text;
   for (const Tick& tick : values.ticks)
     text += label_at(box.left - to_labels, box.bottom() - tick.share * box.height + 4, tick, "end");
   if (values.factor != 0)
     text += label_at(box.left - to_labels, box.top - 8, factor_label(values.factor), "end");
-  if (!panel.axis.empty()) {
-    const std::string name = shortened(panel.axis, label_size, box.height + 30);
+  if (!quantity.empty()) {
+    const std::string name = shortened(quantity, label_size, box.height + 30);
     text +=
         text_at(0, 0, name,
                 fmt::format(R"-( text-anchor="middle" transform="translate(20,{}) rotate(-90)")-",
@@ -102,6 +107,32 @@ std::string circles(const std::vector<JumpTrace>& jumps, std::string_view colour
   return fmt::format("<g stroke=\"{}\">\n{}</g>\n", colour, text);
 }
 
+/// A mark at each sample that the axes show.
+std::string marks(const Curve& curve, const Axis& time, const Axis& values, const Box& box) {
+  std::string text;
+  if (curve.mark == Mark::none) return text;
+  for (std::size_t k = 0; k < curve.t.size(); ++k)
+    if (time.shows(curve.t[k]) && values.shows(curve.value[k]))
+      text += mark_at(curve.mark, box.left + time.share(curve.t[k]) * box.width,
+                      box.bottom() - values.share(curve.value[k]) * box.height, curve.colour);
+  return text;
+}
+
+/// Of a curve in a plane: a dot at its start, a ring at its end.
+std::string end_marks(const Curve& curve, const Axis& across, const Axis& values, const Box& box) {
+  Curve both = curve;
+  std::string text;
+  for (const auto& [mark, k] :
+       {std::pair(Mark::dot, std::size_t{0}), std::pair(Mark::ring, curve.t.size() - 1)}) {
+    if (curve.t.empty()) break;
+    both.t = {curve.t[k]};
+    both.value = {curve.value[k]};
+    both.mark = mark;
+    text += marks(both, across, values, box);
+  }
+  return text;
+}
+
 std::string lines(const Trace& trace, const Style& style) {
   std::string jumps, flows, text;
   for (const JumpTrace& jump : trace.jumps) jumps += path({jump.before, jump.after});
@@ -128,24 +159,52 @@ double label_width(const Axis& axis) {
   return widest + to_labels;
 }
 
+Axis axis_of_rows(const std::vector<std::string>& rows) {
+  Axis axis;
+  const auto count = static_cast<double>(rows.size());
+  axis.low = count - 0.5;
+  axis.high = -0.5;
+  for (std::size_t k = 0; k < rows.size(); ++k)
+    axis.ticks.push_back({axis.share(static_cast<double>(k)), rows[k], {}});
+  return axis;
+}
+
+std::string framed(const std::string& name, const Axis& values, const Box& box) {
+  return frame(box) + beside(name, values, box);
+}
+
 std::string drawn(const Panel& panel, const Axis& time, const Axis& values, const Box& box) {
-  std::string text = grid(time, values, box) + frame(box) + beside(panel, values, box);
+  std::string text = grid(time, values, box) + framed(panel.axis, values, box);
+  for (const Band& band : panel.bands) text += drawn(band, time, values, box);
   std::vector<Trace> traces;
-  bool few_jumps = true, anything = false;
+  bool few_jumps = !panel.across, anything = !panel.bands.empty();
   for (const Curve& curve : panel.curves) {
-    traces.push_back(trace(curve, time, values, box));
+    traces.push_back(panel.across ? trace_in_plane(curve, time, values, box)
+                                  : trace(curve, time, values, box));
     few_jumps = few_jumps && curve.jumps.size() <= single_jumps;
     anything = anything || !traces.back().flows.empty() || !traces.back().dots.empty();
   }
   if (!anything)
     return text + text_at(box.left + box.width / 2, box.top + box.height / 2 + 4, "no data",
                           R"( text-anchor="middle" fill="#8a8a8a")");
+  const std::vector<Style> styles = styles_of(panel);
   for (std::size_t k = 0; k < traces.size(); ++k)
-    text += lines(traces[k], {panel.curves[k].colour, panel.curves[k].dashed,
-                              panel.curves[k].jumps.size() > single_jumps});
+    if (panel.curves[k].joined) text += lines(traces[k], styles[k]);
   if (few_jumps)
     for (std::size_t k = 0; k < traces.size(); ++k)
       text += circles(traces[k].jumps, colour_name(panel.curves[k].colour));
+  for (const Curve& curve : panel.curves)
+    text += panel.across ? end_marks(curve, time, values, box) : marks(curve, time, values, box);
+  return text;
+}
+
+std::string drawn_beside(const Axis& scale, const Box& box) {
+  std::string text = frame(box);
+  for (const Tick& tick : scale.ticks)
+    text += label_at(box.right() + to_labels, box.bottom() - tick.share * box.height + 4, tick,
+                     "start");
+  if (scale.factor != 0)
+    text += label_at(box.left, box.top - 8, factor_label(scale.factor), "start");
   return text;
 }
 

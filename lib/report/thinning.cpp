@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -100,6 +102,71 @@ struct Cone {
   }
 };
 
+/// Without those within a distance of the one before, in tenths; the last stays.
+Polyline spaced(const Polyline& line, double distance) {
+  Polyline kept = {line.front()};
+  for (const Point& point : line)
+    if (std::hypot(point.x - kept.back().x, point.y - kept.back().y) >= distance)
+      kept.push_back(point);
+  if (kept.back() != line.back()) kept.push_back(line.back());
+  return kept;
+}
+
+/// Of a point from the stretch between two others.
+double distance_from(const Point& point, const Point& from, const Point& to) {
+  const double dx = to.x - from.x, dy = to.y - from.y, x = point.x - from.x, y = point.y - from.y;
+  const double square = dx * dx + dy * dy;
+  const double share = square > 0 ? std::clamp((x * dx + y * dy) / square, 0.0, 1.0) : 0.0;
+  return std::hypot(x - share * dx, y - share * dy);
+}
+
+/// Without the points that the others show (Douglas and Peucker 1973).
+Polyline without_near(const Polyline& points) {
+  constexpr double tolerance = 2;  // tenths of a pixel
+  std::vector<char> kept(points.size(), 0);
+  kept.front() = kept.back() = 1;
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    std::size_t farthest = first;
+    double greatest = tolerance;
+    for (std::size_t k = first + 1; k < last; ++k) {
+      const double away = distance_from(points[k], points[first], points[last]);
+      if (away > greatest) {
+        greatest = away;
+        farthest = k;
+      }
+    }
+    if (farthest == first) continue;
+    kept[farthest] = 1;
+    open.emplace_back(first, farthest);
+    open.emplace_back(farthest, last);
+  }
+  Polyline left;
+  for (std::size_t k = 0; k < points.size(); ++k)
+    if (kept[k] != 0) left.push_back(points[k]);
+  return left;
+}
+
+/// The steps of a line that are the first from one cell of this width to another.
+std::vector<Polyline> new_ways(const Polyline& line, int cell) {
+  std::set<std::array<int, 4>> seen;
+  std::vector<Polyline> parts;
+  bool open = false;
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const Point &from = line[k - 1], &to = line[k];
+    if (!seen.insert({from.x / cell, from.y / cell, to.x / cell, to.y / cell}).second) {
+      open = false;
+      continue;
+    }
+    if (!open) parts.push_back({from});
+    open = true;
+    parts.back().push_back(to);
+  }
+  return parts;
+}
+
 int sign(int number) { return (number > 0) - (number < 0); }
 
 }  // namespace
@@ -141,6 +208,22 @@ Polyline straightened(const Polyline& line) {
   }
   if (previous != kept.back()) kept.push_back(previous);
   return kept;
+}
+
+std::vector<Polyline> simplified(const Polyline& line) {
+  constexpr std::size_t many = 20000, most = 50000;
+  if (line.empty()) return {};
+  const Polyline points = spaced(line, 10);
+  if (points.size() <= many) return {without_near(points)};
+  std::vector<Polyline> parts;
+  std::size_t count = most + 1;
+  for (int cell = 20; count > most; cell *= 2) {
+    parts = new_ways(points, cell);
+    count = 0;
+    for (const Polyline& part : parts) count += part.size();
+  }
+  for (Polyline& part : parts) part = without_near(part);
+  return parts;
 }
 
 }  // namespace gainsmith::report

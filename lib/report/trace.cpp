@@ -1,8 +1,11 @@
 #include "report/trace.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
+#include <set>
+#include <utility>
 
 namespace gainsmith::report {
 
@@ -43,9 +46,7 @@ class Parts {
   std::optional<Point> last_;
 };
 
-}  // namespace
-
-Trace trace(const Curve& curve, const Axis& time, const Axis& values, const Box& box) {
+Parts parts_of(const Curve& curve, const Axis& time, const Axis& values, const Box& box) {
   const auto place = [&](std::size_t k) -> std::optional<Point> {
     if (!time.shows(curve.t[k]) || !values.shows(curve.value[k])) return std::nullopt;
     const double x = box.left + time.share(curve.t[k]) * box.width;
@@ -58,15 +59,39 @@ Trace trace(const Curve& curve, const Axis& time, const Axis& values, const Box&
     while (jump != curve.jumps.end() && *jump + 1 < k) ++jump;
     parts.add(place(k), jump != curve.jumps.end() && *jump + 1 == k);
   }
+  return parts;
+}
+
+void add(const Polyline& line, Trace& trace) {
+  if (line.size() > 1)
+    trace.flows.push_back(line);
+  else
+    trace.dots.push_back(line.front());
+}
+
+}  // namespace
+
+Trace trace(const Curve& curve, const Axis& time, const Axis& values, const Box& box) {
+  Parts parts = parts_of(curve, time, values, box);
   Trace drawn;
-  for (const Polyline& part : thinned(parts.lines)) {
-    const Polyline line = straightened(part);
-    if (line.size() > 1)
-      drawn.flows.push_back(line);
-    else
-      drawn.dots.push_back(line.front());
-  }
+  for (const Polyline& part : thinned(parts.lines)) add(straightened(part), drawn);
   drawn.jumps = curve.jumps.size() > single_jumps ? joined(parts.jumps) : std::move(parts.jumps);
+  return drawn;
+}
+
+Trace trace_in_plane(const Curve& curve, const Axis& across, const Axis& values, const Box& box) {
+  constexpr std::size_t most_jumps = 2000;
+  const Parts parts = parts_of(curve, across, values, box);
+  Trace drawn;
+  for (const Polyline& line : parts.lines)
+    for (const Polyline& part : simplified(line)) add(part, drawn);
+  std::set<std::array<int, 4>> seen;
+  for (const JumpTrace& jump : parts.jumps) {
+    const auto& [before, after] = jump;
+    if (seen.insert({before.x / 10, before.y / 10, after.x / 10, after.y / 10}).second)
+      drawn.jumps.push_back(jump);
+  }
+  if (drawn.jumps.size() > most_jumps) drawn.jumps.clear();
   return drawn;
 }
 

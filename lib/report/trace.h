@@ -40,4 +40,8 @@ constexpr std::size_t single_jumps = 60;
 /// The curve on a panel that fills the box.
 Trace trace(const Curve& curve, const Axis& time, const Axis& values, const Box& box);
 
+/// The curve in a plane, where t is another quantity. Jumps that begin and end in the same pixels are one;
+/// of more than 2,000 others none is drawn.
+Trace trace_in_plane(const Curve& curve, const Axis& across, const Axis& values, const Box& box);
+
 }  // namespace gainsmith::report

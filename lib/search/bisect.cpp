@@ -36,6 +36,7 @@ class Halving {
     try {
       check_stop();
       answers_[sign() * value] = question_(value);
+      asked_.push_back(sign() * value);
     } catch (const Stopped&) {
       return false;
     }
@@ -111,8 +112,9 @@ class Halving {
   Bisection result(bool finished) const {
     Bisection found;
     found.finished = finished;
-    for (const auto& [outward, answer] : answers_)
-      found.samples.push_back({sign() * outward, answer});
+    for (const double outward : asked_)
+      found.samples.push_back(
+          {sign() * outward, answers_.at(outward), static_cast<int>(found.samples.size())});
     std::sort(found.samples.begin(), found.samples.end(),
               [](const Sample& a, const Sample& b) { return a.value < b.value; });
     const auto yes = outermost_yes();
@@ -131,6 +133,7 @@ class Halving {
   const Axis& axis_;
   const BisectOptions& options_;
   Answers answers_;
+  std::vector<double> asked_;  ///< outward, in order
 };
 
 }  // namespace

@@ -49,6 +49,7 @@ struct BisectOptions {
 struct Sample {
   double value = 0;
   Answer answer = Answer::undecided;
+  int order = 0;  ///< the number of values that were asked before
 };
 
 /// `open` is empty when nothing was asked between `yes` and `no`: they meet within the tolerance if

@@ -15,13 +15,14 @@ using numbers::Matrix;
 
 /// What the kinks of one step share.
 struct Branches::OnStep {
-  explicit OnStep(const StepValues& inside)
-      : points(inside),
-        three{inside.at(inside.from()),
-              inside.at(inside.from() + (inside.to() - inside.from()) / 2),
-              inside.at(inside.to())} {}
+  explicit OnStep(const StepValues& values)
+      : inside(values),
+        three{values.at(values.from()),
+              values.at(values.from() + (values.to() - values.from()) / 2),
+              values.at(values.to())} {}
 
-  StepPoints points;
+  const StepValues& inside;
+  std::vector<double> times;  ///< ode::first_points; none: not asked for yet
   std::array<VectorXd, 3> three;
   std::optional<CrossingsOnStep> crossings;  ///< of one kink
   VectorXd slack;                            ///< of its elements
@@ -96,9 +97,11 @@ std::optional<Branches::Change> Branches::first_change(const StepValues& inside,
 
 std::optional<Branches::Change> Branches::change_of(std::size_t one, Index element, double branch,
                                                     OnStep& on_step) {
-  const std::vector<double>& times = on_step.points.times();
+  const std::vector<double>& times = on_step.times;
   if (!on_step.crossings) {
-    on_step.crossings.emplace(watch_->switches[one], on_step.points);
+    if (times.empty())
+      on_step.times = ode::first_points(on_step.inside.from(), on_step.inside.to());
+    on_step.crossings.emplace(watch_->switches[one], on_step.inside, times);
     on_step.slack = on_step.crossings->noise();
     const auto terms = watch_->switches[one].terms(on_step.three[0]).reshaped();
     if (is_kink(one)) on_step.slack += (relative_ * terms.array() + absolute_ * part_).matrix();

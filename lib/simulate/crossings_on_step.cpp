@@ -24,45 +24,48 @@ constexpr double earliest = 1 / hybrid::kPlain;
 
 }  // namespace
 
-CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& function, StepPoints& points)
-    : function_(function), points_(points), values_(function.size(), 0) {
-  const std::vector<VectorXd>& all = points.values();
-  values_.resize(function.size(), static_cast<Index>(all.size()));
-  for (std::size_t k = 0; k < all.size(); ++k)
-    values_.col(static_cast<Index>(k)) = function(all[k]).reshaped();
-  noise_ = function.terms(all.front()).reshaped();
-  for (const VectorXd* point : {&all[all.size() / 2], &all.back()})
-    noise_ = noise_.cwiseMax(function.terms(*point).reshaped());
+CrossingsOnStep::CrossingsOnStep(hybrid::EventFunction& function, const StepValues& inside,
+                                 const std::vector<double>& times)
+    : function_(function),
+      inside_(inside),
+      times_(times),
+      used_(inside, function.elements()),
+      values_(function.size(), static_cast<Index>(times.size())) {
+  for (std::size_t k = 0; k < times.size(); ++k) {
+    const VectorXd& point = used_.at(times[k]);
+    values_.col(static_cast<Index>(k)) = function(point).reshaped();
+    if (k == 0)
+      noise_ = function.terms(point).reshaped();
+    else if (k == times.size() / 2 || k + 1 == times.size())
+      noise_ = noise_.cwiseMax(function.terms(point).reshaped());
+  }
   noise_ *= hybrid::kTermRounding;
-  const StepValues& inside = points.inside();
   breaks_ = function.breaks()
-                .on([&](double t) { return inside.at(t); }, inside.from(), inside.to())
+                .on([this](double t) -> const VectorXd& { return used_.at(t); }, inside_.from(),
+                    inside_.to())
                 .value_or(std::vector<ode::Break>());
 }
 
 ode::Found CrossingsOnStep::roots(Index element, bool strict, double near) {
-  const StepValues& inside = points_.inside();
   const ode::RootFunction root_function{[&](double t) { return value(element, t); }, strict,
                                         noise_(element),
                                         near * noise_(element) / hybrid::kTermRounding};
-  return ode::find_roots(root_function, inside.from(), inside.to(), breaks_);
+  return ode::find_roots(root_function, inside_.from(), inside_.to(), breaks_);
 }
 
 double CrossingsOnStep::value(Index element, double t) {
-  const std::vector<double>& times = points_.times();
-  const auto known = std::lower_bound(times.begin(), times.end(), t);
-  if (known != times.end() && *known == t) return values_(element, known - times.begin());
-  return function_(points_.inside().at(t))(element);
+  const auto known = std::lower_bound(times_.begin(), times_.end(), t);
+  if (known != times_.end() && *known == t) return values_(element, known - times_.begin());
+  return function_(used_.at(t))(element);
 }
 
 std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
-  const StepValues& inside = points_.inside();
   const double noise = noise_(element);
-  if (!(std::abs(value(element, inside.from())) <= noise) || !breaks_.empty()) return std::nullopt;
+  if (!(std::abs(value(element, inside_.from())) <= noise) || !breaks_.empty()) return std::nullopt;
   const VectorXd& points = ode::chebyshev::points(turn_degree);
   RowVectorXd values(points.size());
   for (Index k = 0; k < points.size(); ++k)
-    values(k) = value(element, ode::chebyshev::outer(points(k), inside.from(), inside.to()));
+    values(k) = value(element, ode::chebyshev::outer(points(k), inside_.from(), inside_.to()));
   if (!(values.cwiseAbs().maxCoeff() > hybrid::kPlain * noise)) return std::nullopt;
   const Matrix c = ode::chebyshev::coefficients(values);
   const Matrix slope = ode::chebyshev::derivative(c);
@@ -81,11 +84,10 @@ std::optional<double> CrossingsOnStep::hidden_turn(Index element) {
 }
 
 std::optional<double> CrossingsOnStep::leaves_zero(Index element) {
-  const StepValues& inside = points_.inside();
-  const auto is_noise = [&](double t) { return function_.is_noise(inside.at(t), element); };
-  double low = inside.from();
+  const auto is_noise = [&](double t) { return function_.is_noise(used_.at(t), element); };
+  double low = inside_.from();
   if (!is_noise(low)) return std::nullopt;
-  for (double high : points_.times()) {
+  for (double high : times_) {
     if (is_noise(high)) {
       low = high;
       continue;

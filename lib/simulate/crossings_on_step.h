@@ -13,8 +13,9 @@ namespace gainsmith::simulate {
 
 class CrossingsOnStep {
  public:
-  /// Both must outlive it.
-  CrossingsOnStep(hybrid::EventFunction& function, StepPoints& points);
+  /// All must outlive it. `times`: ode::first_points of the step.
+  CrossingsOnStep(hybrid::EventFunction& function, const StepValues& inside,
+                  const std::vector<double>& times);
 
   /// `near`: of the terms, as RootFunction::near.
   ode::Found roots(Eigen::Index element, bool strict, double near = 0);
@@ -25,14 +26,16 @@ class CrossingsOnStep {
   std::optional<double> hidden_turn(Eigen::Index element);
   /// Of an element that starts as noise: when it ceases to be.
   std::optional<double> leaves_zero(Eigen::Index element);
-  /// Elements x points.times().
+  /// Elements x times.
   const numbers::Matrix& values() const { return values_; }
   /// Of each element, what its terms may round to.
   const Eigen::VectorXd& noise() const { return noise_; }
 
  private:
   hybrid::EventFunction& function_;
-  StepPoints& points_;
+  const StepValues& inside_;
+  const std::vector<double>& times_;
+  SomeValues used_;
   numbers::Matrix values_;
   Eigen::VectorXd noise_;
   std::vector<ode::Break> breaks_;

@@ -98,10 +98,11 @@ std::vector<double> EventWatch::crossings(
     const StepValues& inside, const VectorXd& values, double near,
     const std::function<void(const hybrid::NearTurn&, bool)>& turn, std::optional<double>* hidden) {
   std::vector<double> result;
-  StepPoints points(inside);
+  std::vector<double> times;
   active_functions(values, [&](hybrid::EventFunction& function, Sides sides, const Role& role) {
     if (function.size() == 0) return;
-    CrossingsOnStep on_step(function, points);
+    if (times.empty()) times = ode::first_points(inside.from(), inside.to());
+    CrossingsOnStep on_step(function, inside, times);
     for (Index element = 0; element < function.size(); ++element) {
       if (hidden != nullptr)
         if (const auto early = on_step.hidden_turn(element); early && early < hidden->value_or(1))

@@ -1,10 +1,10 @@
 #include "simulate/step_values.h"
 
 #include "ode/chebyshev.h"
-#include "ode/roots.h"
 
 namespace gainsmith::simulate {
 
+using Eigen::Index;
 using Eigen::VectorXd;
 
 VectorXd StepValues::at(double t) const {
@@ -16,14 +16,22 @@ VectorXd StepValues::at(double t) const {
   return values;
 }
 
-const std::vector<double>& StepPoints::times() {
-  if (times_.empty()) times_ = ode::first_points(inside_->from(), inside_->to());
-  return times_;
+SomeValues::SomeValues(const StepValues& inside, const std::vector<Index>& elements)
+    : inside_(inside), values_(*inside.start_) {
+  const numbers::Matrix& all = inside.step_->coefficients;
+  for (const Index one : elements)
+    if (one < all.rows()) elements_.push_back(one);
+  coefficients_ = all(elements_, Eigen::all);
+  found_.resize(coefficients_.rows());
 }
 
-const std::vector<VectorXd>& StepPoints::values() {
-  if (values_.empty())
-    for (const double t : times()) values_.push_back(inside_->at(t));
+const VectorXd& SomeValues::at(double t) {
+  if (t == inside_.from()) return values_ = *inside_.start_;
+  ode::chebyshev::at(coefficients_, ode::chebyshev::inner(t, inside_.from(), inside_.to()),
+                     found_.data());
+  for (std::size_t k = 0; k < elements_.size(); ++k)
+    values_(elements_[k]) = found_(static_cast<Index>(k));
+  inside_.field_->fill(t, values_);
   return values_;
 }
 

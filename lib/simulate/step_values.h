@@ -20,24 +20,26 @@ class StepValues {
   double to() const { return step_->to; }
 
  private:
+  friend class SomeValues;
   const VectorField* field_;
   const Eigen::VectorXd* start_;
   const hybrid::DenseStep* step_;
 };
 
-/// The values at the points at which every search for roots begins, made when they are asked for.
-class StepPoints {
+/// Some of them alone: those that a function uses.
+class SomeValues {
  public:
-  explicit StepPoints(const StepValues& inside) : inside_(&inside) {}
+  /// `inside` must outlive it. Elements that are none of the variables rest.
+  SomeValues(const StepValues& inside, const std::vector<Eigen::Index>& elements);
 
-  const StepValues& inside() const { return *inside_; }
-  const std::vector<double>& times();
-  const std::vector<Eigen::VectorXd>& values();
+  /// The values at t, valid until the next call; the other elements are as at any time of the step.
+  const Eigen::VectorXd& at(double t);
 
  private:
-  const StepValues* inside_;
-  std::vector<double> times_;
-  std::vector<Eigen::VectorXd> values_;
+  StepValues inside_;
+  std::vector<Eigen::Index> elements_;
+  numbers::Matrix coefficients_;
+  Eigen::VectorXd found_, values_;
 };
 
 }  // namespace gainsmith::simulate

@@ -127,6 +127,8 @@ class Checker {
     margin.worst_point = worst.point;
     margin.holds = shown || (result_.violations.size() == violations && worst.value >= -rounding &&
                              check(inequality, comparison, margin.name, std::move(proof)));
+    margin.fails =
+        !margin.holds && (worst.value < -rounding || result_.violations.size() > violations);
     // What is below 0 is then rounding: the decimals hold.
     if (margin.holds) {
       margin.reached = std::max(margin.reached, 0.0);

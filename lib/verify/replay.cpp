@@ -1,6 +1,7 @@
 #include "verify/replay.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -9,6 +10,7 @@
 #include "base/number.h"
 #include "claims/run_values.h"
 #include "verify/judge.h"
+#include "verify/tolerances.h"
 
 namespace gainsmith::verify {
 
@@ -69,33 +71,41 @@ class EventTable {
         sources_.back().column.scope = scope(claim);
   }
 
-  void fill(double step, Replay& replay) {
+  void fill(double step, bool with_rounding, Replay& replay) {
     replay.columns = {{"t", "t", "", Column::Kind::time}, {"j", "j", "", Column::Kind::jumps}};
     for (const Source& source : sources_)
       for (int e = 0; e < source.shape.size(); ++e) {
         replay.columns.push_back(source.column);
         replay.columns.back().name = element(source.column.name, source.shape, e);
+        replay.columns.back().element = e;
       }
     std::vector<double> values;
+    std::vector<double> roundings;
     claims::visit(replay.run, step, [&](const claims::Moment& moment) {
       values.push_back(moment.t);
       values.push_back(static_cast<double>(moment.j));
       replay.events.push_back(moment.jump == nullptr ? "" : event_of(*moment.jump));
       for (Source& source : sources_) add_values(source, moment, values);
+      if (with_rounding) add_roundings(moment, values, roundings);
     });
+    const auto rows = static_cast<Index>(replay.events.size());
     const auto columns = static_cast<Index>(replay.columns.size());
-    replay.table =
-        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(
-            values.data(), static_cast<Index>(replay.events.size()), columns);
+    replay.table = Rows::Map(values.data(), rows, columns);
+    if (with_rounding) replay.rounding = Rows::Map(roundings.data(), rows, columns);
   }
 
  private:
+  using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
   ClaimScope scope(const claims::Claim& claim) const {
-    ClaimScope scope{claim.after, claim.over ? name_of(*claim.over) : std::string(), std::nullopt};
-    if (claim.bound)
-      scope.bound = claims::RunValue(*claim.bound, setup_.layout, setup_.system.constants)
-                        .number(Eigen::VectorXd::Zero(setup_.layout.size));
-    return scope;
+    const auto constant =
+        [&](const std::optional<expr::Program>& program) -> std::optional<double> {
+      if (!program) return std::nullopt;
+      return claims::RunValue(*program, setup_.layout, setup_.system.constants)
+          .number(Eigen::VectorXd::Zero(setup_.layout.size));
+    };
+    return {claim.after, claim.over ? name_of(*claim.over) : std::string(), constant(claim.bound),
+            constant(claim.factor)};
   }
 
   /// Whether it has a value.
@@ -125,6 +135,41 @@ class EventTable {
         return {observers_.size() == 1 ? own : name, own, observer, kind};
       }
     return {name, name, "", kind};
+  }
+
+  /// The last of the values are those of the moment.
+  void add_roundings(const claims::Moment& moment, const std::vector<double>& values,
+                     std::vector<double>& roundings) {
+    std::vector<double> higher, lower;
+    for (const double direction : {1.0, -1.0}) {
+      claims::Moment there = moment;
+      move(direction, there.x);
+      hybrid::JumpPoint jump;
+      if (moment.jump != nullptr) {
+        jump = *moment.jump;
+        move(direction, jump.before);
+        there.jump = &jump;
+      }
+      for (Source& source : sources_) add_values(source, there, direction > 0 ? higher : lower);
+    }
+    roundings.insert(roundings.end(), 2, 0.0);  // of t and j
+    std::size_t k = 0;
+    for (const Source& source : sources_)
+      for (int e = 0; e < source.shape.size(); ++e, ++k) {
+        const double value = values[values.size() - higher.size() + k];
+        roundings.push_back(
+            source.offset ? 0 : std::fmin(std::abs(higher[k] - value), std::abs(lower[k] - value)));
+      }
+  }
+
+  /// Each element by another part of kShownPlaces units in the last place, so that differences move too.
+  static void move(double direction, Eigen::VectorXd& x) {
+    constexpr double kMost = kShownPlaces * std::numeric_limits<double>::epsilon() / 2;
+    constexpr double kGolden = 0.6180339887498949;
+    for (Index i = 0; i < x.size(); ++i) {
+      const double turn = kGolden * static_cast<double>(i + 1);
+      x(i) *= 1 + direction * kMost * (2 * (turn - std::floor(turn)) - 1);
+    }
   }
 
   static void add_values(Source& source, const claims::Moment& moment,
@@ -169,23 +214,28 @@ std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const EventSe
 
 }  // namespace
 
-Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
-                  bool judged) {
+Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
+                    bool with_rounding) {
   const EventSetup& events = *setup.events;
   constexpr double kMostPoints = 1e7;
   if (step > 0 && setup.horizon() / step > kMostPoints)
-    throw InputError({}, "a step of " + brief(step) + " makes " +
-                             brief(setup.horizon() / step, 2) + " points of a run of length " +
-                             brief(setup.horizon()) + "; at most 1e7 are written");
+    throw InputError({}, "a step of " + brief(step) + " makes " + brief(setup.horizon() / step, 2) +
+                             " points of a run of length " + brief(setup.horizon()) +
+                             "; at most 1e7 are written");
   Replay result;
   result.run = simulate::Simulator(events.system, events.scenario)
                    .run(seed, run, events.accuracy(kAccuracyOfOne));
-  if (result.run.ending == hybrid::Ending::interrupted) {
-    const Concluding concluding;
-    EventTable(events).fill(step, result);
-    return result;
-  }
-  EventTable(events).fill(step, result);
+  std::optional<Concluding> concluding;
+  if (result.run.ending == hybrid::Ending::interrupted) concluding.emplace();
+  EventTable(events).fill(step, with_rounding, result);
+  return result;
+}
+
+Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
+                  bool judged) {
+  const EventSetup& events = *setup.events;
+  Replay result = table_of_run(setup, seed, run, step);
+  if (result.run.ending == hybrid::Ending::interrupted) return result;
   if (judged) result.faults = faults_of(result.run, events, seed, run);
   if (events.judged.empty()) return result;
   const std::vector<claims::Finding> findings = Judge(setup)(seed, run).findings;

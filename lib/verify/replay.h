@@ -20,9 +20,10 @@ struct ReplayedClaim {
 
 /// Where a claim is made, and what its value must not exceed or fall below.
 struct ClaimScope {
-  double after = 0;             ///< the time from which on
-  std::string over;             ///< the event just after whose jumps alone; empty: everywhere
-  std::optional<double> bound;  ///< of `below` and `above`
+  double after = 0;              ///< the time from which on
+  std::string over;              ///< the event just after whose jumps alone; empty: everywhere
+  std::optional<double> bound;   ///< of `below` and `above`
+  std::optional<double> factor;  ///< of `shrinks`: the bound is that times the first value
 };
 
 /// A quantity along a run: an element of a variable or of a signal, or the value of a claim.
@@ -32,21 +33,31 @@ struct Column {
   std::string observer;  ///< empty: of the plant, of all
   enum class Kind { time, jumps, state, mode, other, signal, claim } kind = Kind::other;
   ClaimScope scope{};  ///< of a claim
+  int element = 0;     ///< of a matrix, column by column
 };
 
 /// Rows: the start, points of each flow and its end, the values after each jump.
 struct Replay {
   hybrid::Trajectory run;
   std::vector<Column> columns;
-  numbers::Matrix table;              ///< not a number where there is none
+  numbers::Matrix table;  ///< not a number where there is none
+  /// Of each cell how far it moves when all variables move by up to kShownPlaces (tolerances.h),
+  /// one way or the other, whichever is less: a value that is not larger is made of rounding. 0 of
+  /// variables. Empty unless it was asked for.
+  numbers::Matrix rounding;
   std::vector<std::string> events;    ///< of each row: the jump that it comes after, or empty
   std::vector<ReplayedClaim> claims;  ///< exactly what the campaign found in this run
   std::vector<judge::Fault> faults;   ///< that the judge of runs found
 };
 
-/// `step`: of the points of flows; 0: as the integration went. `judged`: whether the run is checked
-/// against the texts. After a stop (base/stop.h) the run as far as it came, without claims.
-/// InputError for a step that makes more than 1e7 points.
+/// The run and its table alone. `step`: of the points of flows; 0: as the integration went.
+/// `with_rounding`: what is rounding in each value, for pictures. After a stop (base/stop.h) the run
+/// as far as it came. InputError for a step that makes more than 1e7 points.
+Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
+                    bool with_rounding = false);
+
+/// The same with the claims, which a stop leaves out. `judged`: whether the run is checked against
+/// the texts.
 Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
                   bool judged = false);
 

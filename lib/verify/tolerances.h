@@ -21,6 +21,9 @@ constexpr double kLeastRise = 1e-3;  ///< of the accuracy, of the value | a smal
 constexpr double kBeforeEnd = 1.0/64;  ///< of the last step | the rate of a guard at an event is
         ///< that over this part of the step |
         ///< EventDoubts.AnOrderWithinTheErrorThatMattersIsUncertain
+constexpr double kShownPlaces = 64;  ///< units in the last place | a value that changes by its own
+        ///< size when all variables move by as much is rounding, and not drawn |
+        ///< Replay.KnowsWhatIsRounding
 // clang-format on
 
 }  // namespace gainsmith::verify

@@ -58,6 +58,16 @@ TEST(AdviceTest, NamesThatAShellWouldSplitAreQuoted) {
             "gainsmith explain 'my plant'\\''s.yaml'");
 }
 
+TEST(AdviceTest, TheLimitOfAnInputIsNotAskedForWhereItAlsoHelps) {
+  const auto with = [](const std::string& bound) {
+    return "problem: p\nmethod:\n  method: m\n  data: {limit: scalar}\n  unknowns: {x: scalar}\n"
+           "  require: {a: {forall: \"u in [-limit, limit]\", that: x > u}, c: \"x < " +
+           bound + "\"}\ndata: {limit: 2}\n";
+  };
+  EXPECT_TRUE(commands(with("limit"), Verdict::no).empty());
+  EXPECT_EQ(commands(with("1"), Verdict::no).size(), 1U);
+}
+
 TEST(AdviceTest, WithoutIntervalsANoHasNothingToAsk) {
   const std::string fixed =
       "problem: p\nmethod:\n  method: m\n  data: {b: scalar}\n  unknowns: {x: scalar}\n"

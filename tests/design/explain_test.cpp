@@ -89,13 +89,27 @@ TEST(Explain, AChainAloneCanConflict) {
   EXPECT_NEAR(*found.relaxations[0].alone * found.relaxations[0].scale, 0.5, 1e-4);
 }
 
-TEST(Explain, AFeasibleProblemHasNothingToExplain) {
+/// trace(y) falls by 2 t with y > I - t I; x has nothing to do with it, and c may rise to 1.
+TEST(Explain, AFeasibleProblemSaysWhatLimitsItAndHowFarItsScalarsGo) {
   const YamlProblem feasible(std::string(kGap).replace(kGap.find("{c: 3}"), 6, "{c: 0}"));
   const Explanation found = explain(feasible.instance, {});
   EXPECT_EQ(found.gains.verdict, model::Verdict::yes);
   EXPECT_FALSE(found.conflict);
   EXPECT_TRUE(found.relaxations.empty());
-  EXPECT_TRUE(found.reaches.empty());
+  ASSERT_TRUE(found.limits);
+  ASSERT_EQ(found.limits->active.size(), 1U);
+  EXPECT_EQ(found.limits->active[0].name, "other");
+  EXPECT_NEAR(found.limits->active[0].price, 2, 1e-5);
+  EXPECT_EQ(found.limits->inactive, (std::vector<std::string>{"floor", "middle", "ceiling"}));
+  ASSERT_GE(found.reaches.size(), 2U);
+  EXPECT_TRUE(found.reaches[0].at_most);
+  EXPECT_NEAR(*found.reaches[0].feasible, 1, 1e-3);
+  EXPECT_LE(*found.reaches[0].feasible, 1);
+  ASSERT_TRUE(found.reaches[0].conflict);
+  EXPECT_EQ(found.reaches[0].conflict->names, (std::vector<std::string>{"floor", "ceiling"}));
+  EXPECT_FALSE(found.reaches[1].at_most);
+  EXPECT_EQ(found.reaches[1].feasible, -2);
+  EXPECT_FALSE(found.reaches[1].conflict);
 }
 
 /// A solve that decides nothing does not make the gain bound the conflict.

@@ -53,12 +53,15 @@ def check(text):
 
 
 def transcripts(page):
-    """What a page shows of a shell, as pairs of a command and the lines that it prints, and the problems that it shows."""
+    """What a page shows of a shell, as pairs of a command and the lines that it prints, and the files that it shows: problems, and C with
+    its name in the first line."""
     problems = {}
     found = []
-    for fenced, indented in re.findall(r"```yaml\n(.*?)```|((?:^    [^\n]*\n)+)", read(page), re.M | re.S):
+    for fenced, indented in re.findall(r"```(?:yaml|c)\n(.*?)```|((?:^    [^\n]*\n)+)", read(page), re.M | re.S):
         if fenced.startswith("problem:"):
             problems[fenced.splitlines()[0].split()[-1].split("/")[-1] + ".yaml"] = fenced
+        elif fenced.startswith("/* "):
+            problems[fenced.split()[1]] = fenced
         lines = [line[4:].rstrip() for line in indented.splitlines()]
         for line in lines if indented.startswith("    $ ") else []:
             if line.startswith("$ "):

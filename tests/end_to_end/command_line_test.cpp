@@ -10,7 +10,7 @@ namespace {
 
 TEST(CommandLineTest, HelpHasExamplesForEverySubcommand) {
   for (const char* command : {"synth", "bisect", "scan", "optimize", "explain", "verify",
-                              "simulate", "solve", "check", "run", "methods", "init"}) {
+                              "simulate", "solve", "check", "run", "report", "methods", "init"}) {
     const Outcome outcome = gainsmith({command, "--help"});
     EXPECT_EQ(outcome.exit, 0) << command;
     EXPECT_NE(outcome.out.find("Example"), std::string::npos) << command;

@@ -243,15 +243,6 @@ TEST(FirstSteps, KeysAtTheWrongLevelAreToldWhereTheyBelong) {
                   "it belongs to the problem, beside 'method'"));
 }
 
-TEST(FirstSteps, APictureIsSvgByItsName) {
-  const Folder folder;
-  const Outcome outcome = gainsmith(
-      {"simulate", folder.file("p.yaml", kDecay), "--plot", folder.path("run.png")});
-  EXPECT_EQ(outcome.exit, 2);
-  EXPECT_TRUE(has(outcome.err, "expected a name that ends with '.svg'")) << outcome.err;
-  EXPECT_FALSE(std::filesystem::exists(folder.path("run.png")));
-}
-
 TEST(FirstSteps, FoldersOfOutputsAreMade) {
   const Folder folder;
   const std::string file = folder.file("p.yaml", kDecay);

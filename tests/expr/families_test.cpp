@@ -14,11 +14,15 @@ class Families : public testing::Test {
  protected:
   Families() {
     std::mt19937 random(5);
-    for (const char* name : {"A_1", "A_2", "A_3"}) world.set(name, random_matrix(random, 2, 2));
+    for (const char* name : {"A_1", "A_2", "A_3"}) world.set(name, eighths(random, 2, 2));
     for (const char* name : {"B_0_4", "B_0_5", "B_1_4", "B_1_5"})
-      world.set(name, random_matrix(random, 2, 3));
+      world.set(name, eighths(random, 2, 3));
     world.scope.families = {{"A", {{1, 3}}}, {"B", {{0, 1}, {4, 5}}}};
     world.scope.dimensions = {{"N", 3}};
+  }
+  /// Random, and with products that double holds exactly.
+  static Matrix eighths(std::mt19937& random, Eigen::Index rows, Eigen::Index columns) {
+    return (8 * random_matrix(random, rows, columns)).array().round() / 8;
   }
   Matrix A(int i) const { return world.values.at("A_" + std::to_string(i)); }
   std::string message(const std::string& text) const {

@@ -5,6 +5,7 @@
 #include <random>
 #include <string>
 
+#include "expr/derivative.h"
 #include "expr/world.h"
 #include "support/input_error.h"
 
@@ -125,6 +126,66 @@ TEST_F(Jacobians, BasesOfWhatVariesAreNotKnownBeforehand) {
   world.define("k(M)", "jacobian(orth(M), M)");
   EXPECT_NE(input_error([&] { compile("k(A)"); }).message().find("must not depend on 'M of"),
             std::string::npos);
+}
+
+/// with_derivatives(): no jacobian is left, and the value is the same.
+TEST_F(Jacobians, AreFormulasWhereThereAreRules) {
+  std::mt19937 random(11);
+  world.set("w", random_matrix(random, 2, 1) + Matrix::Constant(2, 1, 2));
+  world.set("B", random_matrix(random, 2, 2) + 3 * Matrix::Identity(2, 2));
+  for (const std::string text : {"f(xh)",
+                                 "P*f(xh)",
+                                 "xh'*P*xh",
+                                 "P(2, :)*xh",
+                                 "[xh, 2*P*xh]'",
+                                 "s*xh + P*xh/3",
+                                 "P/(1 + xh'*xh)",
+                                 "xh/xh(1)",
+                                 "xh./(w + xh)",
+                                 "2./(w + xh)",
+                                 "xh.^3",
+                                 "xh.^0 + xh.^1",
+                                 "xh(1)^2*xh(2)",
+                                 "(w + xh).^1.5",
+                                 "inv(B + diag(xh))*f(xh)",
+                                 "inv(2 + xh(2))",
+                                 "exp(xh) + log(w + xh)",
+                                 "sqrt(w + xh).*sin(xh) - cos(3*xh)",
+                                 "tanh(xh)",
+                                 "atan2(xh, w)",
+                                 "atan2(w, xh)",
+                                 "atan2(xh(1), xh(2))",
+                                 "trace(diag(xh)*P)",
+                                 "diag(xh*xh')",
+                                 "-xh'",
+                                 "xh(2)*eye(2)",
+                                 "sum(xh)*ones(2, 1)",
+                                 "[xh(1), 0; 1, xh(2)]*[xh(2); 3]",
+                                 "tan(xh(1))"}) {
+    const Program program = compile("jacobian(" + text + ", xh)");
+    ASSERT_NE(jacobian_in(program), nullptr) << text;
+    const Program formulas = with_derivatives(program);
+    EXPECT_EQ(jacobian_in(formulas), nullptr) << text;
+    EXPECT_LT(
+        relative_difference(evaluate(formulas, world.values), evaluate(program, world.values)),
+        1e-14)
+        << text;
+  }
+  const Program of_matrix = compile("He(jacobian(inv(B)*xh, B)*kron(xh, eye(2)))");
+  EXPECT_EQ(jacobian_in(with_derivatives(of_matrix)), nullptr);
+  EXPECT_LT(relative_difference(evaluate(with_derivatives(of_matrix), world.values),
+                                evaluate(of_matrix, world.values)),
+            1e-14);
+}
+
+TEST_F(Jacobians, StayWhereThereAreNone) {
+  for (const std::string text : {"abs(xh)", "max(xh, s)", "expm(s*xh*xh')", "norm(xh)", "2.^xh"}) {
+    const Program formulas = with_derivatives(compile("2*jacobian(sin(" + text + "), xh)"));
+    EXPECT_NE(jacobian_in(formulas), nullptr) << text;
+  }
+  // What stands still needs none.
+  const Program still = with_derivatives(compile("jacobian(abs(P)*sin(xh), xh)"));
+  EXPECT_EQ(jacobian_in(still), nullptr);
 }
 
 }  // namespace

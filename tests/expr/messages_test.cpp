@@ -103,7 +103,15 @@ TEST_F(Messages, FunctionsOfOtherLanguagesLeadToTheirNamesHere) {
                                  "rand",
                                  "ode45",
                                  "gram",
-                                 "spectral_radius"}) {
+                                 "spectral_radius",
+                                 "sdpvar",
+                                 "lmivar",
+                                 "feasp",
+                                 "mincx",
+                                 "gevp",
+                                 "quadprog",
+                                 "fmincon",
+                                 "quad_form"}) {
     const std::string message = of("1 + " + word + "(A)").message();
     EXPECT_EQ(message.find("unknown function '" + word + "': "), 0U) << message;
     EXPECT_EQ(message.find("did you mean"), std::string::npos) << message;

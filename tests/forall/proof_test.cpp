@@ -90,6 +90,23 @@ TEST(ProofTest, Jacobians) {
   }
 }
 
+/// An arm of two links: a box of four variables, of which the jacobian is affine or quadratic in
+/// three, and its inverse has no bound until the fourth is cut.
+TEST(ProofTest, AJacobianWithAnInverse) {
+  const Domain box = {interval("a", -1.5, 1.5), interval("b", -1.5, 1.5), interval("v", -2, 2),
+                      interval("w", -2, 2)};
+  const std::string mass = "[5 + 3*cos(b), 1 + 1.5*cos(b); 1 + 1.5*cos(b), 1]";
+  const std::string force = "[1.5*sin(b)*w*(2*v + w); -1.5*sin(b)*v^2] - 5*[a; b] - 2*[v; w]";
+  const auto column = [&](const std::string& by) {
+    return "jacobian(inv(" + mass + ")*(" + force + "), " + by + ")";
+  };
+  const std::string slope = "[" + column("a") + ", " + column("b") + "]";
+  const DomainProof proof = prove("100*I - He(" + slope + ")", box);
+  EXPECT_EQ(proof.status, Status::holds) << proof.where << " " << proof.reason;
+  EXPECT_LE(proof.pieces, 500U);
+  expect_fails("10*I - He(" + slope + ")", box);
+}
+
 /// (t - a)^2 + m: O(log 1/m) pieces.
 TEST(ProofTest, ParabolasOfKnownHeight) {
   for (const double a : {0.25, 0.3, 0.7131})

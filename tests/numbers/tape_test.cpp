@@ -12,7 +12,7 @@
 namespace gainsmith::numbers {
 namespace {
 
-/// Texts over x of three elements and the constant A.
+/// Texts over x of three elements, the time t and the constant A.
 class Texts {
  public:
   explicit Texts(std::initializer_list<std::string> texts) {
@@ -20,6 +20,8 @@ class Texts {
     expr::Scope scope;
     scope.symbols["A"] = {{3, 3}, true};
     scope.symbols["x"] = {{3, 1}, false};
+    scope.symbols["t"] = {{1, 1}, false};
+    scope.time = "t";
     for (const std::string& text : texts)
       programs_.push_back(expr::compile(expr::parse({text, "test"}), scope));
   }
@@ -46,6 +48,7 @@ class Texts {
 
  private:
   static std::optional<Eigen::Index> place(const std::string& name) {
+    if (name == "t") return 3;  // beside x
     return name == "x" ? std::optional<Eigen::Index>(0) : std::nullopt;
   }
 
@@ -75,6 +78,28 @@ TEST(Tape, ADerivativeIsAFormula) {
   expected << 3, 2, 0, 0, 0, 10, std::cos(2.0), 0, 0;
   EXPECT_EQ(functions.value(0), expected);
   EXPECT_LE(texts.operations(), 2U);  // cos and 2 x(3)
+}
+
+TEST(Tape, AFlowMapIsThatOfReal) {
+  const Texts texts({"flow_map([x(2); -sin(x(1)); 0.1*x(1)], x, 0.8)",
+                     "flow_map([x(2); -9.8 - abs(x(2))*x(2); t], x, -x(3)/10)",
+                     "flow_map([sign(x(2)); 0.3 - x(2); max(x(1), t)], x, 2)",
+                     "flow_map(A*x, x, 0)", "flow_map(ones(3, 1), x, t)"});
+  StackedFunctions functions = texts.functions();
+  for (const Vector& x : {point(1, -0.2, 3), point(-2, 4, 0.5), point(1, -0.2, 3)})
+    for (const double t : {0.4, -1.0}) {
+      ASSERT_TRUE(functions.run(x, t));
+      for (std::size_t k = 0; k < functions.count(); ++k)
+        EXPECT_LT((functions.value(k) - functions.at(k, x, t)).cwiseAbs().maxCoeff(), 1e-11) << k;
+    }
+}
+
+TEST(Tape, AFlowMapThatEscapesNamesItsPlace) {
+  const Texts texts({"flow_map([x(1)^2; 0; 0], x, 3)"});
+  StackedFunctions functions = texts.functions();
+  EXPECT_TRUE(functions.run(point(0.3, 0, 0)));
+  EXPECT_FALSE(functions.run(point(1, 0, 0)));
+  EXPECT_THROW(functions.at(0, point(1, 0, 0)), expr::EvaluationError);
 }
 
 TEST(Tape, WhereSomethingHasNoValueItsPlaceIsNamed) {

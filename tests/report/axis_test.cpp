@@ -163,5 +163,39 @@ TEST(Axis, WithoutValuesIsThereAllTheSame) {
   EXPECT_GE(logarithmic_axis({}, 6).ticks.size(), 2);
 }
 
+TEST(CloseAxis, EndsAtTheValues) {
+  const Axis axis = close_axis(extent({2e-3, 5e4}), true, 0, 10);
+  EXPECT_NEAR(axis.share(2e-3), 0, 1e-12);
+  EXPECT_NEAR(axis.share(5e4), 1, 1e-12);
+  EXPECT_EQ(labels(axis),
+            "10^\xE2\x88\x92"
+            "2 10^\xE2\x88\x92"
+            "1 10^0 10^1 10^2 10^3 10^4");
+  EXPECT_EQ(labels(close_axis(extent({0, 1}), false, 0.1, 8)), "0 1");
+}
+
+TEST(CloseAxis, OfFewDecadesHasOneTwoFive) {
+  EXPECT_EQ(labels(close_axis(extent({0.04, 3}), true, 0, 10)), "0.05 0.1 0.2 0.5 1 2");
+  EXPECT_EQ(labels(close_axis(extent({3e7, 3e8}), true, 0, 10)),
+            "5\xC3\x97"
+            "10^7 10^8 2\xC3\x97"
+            "10^8");
+}
+
+TEST(CloseAxis, OfHardlyAnyWidthHasTicksToo) {
+  for (const auto& [low, high] : std::vector<std::pair<double, double>>{
+           {3, 3.1}, {7, 7}, {1e-300, 1.5e-300}, {2, 2 + 1e-12}, {6e300, 7e300}}) {
+    const Axis axis = close_axis(extent({low, high}), true, 0.03, 8);
+    EXPECT_GE(axis.ticks.size(), 2) << low;
+    EXPECT_LE(axis.ticks.size(), 9) << low;
+    for (const Tick& tick : axis.ticks) {
+      EXPECT_GE(tick.share, -1e-3);
+      EXPECT_LE(tick.share, 1 + 1e-3);
+    }
+    EXPECT_GE(axis.share(low), -1e-9);
+    EXPECT_LE(axis.share(high), 1 + 1e-9);
+  }
+}
+
 }  // namespace
 }  // namespace gainsmith::report

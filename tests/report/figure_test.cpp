@@ -182,5 +182,79 @@ TEST(Figure, ACurveWithMoreTimesThanValuesIsAFault) {
   EXPECT_THROW(svg({"", "", {{"", "", false, {curve({0, 1}, {0})}}}}), std::logic_error);
 }
 
+TEST(Figure, EstimatesThatAgreeAreAllSeen) {
+  Figure figure{"", "t", {{"", "", false, state_and_estimate(3)}}};
+  figure.panels[0].curves.push_back(figure.panels[0].curves[1]);
+  figure.panels[0].curves.back().colour = 2;
+  std::vector<test::Element> lines;
+  for (const test::Element& element : elements(figure))
+    if (element.attributes.contains("stroke-linejoin")) lines.push_back(element);
+  ASSERT_EQ(lines.size(), 3);
+  EXPECT_EQ(lines[0].attributes.at("stroke-width"), "3.4");
+  EXPECT_EQ(lines[1].attributes.at("stroke-width"), "1.6");
+  // As long a dash as a gap, the second begins where the first has its gap.
+  EXPECT_EQ(lines[1].attributes.at("stroke-dasharray"), "6 6");
+  EXPECT_FALSE(lines[1].attributes.contains("stroke-dashoffset"));
+  EXPECT_EQ(lines[2].attributes.at("stroke-dashoffset"), "6");
+}
+
+TEST(Figure, LimitsAreNoEstimates) {
+  Curve claim = curve({0, 1}, {1, 2}), limit = curve({0, 1}, {3, 3});
+  limit.limit = true;
+  limit.label.clear();
+  std::vector<test::Element> lines;
+  for (const test::Element& element : elements({"", "t", {{"", "", false, {claim, limit}}}}))
+    if (element.attributes.contains("stroke-linejoin")) lines.push_back(element);
+  ASSERT_EQ(lines.size(), 2);
+  EXPECT_EQ(lines[0].attributes.at("stroke-width"), "1.6");
+  EXPECT_TRUE(lines[1].attributes.contains("stroke-dasharray"));
+}
+
+TEST(Figure, MarksStandAtTheirValuesWithRoomAtTheEnds) {
+  Curve tried = curve({1, 10, 100}, {0, 1, 0});
+  tried.mark = Mark::cross;
+  tried.label.clear();
+  tried.joined = false;
+  Panel panel{"verdict", "", false, {tried}};
+  panel.rows = {"feasible", "infeasible"};
+  Figure figure{"", "alpha", {panel}};
+  figure.logarithmic = true;
+  const auto all = elements(figure);
+  EXPECT_TRUE(has_text(all, "feasible") && has_text(all, "infeasible"));
+  std::vector<double> x, y;
+  for (const test::Element& element : all)
+    if (element.name == "path" && element.attributes.at("d").ends_with("l-6,6")) {
+      const std::string& d = element.attributes.at("d");
+      x.push_back(parse_decimal(d.substr(1, d.find(',') - 1)).value());
+      y.push_back(parse_decimal(d.substr(d.find(',') + 1, d.find('m') - d.find(',') - 1)).value());
+    }
+  ASSERT_EQ(x.size(), 3);
+  EXPECT_NEAR(x[1] - x[0], x[2] - x[1], 0.2);
+  EXPECT_LT(x[2], 870);
+  EXPECT_LT(y[0], y[1]);  // the first row is the upper one
+}
+
+TEST(Figure, BandsGrowTheAxisByTheExtentOfTheCurvesAtMost) {
+  Panel panel{"", "", false, {curve({0, 1}, {0, 1})}};
+  panel.bands.push_back({"2 sigma", {0, 1}, {-1000, -0.1}, {1000, 1.1}, {}, 1});
+  const auto all = elements({"", "t", {panel}});
+  EXPECT_TRUE(has_text(all, "2 sigma"));
+  EXPECT_TRUE(has_text(all, "2.0") || has_text(all, "2"));
+  EXPECT_FALSE(has_text(all, "1000") || has_text(all, "500"));
+  panel.curves.clear();
+  EXPECT_TRUE(has_text(elements({"", "t", {panel}}), "1000"));
+  panel.bands[0].high.pop_back();
+  EXPECT_THROW(svg({"", "t", {panel}}), std::logic_error);
+}
+
+TEST(Figure, PlanesHaveAnAxisOfTheirOwn) {
+  Panel plane{"x2 over x1", "x2", false, {curve({5, 9, 7}, {0, 1, 2})}};
+  plane.across = "x1";
+  const auto all = elements({"", "t", {{"", "", false, {curve({0, 1}, {0, 1})}}, plane}});
+  for (const char* text : {"t", "x1", "x2", "x2 over x1", "9"})
+    EXPECT_TRUE(has_text(all, text)) << text;
+  EXPECT_EQ(count(all, "circle"), 2);  // where it begins and ends
+}
+
 }  // namespace
 }  // namespace gainsmith::report

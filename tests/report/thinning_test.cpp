@@ -182,5 +182,73 @@ TEST(Straightened, SmoothCurvesNeedFewPoints) {
   EXPECT_LT(straightened(line).size(), 250);
 }
 
+double distance(const Point& point, const Point& from, const Point& to) {
+  const double dx = to.x - from.x, dy = to.y - from.y, x = point.x - from.x, y = point.y - from.y;
+  const double square = dx * dx + dy * dy;
+  const double share = square > 0 ? std::clamp((x * dx + y * dy) / square, 0.0, 1.0) : 0.0;
+  return std::hypot(x - share * dx, y - share * dy);
+}
+
+TEST(Simplified, PassesEachPointOfACurveInAnyDirection) {
+  Polyline spiral;
+  for (int k = 0; k < 5000; ++k) {
+    const double angle = 0.01 * k, radius = 3000 * std::exp(-0.05 * angle);
+    spiral.push_back({static_cast<int>(std::lround(4000 + radius * std::cos(angle))),
+                      static_cast<int>(std::lround(4000 + radius * std::sin(angle)))});
+  }
+  ASSERT_EQ(simplified(spiral).size(), 1);
+  const Polyline few = simplified(spiral).front();
+  EXPECT_LT(few.size(), 900);
+  EXPECT_EQ(few.front(), spiral.front());
+  EXPECT_EQ(few.back(), spiral.back());
+  for (const Point& point : spiral) {
+    double nearest = 1e9;
+    for (std::size_t k = 1; k < few.size(); ++k)
+      nearest = std::min(nearest, distance(point, few[k - 1], few[k]));
+    ASSERT_LE(nearest, 12);  // 10 of the points left out, 2 of the rest
+  }
+}
+
+TEST(Simplified, KeepsTheWayBack) {
+  EXPECT_EQ(simplified({{0, 0}, {500, 0}, {1000, 0}, {400, 0}}),
+            (std::vector<Polyline>{{{0, 0}, {1000, 0}, {400, 0}}}));
+  EXPECT_TRUE(simplified({}).empty());
+  EXPECT_EQ(simplified({{3, 4}}), (std::vector<Polyline>{{{3, 4}}}));
+  EXPECT_EQ(simplified({{3, 4}, {3, 4}}), (std::vector<Polyline>{{{3, 4}}}));
+}
+
+std::size_t points_of(const std::vector<Polyline>& lines) {
+  std::size_t points = 0;
+  for (const Polyline& line : lines) points += line.size();
+  return points;
+}
+
+TEST(Simplified, OfNoiseKeepsThousandsOfPoints) {
+  RandomStream draw(1, 0);
+  Polyline noise;
+  for (int k = 0; k < 100000; ++k)
+    noise.push_back(
+        {static_cast<int>(8000 * draw.uniform()), static_cast<int>(3000 * draw.uniform())});
+  EXPECT_LE(points_of(simplified(noise)), 50000);
+  EXPECT_GE(points_of(simplified(noise)), 1000);
+}
+
+TEST(Simplified, OfAnOrbitThatReturnsIsDrawnOnce) {
+  Polyline orbit;
+  for (int k = 0; k < 300000; ++k)
+    orbit.push_back({static_cast<int>(std::lround(4000 + 3000 * std::cos(0.01 * k))),
+                     static_cast<int>(std::lround(2000 + 1500 * std::sin(0.01 * k)))});
+  const auto parts = simplified(orbit);
+  EXPECT_LT(points_of(parts), 20000);
+  int left = 1 << 30, right = 0;
+  for (const Polyline& part : parts)
+    for (const Point& point : part) {
+      left = std::min(left, point.x);
+      right = std::max(right, point.x);
+    }
+  EXPECT_EQ(left, 1000);
+  EXPECT_EQ(right, 7000);
+}
+
 }  // namespace
 }  // namespace gainsmith::report

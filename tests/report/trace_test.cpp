@@ -143,5 +143,29 @@ TEST(Trace, ManyJumpsOfAColumnAreOneVerticalThatHoldsThem) {
   }
 }
 
+TEST(TraceInPlane, GoesInAnyDirectionAndJumpsAcross) {
+  const Trace found =
+      trace_in_plane(curve({2, 8, 4, 6, 5}, {0, 0, 0.5, 1, 1}, {2}), {false, 0, 10, {}, {}, 0},
+                     {false, 0, 1, {}, {}, 0}, {0, 0, 100, 100});
+  EXPECT_EQ(found.flows,
+            (std::vector<Polyline>{{{200, 1000}, {800, 1000}, {400, 500}}, {{600, 0}, {500, 0}}}));
+  ASSERT_EQ(found.jumps.size(), 1);
+  EXPECT_EQ(found.jumps[0].before, (Point{400, 500}));
+  EXPECT_EQ(found.jumps[0].after, (Point{600, 0}));
+}
+
+TEST(TraceInPlane, JumpsThatRepeatAreOne) {
+  Curve cycle;
+  for (int k = 0; k < 100; ++k) {
+    cycle.t.insert(cycle.t.end(), {1, 9});
+    cycle.value.insert(cycle.value.end(), {0.2, 0.2});
+    cycle.jumps.push_back(static_cast<std::size_t>(2 * k + 1));
+  }
+  EXPECT_EQ(
+      trace_in_plane(cycle, {false, 0, 10, {}, {}, 0}, {false, 0, 1, {}, {}, 0}, {0, 0, 100, 100})
+          .jumps.size(),
+      1);
+}
+
 }  // namespace
 }  // namespace gainsmith::report

@@ -224,5 +224,17 @@ TEST(Bisect, RefusesEmptyRangesAndTolerances) {
   EXPECT_THROW(bisect(question, axis(0, 1), options(true, std::nan(""))), std::invalid_argument);
 }
 
+TEST(Bisect, SamplesSayInWhichOrderTheyWereAsked) {
+  std::vector<double> asked;
+  const auto question = [&](double value) {
+    asked.push_back(value);
+    return value < 0.3 ? Answer::yes : Answer::no;
+  };
+  const Bisection found = bisect(question, {0, 1, false}, options(true, 1e-3));
+  ASSERT_EQ(found.samples.size(), asked.size());
+  for (const Sample& sample : found.samples)
+    EXPECT_EQ(sample.value, asked.at(static_cast<std::size_t>(sample.order)));
+}
+
 }  // namespace
 }  // namespace gainsmith::search

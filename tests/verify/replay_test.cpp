@@ -101,5 +101,32 @@ TEST(Replay, MatrixStatesAreNamedByRowAndColumn) {
               ElementsAre("t", "j", "M1_1", "M2_1", "M1_2", "M2_2", "tau"));
 }
 
+/// The error decays to nothing while the plant grows: it ends as rounding, and is told from what is
+/// none by how it moves with the last places.
+TEST(Replay, KnowsWhatIsRounding) {
+  TextProblem problem =
+      sampled_data("1.1", column({3.68, -24.47}), column({0.104, -0.948}), scalar(-25.93));
+  problem.horizon("200").runs(1).shrinks("small", "norm(e)", "0.9");
+  const Replay result =
+      table_of_run(*make_setup(problem.instance(), problem.gains), 1, 0, 0, true);
+  ASSERT_EQ(result.rounding.rows(), result.table.rows());
+  ASSERT_EQ(result.rounding.cols(), result.table.cols());
+  const std::vector<std::string> all = names(result);
+  const auto at = [&](const char* name) {
+    return std::find(all.begin(), all.end(), name) - all.begin();
+  };
+  EXPECT_EQ(result.rounding.col(at("z1")).norm(), 0);
+  EXPECT_LT(result.rounding(0, at("small")), 1e-12 * result.table(0, at("small")));
+  int late = 0, rounding = 0;
+  for (Eigen::Index row = 0; row < result.table.rows(); ++row) {
+    if (result.table(row, 0) < 150) continue;
+    ++late;
+    rounding += std::abs(result.table(row, at("e1"))) <= result.rounding(row, at("e1")) ? 1 : 0;
+  }
+  EXPECT_GT(late, 100);
+  EXPECT_GT(rounding, 0.9 * late);
+  EXPECT_EQ(replay(problem, 1, 0).rounding.size(), 0);
+}
+
 }  // namespace
 }  // namespace gainsmith::verify

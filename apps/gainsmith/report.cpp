@@ -1,0 +1,78 @@
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/file.h"
+#include "gainsmith/commands.h"
+#include "gainsmith/output.h"
+#include "gainsmith/results_folder.h"
+#include "gainsmith/terminal.h"
+#include "page/page.h"
+
+namespace gainsmith::app {
+
+namespace {
+
+struct ReportOptions {
+  std::string results;
+  std::string output;
+  bool json = false;
+};
+
+io::Json line_json(const page::Results& results) {
+  if (!results.error.empty()) return {{"name", results.name}, {"error", results.error}};
+  const model::Gains& gains = results.gains;
+  return {
+      {"name", results.name},
+      {"method", gains.statement.method_name},
+      {"verdict", to_string(gains.verdict)},
+      {"objective", gains.objective ? io::Json(*gains.objective) : io::Json()},
+      {"campaign", results.campaign ? io::Json(to_string(results.campaign->verdict)) : io::Json()},
+      {"differences", results.differences},
+      {"changed", results.changed},
+      {"seconds", results.seconds ? io::Json(*results.seconds) : io::Json()}};
+}
+
+ExitCode report(const ReportOptions& options) {
+  prepare_outputs(options.results, {options.output});
+  const std::vector<page::Results> results = read_results(options.results);
+  const Telling telling;
+  const bool to_stdout = options.output.empty() || options.output == "-";
+  if (options.json) {
+    io::Json table = io::Json::array();
+    for (const page::Results& one : results) table.push_back(line_json(one));
+    fmt::print("{}", io::to_text(table));
+    if (to_stdout) return ExitCode::yes;
+  }
+  const std::string title = results.size() == 1 ? results.front().name : title_of(options.results);
+  const std::string page = page::page(results, title);
+  if (to_stdout)
+    fmt::print("{}", page);
+  else
+    write_atomically(options.output, page);
+  return ExitCode::yes;
+}
+
+}  // namespace
+
+Command report_command() {
+  auto options = std::make_shared<ReportOptions>();
+  return {
+      "report",
+      "Write results as one page (HTML): mathematics, verdicts, gains, campaigns, pictures",
+      {Option("results", options->results,
+              "gain file (JSON), or a folder that 'gainsmith run -o' wrote, of one problem or many")
+           .required(),
+       Option("-o,--output", options->output, "write the page here (default: standard output)"),
+       Option("--json", options->json,
+              "print the table as JSON; a page is then written with -o alone")},
+      "The page needs no network, no script and no other file.\n"
+      "Examples:\n"
+      "  gainsmith report gains.json -o report.html\n"
+      "  gainsmith run problems/ -o out && gainsmith report out -o report.html",
+      [options] { return report(*options); }};
+}
+
+}  // namespace gainsmith::app

@@ -1,0 +1,103 @@
+#include "bind/shown.h"
+
+#include <algorithm>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "base/nearest.h"
+
+namespace gainsmith::bind {
+
+namespace {
+
+struct Named {
+  std::string name;  ///< "nominal.xh"
+  expr::Shape shape;
+
+  std::string own() const { return name.substr(name.rfind('.') + 1); }
+  /// Its observer with a point; empty: of the plant.
+  std::string owner() const { return name.substr(0, name.size() - own().size()); }
+  bool is(const std::string& text) const { return name == text || own() == text; }
+};
+
+/// What moves.
+std::vector<Named> moving(const model::Design& design) {
+  std::vector<Named> all;
+  for (const model::Design::State& state : design.states) all.push_back({state.name, state.shape});
+  if (design.dynamics)
+    for (const model::Dynamics::Signal& signal : design.dynamics->signals)
+      all.push_back({signal.name, signal.value.program.shape()});
+  return all;
+}
+
+/// Everything that may have a unit.
+std::vector<Named> everything(const model::Design& design) {
+  constexpr expr::Shape scalar{1, 1};
+  std::vector<Named> all = moving(design);
+  for (const model::Design::Claim& claim : design.claims) all.push_back({claim.name, scalar});
+  for (const model::Design::Datum& datum : design.data) all.push_back({datum.name, datum.shape});
+  for (const model::Design::Datum& one : design.parameters) all.push_back({one.name, one.shape});
+  for (const model::Design::Gain& gain : design.gains) all.push_back({gain.name, gain.shape});
+  all.push_back({"t", scalar});
+  if (design.objective || design.quotient) all.push_back({"objective", scalar});
+  return all;
+}
+
+std::vector<Named> find(const std::string& name, const std::vector<Named>& among,
+                        const std::string& what, const Place& place) {
+  std::vector<Named> found;
+  std::set<std::string> known;
+  for (const Named& one : among) {
+    if (one.is(name)) found.push_back(one);
+    known.insert({one.name, one.own()});
+  }
+  if (found.empty())
+    throw InputError(
+        place, what + " is named '" + name + "'" + suggestion(name, {known.begin(), known.end()}));
+  return found;
+}
+
+void check(const model::UnitText& text, const std::vector<Named>& among) {
+  const auto found = find(text.name, among, "units: nothing", text.place);
+  const bool fits =
+      text.units.size() == 1 || std::any_of(found.begin(), found.end(), [&](const Named& one) {
+        return static_cast<std::size_t>(one.shape.size()) == text.units.size();
+      });
+  if (!fits)
+    throw InputError(text.place, "units: " + text.name + " is " + to_string(found.front().shape) +
+                                     "; expected one unit, or one for each element, not " +
+                                     std::to_string(text.units.size()));
+}
+
+void check(const model::CovarianceText& text, const std::vector<Named>& among) {
+  const std::string what = "covariance: no state or signal";
+  const auto estimates = find(text.estimate, among, what, text.place);
+  const auto covariances = find(text.covariance, among, what, text.covariance_place);
+  const auto is_of = [](const Named& covariance, const Named& estimate) {
+    const std::string a = covariance.owner(), b = estimate.owner();
+    const int n = estimate.shape.rows;
+    return a == b && estimate.shape.cols == 1 &&
+           covariance.shape == expr::Shape{n, n};
+  };
+  for (const Named& estimate : estimates)
+    for (const Named& covariance : covariances)
+      if (is_of(covariance, estimate)) return;
+  throw InputError(text.covariance_place,
+                   "covariance: '" + text.covariance + "', " +
+                       to_string(covariances.front().shape) + ", is none of '" + text.estimate +
+                       "', " + to_string(estimates.front().shape) +
+                       ": of a column with n elements it is n x n, and of the same observer");
+}
+
+}  // namespace
+
+void check_shown(const Binding& binding) {
+  const model::Problem& problem = binding.problem();
+  if (problem.units.empty() && problem.covariances.empty()) return;
+  const std::vector<Named> named = everything(*binding.design), moves = moving(*binding.design);
+  for (const model::UnitText& text : problem.units) check(text, named);
+  for (const model::CovarianceText& text : problem.covariances) check(text, moves);
+}
+
+}  // namespace gainsmith::bind

@@ -1,0 +1,63 @@
+#include "export/identifiers.h"
+
+#include <algorithm>
+#include <string_view>
+
+namespace gainsmith::exports {
+
+namespace {
+
+constexpr std::string_view kCWords =
+    " auto break case char const continue default do double else enum extern float for goto if "
+    "inline int long"
+    " register restrict return short signed sizeof static struct switch typedef union unsigned "
+    "void volatile"
+    " while asm class new delete this template private public protected operator true false bool "
+    "catch throw"
+    " try namespace using virtual friend export typename and or not xor main errno NULL ";
+constexpr std::string_view kMatlabWords =
+    " break case catch classdef continue else elseif end for function global if otherwise parfor "
+    "persistent"
+    " return spmd switch try while until do unwind_protect endfunction endif endfor endwhile pi "
+    "eps Inf NaN"
+    " ans eye zeros ones expm inv reshape struct min max abs sign mod floor exp log sqrt sin cos "
+    "tanh atan2 ";
+constexpr std::string_view kPythonWords =
+    " False None True and as assert async await break class continue def del elif else except "
+    "finally for from"
+    " global if import in is lambda nonlocal not or pass raise return try while with yield match "
+    "case type"
+    " self np math abs min max float int print ";
+
+std::string_view words_of(Language language) {
+  switch (language) {
+    case Language::c:
+      return kCWords;
+    case Language::matlab:
+      return kMatlabWords;
+    case Language::python:
+      break;
+  }
+  return kPythonWords;
+}
+
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+}  // namespace
+
+bool is_reserved(Language language, const std::string& word) {
+  return words_of(language).find(" " + word + " ") != std::string_view::npos;
+}
+
+std::string Identifiers::operator()(const std::string& name) {
+  std::string made;
+  for (const char c : name) made += is_letter(c) || is_digit(c) ? c : '_';
+  while (made.size() > 1 && made.back() == '_' && made[made.size() - 2] == '_') made.pop_back();
+  if (made.empty() || !is_letter(made.front())) made = "x" + made;
+  while (is_reserved(language_, made) || taken_.contains(made)) made += "_";
+  taken_.insert(made);
+  return made;
+}
+
+}  // namespace gainsmith::exports

@@ -1,0 +1,32 @@
+// Names that a language accepts.
+#pragma once
+
+#include <set>
+#include <string>
+#include <vector>
+
+namespace gainsmith::exports {
+
+enum class Language { c, matlab, python };
+
+/// Whether a word means something in the language itself, or is a name of its library that every program
+/// uses: `float`, `lambda`, `end`.
+bool is_reserved(Language language, const std::string& word);
+
+/// Names of one scope, each given once.
+class Identifiers {
+ public:
+  /// `taken`: names that the file uses itself.
+  explicit Identifiers(Language language, const std::set<std::string>& taken = {})
+      : language_(language), taken_(taken) {}
+
+  /// What is no letter, digit or underscore becomes an underscore. Before a name that begins otherwise
+  /// than with a letter stands an x, behind one that is reserved or taken an underscore.
+  std::string operator()(const std::string& name);
+
+ private:
+  Language language_;
+  std::set<std::string> taken_;
+};
+
+}  // namespace gainsmith::exports

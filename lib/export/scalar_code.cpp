@@ -1,0 +1,378 @@
+#include "export/scalar_code.h"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <utility>
+
+#include "base/number.h"
+#include "expr/operations.h"
+#include "model/gains.h"
+#include "numbers/scalar_graph.h"
+#include "numbers/scalar_trace.h"
+
+namespace gainsmith::exports {
+
+namespace {
+
+using numbers::ScalarGraph;
+using numbers::ScalarOp;
+
+std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+/// A formula with how tightly its outermost operation binds.
+struct Term {
+  enum Binding { loose, sum, product, atom };
+  std::string text;
+  Binding binding = atom;
+};
+
+std::string within(const Term& term, Term::Binding least) {
+  return term.binding >= least ? term.text : "(" + term.text + ")";
+}
+
+class Writer {
+ public:
+  Writer(const ScalarGraph& graph, const std::vector<std::string>& inputs, const Dialect& dialect)
+      : graph_(graph), inputs_(inputs), dialect_(dialect), terms_(graph.nodes().size()) {}
+
+  Code write(const std::vector<std::vector<int>>& results) {
+    count(results);
+    for (std::size_t k = 0; k < uses_.size(); ++k)
+      if (uses_[k] > 0) add(static_cast<int>(k));
+    for (const std::vector<int>& nodes : results) {
+      code_.results.emplace_back();
+      for (const int node : nodes) code_.results.back().push_back(terms_[at(node)].text);
+    }
+    return std::move(code_);
+  }
+
+ private:
+  using Node = ScalarGraph::Node;
+  const Node& node(int k) const { return graph_.nodes()[at(k)]; }
+
+  static bool has_operands(const Node& node) {
+    return node.op != ScalarOp::input && node.op != ScalarOp::constant &&
+           node.op != ScalarOp::element;
+  }
+
+  /// How often each node is read.
+  void count(const std::vector<std::vector<int>>& results) {
+    uses_.assign(graph_.nodes().size(), 0);
+    for (const auto& nodes : results)
+      for (const int one : nodes) ++uses_[at(one)];
+    for (std::size_t k = uses_.size(); k-- > 0;) {
+      if (uses_[k] == 0) continue;
+      const Node& one = graph_.nodes()[k];
+      if (one.op == ScalarOp::element)
+        for (const auto& operand : graph_.blocks()[at(one.a)].operands)
+          for (const int read : operand) ++uses_[at(read)];
+      if (has_operands(one))
+        for (const int read : {one.a, one.b, one.c})
+          if (read >= 0) ++uses_[at(read)];
+    }
+  }
+
+  void add(int k) {
+    constexpr std::size_t kLine = 72;
+    const Node& one = node(k);
+    Term& term = terms_[at(k)];
+    if (one.op == ScalarOp::input) {
+      term = {inputs_[at(one.a)], Term::atom};
+    } else if (one.op == ScalarOp::constant) {
+      const double value = graph_.value(k);
+      term = {number_text(value, dialect_), value < 0 ? Term::loose : Term::atom};
+    } else if (one.op == ScalarOp::element) {
+      add_block(one.a);
+      const int element = k - graph_.blocks()[at(one.a)].first;
+      term = {dialect_.language == Language::matlab ? fmt::format("gsb{}({})", one.a, element + 1)
+                                                    : fmt::format("gsb{}[{}]", one.a, element),
+              Term::atom};
+    } else {
+      term = formula(one);
+      if (uses_[at(k)] == 1 && term.text.size() <= kLine) return;
+      const std::string name = "gs" + std::to_string(k);
+      define(name, term.text);
+      term = {name, Term::atom};
+    }
+  }
+
+  void define(const std::string& name, const std::string& value) {
+    if (dialect_.language == Language::c)
+      code_.lines.push_back("const " + type_of(dialect_) + " " + name + " = " + value + ";");
+    else
+      code_.lines.push_back(name + " = " + value +
+                            (dialect_.language == Language::matlab ? ";" : ""));
+  }
+
+  Term binary(const Node& one, const char* sign, Term::Binding own) const {
+    const auto tighter = static_cast<Term::Binding>(own + 1);
+    return {within(terms_[at(one.a)], own) + sign + within(terms_[at(one.b)], tighter), own};
+  }
+
+  Term call(const std::string& function, const Node& one) const {
+    std::string text = function + "(" + terms_[at(one.a)].text;
+    if (one.b >= 0) text += ", " + terms_[at(one.b)].text;
+    return {text + ")", Term::atom};
+  }
+
+  /// A function of the language's library.
+  Term library(const std::string& name, const Node& one) const {
+    switch (dialect_.language) {
+      case Language::c:
+        return call(name + (dialect_.single ? "f" : ""), one);
+      case Language::python:
+        return call("math." + name, one);
+      case Language::matlab:
+        break;
+    }
+    return call(name, one);
+  }
+
+  Term helper(const std::string& name, const Node& one) {
+    code_.helpers.insert(name);
+    return call(dialect_.prefix + name, one);
+  }
+
+  /// A function that the language has under this name, and C has not.
+  Term own(const std::string& name, const Node& one) {
+    return dialect_.language == Language::c ? helper(name, one) : call(name, one);
+  }
+
+  Term choice(const Node& one, const char* sign) {
+    const std::string condition =
+        within(terms_[at(one.a)], Term::sum) + sign + number_text(0, dialect_);
+    const std::string yes = within(terms_[at(one.b)], Term::sum);
+    const std::string no = within(terms_[at(one.c)], Term::sum);
+    switch (dialect_.language) {
+      case Language::c:
+        return {condition + " ? " + yes + " : " + no, Term::loose};
+      case Language::python:
+        return {yes + " if " + condition + " else " + no, Term::loose};
+      case Language::matlab:
+        break;
+    }
+    code_.helpers.insert("choose");
+    return {"choose(" + condition + ", " + yes + ", " + no + ")", Term::atom};
+  }
+
+  Term formula(const Node& one) {
+    switch (one.op) {
+      case ScalarOp::add:
+        return binary(one, " + ", Term::sum);
+      case ScalarOp::subtract:
+        return binary(one, " - ", Term::sum);
+      case ScalarOp::multiply:
+        return binary(one, "*", Term::product);
+      case ScalarOp::divide:
+        return binary(one, "/", Term::product);
+      case ScalarOp::negate:
+        return {"-" + within(terms_[at(one.a)], Term::atom), Term::loose};
+      case ScalarOp::minimum:
+        return own("min", one);
+      case ScalarOp::maximum:
+        return own("max", one);
+      case ScalarOp::where_positive:
+        return choice(one, " > ");
+      case ScalarOp::where_nonnegative:
+        return choice(one, " >= ");
+      case ScalarOp::power:
+        return dialect_.language == Language::matlab ? call("power", one) : library("pow", one);
+      case ScalarOp::mod:
+        return dialect_.language == Language::python
+                   ? Term{within(terms_[at(one.a)], Term::atom) + " % " +
+                              within(terms_[at(one.b)], Term::atom),
+                          Term::loose}
+                   : own("mod", one);
+      case ScalarOp::angle:
+        return angle(one);
+      case ScalarOp::abs:
+        return dialect_.language == Language::c ? library("fabs", one) : call("abs", one);
+      case ScalarOp::sign:
+        return dialect_.language == Language::matlab ? call("sign", one) : helper("sign", one);
+      case ScalarOp::floor:
+        return library("floor", one);
+      case ScalarOp::exp:
+        return library("exp", one);
+      case ScalarOp::log:
+        return library("log", one);
+      case ScalarOp::sqrt:
+        return library("sqrt", one);
+      case ScalarOp::sin:
+        return library("sin", one);
+      case ScalarOp::cos:
+        return library("cos", one);
+      case ScalarOp::tanh:
+        return library("tanh", one);
+      default:
+        break;
+    }
+    throw std::logic_error("a node that is no operation");
+  }
+
+  /// Zeros lose their signs, which do not count.
+  Term angle(const Node& one) const {
+    const std::string zero = " + " + number_text(0, dialect_);
+    const Term both{within(terms_[at(one.a)], Term::sum) + zero + ", " +
+                        within(terms_[at(one.b)], Term::sum) + zero,
+                    Term::atom};
+    const std::string name = dialect_.language == Language::python ? "math.atan2"
+                             : dialect_.single                     ? "atan2f"
+                                                                   : "atan2";
+    return {name + "(" + both.text + ")", Term::atom};
+  }
+
+  /// An inverse, or a product with many terms.
+  void add_block(int k) {
+    if (!known_blocks_.insert(k).second) return;
+    const ScalarGraph::Block& block = graph_.blocks()[at(k)];
+    const bool inverse = block.instruction.op == expr::Op::inverse;
+    if (!inverse && block.instruction.op != expr::Op::multiply)
+      throw NoCode("'" + expr::to_string(block.instruction.op) + "' has no formula on numbers");
+    std::vector<std::string> names;
+    for (std::size_t i = 0; i < block.operands.size(); ++i)
+      names.push_back(
+          add_operand(fmt::format("gsb{}_{}", k, i), block.operands[i], block.shapes[i]));
+    const std::string name = "gsb" + std::to_string(k);
+    if (dialect_.language == Language::c) {
+      code_.helpers.insert(inverse ? "inverse" : "product");
+      code_.lines.push_back(
+          fmt::format("{} {}[{}];", type_of(dialect_), name, block.instruction.shape.size()));
+      code_.lines.push_back(inverse
+                                ? fmt::format("{}inverse({}, {}, {});", dialect_.prefix,
+                                              block.shapes[0].rows, names[0], name)
+                                : fmt::format("{}product({}, {}, {}, {}, {}, {});", dialect_.prefix,
+                                              block.shapes[0].rows, block.shapes[0].cols,
+                                              block.shapes[1].cols, names[0], names[1], name));
+    } else if (dialect_.language == Language::python) {
+      code_.lines.push_back(
+          name + " = " +
+          (inverse ? "np.linalg.inv(" + names[0] + ")" : names[0] + " @ " + names[1]) + "");
+      code_.lines.push_back(name + " = " + name + ".ravel(order='F')");
+    } else {
+      code_.lines.push_back(name + " = " +
+                            (inverse ? "inv(" + names[0] + ")" : names[0] + "*" + names[1]) + ";");
+    }
+  }
+
+  std::string add_operand(const std::string& name, const std::vector<int>& nodes,
+                          expr::Shape shape) {
+    std::string list;
+    for (const int one : nodes) list += (list.empty() ? "" : ", ") + terms_[at(one)].text;
+    if (dialect_.language == Language::c)
+      code_.lines.push_back(
+          fmt::format("{} {}[{}] = {{{}}};", type_of(dialect_), name, nodes.size(), list));
+    else if (dialect_.language == Language::python)
+      code_.lines.push_back(fmt::format("{} = np.array([{}]).reshape(({}, {}), order='F')", name,
+                                        list, shape.rows, shape.cols));
+    else
+      code_.lines.push_back(
+          fmt::format("{} = reshape([{}], {}, {});", name, list, shape.rows, shape.cols));
+    return name;
+  }
+
+  const ScalarGraph& graph_;
+  const std::vector<std::string>& inputs_;
+  const Dialect& dialect_;
+  std::vector<int> uses_;
+  std::vector<Term> terms_;
+  std::set<int> known_blocks_;
+  Code code_;
+};
+
+}  // namespace
+
+Code scalar_code(const std::vector<expr::Program>& programs, const ElementNames& names,
+                 const numbers::Values& values, const Dialect& dialect) {
+  ScalarGraph graph;
+  std::vector<std::string> inputs;
+  std::map<std::string, int, std::less<>> first;
+  const auto input = [&](const expr::Input& named) -> numbers::TracedMatrix {
+    if (named.shape.size() == 0) return {named.shape, {}};
+    const auto found = names.find(named.name);
+    if (found == names.end()) return numbers::traced(values.at(named.name), graph);
+    const auto [place, fresh] = first.emplace(named.name, static_cast<int>(inputs.size()));
+    if (fresh) inputs.insert(inputs.end(), found->second.begin(), found->second.end());
+    numbers::TracedMatrix made{named.shape, {}};
+    for (int k = 0; k < named.shape.size(); ++k)
+      made.value.push_back(graph.input(place->second + k));
+    return made;
+  };
+  std::vector<std::vector<int>> results;
+  for (const expr::Program& program : programs)
+    results.push_back(numbers::trace(program, input, graph).value);
+  return Writer(graph, inputs, dialect).write(results);
+}
+
+std::string type_of(const Dialect& dialect) { return dialect.single ? "float" : "double"; }
+
+std::string number_text(double value, const Dialect& dialect) {
+  if (dialect.language != Language::c) return model::printed(value);
+  // Nine digits are read back as the same number of single precision.
+  constexpr int kSingleDigits = 9;
+  std::string text = dialect.single
+                         ? brief(static_cast<double>(static_cast<float>(value)), kSingleDigits)
+                         : model::printed(value);
+  if (text.find_first_of(".e") == std::string::npos) text += ".0";
+  return dialect.single ? text + "f" : text;
+}
+
+std::string helper_text(const std::set<std::string>& helpers, const Dialect& dialect) {
+  // $T: the type, $N: the prefix, $S: the end of names in the library.
+  static const std::map<std::string, std::string> in_c = {
+      {"min", "static inline $T $Nmin($T a, $T b) { return b < a ? b : a; }\n"},
+      {"max", "static inline $T $Nmax($T a, $T b) { return a < b ? b : a; }\n"},
+      {"sign",
+       "static inline $T $Nsign($T a) { return a > 0 ? ($T)1 : a < 0 ? ($T)-1 : ($T)0; }\n"},
+      {"mod",
+       "/* a - b floor(a/b) */\n"
+       "static inline $T $Nmod($T a, $T b)\n{\n"
+       "  const $T rest = fmod$S(a, b);\n"
+       "  return (rest < 0 && b > 0) || (rest > 0 && b < 0) ? rest + b : rest;\n}\n"},
+      {"product",
+       "/* c = a b, n x m by m x k, columns below each other */\n"
+       "static inline void $Nproduct(int n, int m, int k, const $T *a, const $T *b, $T *c)\n{\n"
+       "  for (int i = 0; i < n; ++i)\n    for (int j = 0; j < k; ++j) {\n      $T sum = 0;\n"
+       "      for (int l = 0; l < m; ++l) sum += a[i + n * l] * b[l + m * j];\n"
+       "      c[i + n * j] = sum;\n    }\n}\n"},
+      {"inverse",
+       "/* The inverse of the n x n matrix a, which is overwritten, by Gauss and Jordan with "
+       "pivots in the\n"
+       "   columns. Of a singular matrix it is not finite. */\n"
+       "static inline void $Ninverse(int n, $T *a, $T *inverse)\n{\n"
+       "  for (int i = 0; i < n * n; ++i) inverse[i] = i % (n + 1) == 0 ? ($T)1 : ($T)0;\n"
+       "  for (int k = 0; k < n; ++k) {\n    int pivot = k;\n"
+       "    for (int i = k + 1; i < n; ++i)\n"
+       "      if (fabs$S(a[i + n * k]) > fabs$S(a[pivot + n * k])) pivot = i;\n"
+       "    for (int j = 0; j < n; ++j) {\n"
+       "      const $T one = a[k + n * j], other = inverse[k + n * j];\n"
+       "      a[k + n * j] = a[pivot + n * j];\n      a[pivot + n * j] = one;\n"
+       "      inverse[k + n * j] = inverse[pivot + n * j];\n      inverse[pivot + n * j] = "
+       "other;\n    }\n"
+       "    const $T scale = ($T)1 / a[k + n * k];\n"
+       "    for (int j = 0; j < n; ++j) {\n      a[k + n * j] *= scale;\n      inverse[k + n * j] "
+       "*= scale;\n    }\n"
+       "    for (int i = 0; i < n; ++i) {\n      const $T factor = a[i + n * k];\n"
+       "      if (i == k) continue;\n"
+       "      for (int j = 0; j < n; ++j) {\n        a[i + n * j] -= factor * a[k + n * j];\n"
+       "        inverse[i + n * j] -= factor * inverse[k + n * j];\n      }\n    }\n  }\n}\n"}};
+  static const std::map<std::string, std::string> in_matlab = {
+      {"choose", "function r = choose(c, a, b)\n  if c, r = a; else, r = b; end\nend\n"}};
+  static const std::map<std::string, std::string> in_python = {
+      {"sign", "def sign(a):\n    return float(a > 0) - float(a < 0)\n"}};
+  const auto& all = dialect.language == Language::c        ? in_c
+                    : dialect.language == Language::matlab ? in_matlab
+                                                           : in_python;
+  std::string text;
+  for (const std::string& name : helpers) text += all.at(name) + "\n";
+  const auto replace = [&](const std::string& from, const std::string& to) {
+    for (std::size_t k = 0; (k = text.find(from, k)) != std::string::npos; k += to.size())
+      text.replace(k, from.size(), to);
+  };
+  replace("$T", type_of(dialect));
+  replace("$N", dialect.prefix);
+  replace("$S", dialect.single ? "f" : "");
+  return text;
+}
+
+}  // namespace gainsmith::exports

@@ -1,0 +1,275 @@
+#include "expr/derivative.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "expr/assembly.h"
+
+namespace gainsmith::expr {
+
+namespace {
+
+/// The derivative of an instruction in one direction.
+struct Slope {
+  int at = -1;    ///< the instruction that computes it; -1: it is 0
+  int unit = -1;  ///< the only element that is not 0, which is 1; -1: not known to be so
+
+  bool is_zero() const { return at < 0; }
+};
+
+/// The derivatives of the instructions of one body in one direction.
+class Direction {
+ public:
+  Direction(Assembly& assembly, const Program& body, const std::vector<int>& moved)
+      : assembly_(assembly), body_(body), moved_(moved), slopes_(body.code.size()) {}
+
+  /// Of the result, as a column, when the element `unit` of the first input moves; none without a
+  /// rule.
+  std::optional<int> column(int unit) {
+    for (std::size_t at = 0; at < body_.code.size(); ++at) {
+      const Instruction& one = body_.code[at];
+      like_ = &one;
+      if (one.op == Op::input) {
+        if (one.attributes[0] == 0) slopes_[at] = unit_slope(one.shape, unit);
+        continue;
+      }
+      bool moves = false;
+      for (const int operand : one.operands)
+        moves = moves || !slopes_[static_cast<std::size_t>(operand)].is_zero();
+      if (!moves) continue;
+      const auto found = slope(one, moved_[at]);
+      if (!found) return std::nullopt;
+      slopes_[at] = *found;
+    }
+    const Shape shape = body_.shape();
+    const int result = filled(slopes_[static_cast<std::size_t>(body_.result)], shape);
+    if (shape.cols == 1) return result;
+    std::vector<int> columns;
+    for (int j = 0; j < shape.cols; ++j)
+      columns.push_back(apply(Op::index, {result}, {shape.rows, 1}, {0, shape.rows, j, j + 1}));
+    return apply(Op::blocks, std::move(columns), {shape.size(), 1}, {1});
+  }
+
+ private:
+  std::optional<Slope> slope(const Instruction& one, int value) {
+    const auto x = [&](std::size_t k) { return moved_[static_cast<std::size_t>(one.operands[k])]; };
+    const auto d = [&](std::size_t k) {
+      return slopes_[static_cast<std::size_t>(one.operands[k])];
+    };
+    const Shape shape = one.shape;
+    switch (one.op) {
+      case Op::index:
+        if (d(0).unit >= 0) return part_of_unit(one, d(0).unit, assembly_.shape(x(0)).rows);
+        [[fallthrough]];
+      case Op::fill:
+      case Op::identity:
+      case Op::negate:
+      case Op::transpose:
+      case Op::trace:
+      case Op::diagonal_matrix:
+      case Op::diagonal_of:
+        return Slope{apply(one.op, {d(0).at}, shape, one.attributes)};
+      case Op::blocks: {
+        std::vector<int> parts;
+        for (std::size_t k = 0; k < one.operands.size(); ++k)
+          parts.push_back(filled(d(k), assembly_.shape(x(k))));
+        return Slope{apply(Op::blocks, std::move(parts), shape, one.attributes)};
+      }
+      case Op::add:
+        return sum(d(0), d(1), shape);
+      case Op::subtract:
+        return difference(d(0), d(1), shape);
+      case Op::multiply:
+      case Op::scale:
+      case Op::elementwise_product: {
+        const Slope first = d(0).is_zero() ? d(0) : times(one.op, d(0), {x(1)}, shape);
+        const Slope second = d(1).is_zero() ? d(1) : times(one.op, {x(0)}, d(1), shape);
+        return sum(first, second, shape);
+      }
+      case Op::divide:
+      case Op::elementwise_quotient: {
+        const Op by = one.op == Op::divide ? Op::scale : Op::elementwise_product;
+        const Slope less = d(1).is_zero() ? d(1) : times(by, d(1), {value}, shape);
+        return Slope{apply(one.op, {difference(d(0), less, shape).at, x(1)}, shape)};
+      }
+      case Op::power:
+        if (!shape.is_scalar()) return std::nullopt;
+        return power(one, x(0), d(0));
+      case Op::elementwise_power:
+        return power(one, x(0), d(0));
+      case Op::real_power: {
+        if (!d(1).is_zero()) return std::nullopt;
+        const int lower =
+            apply(Op::real_power, {x(0), apply(Op::subtract, {x(1), ones(shape)}, shape)}, shape);
+        return along(apply(Op::elementwise_product, {x(1), lower}, shape), d(0), shape);
+      }
+      case Op::inverse: {
+        const int turned = apply(Op::multiply, {d(0).at, value}, shape);
+        return Slope{apply(Op::negate, {apply(Op::multiply, {value, turned}, shape)}, shape)};
+      }
+      case Op::exp:
+        return along(value, d(0), shape);
+      case Op::log: {
+        // 1/x = exp(-log(x)): without a value where the logarithm has none.
+        const int opposite = apply(Op::negate, {value}, shape);
+        return along(apply(Op::exp, {opposite}, shape), d(0), shape);
+      }
+      case Op::sqrt: {
+        const int twice = apply(Op::add, {value, value}, shape);
+        return Slope{apply(Op::elementwise_quotient, {d(0).at, twice}, shape)};
+      }
+      case Op::sin:
+        return along(apply(Op::cos, {x(0)}, shape), d(0), shape);
+      case Op::cos:
+        return along(apply(Op::negate, {apply(Op::sin, {x(0)}, shape)}, shape), d(0), shape);
+      case Op::tanh: {
+        const int square = apply(Op::elementwise_power, {value}, shape, {2});
+        return along(apply(Op::subtract, {ones(shape), square}, shape), d(0), shape);
+      }
+      case Op::atan2: {
+        const Slope up = d(0).is_zero() ? d(0) : along(x(1), d(0), shape);
+        const Slope down = d(1).is_zero() ? d(1) : along(x(0), d(1), shape);
+        const int squares = apply(Op::add,
+                                  {apply(Op::elementwise_power, {x(0)}, shape, {2}),
+                                   apply(Op::elementwise_power, {x(1)}, shape, {2})},
+                                  shape);
+        return Slope{
+            apply(Op::elementwise_quotient, {difference(up, down, shape).at, squares}, shape)};
+      }
+      default:
+        return std::nullopt;
+    }
+  }
+
+  int apply(Op op, std::vector<int> operands, Shape shape, Attributes attributes = {}) {
+    return assembly_.add(
+        {op, std::move(operands), shape, attributes, {}, like_->origin, like_->offset});
+  }
+  int number(const std::string& decimal) {
+    return assembly_.add({Op::constant, {}, {1, 1}, {}, decimal, like_->origin, like_->offset});
+  }
+  int ones(Shape shape) {
+    return shape.is_scalar() ? number("1") : apply(Op::fill, {number("1")}, shape);
+  }
+
+  Slope unit_slope(Shape shape, int unit) {
+    if (shape.is_scalar()) return {number("1"), 0};
+    std::vector<int> elements;
+    for (int row = 0; row < shape.rows; ++row)
+      for (int column = 0; column < shape.cols; ++column)
+        elements.push_back(number(column * shape.rows + row == unit ? "1" : "0"));
+    return {apply(Op::blocks, std::move(elements), shape, {shape.cols}), unit};
+  }
+  Slope part_of_unit(const Instruction& index, int unit, int rows) {
+    const int row = unit % rows - index.attributes[0];
+    const int column = unit / rows - index.attributes[2];
+    const Shape shape = index.shape;
+    if (row < 0 || row >= shape.rows || column < 0 || column >= shape.cols) return {};
+    return unit_slope(shape, column * shape.rows + row);
+  }
+
+  int filled(const Slope& slope, Shape shape) {
+    return slope.is_zero() ? apply(Op::zeros, {}, shape) : slope.at;
+  }
+  Slope sum(const Slope& a, const Slope& b, Shape shape) {
+    if (a.is_zero() || b.is_zero()) return a.is_zero() ? b : a;
+    return {apply(Op::add, {a.at, b.at}, shape)};
+  }
+  Slope difference(const Slope& a, const Slope& b, Shape shape) {
+    if (b.is_zero()) return a;
+    return {a.is_zero() ? apply(Op::negate, {b.at}, shape)
+                        : apply(Op::subtract, {a.at, b.at}, shape)};
+  }
+  /// A product, one factor of which may be the number 1.
+  Slope times(Op op, const Slope& a, const Slope& b, Shape shape) {
+    const auto is_one = [&](const Slope& s) {
+      return s.unit == 0 && assembly_.shape(s.at).is_scalar();
+    };
+    if (is_one(a)) return {b.at};
+    if (is_one(b) && op != Op::scale) return {a.at};
+    return {apply(op, {a.at, b.at}, shape)};
+  }
+  Slope along(int factor, const Slope& slope, Shape shape) {
+    return times(Op::elementwise_product, {factor}, slope, shape);
+  }
+  /// k x^(k - 1) x', element by element.
+  Slope power(const Instruction& one, int x, const Slope& slope) {
+    const int exponent = one.attributes[0];
+    if (exponent == 0) return {};
+    if (exponent == 1) return slope;
+    const int lower = exponent == 2 ? x : apply(one.op, {x}, one.shape, {exponent - 1});
+    const int factor = apply(Op::scale, {number(std::to_string(exponent)), lower}, one.shape);
+    return along(factor, slope, one.shape);
+  }
+
+  Assembly& assembly_;
+  const Program& body_;
+  const std::vector<int>& moved_;  ///< the instructions of the body
+  const Instruction* like_ = nullptr;
+  std::vector<Slope> slopes_;
+};
+
+std::vector<int> add_instructions(Assembly& assembly, const Program& program,
+                                  const std::vector<int>& inputs);
+
+/// None without rules for all operations.
+std::optional<int> add_columns(Assembly& assembly, const Instruction& jacobian,
+                               const std::vector<int>& operands) {
+  const Program& body = *jacobian.body;
+  const std::vector<int> moved = add_instructions(assembly, body, operands);
+  std::vector<int> columns;
+  for (int unit = 0; unit < jacobian.shape.cols; ++unit) {
+    const auto column = Direction(assembly, body, moved).column(unit);
+    if (!column) return std::nullopt;
+    columns.push_back(*column);
+  }
+  if (columns.size() == 1) return columns.front();
+  const int count = static_cast<int>(columns.size());
+  return assembly.add({Op::blocks,
+                       std::move(columns),
+                       jacobian.shape,
+                       {count},
+                       {},
+                       jacobian.origin,
+                       jacobian.offset});
+}
+
+/// The instructions of a program, jacobians replaced. `inputs`: what stands for its inputs; none:
+/// they stay inputs.
+std::vector<int> add_instructions(Assembly& assembly, const Program& program,
+                                  const std::vector<int>& inputs) {
+  std::vector<int> moved;
+  for (const Instruction& one : program.code) {
+    if (one.op == Op::input) {
+      const auto position = static_cast<std::size_t>(one.attributes[0]);
+      const Input& input = program.inputs[position];
+      moved.push_back(inputs.empty() ? assembly.add_input(input.name, input.shape, one)
+                                     : inputs[position]);
+      continue;
+    }
+    Instruction copy = one;
+    for (int& operand : copy.operands) operand = moved[static_cast<std::size_t>(operand)];
+    if (one.op == Op::jacobian && one.shape.size() > 0)
+      if (const auto columns = add_columns(assembly, one, copy.operands)) {
+        moved.push_back(*columns);
+        continue;
+      }
+    moved.push_back(assembly.add(std::move(copy)));
+  }
+  return moved;
+}
+
+}  // namespace
+
+Program with_derivatives(const Program& program) {
+  bool any = false;
+  for (const Instruction& one : program.code) any = any || one.op == Op::jacobian;
+  if (!any) return program;
+  Assembly assembly;
+  const auto moved = add_instructions(assembly, program, {});
+  return assembly.extract(moved[static_cast<std::size_t>(program.result)]);
+}
+
+}  // namespace gainsmith::expr

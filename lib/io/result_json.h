@@ -1,0 +1,28 @@
+// What `run` writes as result.json beside the results of a problem: how it ended, for those that
+// read the folder later.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/json_text.h"
+
+namespace gainsmith::io {
+
+struct RunResult {
+  int exit = 0;
+  std::string error;                     ///< why it did not end; empty: it did
+  std::string no_campaign;               ///< why there is none; empty: there is one
+  std::vector<std::string> differences;  ///< from `expect:`
+  std::string gains_hash;  ///< of the gains that were written (campaign_json.h); empty: none
+  double seconds = 0;
+};
+
+/// The document of `run --json` on the problem, with version, hash and timings added.
+Json result_json(const Json& report, const std::string& gains_hash, double seconds);
+
+/// InputError with the place for a file that is truncated, of a later version, or lacks a key.
+RunResult parse_result(const std::string& text, const std::string& file);
+
+}  // namespace gainsmith::io

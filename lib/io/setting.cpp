@@ -1,0 +1,109 @@
+#include "io/setting.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/nearest.h"
+#include "expr/parser.h"
+#include "io/yaml.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+/// Puts a value in the place of the one of its name, or adds it.
+template <class Item, class NameOf>
+void replace_item(std::vector<Item>& items, Item item, NameOf name_of) {
+  const auto found = std::find_if(items.begin(), items.end(), [&](const Item& known) {
+    return name_of(known) == name_of(item);
+  });
+  if (found == items.end())
+    items.push_back(std::move(item));
+  else
+    *found = std::move(item);
+}
+
+class Setter {
+ public:
+  Setter(const model::Setting& setting, Sources& sources, model::Problem& problem)
+      : setting_(setting),
+        option_(sources.shown_option("--set " + setting.name)),
+        sources_(sources),
+        problem_(problem),
+        name_(setting.name.substr(0, setting.name.find('('))) {}
+
+  void run() {
+    const model::Method& method = *problem_.method;
+    const auto named = [&](const auto& item) { return item.name == name_; };
+    const auto signed_as = [&](const model::Let& let) { return let.signature.name == name_; };
+    const auto has = [](const auto& items, const auto& test) {
+      return std::any_of(items.begin(), items.end(), test);
+    };
+    const auto by_name = [](const auto& item) { return item.name; };
+    const auto datum = std::find_if(method.data.begin(), method.data.end(), named);
+    if (datum != method.data.end() && !datum->arguments.empty())
+      define(problem_.functions);
+    else if (datum != method.data.end())
+      replace_item(problem_.data, value(), by_name);
+    else if (has(method.parameters, named))
+      replace_item(problem_.parameters, value(), by_name);
+    else if (has(problem_.let, signed_as) || (is_in_problem(method) && has(method.let, signed_as)))
+      define(problem_.let);
+    else
+      refuse_unknown(method);
+  }
+
+ private:
+  /// A method of the problem's own has no text beside that of the problem.
+  static bool is_in_problem(const model::Method& method) { return method.text.empty(); }
+
+  [[noreturn]] void refuse_unknown(const model::Method& method) const {
+    std::vector<std::string> known;
+    for (const auto& datum : method.data) known.push_back(datum.name);
+    for (const auto& parameter : method.parameters) known.push_back(parameter.name);
+    for (const model::Let& let : problem_.let) known.push_back(let.signature.name);
+    if (is_in_problem(method))
+      for (const model::Let& let : method.let) known.push_back(let.signature.name);
+    throw InputError({option_}, "the problem has no datum, parameter or definition '" + name_ +
+                                    "'" + suggestion(name_, known));
+  }
+
+  /// The value as an entry of a problem file; a formula by itself when it has a ';'.
+  model::Value value() {
+    if (setting_.value.find_first_not_of(" \t\r\n") == std::string::npos)
+      throw InputError({option_}, "expected NAME=VALUE; there is no value");
+    if (setting_.value.find(';') != std::string::npos)
+      return {name_, expr::parse(expr::Text(setting_.value, option_)), false, {option_, 1, 1}};
+    const YamlFile file(setting_.value, option_, &sources_);
+    model::Value result = datum_of(file, {name_, {}, {option_, 1, 1}, file.root()});
+    result.place = {option_, 1, 1};
+    return result;
+  }
+
+  void define(std::vector<model::Let>& list) {
+    const model::Let let{
+        expr::parse_signature(expr::Text(setting_.name, option_)), value().value, {option_, 1, 1}};
+    replace_item(list, let, [](const model::Let& known) { return known.signature.name; });
+  }
+
+  const model::Setting& setting_;
+  std::string option_;
+  Sources& sources_;
+  model::Problem& problem_;
+  std::string name_;
+};
+
+}  // namespace
+
+void set_values(const std::vector<model::Setting>& settings, Sources& sources,
+                model::Problem& problem) {
+  for (const model::Setting& setting : settings) {
+    for (const model::Setting& known : problem.settings)
+      if (known.name == setting.name)
+        throw InputError({sources.shown_option("--set " + setting.name)}, "this is given twice");
+    Setter(setting, sources, problem).run();
+    problem.settings.push_back(setting);
+  }
+}
+
+}  // namespace gainsmith::io

@@ -1,0 +1,208 @@
+#include "io/variant_yaml.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "base/nearest.h"
+#include "io/sources.h"
+#include "io/yaml_names.h"
+
+namespace gainsmith::io {
+
+namespace {
+
+/// The keys that lead to a node.
+using KeyPath = std::vector<std::string>;
+
+bool is_component(const KeyPath& path) {
+  if (path.size() < 2 || path[0] != "method") return false;
+  return path.size() == 2 ? path[1] == "plant" || path[1] == "observer"
+                          : path.size() == 3 && path[1] == "observers";
+}
+
+/// Whether a mapping is joined with the other one's, entry by entry.
+bool is_joined(const KeyPath& path) {
+  constexpr auto kNested = std::to_array<std::pair<std::string_view, std::string_view>>(
+      {{"search", "over"}, {"campaign", "initial"}, {"expect", "values"}});
+  const KeyPath above(path.begin(), path.end() - 1);
+  if (is_component(above)) return path.back() != "while";
+  if (path.size() != 2) return path.size() == 1 || is_component(path);
+  return path[0] == "method" || std::any_of(kNested.begin(), kNested.end(), [&](const auto& keys) {
+           return keys.first == path[0] && keys.second == path[1];
+         });
+}
+
+/// One entry of a mapping.
+struct VariantEntry {
+  YAML::Node key;
+  YAML::Node value;
+  std::string name;
+};
+using Entries = std::vector<VariantEntry>;
+
+/// "f" of a key "f(x)" where keys have parameters.
+std::string name_of_key(const std::string& key, const KeyPath& path) {
+  const bool signatures =
+      !path.empty() && (path.back() == "let" || path.back() == "data" || path.back() == "gains");
+  return signatures ? key.substr(0, key.find('(')) : key;
+}
+
+const VariantEntry* find_entry(const Entries& entries, const std::string& name) {
+  const auto found = std::find_if(entries.begin(), entries.end(),
+                                  [&](const VariantEntry& entry) { return entry.name == name; });
+  return found == entries.end() ? nullptr : &*found;
+}
+
+std::vector<std::string> entry_names(const Entries& entries) {
+  std::vector<std::string> names;
+  for (const VariantEntry& entry : entries) names.push_back(entry.name);
+  return names;
+}
+
+/// How often the name is a key below the node.
+int count_keys(const YAML::Node& node, const std::string& name) {
+  int count = 0;
+  for (const auto& entry : node) {
+    if (node.IsMap())
+      count += (entry.first.IsScalar() && entry.first.Scalar() == name ? 1 : 0) +
+               count_keys(entry.second, name);
+    else
+      count += count_keys(entry, name);
+  }
+  return count;
+}
+
+class Variant {
+ public:
+  explicit Variant(YamlFile& file) : file_(file) {
+    open_.push_back(std::filesystem::path(file.file()).filename().string());
+  }
+
+  YAML::Node whole(const YAML::Node& root) {
+    if (!root.IsMap() || !root["like"]) return root;
+    const YAML::Node like = root["like"];
+    const Reference reference{file_.named_by(like, file_.string(like, "like")), "like",
+                              file_.place(like)};
+    refuse_circle(reference);
+    open_.push_back(reference.name);
+    Sources& sources = file_.sources(like);
+    const std::string shown = sources.shown(reference.name);
+    const YAML::Node other = whole(file_.add(sources.problem(reference), shown, reference.name));
+    other_ = shown;
+    root_.reset(root);
+    return joined(root, other, {}, false);
+  }
+
+ private:
+  void refuse_circle(const Reference& reference) const {
+    constexpr std::size_t kMost = 20;
+    const bool circle = std::find(open_.begin(), open_.end(), reference.name) != open_.end();
+    if (!circle && open_.size() <= kMost) return;
+    std::string chain;
+    for (const std::string& name : open_) chain += name + ", which is like ";
+    throw InputError(reference.place,
+                     circle ? "like: this leads back to itself: " + chain + reference.name
+                            : "like: more than " + std::to_string(kMost) + " problems in a row");
+  }
+
+  Entries entries_of(const YAML::Node& node, const KeyPath& path) const {
+    // Two keys of one name are refused.
+    const YamlMap map(file_, node, path.empty() ? "problem" : path.back());
+    Entries entries;
+    for (const auto& entry : node)
+      entries.push_back({entry.first, entry.second, name_of_key(entry.first.Scalar(), path)});
+    return entries;
+  }
+
+  /// `keeps_none`: of a part of a component that is like another one, which takes "none" for what
+  /// that one has.
+  YAML::Node joined(const YAML::Node& own, const YAML::Node& other, const KeyPath& path,
+                    bool keeps_none) {
+    const Entries mine = entries_of(own, path);
+    const Entries theirs = entries_of(other, path);
+    const bool like =
+        is_component(path) && (find_entry(mine, "like") || find_entry(theirs, "like"));
+    std::vector<std::pair<YAML::Node, YAML::Node>> result;
+    for (const VariantEntry& entry : theirs) {
+      if (path.empty() && is_own(entry.name)) continue;
+      const VariantEntry* replaced = find_entry(mine, entry.name);
+      if (replaced == nullptr)
+        result.emplace_back(entry.key, entry.value);
+      else if (keeps_none || !takes_away(*replaced, path))
+        result.emplace_back(replaced->key, one(*replaced, entry, path, like));
+    }
+    for (const VariantEntry& entry : mine) {
+      if (path.empty() && is_own(entry.name)) {
+        if (entry.name != "like" && !is_none(entry.value))
+          result.emplace_back(entry.key, entry.value);
+        continue;
+      }
+      if (find_entry(theirs, entry.name) != nullptr) continue;
+      if (takes_away(entry, path) && !keeps_none)
+        throw InputError(file_.place(entry.value), "there is no '" + entry.name + "' in " + other_ +
+                                                       " to be taken away" +
+                                                       suggestion(entry.name, entry_names(theirs)));
+      refuse_misspelling(entry, theirs, path);
+      result.emplace_back(entry.key, entry.value);
+    }
+    return file_.mapping(result, file_.place(own));
+  }
+
+  /// The value that takes the place of another one.
+  YAML::Node one(const VariantEntry& mine, const VariantEntry& theirs, const KeyPath& path,
+                 bool keeps_none) {
+    KeyPath below = path;
+    below.push_back(theirs.name);
+    if (mine.value.IsMap() && theirs.value.IsMap() && is_joined(below))
+      return joined(mine.value, theirs.value, below, keeps_none);
+    return mine.value;
+  }
+
+  /// What a problem does not take from another one.
+  static bool is_own(const std::string& key) {
+    return key == "problem" || key == "expect" || key == "like";
+  }
+
+  /// "gain_bound: none" means that there is no bound.
+  static bool takes_away(const VariantEntry& entry, const KeyPath& path) {
+    return is_none(entry.value) && (path.empty() || path[0] != "synthesis");
+  }
+
+  /// InputError for what is new here, and is likely to be a misspelling of what is there: no text
+  /// of this file reads it, or it is an observer without a state.
+  void refuse_misspelling(const VariantEntry& entry, const Entries& theirs,
+                          const KeyPath& path) const {
+    if (path.empty()) return;
+    const std::string& section = path.back();
+    const bool of_method = path.size() == 2 && path[0] == "method";
+    const bool is_observer = of_method && section == "observers";
+    const bool must_be_read =
+        section == "let" ||
+        (of_method && (section == "inputs" || section == "noise" || section == "events"));
+    if (!must_be_read && !is_observer) return;
+    if (is_observer && (!entry.value.IsMap() || entry.value["state"] || entry.value["like"]))
+      return;
+    if (must_be_read && (is_read(root_, entry.name) || count_keys(root_, entry.name) > 1)) return;
+    if (const auto near = nearest(entry.name, entry_names(theirs)))
+      throw InputError(file_.place(entry.key),
+                       "'" + entry.name + "' is not in " + other_ +
+                           (is_observer ? ", and has no state" : ", and nothing reads it") +
+                           "; did you mean '" + *near + "'?");
+  }
+
+  YamlFile& file_;
+  YAML::Node root_;                ///< of the problem that is like another one
+  std::string other_;              ///< the file of that one
+  std::vector<std::string> open_;  ///< the problem, what it is like, and so on
+};
+
+}  // namespace
+
+YAML::Node with_what_it_is_like(YamlFile& file) { return Variant(file).whole(file.root()); }
+
+}  // namespace gainsmith::io

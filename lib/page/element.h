@@ -1,0 +1,29 @@
+// Elements of a page. The page is HTML that is well-formed XML too: every element is closed, and
+// texts of users are escaped (report/text.h) where they enter.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace gainsmith::page {
+
+/// "<td class="n">content</td>"; `attributes` as they are written, `content` is markup.
+std::string element(std::string_view tag, std::string_view content,
+                    std::string_view attributes = {});
+
+/// The same of a text, which is escaped.
+std::string text_element(std::string_view tag, std::string_view text,
+                         std::string_view attributes = {});
+
+/// A text with its lines, as a file or a terminal shows it.
+std::string preformatted(std::string_view text, std::string_view attributes = {});
+
+std::string formula(std::string_view mathml);
+
+/// A heading and what stands below it; nothing without content.
+std::string section(std::string_view title, const std::string& content);
+
+/// "1 run", "2 runs".
+std::string count_of(unsigned long long number, const std::string& what);
+
+}  // namespace gainsmith::page

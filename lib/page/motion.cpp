@@ -1,0 +1,260 @@
+#include "page/motion.h"
+
+#include "page/element.h"
+#include "page/mathml.h"
+#include "page/rows.h"
+#include "page/symbol.h"
+#include "report/text.h"
+
+namespace gainsmith::page {
+
+namespace {
+
+using EventKind = model::Dynamics::EventKind;
+using NoiseKind = model::Dynamics::NoiseKind;
+using report::escaped;
+
+std::string quoted(const std::string& name) { return text_element("b", name); }
+
+class Motion {
+ public:
+  explicit Motion(const Notation& notation) : notation_(notation) {}
+
+  std::string component(const model::Component& one, const std::string& title) const {
+    std::string rows;
+    for (const model::Output& output : one.outputs)
+      rows += formula_row("", defined(output.name, output.value),
+                          output.at.empty() ? "" : "at " + quoted(output.at));
+    for (const model::Let& let : one.let) rows += definition(let, "");
+    for (const model::Named& rate : one.flow)
+      rows +=
+          formula_row("", equation(element("mover", name(rate.name) + mo("˙")), of(rate.value)));
+    for (const model::Named& next : one.jump) rows += jump(next, "timer");
+    for (const model::ReactionText& reaction : one.at)
+      for (const model::PassText& pass : reaction.passes) rows += pass_rows(pass, reaction.event);
+    for (const model::FlowSetText& set : one.flow_sets)
+      rows += formula_row("", of(set.condition), "while it flows");
+    if (one.frozen) rows += formula_row("", of(*one.frozen), "where it rests");
+    for (const model::EventText& own : one.events) rows += event(own);
+    return group(title, rows);
+  }
+
+  std::string event(const model::EventText& one) const {
+    std::string math;
+    std::string how;
+    switch (one.kind) {
+      case EventKind::when:
+        how = "while this is true";
+        break;
+      case EventKind::rises:
+        how = "when this rises above 0";
+        break;
+      case EventKind::falls:
+        how = "when this falls below 0";
+        break;
+      case EventKind::crosses:
+        how = "when this crosses 0";
+        break;
+      case EventKind::every:
+        how = one.numbers.size() == 1 ? "the time between two"
+                                      : "the time between two, from this range";
+        break;
+      case EventKind::at:
+        how = one.rows.empty() ? "its times"
+                               : "at " + count_of(one.rows.size(), "time") + " of a file";
+        break;
+    }
+    if (one.what) math = of(*one.what);
+    if (!one.numbers.empty()) math = range_mathml(one.numbers, notation_);
+    if (!one.first.empty())
+      how += ", the first after " + formula(range_mathml(one.first, notation_));
+    if (one.only_if) how += ", only if " + formula(of(*one.only_if));
+    if (one.lost > 0) how += ", lost with probability " + formula(value(one.lost));
+    return formula_row(one.name, math, how);
+  }
+
+  std::string noise(const model::NoiseText& one) const {
+    std::string how = one.kind == NoiseKind::normal ? "normal, of this standard deviation"
+                                                    : "uniform in this range";
+    if (!one.event.empty()) how += ", new at " + quoted(one.event);
+    if (one.every) how += ", new every " + formula(of(*one.every));
+    std::string math = one.values.empty() ? "" : range_mathml(one.values, notation_);
+    if (!one.sinusoid.empty()) {
+      how = "a sinusoid";
+      std::vector<std::string> parts;
+      for (const auto& [part, ends] : one.sinusoid)
+        parts.push_back(equation(text_element("mi", part), range_mathml(ends, notation_), ":"));
+      math = row(listed(parts));
+    }
+    return formula_row("", equation(name(one.name), math, math.empty() ? "" : "∼"), how);
+  }
+
+  std::string defined(const std::string& left, const expr::Expression& right) const {
+    return equation(name(left), of(right));
+  }
+
+  std::string claim(const model::Claim& one) const {
+    using model::ClaimKind;
+    std::string math = of(one.value);
+    std::string remark;
+    switch (one.kind) {
+      case ClaimKind::nonincreasing:
+        remark = "never increases";
+        break;
+      case ClaimKind::cost:
+        math = cost(one);
+        break;
+      case ClaimKind::shrinks: {
+        const auto at = [&](const std::string& when) {
+          return row(factor(one.value) + element("msub", mo("|") + when));
+        };
+        math = row(at("<mtext>end</mtext>") + mo("≤") + (one.factor ? factor(*one.factor) : "") +
+                   at("<mn>0</mn>"));
+        break;
+      }
+      case ClaimKind::below:
+      case ClaimKind::above:
+        math = row(math + mo(one.kind == ClaimKind::below ? "≤" : "≥") +
+                   (one.bound ? of(*one.bound) : ""));
+        break;
+    }
+    const auto add = [&](const std::string& part) {
+      remark += (remark.empty() ? "" : ", ") + part;
+    };
+    if (one.after) add("from " + formula(equation("<mi>t</mi>", of(*one.after))) + " on");
+    if (!one.over.empty()) add("just after " + quoted(one.over));
+    if (one.tolerance > 0) add("within " + formula(value(one.tolerance)) + " of the bound");
+    const std::string members = for_all_text(one.indices, notation_);
+    if (!members.empty()) add(members);
+    return formula_row(one.name, math, remark);
+  }
+
+  std::string start(const model::InitialValue& one) const {
+    using model::StartKind;
+    std::vector<std::string> values;
+    for (const model::Value& part : one.values) values.push_back(value_mathml(part, notation_));
+    const std::string left = name(one.state) + fenced("<mn>0</mn>");
+    switch (one.kind) {
+      case StartKind::expression:
+        return formula_row("", equation(row(left), row(listed(values))));
+      case StartKind::box:
+        return formula_row("", equation(row(left), fenced(listed(values), "[", "]"), "∈"),
+                           "uniform");
+      case StartKind::list:
+        return formula_row("", equation(row(left), fenced(listed(values), "{", "}"), "∈"),
+                           "in turn");
+      case StartKind::ellipsoid:
+        return formula_row(
+            "", equation(row(left), row("<mi>ellipsoid</mi>" + fenced(listed(values))), "∈"),
+            "uniform; centre, matrix, level");
+    }
+    return "";
+  }
+
+ private:
+  std::string name(const std::string& text) const { return name_mathml(text, notation_); }
+  std::string of(const expr::Expression& expression) const { return mathml(expression, notation_); }
+
+  /// In parentheses where it is neither a number nor a name nor a value of a function.
+  std::string factor(const expr::Expression& expression) const {
+    const expr::NodeKind kind = expression.root->kind;
+    const bool alone = kind == expr::NodeKind::number || kind == expr::NodeKind::name ||
+                       kind == expr::NodeKind::call;
+    return alone ? of(expression) : fenced(of(expression));
+  }
+
+  std::string definition(const model::Let& let, const std::string& remark) const {
+    return formula_row("", equation(signature_mathml(let.signature, notation_), of(let.body)),
+                       remark);
+  }
+
+  std::string jump(const model::Named& next, const std::string& event) const {
+    return formula_row("",
+                       equation(element("msup", row(name(next.name)) + mo("+")), of(next.value)),
+                       "at " + quoted(event));
+  }
+
+  std::string pass_rows(const model::PassText& pass, const std::string& event) const {
+    std::string rows;
+    for (const model::Let& let : pass.let) rows += definition(let, "at " + quoted(event));
+    for (const model::Named& next : pass.map) rows += jump(next, event);
+    if (pass.repeats && pass.until)
+      rows += formula_row("", of(*pass.until), "until then repeated, at " + quoted(event));
+    return rows;
+  }
+
+  std::string cost(const model::Claim& one) const {
+    std::string sum;
+    if (one.flow_cost) sum = mo("∫") + row(factor(*one.flow_cost) + "<mi>d</mi><mi>t</mi>");
+    if (one.jump_cost)
+      sum += (sum.empty() ? "" : mo("+")) + element("munder", mo("∑") + "<mtext>jumps</mtext>") +
+             factor(*one.jump_cost);
+    return row(sum + mo("≤") + factor(one.value) + element("msub", mo("|") + "<mn>0</mn>"));
+  }
+
+  const Notation& notation_;
+};
+
+std::string laws(const model::Campaign& campaign, const Notation& notation) {
+  std::string rows;
+  for (const model::SamplingLaw& law : campaign.sampling) {
+    std::string values;
+    if (!law.values.empty()) values = range_mathml(law.values, notation, "[");
+    rows += formula_row(law.event, values, escaped(to_string(law.kind)));
+  }
+  return rows;
+}
+
+}  // namespace
+
+std::string dynamics(const model::Problem& problem, const Notation& notation) {
+  const model::Method& method = *problem.method;
+  if (!method.has_dynamics) return "";
+  const Motion motion(notation);
+  std::string text = motion.component(method.plant, "Plant");
+  for (const model::Component& observer : method.observers)
+    text += motion.component(
+        observer, observer.name == "observer" ? "Observer" : "Observer " + observer.name);
+  std::string events;
+  for (const model::EventText& event : method.events) events += motion.event(event);
+  std::string inputs;
+  for (const model::Named& input : method.inputs)
+    inputs += formula_row("", motion.defined(input.name, input.value));
+  for (const model::MeasuredText& measured : method.measured)
+    inputs += formula_row(
+        "", name_mathml(measured.name, notation),
+        "measured" + std::string(measured.series
+                                     ? ", " + count_of(measured.series->times.size(), "row") +
+                                           " of " + escaped(measured.series->file)
+                                     : ""));
+  std::string noise;
+  for (const model::NoiseText& one : method.noise) noise += motion.noise(one);
+  for (const model::UncertainText& one : problem.uncertain) {
+    std::vector<std::string> values;
+    for (const auto* list : {&one.box, &one.vertices})
+      for (const model::Value& end : *list) values.push_back(value_mathml(end, notation));
+    noise += formula_row(
+        "", equation(name_mathml(one.name, notation), fenced(listed(values), "{", "}"), "∈"),
+        one.box.empty() ? "uncertain: one of these, in turn"
+        : one.corners   ? "uncertain: the corners between these, in turn"
+                        : "uncertain: between these, drawn once a run");
+  }
+  std::string signals;
+  for (const model::Named& signal : method.signals)
+    signals += formula_row("", motion.defined(signal.name, signal.value));
+  return text + group("Events", events) + group("Inputs", inputs) +
+         group("Noise and uncertainty", noise) + group("Signals", signals);
+}
+
+std::string claimed(const model::Problem& problem, const Notation& notation) {
+  if (!problem.method->has_dynamics) return "";
+  const Motion motion(notation);
+  std::string claims;
+  for (const model::Claim& claim : problem.method->claims) claims += motion.claim(claim);
+  std::string starts;
+  for (const model::InitialValue& one : problem.campaign.initial) starts += motion.start(one);
+  return group("Claims", claims) + group("Where runs start", starts) +
+         group("Times between events", laws(problem.campaign, notation));
+}
+
+}  // namespace gainsmith::page

@@ -1,0 +1,124 @@
+#include "page/page.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "base/number.h"
+#include "base/version.h"
+#include "page/coarse.h"
+#include "page/element.h"
+#include "page/style.h"
+#include "report/text.h"
+
+namespace gainsmith::page {
+
+namespace {
+
+std::string id_of(std::size_t k) { return "p" + std::to_string(k + 1); }
+
+/// "yes", "no", "undecided", for the colour of a line of the table.
+std::string colour_of(const Results& results) {
+  if (!results.error.empty()) return "no";
+  if (results.mark.empty()) return to_string(results.gains.verdict);
+  return results.mark == "ok" ? "yes" : results.mark == "UNDECIDED" ? "undecided" : "no";
+}
+
+std::string line_of(const Results& results, std::size_t k, bool marks) {
+  std::string line;
+  const auto add = [&](const std::string& text) { line += text_element("td", text); };
+  if (marks) line += text_element("td", results.mark, "class=\"" + colour_of(results) + "\"");
+  line += element("td", text_element("a", results.name, "href=\"#" + id_of(k) + "\""));
+  if (!results.error.empty())
+    return element("tr", line + text_element("td", results.error, "colspan=\"4\""));
+  const model::Gains& gains = results.gains;
+  add(gains.statement.method_name);
+  line +=
+      text_element("td", to_string(gains.verdict), "class=\"" + to_string(gains.verdict) + "\"");
+  add(gains.objective ? brief(*gains.objective) : "");
+  add(results.campaign ? results.campaign_line : "none");
+  add(results.seconds ? brief(*results.seconds, 2) + " s" : "");
+  return element("tr", line);
+}
+
+std::string table_of(const std::vector<Results>& all) {
+  const bool marks =
+      std::any_of(all.begin(), all.end(), [](const Results& one) { return !one.mark.empty(); });
+  std::string head = marks ? text_element("th", "") : "";
+  for (const char* name : {"problem", "method", "verdict", "optimum", "campaign", "time"})
+    head += text_element("th", name);
+  std::string lines;
+  for (std::size_t k = 0; k < all.size(); ++k) lines += line_of(all[k], k, marks) + "\n";
+  return element("div",
+                 element("table", element("thead", element("tr", head)) + element("tbody", lines)),
+                 "class=\"wide\"") +
+         "\n";
+}
+
+/// "118 problems: 90 yes, 20 no, 8 undecided"
+std::string counts_of(const std::vector<Results>& all) {
+  std::string text = count_of(all.size(), "problem") + ": ";
+  std::string parts;
+  const auto add = [&](const std::string& what, auto matches) {
+    const auto count = std::count_if(all.begin(), all.end(), matches);
+    if (count > 0) parts += (parts.empty() ? "" : ", ") + std::to_string(count) + " " + what;
+  };
+  for (const auto verdict : {model::Verdict::yes, model::Verdict::no, model::Verdict::undecided})
+    add(to_string(verdict),
+        [&](const Results& one) { return one.error.empty() && one.gains.verdict == verdict; });
+  add("without results", [](const Results& one) { return !one.error.empty(); });
+  return text + parts;
+}
+
+std::string whole(const std::vector<Results>& all, const std::string& title) {
+  std::string body = text_element("h1", title) + "\n";
+  if (all.size() == 1) {
+    body += element("article", sections(all.front()));
+  } else {
+    body += text_element("p", counts_of(all)) + table_of(all);
+    for (std::size_t k = 0; k < all.size(); ++k)
+      body += element("details",
+                      text_element("summary", all[k].name) +
+                          element("article", sections(all[k]), "id=\"" + id_of(k) + "\""),
+                      "class=\"problem\"") +
+              "\n";
+  }
+  body += text_element("footer", std::string("gainsmith ") + kVersion);
+  return "<!DOCTYPE html>\n<html lang=\"en\">\n<head><meta charset=\"utf-8\"/>"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>" +
+         text_element("title", title) + element("style", style) + "</head>\n" +
+         element("body", body) + "\n</html>\n";
+}
+
+/// The largest pictures go until the page is smaller by `excess` bytes.
+void leave_out_pictures(std::vector<Results>& all, std::size_t excess) {
+  std::vector<Results*> order;
+  for (Results& one : all) order.push_back(&one);
+  std::stable_sort(order.begin(), order.end(), [](const Results* a, const Results* b) {
+    return a->picture.size() > b->picture.size();
+  });
+  for (Results* one : order) {
+    if (excess == 0 || one->picture.empty()) return;
+    constexpr std::size_t kSentence = 300;  // that says so
+    excess -= std::min(excess, one->picture.size() - std::min(one->picture.size(), kSentence));
+    one->picture.clear();
+  }
+}
+
+}  // namespace
+
+std::string page(const std::vector<Results>& results, const std::string& title) {
+  std::string text = whole(results, title);
+  if (results.size() == 1) return text;
+  std::vector<Results> lighter = results;
+  for (const double tolerance : {0.25, 0.5, 1.0}) {  // pixels
+    if (text.size() <= page_size) return text;
+    for (Results& one : lighter) one.picture = coarse(one.picture, tolerance);
+    text = whole(lighter, title);
+  }
+  if (text.size() <= page_size) return text;
+  leave_out_pictures(lighter, text.size() - page_size);
+  return whole(lighter, title);
+}
+
+}  // namespace gainsmith::page

@@ -1,0 +1,19 @@
+// The whole page: one file that needs no other, no network and no script.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "page/results.h"
+
+namespace gainsmith::page {
+
+/// The page of one problem, or of many: a table of all, then each problem folded. The same results
+/// give the same bytes. Well-formed XML, whatever the texts hold.
+std::string page(const std::vector<Results>& results, const std::string& title);
+
+/// How many bytes a page should have at most: pictures of many problems are made coarser for it
+/// (coarse.h).
+constexpr std::size_t page_size = 3'000'000;
+
+}  // namespace gainsmith::page

@@ -1,0 +1,85 @@
+// Observers of nonlinear plants as a person meets them: what is said where there is none.
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "end_to_end/program.h"
+
+namespace gainsmith::tests {
+namespace {
+
+std::string observer(const std::string& low, const std::string& high, const std::string& f,
+                     const std::string& h, const std::string& more = "") {
+  return "problem: plant\nmethod: nonlinear-observer\ndata:\n  low: " + low + "\n  high: " + high +
+         "\n  f(x): \"" + f + "\"\n  h(x): \"" + h + "\"\n" + more;
+}
+
+Outcome synth(const std::string& text) {
+  const Folder folder;
+  return gainsmith({"synth", folder.file("plant.yaml", text)});
+}
+
+/// With the line breaks of the summary taken out.
+bool says(const std::string& text, const std::string& words) {
+  std::string flat;
+  for (const char c : text)
+    if (c != '\n' && !(c == ' ' && flat.ends_with(' ')))
+      flat += c;
+    else if (!flat.ends_with(' '))
+      flat += ' ';
+  return flat.find(words) != std::string::npos;
+}
+
+TEST(NonlinearObserver, AModeThatTheOutputDoesNotShowIsNamedWithItsPoint) {
+  const Outcome at_rest = synth(observer("[-1, -1]", "[1, 1]", "[x(2); 4*x(1)]", "x(1)^2"));
+  EXPECT_NE(at_rest.exit, 0);
+  EXPECT_TRUE(says(at_rest.out,
+                   "linearised at x_1 = 0, x_2 = 0: eigenvalue 2 in the direction "
+                   "[0.5; 1]"))
+      << at_rest.out;
+  const Outcome anywhere =
+      synth(observer("[-1, -1]", "[1, 1]", "[0.5*x(1); sin(x(1)) - x(2)]", "x(1)*0 + x(2)*0"));
+  EXPECT_TRUE(says(anywhere.out, "eigenvalue 0.5 in the direction")) << anywhere.out;
+  const Outcome seen = synth(observer("[-1, -1]", "[1, 1]", "[x(2); 4*x(1)]", "x(1)"));
+  EXPECT_EQ(seen.exit, 0) << seen.out;
+  EXPECT_FALSE(says(seen.out, "Hautus")) << seen.out;
+}
+
+TEST(NonlinearObserver, APoleInTheBoxIsNamedWithPlaceAndPoint) {
+  struct Case {
+    const char *low, *high, *f, *column, *message, *point;
+  };
+  for (const Case& one :
+       {Case{"[-1, -1]", "[1, 1]", "[x(2); 1/x(1) - x(2)]", ":6:17", "division by zero",
+             "x_1 = 0, "},
+        Case{"[-1, -1]", "[1, 1]", "[x(2); x(1)/(0.25 - x(2))]", ":6:17", "division by zero",
+             "x_2 = 0.25"},
+        Case{"[-0.5, 0.2]", "[2, 2]", "[0.5 - sqrt(x(1)); sqrt(x(1)) - sqrt(x(2))]", ":6:17",
+             "sqrt of -0.75", "x_1 = -0.75"},
+        Case{"[-1, -1]", "[1, 1]", "[inv(x(1) + 0.3)*x(2); -x(2)]", ":6:11", "singular",
+             "x_1 = -0.3"}}) {
+    const Outcome outcome = synth(observer(one.low, one.high, one.f, "x(1)"));
+    EXPECT_NE(outcome.exit, 0) << one.f;
+    EXPECT_NE(outcome.exit, 70) << one.f;
+    for (const char* words : {one.column, one.message, one.point})
+      EXPECT_TRUE(says(outcome.out + outcome.err, words)) << words << "\n"
+                                                          << outcome.out << outcome.err;
+  }
+}
+
+TEST(NonlinearObserver, ARunThatLeavesTheBoxIsOpenForThatReasonAlone) {
+  const Folder folder;
+  const std::string gains = folder.path("gains.json");
+  const std::string text =
+      observer("[-1, -1]", "[1, 1]", "[x(2); 0.5*sin(x(1)) + 1]", "x(1)",
+               "campaign: {runs: 5, horizon: 5, initial: {x: 0, xh: {box: [-1, 1]}}}\n");
+  ASSERT_EQ(gainsmith({"synth", folder.file("plant.yaml", text), "-o", gains}).exit, 0);
+  const Outcome outcome = gainsmith({"verify", gains});
+  EXPECT_EQ(outcome.exit, 3) << outcome.out;
+  EXPECT_TRUE(says(outcome.out, "undecided: the run ends there, before the horizon"))
+      << outcome.out;
+  EXPECT_FALSE(says(outcome.out, "nothing is certain")) << outcome.out;
+}
+
+}  // namespace
+}  // namespace gainsmith::tests

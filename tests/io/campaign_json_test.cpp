@@ -1,0 +1,117 @@
+#include "io/campaign_json.h"
+
+#include <gtest/gtest.h>
+
+#include "io/problem_text.h"
+#include "io/result_json.h"
+
+namespace gainsmith::io {
+namespace {
+
+using tests::input_error;
+
+model::CampaignRecord campaign() {
+  model::CampaignRecord record;
+  record.verdict = model::CampaignVerdict::violated;
+  record.runs = 900;
+  record.runs_asked = 1000;
+  record.seed = 18446744073709551615U;
+  record.horizon = 12.5;
+  record.violations = 2;
+  record.undecided = 1;
+  record.unfinished = 1;
+  record.first_unfinished = {17, "escapes \"<b>\""};
+  record.worst_run = 17;
+  record.repeated = 3;
+  record.confirmed = {17, 18};
+  record.confidence = 0.95;
+  record.violation_probability = 0.01;
+  record.notes = {"note \xC3\xBC"};
+  record.message = "interrupted";
+  record.version = "0.1.0";
+  record.gains_hash = "abc";
+  model::ClaimRecord claim;
+  claim.name = "small";
+  claim.kind = "stays below";
+  claim.violations = 2;
+  claim.worst = {0.5, 3, std::nullopt, 1e-9, 2.5, 4};
+  claim.tolerance = 1e-6;
+  model::ClaimRecord void_one;
+  void_one.name = "other";
+  void_one.kind = "shrinks";
+  void_one.stated = false;
+  void_one.missing = {"P"};
+  record.checks = {claim, void_one};
+  return record;
+}
+
+TEST(CampaignJson, IsReadAsItWasWritten) {
+  for (const bool integrated : {false, true}) {
+    model::CampaignRecord record = campaign();
+    record.integrated = integrated;
+    const std::string text = to_text(to_json(record));
+    const model::CampaignRecord read = parse_campaign(text, "campaign.json");
+    EXPECT_EQ(to_text(to_json(read)), text);
+    EXPECT_EQ(read.seed, record.seed);
+    EXPECT_EQ(read.integrated, integrated);
+    EXPECT_FALSE(read.checks[0].worst.bound);
+    EXPECT_EQ(read.checks[1].missing, std::vector<std::string>{"P"});
+  }
+}
+
+TEST(CampaignJson, MistakesAreFoundWithTheirPlace) {
+  const std::string text = to_text(to_json(campaign()));
+  const auto error = [](const std::string& mistaken) {
+    return std::string(input_error([&] { parse_campaign(mistaken, "campaign.json"); }).what());
+  };
+  const auto replaced = [&](const std::string& from, const std::string& to) {
+    std::string changed = text;
+    const std::size_t at = changed.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return changed.replace(at, from.size(), to);
+  };
+  EXPECT_NE(error(text.substr(0, text.size() / 2)).find("campaign.json:"), std::string::npos);
+  EXPECT_NE(error(replaced("\"runs\": 900", "\"runs\": -1")).find("campaign.json:3"),
+            std::string::npos);
+  EXPECT_NE(error(replaced("\"violated\"", "\"lost\"")).find("held, violated or undecided"),
+            std::string::npos);
+  EXPECT_NE(error(replaced("\"0.1.0\"", "\"99.0.0\"")).find("99.0.0"), std::string::npos);
+  EXPECT_NE(error(replaced("\"gainsmith\"", "\"other\"")).find("gainsmith"), std::string::npos);
+  EXPECT_NE(error("[]").find("expected an object"), std::string::npos);
+}
+
+TEST(GainsHash, LeavesTimingsOut) {
+  model::Gains gains;
+  gains.version = "0.1.0";
+  const std::string hash = gains_hash(gains);
+  gains.timings = {{"total", 3}};
+  EXPECT_EQ(gains_hash(gains), hash);
+  gains.gains = {{"L", numbers::Matrix::Ones(1, 1)}};
+  EXPECT_NE(gains_hash(gains), hash);
+}
+
+TEST(ResultJson, IsReadAsItWasWritten) {
+  const Json report = {{"problem", "p"},   {"folder", "p"},        {"exit", 1},
+                       {"verdict", "yes"}, {"no_campaign", "why"}, {"differences", {"a", "b"}}};
+  const RunResult read = parse_result(to_text(result_json(report, "abc", 1.5)), "result.json");
+  EXPECT_EQ(read.exit, 1);
+  EXPECT_EQ(read.no_campaign, "why");
+  EXPECT_EQ(read.differences, (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(read.gains_hash, "abc");
+  EXPECT_EQ(read.seconds, 1.5);
+  const Json failed = {{"folder", "p"}, {"exit", 2}, {"error", "p.yaml:1:1: bad"}};
+  EXPECT_EQ(parse_result(to_text(result_json(failed, "", 0)), "result.json").error,
+            "p.yaml:1:1: bad");
+  Json without_hash = result_json(report, "", 1);
+  EXPECT_NE(
+      std::string(input_error([&] { parse_result(to_text(without_hash), "result.json"); }).what())
+          .find("gains_sha256"),
+      std::string::npos);
+  const InputError error =
+      input_error([] { parse_result("{\"gainsmith\": \"0.1.0\"}", "result.json"); });
+  EXPECT_EQ(error.place().file, "result.json");
+  EXPECT_NE(error.message().find("exit"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace gainsmith::io
