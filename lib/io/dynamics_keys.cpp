@@ -9,7 +9,7 @@ namespace {
 
 constexpr Key kState = {"state", "{text | state}?", "shapes, or shapes with a start"};
 constexpr Key kMode = {"mode", "{text}?", "whole numbers with their starts"};
-constexpr Key kOutput = {"output", "{matrix | output}?", "what others read"};
+constexpr Key kOutput = {"output", "{written matrix | output}?", "what others read"};
 constexpr Key kLet = {"let", "{text}?", "definitions"};
 constexpr Key kFlow = {"flow", "{matrix}?", "derivatives of the states"};
 constexpr Key kJump = {"jump", "{matrix}?", "states after the timer has run down"};

@@ -83,12 +83,13 @@ constexpr std::array kKeysOfSolver = {Key{"status", "text", "", kRequired},
                                       Key{"dual_infeasibility", "number", "", kRequired},
                                       Key{"precision", "text", "", kRequired}};
 
-constexpr std::array kKeysOfStatement = {
-    Key{"method", "text", "its name", kRequired}, Key{"method_text", "text", "", kRequired},
-    Key{"problem_file", "text", "", kRequired}, Key{"problem_text", "text", "", kRequired},
-    Key{"set", "{text}", "values that the command line gave"},
-    Key{"files", "[file]", "what was read besides"},
-    Key{"sha256", "text", "of both texts", kRequired}};
+constexpr std::array kKeysOfStatement = {Key{"method", "text", "its name", kRequired},
+                                         Key{"method_text", "text", "", kRequired},
+                                         Key{"problem_file", "text", "", kRequired},
+                                         Key{"problem_text", "text", "", kRequired},
+                                         Key{"set", "{text}", "values that the command line gave"},
+                                         Key{"files", "[file]", "what was read besides"},
+                                         Key{"sha256", "text", "of both texts", kRequired}};
 
 constexpr std::array kKeysOfFile = {
     Key{"file", "text", "relative to the problem", kRequired}, Key{"sha256", "text", "", kRequired},
@@ -111,16 +112,15 @@ const Level kFileLevel = {"file", "A file that was read", kKeysOfFile};
 }  // namespace
 
 std::span<const Level* const> gain_file_levels() {
-  static constexpr std::array kLevels = {&kDocumentLevel, &kGainFunctionLevel, &kMarginLevel,
-                                         &kBoundLevel,    &kCertificateLevel,  &kRefinementLevel,
-                                         &kSearchLevel,   &kSolverLevel,       &kStatementLevel,
-                                         &kFileLevel};
+  static constexpr std::array kLevels = {
+      &kDocumentLevel,   &kGainFunctionLevel, &kMarginLevel, &kBoundLevel,     &kCertificateLevel,
+      &kRefinementLevel, &kSearchLevel,       &kSolverLevel, &kStatementLevel, &kFileLevel};
   return kLevels;
 }
 
 std::span<const NamedForm> gain_file_forms() {
   static constexpr std::array kNamedForms = {NamedForm{"rows", "number | [[number]]"},
-                                           NamedForm{"row or rows", "[number]+ | [[number]+]+"}};
+                                             NamedForm{"row or rows", "[number]+ | [[number]+]+"}};
   return kNamedForms;
 }
 

@@ -28,7 +28,7 @@ constexpr std::array kMethod = {
     Key{"timer", "{timer}1", "a clock that is reset"},
     Key{"events", "{event}?", "what happens at instants"},
     Key{"order", "[text]", "of events at one instant"},
-    Key{"inputs", "{matrix | measured input}?", "functions of time, or measured ones"},
+    Key{"inputs", "{written matrix | measured input}?", "functions of time, or measured ones"},
     Key{"noise", "{noise}?", "what is drawn anew in a run"},
     Key{"signals", "{text}?", "expressions to be shown along runs"},
     Key{"claims", "{claim}?", "what campaigns check"},

@@ -152,9 +152,10 @@ constexpr std::array kSearchRules = {Rule::some("largest,smallest,over"),
                                      Rule::needs("evaluations", "over"),
                                      Rule::needs("runs", "minimize")};
 
-constexpr std::array kUncertain = {Key{"box", "[matrix, matrix]", "[low, high]"},
-                                   Key{"vertices", "text | [matrix]+", "one of these values"},
-                                   Key{"sampling", "'uniform' | 'vertices'", "of the box"}};
+constexpr std::array kUncertain = {
+    Key{"box", "[matrix, matrix]", "[low, high]"},
+    Key{"vertices", "text | data file | [matrix]+", "one of these values"},
+    Key{"sampling", "'uniform' | 'vertices'", "of the box"}};
 constexpr std::array kUncertainRules = {Rule::exactly_one("box,vertices"),
                                         Rule::needs("sampling", "box")};
 
@@ -243,7 +244,8 @@ std::span<const Level* const> problem_levels() { return keys::kProblemLevels; }
 
 std::span<const NamedForm> problem_forms() {
   static constexpr std::array kNamedForms = {
-      NamedForm{"matrix", "text | [text]+ | [[text]+]+ | data file"},
+      NamedForm{"written matrix", "text | [text]+ | [[text]+]+"},
+      NamedForm{"matrix", "written matrix | data file"},
       NamedForm{"datum", "matrix | matrices"},
       NamedForm{"range", "[text, text]"},
       NamedForm{"ends", "text | [matrix, matrix]"},
