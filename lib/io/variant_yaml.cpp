@@ -93,6 +93,8 @@ class Variant {
     Sources& sources = file_.sources(like);
     const std::string shown = sources.shown(reference.name);
     const YAML::Node other = whole(file_.add(sources.problem(reference), shown, reference.name));
+    if (other.IsMap() && other["gainsmith"])
+      throw InputError(reference.place, "like: " + shown + " is a gain file; expected a problem");
     other_ = shown;
     root_.reset(root);
     return joined(root, other, {}, false);
@@ -160,7 +162,22 @@ class Variant {
     below.push_back(theirs.name);
     if (mine.value.IsMap() && theirs.value.IsMap() && is_joined(below))
       return joined(mine.value, theirs.value, below, keeps_none);
+    // A section without entries changes none.
+    if (mine.value.IsNull() && theirs.value.IsMap() && is_joined(below)) return theirs.value;
+    if (below == KeyPath{"method"}) refuse_change(mine, theirs);
     return mine.value;
+  }
+
+  /// InputError for changes of a method that the other problem only names.
+  void refuse_change(const VariantEntry& mine, const VariantEntry& theirs) const {
+    const bool whole = !mine.value.IsMap() || mine.value["data"] || mine.value["require"] ||
+                       mine.value["plant"] || mine.value["report"];
+    if (whole || !theirs.value.IsScalar()) return;
+    const std::string& name = theirs.value.Scalar();
+    throw InputError(file_.place(mine.value),
+                     other_ + " names its method, '" + name +
+                         "', and has no text of it to be changed here; 'gainsmith methods " + name +
+                         "' prints it, to be put under 'method'");
   }
 
   /// What a problem does not take from another one.

@@ -212,6 +212,7 @@ std::size_t YamlFile::end_of(const Part& part) const {
 }
 
 std::string YamlFile::named_by(const YAML::Node& node, const std::string& path) const {
+  if (path.empty()) throw InputError(place(node), "expected the name of a file");
   return Sources::name_of(path, part(node).name);
 }
 

@@ -95,6 +95,22 @@ TEST_F(Variants, RemoveWithNone) {
   EXPECT_FALSE(read("synthesis: {gain_bound: none}\n").synthesis.gain_bound);
 }
 
+TEST_F(Variants, ASectionWithoutEntriesChangesNothing) {
+  EXPECT_EQ(read("data:\n").data.size(), 1U);
+}
+
+TEST_F(Variants, CannotChangeAMethodThatIsOnlyNamed) {
+  write("named.yaml", kProblem);
+  const InputError error = input_error([&] {
+    parse_problem("problem: p\nlike: named.yaml\nmethod: {claims: {cost: none}}\n", path("p.yaml"),
+                  library());
+  });
+  EXPECT_EQ(error.place(), (Place{path("p.yaml"), 3, 9}));
+  EXPECT_NE(error.message().find("'gainsmith methods sampled-data-hybrid' prints it"),
+            std::string::npos)
+      << error.message();
+}
+
 TEST_F(Variants, MayBeLikeVariants) {
   write("base/moon.yaml", "problem: moon\nlike: pendulum.yaml\ndata: {a: {csv: a.csv}}\n");
   write("base/a.csv", "1.62\n");
@@ -157,6 +173,9 @@ TEST_F(Variants, RefuseCirclesAndWhatIsNotThere) {
   EXPECT_EQ(circle.place(), (Place{path("b.yaml"), 2, 7}));
   EXPECT_EQ(error_of("c.yaml").place(), (Place{path("p.yaml"), 2, 7}));
   EXPECT_NE(error_of("bb.yaml").message().find("did you mean 'b.yaml'?"), std::string::npos);
+  write("gains.json", "{\"gainsmith\": \"0.1.0\"}\n");
+  EXPECT_NE(error_of("gains.json").message().find("is a gain file"), std::string::npos);
+  EXPECT_NE(error_of("\"\"").message().find("expected the name of a file"), std::string::npos);
   EXPECT_NE(error_of("base").message().find("no ordinary file"), std::string::npos);
   EXPECT_EQ(error_of("list.yaml").place().file, path("list.yaml"));
   EXPECT_EQ(error_of("empty.yaml").place().file, path("empty.yaml"));
