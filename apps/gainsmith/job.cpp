@@ -183,14 +183,22 @@ class Job {
   std::string& hash_;
 };
 
+/// The path of a problem from the folder of its results; empty for standard input.
+std::string path_from(const fs::path& folder, const fs::path& problem) {
+  std::error_code error;
+  if (problem == "-") return "";
+  const fs::path path = fs::proximate(problem, folder, error);
+  return error ? "" : path.string();
+}
+
 /// The last file of the folder; without gains the only one. A folder that cannot be written to is a
 /// result too.
-void write_result(const fs::path& folder, JobResult& result) {
+void write_result(const fs::path& problem, const fs::path& folder, JobResult& result) {
   try {
     if (result.gains_hash.empty()) prepare(folder);
-    write_atomically(
-        folder / "result.json",
-        io::to_text(io::result_json(result.report, result.gains_hash, result.seconds)));
+    write_atomically(folder / "result.json",
+                     io::to_text(io::result_json(result.report, path_from(folder, problem),
+                                                 result.gains_hash, result.seconds)));
   } catch (const InputError& error) {
     if (result.report.contains("error")) return;  // which says more
     result.exit = ExitCode::bad_input;
@@ -239,7 +247,7 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
     result.report = {
         {"folder", name}, {"exit", static_cast<int>(result.exit)}, {"error", result.line}};
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!result.interrupted) write_result(folder, result);
+  if (!result.interrupted) write_result(problem, folder, result);
   return result;
 }
 

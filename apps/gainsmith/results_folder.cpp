@@ -41,16 +41,26 @@ std::string run_title(std::uint64_t run, std::uint64_t seed) {
   return "Run " + std::to_string(run) + " of seed " + std::to_string(seed);
 }
 
+/// The problem that a gain file states. Its files of data are beside the gain file, or else beside
+/// the problem file. Otherwise `results` say why it is not shown.
+void add_problem(const fs::path& gains, const fs::path& problem_file, page::Results& results) {
+  for (const fs::path& beside : {gains, problem_file}) {
+    if (beside.empty()) continue;
+    try {
+      results.problem = io::stated_problem(results.gains, beside.string());
+      results.expects = results.problem->expect.has_value();
+      return;
+    } catch (const InputError& error) {
+      if (results.unreadable.empty()) results.unreadable = error.what();
+    }
+  }
+}
+
 /// What the gain file at `path` says.
-page::Results results_of_gains(const fs::path& path) {
+page::Results results_of_gains(const fs::path& path, const fs::path& problem_file = {}) {
   page::Results results;
   results.gains = read_gains(path);
-  try {
-    results.problem = io::stated_problem(results.gains, path.string());
-    results.expects = results.problem->expect.has_value();
-  } catch (const InputError& error) {
-    results.unreadable = error.what();  // a file of data is not beside it, perhaps
-  }
+  add_problem(path, problem_file, results);
   const model::Gains& gains = results.gains;
   results.name = gains.problem_name;
   results.verdict_line = verdict_line(gains);
@@ -153,7 +163,8 @@ page::Results read_folder(const fs::path& folder, const std::string& name) {
   }
   page::Results results;
   if (!run || !run->gains_hash.empty()) {
-    results = results_of_gains(folder / kGains);
+    const bool known = run && !run->problem_file.empty();
+    results = results_of_gains(folder / kGains, known ? folder / run->problem_file : fs::path());
     if (run) {
       results.no_campaign = run->no_campaign;
       results.differences = run->differences;

@@ -114,6 +114,10 @@ model::CampaignRecord parse_campaign(const std::string& text, const std::string&
   const Json document = parse_json(text, file);
   const JsonReader reader(document, file, text);
   model::CampaignRecord record;
+  if (!reader.has("gainsmith"))
+    reader.fail(
+        "this is no campaign of 'gainsmith run' or 'gainsmith verify --json', or one of an "
+        "earlier version: make it again");
   record.version = version_of(reader.at("gainsmith"));
   record.verdict = campaign_verdict_of(reader.at("verdict"));
   record.runs = reader.at("runs").count();

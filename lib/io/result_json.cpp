@@ -5,9 +5,11 @@
 
 namespace gainsmith::io {
 
-Json result_json(const Json& report, const std::string& gains_hash, double seconds) {
+Json result_json(const Json& report, const std::string& problem_file, const std::string& gains_hash,
+                 double seconds) {
   Json document = {{"gainsmith", kVersion}};
   document.update(report);
+  if (!problem_file.empty()) document["problem_file"] = problem_file;
   if (!gains_hash.empty()) document["gains_sha256"] = gains_hash;
   document["timings"] = {{"total", seconds}};
   return document;
@@ -20,6 +22,7 @@ RunResult parse_result(const std::string& text, const std::string& file) {
   RunResult result;
   result.exit = reader.at("exit").whole();
   result.seconds = reader.at("timings").at("total").number();
+  if (reader.has("problem_file")) result.problem_file = reader.at("problem_file").text();
   if (reader.has("gains_sha256")) result.gains_hash = reader.at("gains_sha256").text();
   if (reader.has("error")) {
     result.error = reader.at("error").text();

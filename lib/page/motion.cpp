@@ -1,5 +1,7 @@
 #include "page/motion.h"
 
+#include <filesystem>
+
 #include "page/element.h"
 #include "page/mathml.h"
 #include "page/rows.h"
@@ -223,10 +225,12 @@ std::string dynamics(const model::Problem& problem, const Notation& notation) {
   for (const model::MeasuredText& measured : method.measured)
     inputs += formula_row(
         "", name_mathml(measured.name, notation),
-        "measured" + std::string(measured.series
-                                     ? ", " + count_of(measured.series->times.size(), "row") +
-                                           " of " + escaped(measured.series->file)
-                                     : ""));
+        "measured" +
+            std::string(
+                measured.series
+                    ? ", " + count_of(measured.series->times.size(), "row") + " of " +
+                          escaped(std::filesystem::path(measured.series->file).filename().string())
+                    : ""));
   std::string noise;
   for (const model::NoiseText& one : method.noise) noise += motion.noise(one);
   for (const model::UncertainText& one : problem.uncertain) {

@@ -206,6 +206,17 @@ class Pages(unittest.TestCase):
         self.assertIn("is a proof for the decimals", text)
         self.assertEqual(read(os.path.join(folder, "report.html")), run("report", folder).stdout)
 
+    def test_data_beside_the_problem_are_found(self):
+        for name in ("recorded.yaml", "recorded.csv"):
+            shutil.copy(os.path.join(TREE, "problems", "own-systems", name), self.folder)
+        folder = self.at("measured")
+        self.assertEqual(run("run", self.at("recorded.yaml"), "-o", folder).returncode, 0)
+        self.assertIn("measured,", text_of(run("report", folder).stdout))
+        os.remove(self.at("recorded.csv"))
+        text = text_of(run("report", folder).stdout)
+        self.assertIn("Its mathematics is not shown", text)
+        self.assertIn("recorded.csv", text)
+
 
 @unittest.skipUnless(CHROMIUM, "chromium is not installed")
 class InABrowser(unittest.TestCase):
