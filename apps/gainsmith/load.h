@@ -19,7 +19,8 @@ io::MethodLibrary built_in_methods();
 model::Instance load_problem(const std::filesystem::path& path,
                              const std::function<void(model::Problem&)>& add = {});
 
-/// Whether a file is what synth writes, or was: it need not be whole. Standard input is none.
+/// Whether a file is what synth writes, or was: it need not be whole. Standard input and pipes
+/// are none.
 bool is_gain_file(const std::filesystem::path& path);
 
 /// What `--effort` says of a problem, for load_problem().
