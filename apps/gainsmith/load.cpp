@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 #include <utility>
 
 #include "base/file.h"
@@ -163,7 +164,8 @@ io::MethodLibrary built_in_methods() {
 }
 
 bool is_gain_file(const std::filesystem::path& path) {
-  return path != "-" && is_gain_text(read_text(path));
+  std::error_code none;  // a pipe can be read once only
+  return std::filesystem::is_regular_file(path, none) && is_gain_text(read_text(path));
 }
 
 std::function<void(model::Problem&)> effort(const std::string& word) {

@@ -25,7 +25,8 @@ model::Instance load_problem(const std::filesystem::path& path,
                              const std::vector<std::string>& set = {},
                              const std::function<void(model::Problem&)>& add = {});
 
-/// Whether a file is what synth writes, or was: it need not be whole. Standard input is none.
+/// Whether a file is what synth writes, or was: it need not be whole. Standard input and pipes
+/// are none.
 bool is_gain_file(const std::filesystem::path& path);
 
 /// What `--effort` says of a problem, for load_problem().

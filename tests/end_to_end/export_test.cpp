@@ -228,6 +228,48 @@ TEST_F(Export, LatexIsAnEquation) {
       << text_of(folder.path("tex"));
 }
 
+/// Names that mean something in one of the languages, and every kind of operation.
+const std::string kWords = R"yaml(problem: words */ of languages
+method:
+  method: words
+  data: {A: n x n, C: p x n, elif: n x p}
+  gains: {while_: elif}
+  events: {sample: {every: [0.1, 0.2]}, other: {every: 0.3}}
+  inputs: {i: cos(t)}
+  plant: {state: {x: {shape: n, start: [1, 0]}}, output: {int: C*x, step: "C*x*2"}, flow: {x: A*x}}
+  observers:
+    state:
+      state: {float: {shape: n, start: 0}, lambda: {shape: scalar, start: 1}, M: {shape: 2 x 2, start: 0}}
+      flow: {float: "A*float + [0; i]", lambda: "mod(lambda, 2) + sign(int) + min(lambda, float(1))*max(lambda, 0) + atan2(lambda, 1) + abs(lambda)^1.5"}
+      at: {sample: {float: float + while_*(int - C*float), M: "inv(M + eye(2))"}, other: {lambda: "where(lambda > step, floor(lambda), tanh(lambda))"}}
+      output: {def: 2*float(1), class: "M*float"}
+    rate: {state: {z: {shape: n, start: 0}}, flow: {z: A*z + while_*(int - C*z)}}
+data: {A: [[0, 1], [-4, -0.2]], C: [[1, 0]], elif: [[0.5], [0.2]]}
+campaign: {horizon: 5}
+)yaml";
+
+TEST(ExportNames, WordsOfALanguageAreNoNamesInIt) {
+  if (!is_there("gcc")) GTEST_SKIP() << "there is no gcc";
+  const Folder folder;
+  const std::string gains = folder.path("g.json");
+  ASSERT_EQ(gainsmith({"synth", folder.file("p.yaml", kWords), "-o", gains}).exit, 0);
+  ASSERT_EQ(gainsmith({"export", gains, "--to", "c", "-o", folder.path("w.h")}).exit, 0);
+  // 1 mod 2 + sign(0.1) + 0 + atan2(1, 1) + 1 at the start; the inverse of I after a sample.
+  folder.file("w.c",
+              "#include <stdio.h>\n#include \"w.h\"\nint main(void)\n{\n"
+              "  w_state__state s, r;\n  w_state__start(&s);\n  w_state__rate(&s, 0.5, 0.1, &r);\n"
+              "  w_state__jump_sample(&s, 1.0);\n"
+              "  printf(\"%.12f %.12f %.1f %.1f\\n\", r.lambda, r.float_[1], s.M[0][0], s.float_[0]);\n"
+              "  return 0;\n}\n");
+  ASSERT_EQ(shell("gcc -std=c99 -Wall -Wextra -Wconversion -Wpedantic -Werror " +
+                      folder.path("w.c") + " -o " + folder.path("w") + " -lm",
+                  folder.path("compiled")),
+            0)
+      << text_of(folder.path("compiled"));
+  ASSERT_EQ(shell(folder.path("w"), folder.path("output")), 0);
+  EXPECT_EQ(text_of(folder.path("output")), "3.785398163397 0.500000000000 1.0 0.5\n");
+}
+
 /// The file with another number in the place of the first gain.
 std::string edited(const std::string& gains, const std::string& number) {
   auto document = nlohmann::ordered_json::parse(text_of(gains));
