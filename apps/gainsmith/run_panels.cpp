@@ -103,17 +103,26 @@ class Planner {
     return {{k}, std::nullopt, column(k).name, dashed, colour_of(column(k))};
   }
 
-  /// InputError for a name of which there is nothing; `wanted` says what may stand there.
-  void require(bool found, const char* option, const std::string& name,
-               const std::vector<std::string>& more) const {
-    if (found) return;
-    std::vector<std::string> names = more;
-    for (const std::size_t k : columns([](const Column&) { return true; })) {
-      names.push_back(column(k).name);
-      if (own_name(column(k)) != column(k).stem) names.push_back(column(k).stem);
-    }
-    throw InputError({option},
-                     "no quantity of the run is named '" + name + "'" + suggestion(name, names));
+  /// InputError for a name of which there is nothing; `known` is what may stand there.
+  static void require(bool found, const char* option, const std::string& name,
+                      const std::vector<std::string>& known) {
+    if (!found)
+      throw InputError({option},
+                       "no quantity of the run is named '" + name + "'" + suggestion(name, known));
+  }
+
+  /// Names of quantities as `name` gives them, each once.
+  std::vector<std::string> names(const std::function<std::string(const Column&)>& name) const {
+    std::vector<std::string> all;
+    for (const std::size_t k : columns([](const Column&) { return true; }))
+      if (const std::string one = name(column(k));
+          std::find(all.begin(), all.end(), one) == all.end())
+        all.push_back(one);
+    return all;
+  }
+
+  std::vector<std::string> stems() const {
+    return names([](const Column& column) { return column.stem; });
   }
 
   void check(const Covariance& one) const {
@@ -122,8 +131,8 @@ class Planner {
         return is_quantity(column) && has_stem(column, name);
       });
     };
-    require(has(one.estimate), "--band", one.estimate, {});
-    require(has(one.covariance), "--band", one.covariance, {});
+    require(has(one.estimate), "--band", one.estimate, stems());
+    require(has(one.covariance), "--band", one.covariance, stems());
     if (columns([&](const Column& column) {
           return has_stem(column, one.estimate) && variance_of(column, one);
         }).empty())
@@ -270,7 +279,10 @@ class Planner {
     const bool is_group = std::find(groups.begin(), groups.end(), name) != groups.end();
     if (is_group && panels_.size() == before)
       throw InputError({"--panels"}, "the run has no " + name);
-    require(is_group, "--panels", name, groups);
+    std::vector<std::string> known = groups;
+    for (const auto& more : {stems(), names([](const Column& one) { return one.name; })})
+      known.insert(known.end(), more.begin(), more.end());
+    require(is_group, "--panels", name, known);
   }
 
   /// The elements of a name: exactly it, or that of each observer.
@@ -282,7 +294,7 @@ class Planner {
           {"--phase"},
           "'" + name + "' has several elements; name one, such as " +
               column(columns([&](const Column& one) { return has_stem(one, name); }).front()).name);
-    require(!found.empty(), "--phase", name, {});
+    require(!found.empty(), "--phase", name, names([](const Column& one) { return one.name; }));
     return found;
   }
 

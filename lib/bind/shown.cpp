@@ -1,7 +1,6 @@
 #include "bind/shown.h"
 
 #include <algorithm>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -47,14 +46,17 @@ std::vector<Named> everything(const model::Design& design) {
 std::vector<Named> find(const std::string& name, const std::vector<Named>& among,
                         const std::string& what, const Place& place) {
   std::vector<Named> found;
-  std::set<std::string> known;
+  std::vector<std::string> known;
+  const auto add = [&](const std::string& one) {
+    if (std::find(known.begin(), known.end(), one) == known.end()) known.push_back(one);
+  };
   for (const Named& one : among) {
     if (one.is(name)) found.push_back(one);
-    known.insert({one.name, one.own()});
+    add(one.own());
   }
+  for (const Named& one : among) add(one.name);
   if (found.empty())
-    throw InputError(
-        place, what + " is named '" + name + "'" + suggestion(name, {known.begin(), known.end()}));
+    throw InputError(place, what + " is named '" + name + "'" + suggestion(name, known));
   return found;
 }
 
@@ -77,8 +79,7 @@ void check(const model::CovarianceText& text, const std::vector<Named>& among) {
   const auto is_of = [](const Named& covariance, const Named& estimate) {
     const std::string a = covariance.owner(), b = estimate.owner();
     const int n = estimate.shape.rows;
-    return a == b && estimate.shape.cols == 1 &&
-           covariance.shape == expr::Shape{n, n};
+    return a == b && estimate.shape.cols == 1 && covariance.shape == expr::Shape{n, n};
   };
   for (const Named& estimate : estimates)
     for (const Named& covariance : covariances)
