@@ -193,7 +193,7 @@ std::string path_from(const fs::path& folder, const fs::path& problem) {
 
 /// The last file of the folder; without gains the only one. A folder that cannot be written to is a
 /// result too.
-void write_result(const fs::path& problem, const fs::path& folder, JobResult& result) {
+void write_job(const fs::path& problem, const fs::path& folder, JobResult& result) {
   try {
     if (result.gains_hash.empty()) prepare(folder);
     write_atomically(folder / "result.json",
@@ -247,7 +247,7 @@ JobResult run_job(const std::filesystem::path& problem, const std::string& name,
     result.report = {
         {"folder", name}, {"exit", static_cast<int>(result.exit)}, {"error", result.line}};
   result.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  if (!result.interrupted) write_result(problem, folder, result);
+  if (!result.interrupted) write_job(problem, folder, result);
   return result;
 }
 
