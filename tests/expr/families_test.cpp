@@ -21,7 +21,7 @@ class Families : public testing::Test {
     world.scope.dimensions = {{"N", 3}};
   }
   /// Random, and with products that double holds exactly.
-  static Matrix eighths(std::mt19937& random, Eigen::Index rows, Eigen::Index columns) {
+  static Matrix eighths(std::mt19937& random, int rows, int columns) {
     return (8 * random_matrix(random, rows, columns)).array().round() / 8;
   }
   Matrix A(int i) const { return world.values.at("A_" + std::to_string(i)); }
