@@ -284,6 +284,10 @@ Content content_of(const model::Gains& gains, const model::Design& design,
         std::find_if(gains.gain_functions.begin(), gains.gain_functions.end(),
                      [&](const model::GainFunction& one) { return one.name == gain.name; });
     if (function == gains.gain_functions.end()) continue;
+    if (gain.shape.size() == 0) {
+      content.notes.push_back("the gain " + gain.name + " has no elements and is left out");
+      continue;
+    }
     const expr::Body& body = stated.bodies.body(gain.name, {});
     content.functions.push_back(
         {gain.name, body.variable, stated.bodies.link(body.program), flat(function->formula)});
