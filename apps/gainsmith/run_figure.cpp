@@ -54,6 +54,21 @@ void add_marks(const Replay& replay, report::Figure& figure) {
       figure.marks.push_back(replay.table(static_cast<Eigen::Index>(row), 0));
 }
 
+/// Not larger than its rounding, or than that of its neighbours where its own is hardly less: among
+/// what is rounding a few values come out larger.
+bool is_rounding(const Replay& replay, Eigen::Index row, Eigen::Index column) {
+  constexpr double kHardly = 10;
+  constexpr Eigen::Index kNeighbours = 10;
+  if (replay.rounding.size() == 0) return false;
+  const double size = std::abs(replay.table(row, column));
+  const double own = replay.rounding(row, column);
+  if (size <= own) return true;
+  if (!(size <= kHardly * own)) return false;
+  const Eigen::Index first = std::max<Eigen::Index>(0, row - kNeighbours);
+  const Eigen::Index last = std::min(replay.table.rows() - 1, row + kNeighbours);
+  return (replay.rounding.col(column).segment(first, last - first + 1).array() >= size).any();
+}
+
 }  // namespace
 
 const std::vector<std::string>& panel_groups() {
@@ -97,9 +112,7 @@ std::vector<double> values_of(const Replay& replay, std::size_t column) {
   const auto at = static_cast<Eigen::Index>(column);
   std::vector<double> values;
   for (Eigen::Index row = 0; row < replay.table.rows(); ++row) {
-    const double value = replay.table(row, at);
-    const bool rounding = replay.rounding.size() > 0 && std::abs(value) <= replay.rounding(row, at);
-    values.push_back(rounding ? 0 : value);
+    values.push_back(is_rounding(replay, row, at) ? 0 : replay.table(row, at));
   }
   return values;
 }

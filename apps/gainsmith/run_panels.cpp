@@ -209,7 +209,7 @@ class Planner {
   void add_inputs() {
     std::vector<std::string> stems;
     for (const std::size_t k : columns([&](const Column& one) {
-           return one.kind == Kind::signal && one.observer.empty() &&
+           return (one.kind == Kind::signal || one.kind == Kind::other) && one.observer.empty() &&
                   view_.inputs.contains(one.stem);
          }))
       if (stems.empty() || stems.back() != column(k).stem) stems.push_back(column(k).stem);
