@@ -22,7 +22,8 @@ using numbers::Matrix;
 
 namespace {
 
-/// Makes the sizes of the terms of instructions: of sums and of products with them.
+/// Makes the sizes of the terms of instructions: of sums, of products with them, and of parts of
+/// such vectors. A form of a sum, (x - z)'*P*(x - z), is a term: its rounding is small where it is.
 class TermSizes {
  public:
   explicit TermSizes(Program& program) : program_(program) {}
@@ -42,8 +43,13 @@ class TermSizes {
       case Op::divide:
         return made(Op::divide, {of(operands[0]), made(Op::abs, {operands[1]}, here)}, here);
       case Op::multiply:
-        if (is_number(operands[0]) && is_number(operands[1]))
+        if (is_product_of_numbers(here) || has_sum(operands[0]) != has_sum(operands[1]))
           return made(Op::multiply, {of(operands[0]), of(operands[1])}, here);
+        break;
+      case Op::index:
+      case Op::transpose:
+      case Op::blocks:
+        if (has_sum(at)) return rearranged(here);
         break;
       default:
         break;
@@ -68,8 +74,36 @@ class TermSizes {
         return false;
     }
   }
-  bool is_number(int at) const {
-    return program_.code[static_cast<std::size_t>(at)].shape.is_scalar();
+  bool is_product_of_numbers(const Instruction& product) const {
+    return std::all_of(product.operands.begin(), product.operands.end(), [&](int at) {
+      return program_.code[static_cast<std::size_t>(at)].shape.is_scalar();
+    });
+  }
+  /// Whether its elements are sums whose terms may cancel.
+  bool has_sum(int at) const {
+    const Instruction& here = program_.code[static_cast<std::size_t>(at)];
+    switch (here.op) {
+      case Op::add:
+      case Op::subtract:
+        return true;
+      case Op::negate:
+      case Op::scale:
+      case Op::divide:
+      case Op::multiply:
+      case Op::index:
+      case Op::transpose:
+      case Op::blocks:
+        return std::any_of(here.operands.begin(), here.operands.end(),
+                           [&](int operand) { return has_sum(operand); });
+      default:
+        return false;
+    }
+  }
+  /// The sizes of the elements, at their new places.
+  int rearranged(Instruction here) {
+    for (int& operand : here.operands) operand = of(operand);
+    program_.code.push_back(std::move(here));
+    return static_cast<int>(program_.code.size()) - 1;
   }
   int made(Op op, std::vector<int> operands, const Instruction& like) {
     const auto shape =

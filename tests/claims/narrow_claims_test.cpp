@@ -113,6 +113,21 @@ INSTANTIATE_TEST_SUITE_P(
                          CampaignVerdict::undecided},
                     Case{"above: (1e15 + y) - 1e15 - y, bound: -2", CampaignVerdict::held}));
 
+// Differences of large numbers that are elements of vectors: their rounding is no branch.
+INSTANTIATE_TEST_SUITE_P(
+    RoundedDifferences, NarrowClaims,
+    testing::Values(
+        Case{"below: \"abs([1000*y - 999.99*y - 0.001, 0](1))\", bound: 100",
+             CampaignVerdict::held},
+        Case{"below: \"abs([1, 0]*[1000*y - 999.99*y - 0.001; x])\", bound: 100",
+             CampaignVerdict::held},
+        Case{"below: \"abs(([1000*y; 1] - [999.99*y + 0.001; 2])'*[1; 0])\", bound: 100",
+             CampaignVerdict::held},
+        Case{"below: \"max(([1000*y; 1] - [999.99*y + 0.001; 2])(1), 0)\", bound: 100",
+             CampaignVerdict::held},
+        Case{"below: \"abs([1000*y - 999.99*y - 0.001, 0](1))\", bound: 0.00899",
+             CampaignVerdict::violated}));
+
 TEST(NarrowClaims, RandomBandsAreFound) {
   std::mt19937 random(11);
   for (int trial = 0; trial < 40; ++trial) {
