@@ -34,6 +34,20 @@ void expect_brackets(const Found& found, const std::function<double(double)>& g,
   }
 }
 
+/// To the last bit: where an event is, and the state at it, come from series of some variables and of
+/// all.
+TEST(Chebyshev, AValueDoesNotDependOnItsNeighbours) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> any(-1, 1);
+  for (int k = 0; k < 200; ++k) {
+    const Matrix all = Matrix::NullaryExpr(43, 3 + k % 9, [&] { return any(random); });
+    const double x = any(random);
+    const VectorXd values = chebyshev::at(all, x);
+    for (const Eigen::Index row : {0, 7, 31, 35, 40, 42})
+      EXPECT_EQ(chebyshev::at(all.row(row), x)(0), values(row)) << row;
+  }
+}
+
 TEST(Chebyshev, InterpolatesDerivesAndRestricts) {
   const VectorXd& x = chebyshev::points(12);
   Matrix values(2, x.size());
