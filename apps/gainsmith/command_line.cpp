@@ -121,14 +121,22 @@ void add_command(CLI::App& program, const Command& command, Patience& patience, 
   });
 }
 
+/// "help synth" as "synth --help".
+std::vector<std::string> words_of(int argc, char** argv) {
+  std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  if (words.empty() || words.front() != "help") return words;
+  words.erase(words.begin(), words.begin() + (words.size() > 1 && words[1] == "help" ? 2 : 1));
+  words.emplace_back("--help");
+  return words;
+}
+
 /// CLI11 takes an unknown first word for a missing subcommand.
-void refuse_unknown_word(const Program& program, int argc, char** argv) {
-  if (argc < 2 || argv[1][0] == '-') return;
+void refuse_unknown_word(const Program& program, const std::string& word) {
+  if (word.empty() || word[0] == '-') return;
   std::vector<std::string> names;
   for (const Command& command : program.commands) names.push_back(command.name);
-  if (std::find(names.begin(), names.end(), argv[1]) != names.end()) return;
-  throw InputError(
-      {}, "unknown subcommand '" + std::string(argv[1]) + "'" + suggestion(argv[1], names));
+  if (std::find(names.begin(), names.end(), word) != names.end()) return;
+  throw InputError({}, "unknown subcommand '" + word + "'" + suggestion(word, names));
 }
 
 /// The first argument that nothing takes: an option rather than a value, which may belong to it.
@@ -187,14 +195,17 @@ ExitCode run(const Program& program, int argc, char** argv) {
   parser.set_version_flag("--version", program.version);
   parser.require_subcommand(1);
   parser.footer(program.footer);
-  refuse_unknown_word(program, argc, argv);
+  std::vector<std::string> words = words_of(argc, argv);
+  const std::string first = words.empty() ? "" : words.front();
+  refuse_unknown_word(program, first);
   // The others would only cost time.
-  const std::string first = argc > 1 ? argv[1] : "";
   const bool chosen = !first.empty() && first[0] != '-';
   for (const Command& command : program.commands)
     if (!chosen || command.name == first) add_command(parser, command, patience, exit);
   try {
-    parser.parse(argc, argv);
+    // It takes the words from the back.
+    std::reverse(words.begin(), words.end());
+    parser.parse(std::move(words));
   } catch (const CLI::ParseError& stop) {
     // Help and version are such stops too, with the code 0.
     if (stop.get_exit_code() != 0) throw InputError({}, complaint(parser, stop));

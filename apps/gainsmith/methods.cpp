@@ -17,6 +17,7 @@ namespace {
 
 struct MethodsOptions {
   std::string name;
+  bool own = false;
   bool json = false;
 };
 
@@ -83,8 +84,10 @@ ExitCode show_one(const MethodsOptions& options) {
 }
 
 ExitCode init(const MethodsOptions& options) {
-  const model::Method method = io::parse_method(text_of(options.name), "method " + options.name);
-  const std::string text = io::starting_problem(method, methods::example(options.name));
+  const std::string own = text_of(options.name);
+  const model::Method method = io::parse_method(own, "method " + options.name);
+  const std::string text =
+      io::starting_problem(method, methods::example(options.name), options.own ? own : "");
   if (options.json) {
     fmt::print("{}", io::to_text({{"method", options.name}, {"problem", text}}));
   } else {
@@ -115,10 +118,13 @@ Command init_command() {
           {Option("method", options->name, "the method; 'gainsmith methods' lists them")
                .required()
                .suggests(methods::names()),
+           Option("--own", options->own,
+                  "with the method's text in the problem: to add noise, outputs or claims to it"),
            Option("--json", options->json, "print as JSON")},
           "Examples:\n"
           "  gainsmith init lqr > mine.yaml\n"
-          "  gainsmith run mine.yaml",
+          "  gainsmith run mine.yaml\n"
+          "  gainsmith init nonlinear-observer --own > noisy.yaml",
           [options] { return init(*options); },
           false};
 }

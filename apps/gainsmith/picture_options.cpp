@@ -45,7 +45,7 @@ void add_runs(const std::string& part, const std::string& text, std::vector<std:
     throw InputError({"--runs"},
                      "expected numbers of runs, such as 0,3,17 or 0:9, not '" + text + "'");
   if (*last - *first >= kMost || runs.size() + (*last - *first) >= kMost)
-    throw InputError({"--runs"}, "more than 100 runs; no picture shows as many");
+    throw InputError({"--runs"}, "more than 100 runs");
   for (std::uint64_t run = *first; run <= *last; ++run) {
     if (std::find(runs.begin(), runs.end(), run) != runs.end())
       throw InputError({"--runs"}, "run " + std::to_string(run) + " is named twice");
@@ -55,8 +55,8 @@ void add_runs(const std::string& part, const std::string& text, std::vector<std:
 
 }  // namespace
 
-bool PictureOptions::any() const {
-  return !planes.empty() || !bands.empty() || !panels.empty() || !runs.empty();
+bool PictureOptions::only_drawn() const {
+  return !planes.empty() || !bands.empty() || !panels.empty();
 }
 
 RunView view_of(const PictureOptions& options, const model::Design& design) {

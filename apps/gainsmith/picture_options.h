@@ -17,7 +17,7 @@ struct PictureOptions {
   std::string runs;                 ///< --runs 0,3,17 or 0:9
 
   /// Whether something is asked for that only a picture shows.
-  bool any() const;
+  bool only_drawn() const;
 };
 
 /// What the problem says, changed as the options say. InputError, with the option as its place, for

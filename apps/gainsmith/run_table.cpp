@@ -75,7 +75,39 @@ io::Json events_json(const verify::Replay& replay, const RunView& view) {
   return document;
 }
 
-std::string comparison_text(const std::vector<verify::FoundFigure>& figures) {
+namespace {
+
+/// Least, median and largest value of each figure, and those that have none in some runs.
+std::pair<std::vector<verify::FoundFigure>, std::string> spread(
+    const std::vector<verify::Comparison>& runs) {
+  std::vector<verify::FoundFigure> rows;
+  std::string missing;
+  for (std::size_t k = 0; k < runs.front().figures.size(); ++k) {
+    verify::FoundFigure row = runs.front().figures[k];
+    std::vector<double> values;
+    for (const verify::Comparison& run : runs)
+      if (run.figures[k].value && !std::isnan(*run.figures[k].value))
+        values.push_back(*run.figures[k].value);
+    std::sort(values.begin(), values.end());
+    const std::string title = row.title;
+    const std::size_t count = values.size();
+    if (count > 0 && count < runs.size())
+      missing += fmt::format("{}{}: no value in {} of {} runs\n",
+                             row.observer.empty() ? "" : row.observer + ": ", title,
+                             runs.size() - count, runs.size());
+    const auto add = [&](const char* which, auto value_of) {
+      row.title = title + ": " + which;
+      row.value = count > 0 ? std::optional<double>(value_of()) : std::nullopt;
+      rows.push_back(row);
+    };
+    add("least", [&] { return values.front(); });
+    add("median", [&] { return (values[(count - 1) / 2] + values[count / 2]) / 2; });
+    add("largest", [&] { return values.back(); });
+  }
+  return {std::move(rows), std::move(missing)};
+}
+
+std::string comparison_table(const std::vector<verify::FoundFigure>& figures) {
   bool has_all = true;
   std::vector<std::string> observers;
   std::vector<std::string> titles;
@@ -110,6 +142,14 @@ std::string comparison_text(const std::vector<verify::FoundFigure>& figures) {
   if (!has_all)
     text += "-: no such event in this run, a time after its end, or a value that is no number\n";
   return text;
+}
+
+}  // namespace
+
+std::string comparison_text(const std::vector<verify::Comparison>& runs) {
+  if (runs.size() == 1) return comparison_table(runs.front().figures);
+  const auto [rows, missing] = spread(runs);
+  return comparison_table(rows) + missing;
 }
 
 }  // namespace gainsmith::app

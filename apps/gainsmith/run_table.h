@@ -29,7 +29,7 @@ std::string run_figure(const std::string& title, const verify::Replay& replay);
 std::string run_picture(const std::string& title, const verify::Setup& setup, std::uint64_t seed,
                         std::uint64_t run);
 
-/// Figures of observers side by side.
-std::string comparison_text(const std::vector<verify::FoundFigure>& figures);
+/// Figures of observers side by side: of a run, or their least, median and largest of several.
+std::string comparison_text(const std::vector<verify::Comparison>& runs);
 
 }  // namespace gainsmith::app

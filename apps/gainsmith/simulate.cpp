@@ -109,29 +109,36 @@ void draw(const SimulateOptions& options, const model::Design& design, const ver
 /// What has no effect, or none together.
 void check(const SimulateOptions& options) {
   check_picture_name(options.picture.file);
-  if (options.picture.any() && options.picture.file.empty())
-    throw InputError({options.gains},
-                     "--phase, --panels, --band and --runs say what --plot draws: "
-                     "give --plot FILE");
-  if (!options.picture.runs.empty() &&
-      (!options.output.empty() || options.json || options.judge || options.run != 0))
-    throw InputError({options.gains},
-                     "--runs draws several runs: without --run, -o, --json and "
-                     "--judge, which are about one");
+  const auto refuse = [&](const char* message) { throw InputError({options.gains}, message); };
+  const PictureOptions& picture = options.picture;
+  const bool several = !picture.runs.empty();
+  if (options.compare && (options.json || options.judge || !picture.file.empty() ||
+                          picture.only_drawn() || options.step > 0))
+    refuse("--compare prints figures alone, without --json, --plot, --judge or --step");
+  if (!options.compare && picture.file.empty() && picture.only_drawn())
+    refuse("--phase, --panels and --band say what --plot draws: give --plot FILE");
+  if (!options.compare && picture.file.empty() && several)
+    refuse("--runs names several runs for --plot FILE or --compare: give one of them, or --run");
+  if (several && options.run != 0) refuse("either --run or --runs, not both");
+  if (several && !options.compare && (!options.output.empty() || options.json || options.judge))
+    refuse("--runs draws several runs: without -o, --json and --judge, which are about one");
 }
 
-ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std::uint64_t seed) {
-  if (options.json || options.judge || !options.picture.file.empty() || options.step > 0)
-    throw InputError({options.gains},
-                     "--compare prints figures alone, without --json, --plot, --judge or --step");
-  const verify::Comparison comparison =
-      verify::compared_figures(loaded.stated, loaded.gains, seed, options.run);
-  if (comparison.figures.empty())
+ExitCode compare(const SimulateOptions& options, const LoadedGains& loaded, std::uint64_t seed,
+                 const std::vector<std::uint64_t>& runs) {
+  const std::vector<verify::Comparison> compared =
+      verify::compared_figures(loaded.stated, loaded.gains, seed, runs);
+  if (compared.front().figures.empty())
     throw InputError({options.gains},
                      "the problem names nothing to compare: compare: [{peak: norm(e)}, ...]");
-  write(options, comparison_text(comparison.figures));
-  if (!comparison.early.empty())
-    say(fmt::format("run {} ended before its horizon, {}\n", options.run, comparison.early));
+  write(options, comparison_text(compared));
+  const auto is_early = [](const verify::Comparison& run) { return !run.early.empty(); };
+  const auto first = std::find_if(compared.begin(), compared.end(), is_early);
+  if (first == compared.end()) return ExitCode::yes;
+  const auto count = std::count_if(first, compared.end(), is_early);
+  say(fmt::format("run {} ended before its horizon, {}\n",
+                  runs[static_cast<std::size_t>(first - compared.begin())], first->early));
+  if (count > 1) say(fmt::format("so did {} of these runs in all\n", count));
   return ExitCode::yes;
 }
 
@@ -160,10 +167,10 @@ ExitCode simulate(const SimulateOptions& options) {
   const LoadedGains loaded = load_run(options.gains, options.set);
   const model::Design& design = *loaded.stated.design;
   const std::uint64_t seed = options.seed.value_or(design.campaign.seed);
-  if (options.compare) return compare(options, loaded, seed);
-  const auto setup = verify::make_setup(loaded.stated, loaded.gains);
   const std::vector<std::uint64_t> runs =
       runs_of(options.picture, options.run, design.campaign.runs);
+  if (options.compare) return compare(options, loaded, seed, runs);
+  const auto setup = verify::make_setup(loaded.stated, loaded.gains);
   std::vector<verify::Replay> replays;
   for (const std::uint64_t run : runs) {
     replays.push_back(verify::replay_run(*setup, seed, run, options.step, options.judge));
@@ -197,8 +204,7 @@ Command simulate_command() {
       "Replay one run of a campaign as CSV",
       {Option("gains", options->gains, "gain file (JSON), or a problem (YAML) without unknowns")
            .required(),
-       set_option(options->set),
-       Option("--run", options->run, "the run's number"),
+       set_option(options->set), Option("--run", options->run, "the run's number"),
        Option("--seed", options->seed, "seed of the campaign (default: the problem's)"),
        Option("-o,--output", options->output, "write the table here (default: standard output)"),
        Option("--step", options->step, "points of flows this far apart (default: as integrated)")
@@ -214,7 +220,8 @@ Command simulate_command() {
               "with --plot: xh:P: +-2 sigma around an estimate, from its covariance (default: "
               "'covariance' of the problem); may be repeated"),
        Option("--runs", options->picture.runs,
-              "with --plot: several runs over each other, 0,3,17 or 0:9"),
+              "with --plot: several runs over each other, 0,3,17 or 0:9; with --compare: least, "
+              "median and largest figure of them"),
        Option("--compare", options->compare, "print the figures under 'compare' of all observers"),
        Option("--judge", options->judge,
               "check the run against the texts, by computations of its own; exit code 1 if it "

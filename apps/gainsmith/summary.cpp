@@ -191,11 +191,13 @@ std::string message_lines(const model::Gains& gains) {
 /// A yes rests on the check of the point alone.
 std::string solver_line(const model::Gains& gains) {
   const model::SolverRecord& solver = gains.solver;
+  // Of nothing there is no optimum.
+  const bool no_objective = solver.status == "optimal" && !gains.objective;
   const std::string ended =
       solver.cause == to_string(sdp::Cause::enough)
           ? fmt::format("solver: a strictly feasible point after {} iterations", solver.iterations)
-          : fmt::format("solver: {}, {}, {} iterations", solver.status, solver.cause,
-                        solver.iterations);
+          : fmt::format("solver: {}{}, {} iterations", no_objective ? "" : solver.status + ", ",
+                        solver.cause, solver.iterations);
   const bool alone = gains.verdict == model::Verdict::yes && solver.status == "undecided";
   return alone ? "the point was checked and holds; " + ended : ended;
 }

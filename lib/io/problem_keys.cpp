@@ -21,8 +21,8 @@ constexpr std::array<Item, N + M> joined(const std::array<Item, N>& first,
 
 constexpr std::array kProblem = {
     Key{"problem", "text", "the name of the problem", kRequired},
-    Key{"method", "text | method", "the name of a built-in method, or a method of its own",
-        kRequired},
+    Key{"method", "text | method",
+        "the name of a built-in method, one that is 'like' it, or a method of its own", kRequired},
     Key{"data", "nothing | data", "matrices, scalars and functions of the method, by name"},
     Key{"parameters", "{matrix}?", "values of the method's parameters"},
     Key{"let", "{text}?", "definitions that campaign, report, compare and expect may use"},

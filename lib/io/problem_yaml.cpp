@@ -380,7 +380,7 @@ model::Problem parse_problem(const std::string& text, const std::string& file,
                              const std::vector<model::Setting>& settings, Sources& sources) {
   expr::count_problem();
   YamlFile yaml(text, file, &sources);
-  YamlMap map(yaml, with_what_it_is_like(yaml), "problem", keys::problem);
+  YamlMap map(yaml, with_what_it_is_like(yaml, library), "problem", keys::problem);
   model::Problem problem;
   problem.file = file;
   problem.text = text;

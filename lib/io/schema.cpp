@@ -224,7 +224,8 @@ Json variant_schema(const Json& whole) {
     variant["properties"][key] = {{"description", form.value("description", "")}};
   for (const char* own : {"problem", "expect"})
     variant["properties"][own] = whole["properties"][own];
-  variant["properties"]["like"] = {{"type", "string"}, {"description", "the file of the other one"}};
+  variant["properties"]["like"] = {{"type", "string"},
+                                   {"description", "the file of the other one"}};
   return variant;
 }
 
@@ -239,6 +240,10 @@ Json problem_schema() {
     whole[part] = std::move(schema[part]);
     schema.erase(part);
   }
+  Json like = {{"type", "string"},
+               {"description", "the built-in method that it replaces parts of"}};
+  whole["properties"]["method"]["anyOf"].push_back(
+      {{"type", "object"}, {"required", {"like"}}, {"properties", {{"like", std::move(like)}}}});
   schema["definitions"]["variant"] = variant_schema(whole);
   schema["definitions"]["problem"] = std::move(whole);
   schema["if"] = has("like");

@@ -117,6 +117,16 @@ std::string Sources::problem(const Reference& reference) {
   return text;
 }
 
+std::optional<std::string> Sources::method(const Reference& reference,
+                                           std::optional<std::string> text) {
+  if (const model::StatedFile* known = stated(reference)) text = known->text;
+  if (!text) return {};
+  model::StatedFile& file = noted(reference.name);
+  file.sha256 = sha256(*text);
+  file.text = *text;
+  return text;
+}
+
 std::string Sources::log(const Reference& reference) {
   stated(reference);
   return read(reference);

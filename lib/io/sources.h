@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,6 +47,9 @@ class Sources {
 
   /// A problem that another one is `like`.
   std::string problem(const Reference& reference);
+  /// The text of a method of the program that the problem's method is `like`: as a gain file states
+  /// it, otherwise `text`; none where there is neither.
+  std::optional<std::string> method(const Reference& reference, std::optional<std::string> text);
   /// A log. A gain file does not hold it.
   std::string log(const Reference& reference);
   /// A matrix; `key` says which of the file, `read` makes it of its bytes and its path.

@@ -66,17 +66,39 @@ std::string shape_of(const model::Declaration& datum) {
   return text;
 }
 
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0, end; at < text.size(); at = end + 1) {
+    end = std::min(text.find('\n', at), text.size());
+    lines.push_back(text.substr(at, end - at));
+  }
+  return lines;
+}
+
+/// The method's text below 'method:', without what only the list of methods reads.
+std::string indented(const std::string& method) {
+  std::string text;
+  for (const std::string& line : lines_of(method)) {
+    const std::string key = line.substr(0, line.find(':'));
+    if (key == "method" || key == "task" || key == "example") continue;
+    text += (line.empty() ? "" : "  " + line) + "\n";
+  }
+  return text;
+}
+
 class Writer {
  public:
   explicit Writer(const std::string& example) : file_(example, "the example") {
     for (const auto& entry : file_.root()) keys_.push_back(entry.first);
   }
 
-  std::string text(const model::Method& method) {
-    text_ = "# " + method.summary + "\n";
-    text_ += "# 'gainsmith run' of this file designs, simulates and judges; 'gainsmith methods " +
-             method.name + "' prints the method.\n";
-    text_ += "problem: mine\nmethod: " + method.name + "\n";
+  std::string text(const model::Method& method, const std::string& own) {
+    text_ =
+        "# " + method.summary + "\n# 'gainsmith run' of this file designs, simulates and judges; ";
+    text_ += own.empty() ? "'gainsmith methods " + method.name + "' prints the method.\n"
+                         : "the method is a copy of '" + method.name + "', to be changed.\n";
+    text_ +=
+        "problem: mine\nmethod:" + (own.empty() ? " " + method.name + "\n" : "\n" + indented(own));
     if (!method.data.empty()) text_ += "data:\n";
     for (const model::Declaration& datum : method.data)
       add("data", key_of(datum), remark(shape_of(datum), datum.help, text_of(datum.fallback)),
@@ -115,11 +137,7 @@ class Writer {
   void copy_others() {
     const std::set<std::string> written = {"problem",    "method", "data",   "parameters",
                                            "negotiable", "expect", "compare"};
-    std::vector<std::string> lines;
-    for (std::size_t at = 0, end; at < file_.text().size(); at = end + 1) {
-      end = std::min(file_.text().find('\n', at), file_.text().size());
-      lines.push_back(file_.text().substr(at, end - at));
-    }
+    const std::vector<std::string> lines = lines_of(file_.text());
     for (std::size_t k = 0; k < keys_.size(); ++k) {
       if (written.contains(keys_[k].Scalar())) continue;
       const auto first = static_cast<std::size_t>(keys_[k].Mark().line);
@@ -137,8 +155,9 @@ class Writer {
 
 }  // namespace
 
-std::string starting_problem(const model::Method& method, const std::string& example) {
-  return Writer(example).text(method);
+std::string starting_problem(const model::Method& method, const std::string& example,
+                             const std::string& own) {
+  return Writer(example).text(method, own);
 }
 
 }  // namespace gainsmith::io

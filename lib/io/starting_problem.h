@@ -10,7 +10,9 @@ namespace gainsmith::io {
 /// A problem of the method with the values of `example`, another problem of it as text: what the
 /// method says of each datum and parameter stands above it as a comment, and those that have
 /// defaults and no value are comments. All other keys are copied, but for what the example expects.
-/// InputError for an example that is no problem file.
-std::string starting_problem(const model::Method& method, const std::string& example);
+/// `own`: the text of the method, which then stands in the problem to be changed; empty: it is
+/// named. InputError for an example that is no problem file.
+std::string starting_problem(const model::Method& method, const std::string& example,
+                             const std::string& own = {});
 
 }  // namespace gainsmith::io

@@ -100,7 +100,39 @@ class Variant {
     return joined(root, other, {}, false);
   }
 
+  /// The problem, whose method takes what it has not from the one that it is `like`.
+  YAML::Node with_whole_method(const YAML::Node& root, const MethodLibrary& library) {
+    if (!root.IsMap() || !root["method"] || !root["method"].IsMap() || !root["method"]["like"])
+      return root;
+    const YAML::Node own = root["method"];
+    const YAML::Node like = own["like"];
+    const std::string name = file_.string(like, "like");
+    other_ = "method " + name;
+    const auto text =
+        file_.sources(like).method({other_, "like", file_.place(like)}, library.text(name));
+    if (!text)
+      throw InputError(file_.place(like),
+                       "unknown method '" + name + "'" + suggestion(name, library.names));
+    root_.reset(root);
+    // What is only of the other one: its name, and its place in the list of methods.
+    const YAML::Node other =
+        without(file_.add(*text, other_, other_), {"method", "task", "example"});
+    const YAML::Node method = joined(without(own, {"like"}), other, {"method"}, false);
+    std::vector<std::pair<YAML::Node, YAML::Node>> entries;
+    for (const auto& entry : root)
+      entries.emplace_back(entry.first, entry.first.Scalar() == "method" ? method : entry.second);
+    return file_.mapping(entries, file_.place(root));
+  }
+
  private:
+  YAML::Node without(const YAML::Node& node, const std::vector<std::string>& names) {
+    std::vector<std::pair<YAML::Node, YAML::Node>> kept;
+    for (const VariantEntry& entry : entries_of(node, {"method"}))
+      if (std::find(names.begin(), names.end(), entry.name) == names.end())
+        kept.emplace_back(entry.key, entry.value);
+    return file_.mapping(kept, file_.place(node));
+  }
+
   void refuse_circle(const Reference& reference) const {
     constexpr std::size_t kMost = 20;
     const bool circle = std::find(open_.begin(), open_.end(), reference.name) != open_.end();
@@ -170,14 +202,14 @@ class Variant {
 
   /// InputError for changes of a method that the other problem only names.
   void refuse_change(const VariantEntry& mine, const VariantEntry& theirs) const {
-    const bool whole = !mine.value.IsMap() || mine.value["data"] || mine.value["require"] ||
-                       mine.value["plant"] || mine.value["report"];
+    const bool whole = !mine.value.IsMap() || mine.value["like"] || mine.value["data"] ||
+                       mine.value["require"] || mine.value["plant"] || mine.value["report"];
     if (whole || !theirs.value.IsScalar()) return;
     const std::string& name = theirs.value.Scalar();
     throw InputError(file_.place(mine.value),
                      other_ + " names its method, '" + name +
-                         "', and has no text of it to be changed here; 'gainsmith methods " + name +
-                         "' prints it, to be put under 'method'");
+                         "', and has no text of it; to change it, write 'method: {like: " + name +
+                         ", ...}'");
   }
 
   /// What a problem does not take from another one.
@@ -220,6 +252,9 @@ class Variant {
 
 }  // namespace
 
-YAML::Node with_what_it_is_like(YamlFile& file) { return Variant(file).whole(file.root()); }
+YAML::Node with_what_it_is_like(YamlFile& file, const MethodLibrary& library) {
+  Variant variant(file);
+  return variant.with_whole_method(variant.whole(file.root()), library);
+}
 
 }  // namespace gainsmith::io

@@ -142,6 +142,7 @@ Tally judge_runs(const Setup& setup, std::uint64_t seed, std::uint64_t first, st
       const RunVerdict verdict = judge(seed, run);
       if (!setup.sampled) check_stop();  // perhaps amid the run
       add(tally_of(run, verdict), sum);
+      Doing::step();
     }
   } catch (const Stopped&) {
     // Those that are done count.
@@ -160,7 +161,6 @@ Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
     const std::uint64_t first = block * block_size;
     const std::uint64_t last = std::min(runs, first + block_size);
     blocks[block] = judge_runs(setup, seed, first, last);
-    Doing::step(blocks[block].runs);
   };
   try {
     parallel_for(blocks.size(), options.threads, judge_block);

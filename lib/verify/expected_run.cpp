@@ -6,6 +6,8 @@
 #include <memory>
 
 #include "base/number.h"
+#include "base/parallel.h"
+#include "base/progress.h"
 #include "base/stop.h"
 #include "bind/stated.h"
 #include "verify/bound_figure.h"
@@ -15,12 +17,11 @@ namespace gainsmith::verify {
 
 namespace {
 
-/// The first run to two accuracies, and figures of both.
+/// A run to two accuracies, and figures of both.
 class TwoRuns {
  public:
-  TwoRuns(const model::Instance& instance, const model::Gains& gains, std::uint64_t seed,
-          std::uint64_t run)
-      : setup_(make_event_setup(bind::run_texts(instance, gains))) {
+  /// The setup must outlive it.
+  TwoRuns(const EventSetup& setup, std::uint64_t seed, std::uint64_t run) : setup_(&setup) {
     simulate::Simulator simulator(setup_->system, setup_->scenario);
     usual_ = simulator.run(seed, run, setup_->accuracy(kAccuracyOfOne));
     sharper_ = simulator.run(seed, run, setup_->accuracy(kAccuracyOfOne, bounded::kSharper));
@@ -47,7 +48,7 @@ class TwoRuns {
     return {usual, bound.of(sharper_)};
   }
 
-  std::unique_ptr<const EventSetup> setup_;
+  const EventSetup* setup_;
   hybrid::Trajectory usual_;
   hybrid::Trajectory sharper_;
 };
@@ -56,16 +57,22 @@ std::string said(const std::optional<double>& value) { return value ? brief(*val
 
 }  // namespace
 
-Comparison compared_figures(const model::Instance& instance, const model::Gains& gains,
-                            std::uint64_t seed, std::uint64_t run) {
-  if (instance.design->compare.empty()) return {};
-  TwoRuns runs(instance, gains, seed, run);
-  Comparison found;
-  for (const model::Figure& figure : instance.design->compare)
-    found.figures.push_back(runs.find(figure));
-  if (!is_complete(runs.ending()))
-    found.early =
-        to_string(runs.ending()) + (runs.message().empty() ? std::string() : ": " + runs.message());
+std::vector<Comparison> compared_figures(const model::Instance& instance, const model::Gains& gains,
+                                         std::uint64_t seed,
+                                         const std::vector<std::uint64_t>& runs) {
+  std::vector<Comparison> found(runs.size());
+  if (instance.design->compare.empty()) return found;
+  const auto setup = make_event_setup(bind::run_texts(instance, gains));
+  const Doing doing("runs", runs.size());
+  parallel_for(runs.size(), 0, [&](std::size_t k) {
+    TwoRuns run(*setup, seed, runs[k]);
+    for (const model::Figure& figure : instance.design->compare)
+      found[k].figures.push_back(run.find(figure));
+    if (!is_complete(run.ending()))
+      found[k].early =
+          to_string(run.ending()) + (run.message().empty() ? std::string() : ": " + run.message());
+    Doing::step();
+  });
   return found;
 }
 
@@ -73,7 +80,8 @@ RunDifferences run_differences(const model::Instance& instance, const model::Gai
   RunDifferences result;
   const auto& expect = instance.design->expect;
   if (!expect || expect->run.empty()) return result;
-  TwoRuns runs(instance, gains, instance.design->campaign.seed, 0);
+  const auto setup = make_event_setup(bind::run_texts(instance, gains));
+  TwoRuns runs(*setup, instance.design->campaign.seed, 0);
   for (const model::ExpectedFigure& expected : expect->run) {
     ++result.figures;
     const model::Figure& figure = expected.figure;

@@ -1,6 +1,8 @@
-// Figures of the first run of dynamics with events: expected ones, and those that are compared.
+// Figures of runs of dynamics with events: those expected of the first run, and those that are
+// compared.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
@@ -24,9 +26,10 @@ struct Comparison {
   std::string early;  ///< why the run ended before its horizon; empty where it did not, or by zeno
 };
 
-/// The figures under `compare`, of the run of this seed and number.
-Comparison compared_figures(const model::Instance& instance, const model::Gains& gains,
-                            std::uint64_t seed, std::uint64_t run);
+/// The figures under `compare`, of each of these runs of the seed.
+std::vector<Comparison> compared_figures(const model::Instance& instance, const model::Gains& gains,
+                                         std::uint64_t seed,
+                                         const std::vector<std::uint64_t>& runs);
 
 struct RunDifferences {
   std::vector<std::string> different;  ///< place: figure: expected ..., found ...

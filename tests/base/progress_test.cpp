@@ -25,5 +25,13 @@ TEST(Progress, SaysTheInnermostOrWhatIsCounted) {
   EXPECT_EQ(Doing::now(), "a search");
 }
 
+TEST(Progress, SaysHowLongTheRestTakes) {
+  EXPECT_EQ(time_left(10, 20, 100), ", about 40 s left");
+  EXPECT_EQ(time_left(1, 20, 100), "");
+  EXPECT_EQ(time_left(10, 0, 100), "");
+  EXPECT_EQ(time_left(10, 100, 100), "");
+  EXPECT_EQ(time_left(10, 101, 100), "");
+}
+
 }  // namespace
 }  // namespace gainsmith

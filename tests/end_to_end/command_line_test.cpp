@@ -8,6 +8,17 @@
 namespace gainsmith::tests {
 namespace {
 
+TEST(CommandLineTest, HelpIsAlsoAWord) {
+  EXPECT_EQ(gainsmith({"help"}).out, gainsmith({"--help"}).out);
+  EXPECT_EQ(gainsmith({"help", "help"}).out, gainsmith({"--help"}).out);
+  const Outcome synth = gainsmith({"help", "synth"});
+  EXPECT_EQ(synth.exit, 0) << synth.err;
+  EXPECT_EQ(synth.out, gainsmith({"synth", "--help"}).out);
+  const Outcome unknown = gainsmith({"help", "synt"});
+  EXPECT_EQ(unknown.exit, 2);
+  EXPECT_NE(unknown.err.find("did you mean 'synth'?"), std::string::npos) << unknown.err;
+}
+
 TEST(CommandLineTest, HelpHasExamplesForEverySubcommand) {
   for (const char* command : {"synth", "bisect", "scan", "optimize", "explain", "verify",
                               "simulate", "solve", "check", "run", "report", "methods", "init"}) {

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <sstream>
 
@@ -87,6 +88,35 @@ TEST(Events, FiguresStandSideBySide) {
     arguments.insert(arguments.end(), more.begin(), more.end());
     EXPECT_EQ(gainsmith(arguments).exit, 2) << more.front();
   }
+}
+
+/// Run by run, and the least, middle and largest of them.
+TEST(Events, FiguresOfSeveralRunsAreSummedUp) {
+  const Folder folder;
+  const std::string file = folder.file("p.yaml", kSampled);
+  const auto numbers = [](const std::string& line) {
+    std::istringstream stream(line.substr(line.find("norm(e)")));
+    std::vector<double> found;
+    for (std::string word; stream >> word;)
+      if (std::isdigit(static_cast<unsigned char>(word[0])) != 0) found.push_back(std::stod(word));
+    return found;
+  };
+  std::vector<double> fast;
+  for (const char* run : {"0", "1", "2", "3"})
+    fast.push_back(
+        numbers(lines_of(gainsmith({"simulate", file, "--compare", "--run", run}).out)[1]).at(1));
+  std::sort(fast.begin(), fast.end());
+  ASSERT_LT(fast[0], fast[3]);
+  const Outcome outcome = gainsmith({"simulate", file, "--compare", "--runs", "0:3"});
+  ASSERT_EQ(outcome.exit, 0) << outcome.err;
+  const auto lines = lines_of(outcome.out);
+  ASSERT_EQ(lines.size(), 7U) << outcome.out;
+  EXPECT_NE(lines[1].find(": least"), std::string::npos);
+  EXPECT_EQ(numbers(lines[1]).at(1), fast[0]);
+  EXPECT_NEAR(numbers(lines[2]).at(1), (fast[1] + fast[2]) / 2, 1e-5);
+  EXPECT_EQ(numbers(lines[3]).at(1), fast[3]);
+  EXPECT_EQ(gainsmith({"simulate", file, "--compare", "--runs", "0:3", "--run", "2"}).exit, 2);
+  EXPECT_EQ(gainsmith({"simulate", file, "--runs", "0:3"}).exit, 2);
 }
 
 TEST(Events, ThePictureIsWritten) {

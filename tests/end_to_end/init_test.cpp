@@ -31,6 +31,22 @@ TEST_P(Init, WritesAProblemThatHasASolution) {
   EXPECT_EQ(found.exit, 0) << found.out << found.err;
 }
 
+/// With the method's text in it, it is the same problem.
+TEST_P(Init, WritesTheMethodsTextWhereItIsToBeChanged) {
+  const Outcome written = gainsmith({"init", GetParam(), "--own"});
+  ASSERT_EQ(written.exit, 0) << written.err;
+  EXPECT_EQ(written.out.find("method: " + GetParam()), std::string::npos);
+  EXPECT_NE(written.out.find("\nmethod:\n  source:"), std::string::npos) << written.out;
+  const Folder folder;
+  const auto checked = [&](const std::string& name, const std::string& text) {
+    const Outcome outcome = gainsmith({"check", folder.file(name, text)});
+    EXPECT_EQ(outcome.exit, 0) << outcome.err;
+    return outcome.out.substr(outcome.out.find(", "));
+  };
+  EXPECT_EQ(checked("own.yaml", written.out),
+            checked("named.yaml", gainsmith({"init", GetParam()}).out));
+}
+
 std::string test_name(const ::testing::TestParamInfo<std::string>& method) {
   std::string name = method.param;
   for (char& c : name)

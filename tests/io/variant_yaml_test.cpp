@@ -106,9 +106,62 @@ TEST_F(Variants, CannotChangeAMethodThatIsOnlyNamed) {
                   library());
   });
   EXPECT_EQ(error.place(), (Place{path("p.yaml"), 3, 9}));
-  EXPECT_NE(error.message().find("'gainsmith methods sampled-data-hybrid' prints it"),
+  EXPECT_NE(error.message().find("write 'method: {like: sampled-data-hybrid, ...}'"),
             std::string::npos)
       << error.message();
+  EXPECT_FALSE(parse_problem("problem: p\nlike: named.yaml\nmethod: {like: sampled-data-hybrid, "
+                             "claims: {cost: none}}\n",
+                             path("p.yaml"), library())
+                   .method->claims.empty());
+}
+
+const std::string kNoisy = R"(problem: noisy
+method:
+  like: observer
+  noise: {v: {normal: 0.1, every: 0.5}}
+  plant: {output: {y: C*x + v}}
+  claims: {lyapunov: none}
+data: {A: [[0, 1], [-1, 0]], C: [1, 0]}
+)";
+
+TEST_F(Variants, TheMethodMayBeLikeOneOfTheProgram) {
+  const model::Problem noisy = parse_problem(kNoisy, path("p.yaml"), library());
+  const model::Problem plain =
+      parse_problem("problem: p\nmethod: observer\ndata: {A: [[0, 1], [-1, 0]], C: [1, 0]}\n",
+                    path("q.yaml"), library());
+  EXPECT_EQ(noisy.method_name, "noisy");
+  EXPECT_EQ(noisy.method->noise.size(), 1U);
+  EXPECT_EQ(noisy.method->claims.size() + 1, plain.method->claims.size());
+  EXPECT_EQ(noisy.method->require.size(), plain.method->require.size());
+  // The gain file states the text that it takes the rest from.
+  model::Gains gains;
+  gains.version = "0.1.0";
+  gains.statement = bind::bind(noisy).design->statement;
+  gains = parse_gains(gains_text(gains), path("gains.json"));
+  const model::Problem stated = stated_problem(gains, path("gains.json"));
+  EXPECT_EQ(bind::bind(stated).design->statement.hash, gains.statement.hash);
+}
+
+TEST_F(Variants, OfMethodsSayWhereAMistakeStands) {
+  struct Case {
+    std::string was, is;
+    Place place;
+    const char* says;
+  };
+  for (const Case& one :
+       {Case{"like: observer", "like: observr", {path("p.yaml"), 3, 9}, "did you mean 'observer'?"},
+        Case{"lyapunov: none",
+             "lyapunof: none",
+             {path("p.yaml"), 6, 22},
+             "did you mean 'lyapunov'?"},
+        Case{"like: observer", "like: [1]", {path("p.yaml"), 3, 9}, "like"},
+        Case{"C*x + v", "C*x + vv", {path("p.yaml"), 5, 29}, "vv"}}) {
+    const InputError error = input_error([&] {
+      bind::bind(parse_problem(replaced(kNoisy, one.was, one.is), path("p.yaml"), library()));
+    });
+    EXPECT_EQ(error.place(), one.place) << error.what();
+    EXPECT_NE(error.message().find(one.says), std::string::npos) << error.what();
+  }
 }
 
 TEST_F(Variants, MayBeLikeVariants) {

@@ -195,7 +195,7 @@ TEST(EventDraws, LostJumpsAreCounted) {
   const auto instance = instance_of(method, R"(campaign: {horizon: 5.05, runs: 1}
 compare: [{count: sample}, {lost: sample}, {at: {t: 5.02}, value: n}, {at: {t: 5.02}, value: k}]
 )");
-  const auto found = compared_figures(instance, {}, 1, 0).figures;
+  const auto found = compared_figures(instance, {}, 1, {0}).front().figures;
   ASSERT_EQ(found.size(), 4U);
   EXPECT_EQ(found[0].value, 50);
   EXPECT_EQ(found[2].value, 50);
