@@ -1,8 +1,8 @@
 #include "io/csv_table.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
-#include <string_view>
 #include <utility>
 
 #include "base/nearest.h"
@@ -30,7 +30,7 @@ void CsvTable::read(FirstLine first) {
     const Line start{number, at};
     const std::vector<Cell> cells = line(at, number);
     if (cells.size() == 1 && cells[0].begin == cells[0].end && !cells[0].quoted) continue;
-    const bool skipped = first == FirstLine::row && is_first && !has_number(cells);
+    const bool skipped = first == FirstLine::row && is_first && is_heading(cells);
     is_first = false;
     if (skipped) continue;
     if (names_.empty() && first == FirstLine::names) {
@@ -107,14 +107,15 @@ void CsvTable::read_header(const std::vector<Cell>& cells) {
     throw InputError({path_, 1, 1}, "the columns are separated by semicolons; expected commas");
 }
 
-bool CsvTable::has_number(const std::vector<Cell>& cells) const {
-  return std::any_of(cells.begin(), cells.end(), [&](const Cell& one) {
-    constexpr std::string_view kBegins = "0123456789+-.";
+bool CsvTable::is_heading(const std::vector<Cell>& cells) const {
+  return std::all_of(cells.begin(), cells.end(), [&](const Cell& one) {
+    constexpr std::array kValues = {"na", "nan", "n/a", "null", "none", "inf", "true", "false"};
     std::string word = text(one);
     std::transform(word.begin(), word.end(), word.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return word == "nan" || word == "inf" ||
-           (!word.empty() && kBegins.find(word.front()) != std::string_view::npos);
+    const bool named = !word.empty() && (word.front() == '_' ||
+                                         (word.front() >= 'a' && word.front() <= 'z'));
+    return named && std::find(kValues.begin(), kValues.end(), word) == kValues.end();
   });
 }
 

@@ -15,7 +15,7 @@ namespace gainsmith::io {
 class CsvTable {
  public:
   /// `row`: the first line is a row, the columns are called 1, 2, ...; but it is left out when
-  /// no cell of it begins like a number.
+  /// each cell of it begins with a letter and stands for no value, as NA and true do.
   enum class FirstLine { names, row };
 
   /// `path` stands in messages. InputError when the text is empty, has no rows, two columns of one
@@ -50,7 +50,7 @@ class CsvTable {
   std::vector<Cell> line(std::size_t& at, int& number) const;
   Cell cell(std::size_t& at, int& number, std::size_t line_begin) const;
   void read_header(const std::vector<Cell>& cells);
-  bool has_number(const std::vector<Cell>& cells) const;
+  bool is_heading(const std::vector<Cell>& cells) const;
   std::string text(const Cell& cell) const;
   const Cell& cell(std::size_t row, std::size_t column) const {
     return cells_[row * names_.size() + column];

@@ -7,7 +7,7 @@ namespace gainsmith::judge {
 constexpr double kRounding = 1e-13;  ///< relative
 ///< | what another order of the same operations may change
 ///< | Judge.FindsAWrongMap
-constexpr double kFactor = 100;  ///< times the accuracy of the run
+constexpr double kFactor = 100;  ///< accuracies of the run; in one step times sqrt(n) of n elements
 ///< | what a recorded flow may differ by from the one that is integrated again
 ///< | Judge.FindsAFlowThatIsOff
 constexpr double kCertain = 0.1;  ///< of what is allowed

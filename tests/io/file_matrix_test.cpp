@@ -68,6 +68,11 @@ TEST(CsvMatrix, SaysWhereWhatIsNoNumber) {
            Case{"1 2\n", {"A.csv", 1, 1}, "separated by commas"},
            Case{"", {"A.csv", 1, 1}, "no numbers"},
            Case{"a,b\n", {"A.csv", 1, 1}, "no numbers"},
+           Case{"\u22121,\u22122\n0.5,1\n", {"A.csv", 1, 1}, "found '\u22121'"},
+           Case{"NA,NA\n0.5,1\n", {"A.csv", 1, 1}, "found 'NA'"},
+           Case{"x,?\n0.5,1\n", {"A.csv", 1, 1}, "found 'x'"},
+           Case{"true,false\n0.5,1\n", {"A.csv", 1, 1}, "found 'true'"},
+           Case{",\n0.5,1\n", {"A.csv", 1, 1}, "this cell is empty"},
            Case{"1+2i,3\n", {"A.csv", 1, 1}, "found '1+2i'"},
        }) {
     const InputError error = csv_error(one.text);
@@ -167,6 +172,9 @@ TEST(NpyMatrix, RefusesWhatIsNoRealMatrix) {
            {npy("'<U3'", "1,", one), "'<U3' are no numbers"},
            {npy("[('x', '<f8')]", "1,", one), "named fields"},
            {npy("'<f8'", "1, 1, 1", one), "3 dimensions; a matrix has two"},
+           {npy("'<f8'", "-1, -1", one), "the shape '(-1, -1)' is none"},
+           {npy("'<f8'", "1x, 1", one), "the shape '(1x, 1)' is none"},
+           {npy("'<f8'", "1.0, 1", one), "the shape '(1.0, 1)' is none"},
            {npy("'<f8'", "0, 2", ""), "is 0 x 2: there is nothing in it"},
            {npy("'<f8'", "10000, 10000", one),
             "is 10000 x 10000, of more than the 250000 elements"},

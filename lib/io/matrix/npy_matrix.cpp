@@ -117,6 +117,8 @@ class NpyReader {
     std::vector<double> shape;
     const std::size_t close = value.find(')');
     if (value[0] != '(' || close == std::string::npos) refuse("the header has no shape");
+    if (value.find_first_not_of("0123456789, ", 1) < close)
+      refuse("the shape '" + value.substr(0, close + 1) + "' is none");
     for (std::size_t at = 1; at < close; ++at) {
       if (std::isdigit(static_cast<unsigned char>(value[at])) == 0) continue;
       double size = 0;
