@@ -59,6 +59,8 @@ class LaneMachine {
   double* input(std::size_t k) { return registers_.get() + k * kLanes; }
   /// Computes all lanes; what is done lane by lane only where `active`.
   void run(std::uint32_t active = ~0U);
+  /// How many elements a result has.
+  std::size_t size(std::size_t result) const { return code_->results_[result].size(); }
   /// The kLanes numbers of an element of a result.
   const double* result(std::size_t result, std::size_t element) const {
     return registers_.get() + code_->results_[result][element] * kLanes;

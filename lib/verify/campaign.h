@@ -67,7 +67,7 @@ struct Report {
   double violation_probability = 1;
   std::vector<std::string> silent_events;   ///< that happened in no run
   std::vector<std::string> idle_observers;  ///< that never change
-  std::vector<CheckReport> checks;  ///< in the method's order; none when no run was made
+  std::vector<CheckReport> checks;          ///< in the method's order; none when no run was made
 
   bool interrupted() const { return runs < asked; }
 };

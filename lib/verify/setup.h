@@ -10,6 +10,7 @@
 #include "bounded/sampled_system.h"
 #include "claims/claim_check.h"
 #include "claims/claims.h"
+#include "packs/pack_system.h"
 #include "verify/careful_runs.h"
 
 namespace gainsmith::verify {
@@ -29,7 +30,9 @@ struct SampledSetup {
 struct Setup {
   std::unique_ptr<const EventSetup> events;     ///< the careful run
   std::unique_ptr<const EventSetup> errors;     ///< with errors as states; none: there are none
-  std::unique_ptr<const SampledSetup> sampled;  ///< none: all runs are careful
+  std::unique_ptr<const SampledSetup> sampled;  ///< none: runs are made in packs, or careful
+  std::unique_ptr<const packs::PackSystem>
+      packs;  ///< none: they are of a kind that packs do not run
 
   const std::vector<claims::Claim>& claims() const { return events->claims; }
   /// By which the careful run judges.

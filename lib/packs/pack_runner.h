@@ -1,0 +1,56 @@
+// Runs of a campaign, kLanes at once.
+//
+// A lane is one run: its own time, steps, clocks and events; a lane that has ended takes the next
+// run. Each run is made twice over the same steps, once in whole and once in half steps: what they
+// differ by is the error of the first, 256 times that of the second, of which values are taken.
+//
+//   steps    to clocks and the horizon exactly; a step on which a watched difference comes to 0 is
+//            taken again to its root
+//   roots    both runs are moved along their flows to their own zero, jump there, and are moved
+//            back, to first order: so their difference knows of the error of the event's time
+//   open     whatever is unusual ends the lane, and the run is left to the careful simulator: signs
+//            that are not certain, two events at nearly one time, chains of jumps, short steps,
+//            texts without a value, claims next to their bounds
+//
+// A run is a function of (seed, run); nothing crosses lanes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "packs/pack_system.h"
+
+namespace gainsmith::packs {
+
+struct PackVerdict {
+  struct Claim {
+    bool violated = false;
+    bool looked = true;
+    double score = 0;  ///< claims::Finding::score
+    double floor = 0;
+  };
+  bool open = true;  ///< what follows says nothing
+  std::vector<Claim> claims;
+  std::vector<char> happened;  ///< by event
+
+  bool violated() const;
+};
+
+class PackRunner {
+ public:
+  /// One for each thread. The system must outlive it.
+  explicit PackRunner(const PackSystem& system);
+  PackRunner(PackRunner&&) noexcept;
+  PackRunner& operator=(PackRunner&&) noexcept;
+  ~PackRunner();
+
+  /// Runs first, ..., last - 1. Stopped (base/stop.h) when it is asked to stop.
+  std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
+
+ private:
+  class Lanes;
+  std::unique_ptr<Lanes> lanes_;
+};
+
+}  // namespace gainsmith::packs

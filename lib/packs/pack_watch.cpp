@@ -1,0 +1,52 @@
+#include "packs/pack_watch.h"
+
+namespace gainsmith::packs {
+
+namespace {
+
+using Kind = expr::Condition::Kind;
+
+Truth of_comparison(const WatchedCondition& condition, const std::vector<Watch>& watches,
+                    const Sides& sides, bool still) {
+  Truth result = Truth::yes;
+  for (std::size_t w = condition.first; w < condition.first + condition.count; ++w) {
+    const bool moves = watches[w].moves;
+    const int side = moves && still ? 0 : sides[w];
+    if (moves && side == 0) {
+      result = Truth::unknown;
+      continue;
+    }
+    const bool holds = condition.kind == Kind::positive      ? side > 0
+                       : condition.kind == Kind::nonnegative ? side >= 0
+                                                             : side == 0;
+    if (!holds) return Truth::no;
+  }
+  return result;
+}
+
+}  // namespace
+
+Truth truth(const WatchedCondition& condition, const std::vector<Watch>& watches,
+            const Sides& sides, bool still) {
+  if (condition.kind == Kind::none) {
+    const Truth inner = truth(condition.parts.front(), watches, sides, still);
+    return inner == Truth::unknown ? inner : inner == Truth::yes ? Truth::no : Truth::yes;
+  }
+  if (condition.kind != Kind::all && condition.kind != Kind::any)
+    return of_comparison(condition, watches, sides, still);
+  const Truth decides = condition.kind == Kind::all ? Truth::no : Truth::yes;
+  Truth result = condition.kind == Kind::all ? Truth::yes : Truth::no;
+  for (const WatchedCondition& part : condition.parts) {
+    const Truth inner = truth(part, watches, sides, still);
+    if (inner == decides) return decides;
+    if (inner == Truth::unknown) result = Truth::unknown;
+  }
+  return result;
+}
+
+void mark(const WatchedCondition& condition, std::vector<char>& marked) {
+  for (std::size_t w = condition.first; w < condition.first + condition.count; ++w) marked[w] = 1;
+  for (const WatchedCondition& part : condition.parts) mark(part, marked);
+}
+
+}  // namespace gainsmith::packs
