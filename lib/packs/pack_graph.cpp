@@ -9,21 +9,15 @@ using hybrid::Slot;
 using hybrid::Switch;
 using model::Dynamics;
 using numbers::TracedMatrix;
-using Kind = Dynamics::VariableKind;
-
-namespace {
-
-std::size_t index(int at) { return static_cast<std::size_t>(at); }
-
-}  // namespace
+using VariableKind = Dynamics::VariableKind;
 
 PackGraph::PackGraph(const hybrid::System& system) : system_(&system) {
   for (int k = 0; k < static_cast<int>(system.whole); ++k) kept_.push_back(k);
   const auto& variables = system.dynamics.variables;
   std::vector<bool> moves(variables.size(), false);
   for (std::size_t i = 0; i < variables.size(); ++i) {
-    const Kind kind = variables[i].kind;
-    moves[i] = kind == Kind::time || kind == Kind::since || kind == Kind::left;
+    const VariableKind kind = variables[i].kind;
+    moves[i] = kind == VariableKind::time || kind == VariableKind::since || kind == VariableKind::left;
     if (variables[i].structure != model::Structure::symmetric) continue;
     const Slot& slot = system.layout.slots[i];
     const int first = static_cast<int>(slot.offset);
@@ -126,16 +120,16 @@ Nodes PackGraph::rates(const Nodes& x) {
   const auto& variables = system_->dynamics.variables;
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const auto at = static_cast<std::size_t>(system_->layout.slots[i].offset);
-    const Kind kind = variables[i].kind;
-    if (kind == Kind::time || kind == Kind::since) rates[at] = graph_.constant(1);
-    if (kind == Kind::left) rates[at] = graph_.constant(-1);
+    const VariableKind kind = variables[i].kind;
+    if (kind == VariableKind::time || kind == VariableKind::since) rates[at] = graph_.constant(1);
+    if (kind == VariableKind::left) rates[at] = graph_.constant(-1);
   }
   for (const Dynamics::Assignment& one : system_->dynamics.flow) {
     const Slot& slot = system_->layout.slots[one.variable];
     const auto first = static_cast<std::size_t>(slot.offset);
     Nodes value = this->value(one.value.program, x).value;
     const auto& frozen = system_->dynamics.components[variables[one.variable].component].frozen;
-    if (frozen && variables[one.variable].kind == Kind::state) {
+    if (frozen && variables[one.variable].kind == VariableKind::state) {
       const int is_frozen = truth(*frozen, x);
       for (int& node : value) node = graph_.where(true, is_frozen, zero, node);
     }

@@ -15,6 +15,8 @@ namespace gainsmith::packs {
 
 using Nodes = std::vector<int>;
 
+inline std::size_t index(int at) { return static_cast<std::size_t>(at); }
+
 class PackGraph {
  public:
   /// The system must outlive it.

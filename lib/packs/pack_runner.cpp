@@ -44,6 +44,26 @@ std::int8_t sign_of(double x) { return static_cast<std::int8_t>(x > 0 ? 1 : x < 
 
 }  // namespace
 
+std::string to_string(Why why) {
+  switch (why) {
+    case Why::claim:
+      return "a claim is next to its bound";
+    case Why::sign:
+      return "the sign of a condition is not certain";
+    case Why::order:
+      return "it is not certain which event comes first";
+    case Why::no_value:
+      return "a text has no value";
+    case Why::range:
+      return "a value leaves its range";
+    case Why::steps:
+      return "steps are short, or many";
+    case Why::jumps:
+      return "jumps follow each other at once";
+  }
+  return "?";
+}
+
 bool PackVerdict::violated() const {
   return std::any_of(claims.begin(), claims.end(), [](const Claim& one) { return one.violated; });
 }
@@ -161,7 +181,15 @@ class PackRunner::Lanes {
     }
   }
 
-  void leave_open(std::size_t l) { lanes_[l].reset(); }
+  void leave_open(std::size_t l) {
+    verdicts_[static_cast<std::size_t>(lanes_[l]->run_number - first_)].why = why_;
+    lanes_[l].reset();
+  }
+  /// The lane is left open, for this reason.
+  bool open(Why why) {
+    why_ = why;
+    return false;
+  }
 
   void finish(std::size_t l) {
     PackLane& lane = *lanes_[l];
@@ -170,6 +198,7 @@ class PackRunner::Lanes {
     for (ClaimLane& claim : lane.claims) {
       claim.finish();
       verdict.open = verdict.open || claim.open();
+      if (claim.open()) verdict.why = Why::claim;
       verdict.claims.push_back({claim.violated(), claim.looked(), claim.score(), claim.floor()});
     }
     verdict.happened = lane.happened;
@@ -214,7 +243,7 @@ class PackRunner::Lanes {
     each(mask, [&](std::size_t l) {
       start_.copy_lane(middle_, l);
       coarse_start_.copy_lane(end_, l);
-      if ((faults >> l & 1U) != 0 || !settle(l)) leave_open(l);
+      if (((faults >> l & 1U) != 0 && !open(Why::no_value)) || !settle(l)) leave_open(l);
     });
   }
 
@@ -239,7 +268,7 @@ class PackRunner::Lanes {
         lane.claims[c].begin(pack_.claims[c], pack_, start_.at(PackSystem::limits, c, l));
       if (lane.fresh || lane.jumped)
         lane.claims[c].at(lane.t, reading(c, l, start_, coarse_start_), lane.jumped);
-      if (lane.claims[c].open()) return false;
+      if (lane.claims[c].open()) return open(Why::claim);
     }
     if (lane.jumped)
       if (const auto& crossing = pack_.events[*lane.jumped].crossing)
@@ -256,7 +285,7 @@ class PackRunner::Lanes {
       if (!pack_.watches[w].moves) {
         lane.sides[w] = sign_of(value);
         if (sign_of(coarse_start_.at(PackSystem::watch_values, w, l)) != lane.sides[w])
-          return false;
+          return open(Why::sign);
         continue;
       }
       const double error = error_of(w, l, start_, coarse_start_);
@@ -276,7 +305,10 @@ class PackRunner::Lanes {
       const Watch& watch = pack_.watches[w];
       if (watch.branch < 0) continue;
       const std::int8_t side = lanes_[l]->sides[w];
-      if (side == 0 && watch.moves) return std::nullopt;
+      if (side == 0 && watch.moves) {
+        why_ = Why::sign;
+        return std::nullopt;
+      }
       const double branch = watch.sign ? side : side > 0 || (side == 0 && !watch.strict) ? 1 : -1;
       const auto element = static_cast<std::size_t>(watch.branch);
       changed = changed || fine_.at(element, l) != branch;
@@ -292,7 +324,7 @@ class PackRunner::Lanes {
     if (!find_due(l)) return false;
     if (lane.due) {
       lane.phase = Phase::jump;
-      return ++lane.chain <= kMostChain;
+      return ++lane.chain <= kMostChain || open(Why::jumps);
     }
     if (lane.t >= horizon_) {
       finish(l);
@@ -311,7 +343,7 @@ class PackRunner::Lanes {
       bool due = false;
       if (event.crossing) {
         const std::int8_t side = lane.sides[*event.crossing];
-        if (side == 0) return false;
+        if (side == 0) return open(Why::sign);
         const Dynamics::EventKind kind = pack_.system->dynamics.events[e].kind;
         if (lane.signs[e] != 0 && side != lane.signs[e])
           lane.crossed[e] = kind == Dynamics::EventKind::crosses ||
@@ -327,7 +359,7 @@ class PackRunner::Lanes {
         due = lane.clocks.is_due(e, now);
       }
       // An event before it may be due as well.
-      if (due && lane.undetermined) return false;
+      if (due && lane.undetermined) return open(Why::order);
       if (due) {
         lane.due = e;
         return true;
@@ -346,7 +378,7 @@ class PackRunner::Lanes {
     }
     for (const WatchedCondition& set : pack_.flow_sets) {
       const Truth is = truth(set, pack_.watches, lane.sides);
-      if (is == Truth::no) return false;
+      if (is == Truth::no) return open(Why::range);
       lane.undetermined = lane.undetermined || is == Truth::unknown;
       if (truth(set, pack_.watches, lane.sides, true) == Truth::unknown) mark(set, lane.relevant);
     }
@@ -364,7 +396,7 @@ class PackRunner::Lanes {
     lane.chain = 0;
     lane.phase = Phase::step;
     forget_root(lane);
-    return lane.stop > lane.t;
+    return lane.stop > lane.t || open(Why::jumps);
   }
 
   static void forget_root(PackLane& lane) {
@@ -434,7 +466,10 @@ class PackRunner::Lanes {
         if (exact && sign_of(end_.at(PackSystem::watch_values, w, l)) != sides[w]) same = false;
       }
       const Truth is = truth(*pack_.events[event].only_if, pack_.watches, sides);
-      if (!same || is == Truth::unknown) return leave_open(l);
+      if (!same || is == Truth::unknown) {
+        why_ = Why::sign;
+        return leave_open(l);
+      }
       if (is == Truth::yes) {
         goes |= 1U << l;
         return;
@@ -481,7 +516,10 @@ class PackRunner::Lanes {
       });
     }
     each(mask, [&](std::size_t l) {
-      if ((bad >> l & 1U) != 0) return leave_open(l);
+      if ((bad >> l & 1U) != 0) {
+        why_ = Why::no_value;
+        return leave_open(l);
+      }
       PackLane& lane = *lanes_[l];
       for (const std::size_t element : since_[event]) set(element, l, 0);
       spend(event, l);
@@ -523,7 +561,8 @@ class PackRunner::Lanes {
     faults |= coarse_look_.faults;
     each(mask, [&](std::size_t l) {
       const bool fault = (faults >> l & 1U) != 0;
-      if (++lanes_[l]->steps > kMostSteps || !judge_step(l, fault)) leave_open(l);
+      const bool many = ++lanes_[l]->steps > kMostSteps && !open(Why::steps);
+      if (many || !judge_step(l, fault)) leave_open(l);
     });
   }
 
@@ -539,7 +578,7 @@ class PackRunner::Lanes {
   bool shorten(PackLane& lane, double factor) {
     forget_root(lane);
     lane.wanted = lane.h * factor;
-    return lane.wanted > kShortestStep * horizon_;
+    return lane.wanted > kShortestStep * horizon_ || open(Why::steps);
   }
 
   bool judge_step(std::size_t l, bool fault) {
@@ -551,7 +590,7 @@ class PackRunner::Lanes {
     double share = 2;
     if (!find_root(l, target, share)) {
       // Two halves may say more.
-      if (lane.target >= 0 || ++lane.halvings > kMostHalvings) return false;
+      if (lane.target >= 0 || ++lane.halvings > kMostHalvings) return open(Why::sign);
       lane.forced = lane.h / 2;
       return true;
     }
@@ -559,19 +598,19 @@ class PackRunner::Lanes {
       lane.target = target;
       lane.retakes = 1;
       lane.forced = share * lane.h;
-      return lane.forced > 0;
+      return lane.forced > 0 || open(Why::sign);
     }
     if (lane.target >= 0) {
       const auto w = static_cast<std::size_t>(lane.target);
       const double value = end_.at(PackSystem::watch_values, w, l);
       const double rate = end_.at(PackSystem::watch_rates, w, l);
-      if (!(rate * lane.sides[w] < 0)) return false;
+      if (!(rate * lane.sides[w] < 0)) return open(Why::sign);
       const double rest = -value / rate;
       constexpr double close = 1e-11;
       if (std::abs(rest) > close * horizon_ && lane.retakes < 4) {
         ++lane.retakes;
         lane.forced = lane.h + rest;
-        return lane.forced > 0;
+        return lane.forced > 0 || open(Why::sign);
       }
     }
     return accept(l);
@@ -607,7 +646,7 @@ class PackRunner::Lanes {
       if (!crosses || lane.target >= 0) return false;
       const double at = along.root(known);
       const double apart = std::abs(at - share) * lane.h;
-      if (share <= 1 && apart <= hybrid::kHardly * horizon_) return false;
+      if (share <= 1 && apart <= hybrid::kHardly * horizon_) return open(Why::order);
       if (at < share) {
         share = at;
         target = static_cast<int>(w);
@@ -624,11 +663,11 @@ class PackRunner::Lanes {
       lane.claims[c].along(now, lane.h, claim_sample(start_, c, l), claim_sample(middle_, c, l),
                            claim_sample(end_, c, l), reading(c, l, end_, coarse_look_),
                            may_branch(c, l));
-      if (lane.claims[c].open()) return false;
+      if (lane.claims[c].open()) return open(Why::claim);
     }
     for (const int row : pack_.rows)
       if (!(std::abs(fine_end_.at(static_cast<std::size_t>(row), l)) <= hybrid::kLargestState))
-        return false;
+        return open(Why::range);
     find_new_sides(l);
     coarse_.copy_lane(coarse_end_, l);
     fine_.copy_lane(fine_end_, l);
@@ -678,13 +717,13 @@ class PackRunner::Lanes {
   bool still_inside(std::size_t l) {
     PackLane& lane = *lanes_[l];
     for (const WatchedCondition& set : pack_.flow_sets)
-      if (truth(set, pack_.watches, lane.sides) != Truth::yes) return false;
+      if (truth(set, pack_.watches, lane.sides) != Truth::yes) return open(Why::range);
     if (!lane.undetermined) return true;
     lane.undetermined = false;
     for (std::size_t e = 0; e < pack_.events.size(); ++e)
       if (pack_.events[e].when && lane.spent[e] == 0 &&
           truth(*pack_.events[e].when, pack_.watches, lane.sides) != Truth::no)
-        return false;
+        return open(Why::sign);
     return true;
   }
 
@@ -695,14 +734,15 @@ class PackRunner::Lanes {
     if (!lane.due && watch.branch < 0) return true;
     const bool is_short = lane.t - lane.flow_start < claims::kInstantOfRun * horizon_;
     lane.short_flows = is_short ? lane.short_flows + 1 : 0;
-    if (lane.short_flows > 3) return false;
+    if (lane.short_flows > 3) return open(Why::jumps);
     const auto shift = [&](const LaneLook& seen) {
       return -seen.at(PackSystem::watch_values, target, l) /
              seen.at(PackSystem::watch_rates, target, l);
     };
     lane.coarse_shift = shift(coarse_start_);
     lane.fine_shift = shift(start_);
-    if (!std::isfinite(lane.coarse_shift) || !std::isfinite(lane.fine_shift)) return false;
+    if (!std::isfinite(lane.coarse_shift) || !std::isfinite(lane.fine_shift))
+      return open(Why::sign);
     move(l, coarse_, coarse_start_, lane.coarse_shift);
     move(l, fine_, start_, lane.fine_shift);
     lane.moved = true;
@@ -710,7 +750,7 @@ class PackRunner::Lanes {
     lane.phase = Phase::look;
     if (lane.due) {
       lane.phase = Phase::jump;
-      return ++lane.chain <= kMostChain;
+      return ++lane.chain <= kMostChain || open(Why::jumps);
     }
     return true;
   }
@@ -742,6 +782,7 @@ class PackRunner::Lanes {
   std::vector<std::size_t> times_;
   std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements
   Eigen::VectorXd scratch_;
+  Why why_ = Why::claim;  ///< of the lane that is left open
   std::vector<std::optional<PackLane>> lanes_;
   std::uint64_t seed_ = 0, first_ = 0, next_ = 0, last_ = 0;
   std::vector<PackVerdict> verdicts_;

@@ -17,11 +17,25 @@
 
 #include <cstdint>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "packs/pack_system.h"
 
 namespace gainsmith::packs {
+
+/// Why a run is left to the careful simulator.
+enum class Why : std::uint8_t {
+  claim,     ///< a claim is next to its bound
+  sign,      ///< the sign of a difference that decides about an event or a branch is not certain
+  order,     ///< it is not certain which event comes first
+  no_value,  ///< a text has no value
+  range,     ///< a value leaves its flow set or every bound
+  steps,     ///< steps are too short or too many
+  jumps      ///< many jumps at one time, or within hardly any
+};
+constexpr std::size_t kWhys = 7;
+std::string to_string(Why why);
 
 struct PackVerdict {
   struct Claim {
@@ -30,7 +44,8 @@ struct PackVerdict {
     double score = 0;  ///< claims::Finding::score
     double floor = 0;
   };
-  bool open = true;  ///< what follows says nothing
+  bool open = true;  ///< what follows says nothing but why
+  Why why = Why::claim;
   std::vector<Claim> claims;
   std::vector<char> happened;  ///< by event
 

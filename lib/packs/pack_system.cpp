@@ -18,8 +18,6 @@ using model::Dynamics;
 using numbers::ScalarGraph;
 using numbers::ScalarOp;
 
-std::size_t index(int at) { return static_cast<std::size_t>(at); }
-
 // --- What packs run. ---
 
 bool runs_jumps(const Dynamics& dynamics) {

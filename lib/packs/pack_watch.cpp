@@ -4,7 +4,7 @@ namespace gainsmith::packs {
 
 namespace {
 
-using Kind = expr::Condition::Kind;
+using Is = expr::Condition::Kind;
 
 Truth of_comparison(const WatchedCondition& condition, const std::vector<Watch>& watches,
                     const Sides& sides, bool still) {
@@ -16,8 +16,8 @@ Truth of_comparison(const WatchedCondition& condition, const std::vector<Watch>&
       result = Truth::unknown;
       continue;
     }
-    const bool holds = condition.kind == Kind::positive      ? side > 0
-                       : condition.kind == Kind::nonnegative ? side >= 0
+    const bool holds = condition.kind == Is::positive      ? side > 0
+                       : condition.kind == Is::nonnegative ? side >= 0
                                                              : side == 0;
     if (!holds) return Truth::no;
   }
@@ -28,14 +28,14 @@ Truth of_comparison(const WatchedCondition& condition, const std::vector<Watch>&
 
 Truth truth(const WatchedCondition& condition, const std::vector<Watch>& watches,
             const Sides& sides, bool still) {
-  if (condition.kind == Kind::none) {
+  if (condition.kind == Is::none) {
     const Truth inner = truth(condition.parts.front(), watches, sides, still);
     return inner == Truth::unknown ? inner : inner == Truth::yes ? Truth::no : Truth::yes;
   }
-  if (condition.kind != Kind::all && condition.kind != Kind::any)
+  if (condition.kind != Is::all && condition.kind != Is::any)
     return of_comparison(condition, watches, sides, still);
-  const Truth decides = condition.kind == Kind::all ? Truth::no : Truth::yes;
-  Truth result = condition.kind == Kind::all ? Truth::yes : Truth::no;
+  const Truth decides = condition.kind == Is::all ? Truth::no : Truth::yes;
+  Truth result = condition.kind == Is::all ? Truth::yes : Truth::no;
   for (const WatchedCondition& part : condition.parts) {
     const Truth inner = truth(part, watches, sides, still);
     if (inner == decides) return decides;

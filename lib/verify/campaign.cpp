@@ -42,6 +42,7 @@ struct Tally {
   std::uint64_t close = 0;
   std::uint64_t repeated = 0;
   std::uint64_t careful = 0;
+  std::array<std::uint64_t, packs::kWhys> open{};
   std::vector<std::uint64_t> confirmed;
   std::optional<std::uint64_t> run;  ///< the worst
   claims::Judgement judgement = claims::Judgement::held;
@@ -99,6 +100,7 @@ void add(const Tally& later, Tally& sum) {
   sum.unfinished = before.unfinished + later.unfinished;
   sum.close = before.close + later.close;
   sum.careful = before.careful + later.careful;
+  for (std::size_t k = 0; k < sum.open.size(); ++k) sum.open[k] = before.open[k] + later.open[k];
   const Tally& first = before.unfinished > 0 ? before : later;
   sum.unfinished_run = first.unfinished_run;
   sum.unfinished_termination = first.unfinished_termination;
@@ -149,6 +151,7 @@ Tally judge_runs(const Setup& setup, bool in_packs, std::uint64_t seed, std::uin
       if (made.careful && !setup.sampled) check_stop();  // perhaps amid the run
       Tally tally = tally_of(run, made.verdict);
       tally.careful = made.careful ? 1 : 0;
+      if (made.why) tally.open[static_cast<std::size_t>(*made.why)] = 1;
       add(tally, sum);
       Doing::step();
     }
@@ -293,6 +296,8 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
   report.undecided = tally.undecided;
   report.unfinished = tally.unfinished;
   report.repeated = tally.repeated;
+  if (setup.packs) report.careful = tally.careful;
+  report.open = tally.open;
   report.confirmed = tally.confirmed;
   report.worst_run = *tally.run;
   report.unfinished_run = tally.unfinished_run;

@@ -3,6 +3,7 @@
 // Verify shares no code with the synthesis: it knows the gains, the method's text and the plant.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -12,6 +13,7 @@
 #include "bounded/track.h"
 #include "claims/claim_check.h"
 #include "model/words.h"
+#include "packs/pack_runner.h"
 #include "verify/setup.h"
 
 namespace gainsmith::verify {
@@ -48,6 +50,10 @@ struct Report {
   bounded::Termination unfinished_termination = bounded::Termination::horizon;
   std::string unfinished_message;  ///< why it ended
   std::uint64_t close = 0;         ///< undecided runs that reach it: a comparison is too close
+  /// Of runs that were made many at once: how many the careful run has decided, and by
+  /// packs::Why those that were left open. None where all runs are made one by one.
+  std::optional<std::uint64_t> careful;
+  std::array<std::uint64_t, packs::kWhys> open{};
   std::uint64_t repeated = 0;      ///< runs that were repeated: in 31 digits, or more accurately
   /// The repeated runs that violate again, in order. The worst run of the campaign and that of each
   /// claim are repeated if they violate.

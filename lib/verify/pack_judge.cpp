@@ -55,15 +55,15 @@ RunVerdict PackJudge::careful(std::uint64_t seed, std::uint64_t run) {
 }
 
 CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
-  if (!packs_) return {careful(seed_, run), true};
+  if (!packs_) return {careful(seed_, run), true, {}};
   const packs::PackVerdict& pack = verdicts_[static_cast<std::size_t>(run - first_)];
-  if (pack.open) return {careful(seed_, run), true};
+  if (pack.open) return {careful(seed_, run), true, pack.why};
   RunVerdict verdict = verdict_of(pack, *setup_);
-  if (run % kSampled != 0) return {std::move(verdict), false};
+  if (run % kSampled != 0) return {std::move(verdict), false, {}};
   RunVerdict again = careful(seed_, run);
   for (std::size_t c = 0; c < again.findings.size(); ++c)
     require_agreement(run, verdict.findings[c].judgement, again.findings[c].judgement);
-  return {std::move(again), true};
+  return {std::move(again), true, {}};
 }
 
 }  // namespace gainsmith::verify

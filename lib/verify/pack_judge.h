@@ -16,6 +16,7 @@ namespace gainsmith::verify {
 struct CampaignVerdictOnRun {
   RunVerdict verdict;
   bool careful = true;
+  std::optional<packs::Why> why{};  ///< packs left it open
 };
 
 class PackJudge {
