@@ -18,11 +18,12 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, double limit) {
+void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack,
+                      const PackAccuracy& accuracy, double limit) {
   *this = ClaimLane();
   claim_ = &claim;
-  accuracy_ = pack.accuracy;
-  noise_ = pack.noise_accuracy;
+  accuracy_ = accuracy.relative * pack.accuracy;
+  noise_ = pack.accuracy;
   sign_ = claim.kind == ClaimKind::above ? -1 : 1;
   limit_ = sign_ * limit;
   if (!std::isfinite(limit)) open_ = true;

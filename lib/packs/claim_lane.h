@@ -24,7 +24,8 @@ struct Reading {
 class ClaimLane {
  public:
   /// `limit`: the bound, or the factor.
-  void begin(const PackClaim& claim, const PackSystem& pack, double limit);
+  void begin(const PackClaim& claim, const PackSystem& pack, const PackAccuracy& accuracy,
+             double limit);
   /// The start of a run, or the state after a jump of `event`.
   void at(double t, const Reading& reading, std::optional<std::size_t> event);
   /// A step up to t. `end`: there. `breaks`: whether the value may branch on it.

@@ -23,9 +23,9 @@ class PackGraph {
   explicit PackGraph(const hybrid::System& system);
 
   numbers::ScalarGraph& graph() { return graph_; }
-  /// The inputs: one node for each of the values, in their order; behind them input `beside`.
+  /// The inputs: one node for each of the values, in their order; behind them others may follow.
   Nodes inputs();
-  int beside() { return graph_.input(static_cast<int>(system_->whole)); }
+  int beside(int k) { return graph_.input(static_cast<int>(system_->whole) + k); }
 
   /// The nodes of a program at values x, and of its rate where all values have the rates `rates`.
   /// NoFormula (numbers/scalar_rules.h) where it has none.

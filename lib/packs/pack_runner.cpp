@@ -95,9 +95,22 @@ class PackRunner::Lanes {
 
   std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
     seed_ = seed;
-    first_ = next_ = first;
-    last_ = last;
+    first_ = first;
     verdicts_.assign(static_cast<std::size_t>(last - first), {});
+    for (const PackAccuracy& accuracy : kAccuracies) {
+      waiting_.clear();
+      for (std::uint64_t run = last; run-- > first;)
+        if (verdicts_[static_cast<std::size_t>(run - first)].open) waiting_.push_back(run);
+      run_waiting(accuracy);
+    }
+    return std::move(verdicts_);
+  }
+
+ private:
+  void run_waiting(const PackAccuracy& accuracy) {
+    accuracy_ = &accuracy;
+    std::fill_n(step_.input(pack_.whole + 1), kLanes, accuracy.relative);
+    std::fill_n(step_.input(pack_.whole + 2), kLanes, accuracy.absolute);
     lanes_.clear();
     lanes_.resize(kLanes);
     while (true) {
@@ -115,10 +128,8 @@ class PackRunner::Lanes {
         break;
       }
     }
-    return std::move(verdicts_);
   }
 
- private:
   // --- Lanes. ---
 
   std::size_t rows_of(std::size_t result) const {
@@ -166,18 +177,17 @@ class PackRunner::Lanes {
 
   void refill() {
     for (std::size_t l = 0; l < kLanes; ++l) {
-      if (lanes_[l] || next_ >= last_) continue;
-      lanes_[l].emplace(pack_, seed_, next_);
-      const Eigen::VectorXd start =
-          hybrid::draw_start(*pack_.system, *pack_.scenario, seed_, next_);
-      scratch_ = start;
+      if (lanes_[l] || waiting_.empty()) continue;
+      const std::uint64_t run = waiting_.back();
+      waiting_.pop_back();
+      lanes_[l].emplace(pack_, seed_, run);
+      scratch_ = hybrid::draw_start(*pack_.system, *pack_.scenario, seed_, run);
       for (std::size_t k = 0; k < pack_.system->noise.size(); ++k)
         lanes_[l]->noise.draw(k, scratch_);
       for (std::size_t k = 0; k < pack_.whole; ++k)
         coarse_.at(k, l) = fine_.at(k, l) = scratch_(static_cast<Eigen::Index>(k));
       lanes_[l]->wanted = kFirstStep * horizon_;
       fill_clocks(l);
-      ++next_;
     }
   }
 
@@ -265,7 +275,7 @@ class PackRunner::Lanes {
     if (*changed) return true;  // to be looked at again
     for (std::size_t c = 0; c < lane.claims.size(); ++c) {
       if (lane.fresh)
-        lane.claims[c].begin(pack_.claims[c], pack_, start_.at(PackSystem::limits, c, l));
+        lane.claims[c].begin(pack_.claims[c], pack_, *accuracy_, start_.at(PackSystem::limits, c, l));
       if (lane.fresh || lane.jumped)
         lane.claims[c].at(lane.t, reading(c, l, start_, coarse_start_), lane.jumped);
       if (lane.claims[c].open()) return open(Why::claim);
@@ -659,11 +669,17 @@ class PackRunner::Lanes {
     PackLane& lane = *lanes_[l];
     const bool arrives = lane.forced == 0 && lane.h == lane.stop - lane.t;
     const double now = arrives ? lane.stop : lane.t + lane.h;
+    const std::vector<ClaimLane> claims_before = lane.claims;
     for (std::size_t c = 0; c < lane.claims.size(); ++c) {
       lane.claims[c].along(now, lane.h, claim_sample(start_, c, l), claim_sample(middle_, c, l),
                            claim_sample(end_, c, l), reading(c, l, end_, coarse_look_),
                            may_branch(c, l));
-      if (lane.claims[c].open()) return open(Why::claim);
+      if (!lane.claims[c].open()) continue;
+      // Two halves may say more.
+      if (lane.target >= 0 || ++lane.halvings > kMostHalvings) return open(Why::claim);
+      lane.claims = claims_before;
+      lane.forced = lane.h / 2;
+      return true;
     }
     for (const int row : pack_.rows)
       if (!(std::abs(fine_end_.at(static_cast<std::size_t>(row), l)) <= hybrid::kLargestState))
@@ -784,7 +800,9 @@ class PackRunner::Lanes {
   Eigen::VectorXd scratch_;
   Why why_ = Why::claim;  ///< of the lane that is left open
   std::vector<std::optional<PackLane>> lanes_;
-  std::uint64_t seed_ = 0, first_ = 0, next_ = 0, last_ = 0;
+  std::uint64_t seed_ = 0, first_ = 0;
+  std::vector<std::uint64_t> waiting_;  ///< the runs that are to be made, from the last
+  const PackAccuracy* accuracy_ = nullptr;
   std::vector<PackVerdict> verdicts_;
 };
 

@@ -43,7 +43,7 @@ class StepCode {
   LaneCode make(double relative, const Eigen::VectorXd& absolute) {
     ScalarGraph& graph = texts_.graph();
     const Nodes x = texts_.inputs();
-    h_ = texts_.beside();
+    h_ = texts_.beside(0);
     for (std::size_t stage = 0; stage < kStages; ++stage) {
       Nodes at = stage == 0 ? x : moved(x, kStageWeights[stage - 1]);
       k_.push_back(texts_.rates(at));
@@ -51,6 +51,8 @@ class StepCode {
     const Nodes end = moved(x, kStageWeights.back());
     Nodes out;
     for (const int row : pack_.rows) out.push_back(end[index(row)]);
+    const int relative_factor = graph.multiply(texts_.beside(1), graph.constant(relative));
+    const int absolute_factor = texts_.beside(2);
     int sum5 = graph.constant(0);
     int sum3 = graph.constant(0);
     int count = 0;
@@ -60,13 +62,14 @@ class StepCode {
       const int size = graph.apply(ScalarOp::maximum, graph.apply(ScalarOp::abs, x[index(row)]),
                                    graph.apply(ScalarOp::abs, end[index(row)]));
       const int allowed =
-          graph.add(graph.constant(absolute(row)), graph.multiply(graph.constant(relative), size));
+          graph.add(graph.multiply(absolute_factor, graph.constant(absolute(row))),
+                    graph.multiply(relative_factor, size));
       const int part5 = graph.divide(weighted(row, kErrorOfOrder5), allowed);
       const int part3 = graph.divide(weighted(row, error_of_order_3()), allowed);
       sum5 = graph.add(sum5, graph.multiply(part5, part5));
       sum3 = graph.add(sum3, graph.multiply(part3, part3));
     }
-    return {graph, {out, {error(sum5, sum3, count)}}, pack_.whole + 1};
+    return {graph, {out, {error(sum5, sum3, count)}}, pack_.whole + 3};
   }
 
  private:
@@ -182,7 +185,7 @@ class LookCode {
     return moves;
   }
 
-  LaneCode make() { return {texts_.graph(), results_, pack_.whole + 1}; }
+  LaneCode make() { return {texts_.graph(), results_, pack_.whole}; }
 
  private:
   void push(PackSystem::LookResult result, int node) { results_[result].push_back(node); }
@@ -274,7 +277,7 @@ LaneCode jump_code(const PackSystem& pack, std::size_t event, bool lost) {
       node = graph.add(before[offset(i)], graph.constant(1));
     if (variable.kind == Kind::passes && variable.of == event) node = graph.constant(0);
   }
-  return {graph, {after, parts}, pack.whole + 1};
+  return {graph, {after, parts}, pack.whole};
 }
 
 }  // namespace
@@ -289,8 +292,7 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
   auto pack = std::make_unique<PackSystem>();
   pack->system = &system;
   pack->scenario = &scenario;
-  pack->accuracy = kCoarser * relative;
-  pack->noise_accuracy = relative;
+  pack->accuracy = relative;
   pack->whole = static_cast<std::size_t>(system.whole);
   {
     const PackGraph texts(system);
@@ -298,7 +300,7 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
     for (int k = 0; k < static_cast<int>(system.whole); ++k) pack->kept.push_back(texts.kept(k));
   }
   try {
-    pack->step.emplace(StepCode(*pack).make(kCoarser * relative, kCoarser * absolute));
+    pack->step.emplace(StepCode(*pack).make(relative, absolute));
     LookCode look(*pack);
     for (const claims::Claim& claim : claims)
       if (claim.stated()) look.add(claim);

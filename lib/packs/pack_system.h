@@ -1,6 +1,6 @@
 // What the packs of a campaign run: a System and its claims as code over lanes, made once.
 //
-//   step    values, h -> the values that move after a step of length h by the method of order 8 of
+//   step    values, h, the factors of a PackAccuracy -> the values that move after a step of length h by the method of order 8 of
 //           Dormand and Prince, and its error as a part of what is allowed
 //   look    values -> rates, claims with their rates, and what is watched: the differences of
 //           conditions, of crossings and of switches, with their rates
@@ -21,6 +21,12 @@
 #include "lanes/machine.h"
 
 namespace gainsmith::packs {
+
+/// Of the coarser of both runs: times the accuracy of the careful run.
+struct PackAccuracy {
+  double relative = 1;
+  double absolute = 1;
+};
 
 /// A difference whose sign matters.
 struct Watch {
@@ -54,8 +60,7 @@ struct PackClaim {
 struct PackSystem {
   const hybrid::System* system = nullptr;
   const hybrid::Scenario* scenario = nullptr;
-  double accuracy = 0;        ///< of the coarser of both runs; relative
-  double noise_accuracy = 0;  ///< below which part of its start a value is noise
+  double accuracy = 0;                         ///< relative, of the careful run
   std::size_t whole = 0;      ///< values
   std::vector<int> rows;      ///< that move
   std::vector<int> kept;      ///< of each value: the one that it is kept in
@@ -82,8 +87,8 @@ struct PackSystem {
   };
 };
 
-/// `accuracy`: of each element, to which the careful run of a campaign integrates; that of packs is
-/// kCoarser times as large. nullptr for what packs do not run. The system, the scenario and the
+/// `relative`, `absolute`: to which the careful run of a campaign integrates, the latter of each
+/// element. nullptr for what packs do not run. The system, the scenario and the
 /// claims must outlive it.
 std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
                                                    const hybrid::Scenario& scenario,

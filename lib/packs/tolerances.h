@@ -3,11 +3,14 @@
 
 #include <cstdint>
 
+#include "packs/pack_system.h"
+
 namespace gainsmith::packs {
 
 // clang-format off
-constexpr double kCoarser = 100;  ///< times the accuracy of a careful run | packs are integrated to
-        ///< it | PackRuns.AgreeWithCarefulRuns
+constexpr PackAccuracy kAccuracies[] = {{100, 1}, {0.1, 1e-4}};  ///< times those of a careful run |
+        ///< packs are integrated to the first, and once more to the second where they leave a run
+        ///< open | PackRuns.AgreeWithCarefulRuns
 constexpr double kErrorOfPair = 4;  ///< differences of two runs | the error of a value |
         ///< PackRuns.AgreeWithCarefulRuns
 constexpr double kFirstStep = 1e-3;  ///< of the horizon | the first step of a run |
