@@ -57,11 +57,11 @@ void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> 
   const Known value = known(reading, is_jump);
   if (!counts(t) || (claim_->over && event != claim_->over)) return;
   const bool same = looked_ && is_jump && !claim_->over && value.value == last_.value;
-  compare(value, reading.terms, same);
+  compare(value, reading.terms, same, false);
 }
 
 void ClaimLane::along(double t, double length, Sample start, Sample middle, Sample last,
-                      const Reading& end, bool breaks) {
+                      const Reading& end, bool breaks, bool halved) {
   const Known value = known(end, false);
   if (claim_->over || !counts(t)) return;
   const auto signed_of = [&](Sample one) { return Sample{sign_ * one.value, sign_ * one.rate}; };
@@ -75,11 +75,11 @@ void ClaimLane::along(double t, double length, Sample start, Sample middle, Samp
       compare_within(StepPolynomial(signed_of(start), signed_of(middle), signed_of(last), length),
                      value, end.terms, length, rate, breaks);
   }
-  compare(value, end.terms, same);
+  compare(value, end.terms, same, halved);
 }
 
 /// The value at a point where the claim is made.
-void ClaimLane::compare(Known value, double terms, bool same) {
+void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
   last_ = value;
   const auto forgiven = [&](double size) { return claim_->tolerance * size; };
   if (!looked_) {
@@ -95,7 +95,8 @@ void ClaimLane::compare(Known value, double terms, bool same) {
     const double scale = std::abs(first_.value);
     const bool violates = above_high > value.error + high_.error;
     const bool holds = above_low <= -(value.error + low_.error) ||
-                       (above_low <= 0 && value.error + low_.error == 0);
+                       (above_low <= 0 && value.error + low_.error == 0) ||
+                       (crowded && above_high <= claims::kGrown * (value.error + high_.error));
     const double least = violates ? claims::kFloorOfAccuracy * noise_ : noise_;
     if (!holds && scale != 0 && size <= least * scale) {
       floor_ = std::max(floor_, size / scale);

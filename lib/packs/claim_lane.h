@@ -28,9 +28,10 @@ class ClaimLane {
              double limit);
   /// The start of a run, or the state after a jump of `event`.
   void at(double t, const Reading& reading, std::optional<std::size_t> event);
-  /// A step up to t. `end`: there. `breaks`: whether the value may branch on it.
+  /// A step up to t. `end`: there. `breaks`: whether the value may branch on it. `halved`: it ends
+  /// nearer to its start than errors ask for, so that a value may hardly have changed.
   void along(double t, double length, Sample start, Sample middle, Sample last, const Reading& end,
-             bool breaks);
+             bool breaks, bool halved);
   void finish();
 
   bool open() const { return open_; }
@@ -46,7 +47,7 @@ class ClaimLane {
   };
   bool counts(double t) const { return t >= claim_->after; }
   Known known(const Reading& reading, bool jumped);
-  void compare(Known value, double terms, bool same);
+  void compare(Known value, double terms, bool same, bool crowded);
   void compare_within(const StepPolynomial& along, Known end, double terms, double length,
                       double rate, bool breaks);
   void check_parting(double value, double difference, double terms);
