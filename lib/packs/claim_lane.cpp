@@ -126,8 +126,8 @@ void ClaimLane::compare_within(const StepPolynomial& along, Known end, double te
   if (claim_->kind == ClaimKind::shrinks) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (!breaks && along.falls()) return;
-    const double rise = along.largest() - along.coefficients()[0];
-    if (rise + error - end.error <= claims::kGrown * end.error) return;
+    // A rise within the errors is not certain, and what is not certain does not count here.
+    if (along.highest() - along.coefficients()[0] <= error) return;
     if (std::abs(along.largest()) + error <= noise_ * std::abs(first_.value)) return;
     open_ = true;
     return;
@@ -138,10 +138,8 @@ void ClaimLane::compare_within(const StepPolynomial& along, Known end, double te
     // A violation at a point is certain without what lies between.
     if (!(end.value - limit_ - forgiven > end.error)) open_ = true;
   }
-  if ((along.largest() - limit_) / scale <= score_) return;
-  constexpr int parts = 16;
-  for (int k = 1; k < parts; ++k)
-    score_ = std::max(score_, (along(static_cast<double>(k) / parts) - limit_) / scale);
+  if ((along.largest() - limit_) / scale > score_)
+    score_ = std::max(score_, (along.highest() - limit_) / scale);
 }
 
 void ClaimLane::finish() {

@@ -667,7 +667,8 @@ class PackRunner::Lanes {
 
   bool accept(std::size_t l) {
     PackLane& lane = *lanes_[l];
-    const bool arrives = lane.forced == 0 && lane.h == lane.stop - lane.t;
+    const bool arrives = (lane.forced == 0 && lane.h == lane.stop - lane.t) ||
+                         lane.stop - (lane.t + lane.h) <= hybrid::kOneInstant * lane.stop;
     const double now = arrives ? lane.stop : lane.t + lane.h;
     const std::vector<ClaimLane> claims_before = lane.claims;
     for (std::size_t c = 0; c < lane.claims.size(); ++c) {

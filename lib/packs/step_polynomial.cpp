@@ -27,7 +27,14 @@ double StepPolynomial::operator()(double share) const {
 }
 
 double StepPolynomial::largest() const { return *std::max_element(b_.begin(), b_.end()); }
-double StepPolynomial::least() const { return *std::min_element(b_.begin(), b_.end()); }
+
+double StepPolynomial::highest() const {
+  constexpr int parts = 16;
+  double found = std::max(b_.front(), b_.back());
+  for (int k = 1; k < parts; ++k)
+    found = std::max(found, (*this)(static_cast<double>(k) / parts));
+  return found;
+}
 
 bool StepPolynomial::falls() const {
   for (std::size_t k = 0; k < 5; ++k)

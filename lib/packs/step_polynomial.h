@@ -20,7 +20,8 @@ class StepPolynomial {
   const std::array<double, 6>& coefficients() const { return b_; }
   double operator()(double share) const;
   double largest() const;
-  double least() const;
+  /// The largest of its values at 17 points.
+  double highest() const;
   /// An estimate of how far it is from what it interpolates, with a margin: what the quartic
   /// without the rate at the end would miss, times 0.15.
   double error() const { return error_; }
