@@ -18,8 +18,8 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
-void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack,
-                      const PackAccuracy& accuracy, double limit) {
+void ClaimLane::begin(const PackClaim& claim, const PackSystem& pack, const PackAccuracy& accuracy,
+                      double limit) {
   *this = ClaimLane();
   claim_ = &claim;
   accuracy_ = accuracy.relative * pack.accuracy;

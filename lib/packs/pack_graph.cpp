@@ -17,7 +17,8 @@ PackGraph::PackGraph(const hybrid::System& system) : system_(&system) {
   std::vector<bool> moves(variables.size(), false);
   for (std::size_t i = 0; i < variables.size(); ++i) {
     const VariableKind kind = variables[i].kind;
-    moves[i] = kind == VariableKind::time || kind == VariableKind::since || kind == VariableKind::left;
+    moves[i] =
+        kind == VariableKind::time || kind == VariableKind::since || kind == VariableKind::left;
     if (variables[i].structure != model::Structure::symmetric) continue;
     const Slot& slot = system.layout.slots[i];
     const int first = static_cast<int>(slot.offset);

@@ -91,6 +91,12 @@ class PackRunner::Lanes {
       if (event.lost) lost_.back().emplace(*event.lost);
     }
     find_clock_elements();
+    is_decisive_.assign(pack.watches.size(), 0);
+    for (const PackEvent& event : pack.events) {
+      if (event.when) mark(*event.when, is_decisive_);
+      if (event.crossing) is_decisive_[event.crossing->watch] = 1;
+    }
+    for (const WatchedCondition& set : pack.flow_sets) mark(set, is_decisive_);
   }
 
   std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
@@ -275,17 +281,22 @@ class PackRunner::Lanes {
     if (*changed) return true;  // to be looked at again
     for (std::size_t c = 0; c < lane.claims.size(); ++c) {
       if (lane.fresh)
-        lane.claims[c].begin(pack_.claims[c], pack_, *accuracy_, start_.at(PackSystem::limits, c, l));
+        lane.claims[c].begin(pack_.claims[c], pack_, *accuracy_,
+                             start_.at(PackSystem::limits, c, l));
       if (lane.fresh || lane.jumped)
         lane.claims[c].at(lane.t, reading(c, l, start_, coarse_start_), lane.jumped);
       if (lane.claims[c].open()) return open(Why::claim);
     }
     if (lane.jumped)
       if (const auto& crossing = pack_.events[*lane.jumped].crossing)
-        lane.signs[*lane.jumped] = lane.sides[*crossing];
+        lane.signs[*lane.jumped] = side_of(*crossing, lane);
     lane.fresh = false;
     lane.jumped.reset();
     return go_on(l);
+  }
+
+  static std::int8_t side_of(const Watched& watched, const PackLane& lane) {
+    return static_cast<std::int8_t>(watched.factor * lane.sides[watched.watch]);
   }
 
   bool find_sides(std::size_t l) {
@@ -308,21 +319,25 @@ class PackRunner::Lanes {
     return true;
   }
 
-  /// Whether a branch of the flow has changed; none where one is not certain.
+  /// Whether a branch of the flow has changed; none where one is not certain. What is 0 takes the
+  /// branch to which it moves.
   std::optional<bool> set_branches(std::size_t l) {
     bool changed = false;
     for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
       const Watch& watch = pack_.watches[w];
-      if (watch.branch < 0) continue;
-      const std::int8_t side = lanes_[l]->sides[w];
+      if (watch.branches.empty()) continue;
+      std::int8_t& side = lanes_[l]->sides[w];
+      if (side == 0 && watch.moves) side = sign_of(start_.at(PackSystem::watch_rates, w, l));
       if (side == 0 && watch.moves) {
         why_ = Why::sign;
         return std::nullopt;
       }
-      const double branch = watch.sign ? side : side > 0 || (side == 0 && !watch.strict) ? 1 : -1;
-      const auto element = static_cast<std::size_t>(watch.branch);
-      changed = changed || fine_.at(element, l) != branch;
-      set(element, l, branch);
+      for (const Watch::Branch& one : watch.branches) {
+        const int own = one.factor * side;
+        const double value = one.sign ? own : own > 0 || (own == 0 && !one.strict) ? 1 : -1;
+        changed = changed || fine_.at(one.element, l) != value;
+        set(one.element, l, value);
+      }
     }
     return changed;
   }
@@ -352,7 +367,7 @@ class PackRunner::Lanes {
       const PackEvent& event = pack_.events[e];
       bool due = false;
       if (event.crossing) {
-        const std::int8_t side = lane.sides[*event.crossing];
+        const std::int8_t side = side_of(*event.crossing, lane);
         if (side == 0) return open(Why::sign);
         const Dynamics::EventKind kind = pack_.system->dynamics.events[e].kind;
         if (lane.signs[e] != 0 && side != lane.signs[e])
@@ -384,7 +399,7 @@ class PackRunner::Lanes {
     for (const PackEvent& event : pack_.events) {
       if (event.when && truth(*event.when, pack_.watches, lane.sides, true) == Truth::unknown)
         mark(*event.when, lane.relevant);
-      if (event.crossing) lane.relevant[*event.crossing] = 1;
+      if (event.crossing) lane.relevant[event.crossing->watch] = 1;
     }
     for (const WatchedCondition& set : pack_.flow_sets) {
       const Truth is = truth(set, pack_.watches, lane.sides);
@@ -393,7 +408,7 @@ class PackRunner::Lanes {
       if (truth(set, pack_.watches, lane.sides, true) == Truth::unknown) mark(set, lane.relevant);
     }
     for (std::size_t w = 0; w < pack_.watches.size(); ++w)
-      if (pack_.watches[w].branch >= 0) lane.relevant[w] = 1;
+      if (!pack_.watches[w].branches.empty()) lane.relevant[w] = 1;
     if (lane.moved) {
       move(l, coarse_, coarse_start_, -lane.coarse_shift);
       move(l, fine_, start_, -lane.fine_shift);
@@ -651,6 +666,7 @@ class PackRunner::Lanes {
       for (std::size_t k = 1; k < b.size(); ++k)
         clear = clear && side * b[k] > (known != 0 || k == 5 ? error : 0);
       if (clear || static_cast<int>(w) == lane.target) continue;
+      if (known != 0 && ends_at_branch(lane, w, b, error)) continue;
       const bool crosses = known != 0 && side * b[5] < -error && side * b[1] > 0 &&
                            along.sign_changes() == 1 + (side * b[0] > 0 ? 0 : 1);
       if (!crosses || lane.target >= 0) return false;
@@ -665,11 +681,24 @@ class PackRunner::Lanes {
     return true;
   }
 
+  bool arrives(const PackLane& lane) const {
+    return (lane.forced == 0 && lane.h == lane.stop - lane.t) ||
+           lane.stop - (lane.t + lane.h) <= hybrid::kOneInstant * lane.stop;
+  }
+
+  /// Whether a branch of the flow changes just where a step ends anyway, and not before.
+  bool ends_at_branch(const PackLane& lane, std::size_t w, const std::array<double, 6>& b,
+                      double error) const {
+    if (pack_.watches[w].branches.empty() || is_decisive_[w] != 0 || !arrives(lane)) return false;
+    for (std::size_t k = 1; k + 1 < b.size(); ++k)
+      if (lane.sides[w] * b[k] <= error) return false;
+    return std::abs(b.back()) <= error;
+  }
+
   bool accept(std::size_t l) {
     PackLane& lane = *lanes_[l];
-    const bool arrives = (lane.forced == 0 && lane.h == lane.stop - lane.t) ||
-                         lane.stop - (lane.t + lane.h) <= hybrid::kOneInstant * lane.stop;
-    const double now = arrives ? lane.stop : lane.t + lane.h;
+    const bool at_stop = arrives(lane);
+    const double now = at_stop ? lane.stop : lane.t + lane.h;
     const std::vector<ClaimLane> claims_before = lane.claims;
     for (std::size_t c = 0; c < lane.claims.size(); ++c) {
       lane.claims[c].along(now, lane.h, claim_sample(start_, c, l), claim_sample(middle_, c, l),
@@ -699,7 +728,7 @@ class PackRunner::Lanes {
     forget_root(lane);
     if (!still_inside(l)) return false;
     if (target >= 0) return arrive_at_root(l, static_cast<std::size_t>(target));
-    return !arrives || arrive_at_stop(l);
+    return !at_stop || arrive_at_stop(l);
   }
 
   Sample claim_sample(const LaneLook& seen, std::size_t c, std::size_t l) const {
@@ -724,7 +753,8 @@ class PackRunner::Lanes {
       const double value = end_.at(PackSystem::watch_values, w, l);
       if (static_cast<int>(w) == lane.target) {
         lane.sides[w] = static_cast<std::int8_t>(-lane.sides[w]);
-      } else if (lane.relevant[w] == 0 || lane.sides[w] == 0) {
+      } else if (lane.relevant[w] == 0 || lane.sides[w] == 0 ||
+                 !pack_.watches[w].branches.empty()) {
         lane.sides[w] = std::abs(value) > error_of(w, l, end_, coarse_look_) ? sign_of(value) : 0;
       }
     }
@@ -748,7 +778,7 @@ class PackRunner::Lanes {
     PackLane& lane = *lanes_[l];
     if (!find_due(l)) return false;
     const Watch& watch = pack_.watches[target];
-    if (!lane.due && watch.branch < 0) return true;
+    if (!lane.due && watch.branches.empty()) return true;
     const bool is_short = lane.t - lane.flow_start < claims::kInstantOfRun * horizon_;
     lane.short_flows = is_short ? lane.short_flows + 1 : 0;
     if (lane.short_flows > 3) return open(Why::jumps);
@@ -783,7 +813,16 @@ class PackRunner::Lanes {
       lane.phase = Phase::look;
       return true;
     }
-    return go_on(l);
+    if (!go_on(l)) return false;
+    // A branch that changes here is to be set before the flow goes on.
+    if (lanes_[l] && lane.phase == Phase::step && has_open_branch(lane)) lane.phase = Phase::look;
+    return true;
+  }
+
+  bool has_open_branch(const PackLane& lane) const {
+    for (std::size_t w = 0; w < pack_.watches.size(); ++w)
+      if (!pack_.watches[w].branches.empty() && lane.sides[w] == 0) return true;
+    return false;
   }
 
   const PackSystem& pack_;
@@ -796,6 +835,7 @@ class PackRunner::Lanes {
   LaneValues lengths_, errors_;
   LaneLook start_, coarse_start_;  ///< at the values now
   LaneLook middle_, end_, coarse_look_;
+  std::vector<char> is_decisive_;  ///< by watch: whether an event or a flow set hangs on it
   std::vector<std::size_t> times_;
   std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements
   Eigen::VectorXd scratch_;

@@ -61,9 +61,8 @@ class StepCode {
       ++count;
       const int size = graph.apply(ScalarOp::maximum, graph.apply(ScalarOp::abs, x[index(row)]),
                                    graph.apply(ScalarOp::abs, end[index(row)]));
-      const int allowed =
-          graph.add(graph.multiply(absolute_factor, graph.constant(absolute(row))),
-                    graph.multiply(relative_factor, size));
+      const int allowed = graph.add(graph.multiply(absolute_factor, graph.constant(absolute(row))),
+                                    graph.multiply(relative_factor, size));
       const int part5 = graph.divide(weighted(row, kErrorOfOrder5), allowed);
       const int part3 = graph.divide(weighted(row, error_of_order_3()), allowed);
       sum5 = graph.add(sum5, graph.multiply(part5, part5));
@@ -163,31 +162,55 @@ class LookCode {
     for (const expr::Condition& part : condition.parts)
       if (!add(part, made.parts.emplace_back())) return false;
     if (!condition.is_comparison()) return true;
-    made.first = pack_.watches.size();
-    const bool moves = watch(condition.difference);
-    made.count = pack_.watches.size() - made.first;
-    return condition.kind != expr::Condition::Kind::zero || !moves;
+    made.elements = watch(condition.difference);
+    return condition.kind != expr::Condition::Kind::zero ||
+           std::none_of(made.elements.begin(), made.elements.end(),
+                        [&](const Watched& one) { return pack_.watches[one.watch].moves; });
   }
 
-  /// Watches all elements; whether one of them moves.
-  bool watch(const expr::Program& difference) {
+  /// Watches all elements; what is watched already, or its opposite, is not watched again.
+  std::vector<Watched> watch(const expr::Program& difference) {
     const numbers::TracedMatrix value = texts_.moving(difference, x_, rates_);
     const Nodes terms = texts_.value(hybrid::absolute_terms(difference), x_).value;
     const bool moves =
         std::any_of(difference.inputs.begin(), difference.inputs.end(),
                     [&](const expr::Input& one) { return pack_.system->is_moving(one.name); });
+    std::vector<Watched> made;
     for (std::size_t e = 0; e < value.value.size(); ++e) {
-      push(PackSystem::watch_values, value.value[e]);
+      const int node = value.value[e];
+      if (const auto same = known(node)) {
+        made.push_back({*same, 1});
+        continue;
+      }
+      if (const auto opposite = known(opposite_of(node))) {
+        made.push_back({*opposite, -1});
+        continue;
+      }
+      made.push_back({pack_.watches.size(), 1});
+      push(PackSystem::watch_values, node);
       push(PackSystem::watch_rates, value.slopes[0][e]);
       push(PackSystem::watch_terms, terms[e]);
-      pack_.watches.push_back({moves});
+      pack_.watches.push_back({moves, {}});
     }
-    return moves;
+    return made;
   }
 
   LaneCode make() { return {texts_.graph(), results_, pack_.whole}; }
 
  private:
+  std::optional<std::size_t> known(int node) const {
+    const auto& all = results_[PackSystem::watch_values];
+    const auto found = std::find(all.begin(), all.end(), node);
+    if (found == all.end()) return std::nullopt;
+    return static_cast<std::size_t>(found - all.begin());
+  }
+
+  int opposite_of(int node) {
+    const ScalarGraph::Node one = texts_.graph().nodes()[index(node)];
+    return one.op == ScalarOp::subtract ? texts_.graph().subtract(one.b, one.a)
+                                        : texts_.graph().negate(node);
+  }
+
   void push(PackSystem::LookResult result, int node) { results_[result].push_back(node); }
 
   PackSystem& pack_;
@@ -200,10 +223,7 @@ bool add_event(const Dynamics::Event& event, LookCode& look, PackSystem& pack) {
   PackEvent& made = pack.events.emplace_back();
   if (event.condition && !look.add(*event.condition, made.when.emplace())) return false;
   if (event.only_if && !look.add(*event.only_if, made.only_if.emplace())) return false;
-  if (event.crossing) {
-    made.crossing = pack.watches.size();
-    look.watch(event.crossing->program);
-  }
+  if (event.crossing) made.crossing = look.watch(event.crossing->program).front();
   return true;
 }
 
@@ -211,14 +231,11 @@ bool add_event(const Dynamics::Event& event, LookCode& look, PackSystem& pack) {
 void add_switches(LookCode& look, PackSystem& pack) {
   for (const hybrid::Switch& one : pack.system->switches) {
     if (one.kind == hybrid::Switch::Kind::kink) continue;
-    const std::size_t first = pack.watches.size();
-    look.watch(one.difference);
     const auto& slot = pack.system->layout.slots[*pack.system->slot(one.input)];
-    for (std::size_t k = first; k < pack.watches.size(); ++k) {
-      pack.watches[k].branch = static_cast<int>(slot.offset) + static_cast<int>(k - first);
-      pack.watches[k].sign = one.kind == hybrid::Switch::Kind::sign;
-      pack.watches[k].strict = one.strict;
-    }
+    auto element = static_cast<std::size_t>(slot.offset);
+    for (const Watched& watched : look.watch(one.difference))
+      pack.watches[watched.watch].branches.push_back(
+          {element++, watched.factor, one.kind == hybrid::Switch::Kind::sign, one.strict});
   }
 }
 

@@ -28,24 +28,35 @@ struct PackAccuracy {
   double absolute = 1;
 };
 
-/// A difference whose sign matters.
+/// A difference whose sign matters, to conditions, crossings and branches of the flow.
 struct Watch {
-  bool moves = true;   ///< otherwise it is the same along a flow, and exact
-  int branch = -1;     ///< of a switch: the element of the values that holds its branch
-  bool sign = false;   ///< of a switch: of sign(D), otherwise of `where`
-  bool strict = true;  ///< of `where`: D > 0, otherwise D >= 0
+  /// An element of the values that holds a branch of the flow.
+  struct Branch {
+    std::size_t element = 0;
+    int factor = 1;      ///< the branch is of this times the difference
+    bool sign = false;   ///< it is sign(D), otherwise that of `where`
+    bool strict = true;  ///< of `where`: D > 0, otherwise D >= 0
+  };
+  bool moves = true;  ///< otherwise it is the same along a flow, and exact
+  std::vector<Branch> branches;
+};
+
+/// A watch, or what is opposite to it.
+struct Watched {
+  std::size_t watch = 0;
+  int factor = 1;  ///< -1: opposite
 };
 
 /// A condition over watches.
 struct WatchedCondition {
   expr::Condition::Kind kind = expr::Condition::Kind::all;
-  std::size_t first = 0, count = 0;  ///< of a comparison: its watches
+  std::vector<Watched> elements;  ///< of a comparison
   std::vector<WatchedCondition> parts;
 };
 
 struct PackEvent {
   std::optional<WatchedCondition> when, only_if;
-  std::optional<std::size_t> crossing;        ///< its watch
+  std::optional<Watched> crossing;
   std::optional<lanes::LaneCode> jump, lost;  ///< lost: of the plant alone
 };
 
@@ -60,10 +71,10 @@ struct PackClaim {
 struct PackSystem {
   const hybrid::System* system = nullptr;
   const hybrid::Scenario* scenario = nullptr;
-  double accuracy = 0;                         ///< relative, of the careful run
-  std::size_t whole = 0;      ///< values
-  std::vector<int> rows;      ///< that move
-  std::vector<int> kept;      ///< of each value: the one that it is kept in
+  double accuracy = 0;    ///< relative, of the careful run
+  std::size_t whole = 0;  ///< values
+  std::vector<int> rows;  ///< that move
+  std::vector<int> kept;  ///< of each value: the one that it is kept in
   std::vector<PackEvent> events;
   std::vector<WatchedCondition> flow_sets;
   std::vector<Watch> watches;

@@ -9,16 +9,16 @@ using Is = expr::Condition::Kind;
 Truth of_comparison(const WatchedCondition& condition, const std::vector<Watch>& watches,
                     const Sides& sides, bool still) {
   Truth result = Truth::yes;
-  for (std::size_t w = condition.first; w < condition.first + condition.count; ++w) {
-    const bool moves = watches[w].moves;
-    const int side = moves && still ? 0 : sides[w];
+  for (const Watched& one : condition.elements) {
+    const bool moves = watches[one.watch].moves;
+    const int side = moves && still ? 0 : one.factor * sides[one.watch];
     if (moves && side == 0) {
       result = Truth::unknown;
       continue;
     }
     const bool holds = condition.kind == Is::positive      ? side > 0
                        : condition.kind == Is::nonnegative ? side >= 0
-                                                             : side == 0;
+                                                           : side == 0;
     if (!holds) return Truth::no;
   }
   return result;
@@ -45,7 +45,7 @@ Truth truth(const WatchedCondition& condition, const std::vector<Watch>& watches
 }
 
 void mark(const WatchedCondition& condition, std::vector<char>& marked) {
-  for (std::size_t w = condition.first; w < condition.first + condition.count; ++w) marked[w] = 1;
+  for (const Watched& one : condition.elements) marked[one.watch] = 1;
   for (const WatchedCondition& part : condition.parts) mark(part, marked);
 }
 

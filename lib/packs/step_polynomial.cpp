@@ -31,8 +31,7 @@ double StepPolynomial::largest() const { return *std::max_element(b_.begin(), b_
 double StepPolynomial::highest() const {
   constexpr int parts = 16;
   double found = std::max(b_.front(), b_.back());
-  for (int k = 1; k < parts; ++k)
-    found = std::max(found, (*this)(static_cast<double>(k) / parts));
+  for (int k = 1; k < parts; ++k) found = std::max(found, (*this)(static_cast<double>(k) / parts));
   return found;
 }
 
