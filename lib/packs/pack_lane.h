@@ -24,6 +24,7 @@ struct PackLane {
         noise(*pack.system, seed, run),
         sides(pack.watches.size(), 0),
         before(pack.watches.size(), 0),
+        zero(pack.watches.size(), 0),
         relevant(pack.watches.size(), 0),
         signs(pack.events.size(), 0),
         crossed(pack.events.size(), 0),
@@ -50,6 +51,7 @@ struct PackLane {
   hybrid::NoiseDraws noise;
   Sides sides;
   std::vector<double> before;      ///< by watch: its value before the last change
+  std::vector<double> zero;      ///< by watch: within which it is 0 where a flow has ended at its root
   std::vector<char> relevant;      ///< by watch, in this flow
   bool undetermined = false;       ///< a condition hangs on a side that the next step tells
   std::vector<std::int8_t> signs;  ///< by event with a crossing: the last sign that was not 0

@@ -309,7 +309,7 @@ class PackRunner::Lanes {
           return open(Why::sign);
         continue;
       }
-      const double error = error_of(w, l, start_, coarse_start_);
+      const double error = std::max(error_of(w, l, start_, coarse_start_), lane.zero[w]);
       if (std::abs(value) > error) {
         lane.sides[w] = sign_of(value);
       } else if (lane.fresh || !(std::abs(value - lane.before[w]) <= error)) {
@@ -355,6 +355,11 @@ class PackRunner::Lanes {
       finish(l);
       return true;
     }
+    // A branch that changes here is to be set before the flow goes on.
+    if (has_open_branch(lane)) {
+      lane.phase = Phase::look;
+      return true;
+    }
     return begin_flow(l);
   }
 
@@ -396,6 +401,7 @@ class PackRunner::Lanes {
   bool begin_flow(std::size_t l) {
     PackLane& lane = *lanes_[l];
     std::fill(lane.relevant.begin(), lane.relevant.end(), 0);
+    std::fill(lane.zero.begin(), lane.zero.end(), 0);
     for (const PackEvent& event : pack_.events) {
       if (event.when && truth(*event.when, pack_.watches, lane.sides, true) == Truth::unknown)
         mark(*event.when, lane.relevant);
@@ -653,6 +659,7 @@ class PackRunner::Lanes {
   /// The first root on the step of what is relevant. False: a sign is not certain.
   bool find_root(std::size_t l, int& target, double& share) {
     PackLane& lane = *lanes_[l];
+    std::fill(lane.zero.begin(), lane.zero.end(), 0);
     for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
       if (lane.relevant[w] == 0 || !pack_.watches[w].moves) continue;
       const StepPolynomial along = along_watch(w, l);
@@ -666,7 +673,10 @@ class PackRunner::Lanes {
       for (std::size_t k = 1; k < b.size(); ++k)
         clear = clear && side * b[k] > (known != 0 || k == 5 ? error : 0);
       if (clear || static_cast<int>(w) == lane.target) continue;
-      if (known != 0 && ends_at_branch(lane, w, b, error)) continue;
+      if (known != 0 && ends_at_branch(lane, w, b, error)) {
+        lane.zero[w] = error;
+        continue;
+      }
       const bool crosses = known != 0 && side * b[5] < -error && side * b[1] > 0 &&
                            along.sign_changes() == 1 + (side * b[0] > 0 ? 0 : 1);
       if (!crosses || lane.target >= 0) return false;
@@ -750,12 +760,15 @@ class PackRunner::Lanes {
     PackLane& lane = *lanes_[l];
     for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
       if (!pack_.watches[w].moves) continue;
-      const double value = end_.at(PackSystem::watch_values, w, l);
+      const double value = std::abs(end_.at(PackSystem::watch_values, w, l));
+      const double error = error_of(w, l, end_, coarse_look_);
       if (static_cast<int>(w) == lane.target) {
         lane.sides[w] = static_cast<std::int8_t>(-lane.sides[w]);
-      } else if (lane.relevant[w] == 0 || lane.sides[w] == 0 ||
-                 !pack_.watches[w].branches.empty()) {
-        lane.sides[w] = std::abs(value) > error_of(w, l, end_, coarse_look_) ? sign_of(value) : 0;
+        lane.zero[w] = std::max(error, 2 * value);
+      } else if (lane.zero[w] > 0) {
+        lane.sides[w] = 0;
+      } else if (lane.relevant[w] == 0 || lane.sides[w] == 0) {
+        lane.sides[w] = value > error ? sign_of(end_.at(PackSystem::watch_values, w, l)) : 0;
       }
     }
   }
@@ -813,10 +826,7 @@ class PackRunner::Lanes {
       lane.phase = Phase::look;
       return true;
     }
-    if (!go_on(l)) return false;
-    // A branch that changes here is to be set before the flow goes on.
-    if (lanes_[l] && lane.phase == Phase::step && has_open_branch(lane)) lane.phase = Phase::look;
-    return true;
+    return go_on(l);
   }
 
   bool has_open_branch(const PackLane& lane) const {
