@@ -91,12 +91,6 @@ class PackRunner::Lanes {
       if (event.lost) lost_.back().emplace(*event.lost);
     }
     find_clock_elements();
-    is_decisive_.assign(pack.watches.size(), 0);
-    for (const PackEvent& event : pack.events) {
-      if (event.when) mark(*event.when, is_decisive_);
-      if (event.crossing) is_decisive_[event.crossing->watch] = 1;
-    }
-    for (const WatchedCondition& set : pack.flow_sets) mark(set, is_decisive_);
   }
 
   std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
@@ -673,12 +667,11 @@ class PackRunner::Lanes {
       for (std::size_t k = 1; k < b.size(); ++k)
         clear = clear && side * b[k] > (known != 0 || k == 5 ? error : 0);
       if (clear || static_cast<int>(w) == lane.target) continue;
-      if (known != 0 && ends_at_branch(lane, w, b, error)) {
+      if (known != 0 && ends_at_root(lane, w, b, error)) {
         lane.zero[w] = error;
         continue;
       }
-      const bool crosses = known != 0 && side * b[5] < -error && side * b[1] > 0 &&
-                           along.sign_changes() == 1 + (side * b[0] > 0 ? 0 : 1);
+      const bool crosses = known != 0 && side * b[5] < -error && crosses_once(b, side);
       if (!crosses || lane.target >= 0) return false;
       const double at = along.root(known);
       const double apart = std::abs(at - share) * lane.h;
@@ -696,13 +689,24 @@ class PackRunner::Lanes {
            lane.stop - (lane.t + lane.h) <= hybrid::kOneInstant * lane.stop;
   }
 
-  /// Whether a branch of the flow changes just where a step ends anyway, and not before.
-  bool ends_at_branch(const PackLane& lane, std::size_t w, const std::array<double, 6>& b,
-                      double error) const {
-    if (pack_.watches[w].branches.empty() || is_decisive_[w] != 0 || !arrives(lane)) return false;
+  /// Whether a difference comes to 0 just where a step ends anyway, and not before.
+  bool ends_at_root(const PackLane& lane, std::size_t w, const std::array<double, 6>& b,
+                    double error) const {
+    if (!arrives(lane)) return false;
     for (std::size_t k = 1; k + 1 < b.size(); ++k)
       if (lane.sides[w] * b[k] <= error) return false;
     return std::abs(b.back()) <= error;
+  }
+
+  /// From its side to the other, which it may have left a moment ago.
+  static bool crosses_once(const std::array<double, 6>& b, int side) {
+    if (side * b[0] <= 0 && side * b[1] <= 0) return false;
+    int changes = 0;
+    for (std::size_t k = 1; k < b.size(); ++k) {
+      const bool before = k == 1 || side * b[k - 1] > 0;
+      changes += before != (side * b[k] > 0) ? 1 : 0;
+    }
+    return changes == 1;
   }
 
   bool accept(std::size_t l) {
@@ -845,7 +849,6 @@ class PackRunner::Lanes {
   LaneValues lengths_, errors_;
   LaneLook start_, coarse_start_;  ///< at the values now
   LaneLook middle_, end_, coarse_look_;
-  std::vector<char> is_decisive_;  ///< by watch: whether an event or a flow set hangs on it
   std::vector<std::size_t> times_;
   std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements
   Eigen::VectorXd scratch_;

@@ -41,12 +41,6 @@ bool StepPolynomial::falls() const {
   return true;
 }
 
-int StepPolynomial::sign_changes() const {
-  int changes = 0;
-  for (std::size_t k = 0; k < 5; ++k) changes += (b_[k] < 0) != (b_[k + 1] < 0) ? 1 : 0;
-  return changes;
-}
-
 double StepPolynomial::root(int side) const {
   double low = 0;
   double high = 1;

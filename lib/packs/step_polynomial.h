@@ -27,8 +27,6 @@ class StepPolynomial {
   double error() const { return error_; }
   /// Whether its rate is nowhere positive, by the coefficients of the rate.
   bool falls() const;
-  /// How often the coefficients change their sign.
-  int sign_changes() const;
   /// The share at which it comes to 0 from the side that it is on at the start (`side`), by
   /// bisection. It must end on the other side.
   double root(int side) const;
