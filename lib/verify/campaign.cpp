@@ -139,9 +139,9 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
 }
 
 /// Runs first, first + 1, ..., last - 1, or those until the campaign is stopped.
-Tally judge_runs(const Setup& setup, bool in_packs, std::uint64_t seed, std::uint64_t first,
-                 std::uint64_t last) {
-  PackJudge judge(setup, in_packs);
+Tally judge_runs(const Setup& setup, const packs::PackSystem* packs, std::uint64_t seed,
+                 std::uint64_t first, std::uint64_t last) {
+  PackJudge judge(setup, packs);
   Tally sum;
   try {
     judge.begin(seed, first, last);
@@ -163,20 +163,20 @@ Tally judge_runs(const Setup& setup, bool in_packs, std::uint64_t seed, std::uin
 
 /// All runs, in blocks that are handed to the threads and added up in order; those runs that
 /// are done when the campaign is stopped. Packs go on where they decide most of the first block.
-Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
-                const CampaignOptions& options) {
+Tally judge_all(const Setup& setup, const packs::PackSystem* packs, std::uint64_t seed,
+                std::uint64_t runs, const CampaignOptions& options) {
   constexpr std::uint64_t first_size = 64;
   const Doing doing("runs", runs);
-  const std::uint64_t begun = setup.packs ? std::min(runs, first_size) : 0;
+  const std::uint64_t begun = packs != nullptr ? std::min(runs, first_size) : 0;
   Tally sum;
-  if (begun > 0) sum = judge_runs(setup, true, seed, 0, begun);
-  const bool in_packs = setup.packs && 2 * sum.careful <= begun;
-  const std::uint64_t block_size = in_packs ? 256 : 64;
+  if (begun > 0) sum = judge_runs(setup, packs, seed, 0, begun);
+  if (2 * sum.careful > begun) packs = nullptr;
+  const std::uint64_t block_size = packs != nullptr ? 256 : 64;
   std::vector<Tally> blocks((runs - begun + block_size - 1) / block_size);
   const auto judge_block = [&](std::size_t block) {
     const std::uint64_t first = begun + block * block_size;
     const std::uint64_t last = std::min(runs, first + block_size);
-    blocks[block] = judge_runs(setup, in_packs, seed, first, last);
+    blocks[block] = judge_runs(setup, packs, seed, first, last);
   };
   try {
     parallel_for(blocks.size(), options.threads, judge_block);
@@ -192,7 +192,7 @@ Tally judge_all(const Setup& setup, std::uint64_t seed, std::uint64_t runs,
 void repeat_worst(const Setup& setup, std::uint64_t seed, Tally& tally) {
   std::map<std::uint64_t, RunVerdict> again;
   std::set<std::uint64_t> opened;
-  PackJudge judge(setup, false);
+  PackJudge judge(setup, nullptr);
   for (std::size_t c = 0; c < tally.claims.size(); ++c) {
     ClaimTally& claim = tally.claims[c];
     const auto [known, fresh] = again.try_emplace(*claim.run);
@@ -278,13 +278,14 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
     throw InputError(texts.campaign.place, "a campaign needs at least one run");
 
   report.idle_observers = hybrid::idle_observers(setup.events->system.dynamics);
-  Tally tally = judge_all(setup, report.seed, report.asked, options);
+  const auto packs = report.asked >= kFewestInPacks ? make_packs(setup) : nullptr;
+  Tally tally = judge_all(setup, packs.get(), report.seed, report.asked, options);
   report.runs = tally.runs;
   report.horizon = setup.horizon();
   report.integrated = setup.integrated();
   report.verdict = model::CampaignVerdict::undecided;
   if (!tally.run) return report;
-  if (setup.packs && tally.runs == report.asked) {
+  if (packs != nullptr && tally.runs == report.asked) {
     try {
       repeat_worst(setup, report.seed, tally);
     } catch (const Stopped&) {
@@ -296,7 +297,7 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
   report.undecided = tally.undecided;
   report.unfinished = tally.unfinished;
   report.repeated = tally.repeated;
-  if (setup.packs) report.careful = tally.careful;
+  if (packs != nullptr) report.careful = tally.careful;
   report.open = tally.open;
   report.confirmed = tally.confirmed;
   report.worst_run = *tally.run;

@@ -10,7 +10,7 @@ using claims::Judgement;
 
 namespace {
 
-RunVerdict verdict_of(const packs::PackVerdict& pack, const Setup& setup) {
+RunVerdict verdict_of(const packs::PackVerdict& pack, const packs::PackSystem& system) {
   RunVerdict verdict;
   verdict.judgement = pack.violated() ? Judgement::violated : Judgement::held;
   verdict.happened = pack.happened;
@@ -22,7 +22,7 @@ RunVerdict verdict_of(const packs::PackVerdict& pack, const Setup& setup) {
     finding.floor = claim.floor;
     finding.looked = claim.looked;
     finding.estimated = true;
-    finding.tolerance = setup.packs->claims[c].tolerance;
+    finding.tolerance = system.claims[c].tolerance;
     verdict.findings.push_back(finding);
   }
   return verdict;
@@ -38,8 +38,21 @@ void require_agreement(std::uint64_t run, Judgement packs, Judgement careful) {
                   run, claims::to_string(packs), claims::to_string(careful)));
 }
 
-PackJudge::PackJudge(const Setup& setup, bool in_packs) : setup_(&setup) {
-  if (in_packs && setup.packs) packs_.emplace(*setup.packs);
+std::unique_ptr<const packs::PackSystem> make_packs(const Setup& setup) {
+  if (setup.sampled) return nullptr;
+  const EventSetup& events = setup.judged();
+  const simulate::Accuracy accuracy = events.accuracy(kAccuracyOfMany);
+  const Eigen::VectorXd absolute =
+      accuracy.absolute_of.size() > 0
+          ? accuracy.absolute_of
+          : Eigen::VectorXd(Eigen::VectorXd::Constant(events.system.size, accuracy.absolute));
+  return packs::make_pack_system(events.system, events.scenario, events.claims, accuracy.relative,
+                                 absolute);
+}
+
+PackJudge::PackJudge(const Setup& setup, const packs::PackSystem* packs)
+    : setup_(&setup), system_(packs) {
+  if (packs != nullptr) packs_.emplace(*packs);
 }
 
 void PackJudge::begin(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
@@ -58,7 +71,7 @@ CampaignVerdictOnRun PackJudge::operator()(std::uint64_t run) {
   if (!packs_) return {careful(seed_, run), true, {}};
   const packs::PackVerdict& pack = verdicts_[static_cast<std::size_t>(run - first_)];
   if (pack.open) return {careful(seed_, run), true, pack.why};
-  RunVerdict verdict = verdict_of(pack, *setup_);
+  RunVerdict verdict = verdict_of(pack, *system_);
   if (run % kSampled != 0) return {std::move(verdict), false, {}};
   RunVerdict again = careful(seed_, run);
   for (std::size_t c = 0; c < again.findings.size(); ++c)

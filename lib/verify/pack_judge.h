@@ -19,11 +19,14 @@ struct CampaignVerdictOnRun {
   std::optional<packs::Why> why{};  ///< packs left it open
 };
 
+/// nullptr for runs of a kind that packs do not run, or that have a faster way of their own. The
+/// setup must outlive it.
+std::unique_ptr<const packs::PackSystem> make_packs(const Setup& setup);
+
 class PackJudge {
  public:
-  /// `in_packs`: false leaves all runs to the careful run. One for each thread; the setup must
-  /// outlive it.
-  PackJudge(const Setup& setup, bool in_packs);
+  /// Without packs all runs are careful. One for each thread; both must outlive it.
+  PackJudge(const Setup& setup, const packs::PackSystem* packs);
 
   /// Prepares runs first, ..., last - 1.
   void begin(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
@@ -35,6 +38,7 @@ class PackJudge {
 
  private:
   const Setup* setup_;
+  const packs::PackSystem* system_;
   std::uint64_t seed_ = 0, first_ = 0;
   std::optional<packs::PackRunner> packs_;
   std::optional<Judge> judge_;  ///< made when it is asked for

@@ -97,16 +97,6 @@ std::unique_ptr<const SampledSetup> make_sampled_setup(const model::Instance& in
   return setup;
 }
 
-std::unique_ptr<const packs::PackSystem> make_packs(const EventSetup& events) {
-  const simulate::Accuracy accuracy = events.accuracy(kAccuracyOfMany);
-  const Eigen::VectorXd absolute =
-      accuracy.absolute_of.size() > 0
-          ? accuracy.absolute_of
-          : Eigen::VectorXd(Eigen::VectorXd::Constant(events.system.size, accuracy.absolute));
-  return packs::make_pack_system(events.system, events.scenario, events.claims, accuracy.relative,
-                                 absolute);
-}
-
 }  // namespace
 
 std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
@@ -117,7 +107,6 @@ std::unique_ptr<const Setup> make_setup(const model::Instance& instance,
   if (!setup->sampled)
     if (auto texts = with_error_states(setup->events->texts, functions_of(setup->events->claims)))
       setup->errors = make_event_setup(std::move(*texts));
-  if (!setup->sampled) setup->packs = make_packs(setup->judged());
   return setup;
 }
 

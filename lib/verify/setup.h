@@ -10,7 +10,6 @@
 #include "bounded/sampled_system.h"
 #include "claims/claim_check.h"
 #include "claims/claims.h"
-#include "packs/pack_system.h"
 #include "verify/careful_runs.h"
 
 namespace gainsmith::verify {

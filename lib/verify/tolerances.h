@@ -22,6 +22,8 @@ constexpr double kShownPlaces = 64;  ///< units in the last place | a value that
         ///< Replay.KnowsWhatIsRounding
 constexpr std::uint64_t kSampled = 1024;  ///< runs | one of so many is repeated by the careful run,
         ///< whatever packs say of it | PackJudge.RepeatsSomeRunsCarefully
+constexpr std::uint64_t kFewestInPacks = 8;  ///< runs | of fewer runs each is careful: some are made
+        ///< carefully anyway | PackJudge.AFewRunsAreMadeOneByOne
 // clang-format on
 
 }  // namespace gainsmith::verify
