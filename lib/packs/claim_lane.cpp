@@ -103,7 +103,7 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
     } else if (violates) {
       violated_ = true;
       score_ = std::max(score_, scale == 0 ? kNever : (value.value - high_.value) / scale);
-    } else if (!holds) {
+    } else if (!holds && !violated_) {
       open_ = true;
     }
     if (value.value - value.error < low_.value - low_.error) low_ = value;
@@ -115,7 +115,8 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
   const double excess = value.value - limit_ - forgiven(limit_ == 0 ? terms : std::abs(limit_));
   score_ = std::max(score_, (value.value - limit_) / scale);
   if (excess > value.error) violated_ = true;
-  if (std::abs(excess) <= value.error && !(excess <= 0 && value.error == 0)) open_ = true;
+  const bool is_close = std::abs(excess) <= value.error && !(excess <= 0 && value.error == 0);
+  if (is_close && !violated_) open_ = true;
 }
 
 /// The value between the points of a step.
@@ -125,19 +126,18 @@ void ClaimLane::compare_within(const StepPolynomial& along, Known end, double te
   const double error = end.error + (breaks ? length * rate / 2 : along.error());
   if (claim_->kind == ClaimKind::shrinks) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
-    if (!breaks && along.falls()) return;
-    // A rise within the errors is not certain, and what is not certain does not count here.
-    if (along.highest() - along.coefficients()[0] <= error) return;
+    if (violated_) return;
+    if (!breaks && along.rise() <= claims::kGrown * end.error) return;
     if (std::abs(along.largest()) + error <= noise_ * std::abs(first_.value)) return;
     open_ = true;
     return;
   }
   const double forgiven = claim_->tolerance * (limit_ == 0 ? terms : std::abs(limit_));
   const double scale = limit_ == 0 ? 1 : std::abs(limit_);
-  if (along.largest() + error > limit_ + forgiven) {
-    // A violation at a point is certain without what lies between.
-    if (!(end.value - limit_ - forgiven > end.error)) open_ = true;
-  }
+  if (along.highest() - error > limit_ + forgiven) violated_ = true;
+  // A violation at a point is certain without what lies between.
+  const bool certain = violated_ || end.value - limit_ - forgiven > end.error;
+  if (along.largest() + error > limit_ + forgiven && !certain) open_ = true;
   if ((along.largest() - limit_) / scale > score_)
     score_ = std::max(score_, (along.highest() - limit_) / scale);
 }

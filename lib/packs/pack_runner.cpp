@@ -91,6 +91,9 @@ class PackRunner::Lanes {
       if (event.lost) lost_.back().emplace(*event.lost);
     }
     find_clock_elements();
+    is_crossing_.assign(pack.watches.size(), false);
+    for (const PackEvent& event : pack.events)
+      if (event.crossing) is_crossing_[event.crossing->watch] = true;
   }
 
   std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last) {
@@ -306,7 +309,8 @@ class PackRunner::Lanes {
       const double error = std::max(error_of(w, l, start_, coarse_start_), lane.zero[w]);
       if (std::abs(value) > error) {
         lane.sides[w] = sign_of(value);
-      } else if (lane.fresh || !(std::abs(value - lane.before[w]) <= error)) {
+      } else if (lane.fresh || !is_crossing_[w] || std::abs(value - lane.before[w]) > error) {
+        // What has crossed 0 goes on; otherwise the next step tells where it goes.
         lane.sides[w] = 0;
       }
     }
@@ -849,6 +853,7 @@ class PackRunner::Lanes {
   LaneValues lengths_, errors_;
   LaneLook start_, coarse_start_;  ///< at the values now
   LaneLook middle_, end_, coarse_look_;
+  std::vector<bool> is_crossing_;  ///< by watch: of rises, falls, crosses
   std::vector<std::size_t> times_;
   std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements
   Eigen::VectorXd scratch_;

@@ -5,6 +5,41 @@
 
 namespace gainsmith::packs {
 
+namespace {
+
+using Coefficients = std::array<double, 6>;
+
+/// On its two halves.
+void split(const Coefficients& b, Coefficients& left, Coefficients& right) {
+  left = right = b;
+  for (std::size_t level = 1; level < b.size(); ++level) {
+    for (std::size_t k = b.size() - 1; k >= level; --k) left[k] = (left[k] + left[k - 1]) / 2;
+    for (std::size_t k = 0; k < b.size() - level; ++k) right[k] = (right[k] + right[k + 1]) / 2;
+  }
+}
+
+/// The largest coefficient once halves, and halves of halves, have no larger one inside than at
+/// their ends.
+double highest_of(const Coefficients& b, int depth) {
+  const double largest = *std::max_element(b.begin(), b.end());
+  if (depth == 0 || largest <= std::max(b.front(), b.back())) return largest;
+  Coefficients left, right;
+  split(b, left, right);
+  return std::max(highest_of(left, depth - 1), highest_of(right, depth - 1));
+}
+
+/// The sum of all rises, of the coefficients of parts that are so short.
+double rise_of(const Coefficients& b, int depth) {
+  double rise = 0;
+  for (std::size_t k = 1; k < b.size(); ++k) rise += std::max(b[k] - b[k - 1], 0.0);
+  if (depth == 0 || rise == 0) return rise;
+  Coefficients left, right;
+  split(b, left, right);
+  return rise_of(left, depth - 1) + rise_of(right, depth - 1);
+}
+
+}  // namespace
+
 StepPolynomial::StepPolynomial(Sample start, Sample middle, Sample end, double length) {
   b_[0] = start.value;
   b_[1] = start.value + length * start.rate / 5;
@@ -28,18 +63,9 @@ double StepPolynomial::operator()(double share) const {
 
 double StepPolynomial::largest() const { return *std::max_element(b_.begin(), b_.end()); }
 
-double StepPolynomial::highest() const {
-  constexpr int parts = 16;
-  double found = std::max(b_.front(), b_.back());
-  for (int k = 1; k < parts; ++k) found = std::max(found, (*this)(static_cast<double>(k) / parts));
-  return found;
-}
+double StepPolynomial::highest() const { return highest_of(b_, 10); }
 
-bool StepPolynomial::falls() const {
-  for (std::size_t k = 0; k < 5; ++k)
-    if (b_[k + 1] > b_[k]) return false;
-  return true;
-}
+double StepPolynomial::rise() const { return rise_of(b_, 6); }
 
 double StepPolynomial::root(int side) const {
   double low = 0;

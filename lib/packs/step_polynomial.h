@@ -20,13 +20,13 @@ class StepPolynomial {
   const std::array<double, 6>& coefficients() const { return b_; }
   double operator()(double share) const;
   double largest() const;
-  /// The largest of its values at 17 points.
+  /// The largest of its values, or hardly more.
   double highest() const;
   /// An estimate of how far it is from what it interpolates, with a margin: what the quartic
   /// without the rate at the end would miss, times 0.15.
   double error() const { return error_; }
-  /// Whether its rate is nowhere positive, by the coefficients of the rate.
-  bool falls() const;
+  /// By how much it rises in all, wherever it does; hardly less than that is said.
+  double rise() const;
   /// The share at which it comes to 0 from the side that it is on at the start (`side`), by
   /// bisection. It must end on the other side.
   double root(int side) const;

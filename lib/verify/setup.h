@@ -30,8 +30,6 @@ struct Setup {
   std::unique_ptr<const EventSetup> events;     ///< the careful run
   std::unique_ptr<const EventSetup> errors;     ///< with errors as states; none: there are none
   std::unique_ptr<const SampledSetup> sampled;  ///< none: runs are made in packs, or careful
-  std::unique_ptr<const packs::PackSystem>
-      packs;  ///< none: they are of a kind that packs do not run
 
   const std::vector<claims::Claim>& claims() const { return events->claims; }
   /// By which the careful run judges.
