@@ -67,15 +67,15 @@ void ClaimLane::along(double t, double length, Sample start, Sample middle, Samp
   const auto signed_of = [&](Sample one) { return Sample{sign_ * one.value, sign_ * one.rate}; };
   const bool same = end.fine == end.coarse && looked_ && value.value == last_.value &&
                     middle.value == start.value;
-  if (looked_ && !same) {
-    const double rate =
-        std::max({std::abs(start.rate), std::abs(middle.rate), std::abs(last.rate)});
-    const bool down = std::max({start.rate, middle.rate, last.rate}) <= 0;
-    if (claim_->kind != ClaimKind::nonincreasing || !breaks || !down)
-      compare_within(StepPolynomial(signed_of(start), signed_of(middle), signed_of(last), length),
-                     value, end.terms, length, rate, breaks);
-  }
-  compare(value, end.terms, same, halved);
+  if (!looked_ || same) return compare(value, end.terms, same, halved);
+  const double rate = std::max({std::abs(start.rate), std::abs(middle.rate), std::abs(last.rate)});
+  const bool down = std::max({start.rate, middle.rate, last.rate}) <= 0;
+  const StepPolynomial along(signed_of(start), signed_of(middle), signed_of(last), length);
+  if (claim_->kind == ClaimKind::nonincreasing)
+    compare({sign_ * middle.value, value.error}, end.terms, false, true);
+  compare(value, end.terms, false, halved);
+  if (claim_->kind == ClaimKind::nonincreasing && breaks && down) return;
+  compare_within(along, value, end.terms, length, rate, breaks);
 }
 
 /// The value at a point where the claim is made.

@@ -50,8 +50,8 @@ struct PackLane {
   hybrid::EventClocks clocks;
   hybrid::NoiseDraws noise;
   Sides sides;
-  std::vector<double> before;      ///< by watch: its value before the last change
-  std::vector<double> zero;      ///< by watch: within which it is 0 where a flow has ended at its root
+  std::vector<double> before;  ///< by watch: its value before the last change
+  std::vector<double> zero;  ///< by watch: within which it is 0 where a flow has ended at its root
   std::vector<char> relevant;      ///< by watch, in this flow
   bool undetermined = false;       ///< a condition hangs on a side that the next step tells
   std::vector<std::int8_t> signs;  ///< by event with a crossing: the last sign that was not 0

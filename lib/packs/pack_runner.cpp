@@ -721,7 +721,7 @@ class PackRunner::Lanes {
     for (std::size_t c = 0; c < lane.claims.size(); ++c) {
       lane.claims[c].along(now, lane.h, claim_sample(start_, c, l), claim_sample(middle_, c, l),
                            claim_sample(end_, c, l), reading(c, l, end_, coarse_look_),
-                           may_branch(c, l), lane.halvings > 0);
+                           may_branch(c, l), lane.halvings > 0 || 2 * lane.h < lane.wanted);
       if (!lane.claims[c].open()) continue;
       // Two halves may say more.
       if (lane.target >= 0 || ++lane.halvings > kMostHalvings) return open(Why::claim);

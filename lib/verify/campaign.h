@@ -54,7 +54,7 @@ struct Report {
   /// packs::Why those that were left open. None where all runs are made one by one.
   std::optional<std::uint64_t> careful;
   std::array<std::uint64_t, packs::kWhys> open{};
-  std::uint64_t repeated = 0;      ///< runs that were repeated: in 31 digits, or more accurately
+  std::uint64_t repeated = 0;  ///< runs that were repeated: in 31 digits, or more accurately
   /// The repeated runs that violate again, in order. The worst run of the campaign and that of each
   /// claim are repeated if they violate.
   std::vector<std::uint64_t> confirmed;
