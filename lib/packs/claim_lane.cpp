@@ -134,12 +134,14 @@ void ClaimLane::compare_within(const StepPolynomial& along, Known end, double te
   }
   const double forgiven = claim_->tolerance * (limit_ == 0 ? terms : std::abs(limit_));
   const double scale = limit_ == 0 ? 1 : std::abs(limit_);
-  if (along.highest() - error > limit_ + forgiven) violated_ = true;
+  const bool may_exceed = along.largest() + error > limit_ + forgiven;
+  if (!may_exceed && (along.largest() - limit_) / scale <= score_) return;
+  const double highest = along.highest();
+  score_ = std::max(score_, (highest - limit_) / scale);
+  if (highest - error > limit_ + forgiven) violated_ = true;
   // A violation at a point is certain without what lies between.
   const bool certain = violated_ || end.value - limit_ - forgiven > end.error;
-  if (along.largest() + error > limit_ + forgiven && !certain) open_ = true;
-  if ((along.largest() - limit_) / scale > score_)
-    score_ = std::max(score_, (along.highest() - limit_) / scale);
+  if (highest + error > limit_ + forgiven && !certain) open_ = true;
 }
 
 void ClaimLane::finish() {

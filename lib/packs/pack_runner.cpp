@@ -22,6 +22,9 @@ using lanes::LaneMachine;
 using model::Dynamics;
 using VariableKind = Dynamics::VariableKind;
 
+constexpr PackAccuracy kAccuracies[] = {{kFirstRelative, kFirstAbsolute},
+                                        {kAgainRelative, kAgainAbsolute}};
+
 /// 0.9 e^(-1/8) for the power of 2 above e, within [0.2, 4]: the same on every machine.
 double step_factor(double error) {
   if (!(error > 0)) return 4;
@@ -635,8 +638,7 @@ class PackRunner::Lanes {
       const double rate = end_.at(PackSystem::watch_rates, w, l);
       if (!(rate * lane.sides[w] < 0)) return open(Why::sign);
       const double rest = -value / rate;
-      constexpr double close = 1e-11;
-      if (std::abs(rest) > close * horizon_ && lane.retakes < 4) {
+      if (std::abs(rest) > kAtRoot * horizon_ && lane.retakes < 4) {
         ++lane.retakes;
         lane.forced = lane.h + rest;
         return lane.forced > 0 || open(Why::sign);
@@ -802,7 +804,7 @@ class PackRunner::Lanes {
     if (!lane.due && watch.branches.empty()) return true;
     const bool is_short = lane.t - lane.flow_start < claims::kInstantOfRun * horizon_;
     lane.short_flows = is_short ? lane.short_flows + 1 : 0;
-    if (lane.short_flows > 3) return open(Why::jumps);
+    if (lane.short_flows > kMostShortFlows) return open(Why::jumps);
     const auto shift = [&](const LaneLook& seen) {
       return -seen.at(PackSystem::watch_values, target, l) /
              seen.at(PackSystem::watch_rates, target, l);

@@ -2,13 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "bind/bind.h"
 #include "io/problem_text.h"
-#include "packs/tolerances.h"
 #include "verify/campaign.h"
 
 namespace gainsmith::verify {
@@ -195,6 +196,102 @@ TEST_P(PackRuns, AreTheSameInAnyOrder) {
     for (std::size_t c = 0; c < some[k].claims.size(); ++c)
       EXPECT_EQ(some[k].claims[c].score, all[37 + k].claims[c].score);
   }
+}
+
+/// How many of 40 runs are left open.
+std::size_t open_runs(const std::string& text) {
+  const model::Instance instance = bind::bind(io::read_problem(text));
+  const auto setup = make_setup(instance, {});
+  const auto packs = make_packs(*setup);
+  if (packs == nullptr) return 40;
+  const std::vector<packs::PackVerdict> all = packs::PackRunner(*packs).run(1, 0, 40);
+  return static_cast<std::size_t>(
+      std::count_if(all.begin(), all.end(), [](const auto& one) { return one.open; }));
+}
+
+std::string problem_of(const std::string& events, const std::string& plant,
+                       const std::string& horizon, const std::string& start) {
+  return "problem: p\nmethod:\n  method: m\n  events: {" + events + "}\n  plant: {" + plant +
+         "}\n  claims: {size: {below: x(1), bound: 100}}\ncampaign: {runs: 40, horizon: " +
+         horizon + ", initial: {x: {box: " + start + "}}}\n";
+}
+
+TEST(UnusualRuns, AreLeftOpen) {
+  const std::string ball = "impact: {when: x(1) <= 0 and x(2) < 0}";
+  const std::string falls =
+      R"(state: {x: {shape: 2}}, flow: {x: "[x(2); -9.81]"}, at: {impact: {x: "[0; -0.5*x(2)]"}})";
+  const std::string box = R"(["[1; 0]", "[2; 0]"])";
+  EXPECT_EQ(open_runs(problem_of(ball, falls, "1", box)), 0U);
+  // It comes to rest: jumps without end.
+  EXPECT_EQ(open_runs(problem_of(ball, falls, "10", box)), 40U);
+  // A chain of a hundred jumps at one time.
+  EXPECT_EQ(open_runs(problem_of("go: {when: x(1) > 1 and x(2) < 100}",
+                                 R"(state: {x: {shape: 2}}, flow: {x: "[1; 0]"},
+             at: {go: {x: "[x(1); x(2) + 1]"}})",
+                                 "2", R"(["[0; 0]", "[0.5; 0]"])")),
+            40U);
+  // Two events at one time, whose order matters.
+  EXPECT_EQ(open_runs(problem_of("one: {rises: x(1) - 1}, two: {rises: x(2) - 2}",
+                                 R"(state: {x: {shape: 2}}, flow: {x: "[1; 2]"},
+             at: {one: {x: "[0; x(2)]"}, two: {x: "[2*x(1); 0]"}})",
+                                 "2", R"(["[0; 0]", "[0; 0]"])")),
+            40U);
+  // A graze: the parabola touches 0 where it turns.
+  EXPECT_EQ(open_runs(problem_of("touch: {rises: x(1) - 1}",
+                                 R"(state: {x: {shape: 2}}, flow: {x: "[x(2); -1]"},
+             at: {touch: {x: "[0; 0]"}})",
+                                 "3", R"(["[0.5; 1]", "[0.5; 1]"])")),
+            40U);
+  // Steps that stability keeps short.
+  EXPECT_EQ(open_runs(problem_of("", R"t(state: {x: {shape: 1}}, flow: {x: "-1e6*(x - cos(t))"
+})t",
+                                 "10", "[0, 1]")),
+            40U);
+}
+
+Report campaign_of(const std::string& runs, unsigned threads) {
+  std::string text = kCases[0].text;
+  text.replace(text.find("runs: 96"), 8, "runs: " + runs);
+  const model::Instance instance = bind::bind(io::read_problem(text));
+  CampaignOptions options;
+  options.threads = threads;
+  return run_campaign(*make_setup(instance, {}), options);
+}
+
+TEST(PackJudge, RepeatsSomeRunsCarefully) {
+  const Report report = campaign_of("1100", 1);
+  // Runs 0 and 1024, and those that packs leave open.
+  std::uint64_t open = 0;
+  for (const std::uint64_t count : report.open) open += count;
+  EXPECT_GE(*report.careful, open + 1);
+  EXPECT_LE(*report.careful, open + 2);
+  EXPECT_LT(open, 200U);
+}
+
+TEST(PackJudge, AFewRunsAreMadeOneByOne) {
+  EXPECT_FALSE(campaign_of("5", 1).careful);
+  EXPECT_TRUE(campaign_of("40", 1).careful);
+}
+
+TEST(PackJudge, ThreadsDoNotMatter) {
+  const Report one = campaign_of("400", 1);
+  const Report two = campaign_of("400", 2);
+  EXPECT_EQ(one.violations, two.violations);
+  EXPECT_EQ(one.worst_run, two.worst_run);
+  EXPECT_EQ(one.open, two.open);
+  ASSERT_EQ(one.checks.size(), two.checks.size());
+  for (std::size_t k = 0; k < one.checks.size(); ++k) {
+    EXPECT_EQ(one.checks[k].worst.score, two.checks[k].worst.score);
+    EXPECT_EQ(one.checks[k].worst_run, two.checks[k].worst_run);
+    EXPECT_EQ(one.checks[k].violations, two.checks[k].violations);
+  }
+}
+
+TEST(PackJudge, AContradictionIsAFaultOfTheProgram) {
+  EXPECT_THROW(require_agreement(3, Judgement::held, Judgement::violated), std::logic_error);
+  EXPECT_THROW(require_agreement(3, Judgement::violated, Judgement::held), std::logic_error);
+  EXPECT_NO_THROW(require_agreement(3, Judgement::held, Judgement::held));
+  EXPECT_NO_THROW(require_agreement(3, Judgement::held, Judgement::undecided));
 }
 
 INSTANTIATE_TEST_SUITE_P(Systems, PackRuns, testing::ValuesIn(kCases));
