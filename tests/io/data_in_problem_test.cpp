@@ -197,6 +197,17 @@ TEST_F(DataFiles, ASettingIsADefinitionOrAFunction) {
   EXPECT_EQ(report({{"f(z)", "2*z"}}, 2), 10);
 }
 
+TEST_F(DataFiles, ASettingMayBeOneOfTheSynthesis) {
+  const std::string data = "  A: [[0.2, -1.01], [1, 0]]\n" + kRest;
+  const model::Problem set = read(data, {{"margin", "1e-6"}, {"gain_bound", "{L: 2, F: 3}"}});
+  EXPECT_EQ(set.synthesis.margin, 1e-6);
+  EXPECT_EQ(set.synthesis.gain_bound, 3);
+  EXPECT_EQ(set.synthesis.gain_bounds.size(), 2U);
+  EXPECT_TRUE(set.synthesis.gain_bound_stated);
+  EXPECT_FALSE(read(data, {{"gain_bound", "none"}}).synthesis.gain_bound);
+  EXPECT_EQ(stated_problem(gains_of(set), path("gains.json")).synthesis.margin, 1e-6);
+}
+
 TEST_F(DataFiles, ASettingIsRefusedWithItsPlace) {
   const std::string data = "  A: [[0.2, -1.01], [1, 0]]\n" + kRest;
   struct Case {
@@ -212,6 +223,10 @@ TEST_F(DataFiles, ASettingIsRefusedWithItsPlace) {
         Case{{{"T2", "0.5 +"}}, {"--set T2", 1, 6}, ""},
         Case{{{"T2", "Tx"}}, {"--set T2", 1, 1}, "unknown name 'Tx'"},
         Case{{{"T2", " "}}, {"--set T2"}, "there is no value"},
+        Case{{{"margin", ""}}, {"--set margin"}, "there is no value"},
+        Case{{{"margin", "2"}}, {"--set margin", 1, 1}, "so below 1"},
+        Case{{{"gain_bound", "-1"}}, {"--set gain_bound", 1, 1}, "expected a positive number"},
+        Case{{{"gain_bond", "1"}}, {"--set gain_bond"}, "did you mean 'gain_bound'?"},
         Case{{{"T2", "[[1, 2]]"}}, {"--set T2", 1, 1}, "is declared scalar; found 1 x 2"},
         Case{{{"T2", "1"}, {"T2", "2"}}, {"--set T2"}, "given twice"}}) {
     const InputError error = refused(data, one.settings);
