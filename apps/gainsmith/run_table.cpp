@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "gainsmith/run_figure.h"
 #include "io/csv.h"
+#include "model/gains.h"
 
 namespace gainsmith::app {
 
@@ -44,7 +45,7 @@ std::string events_csv(const verify::Replay& replay) {
     cells.clear();
     for (std::size_t k = 0; k < replay.columns.size(); ++k) {
       const double value = replay.table(row, static_cast<Eigen::Index>(k));
-      cells.push_back(std::isfinite(value) ? decimal17(value) : "");
+      cells.push_back(std::isfinite(value) ? model::printed(value) : "");
       if (replay.columns[k].kind == Kind::jumps)
         cells.push_back(replay.events[static_cast<std::size_t>(row)]);
     }
