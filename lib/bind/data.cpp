@@ -185,6 +185,11 @@ std::string transpose_hint(const model::ShapeText& declared, expr::Shape shape,
                          : "; a row is written [1, 2]";
 }
 
+/// "2 x 3", of a file "2 x 3 in A.csv".
+std::string found_text(const model::Value& value, expr::Shape shape) {
+  return to_string(shape) + (value.source.empty() ? "" : " in " + value.source);
+}
+
 void add_datum(Binding& binding, const Given& given) {
   const model::Declaration& datum = given.declaration;
   model::Dimensions& dimensions = binding.design->dimensions;
@@ -213,7 +218,7 @@ void add_datum(Binding& binding, const Given& given) {
   if (!learn(datum.shape, bound.shape, dimensions))
     throw InputError(value.place, "the datum " + datum.name + " is declared " +
                                       declared(datum, dimensions) + "; found " +
-                                      to_string(bound.shape) +
+                                      found_text(value, bound.shape) +
                                       (datum.indices.empty() ? "" : kFamilyTakes) +
                                       transpose_hint(datum.shape, bound.shape, dimensions));
   bound.elements = element_places(value, bound.shape);
@@ -230,7 +235,8 @@ void check_shape(const Binding& binding, const Given& given) {
   if (learn(datum.shape, shape, binding.design->dimensions) && !empty) return;
   throw InputError(given.value ? given.value->place : datum.place,
                    "the datum " + datum.name + " is declared " +
-                       declared(datum, binding.design->dimensions) + "; found " + to_string(shape));
+                       declared(datum, binding.design->dimensions) + "; found " +
+                       (given.value ? found_text(*given.value, shape) : to_string(shape)));
 }
 
 void add_parameter(Binding& binding, const model::Parameter& parameter) {

@@ -100,9 +100,15 @@ TEST_F(DataFiles, AreRefusedWithTheirPlace) {
         Case{"  A: {csv: A.csv, npy: A.npy}\n", 4, 19, "either 'csv' or 'npy', not both"},
         Case{"  A: {csv: A.csv, column: x}\n", 4, 19, "unknown key 'column'"},
         Case{"  A: {csv: [A.csv]}\n", 4, 12, "expected a text, found a list"},
-        Case{"  A: {csv: B.csv}\n", 4, 3, "is declared n x n (n = 1); found 1 x 2"},
+        Case{"  A: {csv: B.csv}\n", 4, 3, "is declared n x n (n = 1); found 1 x 2 in "},
         Case{"  A: {csv: word.csv}\n", 2, 3, "expected a finite decimal number, found 'x'"},
-        Case{"  A: {cvs: A.csv}\n", 4, 6, "expected an expression, found a mapping"}}) {
+        Case{"  A: {cvs: A.csv}\n", 4, 6, "found a mapping with 'cvs'; did you mean 'csv'?"},
+        Case{"  A: {mtx: A.mtx}\n", 4, 6,
+             "a matrix of a file as in {csv: FILE}; found a mapping with 'mtx'; known: csv, npy, "
+             "mat, json"},
+        Case{"  A: {name: A}\n", 4, 6, "found a mapping with 'name'"},
+        Case{"  A: {}\n", 4, 6, "found an empty mapping"},
+        Case{"  A: A.csv\n", 4, 6, "a matrix of a file is written {csv: A.csv}"}}) {
     const InputError error = refused(one.data + kRest);
     EXPECT_EQ(error.place().line, one.line) << error.what();
     EXPECT_EQ(error.place().column, one.column) << error.what();
