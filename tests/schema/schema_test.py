@@ -80,10 +80,13 @@ class Walk:
         while "$ref" in form:
             name = form["$ref"].rsplit("/", 1)[1]
             form = self.definitions[name]
+        if "allOf" in form and "properties" not in form:
+            yield from self.levels(value, form["allOf"][0], name, path)
+            return
         if "anyOf" in form and "properties" not in form:
             # Where none fits, a mapping is meant as one with known keys.
             fits = [one for one in form["anyOf"] if self.validator.evolve(schema=one).is_valid(value)]
-            for one in fits or [one for one in form["anyOf"] if "$ref" in one and isinstance(value, dict)]:
+            for one in fits or [one for one in form["anyOf"] if ("$ref" in one or "allOf" in one) and isinstance(value, dict)]:
                 yield from self.levels(value, one, name, path)
                 return
         if isinstance(value, list) and "items" in form:
@@ -181,6 +184,19 @@ class Problems(unittest.TestCase):
         cls.paths = sorted(glob.glob(os.path.join(TREE, "problems", "**", "*.yaml"), recursive=True))
         # The smaller ones first: what all have is changed in them.
         cls.documents = [(path, load(path)) for path in sorted(cls.paths, key=os.path.getsize)]
+        cls.documents += list(cls.changed_methods())
+
+    @classmethod
+    def changed_methods(cls):
+        """Problems whose methods are like those of the program, and replace each part of them by itself."""
+        named = {}
+        for path, document in cls.documents:
+            if isinstance(document["method"], str):
+                named.setdefault(document["method"], (path, document))
+        for path, document in named.values():
+            parts = load(os.path.join(TREE, "lib/methods", document["method"] + ".yaml"))
+            parts = {key: part for key, part in parts.items() if key not in ("method", "task", "example")}
+            yield path, {**document, "method": {"like": document["method"], **parts}}
 
     def answers(self, cases):
         """What the reader says of (path, document): None, or its message. Data files are found beside."""
