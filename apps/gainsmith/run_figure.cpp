@@ -100,12 +100,12 @@ std::string unit_of(const RunView& view, const Column& column) {
   return {};
 }
 
-DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run, double step) {
+DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, const hybrid::Trajectory& run,
+                   double step) {
   constexpr double kPoints = 1500;
-  verify::Replay replay = verify::table_of_run(setup, seed, run, step, true);
-  if (step > 0 || replay.run.end <= 0 || replay.run.ending == hybrid::Ending::interrupted)
-    return {run, std::move(replay)};
-  return {run, verify::table_of_run(setup, seed, run, replay.run.end / kPoints, true)};
+  const bool as_integrated = run.end <= 0 || run.ending == hybrid::Ending::interrupted;
+  const double points = step > 0 || as_integrated ? step : run.end / kPoints;
+  return {number, verify::table_of_run(setup, run, points, true)};
 }
 
 std::vector<double> values_of(const Replay& replay, std::size_t column) {

@@ -99,9 +99,10 @@ void write(const SimulateOptions& options, const std::string& text) {
 
 /// Points of the picture lie closer than those of a table, so the runs are made anew.
 void draw(const SimulateOptions& options, const model::Design& design, const verify::Setup& setup,
-          std::uint64_t seed, const std::vector<std::uint64_t>& runs) {
+          const std::vector<std::uint64_t>& runs, const std::vector<verify::Replay>& replays) {
   std::vector<DrawnRun> drawn;
-  for (const std::uint64_t run : runs) drawn.push_back(drawn_run(setup, seed, run, options.step));
+  for (std::size_t k = 0; k < replays.size(); ++k)
+    drawn.push_back(drawn_run(setup, runs[k], replays[k].run, options.step));
   write_picture(options.picture.file,
                 run_figure(design.name, drawn, view_of(options.picture, design)));
 }
@@ -179,8 +180,7 @@ ExitCode simulate(const SimulateOptions& options) {
   const verify::Replay& first = replays.front();
   const bool stopped = is_stopped(replays.back());
   const Telling telling;
-  if (!options.picture.file.empty())
-    draw(options, design, *setup, seed, {runs.begin(), runs.begin() + std::ssize(replays)});
+  if (!options.picture.file.empty()) draw(options, design, *setup, runs, replays);
   const bool table = options.picture.file.empty() || !options.output.empty() || options.json;
   const bool table_on_stdout = table && (options.output.empty() || options.output == "-");
   if (table)
