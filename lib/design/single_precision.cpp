@@ -9,7 +9,6 @@
 #include "bind/stated.h"
 #include "design/fixed_gains.h"
 #include "design/synthesize.h"
-#include "model/names.h"
 
 namespace gainsmith::design {
 
@@ -52,7 +51,8 @@ model::Gains rounded_to_single(const model::Instance& instance, const model::Gai
 
 namespace {
 
-constexpr const char* kMargin = "margin";
+/// Keys of `synthesis`.
+constexpr const char *kMargin = "margin", *kGainBound = "gain_bound";
 
 /// The values to try, in this order.
 std::vector<SinglePrecisionRemedy> candidates(const model::Design& design,
@@ -67,7 +67,7 @@ std::vector<SinglePrecisionRemedy> candidates(const model::Design& design,
   for (const double part : {0.5, 0.1})
     if (reached > 0) {
       const auto value = parse_decimal(brief(part * reached, 2));
-      list.push_back({model::kGainBound, value.value(), {}});
+      list.push_back({kGainBound, value.value(), {}});
     }
   return list;
 }
