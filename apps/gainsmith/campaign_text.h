@@ -22,7 +22,7 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
 /// "interrupted after 1234 of 10000 runs: 1230 held, 4 violated; ...".
 std::string interruption_text(const verify::Report& report);
 
-/// One line: "held in 1000 runs".
+/// One line: "held in 1000 runs, worst run 627".
 std::string campaign_line(const model::CampaignRecord& record);
 
 }  // namespace gainsmith::app

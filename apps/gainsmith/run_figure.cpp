@@ -193,8 +193,4 @@ std::string run_figure(const std::string& title, const std::vector<DrawnRun>& ru
   return report::svg(figure);
 }
 
-std::string run_figure(const std::string& title, const Replay& replay) {
-  return run_figure(title, {{0, replay}}, {});
-}
-
 }  // namespace gainsmith::app

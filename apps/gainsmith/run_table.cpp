@@ -30,10 +30,12 @@ std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_
   return events_csv(verify::table_of_run(setup, seed, run, 0));
 }
 
-std::string run_picture(const std::string& title, const verify::Setup& setup, std::uint64_t seed,
+std::string run_picture(const model::Design& design, const verify::Setup& setup, std::uint64_t seed,
                         std::uint64_t run) {
   constexpr double kPoints = 1500;
-  return run_figure(title, verify::table_of_run(setup, seed, run, setup.horizon() / kPoints, true));
+  return run_figure(
+      design.name, {{run, verify::table_of_run(setup, seed, run, setup.horizon() / kPoints, true)}},
+      view_of(design));
 }
 
 std::string events_csv(const verify::Replay& replay) {

@@ -89,6 +89,14 @@ TEST(Pictures, TheUsualOneHasInputsUnitsAndClaimsApart) {
     EXPECT_TRUE(has_line(texts, line)) << line << "\n" << texts;
 }
 
+TEST(Pictures, TheWorstRunHasTheSameAxes) {
+  const Folder folder;
+  gainsmith({"run", folder.file("p.yaml", kOscillator), "-o", folder.path("out")});
+  const std::string texts = texts_of(text_of(folder.path("out/p/worst-run.svg")));
+  for (const char* line : {"m", "m/s", "u", "N", "t [s]"})
+    EXPECT_TRUE(has_line(texts, line)) << line << "\n" << texts;
+}
+
 TEST(Pictures, TheBoundOfShrinksIsDrawn) {
   const std::string with = drawn({"--panels", "filter.small"});
   EXPECT_EQ(count(with, "stroke-dasharray=\"3 2\""), 1U);
@@ -282,7 +290,9 @@ TEST(Pictures, PdfAndPngAreWhatTheirNamesSay) {
       ASSERT_EQ(simulate(folder, {}, name).exit, 0);
       const std::string bytes = text_of(folder.path(name));
       EXPECT_TRUE(bytes.starts_with(start)) << bytes.substr(0, 8);
-      if (time == 1) EXPECT_EQ(bytes, before);
+      if (time == 1) {
+        EXPECT_EQ(bytes, before);
+      }
       before = bytes;
     }
   }
