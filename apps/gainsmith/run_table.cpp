@@ -32,10 +32,7 @@ std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_
 
 std::string run_picture(const model::Design& design, const verify::Setup& setup, std::uint64_t seed,
                         std::uint64_t run) {
-  constexpr double kPoints = 1500;
-  return run_figure(
-      design.name, {{run, verify::table_of_run(setup, seed, run, setup.horizon() / kPoints, true)}},
-      view_of(design));
+  return run_figure(design.name, {drawn_run(setup, seed, run, 0)}, view_of(design));
 }
 
 std::string events_csv(const verify::Replay& replay) {

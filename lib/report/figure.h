@@ -20,8 +20,7 @@ struct Curve {
   std::vector<double> value;       ///< as many as times; what is not finite leaves a gap
   std::vector<std::size_t> jumps;  ///< ascending; k says that a jump leads from sample k to k + 1
   bool dashed = false;             ///< an estimate, in the colour of what it estimates
-  int colour =
-      0;  ///< 0 to 7: blue, vermilion, green, purple, orange, sky blue, black, grey; they repeat
+  int colour = 0;  ///< blue, vermilion, green, purple, orange, sky blue, black, grey; then others
   Mark mark = Mark::none;
   bool joined = true;  ///< false: marks alone, without lines between the samples
   bool limit = false;  ///< what the curve of its colour must not pass: thin, in short dashes
