@@ -85,6 +85,17 @@ TEST(Page, UndecidedRunsAreCountedAndTheFirstSaysWhy) {
   EXPECT_NE(text.find("--run 12 --plot run-12.svg"), std::string::npos);
 }
 
+TEST(Page, OfAnOptimumTheCommandSaysWhatLimitsIt) {
+  Results results = odd_results();
+  results.gains.statement.problem_file = "motor.yaml";
+  results.gains.verdict = model::Verdict::yes;
+  results.gains.objective = 2;
+  const std::string command = "gainsmith explain motor.yaml";
+  EXPECT_NE(page({results}, "t").find(command), std::string::npos);
+  results.gains.objective.reset();
+  EXPECT_EQ(page({results}, "t").find(command), std::string::npos);
+}
+
 TEST(Page, NothingIsLoaded) {
   for (const auto& element : elements(page({odd_results(), odd_results()}, "t")))
     for (const auto& [name, value] : element.attributes) {
