@@ -73,7 +73,8 @@ void refuse_unknown_names(const Binding& binding) {
   const auto parameters = names_of(binding.method().parameters);
   const auto refuse =
       [&](const std::vector<model::Value>& values, const std::vector<std::string>& known,
-          const std::vector<std::string>& elsewhere, const char* what, const char* other) {
+          const std::vector<std::string>& elsewhere, const char* what, const char* key,
+          const char* other) {
         for (const model::Value& value : values) {
           if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
           const bool misplaced =
@@ -81,14 +82,18 @@ void refuse_unknown_names(const Binding& binding) {
           throw InputError(value.place, "the method " + binding.method().name + " has no " + what +
                                             " '" + value.name + "'" +
                                             (misplaced ? "; it is one of its " + std::string(other)
-                                                       : suggestion(value.name, known)));
+                                             : known.empty()
+                                                 ? "; declare it under '" + std::string(key) +
+                                                       "' of the method with its shape, such as " +
+                                                       value.name + ": scalar or n x p"
+                                                 : suggestion(value.name, known)));
         }
       };
-  refuse(binding.problem().data, data, parameters, "datum", "parameters");
+  refuse(binding.problem().data, data, parameters, "datum", "data", "parameters");
   for (const model::Let& function : binding.problem().functions)
     refuse({{function.signature.name, function.body, false, function.place}}, data, parameters,
-           "datum", "parameters");
-  refuse(binding.problem().parameters, parameters, data, "parameter", "data");
+           "datum", "data", "parameters");
+  refuse(binding.problem().parameters, parameters, data, "parameter", "parameters", "data");
 }
 
 /// A datum that is declared, with what the problem gives.
