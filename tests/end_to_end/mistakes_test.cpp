@@ -123,6 +123,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{&kRun, "sin(x(1))", "sin(x1)", 4, 38,
                 "unknown name 'x1'; an element of x is written x(1)"},
         Mistake{&kRun, "sin(x(1))", "sin(x(3))", 4, 40, "the index 3 is outside 1:2 in x(3)"},
+        Mistake{&kRun, "shrinks: norm(e)", "shrinks: e", 13, 31,
+                "expected 1 x 1; the size of a column is norm(e), an element e(1)"},
         Mistake{&kRun, "x: {shape: 2", "x: {size: 2", 7, 25,
                 "x: the key 'shape' is missing; unknown here: 'size'"},
         Mistake{&kRun, "horizon: 10", "horizon: -10", 14, 23, "must be positive, not -10"},
