@@ -157,9 +157,9 @@ bool is_first_undecided(const verify::Report& report, std::uint64_t run) {
 std::string undecided_text(const verify::Report& report, const std::string& gains_file) {
   if (!report.first_undecided) return "";
   const verify::UndecidedRun& first = *report.first_undecided;
-  std::string text = fmt::format("  {} of {} undecided; {} run {}: {}\n", report.undecided,
-                                 runs_text(report.runs), report.undecided == 1 ? "it is" : "first",
-                                 first.run, reason_text(report));
+  std::string text =
+      fmt::format("  {} of {} undecided; {} run {}: {}\n", report.undecided, runs_text(report.runs),
+                  report.undecided == 1 ? "it is" : "first", first.run, reason_text(report));
   if (first.termination == bounded::Termination::horizon) text += advice_text(report);
   if (first.run != report.worst_run)
     text += fmt::format("  see         gainsmith simulate {} --run {} --seed {}\n", gains_file,
@@ -224,8 +224,7 @@ std::string interruption_text(const verify::Report& report) {
 
 std::string campaign_line(const model::CampaignRecord& record) {
   if (record.runs < record.runs_asked) return "undecided: " + record.message;
-  const std::string worst =
-      record.runs > 1 ? fmt::format(", worst run {}", record.worst_run) : "";
+  const std::string worst = record.runs > 1 ? fmt::format(", worst run {}", record.worst_run) : "";
   if (record.verdict == model::CampaignVerdict::held)
     return fmt::format("held in {}{}{}", runs_text(record.runs),
                        record.different_runs ? " (nothing is drawn)" : "", worst);

@@ -13,8 +13,7 @@ namespace gainsmith::app {
 ExitCode campaign_exit(model::CampaignVerdict verdict);
 
 /// `gains_hash`: of the gains that were verified (io/campaign_json.h).
-model::CampaignRecord campaign_record(const verify::Report& report,
-                                      const std::string& gains_hash);
+model::CampaignRecord campaign_record(const verify::Report& report, const std::string& gains_hash);
 
 /// Verdict, checks and how to replay the worst run; `gains_file` is named in the command.
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file);

@@ -177,7 +177,8 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
                        (used.empty() && !program.remaining().empty());
   const std::string name = program.get_name() + (used.empty() ? "" : " " + command.get_name());
   return (used.empty() ? "" : command.get_name() + ": ") +
-         (unknown ? unknown_argument(command) : in_words(command, error)) + " (see '" + name + " --help')";
+         (unknown ? unknown_argument(command) : in_words(command, error)) + " (see '" + name +
+         " --help')";
 }
 
 }  // namespace

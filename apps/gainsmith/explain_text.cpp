@@ -153,7 +153,8 @@ std::string slack_for_one_percent(const design::Limit& limit, double objective) 
 std::string legend_of(const std::vector<design::Limit>& active, double objective) {
   std::string text =
       "price       t*I on the larger side of a requirement lowers the optimum by price*t at most\n"
-      "            'for 1 %' is the least t that can make it 1 % better, 'size' that of the largest "
+      "            'for 1 %' is the least t that can make it 1 % better, 'size' that of the "
+      "largest "
       "row\n";
   const auto add = [&](const char* cell, const char* meaning) {
     if (std::any_of(active.begin(), active.end(), [&](const design::Limit& limit) {

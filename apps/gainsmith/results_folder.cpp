@@ -165,9 +165,8 @@ void require_results(const fs::path& path) {
     if (holds_results(entry->path())) beside.push_back(entry->path().filename().string());
   std::sort(beside.begin(), beside.end());
   const std::string folders = "; 'gainsmith run' names the folders by the problem files";
-  throw InputError({path.string()},
-                   "no such file or folder" + (beside.empty() ? "" : folders) +
-                       suggestion(path.filename().string(), beside));
+  throw InputError({path.string()}, "no such file or folder" + (beside.empty() ? "" : folders) +
+                                        suggestion(path.filename().string(), beside));
 }
 
 }  // namespace

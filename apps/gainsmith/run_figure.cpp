@@ -93,8 +93,8 @@ double bend_of(const Replay& replay) {
     if (kind != Column::Kind::state && kind != Column::Kind::signal) continue;
     const auto t = replay.table.col(0);
     const auto value = replay.table.col(static_cast<Eigen::Index>(k));
-    const double range = value.maxCoeff<Eigen::PropagateNumbers>() -
-                         value.minCoeff<Eigen::PropagateNumbers>();
+    const double range =
+        value.maxCoeff<Eigen::PropagateNumbers>() - value.minCoeff<Eigen::PropagateNumbers>();
     if (!(range > 0) || !std::isfinite(range)) continue;
     for (Eigen::Index row = 2; row < replay.table.rows(); ++row) {
       const double length = t(row) - t(row - 2);

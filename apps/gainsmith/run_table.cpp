@@ -144,10 +144,10 @@ std::string spread_table(const std::vector<verify::Comparison>& runs) {
     const std::vector<double> values = values_of(runs, k);
     const auto cell = [&](auto value_of) { return values.empty() ? "-" : brief(value_of()); };
     const bool same = k > 0 && figures[k - 1].title == figure.title;
-    text += fmt::format("{:<{}}{:<{}}{:>15}{:>15}{:>15}\n", same ? "" : figure.title, width,
-                        figure.observer, observer_width, cell([&] { return values.front(); }),
-                        cell([&] { return median_of(values); }),
-                        cell([&] { return values.back(); }));
+    text +=
+        fmt::format("{:<{}}{:<{}}{:>15}{:>15}{:>15}\n", same ? "" : figure.title, width,
+                    figure.observer, observer_width, cell([&] { return values.front(); }),
+                    cell([&] { return median_of(values); }), cell([&] { return values.back(); }));
     if (values.size() < runs.size())
       missing += fmt::format("{}{}: no value in {} of {} runs\n",
                              figure.observer.empty() ? "" : figure.observer + ": ", figure.title,

@@ -219,9 +219,10 @@ Command simulate_command() {
        Option("--band", options->picture.bands,
               "with --plot: xh:P: +-2 sigma around an estimate, from its covariance (default: "
               "'covariance' of the problem); may be repeated"),
-       Option("--runs", options->picture.runs,
-              "several runs, 0,3,17 or 0:9; with --plot: over each other; with --compare: the least, "
-              "median and largest value of each figure"),
+       Option(
+           "--runs", options->picture.runs,
+           "several runs, 0,3,17 or 0:9; with --plot: over each other; with --compare: the least, "
+           "median and largest value of each figure"),
        Option("--compare", options->compare,
               "print the figures under 'compare' of all observers, of one run or of --runs"),
        Option("--judge", options->judge,

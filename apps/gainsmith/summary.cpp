@@ -225,8 +225,7 @@ std::string synthesis_summary(const model::Gains& gains) {
           functions_text(gains) + report_text(gains) +
           named_matrices("parameters", gains.parameters, gains) + searched_text(gains) +
           search_text(gains);
-  text += bounds_text(gains) + certificate_text(gains) + margins_text(gains) +
-          margins_note(gains);
+  text += bounds_text(gains) + certificate_text(gains) + margins_text(gains) + margins_note(gains);
   return text;
 }
 

@@ -89,9 +89,9 @@ std::string read_text(const std::filesystem::path& path) {
   const bool standard_input = path == "-";
   const Descriptor file(standard_input ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (file.get() < 0 && errno == ENOENT)
-    throw InputError({path.string()}, "cannot open this file: " +
-                                          std::generic_category().message(ENOENT) +
-                                          like_named(path));
+    throw InputError(
+        {path.string()},
+        "cannot open this file: " + std::generic_category().message(ENOENT) + like_named(path));
   if (file.get() < 0) refuse(path, "cannot open this file", errno);
   std::string text;
   std::string chunk(1U << 16U, '\0');

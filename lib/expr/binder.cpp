@@ -202,8 +202,8 @@ int Binder::materialise(const Expression& expression, const Node& node, Bound va
            (turned && (found.rows == 1 || found.cols == 1)
                 ? "; a column is written [a; b], a row [a, b]"
             : wanted.size() == 1 && found.cols == 1 && node.kind == NodeKind::name
-                ? "; the size of a column is norm(" + expression.quote(node) +
-                      "), an element " + expression.quote(node) + "(1)"
+                ? "; the size of a column is norm(" + expression.quote(node) + "), an element " +
+                      expression.quote(node) + "(1)"
                 : ""));
 }
 

@@ -35,7 +35,8 @@ struct Style {
   int turns = 1;
 };
 
-/// "#0072b2": the first eight as in figure.h, then others, no two alike; the first of a negative number.
+/// "#0072b2": the first eight as in figure.h, then others, no two alike; the first of a negative
+/// number.
 std::string colour_name(int colour);
 
 /// Attributes of its lines.

@@ -56,7 +56,7 @@ struct Figure {
   std::string axis;  ///< below: the time and its unit
   std::vector<Panel> panels;
   std::vector<double> marks{};  ///< moments with a tick in each panel; they do not decrease
-  bool logarithmic = false;  ///< the axis below
+  bool logarithmic = false;     ///< the axis below
 };
 
 /// The figure, 900 wide and as high as its panels need, in colours that colour-blind people tell

@@ -109,9 +109,8 @@ void add(const Tally& later, Tally& sum) {
 /// Its claim is counted among those that are stated.
 UndecidedRun undecided_run(std::uint64_t run, const RunVerdict& verdict) {
   UndecidedRun undecided{run, verdict.termination, verdict.message, 0, {}};
-  const auto finding =
-      std::find_if(verdict.findings.begin(), verdict.findings.end(),
-                   [](const claims::Finding& one) { return one.undecided(); });
+  const auto finding = std::find_if(verdict.findings.begin(), verdict.findings.end(),
+                                    [](const claims::Finding& one) { return one.undecided(); });
   if (finding == verdict.findings.end()) return undecided;
   undecided.check = static_cast<std::size_t>(finding - verdict.findings.begin());
   undecided.finding = *finding;

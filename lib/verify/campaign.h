@@ -40,8 +40,8 @@ struct CheckReport {
 struct UndecidedRun {
   std::uint64_t run = 0;
   bounded::Termination termination = bounded::Termination::horizon;
-  std::string message;    ///< why it ended before the horizon
-  std::size_t check = 0;  ///< of a run that reached it: the claim (Report::checks) ...
+  std::string message;      ///< why it ended before the horizon
+  std::size_t check = 0;    ///< of a run that reached it: the claim (Report::checks) ...
   claims::Finding finding;  ///< ... and what is known of it
 };
 
@@ -59,7 +59,7 @@ struct Report {
   /// The first of the undecided runs; where they are violations that do not happen again when
   /// repeated, the worst of these.
   std::optional<UndecidedRun> first_undecided;
-  std::uint64_t repeated = 0;      ///< runs that were repeated: in 31 digits, or more accurately
+  std::uint64_t repeated = 0;  ///< runs that were repeated: in 31 digits, or more accurately
   /// The repeated runs that violate again, in order. The worst run of the campaign and that of each
   /// claim are repeated if they violate.
   std::vector<std::uint64_t> confirmed;
@@ -78,7 +78,7 @@ struct Report {
   double violation_probability = 1;
   std::vector<std::string> silent_events;   ///< that happened in no run
   std::vector<std::string> idle_observers;  ///< that never change
-  std::vector<CheckReport> checks;  ///< in the method's order; none when no run was made
+  std::vector<CheckReport> checks;          ///< in the method's order; none when no run was made
 
   bool interrupted() const { return runs < asked; }
 };

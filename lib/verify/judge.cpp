@@ -122,8 +122,7 @@ RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
     if (verdict.judgement != claims::Judgement::undecided ||
         !events_->can_decide_more(sharper * sharper))
       return verdict;
-    return with_decided(verdict,
-                        last_verdict(events_->run(seed, run, sharper * sharper), checks_));
+    return with_decided(verdict, last_verdict(events_->run(seed, run, sharper * sharper), checks_));
   }
   if (!clocked_) return last_verdict(wide_->run(seed, run), wide_checks_);
   const auto rounded = [&](Rounding rounding) {

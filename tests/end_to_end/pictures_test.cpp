@@ -168,8 +168,8 @@ TEST(Pictures, OrbitsHaveNoCorners) {
   for (const auto& [size, flow] : plants) {
     const std::string picture =
         drawn({"--phase", "x1,x2"},
-              "problem: orbit\nmethod: {plant: {state: {x: " + std::string(size) + "}, flow: {x: \"" +
-                  flow +
+              "problem: orbit\nmethod: {plant: {state: {x: " + std::string(size) +
+                  "}, flow: {x: \"" + flow +
                   "\"}}}\n"
                   "campaign: {runs: 1, horizon: 200, initial: {x: {box: [0.5, 1]}}}\n");
     const double longest = longest_line(picture);
@@ -209,7 +209,8 @@ TEST(Pictures, AreTheSameBytesTwice) {
 TEST(Pictures, WrongRequestsSayWhatWasExpected) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{"--phase", "x1,x3"}, "--phase: no quantity of the run is named 'x3'; did you mean 'x1'?"},
-      {{"--phase", "x1,speed"}, "--phase: no quantity of the run is named 'speed'; known: x1, x2, u, y1, "},
+      {{"--phase", "x1,speed"},
+       "--phase: no quantity of the run is named 'speed'; known: x1, x2, u, y1, "},
       {{"--phase", "x1"}, "--phase: expected two names, such as x1,x2, not 'x1'"},
       {{"--phase", "x1,"}, "--phase: expected two names"},
       {{"--phase", "x1,x2,u"}, "--phase: expected two names"},
