@@ -46,8 +46,8 @@ RunView view_of(const model::Design& design);
 /// The unit of a column; empty: none is stated.
 std::string unit_of(const RunView& view, const verify::Column& column);
 
-/// A run of a number with what a picture needs: points dense enough for long steps of exact flows (those of `step`
-/// where it is positive), and the rounding of all values.
+/// A run of a number with what a picture needs: points so dense that curves have no corners, 12,000
+/// at most (those of `step` where it is positive), and the rounding of all values.
 DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, const hybrid::Trajectory& run,
                    double step);
 

@@ -71,24 +71,29 @@ std::vector<Place> element_places(const model::Value& value, expr::Shape shape) 
 void refuse_unknown_names(const Binding& binding) {
   const auto data = names_of(binding.method().data);
   const auto parameters = names_of(binding.method().parameters);
-  const auto refuse =
-      [&](const std::vector<model::Value>& values, const std::vector<std::string>& known,
-          const std::vector<std::string>& elsewhere, const char* what, const char* other) {
-        for (const model::Value& value : values) {
-          if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
-          const bool misplaced =
-              std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
-          throw InputError(value.place, "the method " + binding.method().name + " has no " + what +
-                                            " '" + value.name + "'" +
-                                            (misplaced ? "; it is one of its " + std::string(other)
-                                                       : suggestion(value.name, known)));
-        }
-      };
-  refuse(binding.problem().data, data, parameters, "datum", "parameters");
+  const auto refuse = [&](const std::vector<model::Value>& values,
+                          const std::vector<std::string>& known,
+                          const std::vector<std::string>& elsewhere, const char* what,
+                          const char* key, const char* other) {
+    for (const model::Value& value : values) {
+      if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
+      const bool misplaced =
+          std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
+      throw InputError(value.place,
+                       "the method " + binding.method().name + " has no " + what + " '" +
+                           value.name + "'" +
+                           (misplaced       ? "; it is one of its " + std::string(other)
+                            : known.empty() ? "; declare it under '" + std::string(key) +
+                                                  "' of the method with its shape, such as " +
+                                                  value.name + ": scalar or n x p"
+                                            : suggestion(value.name, known)));
+    }
+  };
+  refuse(binding.problem().data, data, parameters, "datum", "data", "parameters");
   for (const model::Let& function : binding.problem().functions)
     refuse({{function.signature.name, function.body, false, function.place}}, data, parameters,
-           "datum", "parameters");
-  refuse(binding.problem().parameters, parameters, data, "parameter", "data");
+           "datum", "data", "parameters");
+  refuse(binding.problem().parameters, parameters, data, "parameter", "parameters", "data");
 }
 
 /// A datum that is declared, with what the problem gives.

@@ -36,6 +36,15 @@ struct CheckReport {
   double floor = 0;       ///< the largest Finding::floor
 };
 
+/// Why a run is undecided.
+struct UndecidedRun {
+  std::uint64_t run = 0;
+  bounded::Termination termination = bounded::Termination::horizon;
+  std::string message;      ///< why it ended before the horizon
+  std::size_t check = 0;    ///< of a run that reached it: the claim (Report::checks) ...
+  claims::Finding finding;  ///< ... and what is known of it
+};
+
 struct Report {
   model::CampaignVerdict verdict = model::CampaignVerdict::held;
   std::uint64_t runs = 0;   ///< that were made
@@ -47,8 +56,10 @@ struct Report {
   std::uint64_t unfinished_run = 0;
   bounded::Termination unfinished_termination = bounded::Termination::horizon;
   std::string unfinished_message;  ///< why it ended
-  std::uint64_t close = 0;         ///< undecided runs that reach it: a comparison is too close
-  std::uint64_t repeated = 0;      ///< runs that were repeated: in 31 digits, or more accurately
+  /// The first of the undecided runs; where they are violations that do not happen again when
+  /// repeated, the worst of these.
+  std::optional<UndecidedRun> first_undecided;
+  std::uint64_t repeated = 0;  ///< runs that were repeated: in 31 digits, or more accurately
   /// The repeated runs that violate again, in order. The worst run of the campaign and that of each
   /// claim are repeated if they violate.
   std::vector<std::uint64_t> confirmed;
@@ -67,7 +78,7 @@ struct Report {
   double violation_probability = 1;
   std::vector<std::string> silent_events;   ///< that happened in no run
   std::vector<std::string> idle_observers;  ///< that never change
-  std::vector<CheckReport> checks;  ///< in the method's order; none when no run was made
+  std::vector<CheckReport> checks;          ///< in the method's order; none when no run was made
 
   bool interrupted() const { return runs < asked; }
 };

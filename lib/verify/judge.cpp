@@ -73,8 +73,10 @@ RunVerdict last_verdict(const bounded::Track<Scalar>& track,
 /// What both runs say; undecided where they differ.
 RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
   for (std::size_t i = 0; i < one.findings.size(); ++i)
-    if (one.findings[i].judgement != other.findings[i].judgement)
+    if (one.findings[i].judgement != other.findings[i].judgement) {
       one.findings[i].judgement = claims::Judgement::undecided;
+      one.findings[i].disputed = true;
+    }
   if (one.judgement != other.judgement) one.judgement = claims::Judgement::undecided;
   one.confirmed = one.judgement == claims::Judgement::violated;
   return one;
@@ -120,8 +122,7 @@ RunVerdict Judge::confirm(std::uint64_t seed, std::uint64_t run) {
     if (verdict.judgement != claims::Judgement::undecided ||
         !events_->can_decide_more(sharper * sharper))
       return verdict;
-    return with_decided(verdict,
-                        last_verdict(events_->run(seed, run, sharper * sharper), checks_));
+    return with_decided(verdict, last_verdict(events_->run(seed, run, sharper * sharper), checks_));
   }
   if (!clocked_) return last_verdict(wide_->run(seed, run), wide_checks_);
   const auto rounded = [&](Rounding rounding) {

@@ -113,6 +113,10 @@ TEST(Campaign, WhatTheIntegrationDoesNotShowIsUndecided) {
   const Report report = run(problem);
   EXPECT_EQ(report.verdict, CampaignVerdict::undecided);
   EXPECT_EQ(report.undecided, 4U);
+  ASSERT_TRUE(report.first_undecided);
+  EXPECT_EQ(report.first_undecided->run, 0U);
+  EXPECT_EQ(report.first_undecided->termination, bounded::Termination::horizon);
+  EXPECT_TRUE(report.first_undecided->finding.undecided());
   EXPECT_EQ(report.repeated, 4U);
 }
 
