@@ -59,22 +59,27 @@ std::string runs_text(std::uint64_t runs) {
   return fmt::format("{} run{}", runs, runs == 1 ? "" : "s");
 }
 
+/// Whether nothing is known of the value any more.
+bool has_parted(const claims::Finding& finding) {
+  return finding.estimated && !std::isfinite(finding.rounding);
+}
+
 /// Why nothing is certain of an undecided comparison.
-std::string uncertainty_text(model::ClaimKind kind, const claims::Finding& worst) {
-  if (worst.estimated && !std::isfinite(worst.rounding))
-    return "               nothing is certain: two runs that differ in accuracy and in their last "
-           "places have parted by then,\n               or the text branches more often than can "
-           "be "
-           "searched\n";
+std::string uncertainty_text(model::ClaimKind kind, const claims::Finding& finding) {
+  if (finding.disputed)
+    return "one computation of the run violates it, another, more accurate or rounded otherwise, "
+           "does not";
+  if (has_parted(finding))
+    return "two computations that differ in accuracy and in their last places have parted by "
+           "then, or the text branches too often";
   const std::string how =
-      worst.estimated ? "by two integrations" : fmt::format("in {} digits", worst.digits);
+      finding.estimated ? "by two integrations" : fmt::format("in {} digits", finding.digits);
   const std::string known =
-      std::isfinite(worst.rounding)
-          ? fmt::format("known to {} {}", brief(worst.rounding, 2), how)
+      std::isfinite(finding.rounding)
+          ? fmt::format("known to {} {}", brief(finding.rounding, 2), how)
           : fmt::format("{} the bound on the error is larger than all numbers", how);
-  return fmt::format("               {}: nothing is certain of {} {} {}\n", known,
-                     brief(worst.value),
-                     kind == model::ClaimKind::above ? ">=" : "<=", brief(worst.bound));
+  return fmt::format("{}: nothing is certain of {} {} {}", known, brief(finding.value),
+                     kind == model::ClaimKind::above ? ">=" : "<=", brief(finding.bound));
 }
 
 /// `width`: of the names.
@@ -102,7 +107,7 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
   if (worst.ended)
     text += "               undecided: the run ends there, before the horizon\n";
   else if (worst.undecided())
-    text += uncertainty_text(check.kind, worst);
+    text += "               " + uncertainty_text(check.kind, worst) + "\n";
   if (worst.tolerance > 0)
     text += fmt::format("               within a tolerance of {} {}\n", brief(worst.tolerance),
                         bounded && worst.bound == 0 ? "of the largest terms" : "of the bound");
@@ -113,29 +118,53 @@ std::string check_text(const verify::CheckReport& check, std::size_t width) {
   return text;
 }
 
-/// Why the first run that did not reach the horizon ended.
-std::string ending_text(const verify::Report& report) {
-  const std::string& message = report.unfinished_message;
-  if (report.unfinished_termination == bounded::Termination::lost && !message.empty())
-    return message;
-  return to_string(report.unfinished_termination) + (message.empty() ? "" : ", " + message);
+/// Why a run did not reach the horizon.
+std::string ending_text(bounded::Termination termination, const std::string& message) {
+  if (termination == bounded::Termination::lost && !message.empty()) return message;
+  return to_string(termination) + (message.empty() ? "" : ", " + message);
 }
 
-/// What stopped an undecided campaign, and what to try.
+std::string unfinished_text(const verify::Report& report) {
+  return ending_text(report.unfinished_termination, report.unfinished_message);
+}
+
+/// Why the first undecided run is undecided.
+std::string reason_text(const verify::Report& report) {
+  const verify::UndecidedRun& first = *report.first_undecided;
+  const claims::Finding& finding = first.finding;
+  if (first.termination != bounded::Termination::horizon)
+    return fmt::format("it ends at t = {}, before the horizon: {}", brief(finding.t),
+                       ending_text(first.termination, first.message));
+  const verify::CheckReport& check = report.checks[first.check];
+  return fmt::format("{} at (t, j) = ({}, {}): {}", check.name, brief(finding.t), finding.j,
+                     uncertainty_text(check.kind, finding));
+}
+
+/// What may decide the first undecided run, which reaches the horizon.
+std::string advice_text(const verify::Report& report) {
+  if (has_parted(report.first_undecided->finding))
+    return "  try         a shorter campaign.horizon, or claims written in differences of states "
+           "(z - zh)\n";
+  return "  try         a claim that asks for a little less (tolerance: 1e-6) or begins later "
+         "(after: 1), a shorter\n"
+         "              campaign.horizon, or claims written in differences of states (z - zh)\n";
+}
+
+bool is_first_undecided(const verify::Report& report, std::uint64_t run) {
+  return report.first_undecided && report.first_undecided->run == run;
+}
+
 std::string undecided_text(const verify::Report& report, const std::string& gains_file) {
-  if (report.close == 0) return "";
-  return fmt::format(
-      "  {} of {} {} undecided: what {} lies closer together than the {}\n"
-      "  try         a claim that asks for a little less (tolerance: 1e-6) or begins later (after: "
-      "1), a "
-      "shorter\n"
-      "              campaign.horizon, or claims written in differences of states (z - zh); see\n"
-      "              gainsmith simulate {} --run {} --seed {}\n",
-      report.close, runs_text(report.runs), report.close == 1 ? "is" : "are",
-      report.close == 1 ? "it compares" : "they compare",
-      report.integrated ? "errors of integration"
-                        : fmt::format("rounding of {} digits", kQuadDigits),
-      gains_file, report.worst_run, report.seed);
+  if (!report.first_undecided) return "";
+  const verify::UndecidedRun& first = *report.first_undecided;
+  std::string text =
+      fmt::format("  {} of {} undecided; {} run {}: {}\n", report.undecided, runs_text(report.runs),
+                  report.undecided == 1 ? "it is" : "first", first.run, reason_text(report));
+  if (first.termination == bounded::Termination::horizon) text += advice_text(report);
+  if (first.run != report.worst_run)
+    text += fmt::format("  see         gainsmith simulate {} --run {} --seed {}\n", gains_file,
+                        first.run, report.seed);
+  return text;
 }
 
 }  // namespace
@@ -161,7 +190,10 @@ model::CampaignRecord campaign_record(const verify::Report& report, const std::s
   record.violations = report.violations;
   record.undecided = report.undecided;
   record.unfinished = report.unfinished;
-  if (report.unfinished > 0) record.first_unfinished = {report.unfinished_run, ending_text(report)};
+  if (report.unfinished > 0)
+    record.first_unfinished = {report.unfinished_run, unfinished_text(report)};
+  if (report.first_undecided)
+    record.first_undecided = {report.first_undecided->run, reason_text(report)};
   record.worst_run = report.worst_run;
   record.repeated = report.repeated;
   record.integrated = report.integrated;
@@ -192,16 +224,16 @@ std::string interruption_text(const verify::Report& report) {
 
 std::string campaign_line(const model::CampaignRecord& record) {
   if (record.runs < record.runs_asked) return "undecided: " + record.message;
+  const std::string worst = record.runs > 1 ? fmt::format(", worst run {}", record.worst_run) : "";
   if (record.verdict == model::CampaignVerdict::held)
-    return fmt::format("held in {}{}", runs_text(record.runs),
-                       record.different_runs ? " (nothing is drawn)" : "");
+    return fmt::format("held in {}{}{}", runs_text(record.runs),
+                       record.different_runs ? " (nothing is drawn)" : "", worst);
   if (record.verdict == model::CampaignVerdict::violated)
     return fmt::format(
-        "violated in {} of {}, worst {}, confirmed {}", record.violations, runs_text(record.runs),
-        record.worst_run,
+        "violated in {} of {}{}, confirmed {}", record.violations, runs_text(record.runs), worst,
         record.integrated ? "more accurately" : fmt::format("in {} digits", kQuadDigits));
-  return fmt::format("undecided in {} of {}", record.undecided + record.violations,
-                     runs_text(record.runs));
+  return fmt::format("undecided in {} of {}{}", record.undecided + record.violations,
+                     runs_text(record.runs), worst);
 }
 
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file) {
@@ -212,9 +244,12 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
   std::size_t width = 12;
   for (const verify::CheckReport& check : report.checks) width = std::max(width, check.name.size());
   for (const verify::CheckReport& check : report.checks) text += check_text(check, width);
-  if (report.unfinished > 0)
-    text += fmt::format("  {} did not reach the horizon; run {}: {}\n",
-                        runs_text(report.unfinished), report.unfinished_run, ending_text(report));
+  if (report.unfinished > 0 && is_first_undecided(report, report.unfinished_run))
+    text += fmt::format("  {} did not reach the horizon\n", runs_text(report.unfinished));
+  else if (report.unfinished > 0)
+    text +=
+        fmt::format("  {} did not reach the horizon; run {}: {}\n", runs_text(report.unfinished),
+                    report.unfinished_run, unfinished_text(report));
   text += undecided_text(report, gains_file);
   for (const std::string& note : notes_on(report)) text += "  note        " + note + "\n";
   if (report.violation_probability < 1)

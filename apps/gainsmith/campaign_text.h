@@ -13,8 +13,7 @@ namespace gainsmith::app {
 ExitCode campaign_exit(model::CampaignVerdict verdict);
 
 /// `gains_hash`: of the gains that were verified (io/campaign_json.h).
-model::CampaignRecord campaign_record(const verify::Report& report,
-                                      const std::string& gains_hash);
+model::CampaignRecord campaign_record(const verify::Report& report, const std::string& gains_hash);
 
 /// Verdict, checks and how to replay the worst run; `gains_file` is named in the command.
 std::string campaign_summary(const verify::Report& report, const std::string& gains_file);
@@ -22,7 +21,7 @@ std::string campaign_summary(const verify::Report& report, const std::string& ga
 /// "interrupted after 1234 of 10000 runs: 1230 held, 4 violated; ...".
 std::string interruption_text(const verify::Report& report);
 
-/// One line: "held in 1000 runs".
+/// One line: "held in 1000 runs, worst run 627".
 std::string campaign_line(const model::CampaignRecord& record);
 
 }  // namespace gainsmith::app

@@ -155,8 +155,14 @@ std::string unknown_argument(const CLI::App& command) {
 }
 
 /// What the reader says, but of values that are missing: it names their type there.
-std::string in_words(const CLI::ParseError& error) {
+std::string in_words(const CLI::App& command, const CLI::ParseError& error) {
   const std::string said = error.what();
+  // A positional argument has no dashes, and its name says little.
+  if (dynamic_cast<const CLI::RequiredError*>(&error) != nullptr && !said.starts_with("-")) {
+    const std::string name = said.substr(0, said.find(' '));
+    if (const CLI::Option* option = command.get_option_no_throw(name); option != nullptr)
+      return name + " is missing: " + option->get_description();
+  }
   const std::size_t colon = said.find(": ");
   if (dynamic_cast<const CLI::ArgumentMismatch*>(&error) == nullptr || colon == said.npos)
     return said;
@@ -171,7 +177,8 @@ std::string complaint(const CLI::App& program, const CLI::ParseError& error) {
                        (used.empty() && !program.remaining().empty());
   const std::string name = program.get_name() + (used.empty() ? "" : " " + command.get_name());
   return (used.empty() ? "" : command.get_name() + ": ") +
-         (unknown ? unknown_argument(command) : in_words(error)) + " (see '" + name + " --help')";
+         (unknown ? unknown_argument(command) : in_words(command, error)) + " (see '" + name +
+         " --help')";
 }
 
 }  // namespace

@@ -111,13 +111,21 @@ std::string relaxations_text(const std::vector<design::Relaxation>& relaxations)
   return text;
 }
 
-/// "1.29", or why there is no number.
-std::string minimum_text(const std::optional<design::Changed>& changed) {
+constexpr const char* kZeroOrNone = "0 or -inf";
+constexpr const char* kUnbounded = "-inf";
+constexpr const char* kNotFound = "not found";
+
+/// "1.29", or why there is no number; `objective`: beside which a value may be 0.
+std::string minimum_text(const std::optional<design::Changed>& changed, double objective) {
+  constexpr double kNothing = 1e-6;
   if (!changed) return "-";
-  if (changed->homogeneous) return "0 or none";
-  if (!changed->minimum) return changed->unbounded ? "unbounded" : "not found";
+  if (changed->homogeneous) return kZeroOrNone;
+  if (!changed->minimum) return changed->unbounded ? kUnbounded : kNotFound;
+  const double least = changed->lower_bound.value_or(*changed->minimum);
+  if (std::max(std::abs(least), std::abs(*changed->minimum)) <= kNothing * std::abs(objective))
+    return "0";
   const std::string high = brief(*changed->minimum, 4);
-  const std::string low = brief(changed->lower_bound.value_or(*changed->minimum), 4);
+  const std::string low = brief(least, 4);
   return low == high ? brief(*changed->minimum) : low + " to " + high;
 }
 
@@ -135,35 +143,56 @@ std::string places_text(const design::Limit& limit) {
   return text;
 }
 
-/// The minimum is no less where a requirement is relaxed by this part of its scale.
-constexpr double kRelaxed = 0.01;
+/// The least slack of a requirement with which the optimum may be 1 % better.
+std::string slack_for_one_percent(const design::Limit& limit, double objective) {
+  if (!(limit.price > 0) || objective == 0) return "-";
+  return brief(0.01 * std::abs(objective) / limit.price, 3);
+}
 
-double relaxed_minimum(const design::Limit& limit, const model::Gains& gains) {
-  return gains.objective_lower_bound.value_or(*gains.objective) -
-         kRelaxed * limit.scale * limit.price;
+/// What the cells of the table mean, those that occur.
+std::string legend_of(const std::vector<design::Limit>& active, double objective) {
+  std::string text =
+      "price       t*I on the larger side of a requirement lowers the optimum by price*t at most\n"
+      "            'for 1 %' is the least t that can make it 1 % better, 'size' that of the "
+      "largest "
+      "row\n";
+  const auto add = [&](const char* cell, const char* meaning) {
+    if (std::any_of(active.begin(), active.end(), [&](const design::Limit& limit) {
+          return minimum_text(limit.without, objective) == cell;
+        }))
+      text += fmt::format("{:<12}{}\n", cell, meaning);
+  };
+  add(kZeroOrNone,
+      "the other requirements fix no size of the unknowns: the optimum is 0, or there is none");
+  add(kUnbounded, "without this requirement the objective falls below every number");
+  add(kNotFound, "the solver did not settle the problem without this requirement");
+  return text;
 }
 
 std::string limits_text(const design::Limits& limits, const model::Gains& gains) {
   std::size_t width = 10;
   for (const auto& limit : limits.active) width = std::max(width, limit.name.size());
-  std::string text =
-      fmt::format("{:<{}}  {:>11}  {:>10}  {:>16}  {:>11}  {}\n", "limited by", width, "price",
-                  "of scale", "1 % relaxed", "without it", "most at");
+  std::string text;
+  if (!limits.active.empty())
+    text = fmt::format("{:<{}}  {:>11}  {:>9}  {:>9}  {:>18}  {}\n", "limited by", width, "price",
+                       "for 1 %", "size", "optimum without it", "most at");
   for (const auto& limit : limits.active) {
-    text += fmt::format("{:<{}}  {:>11}  {:>10}  {:>16}  {:>11}  {}", limit.name, width,
-                        brief(limit.price, 3), brief(limit.scale, 3),
-                        "at least " + brief(relaxed_minimum(limit, gains), 5),
-                        minimum_text(limit.without), places_text(limit));
+    text += fmt::format("{:<{}}  {:>11}  {:>9}  {:>9}  {:>18}  {}", limit.name, width,
+                        brief(limit.price, 3), slack_for_one_percent(limit, *gains.objective),
+                        brief(limit.scale, 3), minimum_text(limit.without, *gains.objective),
+                        places_text(limit));
     text.erase(text.find_last_not_of(' ') + 1);
     text += "\n";
   }
+  if (!limits.active.empty()) text += legend_of(limits.active, *gains.objective);
   if (!limits.inactive.empty())
     text += "no limit    " + listed(limits.inactive) +
             (limits.inactive.size() == 1 ? " costs" : " cost") + " nothing\n";
   if (limits.wider_gains)
     text += fmt::format(
         "gain bound  it costs: the optimum with ten times the bound is {}, without a bound {}\n",
-        minimum_text(limits.wider_gains), minimum_text(limits.any_gains));
+        minimum_text(limits.wider_gains, *gains.objective),
+        minimum_text(limits.any_gains, *gains.objective));
   for (const auto& scalar : limits.scalars) {
     const double change = *scalar.changed.minimum - *gains.objective;
     text += fmt::format("{:<12}{} = {} instead of {} gives {} ({}{} %)\n",
@@ -236,7 +265,7 @@ std::string explanation_text(const design::Explanation& explanation) {
                                  verdict_line(explanation.gains));
   const bool yes = explanation.gains.verdict == model::Verdict::yes;
   if (!explanation.conflict) text += message_lines(explanation.gains);
-  if (yes) text += objective_text(explanation.gains);
+  if (yes) text += margins_note(explanation.gains) + objective_text(explanation.gains);
   if (explanation.conflict) text += conflict_text(*explanation.conflict);
   text += relaxations_text(explanation.relaxations);
   if (explanation.limits) text += limits_text(*explanation.limits, explanation.gains);

@@ -9,15 +9,19 @@
 
 #include "base/file.h"
 #include "base/nearest.h"
+#include "base/number.h"
 #include "bind/stated.h"
+#include "design/single_precision.h"
 #include "export/files.h"
 #include "export/identifiers.h"
+#include "gainsmith/advice.h"
 #include "gainsmith/commands.h"
 #include "gainsmith/gain_check.h"
 #include "gainsmith/load.h"
 #include "gainsmith/output.h"
 #include "gainsmith/terminal.h"
 #include "io/gains_json.h"
+#include "model/names.h"
 
 namespace gainsmith::app {
 
@@ -75,9 +79,42 @@ std::string text_of_target(const ExportOptions& options, const std::string& name
   return {};
 }
 
+/// "gainsmith synth motor.yaml --set margin=1e-06 -o gains.json".
+std::string synth_command_with(const design::SinglePrecisionRemedy& remedy,
+                               const ExportOptions& options, const model::Gains& gains) {
+  std::string text = "gainsmith synth " + quoted(gains.statement.problem_file);
+  for (const model::Setting& setting : gains.statement.settings)
+    if (setting.name != remedy.name) text += " --set " + quoted(setting.name + "=" + setting.value);
+  return text + " --set " + remedy.name + "=" + brief(remedy.value) + " -o " +
+         quoted(options.gains);
+}
+
+/// What to do where gains do not hold at single precision.
+void advise(const ExportOptions& options, const LoadedGains& loaded) {
+  if (loaded.gains.search) {
+    say("the gains lie where a search ended: fix what was searched at a value that asks for "
+        "less\n");
+    return;
+  }
+  const auto remedy = design::remedy_at_single(loaded.stated, loaded.gains, {});
+  if (!remedy) {
+    say("neither a larger margin nor a smaller gain_bound gives gains that hold there: ask for "
+        "less, or export without --float\n");
+    return;
+  }
+  std::string price;
+  if (remedy->objective && loaded.gains.objective)
+    price = fmt::format(" (objective {} instead of {})", brief(*remedy->objective),
+                        brief(*loaded.gains.objective));
+  say(fmt::format("a {} gives gains that hold there{}:\n  {}\n",
+                  remedy->name == model::kGainBound ? "smaller gain_bound" : "larger margin", price,
+                  synth_command_with(*remedy, options, loaded.gains)));
+}
+
 /// The gains at single precision, with the margins that were shown there; none after a word on what was
 /// not shown.
-std::optional<model::Gains> rounded(const LoadedGains& loaded, ExitCode& exit) {
+std::optional<model::Gains> rounded(const ExportOptions& options, const LoadedGains& loaded,
+                                    ExitCode& exit) {
   LoadedGains single{design::rounded_to_single(loaded.stated, loaded.gains), loaded.stated};
   const design::GainCheck check = check_gains(single);
   if (check.verdict == model::Verdict::yes) {
@@ -85,12 +122,13 @@ std::optional<model::Gains> rounded(const LoadedGains& loaded, ExitCode& exit) {
     return std::move(single.gains);
   }
   const std::string which = not_shown_text(check);
-  say(fmt::format(
-      "gainsmith: {}: at single precision {}{}{}; nothing is written\n", loaded.gains.file,
-      check.verdict == model::Verdict::no ? "the inequalities do not hold"
-                                          : "the inequalities are not shown",
-      which.empty() ? "" : ": " + which, check.message.empty() ? "" : " (" + check.message + ")"));
+  say(fmt::format("gainsmith: {}: at single precision {}{}{}; nothing is written\n",
+                  loaded.gains.file,
+                  check.verdict == model::Verdict::no ? "the inequalities do not hold"
+                                                      : "the inequalities are not shown",
+                  which.empty() ? "" : ": ", which));
   exit = exit_of(check.verdict);
+  advise(options, loaded);
   return std::nullopt;
 }
 
@@ -117,7 +155,7 @@ ExitCode export_gains(const ExportOptions& options) {
   LoadedGains loaded = load_gains(options.gains);
   if (options.single) {
     ExitCode exit = ExitCode::yes;
-    auto single = rounded(loaded, exit);
+    auto single = rounded(options, loaded, exit);
     if (!single) return exit;
     loaded.gains = std::move(*single);
   }

@@ -147,7 +147,7 @@ class Job {
     write_atomically(folder_ / "campaign.json",
                      io::to_text(io::to_json(campaign_record(report, hash_))));
     write_atomically(folder_ / "worst-run.svg",
-                     run_picture(instance_.design->name, setup, report.seed, report.worst_run));
+                     run_picture(*instance_.design, setup, report.seed, report.worst_run));
     if (report.verdict != model::CampaignVerdict::held)
       write_atomically(folder_ / "worst-run.csv", run_csv(setup, report.seed, report.worst_run));
   }

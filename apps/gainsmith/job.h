@@ -21,11 +21,11 @@ struct JobOptions {
 
 struct JobResult {
   ExitCode exit = ExitCode::fault;
-  std::string name;                      ///< of the problem's folder in the output
-  std::string line;                      ///< "yes, objective 688.572; held in 1000 runs"
+  std::string name;  ///< of the problem's folder in the output
+  std::string line;  ///< "yes, objective 688.572; held in 1000 runs, worst run 627"
   std::vector<std::string> differences;  ///< from `expect:`
   io::Json report;                       ///< without timings
-  std::string gains_hash;  ///< of the gains that were written (io/campaign_json.h)
+  std::string gains_hash;                ///< of the gains that were written (io/campaign_json.h)
   double seconds = 0;
   bool interrupted = false;  ///< by Ctrl-C, before it was decided; then nothing was written
 };

@@ -154,9 +154,10 @@ std::vector<model::Setting> settings(const std::vector<std::string>& set) {
 }  // namespace
 
 Option set_option(std::vector<std::string>& set) {
-  return Option("--set", set,
-                "NAME=VALUE: this value for a datum, a parameter or a definition of the problem, "
-                "spelt as there; may be repeated");
+  return Option(
+      "--set", set,
+      "NAME=VALUE: this value for a datum, a parameter, a definition, gain_bound or margin of "
+      "the problem, spelt as there; may be repeated");
 }
 
 io::MethodLibrary built_in_methods() {

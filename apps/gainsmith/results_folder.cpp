@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/hash.h"
+#include "base/nearest.h"
 #include "gainsmith/campaign_text.h"
 #include "gainsmith/job.h"
 #include "gainsmith/load.h"
@@ -79,7 +80,7 @@ void draw_first_run(const fs::path& path, page::Results& results) {
     const LoadedGains loaded = load_run(path);
     const std::uint64_t seed = loaded.stated.design->campaign.seed;
     const auto setup = verify::make_setup(loaded.stated, loaded.gains);
-    results.picture = run_picture(results.gains.problem_name, *setup, seed, 0);
+    results.picture = run_picture(*loaded.stated.design, *setup, seed, 0);
     results.picture_title = run_title(0, seed) + ", the first of a campaign";
     results.no_campaign =
         "none was made; gainsmith verify " + path.filename().string() + " makes one.";
@@ -153,6 +154,21 @@ std::vector<fs::path> folders_below(const fs::path& root) {
   return found;
 }
 
+/// InputError for a path that is not there, with the nearest of the results beside it.
+void require_results(const fs::path& path) {
+  if (is_there(path)) return;
+  const fs::path parent = path.has_parent_path() ? path.parent_path() : fs::path(".");
+  std::vector<std::string> beside;
+  std::error_code error;
+  for (fs::directory_iterator entry(parent, error), end; !error && entry != end;
+       entry.increment(error))
+    if (holds_results(entry->path())) beside.push_back(entry->path().filename().string());
+  std::sort(beside.begin(), beside.end());
+  const std::string folders = "; 'gainsmith run' names the folders by the problem files";
+  throw InputError({path.string()}, "no such file or folder" + (beside.empty() ? "" : folders) +
+                                        suggestion(path.filename().string(), beside));
+}
+
 }  // namespace
 
 page::Results read_folder(const fs::path& folder, const std::string& name) {
@@ -193,6 +209,7 @@ std::string title_of(const fs::path& path) {
 std::vector<page::Results> read_results(const fs::path& path) {
   if (path == "-")
     throw InputError({"-"}, "expected a gain file or a folder of results, not standard input");
+  require_results(path);
   std::error_code none;
   if (!fs::is_directory(path, none)) {
     page::Results results = results_of_gains(path);

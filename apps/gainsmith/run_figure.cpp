@@ -69,6 +69,45 @@ bool is_rounding(const Replay& replay, Eigen::Index row, Eigen::Index column) {
   return (replay.rounding.col(column).segment(first, last - first + 1).array() >= size).any();
 }
 
+bool is_flow(const Replay& replay, Eigen::Index row) {
+  return replay.table(row, 1) == replay.table(row - 1, 1);
+}
+
+/// The longest time between two points of a flow.
+double widest_gap(const Replay& replay) {
+  double widest = 0;
+  for (Eigen::Index row = 1; row < replay.table.rows(); ++row)
+    if (is_flow(replay, row))
+      widest = std::max(widest, replay.table(row, 0) - replay.table(row - 1, 0));
+  return widest;
+}
+
+/// How far points of flows lie from the line between their neighbours, of states and signals: the
+/// largest distance in thousandths of the range of its column. Of points twice as dense it is a
+/// quarter. Up to 1 a picture shows no corner.
+double bend_of(const Replay& replay) {
+  constexpr double kSeen = 1e-3;
+  double bend = 0;
+  for (std::size_t k = 0; k < replay.columns.size(); ++k) {
+    const Column::Kind kind = replay.columns[k].kind;
+    if (kind != Column::Kind::state && kind != Column::Kind::signal) continue;
+    const auto t = replay.table.col(0);
+    const auto value = replay.table.col(static_cast<Eigen::Index>(k));
+    const double range =
+        value.maxCoeff<Eigen::PropagateNumbers>() - value.minCoeff<Eigen::PropagateNumbers>();
+    if (!(range > 0) || !std::isfinite(range)) continue;
+    for (Eigen::Index row = 2; row < replay.table.rows(); ++row) {
+      const double length = t(row) - t(row - 2);
+      if (!is_flow(replay, row) || !is_flow(replay, row - 1) || !(length > 0)) continue;
+      const double share = (t(row - 1) - t(row - 2)) / length;
+      const double between = value(row - 2) + share * (value(row) - value(row - 2));
+      const double away = std::abs(value(row - 1) - between) / (kSeen * range);
+      if (away > bend) bend = away;  // what is no number is not
+    }
+  }
+  return bend;
+}
+
 }  // namespace
 
 const std::vector<std::string>& panel_groups() {
@@ -100,12 +139,19 @@ std::string unit_of(const RunView& view, const Column& column) {
   return {};
 }
 
-DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run, double step) {
-  constexpr double kPoints = 1500;
-  verify::Replay replay = verify::table_of_run(setup, seed, run, step, true);
-  if (step > 0 || replay.run.end <= 0 || replay.run.ending == hybrid::Ending::interrupted)
-    return {run, std::move(replay)};
-  return {run, verify::table_of_run(setup, seed, run, replay.run.end / kPoints, true)};
+DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, const hybrid::Trajectory& run,
+                   double step) {
+  constexpr double kPoints = 1500, kMostPoints = 12000;
+  verify::Replay replay = verify::table_of_run(setup, run, step, true);
+  if (step > 0 || run.end <= 0 || run.ending == hybrid::Ending::interrupted)
+    return {number, std::move(replay)};
+  if (widest_gap(replay) <= run.end / kPoints && bend_of(replay) <= 1)
+    return {number, std::move(replay)};
+  replay = verify::table_of_run(setup, run, run.end / kPoints, true);
+  const double bend = bend_of(replay);
+  if (bend <= 1) return {number, std::move(replay)};
+  const double points = std::min(kPoints * std::ceil(std::sqrt(bend)), kMostPoints);
+  return {number, verify::table_of_run(setup, run, run.end / points, true)};
 }
 
 std::vector<double> values_of(const Replay& replay, std::size_t column) {
@@ -191,10 +237,6 @@ std::string run_figure(const std::string& title, const std::vector<DrawnRun>& ru
   }
   if (runs.size() == 1) add_marks(first, figure);
   return report::svg(figure);
-}
-
-std::string run_figure(const std::string& title, const Replay& replay) {
-  return run_figure(title, {{0, replay}}, {});
 }
 
 }  // namespace gainsmith::app

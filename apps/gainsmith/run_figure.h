@@ -46,9 +46,10 @@ RunView view_of(const model::Design& design);
 /// The unit of a column; empty: none is stated.
 std::string unit_of(const RunView& view, const verify::Column& column);
 
-/// The run with what a picture needs: points dense enough for long steps of exact flows (those of `step`
-/// where it is positive), and the rounding of all values.
-DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t seed, std::uint64_t run, double step);
+/// A run of a number with what a picture needs: points so dense that curves have no corners, 12,000
+/// at most (those of `step` where it is positive), and the rounding of all values.
+DrawnRun drawn_run(const verify::Setup& setup, std::uint64_t number, const hybrid::Trajectory& run,
+                   double step);
 
 /// The runs, all of one setup, as SVG. One run: the plant solid, observers dashed, each in a colour
 /// of its own; several: each run in a colour of its own. What is not larger than its rounding is 0.

@@ -103,21 +103,34 @@ class Planner {
     return {{k}, std::nullopt, column(k).name, dashed, colour_of(column(k))};
   }
 
-  /// InputError for a name of which there is nothing; `known` is what may stand there.
+  /// InputError for a name of which there is nothing; `known` is what may stand there, of which each
+  /// is listed once, the nearest first.
   static void require(bool found, const char* option, const std::string& name,
-                      const std::vector<std::string>& known) {
-    if (!found)
-      throw InputError({option},
-                       "no quantity of the run is named '" + name + "'" + suggestion(name, known));
+                      std::vector<std::string> known) {
+    if (found) return;
+    std::stable_sort(known.begin(), known.end(), [&](const std::string& a, const std::string& b) {
+      return doubled_edit_distance(name, a) < doubled_edit_distance(name, b);
+    });
+    std::vector<std::string> once;
+    for (const std::string& one : known)
+      if (std::find(once.begin(), once.end(), one) == once.end()) once.push_back(one);
+    throw InputError({option},
+                     "no quantity of the run is named '" + name + "'" + suggestion(name, once));
   }
 
-  /// Names of quantities as `name` gives them, each once.
+  /// Names of quantities as `name` gives them.
   std::vector<std::string> names(const std::function<std::string(const Column&)>& name) const {
     std::vector<std::string> all;
     for (const std::size_t k : columns([](const Column&) { return true; }))
-      if (const std::string one = name(column(k));
-          std::find(all.begin(), all.end(), one) == all.end())
-        all.push_back(one);
+      all.push_back(name(column(k)));
+    return all;
+  }
+
+  /// What may be an axis of a plane. The values of claims have their own panels.
+  std::vector<std::string> names_of_axes() const {
+    std::vector<std::string> all;
+    for (const std::size_t k : columns([](const Column& one) { return one.kind != Kind::claim; }))
+      all.push_back(column(k).name);
     return all;
   }
 
@@ -294,7 +307,7 @@ class Planner {
           {"--phase"},
           "'" + name + "' has several elements; name one, such as " +
               column(columns([&](const Column& one) { return has_stem(one, name); }).front()).name);
-    require(!found.empty(), "--phase", name, names([](const Column& one) { return one.name; }));
+    require(!found.empty(), "--phase", name, names_of_axes());
     return found;
   }
 

@@ -7,6 +7,7 @@
 #include "base/number.h"
 #include "gainsmith/run_figure.h"
 #include "io/csv.h"
+#include "model/gains.h"
 
 namespace gainsmith::app {
 
@@ -30,10 +31,10 @@ std::string run_csv(const verify::Setup& setup, std::uint64_t seed, std::uint64_
   return events_csv(verify::table_of_run(setup, seed, run, 0));
 }
 
-std::string run_picture(const std::string& title, const verify::Setup& setup, std::uint64_t seed,
+std::string run_picture(const model::Design& design, const verify::Setup& setup, std::uint64_t seed,
                         std::uint64_t run) {
-  constexpr double kPoints = 1500;
-  return run_figure(title, verify::table_of_run(setup, seed, run, setup.horizon() / kPoints, true));
+  const hybrid::Trajectory made = verify::table_of_run(setup, seed, run, 0).run;
+  return run_figure(design.name, {drawn_run(setup, run, made, 0)}, view_of(design));
 }
 
 std::string events_csv(const verify::Replay& replay) {
@@ -44,7 +45,7 @@ std::string events_csv(const verify::Replay& replay) {
     cells.clear();
     for (std::size_t k = 0; k < replay.columns.size(); ++k) {
       const double value = replay.table(row, static_cast<Eigen::Index>(k));
-      cells.push_back(std::isfinite(value) ? decimal17(value) : "");
+      cells.push_back(std::isfinite(value) ? model::printed(value) : "");
       if (replay.columns[k].kind == Kind::jumps)
         cells.push_back(replay.events[static_cast<std::size_t>(row)]);
     }
@@ -76,36 +77,6 @@ io::Json events_json(const verify::Replay& replay, const RunView& view) {
 }
 
 namespace {
-
-/// Least, median and largest value of each figure, and those that have none in some runs.
-std::pair<std::vector<verify::FoundFigure>, std::string> spread(
-    const std::vector<verify::Comparison>& runs) {
-  std::vector<verify::FoundFigure> rows;
-  std::string missing;
-  for (std::size_t k = 0; k < runs.front().figures.size(); ++k) {
-    verify::FoundFigure row = runs.front().figures[k];
-    std::vector<double> values;
-    for (const verify::Comparison& run : runs)
-      if (run.figures[k].value && !std::isnan(*run.figures[k].value))
-        values.push_back(*run.figures[k].value);
-    std::sort(values.begin(), values.end());
-    const std::string title = row.title;
-    const std::size_t count = values.size();
-    if (count > 0 && count < runs.size())
-      missing += fmt::format("{}{}: no value in {} of {} runs\n",
-                             row.observer.empty() ? "" : row.observer + ": ", title,
-                             runs.size() - count, runs.size());
-    const auto add = [&](const char* which, auto value_of) {
-      row.title = title + ": " + which;
-      row.value = count > 0 ? std::optional<double>(value_of()) : std::nullopt;
-      rows.push_back(row);
-    };
-    add("least", [&] { return values.front(); });
-    add("median", [&] { return (values[(count - 1) / 2] + values[count / 2]) / 2; });
-    add("largest", [&] { return values.back(); });
-  }
-  return {std::move(rows), std::move(missing)};
-}
 
 std::string comparison_table(const std::vector<verify::FoundFigure>& figures) {
   bool has_all = true;
@@ -144,12 +115,53 @@ std::string comparison_table(const std::vector<verify::FoundFigure>& figures) {
   return text;
 }
 
+/// The values of figure k that are numbers, ascending.
+std::vector<double> values_of(const std::vector<verify::Comparison>& runs, std::size_t k) {
+  std::vector<double> values;
+  for (const verify::Comparison& run : runs)
+    if (const auto& value = run.figures[k].value; value && !std::isnan(*value))
+      values.push_back(*value);
+  std::sort(values.begin(), values.end());
+  return values;
+}
+
+double median_of(const std::vector<double>& ascending) {
+  const std::size_t count = ascending.size();
+  return (ascending[(count - 1) / 2] + ascending[count / 2]) / 2;
+}
+
+/// A line for each figure and observer: its spread over the runs.
+std::string spread_table(const std::vector<verify::Comparison>& runs) {
+  const std::vector<verify::FoundFigure>& figures = runs.front().figures;
+  std::size_t width = 10, observer_width = 0;
+  for (const verify::FoundFigure& figure : figures) {
+    width = std::max(width, figure.title.size() + 2);
+    observer_width = std::max(observer_width, figure.observer.size());
+  }
+  std::string text = fmt::format("{:<{}}{:>15}{:>15}{:>15}\n", "", width + observer_width, "least",
+                                 "median", "largest");
+  std::string missing;
+  for (std::size_t k = 0; k < figures.size(); ++k) {
+    const verify::FoundFigure& figure = figures[k];
+    const std::vector<double> values = values_of(runs, k);
+    const auto cell = [&](auto value_of) { return values.empty() ? "-" : brief(value_of()); };
+    const bool same = k > 0 && figures[k - 1].title == figure.title;
+    text +=
+        fmt::format("{:<{}}{:<{}}{:>15}{:>15}{:>15}\n", same ? "" : figure.title, width,
+                    figure.observer, observer_width, cell([&] { return values.front(); }),
+                    cell([&] { return median_of(values); }), cell([&] { return values.back(); }));
+    if (values.size() < runs.size())
+      missing += fmt::format("{}{}: no value in {} of {} runs\n",
+                             figure.observer.empty() ? "" : figure.observer + ": ", figure.title,
+                             runs.size() - values.size(), runs.size());
+  }
+  return text + missing;
+}
+
 }  // namespace
 
 std::string comparison_text(const std::vector<verify::Comparison>& runs) {
-  if (runs.size() == 1) return comparison_table(runs.front().figures);
-  const auto [rows, missing] = spread(runs);
-  return comparison_table(rows) + missing;
+  return runs.size() == 1 ? comparison_table(runs.front().figures) : spread_table(runs);
 }
 
 }  // namespace gainsmith::app

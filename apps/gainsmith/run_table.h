@@ -21,15 +21,13 @@ std::string events_csv(const verify::Replay& replay);
 /// With the units of the columns, where some are stated.
 io::Json events_json(const verify::Replay& replay, const RunView& view);
 
-/// States with their estimates, errors and claims over time (SVG), without units and bands: see
-/// run_figure.h for these. What `replay.rounding` says to be rounding is 0.
-std::string run_figure(const std::string& title, const verify::Replay& replay);
-
-/// The same of a run of a campaign, with what lies between the ends of its steps.
-std::string run_picture(const std::string& title, const verify::Setup& setup, std::uint64_t seed,
+/// A run of a campaign as SVG (run_figure.h): the usual panels, with the units and bands that the
+/// problem states.
+std::string run_picture(const model::Design& design, const verify::Setup& setup, std::uint64_t seed,
                         std::uint64_t run);
 
-/// Figures of observers side by side: of a run, or their least, median and largest of several.
+/// Figures of observers side by side, of a run; of several runs a line for each figure and
+/// observer, with its least, median and largest value.
 std::string comparison_text(const std::vector<verify::Comparison>& runs);
 
 }  // namespace gainsmith::app

@@ -85,17 +85,23 @@ Grid grid_of(const std::vector<RangeOption>& ranges, const model::Instance& inst
 
 bool has_objective(const model::Design& design) { return design.objective || design.quotient; }
 
+std::string for_people(double value) {
+  constexpr int kDigits = 8;
+  return brief(value, kDigits);
+}
+
 /// Columns and cells, for the table and the CSV file.
 struct Table {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;
 };
 
-/// `digits`: as many as reading back needs (17), or fewer for people.
+/// `text` of a number: for files or for people.
 Table table_of(const std::vector<design::ScanRow>& rows, const std::vector<std::string>& names,
-               const std::vector<std::string>& figures, bool minimizes, int digits) {
+               const std::vector<std::string>& figures, bool minimizes,
+               std::string (*text)(double)) {
   const auto number = [&](const std::optional<double>& value) {
-    return value ? brief(*value, digits) : std::string();
+    return value ? text(*value) : std::string();
   };
   Table table;
   table.columns = names;
@@ -104,7 +110,7 @@ Table table_of(const std::vector<design::ScanRow>& rows, const std::vector<std::
   table.columns.insert(table.columns.end(), figures.begin(), figures.end());
   for (const design::ScanRow& row : rows) {
     std::vector<std::string> cells;
-    for (const double value : row.at) cells.push_back(brief(value, digits));
+    for (const double value : row.at) cells.push_back(text(value));
     cells.push_back(verdict_of(row));
     if (minimizes) cells.push_back(number(row.objective));
     for (std::size_t k = 0; k < figures.size(); ++k)
@@ -204,12 +210,10 @@ ExitCode scan(const ScanOptions& options) {
   const auto rows =
       design::scan(instance.design, grid.names, search::grid(grid.values), options.threads, {});
   const Telling telling;
-  constexpr int kForPeople = 8;
-  constexpr int kExact = 17;
   const bool minimizes = has_objective(*instance.design);
   if (!options.plot.empty())
     write_picture(options.plot, scan_figure(picture_of(options, grid, *instance.design), rows));
-  const std::string file = csv(table_of(rows, grid.names, options.show, minimizes, kExact));
+  const std::string file = csv(table_of(rows, grid.names, options.show, minimizes, model::printed));
   if (options.output == "-") {
     fmt::print("{}", file);
     return exit_of_all(rows);
@@ -219,7 +223,7 @@ ExitCode scan(const ScanOptions& options) {
   for (const std::string& name : grid.names) titles.push_back(with_unit(*instance.design, name));
   for (const std::string& text : options.show) shown.push_back(with_unit(*instance.design, text));
   fmt::print("{}", options.json ? json(rows, grid, options.show)
-                                : aligned(table_of(rows, titles, shown, minimizes, kForPeople)) +
+                                : aligned(table_of(rows, titles, shown, minimizes, for_people)) +
                                       held_line(instance, grid.names));
   return exit_of_all(rows);
 }

@@ -97,11 +97,12 @@ void write(const SimulateOptions& options, const std::string& text) {
     write_atomically(options.output, text);
 }
 
-/// Points of the picture lie closer than those of a table, so the runs are made anew.
+/// Points of the picture lie closer than those of a table.
 void draw(const SimulateOptions& options, const model::Design& design, const verify::Setup& setup,
-          std::uint64_t seed, const std::vector<std::uint64_t>& runs) {
+          const std::vector<std::uint64_t>& runs, const std::vector<verify::Replay>& replays) {
   std::vector<DrawnRun> drawn;
-  for (const std::uint64_t run : runs) drawn.push_back(drawn_run(setup, seed, run, options.step));
+  for (std::size_t k = 0; k < replays.size(); ++k)
+    drawn.push_back(drawn_run(setup, runs[k], replays[k].run, options.step));
   write_picture(options.picture.file,
                 run_figure(design.name, drawn, view_of(options.picture, design)));
 }
@@ -179,8 +180,7 @@ ExitCode simulate(const SimulateOptions& options) {
   const verify::Replay& first = replays.front();
   const bool stopped = is_stopped(replays.back());
   const Telling telling;
-  if (!options.picture.file.empty())
-    draw(options, design, *setup, seed, {runs.begin(), runs.begin() + std::ssize(replays)});
+  if (!options.picture.file.empty()) draw(options, design, *setup, runs, replays);
   const bool table = options.picture.file.empty() || !options.output.empty() || options.json;
   const bool table_on_stdout = table && (options.output.empty() || options.output == "-");
   if (table)
@@ -219,10 +219,12 @@ Command simulate_command() {
        Option("--band", options->picture.bands,
               "with --plot: xh:P: +-2 sigma around an estimate, from its covariance (default: "
               "'covariance' of the problem); may be repeated"),
-       Option("--runs", options->picture.runs,
-              "with --plot: several runs over each other, 0,3,17 or 0:9; with --compare: least, "
-              "median and largest figure of them"),
-       Option("--compare", options->compare, "print the figures under 'compare' of all observers"),
+       Option(
+           "--runs", options->picture.runs,
+           "several runs, 0,3,17 or 0:9; with --plot: over each other; with --compare: the least, "
+           "median and largest value of each figure"),
+       Option("--compare", options->compare,
+              "print the figures under 'compare' of all observers, of one run or of --runs"),
        Option("--judge", options->judge,
               "check the run against the texts, by computations of its own; exit code 1 if it "
               "finds a fault"),
@@ -232,7 +234,8 @@ Command simulate_command() {
       "Examples:\n"
       "  gainsmith simulate gains.json --run 17 -o run-17.csv\n"
       "  gainsmith simulate problem.yaml --plot run.svg --step 0.01\n"
-      "  gainsmith simulate gains.json --plot plane.pdf --phase x1,x2 --runs 0:9",
+      "  gainsmith simulate gains.json --plot plane.pdf --phase x1,x2 --runs 0:9\n"
+      "  gainsmith simulate gains.json --compare --runs 0:99",
       [options] { return simulate(*options); }};
 }
 

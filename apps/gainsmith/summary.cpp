@@ -180,6 +180,20 @@ std::string verdict_line(const model::Gains& gains) {
   return text;
 }
 
+std::string margins_note(const model::Gains& gains) {
+  std::string below;
+  for (const model::Margin& margin : gains.margins) {
+    if (margin.is_far_below()) return "";  // the message says so
+    if (margin.is_below())
+      below += fmt::format("{}{} {} of {}", below.empty() ? "" : ", ", margin.name,
+                           brief(margin.reached, 2), brief(margin.required, 2));
+  }
+  if (below.empty()) return "";
+  return "margins     a little less than asked for (" + below +
+         "): an optimum lies on the boundary\n"
+         "            the check decides, which shows each inequality at the printed decimals\n";
+}
+
 std::string objective_text(const model::Gains& gains) {
   return gains.objective ? "objective   " + objective_line(gains) + "\n" : "";
 }
@@ -211,7 +225,7 @@ std::string synthesis_summary(const model::Gains& gains) {
           functions_text(gains) + report_text(gains) +
           named_matrices("parameters", gains.parameters, gains) + searched_text(gains) +
           search_text(gains);
-  text += bounds_text(gains) + certificate_text(gains) + margins_text(gains);
+  text += bounds_text(gains) + certificate_text(gains) + margins_text(gains) + margins_note(gains);
   return text;
 }
 

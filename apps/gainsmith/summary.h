@@ -27,6 +27,10 @@ std::string synthesis_summary(const model::Gains& gains);
 /// What the verdict rests on, and what stopped it, indented; empty when there is nothing to say.
 std::string message_lines(const model::Gains& gains);
 
+/// Which margins are a little below the one asked for, and what decided; empty where the message
+/// says it, or none is.
+std::string margins_note(const model::Gains& gains);
+
 /// objective_line() as a line of the summary; empty without objective.
 std::string objective_text(const model::Gains& gains);
 

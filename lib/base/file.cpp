@@ -4,11 +4,15 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
+#include <string>
 #include <system_error>
+#include <vector>
 
 #include "base/error.h"
+#include "base/nearest.h"
 
 namespace gainsmith {
 
@@ -16,6 +20,19 @@ namespace {
 
 [[noreturn]] void refuse(const std::filesystem::path& path, const std::string& action, int code) {
   throw InputError({path.string()}, action + ": " + std::generic_category().message(code));
+}
+
+/// "; did you mean 'motor.yaml'?": a file with a like name in the same folder; otherwise empty.
+std::string like_named(const std::filesystem::path& path) {
+  std::vector<std::string> beside;
+  std::error_code error;
+  const std::filesystem::path folder = path.parent_path().empty() ? "." : path.parent_path();
+  for (std::filesystem::directory_iterator entry(folder, error), end; !error && entry != end;
+       entry.increment(error))
+    beside.push_back(entry->path().filename().string());
+  std::sort(beside.begin(), beside.end());
+  const auto near = nearest(path.filename().string(), beside);
+  return near ? "; did you mean '" + (path.parent_path() / *near).string() + "'?" : "";
 }
 
 /// Owns a file descriptor.
@@ -71,6 +88,10 @@ bool is_special(const std::filesystem::path& path) {
 std::string read_text(const std::filesystem::path& path) {
   const bool standard_input = path == "-";
   const Descriptor file(standard_input ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  if (file.get() < 0 && errno == ENOENT)
+    throw InputError(
+        {path.string()},
+        "cannot open this file: " + std::generic_category().message(ENOENT) + like_named(path));
   if (file.get() < 0) refuse(path, "cannot open this file", errno);
   std::string text;
   std::string chunk(1U << 16U, '\0');

@@ -71,24 +71,29 @@ std::vector<Place> element_places(const model::Value& value, expr::Shape shape) 
 void refuse_unknown_names(const Binding& binding) {
   const auto data = names_of(binding.method().data);
   const auto parameters = names_of(binding.method().parameters);
-  const auto refuse =
-      [&](const std::vector<model::Value>& values, const std::vector<std::string>& known,
-          const std::vector<std::string>& elsewhere, const char* what, const char* other) {
-        for (const model::Value& value : values) {
-          if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
-          const bool misplaced =
-              std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
-          throw InputError(value.place, "the method " + binding.method().name + " has no " + what +
-                                            " '" + value.name + "'" +
-                                            (misplaced ? "; it is one of its " + std::string(other)
-                                                       : suggestion(value.name, known)));
-        }
-      };
-  refuse(binding.problem().data, data, parameters, "datum", "parameters");
+  const auto refuse = [&](const std::vector<model::Value>& values,
+                          const std::vector<std::string>& known,
+                          const std::vector<std::string>& elsewhere, const char* what,
+                          const char* key, const char* other) {
+    for (const model::Value& value : values) {
+      if (std::find(known.begin(), known.end(), value.name) != known.end()) continue;
+      const bool misplaced =
+          std::find(elsewhere.begin(), elsewhere.end(), value.name) != elsewhere.end();
+      throw InputError(value.place,
+                       "the method " + binding.method().name + " has no " + what + " '" +
+                           value.name + "'" +
+                           (misplaced       ? "; it is one of its " + std::string(other)
+                            : known.empty() ? "; declare it under '" + std::string(key) +
+                                                  "' of the method with its shape, such as " +
+                                                  value.name + ": scalar or n x p"
+                                            : suggestion(value.name, known)));
+    }
+  };
+  refuse(binding.problem().data, data, parameters, "datum", "data", "parameters");
   for (const model::Let& function : binding.problem().functions)
     refuse({{function.signature.name, function.body, false, function.place}}, data, parameters,
-           "datum", "parameters");
-  refuse(binding.problem().parameters, parameters, data, "parameter", "data");
+           "datum", "data", "parameters");
+  refuse(binding.problem().parameters, parameters, data, "parameter", "parameters", "data");
 }
 
 /// A datum that is declared, with what the problem gives.
@@ -185,6 +190,11 @@ std::string transpose_hint(const model::ShapeText& declared, expr::Shape shape,
                          : "; a row is written [1, 2]";
 }
 
+/// "2 x 3", of a file "2 x 3 in A.csv".
+std::string found_text(const model::Value& value, expr::Shape shape) {
+  return to_string(shape) + (value.source.empty() ? "" : " in " + value.source);
+}
+
 void add_datum(Binding& binding, const Given& given) {
   const model::Declaration& datum = given.declaration;
   model::Dimensions& dimensions = binding.design->dimensions;
@@ -213,7 +223,7 @@ void add_datum(Binding& binding, const Given& given) {
   if (!learn(datum.shape, bound.shape, dimensions))
     throw InputError(value.place, "the datum " + datum.name + " is declared " +
                                       declared(datum, dimensions) + "; found " +
-                                      to_string(bound.shape) +
+                                      found_text(value, bound.shape) +
                                       (datum.indices.empty() ? "" : kFamilyTakes) +
                                       transpose_hint(datum.shape, bound.shape, dimensions));
   bound.elements = element_places(value, bound.shape);
@@ -230,7 +240,8 @@ void check_shape(const Binding& binding, const Given& given) {
   if (learn(datum.shape, shape, binding.design->dimensions) && !empty) return;
   throw InputError(given.value ? given.value->place : datum.place,
                    "the datum " + datum.name + " is declared " +
-                       declared(datum, binding.design->dimensions) + "; found " + to_string(shape));
+                       declared(datum, binding.design->dimensions) + "; found " +
+                       (given.value ? found_text(*given.value, shape) : to_string(shape)));
 }
 
 void add_parameter(Binding& binding, const model::Parameter& parameter) {

@@ -81,6 +81,7 @@ struct Finding {
   bool looked = true;          ///< false: the run has no sample at which the claim is made
   bool ended = false;      ///< the run ends at t, before its horizon, and the claim is left open
   bool estimated = false;  ///< `rounding` is an estimate, of the error of integration too
+  bool disputed = false;   ///< the run repeated says otherwise, so that `judgement` is undecided
   double tolerance = 0;    ///< the claim's, which `judgement` forgives and `score` does not
 
   bool violated() const { return judgement == Judgement::violated; }

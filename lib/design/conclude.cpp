@@ -31,11 +31,9 @@ model::SolverRecord record_of(const Attempt& attempt, bool has_objective) {
 
 /// What a point that holds has less than was wished for.
 void note_wishes(const Attempt& point, model::Gains& gains) {
-  // A minimum has its margin in the solver's units, within this of the margin in its own diagonal.
-  constexpr double kSame = 0.5;
   std::string small;
   for (const model::Margin& margin : point.margins.margins)
-    if (margin.strict && margin.reached < kSame * margin.required)
+    if (margin.is_far_below())
       small += (small.empty() ? "" : ", ") + margin.name + " " + brief(margin.reached, 2) +
                " instead of " + brief(margin.required, 2);
   if (!small.empty())

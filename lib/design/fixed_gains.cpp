@@ -1,15 +1,11 @@
 #include "design/fixed_gains.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <optional>
-#include <set>
 #include <utility>
 
-#include "base/number.h"
 #include "bind/stated.h"
 #include "design/synthesize.h"
 #include "expr/substitute.h"
@@ -366,43 +362,6 @@ GainCheck check_gains(const model::Instance& instance, const model::Gains& gains
   else
     check.message = "the gains are formulas over the unknowns of the file, so none are solved for";
   return check;
-}
-
-namespace {
-
-/// Rounds a matrix, and keeps the exact decimals under its key.
-void round(numbers::Matrix& matrix, const std::string& key, model::Gains& gains) {
-  constexpr int kAllDigits = 160;  // more than a number of single precision has
-  std::vector<std::string> decimals;
-  for (Eigen::Index i = 0; i < matrix.rows(); ++i)
-    for (Eigen::Index j = 0; j < matrix.cols(); ++j) {
-      const auto single = static_cast<float>(matrix(i, j));
-      if (!std::isfinite(single))
-        throw InputError({gains.file}, key + ": " + brief(matrix(i, j)) +
-                                           " is beyond the range of single precision");
-      matrix(i, j) = static_cast<double>(single);
-      decimals.push_back(brief(matrix(i, j), kAllDigits));
-    }
-  gains.decimals[key] = std::move(decimals);
-}
-
-}  // namespace
-
-model::Gains rounded_to_single(const model::Instance& instance, const model::Gains& gains) {
-  model::Gains rounded = gains;
-  for (auto& [name, matrix] : rounded.gains) round(matrix, "gains." + name, rounded);
-  std::set<std::string> read;
-  const model::Stated stated = bind::state(instance, gains);
-  for (model::GainFunction& gain : rounded.gain_functions) {
-    for (std::size_t k = 0; k < gain.coefficients.size(); ++k)
-      round(gain.coefficients[k], model::coefficient_key(gain.name, k), rounded);
-    if (!gain.coefficients.empty()) continue;
-    const expr::Program program = stated.bodies.link(stated.bodies.body(gain.name, {}).program);
-    for (const expr::Input& input : program.inputs) read.insert(input.name);
-  }
-  for (auto& [name, matrix] : rounded.unknowns)
-    if (read.contains(name)) round(matrix, "unknowns." + name, rounded);
-  return rounded;
 }
 
 }  // namespace gainsmith::design

@@ -45,8 +45,4 @@ struct GainCheck {
 GainCheck check_gains(const model::Instance& instance, const model::Gains& gains,
                       const sdp::Options& options);
 
-/// The gains in single precision, with their exact decimals; of gains that are formulas over unknowns these
-/// unknowns. InputError for one that has no finite value there.
-model::Gains rounded_to_single(const model::Instance& instance, const model::Gains& gains);
-
 }  // namespace gainsmith::design

@@ -325,7 +325,7 @@ std::string function_text(const Content& content, const GainFunction& gain, cons
   ElementNames names = gains;
   names[gain.variable] = {variable};
   const Code made = scalar_code({gain.program}, names, content.values, dialect);
-  remarks.helpers.insert(made.helpers.begin(), made.helpers.end());
+  remarks.add(made);
   return function(fmt::format("{}({}) = {}", gain.name, gain.variable, gain.text), name,
                   type_of(dialect) + " " + variable, gain.program.shape(), made, dialect,
                   [&](const std::string& body) { return unread({variable}, body); });
@@ -383,9 +383,9 @@ std::string c_file(Content& content, const std::string& name) {
       "C99; no memory is allocated. Maps hold the numbers of the problem: export again after a "
       "change.");
   for (const std::string& note : content.notes) lines.push_back("Note: " + note);
-  return commented(lines) +
-         fmt::format("#ifndef {0}\n#define {0}\n\n#include <math.h>\n\n{1}{2}{3}#endif\n", guard,
-                     constants, helper_text(remarks.helpers, dialect), maps);
+  const std::string code = constants + helper_text(remarks.helpers, dialect) + maps;
+  return commented(lines) + fmt::format("#ifndef {0}\n#define {0}\n\n{1}{2}#endif\n", guard,
+                                        remarks.library ? "#include <math.h>\n\n" : "", code);
 }
 
 }  // namespace gainsmith::exports

@@ -157,7 +157,7 @@ std::string matlab_file(Content& content, const std::string& name) {
     try {
       const Code made =
           scalar_code({gain.program}, {{gain.variable, {variable}}}, content.values, kMatlab);
-      remarks.helpers.insert(made.helpers.begin(), made.helpers.end());
+      remarks.add(made);
       functions +=
           fmt::format("% {}({}) = {}\nfunction r = gain_{}({})\n{}", gain.name, gain.variable,
                       gain.text, own, variable, lines_text(made.lines, "  "));

@@ -7,6 +7,11 @@
 
 namespace gainsmith::exports {
 
+void Remarks::add(const Code& code) {
+  helpers.insert(code.helpers.begin(), code.helpers.end());
+  library = library || code.library;
+}
+
 std::string ObserverWriter::attempt(const std::string& what,
                                     const std::function<std::string()>& map) {
   try {
@@ -33,7 +38,7 @@ std::string ObserverWriter::maps() {
 
 Code ObserverWriter::code(const std::vector<expr::Program>& programs) {
   Code made = scalar_code(programs, names_, content_.values, dialect_);
-  remarks_.helpers.insert(made.helpers.begin(), made.helpers.end());
+  remarks_.add(made);
   return made;
 }
 

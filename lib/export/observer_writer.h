@@ -16,7 +16,10 @@ namespace gainsmith::exports {
 /// What writing adds to besides its text: functions that the text needs, and what is left out.
 struct Remarks {
   std::set<std::string> helpers;
+  bool library = false;  ///< of C: <math.h> is needed
   std::vector<std::string> notes;
+
+  void add(const Code& code);
 };
 
 class ObserverWriter {

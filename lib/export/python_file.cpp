@@ -166,7 +166,7 @@ std::string python_file(Content& content, const std::string& name) {
     try {
       const Code made =
           scalar_code({gain.program}, {{gain.variable, {variable}}}, content.values, kPython);
-      remarks.helpers.insert(made.helpers.begin(), made.helpers.end());
+      remarks.add(made);
       const expr::Shape shape = gain.program.shape();
       std::string list;
       for (const std::string& element : made.results[0])

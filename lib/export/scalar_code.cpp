@@ -117,7 +117,8 @@ class Writer {
   }
 
   /// A function of the language's library.
-  Term library(const std::string& name, const Node& one) const {
+  Term library(const std::string& name, const Node& one) {
+    code_.library = true;
     switch (dialect_.language) {
       case Language::c:
         return call(name + (dialect_.single ? "f" : ""), one);
@@ -131,6 +132,7 @@ class Writer {
 
   Term helper(const std::string& name, const Node& one) {
     code_.helpers.insert(name);
+    code_.library = code_.library || name == "mod";
     return call(dialect_.prefix + name, one);
   }
 
@@ -211,7 +213,8 @@ class Writer {
   }
 
   /// Zeros lose their signs, which do not count.
-  Term angle(const Node& one) const {
+  Term angle(const Node& one) {
+    code_.library = true;
     const std::string zero = " + " + number_text(0, dialect_);
     const Term both{within(terms_[at(one.a)], Term::sum) + zero + ", " +
                         within(terms_[at(one.b)], Term::sum) + zero,
@@ -236,6 +239,7 @@ class Writer {
     const std::string name = "gsb" + std::to_string(k);
     if (dialect_.language == Language::c) {
       code_.helpers.insert(inverse ? "inverse" : "product");
+      code_.library = code_.library || inverse;
       code_.lines.push_back(
           fmt::format("{} {}[{}];", type_of(dialect_), name, block.instruction.shape.size()));
       code_.lines.push_back(inverse

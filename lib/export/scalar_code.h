@@ -28,6 +28,7 @@ struct Code {
   std::vector<std::vector<std::string>>
       results;                    ///< of each program the elements, column by column
   std::set<std::string> helpers;  ///< functions of helper_text() that they use
+  bool library = false;           ///< C: they use functions of <math.h>
 };
 
 /// A program holds an operation on matrices that has no formula on numbers, such as svd.

@@ -88,6 +88,14 @@ void Binder::unknown_name(const Expression& expression, const Node& node) const 
     const auto functions = function_names();
     candidates.insert(candidates.begin(), functions.begin(), functions.end());
   }
+  // "x1" of a state x: columns of tables and pictures have such names.
+  const std::size_t digits = node.text.find_last_not_of("0123456789") + 1;
+  const std::string whole = node.text.substr(0, digits);
+  if (digits < node.text.size() && node.kind != NodeKind::call &&
+      std::find(candidates.begin(), candidates.end(), whole) != candidates.end())
+    fail(expression, node,
+         "unknown name '" + node.text + "'; an element of " + whole + " is written " + whole + "(" +
+             node.text.substr(digits) + ")");
   const auto near = nearest(node.text, candidates);
   const bool other_case = near && differs_in_case(node.text, *near);
   fail(expression, node,

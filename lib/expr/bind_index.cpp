@@ -80,7 +80,8 @@ std::optional<int> Binder::whole_index(const Expression& expression, const Node&
   return value;
 }
 
-std::pair<int, int> Binder::index_range(const Expression& expression, const Node& node, int size) {
+std::pair<int, int> Binder::index_range(const Expression& expression, const Node& whole,
+                                        const Node& node, int size) {
   if (node.kind == NodeKind::range && node.children.empty()) return {0, size};
   const bool range = node.kind == NodeKind::range;
   const Node& from_node = range ? *node.children[0] : node;
@@ -93,7 +94,8 @@ std::pair<int, int> Binder::index_range(const Expression& expression, const Node
   const bool empty = range && *to == *from - 1;
   if (*from < 1 || *to > size || (*from > *to && !empty))
     fail(expression, node,
-         "the index " + expression.quote(node) + " is outside 1:" + std::to_string(size));
+         "the index " + expression.quote(node) + " is outside 1:" + std::to_string(size) + " in " +
+             expression.quote(whole));
   return {*from - 1, *to};
 }
 
@@ -105,10 +107,10 @@ Bound Binder::index(const Expression& expression, const Node& node, Bound base, 
   std::pair<int, int> cols{0, from.cols};
   if (count == 1 && (from.cols == 1 || from.rows == 1)) {
     auto& range = from.cols == 1 ? rows : cols;
-    range = index_range(expression, *node.children[first], from.size());
+    range = index_range(expression, node, *node.children[first], from.size());
   } else if (count == 2) {
-    rows = index_range(expression, *node.children[first], from.rows);
-    cols = index_range(expression, *node.children[first + 1], from.cols);
+    rows = index_range(expression, node, *node.children[first], from.rows);
+    cols = index_range(expression, node, *node.children[first + 1], from.cols);
   } else {
     fail(expression, node,
          "a " + to_string(from) + " matrix takes two indices, not " + std::to_string(count) +

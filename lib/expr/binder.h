@@ -129,7 +129,9 @@ class Binder {
 
   // bind_index.cpp: parts of matrices.
   Bound index(const Expression& expression, const Node& node, Bound base, std::size_t first);
-  std::pair<int, int> index_range(const Expression& expression, const Node& node, int size);
+  /// The places that an index of `whole` names, from 0.
+  std::pair<int, int> index_range(const Expression& expression, const Node& whole, const Node& node,
+                                  int size);
   std::optional<int> whole_number(const Expression& expression, const Node& node);
   /// Of an index, in which `end` is the last one.
   std::optional<int> whole_index(const Expression& expression, const Node& node, int end);

@@ -77,6 +77,12 @@ model::CampaignVerdict campaign_verdict_of(const JsonReader& reader) {
   reader.fail("expected held, violated or undecided");
 }
 
+std::optional<model::OpenRunRecord> open_run(const JsonReader& reader, const char* key) {
+  if (!reader.has(key)) return std::nullopt;
+  const JsonReader run = reader.at(key);
+  return model::OpenRunRecord{run.at("run").count(), run.at("why").text()};
+}
+
 }  // namespace
 
 Json to_json(const model::CampaignRecord& record) {
@@ -98,9 +104,9 @@ Json to_json(const model::CampaignRecord& record) {
                    {"violation_probability_at_most", optional_json(record.violation_probability)},
                    {"notes", record.notes},
                    {"checks", checks}};
-  if (record.first_unfinished)
-    document["first_unfinished"] = {{"run", record.first_unfinished->run},
-                                    {"why", record.first_unfinished->why}};
+  for (const auto& [key, open] : {std::pair("first_unfinished", record.first_unfinished),
+                                  std::pair("first_undecided", record.first_undecided)})
+    if (open) document[key] = {{"run", open->run}, {"why", open->why}};
   if (record.runs < record.runs_asked) {
     document["runs_asked"] = record.runs_asked;
     document["message"] = record.message;
@@ -141,10 +147,8 @@ model::CampaignRecord parse_campaign(const std::string& text, const std::string&
   record.notes = texts(reader.at("notes"));
   for (const JsonReader& check : reader.at("checks").items())
     record.checks.push_back(check_of(check));
-  if (reader.has("first_unfinished")) {
-    const JsonReader first = reader.at("first_unfinished");
-    record.first_unfinished = {first.at("run").count(), first.at("why").text()};
-  }
+  record.first_unfinished = open_run(reader, "first_unfinished");
+  record.first_undecided = open_run(reader, "first_undecided");
   record.runs_asked = reader.has("runs_asked") ? reader.at("runs_asked").count() : record.runs;
   if (reader.has("message")) record.message = reader.at("message").text();
   record.gains_hash = reader.at("gains_sha256").text();

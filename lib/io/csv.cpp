@@ -1,8 +1,6 @@
 #include "io/csv.h"
 
-#include <vector>
-
-#include "base/number.h"
+#include <cstddef>
 
 namespace gainsmith::io {
 
@@ -26,18 +24,6 @@ void add_csv_line(std::span<const std::string> cells, std::string& text) {
     add_cell(cells[i], text);
   }
   text += '\n';
-}
-
-std::string to_csv(std::span<const std::string> columns, const numbers::Matrix& table) {
-  std::string text;
-  add_csv_line(columns, text);
-  std::vector<std::string> cells(columns.size());
-  for (Eigen::Index row = 0; row < table.rows(); ++row) {
-    for (std::size_t k = 0; k < cells.size(); ++k)
-      cells[k] = decimal17(table(row, static_cast<Eigen::Index>(k)));
-    add_csv_line(cells, text);
-  }
-  return text;
 }
 
 }  // namespace gainsmith::io

@@ -1,8 +1,11 @@
 #include "io/data_file_yaml.h"
 
 #include <array>
+#include <string>
 #include <utility>
+#include <vector>
 
+#include "base/nearest.h"
 #include "io/keys.h"
 #include "io/matrix/csv_matrix.h"
 #include "io/matrix/json_matrix.h"
@@ -62,8 +65,19 @@ model::Value value(const YamlItem& item, const FileMatrix& found, const std::str
   text += ']';
   positions.resize(text.size() + 1, positions.back());
   const std::string& of = found.positions.empty() ? place.file : file;
-  return {item.key, expr::parse({std::move(text), of, std::move(positions)}), matrix.flat, place,
-          matrix.flat};
+  return {item.key,
+          expr::parse({std::move(text), of, std::move(positions)}),
+          matrix.flat,
+          place,
+          matrix.flat,
+          {},
+          file + (matrix.key.empty() ? "" : ": " + matrix.key)};
+}
+
+std::vector<std::string> format_keys() {
+  std::vector<std::string> keys;
+  for (const Format& format : kFormats) keys.emplace_back(format.key);
+  return keys;
 }
 
 }  // namespace
@@ -73,6 +87,29 @@ bool names_file(const YAML::Node& node) {
   for (const Format& format : kFormats)
     if (node[format.key]) return true;
   return false;
+}
+
+void refuse_mapping(const YamlFile& file, const YamlItem& item) {
+  const YAML::Node& node = item.value;
+  const auto first = node.begin();
+  std::string found = "an empty mapping";
+  if (first != node.end() && first->first.IsScalar()) {
+    const std::string& key = first->first.Scalar();
+    found = "a mapping with '" + key + "'";
+    if (key != "name") found += suggestion(key, format_keys());
+  }
+  throw InputError(file.place(node), item.key +
+                                         ": expected an expression, or a matrix of a file as in "
+                                         "{csv: FILE}; found " +
+                                         found);
+}
+
+void refuse_bare_path(const YamlFile& file, const YamlItem& item) {
+  const std::string& text = item.value.Scalar();
+  for (const std::string& key : format_keys())
+    if (text.ends_with("." + key) && text.find_first_of("()[]*+ '\"") == std::string::npos)
+      throw InputError(file.place(item.value),
+                       item.key + ": a matrix of a file is written {" + key + ": " + text + "}");
 }
 
 model::Value matrix_of_file(const YamlFile& file, const YamlItem& item) {

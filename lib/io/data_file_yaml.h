@@ -17,4 +17,10 @@ bool names_file(const YAML::Node& node);
 /// InputError for what is no such matrix, with the place there or here.
 model::Value matrix_of_file(const YamlFile& file, const YamlItem& item);
 
+/// InputError for a mapping that names no file, with the formats that are known.
+[[noreturn]] void refuse_mapping(const YamlFile& file, const YamlItem& item);
+
+/// InputError for a text that is nothing but the path of a data file.
+void refuse_bare_path(const YamlFile& file, const YamlItem& item);
+
 }  // namespace gainsmith::io

@@ -1,6 +1,7 @@
 #include "io/schema.h"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <string>
 #include <string_view>
@@ -44,6 +45,11 @@ Json any_of(Json alternatives) {
   return {{"anyOf", std::move(alternatives)}};
 }
 
+constexpr const char* kNone = "none";
+constexpr std::array kChanged = {&keys::method, &keys::component, &keys::log_plant};
+
+std::string changed_name(const Level& level) { return "changed " + std::string(level.name); }
+
 /// What each name is in a file, and how texts become schemas.
 class SchemaWriter {
  public:
@@ -63,7 +69,44 @@ class SchemaWriter {
     return result;
   }
 
+  /// A level that replaces parts of another one (variant_yaml.h): 'none' takes a part away, and a mapping of
+  /// names is joined with the other one's. What is in such a mapping is replaced as a whole.
+  Json changed(const Level& level) const {
+    Json properties = Json::object();
+    for (const Key& key : level.keys) {
+      Json value = or_none(joined(form(key.form)));
+      if (!key.text.empty()) value["description"] = key.text;
+      properties[std::string(key.name)] = std::move(value);
+    }
+    return {{"description", "Replaces parts: " + std::string(level.text)},
+            {"type", "object"},
+            {"properties", properties},
+            {"additionalProperties", false}};
+  }
+
  private:
+  static Json or_none(Json value) {
+    return any_of(Json::array({std::move(value), {{"enum", {kNone}}}}));
+  }
+
+  /// The form of what is joined with another one.
+  static Json joined(Json form) {
+    // A section without entries changes none.
+    const Json empty = {{"type", "null"}};
+    for (const Level* level : kChanged)
+      if (form == reference(level->name))
+        return any_of(Json::array({reference(changed_name(*level)), empty}));
+    if (form == reference("plant"))
+      return any_of(Json::array({reference(changed_name(keys::log_plant)),
+                                 reference(changed_name(keys::component)), empty}));
+    if (!form.contains("additionalProperties")) return form;
+    form["additionalProperties"] = or_none(joined(form["additionalProperties"]));
+    form["type"] = {"object", "null"};
+    form.erase("minProperties");
+    form.erase("maxProperties");
+    return form;
+  }
+
   /// A list of matrices, those of a family: a list of rows stands in it.
   static Json matrices() {
     const Json row = {{"type", "array"}};
@@ -232,18 +275,23 @@ Json variant_schema(const Json& whole) {
 }  // namespace
 
 Json problem_schema() {
-  Json schema = SchemaWriter(problem_levels(), problem_forms(), true)
-                    .document(keys::problem, "gainsmith problem");
+  const SchemaWriter writer(problem_levels(), problem_forms(), true);
+  Json schema = writer.document(keys::problem, "gainsmith problem");
   Json whole = Json::object();
   for (const char* part :
        {"description", "type", "properties", "additionalProperties", "required", "allOf"}) {
     whole[part] = std::move(schema[part]);
     schema.erase(part);
   }
-  Json like = {{"type", "string"},
-               {"description", "the built-in method that it replaces parts of"}};
+  for (const Level* level : kChanged)
+    schema["definitions"][id(changed_name(*level))] = writer.changed(*level);
+  Json& method = schema["definitions"][id(changed_name(keys::method))];
+  method["properties"]["like"] = {{"type", "string"},
+                                  {"description", "the built-in method that it replaces parts of"}};
+  method["allOf"] = Json::array({{{"not", {{"required", {"observer", "observers"}}}}}});
+  const Json changed = reference(changed_name(keys::method));
   whole["properties"]["method"]["anyOf"].push_back(
-      {{"type", "object"}, {"required", {"like"}}, {"properties", {{"like", std::move(like)}}}});
+      {{"allOf", Json::array({changed, has("like")})}});
   schema["definitions"]["variant"] = variant_schema(whole);
   schema["definitions"]["problem"] = std::move(whole);
   schema["if"] = has("like");

@@ -1,11 +1,15 @@
 #include "io/setting.h"
 
 #include <algorithm>
+#include <map>
+#include <string>
 #include <utility>
 
 #include "base/nearest.h"
 #include "expr/parser.h"
+#include "io/synthesis_yaml.h"
 #include "io/yaml.h"
+#include "model/names.h"
 
 namespace gainsmith::io {
 
@@ -49,11 +53,33 @@ class Setter {
       replace_item(problem_.parameters, value(), by_name);
     else if (has(problem_.let, signed_as) || (is_in_problem(method) && has(method.let, signed_as)))
       define(problem_.let);
+    else if (const auto choice = choices().find(name_); choice != choices().end())
+      choose(choice->second);
     else
       refuse_unknown(method);
   }
 
  private:
+  using Choice = void (*)(const YamlFile&, const YamlItem&, model::SynthesisOptions&);
+
+  /// The numbers of `synthesis`, where no datum has their name.
+  static const std::map<std::string, Choice>& choices() {
+    static const std::map<std::string, Choice> kChoices = {{model::kGainBound, set_gain_bound},
+                                                           {"margin", set_margin}};
+    return kChoices;
+  }
+
+  void choose(Choice choice) {
+    refuse_empty();
+    const YamlFile file(setting_.value, option_, &sources_);
+    choice(file, {name_, {}, {option_, 1, 1}, file.root()}, problem_.synthesis);
+  }
+
+  void refuse_empty() const {
+    if (setting_.value.find_first_not_of(" \t\r\n") == std::string::npos)
+      throw InputError({option_}, "expected NAME=VALUE; there is no value");
+  }
+
   /// A method of the problem's own has no text beside that of the problem.
   static bool is_in_problem(const model::Method& method) { return method.text.empty(); }
 
@@ -64,14 +90,14 @@ class Setter {
     for (const model::Let& let : problem_.let) known.push_back(let.signature.name);
     if (is_in_problem(method))
       for (const model::Let& let : method.let) known.push_back(let.signature.name);
+    for (const auto& [choice, set] : choices()) known.push_back(choice);
     throw InputError({option_}, "the problem has no datum, parameter or definition '" + name_ +
                                     "'" + suggestion(name_, known));
   }
 
   /// The value as an entry of a problem file; a formula by itself when it has a ';'.
   model::Value value() {
-    if (setting_.value.find_first_not_of(" \t\r\n") == std::string::npos)
-      throw InputError({option_}, "expected NAME=VALUE; there is no value");
+    refuse_empty();
     if (setting_.value.find(';') != std::string::npos)
       return {name_, expr::parse(expr::Text(setting_.value, option_)), false, {option_, 1, 1}};
     const YamlFile file(setting_.value, option_, &sources_);

@@ -414,7 +414,12 @@ YamlItem YamlMap::require(const std::string& key) {
         (nearest(item.key, {key}) || is_short_for_it(item.key)))
       throw InputError(item.place,
                        what_ + ": unknown key '" + item.key + "'; did you mean '" + key + "'?");
-  throw InputError(place_, what_ + ": the key '" + key + "' is missing");
+  std::string others;
+  for (const YamlItem& item : items_)
+    if (level_ != nullptr && level_->find(item.key) == nullptr)
+      others += (others.empty() ? "" : ", ") + ("'" + item.key + "'");
+  throw InputError(place_, what_ + ": the key '" + key + "' is missing" +
+                               (others.empty() ? "" : "; unknown here: " + others));
 }
 
 void YamlMap::finish(const std::map<std::string, std::string>& advice) const {

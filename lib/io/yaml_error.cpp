@@ -64,6 +64,19 @@ bool is_bare(std::string_view line) {
          line.substr(begin).find_first_not_of(kWordCharacters) == std::string_view::npos;
 }
 
+/// "data {a: 1}", "problem motor": the end of a word that no colon follows, with more behind it.
+std::optional<std::size_t> find_key_without_colon(std::string_view line) {
+  const std::size_t begin = std::min(line.find_first_not_of(kBlank), line.size());
+  const std::size_t end = line.find_first_not_of(kWordCharacters, begin);
+  if (end == std::string_view::npos || end == begin ||
+      kBlank.find(line[end]) == std::string_view::npos)
+    return std::nullopt;
+  const std::size_t next = line.find_first_not_of(kBlank, end);
+  if (next == std::string_view::npos || line[next] == '#' || line[next] == ':') return std::nullopt;
+  const bool opens = line[next] == '{' || line[next] == '[';
+  return opens || line.find(':') == std::string_view::npos ? std::optional(end) : std::nullopt;
+}
+
 /// The column behind "key:" where the space is missing that makes it a key: "T1:0.1".
 std::optional<std::size_t> find_tight_colon(std::string_view line) {
   const std::size_t begin = std::min(line.find_first_not_of(kBlank), line.size());
@@ -143,6 +156,9 @@ YamlError explained(const std::string& text, YamlError error) {
                   "\"tau in [0, T]\"}"};
     if (const auto colon = find_second_colon(line); colon && at == last)
       return {at, *colon, said + "; a text that holds ': ' must be quoted"};
+    if (const auto end = find_key_without_colon(line);
+        end && line.find_first_not_of(kBlank) == lines[last].find_first_not_of(kBlank))
+      return {at, *end, said + "; a ':' is missing behind a key"};
     if (at == last || line.find_first_not_of(kBlank) == std::string_view::npos) continue;
     if (const auto value = find_tight_colon(line))
       return {at, *value, "a space is missing behind the ':' of a key"};

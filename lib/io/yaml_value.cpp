@@ -47,6 +47,7 @@ std::string counted(std::size_t elements) {
 model::Value matrix(const YamlFile& file, const YamlItem& item, const char* between) {
   const YAML::Node& node = item.value;
   if (names_file(node)) return matrix_of_file(file, item);
+  if (node.IsMap()) refuse_mapping(file, item);
   if (!node.IsSequence())
     return {item.key, file.expression(node, item.key), false, file.place(node)};
   if (node.size() == 0) throw InputError(file.place(node), item.key + ": the list is empty");
@@ -88,6 +89,7 @@ expr::Expression matrix_of(const YamlFile& file, const YamlItem& item, bool colu
 }
 
 model::Value datum_of(const YamlFile& file, const YamlItem& item) {
+  if (item.value.IsScalar()) refuse_bare_path(file, item);
   if (!item.value.IsSequence() || !is_list_of_matrices(item.value)) return value_of(file, item);
   model::Value result{item.key, {}, false, file.place(item.value), true};
   for (const auto& element : item.value)

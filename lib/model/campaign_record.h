@@ -36,8 +36,8 @@ struct ClaimRecord {
   double checked_down_to = 0;
 };
 
-/// The first run that did not reach the horizon.
-struct UnfinishedRecord {
+/// A run, and why it did not reach the horizon or is undecided.
+struct OpenRunRecord {
   std::uint64_t run = 0;
   std::string why;
 };
@@ -50,7 +50,8 @@ struct CampaignRecord {
   std::uint64_t violations = 0;
   std::uint64_t undecided = 0;
   std::uint64_t unfinished = 0;
-  std::optional<UnfinishedRecord> first_unfinished;
+  std::optional<OpenRunRecord> first_unfinished;
+  std::optional<OpenRunRecord> first_undecided;
   std::uint64_t worst_run = 0;
   std::uint64_t repeated = 0;
   bool integrated = false;  ///< repeated more accurately; otherwise in 31 digits

@@ -29,6 +29,11 @@ struct Margin {
   std::string worst_point;         ///< "tau = 0"; empty without forall
   bool holds = false;              ///< shown
   bool fails = false;              ///< shown; neither: not shown
+
+  /// A minimum has its margin in the solver's units, within this of the margin in its own diagonal.
+  static constexpr double kSame = 0.5;
+  bool is_below() const { return strict && reached < required; }
+  bool is_far_below() const { return strict && reached < kSame * required; }
 };
 
 /// A bound on a gain, so that an infimum that is not attained gives finite gains.

@@ -25,6 +25,7 @@ struct Value {
   Place place;
   bool list = false;              ///< a YAML list, whose elements a family takes for its members
   std::vector<Value> matrices{};  ///< of a list of matrices, which has no value as one expression
+  std::string source{};           ///< of a matrix of a file: "A.csv", "plant.mat: A"
 };
 
 /// How the sampling intervals of a run are chosen.

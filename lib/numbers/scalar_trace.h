@@ -1,4 +1,7 @@
-// Internal to numbers: programs as nodes of a scalar graph.
+// Programs as nodes of a scalar graph.
+//
+// Other libraries may rely on this: evaluating the nodes of a result gives the value of the program over
+// Real, to rounding, wherever the program has one.
 //
 // The rules are those of Real, element by element; derivatives (Op::jacobian) are those of Dual,
 // whose slopes are nodes too. What has no formula on numbers is one block: decompositions of

@@ -72,6 +72,7 @@ std::vector<std::uint64_t> worst_runs(const model::CampaignRecord& campaign) {
   for (const model::ClaimRecord& check : campaign.checks)
     if (check.stated && check.looked_at) add(check.worst_run);
   if (campaign.first_unfinished) add(campaign.first_unfinished->run);
+  if (campaign.first_undecided) add(campaign.first_undecided->run);
   return runs;
 }
 
@@ -104,6 +105,10 @@ std::string campaign_section(const Results& results) {
                                   " did not reach the horizon; run " +
                                   std::to_string(campaign.first_unfinished->run) + ": " +
                                   campaign.first_unfinished->why);
+  if (campaign.first_undecided)
+    text += text_element("p", count_of(campaign.undecided, "run") + " undecided; first run " +
+                                  std::to_string(campaign.first_undecided->run) + ": " +
+                                  campaign.first_undecided->why);
   if (campaign.repeated > 0)
     text +=
         text_element("p", count_of(campaign.repeated, "run") + " repeated " +

@@ -194,6 +194,9 @@ std::string margins_section(const Results& results) {
                                    bound.active ? "limits the design" : ""}));
   if (!bounds.empty())
     text += scrolled_table(heads({"bound on", "reached", "allowed", ""}), bounds);
+  if (gains.verdict == model::Verdict::yes && gains.objective)
+    text += paragraph("Which requirements limit the optimum, and what each of them costs:") +
+            preformatted("gainsmith explain " + gains.statement.problem_file);
   return section("Margins", text);
 }
 

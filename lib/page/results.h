@@ -29,7 +29,7 @@ struct Results {
   std::string solver_line;     ///< why the solver stopped
   std::string objective_line;  ///< with the price of margins
   std::string search_lines;    ///< one line each
-  std::string campaign_line;   ///< "held in 1000 runs"
+  std::string campaign_line;   ///< "held in 1000 runs, worst run 627"
 
   bool expects = false;                  ///< whether `expect:` was compared
   std::vector<std::string> differences;  ///< from what is expected

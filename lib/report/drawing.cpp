@@ -18,6 +18,18 @@ namespace {
 constexpr std::array<std::string_view, 8> palette = {"#0072b2", "#d55e00", "#009e73", "#cc79a7",
                                                      "#e69f00", "#56b4e9", "#000000", "#8a8a8a"};
 
+/// The intensities of red, green and blue of a hue from 0 to 1, each from `low` to `high`.
+std::string colour_of(double hue, double low, double high) {
+  std::string text = "#";
+  for (const double third : {0.0, 1.0, 2.0}) {
+    const double turn = hue + third / 3;
+    const double away = 6 * std::abs(turn - std::floor(turn) - 0.5);  // 3: its own hue
+    const double share = std::clamp(away - 1, 0.0, 1.0);
+    text += fmt::format("{:02x}", std::lround(255 * (low + share * (high - low))));
+  }
+  return text;
+}
+
 constexpr int dash = 6;
 
 /// Where the dashes of the next curve begin, and when dashes repeat: what is drawn later covers half
@@ -52,9 +64,15 @@ std::string heading(const std::string& title) {
                  fmt::format(R"( font-size="{}" font-weight="bold")", title_size));
 }
 
-std::string_view colour_name(int colour) {
+std::string colour_name(int colour) {
   constexpr int size = static_cast<int>(palette.size());
-  return palette[static_cast<std::size_t>((colour % size + size) % size)];
+  if (colour < size) return std::string(palette[static_cast<std::size_t>(std::max(colour, 0))]);
+  // Neighbours lie far apart in hue, and are dark, medium and light in turn.
+  constexpr double golden = 0.381966;
+  constexpr std::array<std::pair<double, double>, 3> shades = {
+      {{0.05, 0.55}, {0.25, 0.8}, {0.45, 0.85}}};
+  const auto [low, high] = shades[static_cast<std::size_t>(colour % 3)];
+  return colour_of(golden * (colour - size) + 0.9, low, high);
 }
 
 std::string stroke(const Style& style) {
@@ -100,7 +118,7 @@ std::vector<Style> styles_of(const Panel& panel) {
 }
 
 std::string mark_at(Mark mark, double x, double y, int colour) {
-  const std::string_view name = colour_name(colour);
+  const std::string name = colour_name(colour);
   const std::string at = pixels(x) + "," + pixels(y);
   switch (mark) {
     case Mark::dot:

@@ -35,8 +35,9 @@ struct Style {
   int turns = 1;
 };
 
-/// "#0072b2"
-std::string_view colour_name(int colour);
+/// "#0072b2": the first eight as in figure.h, then others, no two alike; the first of a negative
+/// number.
+std::string colour_name(int colour);
 
 /// Attributes of its lines.
 std::string stroke(const Style& style);

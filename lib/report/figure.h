@@ -20,8 +20,7 @@ struct Curve {
   std::vector<double> value;       ///< as many as times; what is not finite leaves a gap
   std::vector<std::size_t> jumps;  ///< ascending; k says that a jump leads from sample k to k + 1
   bool dashed = false;             ///< an estimate, in the colour of what it estimates
-  int colour =
-      0;  ///< 0 to 7: blue, vermilion, green, purple, orange, sky blue, black, grey; they repeat
+  int colour = 0;  ///< blue, vermilion, green, purple, orange, sky blue, black, grey; then others
   Mark mark = Mark::none;
   bool joined = true;  ///< false: marks alone, without lines between the samples
   bool limit = false;  ///< what the curve of its colour must not pass: thin, in short dashes
@@ -57,7 +56,7 @@ struct Figure {
   std::string axis;  ///< below: the time and its unit
   std::vector<Panel> panels;
   std::vector<double> marks{};  ///< moments with a tick in each panel; they do not decrease
-  bool logarithmic = false;  ///< the axis below
+  bool logarithmic = false;     ///< the axis below
 };
 
 /// The figure, 900 wide and as high as its panels need, in colours that colour-blind people tell

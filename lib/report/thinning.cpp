@@ -120,12 +120,10 @@ double distance_from(const Point& point, const Point& from, const Point& to) {
   return std::hypot(x - share * dx, y - share * dy);
 }
 
-/// Without the points that the others show (Douglas and Peucker 1973).
-Polyline without_near(const Polyline& points) {
-  constexpr double tolerance = 2;  // tenths of a pixel
-  std::vector<char> kept(points.size(), 0);
-  kept.front() = kept.back() = 1;
-  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};
+/// Marks the points between two others that these do not show (Douglas and Peucker 1973).
+void keep_far(const Polyline& points, std::size_t begin, std::size_t end, std::vector<char>& kept) {
+  constexpr double tolerance = 1;  // tenths of a pixel
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{begin, end}};
   while (!open.empty()) {
     const auto [first, last] = open.back();
     open.pop_back();
@@ -143,20 +141,42 @@ Polyline without_near(const Polyline& points) {
     open.emplace_back(first, farthest);
     open.emplace_back(farthest, last);
   }
+}
+
+/// Without the points that the others show; in pieces, as the time grows with their square.
+Polyline without_near(const Polyline& points) {
+  constexpr std::size_t piece = 1000;
+  std::vector<char> kept(points.size(), 0);
+  kept.front() = 1;
+  for (std::size_t begin = 0; begin + 1 < points.size(); begin += piece) {
+    const std::size_t end = std::min(begin + piece, points.size() - 1);
+    kept[end] = 1;
+    keep_far(points, begin, end, kept);
+  }
   Polyline left;
   for (std::size_t k = 0; k < points.size(); ++k)
     if (kept[k] != 0) left.push_back(points[k]);
   return left;
 }
 
-/// The steps of a line that are the first from one cell of this width to another.
+/// The steps of a line that are the first from one cell of this width to another, with up to three
+/// points in each cell.
 std::vector<Polyline> new_ways(const Polyline& line, int cell) {
+  constexpr int most_within = 3;
   std::set<std::array<int, 4>> seen;
   std::vector<Polyline> parts;
   bool open = false;
+  int within = 0;
   for (std::size_t k = 1; k < line.size(); ++k) {
     const Point &from = line[k - 1], &to = line[k];
-    if (!seen.insert({from.x / cell, from.y / cell, to.x / cell, to.y / cell}).second) {
+    const std::array<int, 4> step = {from.x / cell, from.y / cell, to.x / cell, to.y / cell};
+    if (step[0] == step[2] && step[1] == step[3]) {
+      if (open && ++within > most_within) parts.back().pop_back();
+      if (open) parts.back().push_back(to);
+      continue;
+    }
+    within = 0;
+    if (!seen.insert(step).second) {
       open = false;
       continue;
     }
@@ -213,8 +233,9 @@ Polyline straightened(const Polyline& line) {
 std::vector<Polyline> simplified(const Polyline& line) {
   constexpr std::size_t many = 20000, most = 50000;
   if (line.empty()) return {};
+  const Polyline fine = without_near(spaced(line, 2));
+  if (fine.size() <= many) return {fine};
   const Polyline points = spaced(line, 10);
-  if (points.size() <= many) return {without_near(points)};
   std::vector<Polyline> parts;
   std::size_t count = most + 1;
   for (int cell = 20; count > most; cell *= 2) {

@@ -25,9 +25,10 @@ std::vector<Polyline> thinned(const std::vector<Polyline>& lines);
 /// downwards. Its ends and all local extremes stay.
 Polyline straightened(const Polyline& line);
 
-/// Of a line in any direction the points without which the others would not show it to within 0.2
-/// pixels, its ends always; those nearer than a pixel to the one before are left out first. Of a
-/// line of more than 20,000 others what passes where it has passed before is left out: parts of
+/// Of a line in any direction the points without which the others would not show it to within 0.3
+/// pixels, its ends always: those nearer than 0.2 pixels to the one before are left out first, then
+/// those within 0.1 of what the others show. Where more than 20,000 are left, those nearer than a
+/// pixel to the one before are left out, and what passes where it has passed before: parts of
 /// 50,000 points at most are left.
 std::vector<Polyline> simplified(const Polyline& line);
 

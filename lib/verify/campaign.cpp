@@ -39,7 +39,6 @@ struct Tally {
   std::uint64_t violations = 0;
   std::uint64_t undecided = 0;
   std::uint64_t unfinished = 0;
-  std::uint64_t close = 0;
   std::uint64_t repeated = 0;
   std::uint64_t careful = 0;
   std::array<std::uint64_t, packs::kWhys> open{};
@@ -51,6 +50,7 @@ struct Tally {
   std::uint64_t unfinished_run = 0;  ///< the first
   Termination unfinished_termination = Termination::horizon;
   std::string unfinished_message;
+  std::optional<UndecidedRun> first_undecided;
   std::vector<ClaimTally> claims;
   std::vector<char> happened;  ///< by event: whether it did in any of them
 };
@@ -98,9 +98,9 @@ void add(const Tally& later, Tally& sum) {
   sum.violations = before.violations + later.violations;
   sum.undecided = before.undecided + later.undecided;
   sum.unfinished = before.unfinished + later.unfinished;
-  sum.close = before.close + later.close;
   sum.careful = before.careful + later.careful;
   for (std::size_t k = 0; k < sum.open.size(); ++k) sum.open[k] = before.open[k] + later.open[k];
+  sum.first_undecided = before.first_undecided ? before.first_undecided : later.first_undecided;
   const Tally& first = before.unfinished > 0 ? before : later;
   sum.unfinished_run = first.unfinished_run;
   sum.unfinished_termination = first.unfinished_termination;
@@ -110,6 +110,17 @@ void add(const Tally& later, Tally& sum) {
   sum.claims = std::move(before.claims);
   before.confirmed.insert(before.confirmed.end(), later.confirmed.begin(), later.confirmed.end());
   sum.confirmed = std::move(before.confirmed);
+}
+
+/// Its claim is counted among those that are stated.
+UndecidedRun undecided_run(std::uint64_t run, const RunVerdict& verdict) {
+  UndecidedRun undecided{run, verdict.termination, verdict.message, 0, {}};
+  const auto finding = std::find_if(verdict.findings.begin(), verdict.findings.end(),
+                                    [](const claims::Finding& one) { return one.undecided(); });
+  if (finding == verdict.findings.end()) return undecided;
+  undecided.check = static_cast<std::size_t>(finding - verdict.findings.begin());
+  undecided.finding = *finding;
+  return undecided;
 }
 
 Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
@@ -124,7 +135,7 @@ Tally tally_of(std::uint64_t run, const RunVerdict& verdict) {
   tally.violations = verdict.judgement == claims::Judgement::violated ? 1 : 0;
   tally.undecided = verdict.judgement == claims::Judgement::undecided ? 1 : 0;
   tally.unfinished = verdict.unfinished() ? 1 : 0;
-  tally.close = tally.undecided > 0 && !verdict.unfinished() ? 1 : 0;
+  if (tally.undecided > 0) tally.first_undecided = undecided_run(run, verdict);
   tally.repeated = verdict.repeated ? 1 : 0;
   tally.happened = verdict.happened;
   if (verdict.confirmed) tally.confirmed.push_back(run);
@@ -206,7 +217,9 @@ void repeat_worst(const Setup& setup, std::uint64_t seed, Tally& tally) {
       if (opened.insert(*claim.run).second) {
         if (violated) --tally.violations;
         ++tally.undecided;
-        ++tally.close;
+        const auto& before = tally.first_undecided;
+        if (!before || *claim.run < before->run)
+          tally.first_undecided = undecided_run(*claim.run, known->second);
       }
     }
     claim.worst = found;
@@ -231,6 +244,27 @@ std::vector<CheckReport> report_checks(const Setup& setup, const Tally& tally) {
   return reports;
 }
 
+/// The place among all claims of the one that is number `stated` of those that are stated.
+std::size_t place_of(const std::vector<CheckReport>& checks, std::size_t stated) {
+  std::size_t place = 0;
+  for (std::size_t seen = 0; place < checks.size(); ++place)
+    if (checks[place].stated && seen++ == stated) break;
+  return place;
+}
+
+/// The worst run, whose violation its repetition does not show.
+UndecidedRun unconfirmed_run(const Report& report) {
+  UndecidedRun undecided;
+  undecided.run = report.worst_run;
+  for (std::size_t k = 0; k < report.checks.size(); ++k)
+    if (report.checks[k].worst.disputed && report.checks[k].worst_run == report.worst_run) {
+      undecided.check = k;
+      undecided.finding = report.checks[k].worst;
+      break;
+    }
+  return undecided;
+}
+
 /// Repeats the worst runs and adds those that violate again. Whether the worst one does.
 bool confirm_worst(const Setup& setup, std::uint64_t seed, Report& report) {
   std::vector<std::uint64_t> runs{report.worst_run};
@@ -250,6 +284,7 @@ bool confirm_worst(const Setup& setup, std::uint64_t seed, Report& report) {
     if (check.violations == 0 || shown) continue;
     check.undecided += std::exchange(check.violations, 0);
     check.worst.judgement = claims::Judgement::undecided;
+    check.worst.disputed = true;
   }
   return std::binary_search(report.confirmed.begin(), report.confirmed.end(), report.worst_run);
 }
@@ -304,7 +339,6 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
   report.unfinished_run = tally.unfinished_run;
   report.unfinished_termination = tally.unfinished_termination;
   report.unfinished_message = tally.unfinished_message;
-  report.close = tally.close;
   if (!report.different)
     report.violation_probability = violation_probability_bound(report.violations + report.undecided,
                                                                report.runs, report.confidence);
@@ -312,6 +346,9 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
     if (tally.happened[e] == 0)
       report.silent_events.push_back(setup.events->system.dynamics.events[e].name);
   report.checks = report_checks(setup, tally);
+  report.first_undecided = tally.first_undecided;
+  if (report.first_undecided)
+    report.first_undecided->check = place_of(report.checks, report.first_undecided->check);
   if (report.interrupted()) return report;
   bool confirmed = false;
   try {
@@ -320,7 +357,10 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
     return report;
   }
   if (confirmed) report.verdict = model::CampaignVerdict::violated;
-  if (report.violations > 0 && !confirmed) report.undecided += std::exchange(report.violations, 0);
+  if (report.violations > 0 && !confirmed) {
+    report.undecided += std::exchange(report.violations, 0);
+    report.first_undecided = unconfirmed_run(report);
+  }
   if (report.violations + report.undecided == 0) report.verdict = model::CampaignVerdict::held;
   return report;
 }

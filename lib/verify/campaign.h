@@ -38,6 +38,15 @@ struct CheckReport {
   double floor = 0;       ///< the largest Finding::floor
 };
 
+/// Why a run is undecided.
+struct UndecidedRun {
+  std::uint64_t run = 0;
+  bounded::Termination termination = bounded::Termination::horizon;
+  std::string message;      ///< why it ended before the horizon
+  std::size_t check = 0;    ///< of a run that reached it: the claim (Report::checks) ...
+  claims::Finding finding;  ///< ... and what is known of it
+};
+
 struct Report {
   model::CampaignVerdict verdict = model::CampaignVerdict::held;
   std::uint64_t runs = 0;   ///< that were made
@@ -49,11 +58,13 @@ struct Report {
   std::uint64_t unfinished_run = 0;
   bounded::Termination unfinished_termination = bounded::Termination::horizon;
   std::string unfinished_message;  ///< why it ended
-  std::uint64_t close = 0;         ///< undecided runs that reach it: a comparison is too close
   /// Of runs that were made many at once: how many the careful run has decided, and by
   /// packs::Why those that were left open. None where all runs are made one by one.
   std::optional<std::uint64_t> careful;
   std::array<std::uint64_t, packs::kWhys> open{};
+  /// The first of the undecided runs; where they are violations that do not happen again when
+  /// repeated, the worst of these.
+  std::optional<UndecidedRun> first_undecided;
   std::uint64_t repeated = 0;  ///< runs that were repeated: in 31 digits, or more accurately
   /// The repeated runs that violate again, in order. The worst run of the campaign and that of each
   /// claim are repeated if they violate.

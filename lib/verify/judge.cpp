@@ -73,8 +73,10 @@ RunVerdict last_verdict(const bounded::Track<Scalar>& track,
 /// What both runs say; undecided where they differ.
 RunVerdict agreed(RunVerdict one, const RunVerdict& other) {
   for (std::size_t i = 0; i < one.findings.size(); ++i)
-    if (one.findings[i].judgement != other.findings[i].judgement)
+    if (one.findings[i].judgement != other.findings[i].judgement) {
       one.findings[i].judgement = claims::Judgement::undecided;
+      one.findings[i].disputed = true;
+    }
   if (one.judgement != other.judgement) one.judgement = claims::Judgement::undecided;
   one.confirmed = one.judgement == claims::Judgement::violated;
   return one;

@@ -212,23 +212,35 @@ std::vector<judge::Fault> faults_of(const hybrid::Trajectory& run, const EventSe
   return judge::check_trajectory(run, setup.texts.dynamics, setup.texts.stated, question);
 }
 
-}  // namespace
-
-Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
-                    bool with_rounding) {
-  const EventSetup& events = *setup.events;
+/// InputError for a step that makes too many points.
+void check_points(const Setup& setup, double step) {
   constexpr double kMostPoints = 1e7;
   if (step > 0 && setup.horizon() / step > kMostPoints)
     throw InputError({}, "a step of " + brief(step) + " makes " + brief(setup.horizon() / step, 2) +
                              " points of a run of length " + brief(setup.horizon()) +
                              "; at most 1e7 are written");
+}
+
+}  // namespace
+
+Replay table_of_run(const Setup& setup, hybrid::Trajectory run, double step, bool with_rounding) {
+  check_points(setup, step);
   Replay result;
-  result.run = simulate::Simulator(events.system, events.scenario)
-                   .run(seed, run, events.accuracy(kAccuracyOfOne));
+  result.run = std::move(run);
   std::optional<Concluding> concluding;
   if (result.run.ending == hybrid::Ending::interrupted) concluding.emplace();
-  EventTable(events).fill(step, with_rounding, result);
+  EventTable(*setup.events).fill(step, with_rounding, result);
   return result;
+}
+
+Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
+                    bool with_rounding) {
+  check_points(setup, step);
+  const EventSetup& events = *setup.events;
+  return table_of_run(setup,
+                      simulate::Simulator(events.system, events.scenario)
+                          .run(seed, run, events.accuracy(kAccuracyOfOne)),
+                      step, with_rounding);
 }
 
 Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,

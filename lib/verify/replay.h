@@ -56,6 +56,10 @@ struct Replay {
 Replay table_of_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,
                     bool with_rounding = false);
 
+/// The table of a run that is there, without claims and faults.
+Replay table_of_run(const Setup& setup, hybrid::Trajectory run, double step,
+                    bool with_rounding = false);
+
 /// The same with the claims, which a stop leaves out. `judged`: whether the run is checked against
 /// the texts.
 Replay replay_run(const Setup& setup, std::uint64_t seed, std::uint64_t run, double step,

@@ -38,5 +38,65 @@ TEST(CampaignText, AnErrorWithoutBoundIsSaidInWords) {
   EXPECT_EQ(text.find("inf"), std::string::npos) << text;
 }
 
+/// Run 7 of 20 is the first of two that are undecided.
+verify::Report two_undecided() {
+  verify::Report report;
+  report.verdict = model::CampaignVerdict::undecided;
+  report.runs = report.asked = 20;
+  report.undecided = 2;
+  report.worst_run = 9;
+  report.checks.resize(2);
+  report.checks[1].name = "small";
+  report.first_undecided = {7, bounded::Termination::horizon, "", 1, {}};
+  claims::Finding& finding = report.first_undecided->finding;
+  finding.judgement = claims::Judgement::undecided;
+  finding.estimated = true;
+  finding.rounding = 0.5;
+  finding.value = 1.25;
+  finding.bound = 1.5;
+  finding.t = 3;
+  return report;
+}
+
+TEST(CampaignText, TheFirstUndecidedRunSaysWhy) {
+  const std::string text = campaign_summary(two_undecided(), "gains.json");
+  for (const char* words :
+       {"undecided in 2 of 20 runs, worst run 9",
+        "2 of 20 runs undecided; first run 7: small at (t, j) = (3, 0): known to 0.5 by two "
+        "integrations: nothing is certain of 1.25 <= 1.5",
+        "simulate gains.json --run 7"})
+    EXPECT_NE(text.find(words), std::string::npos) << words << "\n" << text;
+}
+
+TEST(CampaignText, ARunThatEndsEarlyIsNotSaidToBeTooClose) {
+  verify::Report report = two_undecided();
+  report.unfinished = 2;
+  report.unfinished_run = 7;
+  report.first_undecided->termination = bounded::Termination::lost;
+  report.first_undecided->message = "the order of two events is open";
+  const std::string text = campaign_summary(report, "gains.json");
+  EXPECT_NE(text.find("it ends at t = 3, before the horizon: the order of two events is open"),
+            std::string::npos)
+      << text;
+  for (const char* words : {"tolerance", "nothing is certain", "reach the horizon; run"})
+    EXPECT_EQ(text.find(words), std::string::npos) << words << "\n" << text;
+}
+
+TEST(CampaignText, ADisputedViolationIsNotSaidToBeTooClose) {
+  verify::Report report = two_undecided();
+  report.first_undecided->finding.disputed = true;
+  const std::string text = campaign_summary(report, "gains.json");
+  EXPECT_NE(text.find("one computation of the run violates it"), std::string::npos) << text;
+  EXPECT_EQ(text.find("known to"), std::string::npos) << text;
+}
+
+TEST(CampaignText, TheLineNamesTheWorstRun) {
+  verify::Report report = two_undecided();
+  report.undecided = 0;
+  report.first_undecided.reset();
+  report.verdict = model::CampaignVerdict::held;
+  EXPECT_EQ(campaign_line(campaign_record(report, "")), "held in 20 runs, worst run 9");
+}
+
 }  // namespace
 }  // namespace gainsmith::app

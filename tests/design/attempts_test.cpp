@@ -367,7 +367,7 @@ TEST(Attempts, WhatIsOpenBetweenThePointsIsNoYes) {
   const Case of(
       "  unknowns: {x: scalar}\n  require:\n    wave: {forall: \"t in [0, 1]\", that: \"sqrt(1)*x "
       "+ "
-      "cos(1e7*t) > 0\"}\n  minimize: x\nsynthesis: {forall: exchange}\n");
+      "cos(3e4*t) > 0\"}\n  minimize: x\nsynthesis: {forall: exchange}\n");
   const Answer point = [&](const sdp::Problem& problem) {
     return problem.c.back() == -1 ? inside(of, {1.0001})(problem) : minimum(of, {1.0001})(problem);
   };

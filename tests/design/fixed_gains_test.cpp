@@ -156,18 +156,5 @@ TEST(FixedGains, PolynomialGainsAreFunctions) {
   EXPECT_EQ(solved.check().verdict, model::Verdict::no);
 }
 
-TEST(FixedGains, SinglePrecisionKeepsItsExactDecimals) {
-  Solved solved(kObserver);
-  solved.set("L", numbers::Matrix{{0.1}, {-3}});
-  const model::Gains rounded = rounded_to_single(solved.yaml.instance, solved.gains);
-  EXPECT_EQ(rounded.gains[0].second(0), static_cast<double>(0.1F));
-  EXPECT_EQ(rounded.decimals.at("gains.L"),
-            (std::vector<std::string>{"0.100000001490116119384765625", "-3"}));
-  solved.set("L", numbers::Matrix{{1e39}, {0}});
-  const InputError error =
-      tests::input_error([&] { rounded_to_single(solved.yaml.instance, solved.gains); });
-  EXPECT_NE(error.message().find("gains.L"), std::string::npos) << error.message();
-}
-
 }  // namespace
 }  // namespace gainsmith::design

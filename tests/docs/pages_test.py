@@ -18,6 +18,7 @@ import unittest
 BUILT = sys.argv.pop(2)
 PROGRAM = os.environ.get("GAINSMITH_TEST_PROGRAM") or BUILT
 TREE = sys.argv.pop(1)
+GALLERY = "docs/gallery.md"
 
 
 def read(path):
@@ -77,7 +78,7 @@ def prints(shown, printed):
     return re.fullmatch(pattern.replace("\n" + r"\.\.\.", r"(?:\n.*)*").replace(r"\.\.\.", ".*"), printed) is not None
 
 
-class Pages(unittest.TestCase):
+class PagesSayWhatIsThere(unittest.TestCase):
     def test_links_lead_somewhere(self):
         for page in pages():
             # What stands between backticks is code: [1, 2](1) is an index there.
@@ -123,8 +124,25 @@ class Pages(unittest.TestCase):
                           'data: {A: "[0.2, -1.01; 1, 0]", C: "[0.5, -1]", T1: 0.5, T2: 0.7}\n')
             self.assertEqual(found.returncode, 0, found.stderr)
 
+    def test_readme_lists_the_subcommands(self):
+        listed = re.findall(r"^\| `gainsmith (\w+)", read("README.md"), re.M)
+        known = re.findall(r"^  (\w+)  ", run("--help").stdout.split("Subcommands:")[1], re.M)
+        self.assertEqual(sorted(listed), sorted(known))
+
+    def test_bibliography_names_the_methods(self):
+        for method in json.loads(run("methods", "--json").stdout):
+            self.assertIn(f"`{method['method']}`", read("docs/bibliography.md"))
+
+    def test_keys_of_method_and_problem_files(self):
+        page = read("docs/language.md")
+        for source in ("method_yaml", "problem_yaml", "synthesis_yaml", "search_yaml", "expectation_yaml"):
+            for key in re.findall(r'(?:find|require)\("(\w+)"\)', read(f"lib/io/{source}.cpp")):
+                self.assertRegex(page, rf"(`|`\w+\.|\{{|\b){key}\b", f"{source}: {key}")
+
+
+class OfCommands:
     def test_commands_print_what_is_shown(self):
-        for page in os.environ.get("GAINSMITH_TEST_PAGES", "").split() or pages():
+        for page in self.pages():
             problems, found = transcripts(page)
             self.assertTrue(found or page not in ("README.md", "docs/tutorial.md", "docs/gallery.md", "docs/add-a-method.md", "docs/forall.md"), page)
             with tempfile.TemporaryDirectory() as folder:
@@ -155,20 +173,21 @@ class Pages(unittest.TestCase):
             for of in words[1:]:
                 self.assertEqual(*[[word for word in each if re.match("[a-z]", word)] for each in (of, words[0])], f"{page}: {target}")
 
-    def test_readme_lists_the_subcommands(self):
-        listed = re.findall(r"^\| `gainsmith (\w+)", read("README.md"), re.M)
-        known = re.findall(r"^  (\w+)  ", run("--help").stdout.split("Subcommands:")[1], re.M)
-        self.assertEqual(sorted(listed), sorted(known))
 
-    def test_bibliography_names_the_methods(self):
-        for method in json.loads(run("methods", "--json").stdout):
-            self.assertIn(f"`{method['method']}`", read("docs/bibliography.md"))
+class Gallery(OfCommands, unittest.TestCase):
+    """The page that runs longest."""
 
-    def test_keys_of_method_and_problem_files(self):
-        page = read("docs/language.md")
-        for source in ("method_yaml", "problem_yaml", "search_yaml", "expectation_yaml"):
-            for key in re.findall(r'(?:find|require)\("(\w+)"\)', read(f"lib/io/{source}.cpp")):
-                self.assertRegex(page, rf"(`|`\w+\.|\{{|\b){key}\b", f"{source}: {key}")
+    @staticmethod
+    def pages():
+        return [GALLERY]
+
+
+class Commands(OfCommands, unittest.TestCase):
+    """Those of the other pages, or of GAINSMITH_TEST_PAGES."""
+
+    @staticmethod
+    def pages():
+        return os.environ.get("GAINSMITH_TEST_PAGES", "").split() or [page for page in pages() if page != GALLERY]
 
 
 if __name__ == "__main__":

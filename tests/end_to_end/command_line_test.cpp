@@ -58,7 +58,7 @@ TEST(CommandLineTest, WhatIsWrongIsSaidInOneLineWithTheCure) {
             "unknown option '--thread'; did you mean '--threads'?"},
            {{"synth", good, "--thread=3"}, "unknown option '--thread'; did you mean '--threads'?"},
            {{"synth", good, "more"}, "unexpected argument 'more'"},
-           {{"synth"}, "problem is required"},
+           {{"synth"}, "problem is missing: problem file (YAML)"},
            {{"verify", "x", "--seed", "18446744073709551616"}, "2^64 - 1"},
            {{"verify", "x", "--seed", "-1"}, "whole number"},
            {{"simulate", "x", "--run", "18446744073709551616"}, "2^64 - 1"}}) {

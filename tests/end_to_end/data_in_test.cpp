@@ -3,7 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <filesystem>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -146,6 +149,47 @@ TEST(DataIn, WhatIsWrongInAFileIsSaidWithItsPlace) {
   EXPECT_NE(cut.err.find("the file is cut off within variable 3"), std::string::npos) << cut.err;
   const Words left = folder.names();
   EXPECT_EQ(std::count(left.begin(), left.end(), "gains.json"), 0);
+}
+
+/// The shortest decimal of a cell; what is no number is as it stands.
+std::string shortest(const std::string& cell) {
+  double value = 0;
+  const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (end.ec != std::errc() || end.ptr != cell.data() + cell.size()) return cell;
+  std::array<char, 40> digits{};
+  return {digits.data(), std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr};
+}
+
+std::size_t digits_of(const std::string& cell) {
+  const std::string number = cell.substr(0, cell.find('e'));
+  return static_cast<std::size_t>(
+      std::count_if(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; }));
+}
+
+TEST(DataIn, TablesHaveTheShortestDecimals) {
+  const Folder folder;
+  const std::string file = folder.path("table.csv");
+  const std::string t2 = problem("ferrante-seuret-2021/t2-0.70.yaml");
+  ASSERT_EQ(gainsmith({"scan", t2, "--over", "T2=0.6:0.7:5", "-o", file}).exit, 0);
+  EXPECT_NE(text_of(file).find("\n0.625,yes"), std::string::npos) << text_of(file);
+  const std::string gains = folder.path("gains.json");
+  ASSERT_EQ(gainsmith({"synth", t2, "-o", gains}).exit, 0);
+  const std::string run = folder.path("run.csv");
+  ASSERT_EQ(gainsmith({"simulate", gains, "--step", "0.1", "-o", run}).exit, 0);
+  EXPECT_NE(text_of(run).find("\n0.1,"), std::string::npos);
+  std::size_t numbers = 0;
+  for (const std::string& path : {file, run}) {
+    std::istringstream lines(text_of(path));
+    for (std::string line, cell; std::getline(lines, line);)
+      for (std::istringstream cells(line); std::getline(cells, cell, ',');) {
+        const std::string best = shortest(cell);
+        // 100 and 1e+02 have the same value; a table may have the longer one.
+        EXPECT_TRUE(best.find('e') != std::string::npos || digits_of(cell) == digits_of(best))
+            << cell;
+        ++numbers;
+      }
+  }
+  EXPECT_GT(numbers, 1000U);
 }
 
 }  // namespace

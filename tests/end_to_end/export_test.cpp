@@ -255,12 +255,13 @@ TEST(ExportNames, WordsOfALanguageAreNoNamesInIt) {
   ASSERT_EQ(gainsmith({"synth", folder.file("p.yaml", kWords), "-o", gains}).exit, 0);
   ASSERT_EQ(gainsmith({"export", gains, "--to", "c", "-o", folder.path("w.h")}).exit, 0);
   // 1 mod 2 + sign(0.1) + 0 + atan2(1, 1) + 1 at the start; the inverse of I after a sample.
-  folder.file("w.c",
-              "#include <stdio.h>\n#include \"w.h\"\nint main(void)\n{\n"
-              "  w_state__state s, r;\n  w_state__start(&s);\n  w_state__rate(&s, 0.5, 0.1, &r);\n"
-              "  w_state__jump_sample(&s, 1.0);\n"
-              "  printf(\"%.12f %.12f %.1f %.1f\\n\", r.lambda, r.float_[1], s.M[0][0], s.float_[0]);\n"
-              "  return 0;\n}\n");
+  folder.file(
+      "w.c",
+      "#include <stdio.h>\n#include \"w.h\"\nint main(void)\n{\n"
+      "  w_state__state s, r;\n  w_state__start(&s);\n  w_state__rate(&s, 0.5, 0.1, &r);\n"
+      "  w_state__jump_sample(&s, 1.0);\n"
+      "  printf(\"%.12f %.12f %.1f %.1f\\n\", r.lambda, r.float_[1], s.M[0][0], s.float_[0]);\n"
+      "  return 0;\n}\n");
   ASSERT_EQ(shell("gcc -std=c99 -Wall -Wextra -Wconversion -Wpedantic -Werror " +
                       folder.path("w.c") + " -o " + folder.path("w") + " -lm",
                   folder.path("compiled")),
@@ -310,7 +311,28 @@ TEST(ExportFloat, GainsThatDoNotHoldThereAreRefused) {
   EXPECT_TRUE(has(outcome.err, "at single precision the inequalities do not hold: "))
       << outcome.err;
   EXPECT_TRUE(has(outcome.err, "high") || has(outcome.err, "low")) << outcome.err;
+  EXPECT_TRUE(has(outcome.err, "ask for less, or export without --float")) << outcome.err;
   EXPECT_FALSE(std::filesystem::exists(folder.path("k.h")));
+}
+
+/// The least norm leaves no margin. The command that the program prints gives gains that it exports.
+TEST(ExportFloat, TheCommandThatIsPrintedWorks) {
+  const Folder folder;
+  for (const std::string design : {"output-feedback", "discrete-output-feedback", "observer"}) {
+    const std::string gains = folder.path(design + ".json");
+    ASSERT_EQ(gainsmith({"synth", problem("designs/" + design + ".yaml"), "-o", gains}).exit, 0);
+    const Outcome refused = gainsmith({"export", gains, "--to", "c", "--float"});
+    EXPECT_NE(refused.exit, 0) << design;
+    EXPECT_TRUE(has(refused.err, design == "observer" ? ": decay; nothing" : ": norm; nothing"))
+        << refused.err;
+    const std::size_t command = refused.err.find("\n  gainsmith synth ");
+    ASSERT_NE(command, std::string::npos) << refused.err;
+    const std::string line = refused.err.substr(command + 3, refused.err.rfind('\n') - command - 3);
+    const std::string rest = line.substr(line.find(' '));
+    EXPECT_TRUE(has(rest, " --set margin=")) << rest;
+    EXPECT_EQ(shell("cd " + problem("designs") + " && " + program() + rest), 0) << rest;
+    EXPECT_EQ(gainsmith({"export", gains, "--to", "c", "--float"}).exit, 0) << rest;
+  }
 }
 
 TEST_F(Export, WrongInputIsNamed) {

@@ -117,6 +117,16 @@ INSTANTIATE_TEST_SUITE_P(
     Runs, Mistakes,
     testing::Values(
         Mistake{&kRun, "runs: 5", "runs: 2.5", 14, 33, "expected a whole number from 1"},
+        Mistake{&kRun, "campaign:   {", "campaign {", 14, 9, "a ':' is missing behind a key"},
+        Mistake{&kRun, "campaign:", "data: {L: 1}\ncampaign:", 14, 8,
+                "no datum 'L'; declare it under 'data' of the method with its shape"},
+        Mistake{&kRun, "sin(x(1))", "sin(x1)", 4, 38,
+                "unknown name 'x1'; an element of x is written x(1)"},
+        Mistake{&kRun, "sin(x(1))", "sin(x(3))", 4, 40, "the index 3 is outside 1:2 in x(3)"},
+        Mistake{&kRun, "shrinks: norm(e)", "shrinks: e", 13, 31,
+                "expected 1 x 1; the size of a column is norm(e), an element e(1)"},
+        Mistake{&kRun, "x: {shape: 2", "x: {size: 2", 7, 25,
+                "x: the key 'shape' is missing; unknown here: 'size'"},
         Mistake{&kRun, "horizon: 10", "horizon: -10", 14, 23, "must be positive, not -10"},
         Mistake{&kRun, "flow: {x: f(x)}", "flow: {z: f(x)}", 7, 104,
                 "the flow of 'z', which is no state; known: x"},
@@ -145,6 +155,14 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{&kRun, "sin(x(1))", "sin(x(1), 2)", 4, 34, "'sin' is written sin(x)"},
         Mistake{&kRun, "campaign:", "expect: {verdict: maybe}\ncampaign:", 14, 19,
                 "known: yes, no, undecided"}));
+
+TEST(WrongFiles, ALikeNameIsNamed) {
+  const Folder folder;
+  const std::string file = folder.file("motor.yaml", kRun);
+  const Outcome outcome = gainsmith({"check", folder.path("motor.yml")});
+  EXPECT_EQ(outcome.exit, 2);
+  EXPECT_NE(outcome.err.find("did you mean '" + file + "'?"), std::string::npos) << outcome.err;
+}
 
 TEST(WrongFiles, AreNamedForWhatTheyAre) {
   const Folder folder;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <regex>
@@ -89,6 +90,14 @@ TEST(Pictures, TheUsualOneHasInputsUnitsAndClaimsApart) {
     EXPECT_TRUE(has_line(texts, line)) << line << "\n" << texts;
 }
 
+TEST(Pictures, TheWorstRunHasTheSameAxes) {
+  const Folder folder;
+  gainsmith({"run", folder.file("p.yaml", kOscillator), "-o", folder.path("out")});
+  const std::string texts = texts_of(text_of(folder.path("out/p/worst-run.svg")));
+  for (const char* line : {"m", "m/s", "u", "N", "t [s]"})
+    EXPECT_TRUE(has_line(texts, line)) << line << "\n" << texts;
+}
+
 TEST(Pictures, TheBoundOfShrinksIsDrawn) {
   const std::string with = drawn({"--panels", "filter.small"});
   EXPECT_EQ(count(with, "stroke-dasharray=\"3 2\""), 1U);
@@ -128,6 +137,47 @@ TEST(Pictures, PlanesShowThePlantAndItsEstimates) {
   EXPECT_TRUE(has_line(texts_of(drawn({"--phase", "x1,x2", "--panels", "u"})), "t [s]"));
 }
 
+/// The longest line between two points of a picture's curves, in pixels.
+double longest_line(const std::string& picture) {
+  const std::string begin = "stroke-width=\"1.6\" stroke-linejoin=\"round\" d=\"";
+  double longest = 0;
+  for (std::size_t at = picture.find(begin); at != std::string::npos;
+       at = picture.find(begin, at + 1)) {
+    const std::string path =
+        picture.substr(at + begin.size(), picture.find('"', at + begin.size()) - at - begin.size());
+    for (std::size_t line = path.find('l'); line != std::string::npos;
+         line = path.find('l', line + 1)) {
+      const char* next = path.c_str() + line + 1;
+      while (*next != 'M' && *next != '\0') {
+        char* end = nullptr;
+        const double across = std::strtod(next, &end);
+        const double down = std::strtod(*end == ',' ? end + 1 : end, &end);
+        longest = std::max(longest, std::hypot(across, down));
+        next = end;
+      }
+    }
+  }
+  return longest;
+}
+
+/// 160 turns of an oscillator, and turns of Lorenz' system, which is integrated.
+TEST(Pictures, OrbitsHaveNoCorners) {
+  const std::pair<const char*, const char*> plants[] = {
+      {"2", "[-0.01, 5; -5, -0.01]*x"},
+      {"3", "[10*(x(2) - x(1)); x(1)*(28 - x(3)) - x(2); x(1)*x(2) - 8/3*x(3)]"}};
+  for (const auto& [size, flow] : plants) {
+    const std::string picture =
+        drawn({"--phase", "x1,x2"},
+              "problem: orbit\nmethod: {plant: {state: {x: " + std::string(size) +
+                  "}, flow: {x: \"" + flow +
+                  "\"}}}\n"
+                  "campaign: {runs: 1, horizon: 200, initial: {x: {box: [0.5, 1]}}}\n");
+    const double longest = longest_line(picture);
+    EXPECT_GT(longest, 1) << flow;
+    EXPECT_LT(longest, 100) << flow;
+  }
+}
+
 TEST(Pictures, BandsComeFromTheOptionOrTheProblem) {
   const std::string label = "filter.xh1 \xC2\xB1 2\xCF\x83";
   EXPECT_FALSE(has(drawn({}), label));
@@ -159,6 +209,8 @@ TEST(Pictures, AreTheSameBytesTwice) {
 TEST(Pictures, WrongRequestsSayWhatWasExpected) {
   const std::vector<std::pair<std::vector<std::string>, std::string>> wrong = {
       {{"--phase", "x1,x3"}, "--phase: no quantity of the run is named 'x3'; did you mean 'x1'?"},
+      {{"--phase", "x1,speed"},
+       "--phase: no quantity of the run is named 'speed'; known: x1, x2, u, y1, "},
       {{"--phase", "x1"}, "--phase: expected two names, such as x1,x2, not 'x1'"},
       {{"--phase", "x1,"}, "--phase: expected two names"},
       {{"--phase", "x1,x2,u"}, "--phase: expected two names"},
@@ -282,7 +334,9 @@ TEST(Pictures, PdfAndPngAreWhatTheirNamesSay) {
       ASSERT_EQ(simulate(folder, {}, name).exit, 0);
       const std::string bytes = text_of(folder.path(name));
       EXPECT_TRUE(bytes.starts_with(start)) << bytes.substr(0, 8);
-      if (time == 1) EXPECT_EQ(bytes, before);
+      if (time == 1) {
+        EXPECT_EQ(bytes, before);
+      }
       before = bytes;
     }
   }

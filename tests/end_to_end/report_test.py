@@ -165,6 +165,8 @@ class Pages(unittest.TestCase):
         os.makedirs(self.at("empty"), exist_ok=True)
         self.assertIn("no results here", error(self.at("empty")))
         self.assertIn("missing.json", error(self.at("missing.json")))
+        self.assertIn("did you mean 'impossible'?", error(self.at("out", "imposible")))
+        self.assertIn("known: a&b 'c', impossible, wrong", error(self.at("out", "by-name")))
         self.assertIn("no gain file", error(self.at("impossible.yaml")))
         for name, change, words in [
                 ("gains.json", lambda text: text[:len(text) // 2], r"gains\.json:\d+:\d+"),

@@ -121,6 +121,16 @@ TEST(ExportFiles, AHeaderHasGainsAndMaps) {
     EXPECT_TRUE(has(text, part)) << part << "\n" << text;
 }
 
+TEST(ExportFiles, TheLibraryIsIncludedWhereItIsUsed) {
+  Content without = content(problem("{every: 0.1}", kSampled));
+  EXPECT_FALSE(has(c_file(without, "m"), "#include"));
+  Content with =
+      content(problem("{every: 0.1}",
+                      "  observer: {state: {xh: {shape: n, start: 0}}, at: {sample: {xh: "
+                      "xh + K*sin(y)}}}\n"));
+  EXPECT_TRUE(has(c_file(with, "m"), "#include <math.h>\n"));
+}
+
 TEST(ExportFiles, NamesOfTheProblemEndNoComment) {
   Content made = content(problem("{every: 0.1}", kSampled));
   made.problem = "a */ b /* c";

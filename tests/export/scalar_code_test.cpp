@@ -83,6 +83,13 @@ TEST_F(ScalarCode, HelpersAreThoseThatAreUsed) {
   EXPECT_EQ(text.find('$'), std::string::npos);
 }
 
+TEST_F(ScalarCode, TheLibraryIsSaidToBeUsed) {
+  for (const std::string text : {"sin(a)", "a^0.5", "mod(a, b)", "atan2(a, b)", "inv(S)*v"})
+    EXPECT_TRUE(code(text, kC).library) << text;
+  for (const std::string text : {"a*b", "max(a, b)", "sign(a)", "where(a > b, a, k)", "S*v"})
+    EXPECT_FALSE(code(text, kC).library) << text;
+}
+
 TEST_F(ScalarCode, WhatHasNoFormulaIsNamed) {
   try {
     code("svd(S)", kC);

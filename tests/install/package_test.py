@@ -24,16 +24,17 @@ def fields(package):
     return dict(re.findall(r"^([\w-]+): (.*(?:\n .*)*)", text, re.M))
 
 
-def in_clean_debian(package, commands):
-    """Runs commands in a Debian of essential packages, after the package and before its removal; none: why it cannot."""
+def in_clean_debian(package, files, commands):
+    """Runs commands in a Debian of essential packages with these files of the tree in /srv, after the package and before its removal; none:
+    why it cannot."""
     if not has("mmdebstrap"):
         return "mmdebstrap is not installed: scripts/packages --with install"
     if os.getuid() != 0:
         return "this needs root"
-    hooks = [f"--customize-hook=copy-in {package} /srv", f"--customize-hook=copy-in {TREE}/tests/docs/pages_test.py /srv",
+    hooks = [f"--customize-hook=copy-in {package} {' '.join(os.path.join(TREE, file) for file in files)} /srv",
              f"--customize-hook=chroot \"$1\" apt-get install --yes --no-install-recommends /srv/{os.path.basename(package)}"]
     hooks += [f"--customize-hook=chroot \"$1\" sh -e -c '{command}'" for command in commands]
-    hooks += ["--customize-hook=chroot \"$1\" apt-get purge --yes gainsmith",
+    hooks += [f"--customize-hook=chroot \"$1\" apt-get purge --yes {os.path.basename(package).split('_')[0]}",
               "--customize-hook=! find \"$1/usr\" \"$1/etc\" -name \"*gainsmith*\" | grep ."]
     done = subprocess.run(["mmdebstrap", "--variant=apt", "--format=null", "--include=python3-minimal,libpython3-stdlib",
                            "--dpkgopt=force-unsafe-io", "--dpkgopt=path-include=/usr/share/*",
@@ -45,7 +46,7 @@ def in_clean_debian(package, commands):
     return None
 
 
-class Packages(unittest.TestCase):
+class OfPackages:
     @classmethod
     def setUpClass(cls):
         cls.folder = tempfile.TemporaryDirectory()
@@ -58,6 +59,14 @@ class Packages(unittest.TestCase):
     def tearDownClass(cls):
         cls.folder.cleanup()
 
+    def try_in_clean_debian(self, package, files, commands):
+        reason = in_clean_debian(self.packages[package], files, commands)
+        if reason:
+            print(f"skipped: {reason}", file=sys.stderr)
+            self.skipTest(reason)
+
+
+class Packages(OfPackages, unittest.TestCase):
     def test_their_fields_are_right(self):
         self.assertEqual(sorted(self.packages), ["gainsmith", "gainsmith-dev"])
         for name, package in self.packages.items():
@@ -77,12 +86,16 @@ class Packages(unittest.TestCase):
         share = "/usr/share/gainsmith"
         commands = ["gainsmith --version", f"test -s /usr/share/man/man1/gainsmith.1.gz && test -s {share}/LICENSE",
                     f"cd /srv && gainsmith run {share}/problems/ferrante-seuret-2021/t2-0.70.yaml -o /srv/results",
-                    f"GAINSMITH_TEST_PAGES=README.md python3 /srv/pages_test.py {share} /usr/bin/gainsmith "
-                    "Pages.test_commands_print_what_is_shown"]
-        reason = in_clean_debian(self.packages["gainsmith"], commands)
-        if reason:
-            print(f"skipped: {reason}", file=sys.stderr)
-            self.skipTest(reason)
+                    f"GAINSMITH_TEST_PAGES=README.md python3 /srv/pages_test.py {share} /usr/bin/gainsmith Commands"]
+        self.try_in_clean_debian("gainsmith", ["tests/docs/pages_test.py"], commands)
+
+
+class Development(OfPackages, unittest.TestCase):
+    def test_a_clean_debian_builds_the_example_of_the_library(self):
+        commands = ["cd /srv/api && cmake -B build && cmake --build build",
+                    "cd /srv && sed -n \"/^problem: motor/,/^\\`\\`\\`/p\" README.md | grep -v \"^\\`\\`\\`\" > motor.yaml",
+                    "cd /srv && api/build/observer motor.yaml | grep \"holds: yes\""]
+        self.try_in_clean_debian("gainsmith-dev", ["docs/api", "README.md"], commands)
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ model::CampaignRecord campaign() {
   record.undecided = 1;
   record.unfinished = 1;
   record.first_unfinished = {17, "escapes \"<b>\""};
+  record.first_undecided = {3, "nothing is certain of 1 <= 1"};
   record.worst_run = 17;
   record.repeated = 3;
   record.confirmed = {17, 18};
@@ -55,6 +56,7 @@ TEST(CampaignJson, IsReadAsItWasWritten) {
     EXPECT_EQ(read.seed, record.seed);
     EXPECT_EQ(read.integrated, integrated);
     EXPECT_FALSE(read.checks[0].worst.bound);
+    EXPECT_EQ(read.first_undecided->run, 3U);
     EXPECT_EQ(read.checks[1].missing, std::vector<std::string>{"P"});
   }
 }

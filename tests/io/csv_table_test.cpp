@@ -49,13 +49,6 @@ TEST(CsvTable, ReadsWhatIsWrittenHere) {
   add_csv_line(cells, text);
   const CsvTable log = table(text);
   for (std::size_t k = 0; k < 4; ++k) EXPECT_EQ(log.text(0, k), cells[k]);
-  const numbers::Matrix values{{0.1, 1.0 / 3, -2e300}, {5e-324, 0, 1}};
-  const std::string three[] = {"a", "b", "c"};
-  const CsvTable numbers = table(to_csv(three, values));
-  for (std::size_t row = 0; row < 2; ++row)
-    for (std::size_t k = 0; k < 3; ++k)
-      EXPECT_EQ(numbers.number(row, k),
-                values(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(k)));
 }
 
 TEST(CsvTable, SaysWhereWhatIsWrongStands) {

@@ -100,9 +100,15 @@ TEST_F(DataFiles, AreRefusedWithTheirPlace) {
         Case{"  A: {csv: A.csv, npy: A.npy}\n", 4, 19, "either 'csv' or 'npy', not both"},
         Case{"  A: {csv: A.csv, column: x}\n", 4, 19, "unknown key 'column'"},
         Case{"  A: {csv: [A.csv]}\n", 4, 12, "expected a text, found a list"},
-        Case{"  A: {csv: B.csv}\n", 4, 3, "is declared n x n (n = 1); found 1 x 2"},
+        Case{"  A: {csv: B.csv}\n", 4, 3, "is declared n x n (n = 1); found 1 x 2 in "},
         Case{"  A: {csv: word.csv}\n", 2, 3, "expected a finite decimal number, found 'x'"},
-        Case{"  A: {cvs: A.csv}\n", 4, 6, "expected an expression, found a mapping"}}) {
+        Case{"  A: {cvs: A.csv}\n", 4, 6, "found a mapping with 'cvs'; did you mean 'csv'?"},
+        Case{"  A: {mtx: A.mtx}\n", 4, 6,
+             "a matrix of a file as in {csv: FILE}; found a mapping with 'mtx'; known: csv, npy, "
+             "mat, json"},
+        Case{"  A: {name: A}\n", 4, 6, "found a mapping with 'name'"},
+        Case{"  A: {}\n", 4, 6, "found an empty mapping"},
+        Case{"  A: A.csv\n", 4, 6, "a matrix of a file is written {csv: A.csv}"}}) {
     const InputError error = refused(one.data + kRest);
     EXPECT_EQ(error.place().line, one.line) << error.what();
     EXPECT_EQ(error.place().column, one.column) << error.what();
@@ -197,6 +203,17 @@ TEST_F(DataFiles, ASettingIsADefinitionOrAFunction) {
   EXPECT_EQ(report({{"f(z)", "2*z"}}, 2), 10);
 }
 
+TEST_F(DataFiles, ASettingMayBeOneOfTheSynthesis) {
+  const std::string data = "  A: [[0.2, -1.01], [1, 0]]\n" + kRest;
+  const model::Problem set = read(data, {{"margin", "1e-6"}, {"gain_bound", "{L: 2, F: 3}"}});
+  EXPECT_EQ(set.synthesis.margin, 1e-6);
+  EXPECT_EQ(set.synthesis.gain_bound, 3);
+  EXPECT_EQ(set.synthesis.gain_bounds.size(), 2U);
+  EXPECT_TRUE(set.synthesis.gain_bound_stated);
+  EXPECT_FALSE(read(data, {{"gain_bound", "none"}}).synthesis.gain_bound);
+  EXPECT_EQ(stated_problem(gains_of(set), path("gains.json")).synthesis.margin, 1e-6);
+}
+
 TEST_F(DataFiles, ASettingIsRefusedWithItsPlace) {
   const std::string data = "  A: [[0.2, -1.01], [1, 0]]\n" + kRest;
   struct Case {
@@ -212,6 +229,10 @@ TEST_F(DataFiles, ASettingIsRefusedWithItsPlace) {
         Case{{{"T2", "0.5 +"}}, {"--set T2", 1, 6}, ""},
         Case{{{"T2", "Tx"}}, {"--set T2", 1, 1}, "unknown name 'Tx'"},
         Case{{{"T2", " "}}, {"--set T2"}, "there is no value"},
+        Case{{{"margin", ""}}, {"--set margin"}, "there is no value"},
+        Case{{{"margin", "2"}}, {"--set margin", 1, 1}, "so below 1"},
+        Case{{{"gain_bound", "-1"}}, {"--set gain_bound", 1, 1}, "expected a positive number"},
+        Case{{{"gain_bond", "1"}}, {"--set gain_bond"}, "did you mean 'gain_bound'?"},
         Case{{{"T2", "[[1, 2]]"}}, {"--set T2", 1, 1}, "is declared scalar; found 1 x 2"},
         Case{{{"T2", "1"}, {"T2", "2"}}, {"--set T2"}, "given twice"}}) {
     const InputError error = refused(data, one.settings);

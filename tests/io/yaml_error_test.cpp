@@ -39,6 +39,8 @@ TEST(YamlErrors, AMappingThatIsTornApart) {
   expect("a:\n  b: 1\n   c: 2\n", 3, 5, "begin in one column");
   expect("a:\n  b: 1\n c: 2\n", 3, 2, "begin in one column");
   expect("data\n  A: 1\n", 1, 5, "':' is missing");
+  expect("problem motor\nmethod: m\n", 1, 8, "':' is missing");
+  expect("a: 1\ndata {A: \"[1; 2]\"}\n", 2, 5, "':' is missing");
   expect("a: {forall: t in [0, T], that: x}\n", 1, 4, "in { } and [ ] a text with a comma");
 }
 

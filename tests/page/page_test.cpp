@@ -53,6 +53,7 @@ Results odd_results() {
   model::CampaignRecord campaign;
   campaign.unfinished = campaign.repeated = campaign.runs = 1;
   campaign.first_unfinished = {0, kOdd};
+  campaign.first_undecided = {0, kOdd};
   campaign.notes = {kOdd};
   model::ClaimRecord claim;
   claim.name = claim.kind = kOdd;
@@ -73,6 +74,26 @@ TEST(Page, TextsOfUsersAreNoMarkup) {
     EXPECT_FALSE(has(found, "script"));
     EXPECT_TRUE(has(found, "math"));
   }
+}
+
+TEST(Page, UndecidedRunsAreCountedAndTheFirstSaysWhy) {
+  Results results = odd_results();
+  results.campaign->undecided = 3;
+  results.campaign->first_undecided = {12, "nothing is certain of 1 &lt;= 1"};
+  const std::string text = page({results}, "t");
+  EXPECT_NE(text.find("3 runs undecided; first run 12: nothing is certain"), std::string::npos);
+  EXPECT_NE(text.find("--run 12 --plot run-12.svg"), std::string::npos);
+}
+
+TEST(Page, OfAnOptimumTheCommandSaysWhatLimitsIt) {
+  Results results = odd_results();
+  results.gains.statement.problem_file = "motor.yaml";
+  results.gains.verdict = model::Verdict::yes;
+  results.gains.objective = 2;
+  const std::string command = "gainsmith explain motor.yaml";
+  EXPECT_NE(page({results}, "t").find(command), std::string::npos);
+  results.gains.objective.reset();
+  EXPECT_EQ(page({results}, "t").find(command), std::string::npos);
 }
 
 TEST(Page, NothingIsLoaded) {

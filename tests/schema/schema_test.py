@@ -80,10 +80,13 @@ class Walk:
         while "$ref" in form:
             name = form["$ref"].rsplit("/", 1)[1]
             form = self.definitions[name]
+        if "allOf" in form and "properties" not in form:
+            yield from self.levels(value, form["allOf"][0], name, path)
+            return
         if "anyOf" in form and "properties" not in form:
             # Where none fits, a mapping is meant as one with known keys.
             fits = [one for one in form["anyOf"] if self.validator.evolve(schema=one).is_valid(value)]
-            for one in fits or [one for one in form["anyOf"] if "$ref" in one and isinstance(value, dict)]:
+            for one in fits or [one for one in form["anyOf"] if ("$ref" in one or "allOf" in one) and isinstance(value, dict)]:
                 yield from self.levels(value, one, name, path)
                 return
         if isinstance(value, list) and "items" in form:
@@ -116,11 +119,13 @@ def misspelt(key, known):
     return key + key[-1]
 
 
-def mutants(walk, documents, values=OTHER_VALUES):
-    """(description, file, document): each key of each level, once."""
+def mutants(walk, documents, values=OTHER_VALUES, levels=""):
+    """(description, file, document): each key of each level, once; `levels`: how their names begin."""
     seen = set()
     for path, document in documents:
         for name, place in list(walk.levels(document)):
+            if not name.startswith(levels):
+                continue
             known = walk.level(name)["properties"]
             strict = walk.level(name)["additionalProperties"] is False
             for key in list(at(document, place)):
@@ -173,7 +178,9 @@ def sample(walk, form):
     return "1" if "string" in kind else 1 if "number" in kind or "integer" in kind else True
 
 
-class Problems(unittest.TestCase):
+class OfProblems:
+    """The schema of problems beside the reader."""
+
     @classmethod
     def setUpClass(cls):
         cls.validator = schema("problem")
@@ -181,7 +188,6 @@ class Problems(unittest.TestCase):
         cls.paths = sorted(glob.glob(os.path.join(TREE, "problems", "**", "*.yaml"), recursive=True))
         # The smaller ones first: what all have is changed in them.
         cls.documents = [(path, load(path)) for path in sorted(cls.paths, key=os.path.getsize)]
-
     def answers(self, cases):
         """What the reader says of (path, document): None, or its message. Data files are found beside."""
         with tempfile.TemporaryDirectory() as folder:
@@ -201,6 +207,23 @@ class Problems(unittest.TestCase):
                     said[os.path.realpath(result["file"])] = None if result["valid"] else result["message"]
             return [said[os.path.realpath(file)] for file in files]
 
+    def compare(self, cases, least):
+        """Every mistake of the cases is refused, and what is read is accepted. `least`: so many are mistakes."""
+        said = self.answers([case[1:] for case in cases])
+        mistakes = wrong = 0
+        for (what, path, document), message in zip(cases, said):
+            accepts = self.validator.is_valid(document)
+            is_structure = message is not None and STRUCTURE.search(message) is not None
+            mistakes += is_structure
+            if (message is None and not accepts) or (is_structure and accepts):
+                wrong += 1
+                print(f"{os.path.relpath(path, TREE)}: {what}: the schema {'accepts' if accepts else 'refuses'}; the reader: {message}")
+        print(f"{len(cases)} changes, {mistakes} mistakes")
+        self.assertEqual(wrong, 0)
+        self.assertGreater(mistakes, least)
+
+
+class Problems(OfProblems, unittest.TestCase):
     def test_every_problem_and_method_is_accepted(self):
         for path, document in self.documents:
             errors = [f"{list(e.path)}: {e.message[:200]}" for e in self.validator.iter_errors(document)]
@@ -211,19 +234,7 @@ class Problems(unittest.TestCase):
             self.assertEqual(errors, [], path)
 
     def test_mistakes_are_refused_and_what_is_read_is_accepted(self):
-        cases = list(mutants(self.walk, self.documents))
-        said = self.answers([case[1:] for case in cases])
-        mistakes = wrong = 0
-        for (what, path, document), message in zip(cases, said):
-            accepts = self.validator.is_valid(document)
-            is_structure = message is not None and STRUCTURE.search(message) is not None
-            mistakes += is_structure
-            if (message is None and not accepts) or (is_structure and accepts):
-                wrong += 1
-                print(f"{os.path.relpath(path, TREE)}: {what}: the schema {'accepts' if accepts else 'refuses'}; the reader: {message}")
-        print(f"{len(cases)} changes of {len(self.documents)} problems, {mistakes} mistakes")
-        self.assertEqual(wrong, 0)
-        self.assertGreater(mistakes, 200)
+        self.compare(list(mutants(self.walk, self.documents)), 200)
 
     def test_the_reader_knows_every_key_of_the_schema(self):
         documents = list(self.documents)
@@ -246,8 +257,45 @@ class Problems(unittest.TestCase):
         for (key, name, _, _), message in zip(cases, self.answers([case[2:] for case in cases])):
             self.assertNotIn(f"unknown key '{key}'", message or "", name)
             self.assertNotIn("internal error", message or "", name)
-        missing = {name for name, form in self.walk.definitions.items() if "properties" in form} - levels - {"", "problem", "variant"}
+        missing = {name for name, form in self.walk.definitions.items() if "properties" in form} - levels - {"", "problem", "variant"} - {
+            name for name in self.walk.definitions if name.startswith("changed-")}
         self.assertEqual(missing, set(), "levels that no problem and no key leads to")
+
+
+class ChangedMethods(OfProblems, unittest.TestCase):
+    """Methods that are like those of the program."""
+
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        cls.documents = list(cls.changed())
+
+    @classmethod
+    def changed(cls):
+        """A problem of each method, which replaces each part of it by itself."""
+        named = {}
+        for path, document in cls.documents:
+            if isinstance(document["method"], str):
+                named.setdefault(document["method"], (path, document))
+        for path, document in named.values():
+            parts = load(os.path.join(TREE, "lib/methods", document["method"] + ".yaml"))
+            parts = {key: part for key, part in parts.items() if key not in ("method", "task", "example")}
+            yield path, {**document, "method": {"like": document["method"], **parts}}
+
+    def test_what_is_replaced_by_itself_is_accepted(self):
+        self.assertGreater(len(self.documents), 30)
+        for (path, document), message in zip(self.documents, self.answers(self.documents)):
+            self.assertIsNone(message, path)
+            self.assertEqual([e.message[:200] for e in self.validator.iter_errors(document)], [], path)
+
+    def test_mistakes_are_refused_and_what_is_read_is_accepted(self):
+        self.compare(list(mutants(self.walk, self.documents, levels="changed-")), 200)
+
+    def test_values_are_checked(self):
+        for wrong in ({"gains": {"L": [1]}}, {"claims": {"error": {"zz": 1}}}, {"observer": {"state": [1]}}, {"zz": 1}):
+            self.assertFalse(self.validator.is_valid({"problem": "p", "method": {"like": "observer", **wrong}}), wrong)
+        for right in ({"claims": {"error": "none"}}, {"claims": None}, {"observer": {"flow": {"xh": "none"}}}, {"report": "none"}, {}):
+            self.assertTrue(self.validator.is_valid({"problem": "p", "method": {"like": "observer", **right}}), right)
 
 
 class GainFiles(unittest.TestCase):
@@ -272,7 +320,7 @@ class GainFiles(unittest.TestCase):
                 file = os.path.join(folder, "changed.json")
                 with open(file, "w", encoding="utf-8") as stream:
                     json.dump(document, stream)
-                result = run("verify", file, "--runs", "1", "--time", "5")
+                result = run("export", file, "--to", "json")
                 message = result.stderr if result.returncode == 2 else None
                 accepts = validator.is_valid(document)
                 is_structure = message is not None and STRUCTURE.search(message.strip()) is not None
