@@ -28,6 +28,10 @@ class LaneValues {
   std::vector<double> data_;
 };
 
+inline std::int8_t sign_of(double x) {
+  return static_cast<std::int8_t>(x > 0 ? 1 : x < 0 ? -1 : 0);
+}
+
 /// The results of `look`, by PackSystem::LookResult.
 struct LaneLook {
   std::array<LaneValues, PackSystem::extras + 1> of;

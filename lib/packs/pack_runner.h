@@ -52,6 +52,8 @@ struct PackVerdict {
   bool violated() const;
 };
 
+class LaneSet;
+
 class PackRunner {
  public:
   /// One for each thread. The system must outlive it.
@@ -64,8 +66,7 @@ class PackRunner {
   std::vector<PackVerdict> run(std::uint64_t seed, std::uint64_t first, std::uint64_t last);
 
  private:
-  class Lanes;
-  std::unique_ptr<Lanes> lanes_;
+  std::unique_ptr<LaneSet> lanes_;
 };
 
 }  // namespace gainsmith::packs
