@@ -23,7 +23,8 @@ class TapeBlock {
   bool find_value();
   bool find_small_values();
 
-  expr::Instruction instruction_;
+  /// At an address that stays, where the evaluators have it from.
+  std::unique_ptr<const expr::Instruction> instruction_;
   std::vector<std::vector<std::uint32_t>> from_;
   std::vector<Matrix> operands_;
   std::vector<const Matrix*> pointers_;
