@@ -16,10 +16,6 @@ const std::string kFirstOrder =
     "problem: first-order\nmethod: observer\ndata: {A: [[1]], C: [[1]]}\n"
     "parameters: {alpha: 3}\ncampaign: {runs: 5, horizon: 10, initial: {x: 1}}\n";
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 Json explained(const Folder& folder, const std::string& text, int exit = 0) {
   const std::string file = folder.file("p.yaml", text);
   const Outcome outcome = gainsmith({"explain", file, "--json"});

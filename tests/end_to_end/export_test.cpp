@@ -17,10 +17,6 @@
 namespace gainsmith::tests {
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// The exit code of a shell command; what it printed is in the file `output`.
 int shell(const std::string& command, const std::string& output = "/dev/null") {
   const int status = std::system((command + " > " + output + " 2>&1").c_str());

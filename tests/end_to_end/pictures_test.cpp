@@ -14,10 +14,6 @@
 namespace gainsmith::tests {
 namespace {
 
-bool has(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// An oscillator, a force, and two observers; the second one starts near the truth and copies it.
 const std::string kOscillator = R"(problem: oscillator
 method:
@@ -55,7 +51,7 @@ Outcome simulate(const Folder& folder, const std::vector<std::string>& more,
 }
 
 /// The texts of a picture, one a line.
-std::string texts_of(const std::string& picture) {
+std::string words_of(const std::string& picture) {
   std::string texts;
   const std::regex text("<text[^>]*>([^<]*)<");
   for (auto found = std::sregex_iterator(picture.begin(), picture.end(), text);
@@ -83,7 +79,7 @@ std::size_t count(const std::string& text, const std::string& part) {
 }
 
 TEST(Pictures, TheUsualOneHasInputsUnitsAndClaimsApart) {
-  const std::string texts = texts_of(drawn({}));
+  const std::string texts = words_of(drawn({}));
   for (const char* line :
        {"x1", "x2", "m", "m/s", "u", "N", "t [s]", "filter.xh1", "copy.xh2", "size of the error",
         "claim filter.small", "claim copy.small", "claim large", "claim work"})
@@ -93,7 +89,7 @@ TEST(Pictures, TheUsualOneHasInputsUnitsAndClaimsApart) {
 TEST(Pictures, TheWorstRunHasTheSameAxes) {
   const Folder folder;
   gainsmith({"run", folder.file("p.yaml", kOscillator), "-o", folder.path("out")});
-  const std::string texts = texts_of(text_of(folder.path("out/p/worst-run.svg")));
+  const std::string texts = words_of(text_of(folder.path("out/p/worst-run.svg")));
   for (const char* line : {"m", "m/s", "u", "N", "t [s]"})
     EXPECT_TRUE(has_line(texts, line)) << line << "\n" << texts;
 }
@@ -123,18 +119,18 @@ TEST(Pictures, WhatIsRoundingIsNoCurve) {
 }
 
 TEST(Pictures, PanelsAreChosenInOrder) {
-  const std::string texts = texts_of(drawn({"--panels", "large, u,x2"}));
+  const std::string texts = words_of(drawn({"--panels", "large, u,x2"}));
   EXPECT_LT(texts.find("claim large\n"), texts.find("u\n"));
   EXPECT_LT(texts.find("\nu\n"), texts.find("\nx2\n"));
   EXPECT_FALSE(has_line(texts, "x1") || has_line(texts, "size of the error")) << texts;
 }
 
 TEST(Pictures, PlanesShowThePlantAndItsEstimates) {
-  const std::string texts = texts_of(drawn({"--phase", "x1,x2"}));
+  const std::string texts = words_of(drawn({"--phase", "x1,x2"}));
   for (const char* line : {"x2 over x1", "x1 [m]", "x2 [m/s]", "x1, x2", "filter.xh1, filter.xh2"})
     EXPECT_TRUE(has_line(texts, line)) << line << "\n" << texts;
   EXPECT_FALSE(has_line(texts, "t [s]")) << texts;
-  EXPECT_TRUE(has_line(texts_of(drawn({"--phase", "x1,x2", "--panels", "u"})), "t [s]"));
+  EXPECT_TRUE(has_line(words_of(drawn({"--phase", "x1,x2", "--panels", "u"})), "t [s]"));
 }
 
 /// The longest line between two points of a picture's curves, in pixels.
@@ -191,13 +187,13 @@ TEST(Pictures, SeveralRunsLieOverEachOther) {
   const Folder folder;
   const Outcome outcome = simulate(folder, {"--runs", "0,3,17"});
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
-  const std::string texts = texts_of(text_of(folder.path("run.svg")));
+  const std::string texts = words_of(text_of(folder.path("run.svg")));
   for (const char* run : {"run 0", "run 3", "run 17"}) {
     EXPECT_TRUE(has_line(texts, run)) << texts;
     EXPECT_TRUE(has(outcome.out, std::string(run) + " of seed 1")) << outcome.out;
   }
-  EXPECT_NE(texts_of(drawn({"--runs", "3"})).find("x1"), std::string::npos);
-  EXPECT_EQ(count(texts_of(drawn({"--runs", "0:9", "--panels", "x1"})), "run "), 10U);
+  EXPECT_NE(words_of(drawn({"--runs", "3"})).find("x1"), std::string::npos);
+  EXPECT_EQ(count(words_of(drawn({"--runs", "0:9", "--panels", "x1"})), "run "), 10U);
 }
 
 TEST(Pictures, AreTheSameBytesTwice) {
@@ -363,7 +359,7 @@ TEST(Pictures, AScanOfOneScalarHasVerdictsAndGaps) {
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
   EXPECT_TRUE(has(outcome.out, "k [s]")) << outcome.out;
   const std::string picture = text_of(folder.path("scan.svg"));
-  const std::string texts = texts_of(picture);
+  const std::string texts = words_of(picture);
   for (const char* line :
        {"objective", "K [N/m]", "verdict", "feasible", "infeasible", "refused", "k [s]"})
     EXPECT_TRUE(has_line(texts, line)) << line << "\n" << texts;
@@ -384,7 +380,7 @@ TEST(Pictures, AScanOfTwoScalarsIsAMap) {
     return gainsmith(arguments);
   };
   ASSERT_EQ(with({"--plot", folder.path("map.svg")}).exit, 0);
-  const std::string texts = texts_of(text_of(folder.path("map.svg")));
+  const std::string texts = words_of(text_of(folder.path("map.svg")));
   for (const char* line : {"objective", "k [s]", "c", "infeasible", "refused"})
     EXPECT_TRUE(has_line(texts, line)) << line << "\n" << texts;
   const Outcome three = with({"--over", "x=1:2", "--plot", folder.path("three.svg")});
@@ -400,7 +396,7 @@ TEST(Pictures, ABisectionShowsWhatWasTried) {
                                      "--plot", folder.path("bisect.svg"), "--json"});
   ASSERT_EQ(outcome.exit, 0) << outcome.err;
   const std::string picture = text_of(folder.path("bisect.svg"));
-  const std::string texts = texts_of(picture);
+  const std::string texts = words_of(picture);
   for (const char* line : {"k [s]", "feasible", "infeasible", "bracket so far", "value tried",
                            "distance from the largest feasible value"})
     EXPECT_TRUE(has_line(texts, line)) << line << "\n" << texts;

@@ -45,6 +45,11 @@ std::string problem(const std::string& name);
 
 std::string text_of(const std::string& path);
 
+/// Whether a text has a part.
+inline bool has(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
 /// The document without its timings.
 std::string without_timings(const std::string& text);
 
