@@ -60,22 +60,23 @@ void ClaimLane::at(double t, const Reading& reading, std::optional<std::size_t> 
   compare(value, reading.terms, same, false);
 }
 
-void ClaimLane::along(double t, double length, Sample start, Sample middle, Sample last,
-                      const Reading& end, bool breaks, bool halved) {
+void ClaimLane::along(double t, const StepSamples& samples, const Reading& end, bool breaks,
+                      bool halved) {
   const Known value = known(end, false);
   if (claim_->over || !counts(t)) return;
-  const auto signed_of = [&](Sample one) { return Sample{sign_ * one.value, sign_ * one.rate}; };
   const bool same = end.fine == end.coarse && looked_ && value.value == last_.value &&
-                    middle.value == start.value;
+                    samples.middle.value == samples.start.value;
   if (!looked_ || same) return compare(value, end.terms, same, halved);
-  const double rate = std::max({std::abs(start.rate), std::abs(middle.rate), std::abs(last.rate)});
-  const bool down = std::max({start.rate, middle.rate, last.rate}) <= 0;
-  const StepPolynomial along(signed_of(start), signed_of(middle), signed_of(last), length);
+  const auto signed_of = [&](Sample one) { return Sample{sign_ * one.value, sign_ * one.rate}; };
+  const StepSamples own{
+      samples.length,         signed_of(samples.start), signed_of(samples.middle),
+      signed_of(samples.end), sign_ * samples.quarter,  sign_ * samples.three_quarters};
   if (claim_->kind == ClaimKind::nonincreasing)
-    compare({sign_ * middle.value, value.error}, end.terms, false, true);
+    compare({own.middle.value, value.error}, end.terms, false, true);
   compare(value, end.terms, false, halved);
+  const bool down = std::max({own.start.rate, own.middle.rate, own.end.rate}) <= 0;
   if (claim_->kind == ClaimKind::nonincreasing && breaks && down) return;
-  compare_within(along, value, end.terms, length, rate, breaks);
+  compare_within(own, value, end.terms, breaks);
 }
 
 /// The value at a point where the claim is made.
@@ -120,10 +121,12 @@ void ClaimLane::compare(Known value, double terms, bool same, bool crowded) {
 }
 
 /// The value between the points of a step.
-void ClaimLane::compare_within(const StepPolynomial& along, Known end, double terms, double length,
-                               double rate, bool breaks) {
+void ClaimLane::compare_within(const StepSamples& samples, Known end, double terms, bool breaks) {
+  const StepPolynomial along(samples);
   // Where the value branches it goes up and down no faster than at the points.
-  const double error = end.error + (breaks ? length * rate / 2 : along.error());
+  const double rate = std::max(
+      {std::abs(samples.start.rate), std::abs(samples.middle.rate), std::abs(samples.end.rate)});
+  const double error = end.error + std::max(along.error(), breaks ? samples.length * rate / 2 : 0);
   if (claim_->kind == ClaimKind::shrinks) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (violated_) return;
@@ -134,6 +137,8 @@ void ClaimLane::compare_within(const StepPolynomial& along, Known end, double te
   }
   const double forgiven = claim_->tolerance * (limit_ == 0 ? terms : std::abs(limit_));
   const double scale = limit_ == 0 ? 1 : std::abs(limit_);
+  if (breaks)
+    possible_score_ = std::max(possible_score_, (along.largest() + error - limit_) / scale);
   const bool may_exceed = along.largest() + error > limit_ + forgiven;
   if (!may_exceed && (along.largest() - limit_) / scale <= score_) return;
   const double highest = along.highest();
@@ -146,6 +151,8 @@ void ClaimLane::compare_within(const StepPolynomial& along, Known end, double te
 
 void ClaimLane::finish() {
   if (!looked_ || open_) return;
+  // How near a run comes is what the worst one is chosen by.
+  if (possible_score_ > score_ + kScore * (1 + std::abs(score_))) open_ = true;
   const double scale = std::abs(first_.value);
   if (claim_->kind == ClaimKind::nonincreasing && !violated_)
     score_ = scale == 0 ? -1 : (last_.value - first_.value) / scale;

@@ -30,8 +30,7 @@ class ClaimLane {
   void at(double t, const Reading& reading, std::optional<std::size_t> event);
   /// A step up to t. `end`: there. `breaks`: whether the value may branch on it. `halved`: it ends
   /// nearer to its start than errors ask for, so that a value may hardly have changed.
-  void along(double t, double length, Sample start, Sample middle, Sample last, const Reading& end,
-             bool breaks, bool halved);
+  void along(double t, const StepSamples& samples, const Reading& end, bool breaks, bool halved);
   void finish();
 
   bool open() const { return open_; }
@@ -48,8 +47,7 @@ class ClaimLane {
   bool counts(double t) const { return t >= claim_->after; }
   Known known(const Reading& reading, bool jumped);
   void compare(Known value, double terms, bool same, bool crowded);
-  void compare_within(const StepPolynomial& along, Known end, double terms, double length,
-                      double rate, bool breaks);
+  void compare_within(const StepSamples& samples, Known end, double terms, bool breaks);
   void check_parting(double value, double difference, double terms);
 
   const PackClaim* claim_ = nullptr;
@@ -62,6 +60,7 @@ class ClaimLane {
   Known first_, last_, low_, high_;
   bool looked_ = false, open_ = false, violated_ = false;
   double score_ = -std::numeric_limits<double>::infinity();
+  double possible_score_ = -std::numeric_limits<double>::infinity();  ///< amid branches
   double floor_ = 0;
 };
 

@@ -28,10 +28,12 @@ LaneSet::LaneSet(const PackSystem& pack)
       coarse_end_(pack.whole),
       fine_middle_(pack.whole),
       fine_end_(pack.whole),
+      between_(pack.whole),
       lengths_(1),
       errors_(1),
       scratch_(Eigen::VectorXd::Zero(pack.system->whole)) {
-  for (LaneLook* look : {&start_, &coarse_start_, &middle_, &end_, &coarse_look_})
+  for (LaneLook* look :
+       {&start_, &coarse_start_, &middle_, &end_, &coarse_look_, &quarter_, &three_quarters_})
     for (std::size_t r = 0; r < look->of.size(); ++r) look->of[r] = LaneValues(rows_of(r));
   for (const PackEvent& event : pack.events) {
     jumps_.emplace_back(*event.jump);
@@ -91,7 +93,8 @@ std::size_t LaneSet::rows_of(std::size_t result) const {
       return pack_.claims.size();
     case PackSystem::extras: {
       std::size_t count = 0;
-      for (const PackClaim& claim : pack_.claims) count += claim.branches.size();
+      for (const PackClaim& claim : pack_.claims)
+        count += claim.branches.size() + claim.roots.size();
       return count;
     }
     default:
@@ -134,6 +137,7 @@ void LaneSet::leave_open(std::size_t l) {
 void LaneSet::finish(std::size_t l) {
   PackLane& lane = *lanes_[l];
   PackVerdict& verdict = verdicts_[static_cast<std::size_t>(lane.run_number - first_)];
+  verdict = {};
   verdict.open = false;
   for (ClaimLane& claim : lane.claims) {
     claim.finish();

@@ -115,15 +115,23 @@ class LaneSet {
   void step(const LaneValues& from, double share, LaneValues& to, std::uint32_t active,
             std::uint32_t& faults);
   void step_all(std::uint32_t mask);
+  /// The finer run at a quarter of the step, or at three quarters (`mirrored`), by its quintic.
+  void look_between(bool mirrored, LaneLook& seen, std::uint32_t active);
   static double choose_length(PackLane& lane);
   bool shorten(PackLane& lane, double factor);
   bool judge_step(std::size_t l, bool fault);
-  Sample watch_sample(const LaneLook& seen, std::size_t w, std::size_t l) const {
-    return {seen.at(PackSystem::watch_values, w, l), seen.at(PackSystem::watch_rates, w, l)};
-  }
-  StepPolynomial along_watch(std::size_t w, std::size_t l) const {
-    return {watch_sample(start_, w, l), watch_sample(middle_, w, l), watch_sample(end_, w, l),
-            lanes_[l]->h};
+  /// One of the values of looks with its rate, over the step.
+  StepSamples samples(PackSystem::LookResult values, PackSystem::LookResult rates, std::size_t k,
+                      std::size_t l) const {
+    const auto at = [&](const LaneLook& seen) {
+      return Sample{seen.at(values, k, l), seen.at(rates, k, l)};
+    };
+    return {lanes_[l]->h,
+            at(start_),
+            at(middle_),
+            at(end_),
+            quarter_.at(values, k, l),
+            three_quarters_.at(values, k, l)};
   }
   /// The first root on the step of what is relevant. False: a sign is not certain.
   bool find_root(std::size_t l, int& target, double& share);
@@ -137,10 +145,8 @@ class LaneSet {
   /// From its side to the other, which it may have left a moment ago.
   static bool crosses_once(const std::array<double, 6>& b, int side);
   bool accept(std::size_t l);
-  Sample claim_sample(const LaneLook& seen, std::size_t c, std::size_t l) const {
-    return {seen.at(PackSystem::claim_values, c, l), seen.at(PackSystem::claim_rates, c, l)};
-  }
   /// Whether what a claim branches on may come to 0 on the step, by the parabola through it.
+  /// Whether on the step a claim may come to where it branches, or to a sharp turn of a square root.
   bool may_branch(std::size_t c, std::size_t l) const;
   void find_new_sides(std::size_t l);
 
@@ -151,9 +157,10 @@ class LaneSet {
   std::vector<std::optional<lanes::LaneMachine>> lost_;
   LaneValues coarse_, fine_;  ///< now
   LaneValues coarse_end_, fine_middle_, fine_end_;
+  LaneValues between_;  ///< at a quarter of the step
   LaneValues lengths_, errors_;
   LaneLook start_, coarse_start_;  ///< at the values now
-  LaneLook middle_, end_, coarse_look_;
+  LaneLook middle_, end_, coarse_look_, quarter_, three_quarters_;
   std::vector<bool> is_crossing_;  ///< by watch: of rises, falls, crosses
   std::vector<std::size_t> times_;
   std::vector<std::vector<std::size_t>> since_, left_;  ///< by event: elements

@@ -1,6 +1,7 @@
 #include "packs/lane_set.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace gainsmith::packs {
 
@@ -40,6 +41,26 @@ void LaneSet::step(const LaneValues& from, double share, LaneValues& to, std::ui
                 to.row(static_cast<std::size_t>(pack_.rows[k])));
 }
 
+void LaneSet::look_between(bool mirrored, LaneLook& seen, std::uint32_t active) {
+  const LaneValues* const values[] = {&fine_, &fine_middle_, &fine_end_};
+  const LaneLook* const looks[] = {&start_, &middle_, &end_};
+  std::copy_n(fine_.row(0), pack_.whole * kLanes, between_.row(0));
+  for (std::size_t k = 0; k < pack_.rows.size(); ++k) {
+    const auto row = static_cast<std::size_t>(pack_.rows[k]);
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      double sum = 0;
+      for (std::size_t point = 0; point < 3; ++point) {
+        const std::size_t weight = mirrored ? 2 - point : point;
+        const double length = mirrored ? -lengths_.at(0, l) : lengths_.at(0, l);
+        sum += QuarterWeights::values[weight] * values[point]->at(row, l) +
+               length * QuarterWeights::rates[weight] * looks[point]->at(PackSystem::rates, k, l);
+      }
+      between_.at(row, l) = sum;
+    }
+  }
+  look(between_, seen, active);
+}
+
 void LaneSet::step_all(std::uint32_t mask) {
   for (std::size_t l = 0; l < kLanes; ++l) lengths_.at(0, l) = 0;
   each(mask, [&](std::size_t l) { lengths_.at(0, l) = choose_length(*lanes_[l]); });
@@ -54,6 +75,9 @@ void LaneSet::step_all(std::uint32_t mask) {
   faults |= end_.faults;
   look(coarse_end_, coarse_look_, mask);
   faults |= coarse_look_.faults;
+  look_between(false, quarter_, mask);
+  look_between(true, three_quarters_, mask);
+  faults |= quarter_.faults | three_quarters_.faults;
   each(mask, [&](std::size_t l) {
     const bool fault = (faults >> l & 1U) != 0;
     const bool many = ++lanes_[l]->steps > kMostSteps && !open(Why::steps);
@@ -115,7 +139,7 @@ bool LaneSet::find_root(std::size_t l, int& target, double& share) {
   std::fill(lane.zero.begin(), lane.zero.end(), 0);
   for (std::size_t w = 0; w < pack_.watches.size(); ++w) {
     if (lane.relevant[w] == 0 || !pack_.watches[w].moves) continue;
-    const StepPolynomial along = along_watch(w, l);
+    const StepPolynomial along(samples(PackSystem::watch_values, PackSystem::watch_rates, w, l));
     const double error =
         std::max(error_of(w, l, start_, coarse_start_), error_of(w, l, end_, coarse_look_)) +
         along.error();
@@ -167,9 +191,9 @@ bool LaneSet::accept(std::size_t l) {
   const double now = at_stop ? lane.stop : lane.t + lane.h;
   const std::vector<ClaimLane> claims_before = lane.claims;
   for (std::size_t c = 0; c < lane.claims.size(); ++c) {
-    lane.claims[c].along(now, lane.h, claim_sample(start_, c, l), claim_sample(middle_, c, l),
-                         claim_sample(end_, c, l), reading(c, l, end_, coarse_look_),
-                         may_branch(c, l), lane.halvings > 0 || 2 * lane.h < lane.wanted);
+    lane.claims[c].along(now, samples(PackSystem::claim_values, PackSystem::claim_rates, c, l),
+                         reading(c, l, end_, coarse_look_), may_branch(c, l),
+                         lane.halvings > 0 || 2 * lane.h < lane.wanted);
     if (!lane.claims[c].open()) continue;
     // Two halves may say more.
     if (lane.target >= 0 || ++lane.halvings > kMostHalvings) return open(Why::claim);
@@ -198,13 +222,31 @@ bool LaneSet::accept(std::size_t l) {
 }
 
 bool LaneSet::may_branch(std::size_t c, std::size_t l) const {
-  return std::any_of(
-      pack_.claims[c].branches.begin(), pack_.claims[c].branches.end(), [&](std::size_t k) {
-        const double first = start_.at(PackSystem::extras, k, l);
-        const double last = end_.at(PackSystem::extras, k, l);
-        const double middle = 2 * middle_.at(PackSystem::extras, k, l) - (first + last) / 2;
-        return !(first > 0 && middle > 0 && last > 0) && !(first < 0 && middle < 0 && last < 0);
-      });
+  const auto range_of = [&](std::size_t k) {
+    const double first = start_.at(PackSystem::extras, k, l);
+    const double middle = middle_.at(PackSystem::extras, k, l);
+    const double last = end_.at(PackSystem::extras, k, l);
+    const double points[] = {first,
+                             middle,
+                             last,
+                             2 * middle - (first + last) / 2,
+                             quarter_.at(PackSystem::extras, k, l),
+                             three_quarters_.at(PackSystem::extras, k, l)};
+    const auto [least, largest] = std::minmax_element(std::begin(points), std::end(points));
+    return std::pair(*least, *largest);
+  };
+  const PackClaim& claim = pack_.claims[c];
+  const auto comes_to_0 = [&](std::size_t k) {
+    const auto [least, largest] = range_of(k);
+    return !(least > 0) && !(largest < 0);
+  };
+  // A square root bends the more the nearer to 0 it comes.
+  const auto bends = [&](std::size_t k) {
+    const auto [least, largest] = range_of(k);
+    return !(least > kFlatRoot * largest);
+  };
+  return std::any_of(claim.branches.begin(), claim.branches.end(), comes_to_0) ||
+         std::any_of(claim.roots.begin(), claim.roots.end(), bends);
 }
 
 void LaneSet::find_new_sides(std::size_t l) {

@@ -1,6 +1,7 @@
 #include "packs/pack_system.h"
 
 #include <algorithm>
+#include <set>
 
 #include "expr/branches.h"
 #include "hybrid/breaks.h"
@@ -154,6 +155,10 @@ class LookCode {
         made.branches.push_back(results_[PackSystem::extras].size());
         push(PackSystem::extras, node);
       }
+    for (const int node : roots_in(value.value[0])) {
+      made.roots.push_back(results_[PackSystem::extras].size());
+      push(PackSystem::extras, node);
+    }
   }
 
   /// False: a comparison that packs do not decide.
@@ -198,6 +203,25 @@ class LookCode {
   LaneCode make() { return {texts_.graph(), results_, pack_.whole}; }
 
  private:
+  /// The operands of all square roots that a node is made of.
+  std::vector<int> roots_in(int node) {
+    std::set<int> seen;
+    std::vector<int> waiting{node};
+    std::vector<int> found;
+    const auto& nodes = texts_.graph().nodes();
+    while (!waiting.empty()) {
+      const int at = waiting.back();
+      waiting.pop_back();
+      if (at < 0 || !seen.insert(at).second) continue;
+      const ScalarGraph::Node& one = nodes[index(at)];
+      if (one.op == ScalarOp::input || one.op == ScalarOp::constant || one.op == ScalarOp::element)
+        continue;
+      if (one.op == ScalarOp::sqrt) found.push_back(one.a);
+      waiting.insert(waiting.end(), {one.a, one.b, one.c});
+    }
+    return found;
+  }
+
   std::optional<std::size_t> known(int node) const {
     const auto& all = results_[PackSystem::watch_values];
     const auto found = std::find(all.begin(), all.end(), node);

@@ -66,6 +66,7 @@ struct PackClaim {
   std::optional<std::size_t> over;
   double tolerance = 0;
   std::vector<std::size_t> branches;  ///< extras: what its value branches on
+  std::vector<std::size_t> roots;     ///< extras: of what it has square roots, norms among them
 };
 
 struct PackSystem {

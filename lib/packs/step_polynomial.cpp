@@ -40,7 +40,8 @@ double rise_of(const Coefficients& b, int depth) {
 
 }  // namespace
 
-StepPolynomial::StepPolynomial(Sample start, Sample middle, Sample end, double length) {
+StepPolynomial::StepPolynomial(const StepSamples& samples) {
+  const auto& [length, start, middle, end, quarter, three_quarters] = samples;
   b_[0] = start.value;
   b_[1] = start.value + length * start.rate / 5;
   b_[4] = end.value - length * end.rate / 5;
@@ -51,7 +52,9 @@ StepPolynomial::StepPolynomial(Sample start, Sample middle, Sample end, double l
   b_[2] = (sum - difference) / 2;
   b_[3] = (sum + difference) / 2;
   const double fifth = b_[5] - 5 * b_[4] + 10 * b_[3] - 10 * b_[2] + 5 * b_[1] - b_[0];
-  error_ = 0.15 / 32 * std::abs(fifth);
+  error_ = std::fmax(
+      0.15 / 32 * std::abs(fifth),
+      2 * std::fmax(std::abs((*this)(0.25) - quarter), std::abs((*this)(0.75) - three_quarters)));
 }
 
 double StepPolynomial::operator()(double share) const {

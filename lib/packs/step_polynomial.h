@@ -12,9 +12,23 @@ struct Sample {
   double rate = 0;
 };
 
+/// A value over a step. The values at its quarters serve to see how far the quintic is off.
+struct StepSamples {
+  double length = 0;
+  Sample start, middle, end;
+  double quarter = 0, three_quarters = 0;
+};
+
+/// What the quintic is at a quarter of a step of length 1, and at three quarters with start and end
+/// exchanged and rates negated: its weights on values and rates at start, middle and end.
+struct QuarterWeights {
+  static constexpr double values[] = {45.0 / 128, 9.0 / 16, 11.0 / 128};
+  static constexpr double rates[] = {9.0 / 256, -9.0 / 64, -3.0 / 256};
+};
+
 class StepPolynomial {
  public:
-  StepPolynomial(Sample start, Sample middle, Sample end, double length);
+  explicit StepPolynomial(const StepSamples& samples);
 
   /// B_0 ... B_5 on [0, 1], the share of the step.
   const std::array<double, 6>& coefficients() const { return b_; }
@@ -22,8 +36,9 @@ class StepPolynomial {
   double largest() const;
   /// The largest of its values, or hardly more.
   double highest() const;
-  /// An estimate of how far it is from what it interpolates, with a margin: what the quartic
-  /// without the rate at the end would miss, times 0.15.
+  /// An estimate of how far it is from what it interpolates, with a margin: twice what it is off
+  /// at the quarters; at least what the quartic without the rate at the end would miss, times
+  /// 0.15.
   double error() const { return error_; }
   /// By how much it rises in all, wherever it does; hardly less than that is said.
   double rise() const;

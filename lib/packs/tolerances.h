@@ -27,6 +27,10 @@ constexpr int kMostChain = 64;  ///< jumps without a flow between them | the sam
         ///< UnusualRuns.AreLeftOpen
 constexpr int kMostHalvings = 4;  ///< times | a step is halved so often where a sign is not certain
         ///< on it | UnusualRuns.AreLeftOpen
+constexpr double kScore = 0.02;  ///< relative, and absolute | how near a run comes to its bound is known
+        ///< so well, or it is left to the careful run | Systems/PackRuns.AgreeWithCarefulRuns
+constexpr double kFlatRoot = 0.25;  ///< of the largest operand on a step | a square root whose operand
+        ///< falls below is not followed by a polynomial | SharpClaims.AreDecidedRight
 constexpr double kAtRoot = 1e-11;  ///< of the horizon | a step ends at a root that is so near |
         ///< Systems/PackRuns.AgreeWithCarefulRuns
 constexpr int kMostShortFlows = 3;  ///< flows in a row | more of them within an instant are left to

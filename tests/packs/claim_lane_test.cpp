@@ -24,11 +24,13 @@ struct Follower {
   Reading reading(double value) const { return {value, value + difference, std::abs(value)}; }
 
   template <class Value, class Rate>
-  const ClaimLane& along(const Value& value, const Rate& rate, double end, double length) {
+  ClaimLane along(const Value& value, const Rate& rate, double end, double length) {
     lane.at(0, {value(0.0), value(0.0), std::abs(value(0.0))}, {});
     const auto at = [&](double t) { return Sample{value(t), rate(t)}; };
     for (double t = 0; t < end - length / 2; t += length)
-      lane.along(t + length, length, at(t), at(t + length / 2), at(t + length),
+      lane.along(t + length,
+                 {length, at(t), at(t + length / 2), at(t + length), value(t + length / 4),
+                  value(t + 3 * length / 4)},
                  reading(value(t + length)), false, false);
     lane.finish();
     return lane;
@@ -60,7 +62,7 @@ TEST(ClaimLane, AValueThatNeverRises) {
   // It turns within a step, and both ends are lower than the start.
   const auto turns = [](double t) { return -t + 0.9 * std::sin(1.5 * t); };
   const auto rate = [](double t) { return -1 + 1.35 * std::cos(1.5 * t); };
-  const ClaimLane& lane = Follower(ClaimKind::nonincreasing, 0).along(turns, rate, 5, 1);
+  const ClaimLane lane = Follower(ClaimKind::nonincreasing, 0).along(turns, rate, 5, 1);
   EXPECT_TRUE(lane.violated() || lane.open());
 }
 

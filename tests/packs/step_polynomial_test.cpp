@@ -11,7 +11,8 @@ namespace {
 template <class Value, class Rate>
 StepPolynomial through(const Value& value, const Rate& rate, double from, double length) {
   const auto at = [&](double t) { return Sample{value(t), rate(t)}; };
-  return {at(from), at(from + length / 2), at(from + length), length};
+  return StepPolynomial({length, at(from), at(from + length / 2), at(from + length),
+                         value(from + length / 4), value(from + 3 * length / 4)});
 }
 
 TEST(StepPolynomial, IsTheQuinticItself) {

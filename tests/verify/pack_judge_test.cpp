@@ -249,6 +249,37 @@ TEST(UnusualRuns, AreLeftOpen) {
             40U);
 }
 
+/// A distance that comes near 0 for a moment, between the points of steps.
+TEST(SharpClaims, AreDecidedRight) {
+  const std::string text = R"yaml(problem: p
+method:
+  method: m
+  plant:
+    state: {x: {shape: 2, start: 0}}
+    flow: {x: "[x(2); -7*sin(x(1)) - 0.15*x(2)]"}
+  claims:
+    near: {above: "norm(x - [0.3; 0])", bound: 0.02}
+    far: {below: norm(x), bound: 2.2}
+campaign: {runs: 120, horizon: 5, initial: {x: {box: [-1.5, 1.5]}}}
+)yaml";
+  const model::Instance instance = bind::bind(io::read_problem(text));
+  const auto setup = make_setup(instance, {});
+  const auto packs = make_packs(*setup);
+  ASSERT_NE(packs, nullptr);
+  const std::vector<packs::PackVerdict> verdicts = packs::PackRunner(*packs).run(5, 0, 120);
+  Judge judge(*setup);
+  std::size_t violated = 0, open = 0;
+  for (std::uint64_t run = 0; run < verdicts.size(); ++run) {
+    open += verdicts[run].open ? 1 : 0;
+    const RunVerdict careful = judge(5, run);
+    violated += careful.findings[0].violated() ? 1 : 0;
+    for (std::size_t c = 0; c < 2 && !verdicts[run].open; ++c)
+      EXPECT_EQ(verdicts[run].claims[c].violated, careful.findings[c].violated()) << run;
+  }
+  EXPECT_GT(violated, 3U);
+  EXPECT_LT(open, 60U);
+}
+
 Report campaign_of(const std::string& runs, unsigned threads) {
   std::string text = kCases[0].text;
   text.replace(text.find("runs: 96"), 8, "runs: " + runs);
