@@ -312,6 +312,7 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
   if (report.asked == 0)
     throw InputError(texts.campaign.place, "a campaign needs at least one run");
 
+  report.confidence = options.confidence;
   report.idle_observers = hybrid::idle_observers(setup.events->system.dynamics);
   const auto packs = report.asked >= kFewestInPacks ? make_packs(setup) : nullptr;
   Tally tally = judge_all(setup, packs.get(), report.seed, report.asked, options);

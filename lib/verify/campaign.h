@@ -22,6 +22,7 @@ struct CampaignOptions {
   std::optional<std::uint64_t> runs;  ///< none: the problem's
   std::optional<std::uint64_t> seed;  ///< none: the problem's
   unsigned threads = 0;               ///< 0: one a core; the report does not depend on it
+  double confidence = 0.95;           ///< of the bound on the probability of a violation
 };
 
 /// One claim over all runs.

@@ -13,4 +13,8 @@ namespace gainsmith::verify {
 /// there is no run).
 double violation_probability_bound(std::uint64_t violations, std::uint64_t runs, double confidence);
 
+/// The least number of runs of which none violates that bounds the probability of a violation by
+/// this one: log(1 - confidence) / log(1 - probability), rounded up. Both in (0, 1).
+std::uint64_t runs_for(double probability, double confidence);
+
 }  // namespace gainsmith::verify

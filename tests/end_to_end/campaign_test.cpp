@@ -78,6 +78,22 @@ TEST(CampaignTest, HasTheSameBytesOnMachinesWithFusedProducts) {
   EXPECT_EQ(v3.json()["worst_run"], v2.json()["worst_run"]);
 }
 
+TEST(CampaignTest, AsManyRunsAsAProbabilityNeeds) {
+  const Folder folder;
+  const std::string gains = folder.path("gains.json");
+  gainsmith({"synth", problem("own-systems/pendulum-ekf.yaml"), "-o", gains});
+  const Outcome outcome =
+      gainsmith({"verify", gains, "--probability", "0.01", "--confidence", "0.99", "--json"});
+  EXPECT_EQ(outcome.exit, 0) << outcome.err;
+  const Json report = outcome.json();
+  EXPECT_EQ(report["runs"], 459);
+  EXPECT_EQ(report["confidence"], 0.99);
+  EXPECT_LE(report["violation_probability_at_most"].get<double>(), 0.01);
+  const Outcome both = gainsmith({"verify", gains, "--probability", "0.01", "--runs", "5"});
+  EXPECT_EQ(both.exit, 2);
+  EXPECT_NE(both.err.find("either --runs or --probability"), std::string::npos) << both.err;
+}
+
 TEST(CampaignTest, AnUnknownMachineIsNamed) {
   const Folder folder;
   const Outcome outcome = pendulum_on("v9", folder);

@@ -24,6 +24,18 @@ TEST(Statistics, NoViolationHasTheClosedForm) {
   EXPECT_NEAR(violation_probability_bound(0, 1000000000000000, 0.95) / -x, 1 + x / 2, 1e-14);
 }
 
+TEST(Statistics, RunsForAProbabilityAreTheFewest) {
+  for (const auto& [probability, confidence] :
+       {std::pair{1e-3, 0.999}, {1e-4, 0.9999}, {0.5, 0.5}, {0.3, 0.95}, {1e-9, 0.95}}) {
+    const std::uint64_t runs = runs_for(probability, confidence);
+    EXPECT_LE(violation_probability_bound(0, runs, confidence), probability);
+    if (runs == 1) continue;
+    EXPECT_GT(violation_probability_bound(0, runs - 1, confidence), probability);
+  }
+  EXPECT_EQ(runs_for(1e-3, 0.999), 6905U);
+  EXPECT_EQ(runs_for(1e-4, 0.9999), 92099U);
+}
+
 TEST(Statistics, BoundSolvesTheBinomialEquation) {
   for (const auto& [k, n] :
        {std::pair{1, 10}, {3, 1000}, {999, 1000}, {400, 1000}, {9, 10}, {2, 1000000}}) {
