@@ -74,8 +74,6 @@ void ClaimLane::along(double t, const StepSamples& samples, const Reading& end, 
   if (claim_->kind == ClaimKind::nonincreasing)
     compare({own.middle.value, value.error}, end.terms, false, true);
   compare(value, end.terms, false, halved);
-  const bool down = std::max({own.start.rate, own.middle.rate, own.end.rate}) <= 0;
-  if (claim_->kind == ClaimKind::nonincreasing && breaks && down) return;
   compare_within(own, value, end.terms, breaks);
 }
 
@@ -130,7 +128,9 @@ void ClaimLane::compare_within(const StepSamples& samples, Known end, double ter
   if (claim_->kind == ClaimKind::shrinks) return;
   if (claim_->kind == ClaimKind::nonincreasing) {
     if (violated_) return;
-    if (!breaks && along.rise() <= claims::kGrown * end.error) return;
+    const double allowed = claims::kGrown * end.error;
+    const bool rises = along.rise() > allowed && !along.falls(2 * along.error());
+    if (!breaks && !rises && (along.error() <= allowed || along.falls(2 * along.error()))) return;
     if (std::abs(along.largest()) + error <= noise_ * std::abs(first_.value)) return;
     open_ = true;
     return;

@@ -91,6 +91,18 @@ bool LaneSet::go_on(std::size_t l) {
   return begin_flow(l);
 }
 
+/// Whether what of a condition is neither above nor below 0 is 0 in both runs.
+bool LaneSet::has_exact_zeros(const WatchedCondition& condition, std::size_t l) const {
+  const auto is_exact = [&](const Watched& one) {
+    return lanes_[l]->sides[one.watch] != 0 ||
+           (start_.at(PackSystem::watch_values, one.watch, l) == 0 &&
+            coarse_start_.at(PackSystem::watch_values, one.watch, l) == 0);
+  };
+  return std::all_of(condition.elements.begin(), condition.elements.end(), is_exact) &&
+         std::all_of(condition.parts.begin(), condition.parts.end(),
+                     [&](const WatchedCondition& part) { return has_exact_zeros(part, l); });
+}
+
 bool LaneSet::find_due(std::size_t l) {
   PackLane& lane = *lanes_[l];
   lane.due.reset();
@@ -108,8 +120,13 @@ bool LaneSet::find_due(std::size_t l) {
       lane.signs[e] = side;
       due = lane.crossed[e] != 0;
     } else if (event.when) {
-      const Truth is = truth(*event.when, pack_.watches, lane.sides);
-      lane.undetermined = lane.undetermined || is == Truth::unknown;
+      Truth is = truth(*event.when, pack_.watches, lane.sides);
+      if (is == Truth::unknown && lane.spent[e] == 0) {
+        // It is what exact zeros make of it, if all that is not certain is one.
+        is = truth(*event.when, pack_.watches, lane.sides, Zeros::exact);
+        if (!has_exact_zeros(*event.when, l)) return open(Why::sign);
+        lane.undetermined = lane.undetermined || is == Truth::no;
+      }
       if (is == Truth::no) lane.spent[e] = 0;
       due = is == Truth::yes && lane.spent[e] == 0;
     } else {
@@ -130,7 +147,7 @@ bool LaneSet::begin_flow(std::size_t l) {
   std::fill(lane.relevant.begin(), lane.relevant.end(), 0);
   std::fill(lane.zero.begin(), lane.zero.end(), 0);
   for (const PackEvent& event : pack_.events) {
-    if (event.when && truth(*event.when, pack_.watches, lane.sides, true) == Truth::unknown)
+    if (event.when && truth(*event.when, pack_.watches, lane.sides, Zeros::still) == Truth::unknown)
       mark(*event.when, lane.relevant);
     if (event.crossing) lane.relevant[event.crossing->watch] = 1;
   }
@@ -138,7 +155,8 @@ bool LaneSet::begin_flow(std::size_t l) {
     const Truth is = truth(set, pack_.watches, lane.sides);
     if (is == Truth::no) return open(Why::range);
     lane.undetermined = lane.undetermined || is == Truth::unknown;
-    if (truth(set, pack_.watches, lane.sides, true) == Truth::unknown) mark(set, lane.relevant);
+    if (truth(set, pack_.watches, lane.sides, Zeros::still) == Truth::unknown)
+      mark(set, lane.relevant);
   }
   for (std::size_t w = 0; w < pack_.watches.size(); ++w)
     if (!pack_.watches[w].branches.empty()) lane.relevant[w] = 1;
@@ -151,7 +169,7 @@ bool LaneSet::begin_flow(std::size_t l) {
   for (const PackClaim& claim : pack_.claims)
     if (claim.after > lane.t) lane.stop = std::min(lane.stop, claim.after);
   lane.flow_start = lane.t;
-  lane.chain = 0;
+  lane.chain = lane.looks = lane.steps = 0;
   lane.phase = Phase::step;
   forget_root(lane);
   return lane.stop > lane.t || open(Why::jumps);

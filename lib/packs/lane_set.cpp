@@ -173,7 +173,9 @@ void LaneSet::look_all(std::uint32_t mask) {
   each(mask, [&](std::size_t l) {
     start_.copy_lane(middle_, l);
     coarse_start_.copy_lane(end_, l);
-    if (((faults >> l & 1U) != 0 && !open(Why::no_value)) || !settle(l)) leave_open(l);
+    const bool fault = (faults >> l & 1U) != 0 && !open(Why::no_value);
+    const bool endless = ++lanes_[l]->looks > kMostLooks && !open(Why::jumps);
+    if (fault || endless || !settle(l)) leave_open(l);
   });
 }
 

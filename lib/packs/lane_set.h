@@ -81,6 +81,7 @@ class LaneSet {
   bool go_on(std::size_t l);
   /// The first event that is due.
   bool find_due(std::size_t l);
+  bool has_exact_zeros(const WatchedCondition& condition, std::size_t l) const;
   bool begin_flow(std::size_t l);
   static void forget_root(PackLane& lane) {
     lane.target = -1;

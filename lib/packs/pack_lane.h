@@ -44,7 +44,8 @@ struct PackLane {
   int halvings = 0;
   int target = -1;  ///< the watch whose root a step goes to
   int retakes = 0;
-  std::int64_t steps = 0;
+  int steps = 0;        ///< in this flow
+  int looks = 0;        ///< at this instant
   int chain = 0;        ///< jumps at this instant
   int short_flows = 0;  ///< in a row
   hybrid::EventClocks clocks;

@@ -134,7 +134,15 @@ class LookCode {
     x_ = texts_.inputs();
     rates_ = texts_.rates(x_);
     for (const int row : pack.rows) results_[PackSystem::rates].push_back(rates_[index(row)]);
+    is_state_.assign(pack.whole, false);
+    for (std::size_t i = 0; i < pack.system->layout.slots.size(); ++i) {
+      if (pack.system->moves[i] != hybrid::Moves::flows) continue;
+      const hybrid::Slot& slot = pack.system->layout.slots[i];
+      std::fill_n(is_state_.begin() + slot.offset, slot.shape.size(), true);
+    }
   }
+  /// Whether something that is looked at may have peaks.
+  bool has_peaks() const { return peaks_; }
 
   void add(const claims::Claim& claim) {
     PackClaim& made = pack_.claims.emplace_back();
@@ -144,6 +152,7 @@ class LookCode {
     made.tolerance = claim.tolerance;
     const numbers::TracedMatrix value = texts_.moving(claim.value, x_, rates_);
     push(PackSystem::claim_values, value.value[0]);
+    peaks_ = peaks_ || has_peaks(value.value[0]);
     push(PackSystem::claim_rates, value.slopes[0][0]);
     push(PackSystem::claim_terms, texts_.value(hybrid::absolute_terms(claim.value), x_).value[0]);
     const auto& limit = claim.bound ? claim.bound : claim.factor;
@@ -192,6 +201,7 @@ class LookCode {
         continue;
       }
       made.push_back({pack_.watches.size(), 1});
+      peaks_ = peaks_ || has_peaks(node);
       push(PackSystem::watch_values, node);
       push(PackSystem::watch_rates, value.slopes[0][e]);
       push(PackSystem::watch_terms, terms[e]);
@@ -203,23 +213,56 @@ class LookCode {
   LaneCode make() { return {texts_.graph(), results_, pack_.whole}; }
 
  private:
-  /// The operands of all square roots that a node is made of.
-  std::vector<int> roots_in(int node) {
+  /// Visits all that a node is made of, itself first.
+  template <class Visit>
+  void visit(int node, const Visit& seen_by) {
     std::set<int> seen;
     std::vector<int> waiting{node};
-    std::vector<int> found;
-    const auto& nodes = texts_.graph().nodes();
     while (!waiting.empty()) {
       const int at = waiting.back();
       waiting.pop_back();
       if (at < 0 || !seen.insert(at).second) continue;
-      const ScalarGraph::Node& one = nodes[index(at)];
+      const ScalarGraph::Node one = texts_.graph().nodes()[index(at)];
+      seen_by(one);
       if (one.op == ScalarOp::input || one.op == ScalarOp::constant || one.op == ScalarOp::element)
         continue;
-      if (one.op == ScalarOp::sqrt) found.push_back(one.a);
       waiting.insert(waiting.end(), {one.a, one.b, one.c});
     }
+  }
+
+  /// The operands of all square roots that a node is made of.
+  std::vector<int> roots_in(int node) {
+    std::vector<int> found;
+    visit(node, [&](const ScalarGraph::Node& one) {
+      if (one.op == ScalarOp::sqrt) found.push_back(one.a);
+    });
     return found;
+  }
+
+  /// Whether a node changes along flows with more than clocks.
+  bool depends_on_states(int node) {
+    bool depends = false;
+    visit(node, [&](const ScalarGraph::Node& one) {
+      depends = depends || (one.op == ScalarOp::input && is_state_[index(one.a)]) ||
+                one.op == ScalarOp::element;
+    });
+    return depends;
+  }
+
+  /// Whether it may have peaks that are narrow beside a step: quotients, exponentials and the like
+  /// of states.
+  bool has_peaks(int node) {
+    bool peaks = false;
+    std::vector<int> operands;
+    visit(node, [&](const ScalarGraph::Node& one) {
+      if (one.op == ScalarOp::divide) operands.push_back(one.b);
+      if (one.op == ScalarOp::exp || one.op == ScalarOp::tanh || one.op == ScalarOp::log ||
+          one.op == ScalarOp::power || one.op == ScalarOp::angle)
+        operands.insert(operands.end(), {one.a, one.b});
+    });
+    for (const int operand : operands)
+      peaks = peaks || (operand >= 0 && depends_on_states(operand));
+    return peaks;
   }
 
   std::optional<std::size_t> known(int node) const {
@@ -240,6 +283,8 @@ class LookCode {
   PackSystem& pack_;
   PackGraph texts_;
   Nodes x_, rates_;
+  std::vector<bool> is_state_;  ///< by value: whether it flows, and is no clock
+  bool peaks_ = false;
   std::vector<std::vector<int>> results_{PackSystem::extras + 1};
 };
 
@@ -351,6 +396,7 @@ std::unique_ptr<const PackSystem> make_pack_system(const hybrid::System& system,
       for (const auto& set : component.flow_sets)
         if (!look.add(set.where, pack->flow_sets.emplace_back())) return nullptr;
     add_switches(look, *pack);
+    if (look.has_peaks()) return nullptr;
     pack->look.emplace(look.make());
   } catch (const numbers::NoFormula&) {
     return nullptr;

@@ -6,8 +6,8 @@
 //           conditions, of crossings and of switches, with their rates
 //   jump    of each event: values -> values after its maps
 //
-// What packs do not run: loops of jumps, measured data, costs along a run, values that have no
-// formula for their rates. Such campaigns are left to the careful run.
+// What packs do not run: loops of jumps, measured data, costs along a run, claims and conditions
+// that have no formula for their rates or that may have narrow peaks. Such campaigns are left to the careful run.
 #pragma once
 
 #include <cstddef>

@@ -7,12 +7,12 @@ namespace {
 using Is = expr::Condition::Kind;
 
 Truth of_comparison(const WatchedCondition& condition, const std::vector<Watch>& watches,
-                    const Sides& sides, bool still) {
+                    const Sides& sides, Zeros zeros) {
   Truth result = Truth::yes;
   for (const Watched& one : condition.elements) {
     const bool moves = watches[one.watch].moves;
-    const int side = moves && still ? 0 : one.factor * sides[one.watch];
-    if (moves && side == 0) {
+    const int side = moves && zeros == Zeros::still ? 0 : one.factor * sides[one.watch];
+    if (moves && side == 0 && zeros != Zeros::exact) {
       result = Truth::unknown;
       continue;
     }
@@ -27,17 +27,17 @@ Truth of_comparison(const WatchedCondition& condition, const std::vector<Watch>&
 }  // namespace
 
 Truth truth(const WatchedCondition& condition, const std::vector<Watch>& watches,
-            const Sides& sides, bool still) {
+            const Sides& sides, Zeros zeros) {
   if (condition.kind == Is::none) {
-    const Truth inner = truth(condition.parts.front(), watches, sides, still);
+    const Truth inner = truth(condition.parts.front(), watches, sides, zeros);
     return inner == Truth::unknown ? inner : inner == Truth::yes ? Truth::no : Truth::yes;
   }
   if (condition.kind != Is::all && condition.kind != Is::any)
-    return of_comparison(condition, watches, sides, still);
+    return of_comparison(condition, watches, sides, zeros);
   const Truth decides = condition.kind == Is::all ? Truth::no : Truth::yes;
   Truth result = condition.kind == Is::all ? Truth::yes : Truth::no;
   for (const WatchedCondition& part : condition.parts) {
-    const Truth inner = truth(part, watches, sides, still);
+    const Truth inner = truth(part, watches, sides, zeros);
     if (inner == decides) return decides;
     if (inner == Truth::unknown) result = Truth::unknown;
   }

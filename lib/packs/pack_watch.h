@@ -13,9 +13,15 @@ enum class Truth : std::int8_t { no, unknown, yes };
 /// By watch: -1, 0 or 1. 0: not known, of what moves; of what does not, exactly 0.
 using Sides = std::vector<std::int8_t>;
 
-/// `still`: only what does not move is known.
+/// What is said of that which moves and is not known to be above or below 0.
+enum class Zeros : std::uint8_t {
+  unknown,
+  exact,  ///< it is 0
+  still   ///< nothing, and nothing of all else that moves
+};
+
 Truth truth(const WatchedCondition& condition, const std::vector<Watch>& watches,
-            const Sides& sides, bool still = false);
+            const Sides& sides, Zeros zeros = Zeros::unknown);
 
 /// Marks the watches of a condition.
 void mark(const WatchedCondition& condition, std::vector<char>& marked);

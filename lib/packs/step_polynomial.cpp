@@ -70,6 +70,12 @@ double StepPolynomial::highest() const { return highest_of(b_, 10); }
 
 double StepPolynomial::rise() const { return rise_of(b_, 6); }
 
+bool StepPolynomial::falls(double margin) const {
+  for (std::size_t k = 1; k < b_.size(); ++k)
+    if (b_[k] - b_[k - 1] > -margin / 5) return false;
+  return true;
+}
+
 double StepPolynomial::root(int side) const {
   double low = 0;
   double high = 1;

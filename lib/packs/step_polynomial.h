@@ -42,6 +42,8 @@ class StepPolynomial {
   double error() const { return error_; }
   /// By how much it rises in all, wherever it does; hardly less than that is said.
   double rise() const;
+  /// Whether it falls everywhere, by `margin` over the whole step at the least.
+  bool falls(double margin) const;
   /// The share at which it comes to 0 from the side that it is on at the start (`side`), by
   /// bisection. It must end on the other side.
   double root(int side) const;

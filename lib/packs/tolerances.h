@@ -21,8 +21,10 @@ constexpr double kFirstStep = 1e-3;  ///< of the horizon | the first step of a r
         ///< Systems/PackRuns.AgreeWithCarefulRuns
 constexpr double kShortestStep = 1e-10;  ///< of the horizon | a run with a shorter step is left to the
         ///< careful one | UnusualRuns.AreLeftOpen
-constexpr std::int64_t kMostSteps = 20'000;  ///< steps | the same of a longer run |
+constexpr int kMostSteps = 3000;  ///< steps in one flow | the same of a longer one |
         ///< UnusualRuns.AreLeftOpen
+constexpr int kMostLooks = 200;  ///< looks at one instant | a flow whose branches change without end is
+        ///< left to the careful run | UnusualRuns.AreLeftOpen
 constexpr int kMostChain = 64;  ///< jumps without a flow between them | the same of a longer chain |
         ///< UnusualRuns.AreLeftOpen
 constexpr int kMostHalvings = 4;  ///< times | a step is halved so often where a sign is not certain

@@ -321,13 +321,9 @@ Report run_campaign(const Setup& setup, const CampaignOptions& options) {
   report.integrated = setup.integrated();
   report.verdict = model::CampaignVerdict::undecided;
   if (!tally.run) return report;
-  if (packs != nullptr && tally.runs == report.asked) {
-    try {
-      repeat_worst(setup, report.seed, tally);
-    } catch (const Stopped&) {
-      report.runs = 0;
-      return report;
-    }
+  if (packs != nullptr) {
+    const Concluding concluding;
+    repeat_worst(setup, report.seed, tally);
   }
   report.violations = tally.violations;
   report.undecided = tally.undecided;
